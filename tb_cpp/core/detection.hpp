@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace dtof {
+
+/// TDC code, 0 .. 2^NP - 1; the all-ones code means "no detection" (spec section 2).
+using Timestamp = std::uint16_t;
+
+/// One timestamp that a TDC delivered in one acquisition.
+struct Detection {
+  std::uint32_t acquisition;  ///< 0 .. ACQ_NUM - 1
+  Timestamp timestamp;        ///< 0 .. 2^NP - 1
+
+  bool operator==(const Detection&) const = default;
+};
+
+/// All detections of one column over one frame, pixel (row) by pixel.
+///
+/// Within a pixel detections are sorted by acquisition; detections of one acquisition stand in slot
+/// order and are at most SLOTS. Empty slots are not stored.
+class ColumnStream {
+ public:
+  /// Appends the next row; `detections` must be sorted by acquisition.
+  void append_row(std::span<const Detection> detections) {
+    detections_.insert(detections_.end(), detections.begin(), detections.end());
+    row_end_.push_back(detections_.size());
+  }
+  /// Appends one detection to the row that is being built; `finish_row` closes it.
+  void append(Detection detection) { detections_.push_back(detection); }
+  void finish_row() { row_end_.push_back(detections_.size()); }
+
+  [[nodiscard]] int rows() const { return static_cast<int>(row_end_.size()); }
+  [[nodiscard]] std::span<const Detection> row(int index) const {
+    const auto i = static_cast<std::size_t>(index);
+    const std::size_t begin = i == 0 ? 0 : row_end_[i - 1];
+    return std::span<const Detection>(detections_).subspan(begin, row_end_[i] - begin);
+  }
+  [[nodiscard]] std::size_t detection_count() const { return detections_.size(); }
+  void clear() {
+    detections_.clear();
+    row_end_.clear();
+  }
+
+  bool operator==(const ColumnStream&) const = default;
+
+ private:
+  std::vector<Detection> detections_;
+  std::vector<std::size_t> row_end_;
+};
+
+/// Produces the TDC stream of a frame, any column alone and from any thread.
+class StreamSource {
+ public:
+  StreamSource() = default;
+  StreamSource(const StreamSource&) = default;
+  StreamSource& operator=(const StreamSource&) = default;
+  StreamSource(StreamSource&&) = default;
+  StreamSource& operator=(StreamSource&&) = default;
+  virtual ~StreamSource() = default;
+
+  [[nodiscard]] virtual int columns() const = 0;
+  [[nodiscard]] virtual int rows() const = 0;
+  [[nodiscard]] virtual std::uint32_t acquisitions() const = 0;
+  /// Stream of column `index` (0 .. columns() - 1); rows() rows. Thread-safe.
+  [[nodiscard]] virtual ColumnStream column(int index) const = 0;
+};
+
+}  // namespace dtof

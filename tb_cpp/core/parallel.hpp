@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace dtof {
+
+/// Processor count the machine offers, at least 1.
+int hardware_threads();
+
+/// Calls `body(index)` for every index in [0, count) on at most `threads` threads (0 = all processors).
+/// `body` must not depend on order. The first exception stops the rest and is rethrown; an interruption
+/// (core/progress.hpp) is thrown as Interrupted.
+void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body);
+
+}  // namespace dtof

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Random123/philox.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+namespace dtof {
+
+/// Counter-based generator (Philox4x32-10, Salmon et al., SC 2011): the numbers depend only on the seed and
+/// the four stream words, so any pixel of any frame is generated alone. Satisfies UniformRandomBitGenerator.
+class CounterRandom {
+ public:
+  using result_type = std::uint32_t;
+
+  /// `purpose` keeps uses apart (photons, resampling, tests); `a`, `b` e.g. frame and pixel index.
+  CounterRandom(std::uint64_t seed, std::uint32_t purpose, std::uint32_t a, std::uint32_t b)
+      : key_{{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U)}},
+        counter_{{0, purpose, a, b}} {}
+
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
+
+  result_type operator()() {
+    if (next_ == 4) {
+      block_ = r123::Philox4x32()(counter_, key_);
+      ++counter_[0];
+      next_ = 0;
+    }
+    return block_[next_++];
+  }
+  std::uint64_t bits64() {
+    const std::uint64_t high = (*this)();
+    return (high << 32U) | (*this)();
+  }
+  /// Uniform in the open interval (0, 1), 53 bits.
+  double uniform() { return (static_cast<double>(bits64() >> 11U) + 0.5) * 0x1.0p-53; }
+
+ private:
+  r123::Philox4x32::key_type key_;
+  r123::Philox4x32::ctr_type counter_;
+  r123::Philox4x32::ctr_type block_{};
+  std::size_t next_ = 4;
+};
+
+/// Purposes of random streams; a new use gets a new number.
+enum class RandomPurpose : std::uint32_t { kPhotons = 1, kResampling = 2, kTestStream = 3, kTestControl = 4 };
+
+}  // namespace dtof

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace dtof {
+
+/// What a read-out delivers for one pixel and frame (spec section 3, "Outputs").
+struct PixelResult {
+  std::uint16_t code = 0;        ///< integer bins, 0 .. 2^NP - 1
+  std::uint16_t fraction = 0;    ///< units of 2^-FRACTION_BITS bin
+  std::uint16_t confidence = 0;  ///< 0 = none; the scale depends on the read-out (docs/readouts.md)
+
+  bool operator==(const PixelResult&) const = default;
+};
+
+}  // namespace dtof

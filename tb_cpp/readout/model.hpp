@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/parameters.hpp"
+#include "core/result.hpp"
+
+namespace dtof {
+
+/// Bit-exact integer model of a read-out (docs/readouts.md). Not thread-safe: one instance a thread.
+class ReadoutModel {
+ public:
+  ReadoutModel() = default;
+  ReadoutModel(const ReadoutModel&) = delete;
+  ReadoutModel& operator=(const ReadoutModel&) = delete;
+  ReadoutModel(ReadoutModel&&) = delete;
+  ReadoutModel& operator=(ReadoutModel&&) = delete;
+  virtual ~ReadoutModel() = default;
+
+  /// Reads out one column's frame of `acquisitions`; one result per row.
+  [[nodiscard]] virtual std::vector<PixelResult> run_column(const ColumnStream& column,
+                                                            std::uint32_t acquisitions) = 0;
+};
+
+/// Throws InputError for illegal parameters.
+std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters);
+
+}  // namespace dtof
