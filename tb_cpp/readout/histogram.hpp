@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "readout/pass_schedule.hpp"
+
+namespace dtof {
+
+/// What the peak detector knows after a scan.
+struct HistogramPeak {
+  std::uint32_t bin = 0;    ///< largest count, lowest index on a tie; 0 for an empty histogram
+  std::uint32_t count = 0;  ///< count of `bin`
+  std::uint32_t sum = 0;    ///< sum of all saturated counts
+};
+
+/// Height of the peak above the mean of the other bins of a histogram of 2^bin_bits bins, never negative
+/// (docs/readouts.md, "Histogram confidence").
+constexpr std::uint16_t histogram_confidence(const HistogramPeak& peak, int bin_bits) {
+  const std::uint32_t mean_of_rest = (peak.sum - peak.count) >> static_cast<unsigned>(bin_bits);
+  return static_cast<std::uint16_t>(peak.count - std::min(peak.count, mean_of_rest));
+}
+
+/// Histogram of saturating counters. Scan and clear visit the touched bins only, so that a pass costs its
+/// detections and not its bins.
+class Histogram {
+ public:
+  /// 2^bin_bits bins (bin_bits 0 .. 16) of count_width bits (1 .. 16).
+  Histogram(int bin_bits, int count_width)
+      : counts_(std::size_t{1} << static_cast<unsigned>(bin_bits)),
+        touched_(counts_.size() + 1),  // `add` writes one entry past the last touched bin
+        limit_(static_cast<std::uint16_t>((1U << static_cast<unsigned>(count_width)) - 1)) {}
+
+  void add(std::uint32_t bin) {
+    std::uint16_t& count = counts_[bin];
+    touched_[touched_count_] = static_cast<std::uint16_t>(bin);
+    touched_count_ += count == 0 ? 1 : 0;
+    count = static_cast<std::uint16_t>(count + (count < limit_ ? 1 : 0));
+  }
+
+  /// Finds the peak and clears the histogram behind the scan.
+  HistogramPeak take_peak() {
+    // Count in the upper half, complemented index in the lower: the maximum is the lowest bin of a tie.
+    std::uint32_t best = kIndexMask;
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < touched_count_; ++i) {
+      const std::uint32_t bin = touched_[i];
+      const std::uint32_t count = counts_[bin];
+      counts_[bin] = 0;
+      sum += count;
+      best = std::max(best, (count << 16U) | (kIndexMask - bin));
+    }
+    touched_count_ = 0;
+    return {kIndexMask - (best & kIndexMask), best >> 16U, sum};
+  }
+
+ private:
+  static constexpr std::uint32_t kIndexMask = 0xFFFF;
+
+  std::vector<std::uint16_t> counts_;
+  std::vector<std::uint16_t> touched_;
+  std::size_t touched_count_ = 0;
+  std::uint16_t limit_;
+};
+
+/// One pass that keeps timestamps with a given prefix and histograms their next bits: every coarse pass, the
+/// steps of three steps, FiFH's fine pass and PiFH's runs are this.
+struct PrefixPass {
+  std::uint32_t end;  ///< the pass takes what remains before this acquisition
+  int prefix_shift;   ///< keeps x >> prefix_shift == prefix
+  int bin_shift;      ///< bin = low bits of x >> bin_shift
+};
+
+/// Peak of a prefix pass; `prefix << (prefix_shift - bin_shift) + peak.bin` is the longer prefix.
+inline HistogramPeak prefix_peak(const PrefixPass& pass, std::uint32_t prefix, PassCursor& row,
+                                 Histogram& histogram) {
+  const auto prefix_shift = static_cast<unsigned>(pass.prefix_shift);
+  const auto bin_shift = static_cast<unsigned>(pass.bin_shift);
+  const std::uint32_t first = prefix << (prefix_shift - bin_shift);
+  row.advance_to(pass.end, [&](std::uint32_t timestamp) {
+    if (timestamp >> prefix_shift == prefix) {
+      histogram.add((timestamp >> bin_shift) - first);
+    }
+  });
+  return histogram.take_peak();
+}
+
+/// The prefix after a prefix pass: longer by the peak's bits.
+constexpr std::uint32_t extend_prefix(const PrefixPass& pass, std::uint32_t prefix,
+                                      const HistogramPeak& peak) {
+  return (prefix << static_cast<unsigned>(pass.prefix_shift - pass.bin_shift)) + peak.bin;
+}
+
+/// Peak of a pass that keeps first <= x < first + 2^bin_bits in bin x - first. `first` may be negative and
+/// the window may pass the last code; it does not wrap.
+inline HistogramPeak window_peak(std::uint32_t end, std::int32_t first, int bin_bits, PassCursor& row,
+                                 Histogram& histogram) {
+  const std::uint32_t bins = 1U << static_cast<unsigned>(bin_bits);
+  row.advance_to(end, [&](std::uint32_t timestamp) {
+    const auto bin = static_cast<std::uint32_t>(static_cast<std::int32_t>(timestamp) - first);
+    if (bin < bins) {
+      histogram.add(bin);
+    }
+  });
+  return histogram.take_peak();
+}
+
+}  // namespace dtof

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "readout/histogram.hpp"
+#include "readout/pixelwise_model.hpp"
+
+namespace dtof {
+namespace {
+
+std::uint16_t clamp_code(std::int32_t code, const ReadoutParameters& parameters) {
+  return static_cast<std::uint16_t>(std::clamp(code, 0, parameters.no_detection() - 1));
+}
+
+/// Eq. 2.3 to 2.8.
+class SifhPixel {
+ public:
+  explicit SifhPixel(const ReadoutParameters& parameters)
+      : parameters_(parameters),
+        coarse_{0, parameters.np, parameters.np - parameters.nb},
+        histogram_(parameters.nb, parameters.count_width) {
+    const int coarse_bin = 1 << (parameters.np - parameters.nb);
+    const int half_window = (1 << parameters.nb) / 2;
+    const int centring = parameters.window_centred ? std::max(coarse_bin / 2 - 1, 0) : 0;
+    window_offset_ = centring - half_window + 1;
+  }
+
+  void start_frame(std::uint32_t acquisitions) {
+    coarse_.end = measurement_1(acquisitions).end;
+    end_ = acquisitions;
+  }
+
+  PixelResult read(PassCursor row) {
+    const std::uint32_t peak = prefix_peak(coarse_, 0, row, histogram_).bin;
+    const auto first =
+        static_cast<std::int32_t>(peak << static_cast<unsigned>(coarse_.bin_shift)) + window_offset_;
+    const HistogramPeak fine = window_peak(end_, first, parameters_.nb, row, histogram_);
+    return {clamp_code(first + static_cast<std::int32_t>(fine.bin), parameters_), 0,
+            histogram_confidence(fine, parameters_.nb)};
+  }
+
+ private:
+  ReadoutParameters parameters_;
+  PrefixPass coarse_;
+  std::int32_t window_offset_ = 0;  // TH- + 1 of coarse peak 0
+  std::uint32_t end_ = 0;
+  Histogram histogram_;
+};
+
+/// Eq. 2.2.
+class FifhPixel {
+ public:
+  explicit FifhPixel(const ReadoutParameters& parameters)
+      : fine_bits_(parameters.np - parameters.nb),
+        coarse_{0, parameters.np, fine_bits_},
+        fine_{0, fine_bits_, 0},
+        histogram_(std::max(parameters.nb, fine_bits_), parameters.count_width) {}
+
+  void start_frame(std::uint32_t acquisitions) {
+    coarse_.end = measurement_1(acquisitions).end;
+    fine_.end = acquisitions;
+  }
+
+  PixelResult read(PassCursor row) {
+    const std::uint32_t coarse = prefix_peak(coarse_, 0, row, histogram_).bin;
+    const HistogramPeak fine = prefix_peak(fine_, coarse, row, histogram_);
+    return {static_cast<std::uint16_t>(extend_prefix(fine_, coarse, fine)), 0,
+            histogram_confidence(fine, fine_bits_)};
+  }
+
+ private:
+  int fine_bits_;
+  PrefixPass coarse_;
+  PrefixPass fine_;
+  Histogram histogram_;
+};
+
+/// Thesis section 3.3.4.
+class ThreeStepsPixel {
+ public:
+  explicit ThreeStepsPixel(const ReadoutParameters& parameters)
+      : parameters_(parameters), histogram_(kFineBits, parameters.count_width) {
+    int shift = parameters.np;
+    for (PrefixPass& step : steps_) {
+      step.prefix_shift = shift;
+      shift = std::max(shift - kStepBits, 0);
+      step.bin_shift = shift;
+    }
+    section_shift_ = shift;
+  }
+
+  void start_frame(std::uint32_t acquisitions) {
+    const std::uint32_t zoom_acquisitions = measurement_1(acquisitions).size();
+    for (std::size_t k = 0; k < steps_.size(); ++k) {
+      steps_[k].end = frame_part(zoom_acquisitions, static_cast<std::uint32_t>(k), kSteps).end;
+    }
+    end_ = acquisitions;
+  }
+
+  PixelResult read(PassCursor row) {
+    std::uint32_t section = 0;
+    for (const PrefixPass& step : steps_) {
+      section = extend_prefix(step, section, prefix_peak(step, section, row, histogram_));
+    }
+    const std::int32_t section_width = 1 << section_shift_;
+    const auto section_begin = static_cast<std::int32_t>(section << static_cast<unsigned>(section_shift_));
+    const std::int32_t first = section_begin + section_width / 2 - (1 << kFineBits) / 2;
+    const HistogramPeak fine = window_peak(end_, first, kFineBits, row, histogram_);
+    return {clamp_code(first + static_cast<std::int32_t>(fine.bin), parameters_), 0,
+            histogram_confidence(fine, kFineBits)};
+  }
+
+ private:
+  static constexpr std::uint32_t kSteps = 3;
+  static constexpr int kStepBits = 3;
+  static constexpr int kFineBits = 4;
+
+  ReadoutParameters parameters_;
+  std::array<PrefixPass, kSteps> steps_{};
+  int section_shift_ = 0;
+  std::uint32_t end_ = 0;
+  Histogram histogram_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters& parameters) {
+  switch (parameters.readout) {
+    case Readout::kSifh:
+      return std::make_unique<PixelwiseModel<SifhPixel>>(parameters);
+    case Readout::kFifh:
+      return std::make_unique<PixelwiseModel<FifhPixel>>(parameters);
+    default:
+      return std::make_unique<PixelwiseModel<ThreeStepsPixel>>(parameters);
+  }
+}
+
+}  // namespace dtof

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/detection.hpp"
+
+namespace dtof {
+
+/// Acquisitions [begin, end) of a frame.
+struct AcquisitionRange {
+  std::uint32_t begin;
+  std::uint32_t end;
+
+  [[nodiscard]] constexpr std::uint32_t size() const { return end - begin; }
+  bool operator==(const AcquisitionRange&) const = default;
+};
+
+/// Part `index` (0 .. count - 1) of `acquisitions` cut at floor(acquisitions * index / count), as in
+/// docs/readouts.md: measurements are halves, the steps of three steps thirds, PiFH's runs 2^(NP-NB) parts.
+constexpr AcquisitionRange frame_part(std::uint32_t acquisitions, std::uint32_t index, std::uint32_t count) {
+  const auto cut = [=](std::uint64_t position) {
+    return static_cast<std::uint32_t>(acquisitions * position / count);
+  };
+  return {cut(index), cut(std::uint64_t{index} + 1)};
+}
+
+constexpr AcquisitionRange measurement_1(std::uint32_t acquisitions) {
+  return frame_part(acquisitions, 0, 2);
+}
+constexpr AcquisitionRange measurement_2(std::uint32_t acquisitions) {
+  return frame_part(acquisitions, 1, 2);
+}
+
+/// Walks one pixel's detections pass by pass, once, dropping the no-detection code.
+class PassCursor {
+ public:
+  /// `row` is sorted by acquisition; `no_detection` is the all-ones code, 2^NP - 1.
+  PassCursor(std::span<const Detection> row, std::uint32_t no_detection)
+      : next_(row.data()), last_(row.data() + row.size()), no_detection_(no_detection) {}
+
+  /// Calls `apply(timestamp)` for the remaining detections of acquisitions before `end`.
+  template <typename Apply>
+  void advance_to(std::uint32_t end, Apply&& apply) {
+    for (; next_ != last_ && next_->acquisition < end; ++next_) {
+      if (next_->timestamp != no_detection_) {
+        apply(std::uint32_t{next_->timestamp});
+      }
+    }
+  }
+
+ private:
+  const Detection* next_;
+  const Detection* last_;
+  std::uint32_t no_detection_;
+};
+
+}  // namespace dtof

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/error.hpp"
+#include "readout/model.hpp"
+#include "readout/pass_schedule.hpp"
+
+namespace dtof {
+
+/// A ReadoutModel around a `Pixel` with `start_frame(acquisitions)` and `read(PassCursor) -> PixelResult`:
+/// the virtual call is per column, the loop over detections is inlined.
+template <typename Pixel>
+class PixelwiseModel final : public ReadoutModel {
+ public:
+  explicit PixelwiseModel(const ReadoutParameters& parameters)
+      : parameters_(parameters), pixel_(parameters) {}
+
+  /// Throws InputError for a timestamp or an acquisition outside the frame's range.
+  [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
+                                                    std::uint32_t acquisitions) override {
+    pixel_.start_frame(acquisitions);
+    std::vector<PixelResult> results;
+    results.reserve(static_cast<std::size_t>(column.rows()));
+    for (int row = 0; row < column.rows(); ++row) {
+      const std::span<const Detection> detections = column.row(row);
+      check(detections, row, acquisitions);
+      results.push_back(
+          pixel_.read(PassCursor(detections, static_cast<std::uint32_t>(parameters_.no_detection()))));
+    }
+    return results;
+  }
+
+ private:
+  void check(std::span<const Detection> detections, int row, std::uint32_t acquisitions) const {
+    if (detections.empty()) {
+      return;
+    }
+    std::uint32_t seen_bits = 0;
+    for (const Detection& detection : detections) {
+      seen_bits |= detection.timestamp;
+    }
+    if (seen_bits > static_cast<std::uint32_t>(parameters_.no_detection())) {
+      throw InputError(fmt::format("row {}: a timestamp is above {}, the largest code of NP = {}", row,
+                                   parameters_.no_detection(), parameters_.np));
+    }
+    if (detections.back().acquisition >= acquisitions) {
+      throw InputError(fmt::format("row {}: acquisition {} is outside the frame of {} acquisitions", row,
+                                   detections.back().acquisition, acquisitions));
+    }
+  }
+
+  ReadoutParameters parameters_;
+  Pixel pixel_;
+};
+
+std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters& parameters);
+std::unique_ptr<ReadoutModel> make_partitioned_histogram(const ReadoutParameters& parameters);
+std::unique_ptr<ReadoutModel> make_pointer_readout(const ReadoutParameters& parameters);
+
+}  // namespace dtof

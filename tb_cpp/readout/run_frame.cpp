@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "readout/run_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "readout/model.hpp"
+
+namespace dtof {
+
+std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutParameters& parameters,
+                                   int threads, std::span<const int> columns, Progress* progress) {
+  parameters.validate();
+  std::vector<int> selected(columns.begin(), columns.end());
+  if (columns.empty()) {
+    selected.resize(static_cast<std::size_t>(source.columns()));
+    std::iota(selected.begin(), selected.end(), 0);
+  }
+  for (const int column : selected) {
+    if (column < 0 || column >= source.columns()) {
+      throw InputError(
+          fmt::format("column {} is outside the source's 0 to {}", column, source.columns() - 1));
+    }
+  }
+
+  const auto rows = static_cast<std::size_t>(source.rows());
+  const std::size_t width = selected.size();
+  std::vector<PixelResult> frame(rows * width);
+  parallel_for(width, threads, [&](std::size_t index) {
+    const int column = selected[index];
+    const ColumnStream stream = source.column(column);
+    if (stream.rows() != source.rows()) {
+      throw InputError(
+          fmt::format("column {} has {} rows, its source says {}", column, stream.rows(), source.rows()));
+    }
+    const std::vector<PixelResult> results =
+        make_readout_model(parameters)->run_column(stream, source.acquisitions());
+    for (std::size_t row = 0; row < rows; ++row) {
+      frame[row * width + index] = results[row];
+    }
+    if (progress != nullptr) {
+      progress->advance();
+    }
+  });
+  return frame;
+}
+
+}  // namespace dtof

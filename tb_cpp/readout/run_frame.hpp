@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/parameters.hpp"
+#include "core/progress.hpp"
+#include "core/result.hpp"
+
+namespace dtof {
+
+/// Reads out a frame with the model, column by column on at most `threads` threads (0 = all processors).
+///
+/// `columns` lists the columns to read, in the order of the result; empty means all. The result is
+/// row-major: index = row * n + i for the i-th of n columns read. `progress`, if given, advances by one a
+/// column. Throws InputError for illegal parameters, a column outside the source, or a malformed stream.
+std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutParameters& parameters,
+                                   int threads = 0, std::span<const int> columns = {},
+                                   Progress* progress = nullptr);
+
+}  // namespace dtof
