@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+namespace dtof {
+
+/// Seed of randomised tests: the environment variable DTOF_TEST_SEED, else a fixed one. Tests print it.
+inline std::uint64_t test_seed() {
+  const char* text = std::getenv("DTOF_TEST_SEED");
+  constexpr std::uint64_t kDefaultSeed = 20240611;
+  return text == nullptr ? kDefaultSeed : std::stoull(text);
+}
+
+/// For SCOPED_TRACE: how to repeat the run.
+inline std::string test_seed_message() { return "DTOF_TEST_SEED=" + std::to_string(test_seed()); }
+
+}  // namespace dtof

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Worked examples and corner cases whose results are known by hand.
+#include "readout/model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// `slots` codes an acquisition, row 0 of one column.
+ColumnStream stream_of(const std::vector<Timestamp>& codes, std::uint32_t slots = 1) {
+  ColumnStream column;
+  std::uint32_t index = 0;
+  for (const Timestamp code : codes) {
+    column.append({index / slots, code});
+    ++index;
+  }
+  column.finish_row();
+  return column;
+}
+
+PixelResult run(const ReadoutParameters& parameters, const ColumnStream& column, std::uint32_t acquisitions) {
+  return make_readout_model(parameters)->run_column(column, acquisitions).front();
+}
+
+PixelResult run(const ReadoutParameters& parameters, const std::vector<Timestamp>& codes) {
+  return run(parameters, stream_of(codes), static_cast<std::uint32_t>(codes.size()));
+}
+
+ReadoutParameters thesis_table_3() {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh, 4);
+  parameters.nb = 3;
+  return parameters;
+}
+
+TEST(SifhModel, ThesisTables3And4) {
+  const PixelResult result = run(thesis_table_3(), stream_of({11, 9, 11, 15, 10, 10, 15, 11}, 2), 4);
+  EXPECT_EQ(result.code, 10U);
+  EXPECT_EQ(result.confidence, 2U);
+}
+
+TEST(SifhModel, ThesisWindowIsAbove6UpTo14) {
+  const auto second_measurement = [](Timestamp code) {
+    return run(thesis_table_3(), stream_of({11, 9, 11, 15, code, 15, 15, 15}, 2), 4);
+  };
+  for (Timestamp code = 0; code < 15; ++code) {
+    const PixelResult result = second_measurement(code);
+    const bool kept = code > 6 && code <= 14;
+    EXPECT_EQ(result.confidence, kept ? 1U : 0U) << code;
+    EXPECT_EQ(result.code, kept ? code : 7U) << code;
+  }
+}
+
+TEST(SifhModel, CentredWindowShiftsByHalfACoarseBin) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh, 10);  // NB 6, coarse bins of 16
+  const auto kept = [&parameters](Timestamp code) {
+    return run(parameters, {325, code}).confidence == 1;  // P = 20, edge 320
+  };
+  EXPECT_FALSE(kept(288));
+  EXPECT_TRUE(kept(289));
+  EXPECT_TRUE(kept(352));
+  EXPECT_FALSE(kept(353));
+  parameters.window_centred = true;
+  EXPECT_FALSE(kept(295));
+  EXPECT_TRUE(kept(296));
+  EXPECT_TRUE(kept(359));
+  EXPECT_FALSE(kept(360));
+}
+
+TEST(SifhModel, ThresholdsAreSignedAtBothEnds) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh, 10);
+  EXPECT_EQ(run(parameters, {3, 5}).code, 5U) << "TH- is -32";
+  EXPECT_EQ(run(parameters, {3, 1022}).confidence, 0U) << "the window does not wrap";
+  EXPECT_EQ(run(parameters, {1022, 1022}).code, 1022U) << "TH+ is 1040";
+  EXPECT_EQ(run(parameters, {1022, 3}).confidence, 0U);
+}
+
+TEST(FifhModel, FineHistogramOfExactlyThePeakBin) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kFifh, 10);
+  EXPECT_EQ(run(parameters, {100, 101, 700, 127, 127, 128}).code, 127U);
+  EXPECT_EQ(run(parameters, {100, 101, 700, 95, 128, 200}).code, 96U) << "nothing kept: the bin's first code";
+}
+
+TEST(FifhModel, CoarseBellAcrossABorderGoesToTheHigherCount) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kFifh, 10);
+  EXPECT_EQ(run(parameters, {126, 127, 128, 129, 130, 127, 127, 127, 128, 128}).code, 128U);
+  EXPECT_EQ(run(parameters, {126, 127, 128, 129, 127, 127, 128, 128}).code, 127U) << "a tie goes left";
+}
+
+TEST(ThreeStepsModel, ZoomsThreeBitsAStep) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kThreeSteps, 10);
+  // 701 is 0b101'011'110'1; the 3s are outside the prefix of the step they stand in.
+  const auto second_measurement = [&parameters](const std::vector<Timestamp>& codes) {
+    std::vector<Timestamp> frame = {701, 701, 3, 701, 701, 3};
+    frame.insert(frame.end(), codes.begin(), codes.end());
+    return run(parameters, frame);
+  };
+  const PixelResult result = second_measurement({3, 708, 709, 709, 709, 708});
+  EXPECT_EQ(result.code, 708U);
+  EXPECT_EQ(result.confidence, 2U);
+  for (Timestamp code = 680; code < 720; ++code) {
+    const bool kept = code >= 693 && code <= 708;  // b = 700: b - 7 to b + 8
+    EXPECT_EQ(second_measurement({3, 3, 3, 3, 3, code}).confidence, kept ? 1U : 0U) << code;
+  }
+}
+
+TEST(PifhModel, LaterRunWinsOnlyWithALargerCount) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPifh, 4);
+  parameters.nb = 3;
+  EXPECT_EQ(run(parameters, {5, 5, 9, 9}).code, 5U);
+  EXPECT_EQ(run(parameters, {5, 12, 9, 9}).code, 9U);
+  EXPECT_EQ(run(parameters, {9, 9, 5, 5}).code, 0U) << "each run sees only its own partition";
+}
+
+TEST(PifhModel, WithOnePartitionIsTheHistogram) {
+  ReadoutParameters pifh = ReadoutParameters::defaults(Readout::kPifh, 8);
+  pifh.nb = 8;
+  const std::vector<Timestamp> codes = {1, 200, 3, 200, 255, 3, 254};
+  EXPECT_EQ(run(pifh, codes), run(ReadoutParameters::defaults(Readout::kHistogram, 8), codes));
+}
+
+TEST(HistogramModel, TieSaturationAndNoDetection) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHistogram, 10);
+  parameters.count_width = 2;
+  EXPECT_EQ(run(parameters, {9, 9, 9, 9, 9, 4, 4, 4}).code, 4U) << "both saturate at 3";
+  EXPECT_EQ(run(parameters, {1023, 1023, 1023, 1022}).code, 1022U);
+}
+
+TEST(HisPointerModel, Version1StartsAtTheCoarseBinsCentreAndSeesEverything) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHisPointer1, 10);
+  EXPECT_EQ(run(parameters, {100, 1023}).code, 112U);
+  EXPECT_EQ(run(parameters, {100, 600}).code, 113U);
+  EXPECT_EQ(run(parameters, {100, 700}).code, 111U) << "the way round is shorter";
+}
+
+TEST(HisPointerModel, Version2SeesOnlyItsWindow) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHisPointer, 10);
+  // P = 3, c = 112, SB = 16 + 46.
+  EXPECT_EQ(run(parameters, {100, 50}).code, 112U);
+  EXPECT_EQ(run(parameters, {100, 51}).code, 111U);
+  EXPECT_EQ(run(parameters, {100, 174}).code, 113U);
+  EXPECT_EQ(run(parameters, {100, 175}).code, 112U);
+  EXPECT_EQ(run(parameters, {0, 1000}).code, 16U) << "no wrap in the filter";
+}
+
+TEST(EzPointerModel, PingPongAcrossThePointer) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kEzPointer, 10);
+  const std::vector<Timestamp> codes = {513, 511, 513, 511, 513, 511};
+  EXPECT_EQ(run(parameters, codes).code, 512U);
+  EXPECT_EQ(run(parameters, stream_of({600, 600}, 2), 1).code, 514U) << "both slots of one acquisition count";
+}
+
+TEST(EmptyFrame, EveryReadoutHasItsDefinedResult) {
+  const std::map<Readout, int> codes = {{Readout::kEzPointer, 512}, {Readout::kHisPointer1, 16},
+                                        {Readout::kHisPointer, 16}, {Readout::kSifh, 0},
+                                        {Readout::kFifh, 0},        {Readout::kThreeSteps, 0},
+                                        {Readout::kPifh, 0},        {Readout::kHistogram, 0}};
+  for (const auto& [readout, code] : codes) {
+    const ReadoutParameters parameters = ReadoutParameters::defaults(readout, 10);
+    const PixelResult expected{static_cast<std::uint16_t>(code), 0, 0};
+    EXPECT_EQ(run(parameters, stream_of({}), 0), expected) << readout_name(readout);
+    EXPECT_EQ(run(parameters, stream_of({}), 33333), expected) << readout_name(readout);
+    EXPECT_EQ(run(parameters, stream_of({1023}), 1), expected) << readout_name(readout);
+  }
+}
+
+TEST(IllegalParameters, RefusedWithASentence) {
+  struct Case {
+    void (*spoil)(ReadoutParameters&);
+    std::string message;
+  };
+  const std::vector<Case> cases = {
+      {[](ReadoutParameters& p) { p.np = 2; }, "parameter NP is 2, but must be 3 to 16"},
+      {[](ReadoutParameters& p) { p.np = 17; }, "NP is 17"},
+      {[](ReadoutParameters& p) { p.nb = 0; }, "parameter NB is 0, but must be 1 to 10"},
+      {[](ReadoutParameters& p) { p.nb = 11; }, "NB is 11"},
+      {[](ReadoutParameters& p) { p.slots = 0; }, "SLOTS is 0"},
+      {[](ReadoutParameters& p) { p.count_width = 0; }, "COUNT_WIDTH is 0"},
+      {[](ReadoutParameters& p) { p.count_width = 17; }, "COUNT_WIDTH is 17"},
+      {[](ReadoutParameters& p) { p.pointer_step = 0; }, "POINTER_STEP is 0"},
+      {[](ReadoutParameters& p) { p.pointer_step = 512; }, "POINTER_STEP is 512, but must be 1 to 511"},
+      {[](ReadoutParameters& p) { p.fraction_bits = 7; }, "FRACTION_BITS is 7, but must be 0 to 6"},
+      {[](ReadoutParameters& p) { p.confidence_width = 9; }, "CONFIDENCE_WIDTH is 9"},
+      {[](ReadoutParameters& p) { p.guard = -1; }, "GUARD is -1"},
+  };
+  for (const Readout readout : kAllReadouts) {
+    for (const Case& bad : cases) {
+      ReadoutParameters parameters = ReadoutParameters::defaults(readout, 10);
+      bad.spoil(parameters);
+      EXPECT_THAT([&] { (void)make_readout_model(parameters); },
+                  ThrowsMessage<InputError>(HasSubstr(bad.message)));
+    }
+  }
+}
+
+TEST(MalformedStream, RefusedWithRowAndReason) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHistogram, 4);
+  EXPECT_THAT(
+      [&] {
+        run(parameters, {3, 16, 4});
+      },
+      ThrowsMessage<InputError>(HasSubstr("row 0: a timestamp is above 15")));
+  EXPECT_THAT(
+      [&] {
+        run(parameters, stream_of({3, 4, 5}), 2);
+      },
+      ThrowsMessage<InputError>(HasSubstr("row 0: acquisition 2 is outside the frame of 2")));
+}
+
+}  // namespace
+}  // namespace dtof

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "readout/pointer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "readout/model.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr PointerFormat kFourBits{4, 0};
+
+std::uint32_t move(std::uint32_t word, std::uint32_t timestamp, std::uint32_t step = 1,
+                   PointerFormat format = kFourBits) {
+  return pointer_move(format, word, pointer_distance(format, word, timestamp), step);
+}
+
+ReadoutParameters four_bit_ezpointer() { return ReadoutParameters::defaults(Readout::kEzPointer, 4); }
+
+TEST(PointerMove, ThesisFigure37) {
+  EXPECT_EQ(move(7, 11), 8U);
+  EXPECT_EQ(move(8, 9), 9U);
+
+  PointerBuilder pointer(four_bit_ezpointer());
+  pointer.start_frame({0, 3});
+  const std::vector<Detection> row = {{0, 11}, {1, 9}, {2, 15}};
+  PassCursor cursor(row, 15);
+  EXPECT_EQ(pointer.follow(cursor, 7, {-1, 15}).code, 9U) << "15 is the no-detection code";
+}
+
+TEST(PointerMove, OppositePointCountsAsRight) {
+  EXPECT_EQ(move(4, 12), 5U);
+  EXPECT_EQ(move(4, 13), 3U);
+  EXPECT_EQ(move(12, 4), 13U);
+}
+
+TEST(PointerMove, StaysOnItsOwnCodeAndWrapsAtBothEnds) {
+  EXPECT_EQ(move(6, 6), 6U);
+  EXPECT_EQ(move(15, 2), 0U);
+  EXPECT_EQ(move(0, 14), 15U);
+  EXPECT_EQ(move(14, 1, 5), 3U);
+  EXPECT_EQ(move(1, 14, 5), 12U);
+}
+
+TEST(PointerNear, ReachIsASixteenthOfTheRangeOnEachSideHalved) {
+  constexpr PointerFormat kTenBits{10, 0};
+  EXPECT_TRUE(pointer_near(kTenBits, 0));
+  EXPECT_TRUE(pointer_near(kTenBits, 31));
+  EXPECT_FALSE(pointer_near(kTenBits, 32));
+  EXPECT_FALSE(pointer_near(kTenBits, 991));
+  EXPECT_TRUE(pointer_near(kTenBits, 992));
+  EXPECT_TRUE(pointer_near(kTenBits, 1023));
+  constexpr PointerFormat kThreeBits{3, 0};
+  EXPECT_TRUE(pointer_near(kThreeBits, 0));
+  EXPECT_FALSE(pointer_near(kThreeBits, 1));
+  EXPECT_TRUE(pointer_near(kThreeBits, 7));
+}
+
+TEST(PointerBuilder, StepHalvesByGears) {
+  ReadoutParameters parameters = four_bit_ezpointer();
+  parameters.fraction_bits = 2;
+  PointerBuilder pointer(parameters);
+  pointer.start_frame({0, 4});
+  // Words in quarters from 32: full step twice, half a bin, then a quarter.
+  const std::vector<Detection> row = {{0, 12}, {1, 12}, {2, 12}, {3, 12}};
+  PassCursor cursor(row, 15);
+  const PixelResult result = pointer.follow(cursor, 32, {-1, 15});
+  EXPECT_EQ(result.code, 10U);
+  EXPECT_EQ(result.fraction, 3U);  // 32 + 4 + 4 + 2 + 1 = 43
+}
+
+TEST(PointerBuilder, GearsCountFromTheMeasurementsBegin) {
+  ReadoutParameters parameters = four_bit_ezpointer();
+  parameters.fraction_bits = 1;
+  PointerBuilder pointer(parameters);
+  pointer.start_frame({4, 8});
+  const std::vector<Detection> row = {{5, 12}, {6, 12}};
+  PassCursor cursor(row, 15);
+  const PixelResult result = pointer.follow(cursor, 16, {-1, 15});
+  EXPECT_EQ(result.code, 9U);
+  EXPECT_EQ(result.fraction, 1U);
+}
+
+TEST(PointerBuilder, ConfidenceRisesNearTheTopAndFallsByOneFarTimestampInEight) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kEzPointer, 10);
+  PointerBuilder pointer(parameters);
+  const auto confidence_after = [&](const std::vector<Timestamp>& timestamps) {
+    std::vector<Detection> row;
+    for (const Timestamp timestamp : timestamps) {
+      row.push_back({static_cast<std::uint32_t>(row.size()), timestamp});
+    }
+    pointer.start_frame({0, static_cast<std::uint32_t>(row.size())});
+    PassCursor cursor(row, 1023);
+    return pointer.follow(cursor, 512, {-1, 1023}).confidence;
+  };
+  EXPECT_EQ(confidence_after({512, 512, 512}), 3U);
+  EXPECT_EQ(confidence_after(std::vector<Timestamp>(100, 512)), 15U);
+  EXPECT_EQ(confidence_after({512, 512, 801}), 2U) << "far, low bits not zero";
+  EXPECT_EQ(confidence_after({512, 512, 800}), 1U) << "far, low bits zero";
+  EXPECT_EQ(confidence_after({800, 800, 512}), 1U) << "does not fall below zero";
+}
+
+TEST(PointerBuilder, NoConfidenceBitsMeansZero) {
+  ReadoutParameters parameters = four_bit_ezpointer();
+  parameters.confidence_width = 0;
+  PointerBuilder pointer(parameters);
+  pointer.start_frame({0, 2});
+  const std::vector<Detection> row = {{0, 8}, {1, 8}};
+  PassCursor cursor(row, 15);
+  EXPECT_EQ(pointer.follow(cursor, 8, {-1, 15}).confidence, 0U);
+}
+
+}  // namespace
+}  // namespace dtof

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/parameters.hpp"
+#include "core/result.hpp"
+
+namespace dtof {
+
+/// Slow reading of docs/readouts.md, sentence by sentence, sharing nothing with the models: timestamps are
+/// selected by predicates, counts live in a map, all arithmetic is signed 64 bit.
+PixelResult reference_result(const ReadoutParameters& parameters, const std::vector<Detection>& detections,
+                             std::int64_t acquisitions);
+
+}  // namespace dtof
