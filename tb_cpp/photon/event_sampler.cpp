@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photon/event_sampler.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <boost/random/exponential_distribution.hpp>
+#include <boost/random/normal_distribution.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "photon/physics.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+// From this mean on, drawing the kept events one after the other in time order is cheaper than drawing all.
+constexpr double kDenseEvents = 20.0;
+// Sorting while drawing is quadratic in the events of one pulse.
+constexpr double kSortWhileDrawing = 16.0;
+// A pulse whose centre is this many sigma outside the gate sends nothing into it (probability below 1e-32).
+constexpr double kNegligibleSigma = 12.0;
+
+/// 64 bits a call, so that Boost's ziggurats fill a double's mantissa from one word.
+class Bits64 {
+ public:
+  using result_type = std::uint64_t;
+  explicit Bits64(CounterRandom& random) : random_(random) {}
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
+  result_type operator()() { return random_.bits64(); }
+
+ private:
+  CounterRandom& random_;
+};
+
+double draw_exponential(Bits64& bits) { return boost::random::exponential_distribution<double>(1.0)(bits); }
+double draw_normal(Bits64& bits) { return boost::random::normal_distribution<double>(0.0, 1.0)(bits); }
+
+/// Inverse of erfc without Boost's detour over long double.
+double erfc_inverse(double value) {
+  using Policy = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+  return boost::math::erfc_inv(value, Policy());
+}
+
+/// First event after `now` (units of sigma from the pulse's centre) of a pulse of `events` mean events;
+/// `gap` is exponential with mean 1. Time change of the Poisson process: events * Phi(t) rises by `gap`.
+double next_in_pulse(double now, double events, double gap) {
+  const double step = gap / events;
+  // Each half uses the tail that keeps its relative precision.
+  if (now < 0.0) {
+    const double below = 0.5 * std::erfc(-now / std::numbers::sqrt2) + step;
+    if (below < 0.5) {
+      return -std::numbers::sqrt2 * erfc_inverse(2.0 * std::max(below, std::numeric_limits<double>::min()));
+    }
+    return below < 1.0 ? std::numbers::sqrt2 * erfc_inverse(2.0 * (1.0 - below)) : kNever;
+  }
+  const double above = 0.5 * std::erfc(now / std::numbers::sqrt2) - step;
+  return above > 0.0 ? std::numbers::sqrt2 * erfc_inverse(2.0 * above) : kNever;
+}
+
+void make_room(std::vector<double>& values, std::size_t count) {
+  if (count == values.size()) {
+    values.resize(std::max<std::size_t>(1024, 2 * count));
+  }
+}
+
+}  // namespace
+
+EventSampler::EventSampler(const SensorModel& model, std::size_t keep)
+    : code_count_(std::ldexp(1.0, model.np)),
+      acquisitions_(model.acquisitions),
+      frame_end_(acquisitions_ * code_count_),
+      gate_begin_(model.time_gate ? model.time_gate->begin_s / model.time_resolution_s() : 0.0),
+      gate_end_(model.time_gate ? model.time_gate->end_s / model.time_resolution_s() : code_count_),
+      sigma_(pulse_sigma_s(model.pulse_fwhm_s) / model.time_resolution_s()),
+      dead_time_(model.dead_time_s / model.time_resolution_s()),
+      keep_(keep) {}
+
+std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRandom random) {
+  PixelRates visible = rates;
+  const double outside = std::max(gate_begin_ - rates.centre_bins, rates.centre_bins - gate_end_);
+  if (outside > kNegligibleSigma * sigma_) {
+    visible.signal = 0.0;
+  }
+  const double background = rates.background * (gate_end_ - gate_begin_) / code_count_;
+  if (keep_ != kAll && background + visible.signal > kDenseEvents) {
+    walk_in_time_order(visible, background, random);
+  } else {
+    walk_background(background, random);
+    walk_signal(visible, random);
+    merge();
+    if (dead_time_ > 0.0) {
+      drop_in_dead_time();
+    }
+  }
+  return std::span<const double>(events_).first(event_count_);
+}
+
+void EventSampler::walk_background(double events_per_acquisition, CounterRandom& random) {
+  Bits64 bits(random);
+  background_count_ = 0;
+  // `walked` is measured in mean events: gaps are exponential with mean 1, whatever the rate.
+  const double end = events_per_acquisition * acquisitions_;
+  const double gate_width = gate_end_ - gate_begin_;
+  const bool gated = gate_width < code_count_;
+  const double acquisitions_per_event = 1.0 / events_per_acquisition;
+  const double bins_per_event = code_count_ / events_per_acquisition;
+  for (double walked = draw_exponential(bits); walked < end; walked += draw_exponential(bits)) {
+    double position = walked * bins_per_event;
+    if (gated) {
+      const double acquisition = std::floor(walked * acquisitions_per_event);
+      position = acquisition * code_count_ + gate_begin_ +
+                 (walked * acquisitions_per_event - acquisition) * gate_width;
+    }
+    if (position >= frame_end_) {  // only by rounding
+      break;
+    }
+    make_room(background_, background_count_);
+    background_[background_count_++] = position;
+  }
+}
+
+void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
+  Bits64 bits(random);
+  signal_count_ = 0;
+  const double acquisitions_per_event = 1.0 / rates.signal;
+  const double end = rates.signal * acquisitions_;
+  const bool sort_now = rates.signal <= kSortWhileDrawing;
+  for (double walked = draw_exponential(bits); walked < end; walked += draw_exponential(bits)) {
+    const double acquisition = std::floor(walked * acquisitions_per_event);
+    const double time = rates.centre_bins + sigma_ * draw_normal(bits);
+    const double position = acquisition * code_count_ + time;
+    if (time < gate_begin_ || time >= gate_end_ || position >= frame_end_) {
+      continue;
+    }
+    make_room(signal_, signal_count_);
+    std::size_t slot = signal_count_++;
+    for (; sort_now && slot > 0 && signal_[slot - 1] > position; --slot) {
+      signal_[slot] = signal_[slot - 1];
+    }
+    signal_[slot] = position;
+  }
+  if (!sort_now) {
+    std::sort(signal_.begin(), signal_.begin() + static_cast<std::ptrdiff_t>(signal_count_));
+  }
+}
+
+void EventSampler::merge() {
+  make_room(background_, background_count_);
+  make_room(signal_, signal_count_);
+  background_[background_count_] = kNever;
+  signal_[signal_count_] = kNever;
+  event_count_ = background_count_ + signal_count_;
+  if (events_.size() < event_count_) {
+    events_.resize(event_count_);
+  }
+  const double* background = background_.data();
+  const double* signal = signal_.data();
+  for (std::size_t i = 0; i < event_count_; ++i) {
+    // Without a branch: which process is next is not predictable.
+    const bool take_signal = *signal < *background;
+    events_[i] = take_signal ? *signal : *background;
+    signal += take_signal ? 1 : 0;
+    background += take_signal ? 0 : 1;
+  }
+}
+
+void EventSampler::walk_in_time_order(const PixelRates& rates, double background, CounterRandom& random) {
+  Bits64 bits(random);
+  event_count_ = 0;
+  const double bins_per_background = (gate_end_ - gate_begin_) / background;
+  for (double acquisition = 0.0; acquisition < acquisitions_; acquisition += 1.0) {
+    double now = gate_begin_;
+    for (std::size_t kept = 0; kept < keep_; ++kept) {
+      // Both processes are memoryless, so they may be restarted at any time.
+      double next = background > 0.0 ? now + bins_per_background * draw_exponential(bits) : kNever;
+      if (rates.signal > 0.0) {
+        const double gap = draw_exponential(bits);
+        const double in_pulse = next_in_pulse((now - rates.centre_bins) / sigma_, rates.signal, gap);
+        next = std::min(next, std::max(now, rates.centre_bins + sigma_ * in_pulse));
+      }
+      const double position = acquisition * code_count_ + next;
+      if (next >= gate_end_ || position >= frame_end_) {
+        break;
+      }
+      make_room(events_, event_count_);
+      events_[event_count_++] = position;
+      now = next + dead_time_;
+    }
+  }
+}
+
+void EventSampler::drop_in_dead_time() {
+  std::size_t kept = 0;
+  double dead_until = -1.0;
+  for (std::size_t i = 0; i < event_count_; ++i) {
+    const double position = events_[i];
+    if (position < dead_until) {
+      continue;
+    }
+    events_[kept++] = position;
+    // The pause between two acquisitions is much longer than any dead time.
+    const double acquisition_end = (std::floor(position / code_count_) + 1.0) * code_count_;
+    dead_until = std::min(position + dead_time_, acquisition_end);
+  }
+  event_count_ = kept;
+}
+
+}  // namespace dtof

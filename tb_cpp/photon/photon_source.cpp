@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photon/photon_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "photon/physics.hpp"
+
+namespace dtof {
+namespace {
+
+/// The TDC: appends a row that keeps the first SLOTS events of every acquisition.
+class TdcRow {
+ public:
+  explicit TdcRow(const SensorModel& model) : np_(model.np), slots_(static_cast<std::size_t>(model.slots)) {}
+
+  void append(std::span<const double> events, ColumnStream& stream) {
+    if (detections_.size() < events.size()) {
+      detections_.resize(events.size());
+    }
+    const std::uint64_t code_mask = (std::uint64_t{1} << static_cast<unsigned>(np_)) - 1;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+      const auto position = static_cast<std::uint64_t>(static_cast<std::int64_t>(events[i]));
+      const std::uint64_t acquisition = position >> static_cast<unsigned>(np_);
+      detections_[count] = {static_cast<std::uint32_t>(acquisition),
+                            static_cast<Timestamp>(position & code_mask)};
+      // A full acquisition is one whose event SLOTS places earlier is of the same acquisition.
+      const bool full = count >= slots_ && detections_[count - slots_].acquisition == acquisition;
+      count += full ? 0 : 1;
+    }
+    stream.append_row(std::span<const Detection>(detections_).first(count));
+  }
+
+ private:
+  int np_;
+  std::size_t slots_;
+  std::vector<Detection> detections_;
+};
+
+using Events = std::vector<double>;
+
+/// Marks the events that have one of `neighbour` in the same acquisition at most `window` away (bins).
+void mark_coincident(std::span<const double> events, std::span<const double> neighbour, double window,
+                     double code_count, std::vector<bool>& marks) {
+  std::size_t candidate = 0;
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const double acquisition_begin = std::floor(events[i] / code_count) * code_count;
+    const double earliest = std::max(events[i] - window, acquisition_begin);
+    while (candidate < neighbour.size() && neighbour[candidate] < earliest) {
+      ++candidate;
+    }
+    if (candidate < neighbour.size() && neighbour[candidate] <= events[i] + window &&
+        neighbour[candidate] < acquisition_begin + code_count) {
+      marks[i] = true;
+    }
+  }
+}
+
+}  // namespace
+
+PhotonSource::PhotonSource(SensorModel model, TargetMap targets, double klux, std::uint64_t seed,
+                           std::uint32_t frame)
+    : model_(std::move(model)),
+      targets_(std::make_shared<const TargetMap>(std::move(targets))),
+      klux_(klux),
+      seed_(seed),
+      frame_(frame) {
+  model_.validate();
+  targets_->validate();
+  if (!std::isfinite(klux) || klux < 0.0) {
+    throw InputError(fmt::format("illuminance must be a finite number of at least 0 klux, not {}", klux));
+  }
+  // Coincidence needs every event at once; the others stop at SLOTS events an acquisition.
+  constexpr double kMaxEventsInMemory = 1e8;
+  for (int column = 0; column < columns(); ++column) {
+    for (int row = 0; row < rows(); ++row) {
+      const PixelRates mean = rates(column, row);
+      const double events = mean.signal + mean.background;
+      if (!std::isfinite(events)) {
+        throw InputError(fmt::format(
+            "pixel (column {}, row {}): the mean number of events overflows (depth {} m, reflectivity {})",
+            column, row, targets_->at(column, row).depth_m, targets_->at(column, row).reflectivity));
+      }
+      if (model_.coincidence_window_s && events * model_.acquisitions > kMaxEventsInMemory) {
+        throw InputError(fmt::format(
+            "pixel (column {}, row {}): {:.3g} mean events a frame are too many for a coincidence "
+            "window (at most {:.0g})",
+            column, row, events * model_.acquisitions, kMaxEventsInMemory));
+      }
+    }
+  }
+}
+
+PhotonSource PhotonSource::at_frame(std::uint32_t frame) const {
+  PhotonSource copy = *this;
+  copy.frame_ = frame;
+  return copy;
+}
+
+PixelRates PhotonSource::rates(int column, int row) const {
+  const PixelTarget& target = targets_->at(column, row);
+  PixelRates rates;
+  rates.background = model_.background_events(klux_, target.reflectivity);
+  if (target.returns_signal()) {
+    rates.signal = model_.signal_events(target.depth_m, target.reflectivity);
+    rates.centre_bins = arrival_centre_s(target.depth_m, model_.pulse_fwhm_s) / model_.time_resolution_s();
+  }
+  return rates;
+}
+
+ColumnStream PhotonSource::column(int index) const {
+  return model_.binning == 1 && !model_.coincidence_window_s ? plain_column(index) : combined_column(index);
+}
+
+ColumnStream PhotonSource::plain_column(int index) const {
+  EventSampler sampler(model_, static_cast<std::size_t>(model_.slots));
+  TdcRow tdc(model_);
+  ColumnStream stream;
+  for (int row = 0; row < rows(); ++row) {
+    tdc.append(sampler.sample(rates(index, row), random(index, row)), stream);
+  }
+  return stream;
+}
+
+ColumnStream PhotonSource::combined_column(int index) const {
+  const bool coincidence = model_.coincidence_window_s.has_value();
+  const double code_count = std::ldexp(1.0, model_.np);
+  const int block_begin = index / model_.binning * model_.binning;
+  const int block_end = std::min(block_begin + model_.binning, columns());
+  // Coincidence looks one column further on both sides, and needs the events that the TDC would not keep.
+  const int first = coincidence ? std::max(block_begin - 1, 0) : block_begin;
+  const int last = coincidence ? std::min(block_end + 1, columns()) : block_end;
+  EventSampler sampler(model_, coincidence ? EventSampler::kAll : static_cast<std::size_t>(model_.slots));
+
+  std::vector<std::vector<Events>> events(static_cast<std::size_t>(last - first));
+  for (int column = first; column < last; ++column) {
+    for (int row = 0; row < rows(); ++row) {
+      const auto drawn = sampler.sample(rates(column, row), random(column, row));
+      events[static_cast<std::size_t>(column - first)].emplace_back(drawn.begin(), drawn.end());
+    }
+  }
+  const auto pixel = [&](int column, int row) -> const Events& {
+    return events[static_cast<std::size_t>(column - first)][static_cast<std::size_t>(row)];
+  };
+
+  const auto coincident_events = [&](int column, int row) {
+    const Events& own = pixel(column, row);
+    const double window = *model_.coincidence_window_s / model_.time_resolution_s();
+    std::vector<bool> marks(own.size(), false);
+    constexpr std::pair<int, int> kNeighbours[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (const auto& [right, down] : kNeighbours) {
+      const int x = column + right;
+      const int y = row + down;
+      if (x >= 0 && x < columns() && y >= 0 && y < rows()) {
+        mark_coincident(own, pixel(x, y), window, code_count, marks);
+      }
+    }
+    Events kept;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (marks[i]) {
+        kept.push_back(own[i]);
+      }
+    }
+    return kept;
+  };
+
+  TdcRow tdc(model_);
+  ColumnStream stream;
+  for (int row_begin = 0; row_begin < rows(); row_begin += model_.binning) {
+    const int row_end = std::min(row_begin + model_.binning, rows());
+    Events block;
+    for (int column = block_begin; column < block_end; ++column) {
+      for (int row = row_begin; row < row_end; ++row) {
+        const Events filtered = coincidence ? coincident_events(column, row) : Events();
+        const Events& own = coincidence ? filtered : pixel(column, row);
+        Events both;
+        both.reserve(block.size() + own.size());
+        std::merge(block.begin(), block.end(), own.begin(), own.end(), std::back_inserter(both));
+        block = std::move(both);
+      }
+    }
+    for (int row = row_begin; row < row_end; ++row) {
+      tdc.append(block, stream);
+    }
+  }
+  return stream;
+}
+
+CounterRandom PhotonSource::random(int column, int row) const {
+  const auto pixel = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns()) +
+                     static_cast<std::uint32_t>(column);
+  return {seed_, static_cast<std::uint32_t>(RandomPurpose::kPhotons), frame_, pixel};
+}
+
+}  // namespace dtof

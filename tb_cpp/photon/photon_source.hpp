@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/detection.hpp"
+#include "core/random.hpp"
+#include "photon/event_sampler.hpp"
+#include "photon/preset.hpp"
+#include "photon/target_map.hpp"
+
+namespace dtof {
+
+/// TDC stream of a modelled scene, exact event by event (spec section 4).
+///
+/// Per acquisition and pixel: Poisson numbers of signal events (Gaussian around 2R/c + FWHM) and background
+/// events (flat); events outside [0, T_int) are lost. Then, in this order:
+///  1. time gate: only events inside count;
+///  2. dead time: an event within it after the pixel's last counted event is lost; it ends with the
+///     acquisition;
+///  3. coincidence window: an event counts only if one of the four neighbouring pixels has an event of the
+///     same acquisition at most W away;
+///  4. binning: the B x B pixels of a block (cut at the array's border) share one stream, the union of
+///  theirs;
+///  5. the TDC keeps the first SLOTS events in time order, code = floor(t / T_res).
+/// An event in the last bin gets the no-detection code: it takes its slot, and read-outs drop it.
+///
+/// Random numbers depend on seed, frame and pixel alone. Copies are cheap.
+class PhotonSource final : public StreamSource {
+ public:
+  /// Throws InputError for illegal physics (SensorModel::validate, TargetMap::validate; `klux` finite and
+  /// >= 0; rates that overflow).
+  PhotonSource(SensorModel model, TargetMap targets, double klux, std::uint64_t seed,
+               std::uint32_t frame = 0);
+
+  /// The same scene and seed at another frame.
+  [[nodiscard]] PhotonSource at_frame(std::uint32_t frame) const;
+
+  [[nodiscard]] int columns() const override { return targets_->columns(); }
+  [[nodiscard]] int rows() const override { return targets_->rows(); }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return model_.acquisitions; }
+  [[nodiscard]] ColumnStream column(int index) const override;
+
+  [[nodiscard]] const SensorModel& model() const { return model_; }
+  [[nodiscard]] const TargetMap& targets() const { return *targets_; }
+  [[nodiscard]] double klux() const { return klux_; }
+  /// Mean events of a pixel before any loss.
+  [[nodiscard]] PixelRates rates(int column, int row) const;
+
+ private:
+  [[nodiscard]] ColumnStream plain_column(int index) const;
+  [[nodiscard]] ColumnStream combined_column(int index) const;
+  [[nodiscard]] CounterRandom random(int column, int row) const;
+
+  SensorModel model_;
+  std::shared_ptr<const TargetMap> targets_;
+  double klux_;
+  std::uint64_t seed_;
+  std::uint32_t frame_;
+};
+
+}  // namespace dtof
