@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace dtof {
+
+/// A place in a JSON file that knows its own path, so that every complaint names it.
+class JsonNode {
+ public:
+  JsonNode(const nlohmann::json& value, std::string where) : value_(&value), where_(std::move(where)) {}
+
+  /// Member of an object, element of an array; InputError where missing.
+  [[nodiscard]] JsonNode operator[](const char* key) const;
+  [[nodiscard]] JsonNode at(std::size_t index) const;
+  /// Elements of an array; InputError when it is none.
+  [[nodiscard]] std::size_t size() const;
+  /// A finite number, or a string holding one.
+  [[nodiscard]] double number() const;
+  [[nodiscard]] std::int64_t integer() const;
+  /// An array of `size` photon counts, each an integer in 0..2^32-1.
+  [[nodiscard]] std::vector<std::uint32_t> counts(std::size_t size) const;
+  /// InputError unless this is an array of `size`.
+  void expect_size(std::size_t size) const;
+  [[noreturn]] void fail(const std::string& reason) const;
+
+ private:
+  const nlohmann::json* value_;
+  std::string where_;
+};
+
+/// Parses a JSON file, plain or gzip. Throws InputError "<path>: <reason>" with line and column.
+nlohmann::json read_json(const std::filesystem::path& path);
+
+}  // namespace dtof

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/photon_times_mat.hpp"
+
+#include <fmt/format.h>
+#include <matio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/input_file.hpp"
+
+namespace dtof {
+namespace {
+
+struct MatCloser {
+  void operator()(mat_t* file) const { Mat_Close(file); }
+};
+struct VariableDeleter {
+  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+};
+using Variable = std::unique_ptr<matvar_t, VariableDeleter>;
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+  throw InputError(fmt::format("{}: {}", path.string(), reason));
+}
+
+Variable read_variable(const std::filesystem::path& path, const std::string& name) {
+  // matio reports a missing, empty or foreign file all alike; this tells the first two apart.
+  (void)read_file(path);
+  const std::unique_ptr<mat_t, MatCloser> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
+  if (!file) {
+    fail(path, "not a MATLAB file");
+  }
+  Variable variable(Mat_VarRead(file.get(), name.c_str()));
+  if (!variable) {
+    fail(path, fmt::format("the variable \"{}\" is missing or damaged", name));
+  }
+  if (variable->rank != 2 || variable->dims[0] == 0 || variable->dims[1] == 0 ||
+      variable->dims[0] > std::numeric_limits<std::uint16_t>::max() ||
+      variable->dims[1] > std::numeric_limits<std::uint16_t>::max()) {
+    fail(path, fmt::format("\"{}\" is not a two-dimensional array of at most 65535 x 65535", name));
+  }
+  return variable;
+}
+
+template <typename T>
+void append_as(const matvar_t& variable, std::size_t count, std::vector<double>& out) {
+  const auto* const data = static_cast<const T*>(variable.data);
+  std::transform(data, data + count, std::back_inserter(out),
+                 [](T value) { return static_cast<double>(value); });
+}
+
+/// Appends the elements of a real numeric array in file order (columns first); false if it is none.
+bool append_numbers(const matvar_t& variable, std::vector<double>& out) {
+  std::size_t count = 1;
+  for (int axis = 0; axis < variable.rank; ++axis) {
+    count *= variable.dims[axis];
+  }
+  if (count == 0) {
+    return true;
+  }
+  if (variable.data == nullptr || variable.isComplex != 0 || variable.data_size <= 0 ||
+      variable.nbytes < count * static_cast<std::size_t>(variable.data_size)) {
+    return false;
+  }
+  switch (variable.class_type) {
+    case MAT_C_DOUBLE:
+      append_as<double>(variable, count, out);
+      return true;
+    case MAT_C_SINGLE:
+      append_as<float>(variable, count, out);
+      return true;
+    case MAT_C_INT32:
+      append_as<std::int32_t>(variable, count, out);
+      return true;
+    case MAT_C_UINT32:
+      append_as<std::uint32_t>(variable, count, out);
+      return true;
+    case MAT_C_INT16:
+      append_as<std::int16_t>(variable, count, out);
+      return true;
+    case MAT_C_UINT16:
+      append_as<std::uint16_t>(variable, count, out);
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+PhotonTimes read_photon_times_mat(const std::filesystem::path& path, const std::string& variable) {
+  const Variable cells = read_variable(path, variable);
+  if (cells->class_type != MAT_C_CELL || cells->data == nullptr) {
+    fail(path, fmt::format("\"{}\" is not a cell array", variable));
+  }
+  PhotonTimes photons;
+  photons.rows = static_cast<int>(cells->dims[0]);
+  photons.columns = static_cast<int>(cells->dims[1]);
+  photons.begin.push_back(0);
+  for (int row = 0; row < photons.rows; ++row) {
+    for (int column = 0; column < photons.columns; ++column) {
+      const matvar_t* const cell = Mat_VarGetCell(cells.get(), row + column * photons.rows);
+      const bool empty = cell == nullptr || cell->class_type == MAT_C_EMPTY;
+      if (!empty && !append_numbers(*cell, photons.ticks)) {
+        fail(path, fmt::format("\"{}\": the cell of column {}, row {} is damaged or holds no real numbers",
+                               variable, column, row));
+      }
+      const auto first = photons.ticks.begin() + static_cast<std::ptrdiff_t>(photons.begin.back());
+      if (!std::all_of(first, photons.ticks.end(), [](double tick) { return std::isfinite(tick); })) {
+        fail(path,
+             fmt::format("\"{}\": column {}, row {} holds a time that is not finite", variable, column, row));
+      }
+      photons.begin.push_back(photons.ticks.size());
+    }
+  }
+  return photons;
+}
+
+MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable) {
+  const Variable array = read_variable(path, variable);
+  std::vector<double> by_column;
+  if (!append_numbers(*array, by_column)) {
+    fail(path, fmt::format("\"{}\" is not a real numeric matrix, or damaged", variable));
+  }
+  MatMatrix matrix{
+      .columns = static_cast<int>(array->dims[1]), .rows = static_cast<int>(array->dims[0]), .values = {}};
+  matrix.values.reserve(by_column.size());
+  for (std::size_t row = 0; row < array->dims[0]; ++row) {
+    for (std::size_t column = 0; column < array->dims[1]; ++column) {
+      matrix.values.push_back(by_column[row + column * array->dims[0]]);
+    }
+  }
+  return matrix;
+}
+
+PhotonTimesStream::PhotonTimesStream(PhotonTimes photons, double tick_duration, const Resampling& resampling)
+    : ResampledStream(photons.columns, photons.rows, resampling),
+      photons_(std::move(photons)),
+      tick_duration_(tick_duration) {
+  if (!std::isfinite(tick_duration) || tick_duration <= 0.0) {
+    throw InputError(fmt::format("photon times: tick duration is {}, must be a positive number of seconds",
+                                 tick_duration));
+  }
+}
+
+void PhotonTimesStream::draw_times(int column, int row, CounterRandom& random,
+                                   std::vector<double>& times) const {
+  const std::span<const double> ticks = photons_.pixel(column, row);
+  std::size_t left = ticks.size();
+  const double budget = resampling().photon_budget.value_or(static_cast<double>(left));
+  const bool fixed = resampling().photon_number == PhotonNumber::kFixed;
+  auto wanted = std::min<std::uint64_t>(left, static_cast<std::uint64_t>(std::llround(budget)));
+  for (const double tick : ticks) {
+    // Fixed: selection sampling (Knuth, TAOCP 3.4.2, algorithm S).
+    const double probability = fixed ? static_cast<double>(wanted) / static_cast<double>(left)
+                                     : budget / static_cast<double>(ticks.size());
+    --left;
+    if (random.uniform() < probability) {
+      wanted -= wanted > 0 ? 1 : 0;
+      times.push_back(tick * tick_duration_);
+    }
+  }
+}
+
+}  // namespace dtof

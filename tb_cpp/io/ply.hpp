@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "io/colour_png.hpp"
+#include "io/depth_image.hpp"
+
+namespace dtof {
+
+/// Angle of view of one pixel (AFOV, spec section 4), degrees.
+inline constexpr double kPixelAngle = 0.48;
+
+/// Point of a range measured along the ray of a pixel. Equiangular: a pixel's column and row turn the ray by
+/// `degrees_per_pixel` each about the image's middle. Axes as cameras have them: x right, y down, z ahead; m.
+struct Point {
+  float x;
+  float y;
+  float z;
+};
+Point point_of_pixel(const DepthImage& image, int column, int row, double degrees_per_pixel = kPixelAngle);
+
+/// Writes the known pixels as a binary little-endian PLY (x, y, z float m; red, green, blue), coloured by
+/// depth over `range`. Throws InputError when the image would turn a ray by 90 degrees or more.
+void write_ply(const std::filesystem::path& path, const DepthImage& image, const ColourRange& range,
+               double degrees_per_pixel = kPixelAngle);
+
+}  // namespace dtof
