@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks the histogram of every pixel, one address per clock, for clearing (RESET) and peak search (M1, M4),
+// once per array. While it scans it clears each address one clock behind the read, but in M4.
+//
+// Schedule of one address: S0 read, S1 data registered by the column and address cleared, S2 peak search,
+// S3 (after a pixel's last bin) the peak is final.
+// Latency: one clock an address and 3 more; RESET clears only. In M4 it stops after one pixel.
+// Cost: two counters and their stage copies an array.
+module scan_sequencer #(
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int BIN_WIDTH = 5,   // log2 of the addresses a pixel
+    parameter int RESET_BINS = 32,  // addresses a pixel to clear in RESET
+    parameter int FINAL_BINS = 32,  // addresses a pixel to read in M4
+    parameter int SKIP_RESET = 0,   // 1: RESET clears without walking (signalled clear)
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
+) (
+    input  logic                 clk_i,
+    input  logic                 rst_ni,
+    input  logic                 start_i,
+    input  logic                 reset_state_i,  // with start_i: clear only, all pixels
+    input  logic                 final_state_i,  // with start_i: one pixel, FINAL_BINS addresses
+    input  logic                 rewind_i,       // with start_i: begin with pixel 0
+    output logic                 busy_o,
+    output logic [ROW_WIDTH-1:0] row_o,          // the pixel just scanned
+    output logic                 last_row_o,     // ... was the last
+    output logic                 read_s0_o,
+    output logic                 last_s0_o,
+    output logic [ROW_WIDTH-1:0] pixel_s0_o,
+    output logic [BIN_WIDTH-1:0] bin_s0_o,
+    output logic                 clear_s1_o,
+    output logic [ROW_WIDTH-1:0] pixel_s1_o,
+    output logic [BIN_WIDTH-1:0] bin_s1_o,
+    output logic                 read_s2_o,
+    output logic                 first_s2_o,
+    output logic [BIN_WIDTH-1:0] bin_s2_o,
+    output logic                 last_s3_o,
+    output logic [ROW_WIDTH-1:0] pixel_s3_o
+);
+
+  localparam logic [ROW_WIDTH-1:0] LAST_PIXEL = ROW_WIDTH'(PIXELS_PER_SRAM - 1);
+  localparam logic [BIN_WIDTH-1:0] LAST_BIN_ALL = '1;
+  localparam logic [BIN_WIDTH-1:0] LAST_BIN_RESET = BIN_WIDTH'(RESET_BINS - 1);
+  localparam logic [BIN_WIDTH-1:0] LAST_BIN_FINAL = BIN_WIDTH'(FINAL_BINS - 1);
+
+  logic run_q, reset_q, final_q, last_row_q;
+  logic [ROW_WIDTH-1:0] pixel_q, row_q;
+  logic [BIN_WIDTH-1:0] bin_q, last_bin;
+  logic last;
+
+  assign last_bin = reset_q ? LAST_BIN_RESET : (final_q ? LAST_BIN_FINAL : LAST_BIN_ALL);
+  assign last = (bin_q == last_bin);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      run_q <= 1'b0;
+      reset_q <= 1'b0;
+      final_q <= 1'b0;
+      last_row_q <= 1'b0;
+      pixel_q <= '0;
+      row_q <= '0;
+      bin_q <= '0;
+    end else if (start_i) begin
+      run_q <= !(SKIP_RESET != 0 && reset_state_i);
+      reset_q <= reset_state_i;
+      final_q <= final_state_i;
+      bin_q <= '0;
+      if (rewind_i) begin
+        pixel_q <= '0;
+      end
+    end else if (run_q) begin
+      bin_q <= last ? '0 : bin_q + 1'b1;
+      if (last) begin
+        row_q <= pixel_q;
+        last_row_q <= (pixel_q == LAST_PIXEL);
+        pixel_q <= (pixel_q == LAST_PIXEL) ? '0 : pixel_q + 1'b1;
+        run_q <= !final_q && (pixel_q != LAST_PIXEL);
+      end
+    end
+  end
+
+  logic [3:1] read_sn_q;
+  logic [3:1] last_sn_q;
+  logic clear_s1_q, first_s1_q, first_s2_q;
+  logic [ROW_WIDTH-1:0] pixel_s1_q, pixel_s2_q, pixel_s3_q;
+  logic [BIN_WIDTH-1:0] bin_s1_q, bin_s2_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      read_sn_q <= '0;
+      last_sn_q <= '0;
+      clear_s1_q <= 1'b0;
+    end else begin
+      read_sn_q <= {read_sn_q[2:1], run_q && !reset_q};
+      last_sn_q <= {last_sn_q[2:1], run_q && !reset_q && last};
+      clear_s1_q <= run_q && !final_q;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    first_s1_q <= (bin_q == '0);
+    first_s2_q <= first_s1_q;
+    pixel_s1_q <= pixel_q;
+    pixel_s2_q <= pixel_s1_q;
+    pixel_s3_q <= pixel_s2_q;
+    bin_s1_q <= bin_q;
+    bin_s2_q <= bin_s1_q;
+  end
+
+  assign busy_o = run_q || clear_s1_q || (read_sn_q != '0);
+  assign row_o = row_q;
+  assign last_row_o = last_row_q;
+  assign read_s0_o = run_q && !reset_q;
+  assign last_s0_o = run_q && !reset_q && last;
+  assign pixel_s0_o = pixel_q;
+  assign bin_s0_o = bin_q;
+  assign clear_s1_o = clear_s1_q;
+  assign pixel_s1_o = pixel_s1_q;
+  assign bin_s1_o = bin_s1_q;
+  assign read_s2_o = read_sn_q[2];
+  assign first_s2_o = first_s2_q;
+  assign bin_s2_o = bin_s2_q;
+  assign last_s3_o = last_sn_q[3];
+  assign pixel_s3_o = pixel_s3_q;
+
+endmodule

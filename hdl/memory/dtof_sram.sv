@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one SRAM that the read-outs instantiate: DEPTH words of WIDTH bits behind PORTS ports.
+//
+// Contract (both ports variants): read data one clock after read_en_i; a write is visible to reads in later
+// clocks. PORTS = 2: reading an address in the clock in which it is written returns undefined data.
+// PORTS = 1: a read and a write in one clock are illegal, and read data is undefined after a write.
+// The macros live in the technology folder; nothing else changes for silicon.
+// +sram_report prints size and organisation at the start of a simulation.
+`include "dtof_macros.svh"
+
+module dtof_sram #(
+    parameter int PORTS = 2,   // 1: one port that reads or writes, 2: one read and one write port
+    parameter int DEPTH = 160,  // words
+    parameter int WIDTH = 10,   // bits a word
+    localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
+) (
+    input  logic                  clk_i,
+    input  logic                  rst_ni,
+    input  logic                  read_en_i,
+    input  logic [ADDR_WIDTH-1:0] read_addr_i,
+    output logic [     WIDTH-1:0] read_data_o,
+    input  logic                  write_en_i,
+    input  logic [ADDR_WIDTH-1:0] write_addr_i,
+    input  logic [     WIDTH-1:0] write_data_i
+);
+
+  `DTOF_REQUIRE(g_illegal_ports, PORTS == 1 || PORTS == 2, "dtof_sram: PORTS must be 1 or 2")
+  `DTOF_REQUIRE(g_illegal_depth, DEPTH >= 1, "dtof_sram: DEPTH must be at least 1")
+  `DTOF_REQUIRE(g_illegal_width, WIDTH >= 1, "dtof_sram: WIDTH must be at least 1")
+
+  generate
+    if (PORTS == 2) begin : g_two_ports
+      sram_1r1w #(
+          .DEPTH(DEPTH),
+          .WIDTH(WIDTH)
+      ) u_macro (
+          .clk_i  (clk_i),
+          .re_i   (read_en_i),
+          .raddr_i(read_addr_i),
+          .rdata_o(read_data_o),
+          .we_i   (write_en_i),
+          .waddr_i(write_addr_i),
+          .wdata_i(write_data_i)
+      );
+    end else begin : g_one_port
+      sram_1rw #(
+          .DEPTH(DEPTH),
+          .WIDTH(WIDTH)
+      ) u_macro (
+          .clk_i  (clk_i),
+          .en_i   (read_en_i || write_en_i),
+          .we_i   (write_en_i),
+          .addr_i (write_en_i ? write_addr_i : read_addr_i),
+          .wdata_i(write_data_i),
+          .rdata_o(read_data_o)
+      );
+      `DTOF_ASSERT(a_one_access, !(read_en_i && write_en_i), "single-port SRAM read and written in one clock")
+    end
+  endgenerate
+
+  // The explicit 32-bit comparison holds for depths that fill the address range, too.
+  `DTOF_ASSERT(a_read_in_range, !read_en_i || (32'(read_addr_i) < DEPTH), "SRAM read beyond its depth")
+  `DTOF_ASSERT(a_write_in_range, !write_en_i || (32'(write_addr_i) < DEPTH), "SRAM write beyond its depth")
+
+endmodule

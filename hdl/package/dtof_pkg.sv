@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Read-out numbers and the sizes that follow from the parameters of a read-out (docs/readouts.md).
+package dtof_pkg;
+
+  // Values of the parameter READOUT.
+  localparam int READOUT_EZPOINTER = 0;
+  localparam int READOUT_HISPOINTER1 = 1;
+  localparam int READOUT_HISPOINTER = 2;
+  localparam int READOUT_SIFH = 3;
+  localparam int READOUT_FIFH = 4;
+  localparam int READOUT_THREESTEPS = 5;
+  localparam int READOUT_PIFH = 6;
+  localparam int READOUT_HISTOGRAM = 7;
+
+  // Values of state_o: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
+  localparam logic [2:0] STATE_IDLE = 3'd0;
+  localparam logic [2:0] STATE_RESET = 3'd1;
+  localparam logic [2:0] STATE_M0 = 3'd2;
+  localparam logic [2:0] STATE_M1 = 3'd3;
+  localparam logic [2:0] STATE_M2 = 3'd4;
+  localparam logic [2:0] STATE_M3 = 3'd5;
+  localparam logic [2:0] STATE_M4 = 3'd6;
+  localparam logic [2:0] STATE_M5 = 3'd7;
+
+  function automatic int max_of(input int a, input int b);
+    max_of = (a > b) ? a : b;
+  endfunction
+
+  // Bits that index `count` things, at least one.
+  function automatic int index_width(input int count);
+    index_width = (count <= 2) ? 1 : $clog2(count);
+  endfunction
+
+  function automatic bit has_pointer(input int readout);
+    has_pointer = (readout == READOUT_EZPOINTER) || (readout == READOUT_HISPOINTER1)
+        || (readout == READOUT_HISPOINTER);
+  endfunction
+
+  function automatic bit has_histogram(input int readout);
+    has_histogram = (readout != READOUT_EZPOINTER);
+  endfunction
+
+  // Passes over the stream before the final one.
+  function automatic int coarse_passes(input int readout, input int np, input int nb);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISTOGRAM: coarse_passes = 0;
+      READOUT_THREESTEPS: coarse_passes = 3;
+      READOUT_PIFH: coarse_passes = (1 << (np - nb)) - 1;
+      default: coarse_passes = 1;
+    endcase
+  endfunction
+
+  // log2 of the bins that the histogram SRAM holds for a pixel.
+  function automatic int bin_width(input int readout, input int np, input int nb);
+    case (readout)
+      READOUT_EZPOINTER: bin_width = 1;
+      READOUT_FIFH: bin_width = max_of(nb, np - nb);
+      READOUT_THREESTEPS: bin_width = 4;
+      READOUT_HISTOGRAM: bin_width = np;
+      default: bin_width = nb;
+    endcase
+  endfunction
+
+  // Low bits that step k (0 to 2) of three steps leaves undecided; k = -1: all of them.
+  function automatic int step_shift(input int np, input int k);
+    step_shift = max_of(np - 3 * (k + 1), 0);
+  endfunction
+
+  // Bits of the coarse peak that measurement 2 needs.
+  function automatic int peak_width(input int readout, input int np, input int nb);
+    peak_width = (readout == READOUT_THREESTEPS) ? np - step_shift(np, 2) : nb;
+  endfunction
+
+  function automatic int fraction_width(input int readout, input int fraction_bits);
+    fraction_width = has_pointer(readout) ? fraction_bits : 0;
+  endfunction
+
+  function automatic int confidence_width(input int readout, input int count_width,
+                                          input int pointer_confidence_width);
+    confidence_width = has_pointer(readout) ? pointer_confidence_width : count_width;
+  endfunction
+
+  // Bits of {code, fraction, confidence}.
+  function automatic int result_width(input int readout, input int np, input int count_width,
+                                      input int fraction_bits, input int pointer_confidence_width);
+    result_width = np + fraction_width(readout, fraction_bits)
+        + confidence_width(readout, count_width, pointer_confidence_width);
+  endfunction
+
+endpackage

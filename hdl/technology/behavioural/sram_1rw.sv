@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stand-in for a single-port SRAM macro: one port that reads or writes, one clock. Swap for silicon.
+//
+// Read:   with en_i and not we_i, rdata_o shows the word one clock later and keeps it until the next access.
+// Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards (shown
+//         inverted here, so that a user that relies on it fails at once).
+// Contents are random until written.
+module sram_1rw #(
+    parameter int DEPTH = 16,
+    parameter int WIDTH = 8,
+    localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
+) (
+    input  logic                  clk_i,
+    input  logic                  en_i,
+    input  logic                  we_i,
+    input  logic [ADDR_WIDTH-1:0] addr_i,
+    input  logic [     WIDTH-1:0] wdata_i,
+    output logic [     WIDTH-1:0] rdata_o
+);
+
+  logic [WIDTH-1:0] memory[DEPTH];
+
+`ifndef SYNTHESIS
+  integer address;
+  initial begin
+    for (address = 0; address < DEPTH; address = address + 1) begin
+      memory[address] = WIDTH'($urandom);
+    end
+    if ($test$plusargs("sram_report") != 0) begin
+      $display("%m: single-port SRAM, %0d words x %0d bits", DEPTH, WIDTH);
+    end
+  end
+`endif
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+      if (we_i) begin
+        memory[addr_i] <= wdata_i;
+        rdata_o <= ~wdata_i;
+      end else begin
+        rdata_o <= memory[addr_i];
+      end
+    end
+  end
+
+endmodule

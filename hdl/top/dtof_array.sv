@@ -1,0 +1,424 @@
+// SPDX-License-Identifier: Apache-2.0
+// Read-out of a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out.
+//
+// Everything that is common to the columns (state, counters, clear and scan addresses, result handshake) is
+// here once; a column holds its SRAM and its arithmetic.
+//
+// Frame: start_i samples acq_num_i (0 and 1 are legal); busy_o until done_o. See docs/architecture.md.
+// TDC stream: an acquisition starts in the clock in which tdc_valid_i and tdc_ready_o are high, which carries
+//   pixel 0, slot 0 of every column; the other PIXELS_PER_SRAM * SLOTS - 1 timestamps follow on consecutive
+//   clocks, valid and ready held high. Between acquisitions the source may pause. All ones: no detection.
+// Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; rows in order, columns in a row.
+// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and scan + 2 SRAM_NUM a row.
+`include "dtof_macros.svh"
+
+module dtof_array #(
+    parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,  // dtof_pkg::READOUT_*
+    parameter int NP = 10,               // bits of a timestamp, 3 to 16
+    parameter int NB = 5,                // bits of the coarse index, 1 to NP
+    parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
+    parameter int SRAM_NUM = 200,        // columns
+    parameter int SLOTS = 2,             // timestamps per pixel and acquisition
+    parameter int COUNT_WIDTH = 10,      // bits of a histogram bin
+    parameter int POINTER_STEP = 1,      // bins a pointer moves
+    parameter int FRACTION_BITS = 0,     // fractional bits of a pointer
+    parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none
+    parameter int GUARD = 46,            // hisPointer v2: ceil(FWHM / T_res)
+    parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
+    parameter int POINTER_PORTS = 2,     // ports of the pointer SRAM; 1 needs SLOTS >= 2
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int ACQ_WIDTH = 16,        // bits of the run-time number of acquisitions
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
+    localparam int RESULT_WIDTH = dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, FRACTION_BITS, CONFIDENCE_WIDTH),
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
+) (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   start_i,
+    input  logic [  ACQ_WIDTH-1:0] acq_num_i,
+    output logic                   busy_o,
+    output logic                   done_o,
+    output logic [            2:0] state_o,
+    input  logic                   tdc_valid_i,
+    output logic                   tdc_ready_o,
+    input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
+    output logic                   result_tvalid_o,
+    input  logic                   result_tready_i,
+    output logic [TDATA_WIDTH-1:0] result_tdata_o,
+    output logic                   result_tlast_o
+);
+
+  `DTOF_REQUIRE(g_illegal_readout, READOUT >= 0 && READOUT <= 7, "dtof_array: READOUT must be 0 to 7")
+  `DTOF_REQUIRE(g_illegal_np, NP >= 3 && NP <= 16, "dtof_array: NP must be 3 to 16")
+  `DTOF_REQUIRE(g_illegal_nb, NB >= 1 && NB <= NP, "dtof_array: NB must be 1 to NP")
+  `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "dtof_array: PIXELS_PER_SRAM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1, "dtof_array: SRAM_NUM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_slots, SLOTS >= 1 && SLOTS <= 16, "dtof_array: SLOTS must be 1 to 16")
+  `DTOF_REQUIRE(g_illegal_count, COUNT_WIDTH >= 1 && COUNT_WIDTH <= 16, "dtof_array: COUNT_WIDTH must be 1 to 16")
+  `DTOF_REQUIRE(g_illegal_step, POINTER_STEP >= 1 && POINTER_STEP < (1 << (NP - 1)),
+                "dtof_array: POINTER_STEP must be 1 to 2^(NP-1) - 1")
+  `DTOF_REQUIRE(g_illegal_fraction, FRACTION_BITS >= 0 && FRACTION_BITS <= 8 && NP + FRACTION_BITS <= 16,
+                "dtof_array: FRACTION_BITS must be 0 to 8 and NP + FRACTION_BITS at most 16")
+  `DTOF_REQUIRE(g_illegal_confidence, CONFIDENCE_WIDTH >= 0 && CONFIDENCE_WIDTH <= 8,
+                "dtof_array: CONFIDENCE_WIDTH must be 0 to 8")
+  `DTOF_REQUIRE(g_illegal_guard, GUARD >= 0 && GUARD <= (1 << NP), "dtof_array: GUARD must be 0 to 2^NP")
+  `DTOF_REQUIRE(g_illegal_ports, POINTER_PORTS == 2 || (POINTER_PORTS == 1 && SLOTS >= 2),
+                "dtof_array: POINTER_PORTS must be 2, or 1 with SLOTS of at least 2")
+  `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 1 && ACQ_WIDTH <= 24, "dtof_array: ACQ_WIDTH must be 1 to 24")
+
+  localparam int POINTER = dtof_pkg::has_pointer(READOUT) ? 1 : 0;
+  localparam int HISTOGRAM = dtof_pkg::has_histogram(READOUT) ? 1 : 0;
+  localparam int THREE_STEPS = (READOUT == dtof_pkg::READOUT_THREESTEPS) ? 1 : 0;
+  localparam int COARSE_PASSES = dtof_pkg::coarse_passes(READOUT, NP, NB);
+  localparam int PASS_WIDTH = dtof_pkg::index_width(COARSE_PASSES + 1);
+  localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB);
+  localparam int BINS = 1 << BIN_WIDTH;
+  localparam int FINE_BINS = (READOUT == dtof_pkg::READOUT_FIFH) ? (1 << (NP - NB)) : BINS;
+  localparam int GEARS = dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
+  localparam int GEAR_WIDTH = dtof_pkg::index_width(GEARS + 1);
+
+  // Control, once per array.
+
+  logic load, next_pass, next_is_final, first_pass, final_pass, more, acq_done;
+  logic [ACQ_WIDTH-1:0] acq_num;
+  logic [PASS_WIDTH-1:0] pass;
+  logic [GEAR_WIDTH-1:0] gear;
+  logic stream, stream_idle;
+  logic scan_start, scan_reset, scan_final, scan_rewind, scan_busy, scan_last_row;
+  logic result_start, result_done, result_shift;
+  logic [ROW_WIDTH-1:0] row;
+
+  controller #(
+      .COARSE_PASSES(COARSE_PASSES),
+      .ACQ_WIDTH    (ACQ_WIDTH)
+  ) u_controller (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .start_i        (start_i),
+      .acq_num_i      (acq_num_i),
+      .busy_o         (busy_o),
+      .done_o         (done_o),
+      .state_o        (state_o),
+      .load_o         (load),
+      .acq_num_o      (acq_num),
+      .next_pass_o    (next_pass),
+      .final_o        (next_is_final),
+      .pass_o         (pass),
+      .first_pass_o   (first_pass),
+      .final_pass_o   (final_pass),
+      .stream_o       (stream),
+      .stream_idle_i  (stream_idle),
+      .scan_start_o   (scan_start),
+      .scan_reset_o   (scan_reset),
+      .scan_final_o   (scan_final),
+      .scan_rewind_o  (scan_rewind),
+      .scan_busy_i    (scan_busy),
+      .scan_last_row_i(scan_last_row),
+      .result_start_o (result_start),
+      .result_done_i  (result_done)
+  );
+
+  pass_sequencer #(
+      .COARSE_PASSES(COARSE_PASSES),
+      .THREE_STEPS  (THREE_STEPS),
+      .GEARS        (GEARS),
+      .ACQ_WIDTH    (ACQ_WIDTH)
+  ) u_pass_sequencer (
+      .clk_i      (clk_i),
+      .rst_ni     (rst_ni),
+      .load_i     (load),
+      .acq_num_i  (acq_num),
+      .next_pass_i(next_pass),
+      .final_i    (next_is_final),
+      .acq_done_i (acq_done),
+      .more_o     (more),
+      .gear_o     (gear)
+  );
+
+  logic fetch, beat_t1, first_slot_t1, first_acq_t1, beat_t2, last_slot_t2, beat_t5;
+  logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
+  logic [3:1] same_pixel_t4;
+
+  pixel_sequencer #(
+      .PIXELS_PER_SRAM    (PIXELS_PER_SRAM),
+      .SLOTS              (SLOTS),
+      .FETCH_ON_FIRST_SLOT(POINTER)
+  ) u_pixel_sequencer (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .stream_i       (stream),
+      .more_i         (more),
+      .tdc_valid_i    (tdc_valid_i),
+      .tdc_ready_o    (tdc_ready_o),
+      .acq_done_o     (acq_done),
+      .idle_o         (stream_idle),
+      .fetch_o        (fetch),
+      .fetch_pixel_o  (fetch_pixel),
+      .beat_t1_o      (beat_t1),
+      .first_slot_t1_o(first_slot_t1),
+      .first_acq_t1_o (first_acq_t1),
+      .beat_t2_o      (beat_t2),
+      .last_slot_t2_o (last_slot_t2),
+      .pixel_t2_o     (pixel_t2),
+      .same_pixel_t4_o(same_pixel_t4),
+      .beat_t5_o      (beat_t5),
+      .pixel_t5_o     (pixel_t5)
+  );
+
+  logic scan_s0, last_s0, clear_s1, scan_s2, first_s2, last_s3;
+  logic [ROW_WIDTH-1:0] pixel_s0, pixel_s1, pixel_s3;
+  logic [BIN_WIDTH-1:0] bin_s0, bin_s1, bin_s2;
+
+  scan_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .BIN_WIDTH      (BIN_WIDTH),
+      .RESET_BINS     ((HISTOGRAM != 0) ? BINS : 1),
+      .FINAL_BINS     ((POINTER != 0) ? 1 : FINE_BINS),
+      .SKIP_RESET     ((HISTOGRAM != 0) ? SIGNALLED_CLEAR : 0)
+  ) u_scan_sequencer (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .start_i      (scan_start),
+      .reset_state_i(scan_reset),
+      .final_state_i(scan_final),
+      .rewind_i     (scan_rewind),
+      .busy_o       (scan_busy),
+      .row_o        (row),
+      .last_row_o   (scan_last_row),
+      .read_s0_o    (scan_s0),
+      .last_s0_o    (last_s0),
+      .pixel_s0_o   (pixel_s0),
+      .bin_s0_o     (bin_s0),
+      .clear_s1_o   (clear_s1),
+      .pixel_s1_o   (pixel_s1),
+      .bin_s1_o     (bin_s1),
+      .read_s2_o    (scan_s2),
+      .first_s2_o   (first_s2),
+      .bin_s2_o     (bin_s2),
+      .last_s3_o    (last_s3),
+      .pixel_s3_o   (pixel_s3)
+  );
+
+  // Schedule of the columns' SRAMs.
+
+  logic clear_all, peak_write, result_load;
+  logic [ROW_WIDTH-1:0] histogram_read_pixel, histogram_write_pixel;
+  logic word_read, word_read_done_q;  // the pointer word, coarse peak or best peak of a pixel
+  logic [ROW_WIDTH-1:0] word_read_pixel;
+  logic pointer_write;
+  logic [GEAR_WIDTH-1:0] gear_t1_q;
+
+  assign clear_all = (state_o == dtof_pkg::STATE_RESET) || (state_o == dtof_pkg::STATE_M2);
+  assign histogram_read_pixel = scan_s0 ? pixel_s0 : pixel_t2;
+  assign histogram_write_pixel = clear_s1 ? pixel_s1 : pixel_t5;
+  assign peak_write = last_s3 && (state_o == dtof_pkg::STATE_M1);
+  assign result_load = last_s3 && (state_o == dtof_pkg::STATE_M4);
+  assign pointer_write = last_slot_t2 && final_pass;
+  assign word_read_pixel = scan_s0 ? pixel_s0 : fetch_pixel;
+
+  generate
+    if (POINTER != 0) begin : g_pointer_read
+      assign word_read = (fetch || scan_s0) && final_pass;
+    end else if (READOUT == dtof_pkg::READOUT_SIFH || READOUT == dtof_pkg::READOUT_FIFH) begin : g_peak_read
+      assign word_read = (fetch || last_s0) && final_pass;
+    end else begin : g_every_pass_read
+      assign word_read = (fetch || last_s0) && !first_pass;
+    end
+  endgenerate
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      word_read_done_q <= 1'b0;
+      gear_t1_q <= '0;
+    end else begin
+      word_read_done_q <= word_read;
+      gear_t1_q <= gear;
+    end
+  end
+
+  // Columns and their result chain: chain[c] is column c's result, column SRAM_NUM - 1 shifts zeros in.
+
+  logic [(SRAM_NUM+1)*RESULT_WIDTH-1:0] chain;
+  assign chain[SRAM_NUM*RESULT_WIDTH+:RESULT_WIDTH] = '0;
+
+  genvar c;
+  generate
+    for (c = 0; c < SRAM_NUM; c = c + 1) begin : g_column
+      if (READOUT == dtof_pkg::READOUT_EZPOINTER) begin : g_ez_pointer
+        ez_pointer_column #(
+            .NP              (NP),
+            .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
+            .SLOTS           (SLOTS),
+            .POINTER_STEP    (POINTER_STEP),
+            .FRACTION_BITS   (FRACTION_BITS),
+            .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+            .POINTER_PORTS   (POINTER_PORTS)
+        ) u_column (
+            .clk_i                (clk_i),
+            .rst_ni               (rst_ni),
+            .timestamp_i          (tdc_timestamp_i[c*NP+:NP]),
+            .beat_t1_i            (beat_t1),
+            .pointer_read_i       (word_read),
+            .pointer_read_pixel_i (word_read_pixel),
+            .pointer_read_done_i  (word_read_done_q),
+            .first_slot_t1_i      (first_slot_t1),
+            .first_acq_t1_i       (first_acq_t1),
+            .pointer_write_i      (pointer_write),
+            .pointer_write_pixel_i(pixel_t2),
+            .gear_t1_i            (gear_t1_q),
+            .clear_s1_i           (clear_s1),
+            .clear_pixel_s1_i     (pixel_s1),
+            .result_load_i        (result_load),
+            .result_shift_i       (result_shift),
+            .next_column_i        (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
+            .result_o             (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
+        );
+      end else if (POINTER != 0) begin : g_his_pointer
+        his_pointer_column #(
+            .READOUT         (READOUT),
+            .NP              (NP),
+            .NB              (NB),
+            .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
+            .SLOTS           (SLOTS),
+            .COUNT_WIDTH     (COUNT_WIDTH),
+            .POINTER_STEP    (POINTER_STEP),
+            .FRACTION_BITS   (FRACTION_BITS),
+            .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+            .GUARD           (GUARD),
+            .POINTER_PORTS   (POINTER_PORTS),
+            .SIGNALLED_CLEAR (SIGNALLED_CLEAR)
+        ) u_column (
+            .clk_i                  (clk_i),
+            .rst_ni                 (rst_ni),
+            .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
+            .final_pass_i           (final_pass),
+            .beat_t1_i              (beat_t1),
+            .same_pixel_t4_i        (same_pixel_t4),
+            .beat_t5_i              (beat_t5),
+            .scan_s0_i              (scan_s0),
+            .scan_bin_s0_i          (bin_s0),
+            .histogram_read_pixel_i (histogram_read_pixel),
+            .clear_s1_i             (clear_s1),
+            .clear_bin_s1_i         (bin_s1),
+            .histogram_write_pixel_i(histogram_write_pixel),
+            .clear_all_i            (clear_all),
+            .scan_s2_i              (scan_s2),
+            .first_s2_i             (first_s2),
+            .bin_s2_i               (bin_s2),
+            .pointer_read_i         (word_read),
+            .pointer_read_pixel_i   (word_read_pixel),
+            .pointer_read_done_i    (word_read_done_q),
+            .first_slot_t1_i        (first_slot_t1),
+            .first_acq_t1_i         (first_acq_t1),
+            .pointer_write_i        (pointer_write),
+            .pointer_write_pixel_i  (pixel_t2),
+            .gear_t1_i              (gear_t1_q),
+            .start_write_s3_i       (peak_write),
+            .start_pixel_s3_i       (pixel_s3),
+            .result_load_i          (result_load),
+            .result_shift_i         (result_shift),
+            .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
+            .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
+        );
+      end else if (READOUT == dtof_pkg::READOUT_PIFH || READOUT == dtof_pkg::READOUT_HISTOGRAM) begin : g_partitioned
+        partitioned_histogram_column #(
+            .READOUT        (READOUT),
+            .NP             (NP),
+            .NB             (NB),
+            .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+            .SLOTS          (SLOTS),
+            .COUNT_WIDTH    (COUNT_WIDTH),
+            .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+        ) u_column (
+            .clk_i                  (clk_i),
+            .rst_ni                 (rst_ni),
+            .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
+            .pass_i                 (pass),
+            .first_pass_i           (first_pass),
+            .beat_t1_i              (beat_t1),
+            .same_pixel_t4_i        (same_pixel_t4),
+            .beat_t5_i              (beat_t5),
+            .scan_s0_i              (scan_s0),
+            .scan_bin_s0_i          (bin_s0),
+            .histogram_read_pixel_i (histogram_read_pixel),
+            .clear_s1_i             (clear_s1),
+            .clear_bin_s1_i         (bin_s1),
+            .histogram_write_pixel_i(histogram_write_pixel),
+            .clear_all_i            (clear_all),
+            .scan_s2_i              (scan_s2),
+            .first_s2_i             (first_s2),
+            .bin_s2_i               (bin_s2),
+            .best_read_i            (word_read),
+            .best_read_pixel_i      (word_read_pixel),
+            .best_read_done_i       (word_read_done_q),
+            .best_write_s3_i        (peak_write),
+            .best_write_pixel_s3_i  (pixel_s3),
+            .result_load_i          (result_load),
+            .result_shift_i         (result_shift),
+            .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
+            .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
+        );
+      end else begin : g_interframe
+        interframe_histogram_column #(
+            .READOUT        (READOUT),
+            .NP             (NP),
+            .NB             (NB),
+            .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+            .SLOTS          (SLOTS),
+            .COUNT_WIDTH    (COUNT_WIDTH),
+            .WINDOW_CENTRED (WINDOW_CENTRED),
+            .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+        ) u_column (
+            .clk_i                  (clk_i),
+            .rst_ni                 (rst_ni),
+            .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
+            .pass_i                 (pass),
+            .final_pass_i           (final_pass),
+            .beat_t1_i              (beat_t1),
+            .same_pixel_t4_i        (same_pixel_t4),
+            .beat_t5_i              (beat_t5),
+            .scan_s0_i              (scan_s0),
+            .scan_bin_s0_i          (bin_s0),
+            .histogram_read_pixel_i (histogram_read_pixel),
+            .clear_s1_i             (clear_s1),
+            .clear_bin_s1_i         (bin_s1),
+            .histogram_write_pixel_i(histogram_write_pixel),
+            .clear_all_i            (clear_all),
+            .scan_s2_i              (scan_s2),
+            .first_s2_i             (first_s2),
+            .bin_s2_i               (bin_s2),
+            .peak_read_i            (word_read),
+            .peak_read_pixel_i      (word_read_pixel),
+            .peak_read_done_i       (word_read_done_q),
+            .peak_write_s3_i        (peak_write),
+            .peak_write_pixel_s3_i  (pixel_s3),
+            .result_load_i          (result_load),
+            .result_shift_i         (result_shift),
+            .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
+            .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
+        );
+      end
+    end
+  endgenerate
+
+  result_output #(
+      .SRAM_NUM    (SRAM_NUM),
+      .ROW_WIDTH   (ROW_WIDTH),
+      .RESULT_WIDTH(RESULT_WIDTH)
+  ) u_result_output (
+      .clk_i     (clk_i),
+      .rst_ni    (rst_ni),
+      .start_i   (result_start),
+      .last_row_i(scan_last_row),
+      .row_i     (row),
+      .head_i    (chain[RESULT_WIDTH-1:0]),
+      .shift_o   (result_shift),
+      .done_o    (result_done),
+      .tvalid_o  (result_tvalid_o),
+      .tready_i  (result_tready_i),
+      .tdata_o   (result_tdata_o),
+      .tlast_o   (result_tlast_o)
+  );
+
+endmodule
