@@ -8,7 +8,7 @@ namespace {
 
 TEST(Physics, DerivedSignalOfTheSpecification) {
   const OpticalInputs inputs;
-  EXPECT_NEAR(signal_events_per_pulse(inputs, 1.0, 1.0), 0.200, 0.0005);
+  EXPECT_NEAR(signal_events_per_pulse(inputs, 1.0, 1.0), 0.200, 0.001);
 }
 
 TEST(Physics, SignalFallsWithTheSquareOfDistanceAndGrowsWithReflectivity) {
