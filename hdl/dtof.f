@@ -1,3 +1,4 @@
+lint/verilator.vlt
 +incdir+package
 package/dtof_pkg.sv
 technology/behavioural/sram_1r1w.sv

@@ -88,7 +88,7 @@ module his_pointer_column #(
       .NB     (NB)
   ) u_data_filter (
       .timestamp_i (timestamp_q),
-      .peak_i      ('0),
+      .peak_i      (dtof_pkg::peak_width(READOUT, NP, NB)'(0)),
       .pass_i      (1'b0),
       .final_pass_i(1'b0),
       .keep_o      (coarse_keep),

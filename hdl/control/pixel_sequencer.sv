@@ -9,7 +9,7 @@
 //   fetch    the next pixel's word is read on the first slot of a pixel (FETCH_ON_FIRST_SLOT = 1) or on its
 //            last slot (0), and pixel 0's in the clock before the first acquisition may start
 //   T1       beat_t1_o, first_slot_t1_o, first_acq_t1_o   timestamp register of the columns
-//   T2       beat_t2_o, last_slot_t2_o, pixel_t2_o        histogram read, pointer write
+//   T2       last_slot_t2_o, pixel_t2_o        histogram read, pointer write
 //   T4       same_pixel_t4_o[d]: the timestamp d clocks ahead (1 to 3) is of the same pixel
 //   T5       beat_t5_o, pixel_t5_o                        histogram write
 // Cost: counters and the stage copies of the pixel number, per array.
@@ -35,7 +35,6 @@ module pixel_sequencer #(
     output logic                 beat_t1_o,
     output logic                 first_slot_t1_o,
     output logic                 first_acq_t1_o,  // first acquisition of the pass
-    output logic                 beat_t2_o,
     output logic                 last_slot_t2_o,
     output logic [ROW_WIDTH-1:0] pixel_t2_o,
     output logic [          3:1] same_pixel_t4_o,
@@ -142,7 +141,6 @@ module pixel_sequencer #(
   assign beat_t1_o = beat_tn_q[1];
   assign first_slot_t1_o = first_slot_t1_q;
   assign first_acq_t1_o = first_acq_t1_q;
-  assign beat_t2_o = beat_tn_q[2];
   assign last_slot_t2_o = last_slot_tn_q[2];
   assign pixel_t2_o = pixel_t2_q;
   assign same_pixel_t4_o = same_pixel_t4_q;

@@ -64,23 +64,25 @@ module data_filter #(
       localparam int S1 = dtof_pkg::step_shift(NP, 1);
       localparam int S2 = dtof_pkg::step_shift(NP, 2);
       logic signed [NP+1:0] offset;
-      logic [NP-1:0] peak;
-      assign peak = NP'(peak_i);
+      localparam int WIDE = dtof_pkg::max_of(NP, 4);  // a bin index has 4 bits, even for NP = 3
+      logic [WIDE-1:0] code, peak;
+      assign code = WIDE'(timestamp_i);
+      assign peak = WIDE'(peak_i);
       assign start_o = $signed((NP + 2)'(peak_i) << S2) + $signed((NP + 2)'(((1 << S2) >> 1) - 8));
       assign offset = $signed({2'b00, timestamp_i}) - start_o;
       always_comb begin
         case (pass_i)
           2'd0: begin
             keep_o = detected;
-            bin_o = BIN_WIDTH'(timestamp_i >> S0);
+            bin_o = BIN_WIDTH'(code >> S0);
           end
           2'd1: begin
-            keep_o = detected && ((timestamp_i >> S0) == peak);
-            bin_o = BIN_WIDTH'((timestamp_i >> S1) & NP'((1 << (S0 - S1)) - 1));
+            keep_o = detected && ((code >> S0) == peak);
+            bin_o = BIN_WIDTH'((code >> S1) & WIDE'((1 << (S0 - S1)) - 1));
           end
           2'd2: begin
-            keep_o = detected && ((timestamp_i >> S1) == peak);
-            bin_o = BIN_WIDTH'((timestamp_i >> S2) & NP'((1 << (S1 - S2)) - 1));
+            keep_o = detected && ((code >> S1) == peak);
+            bin_o = BIN_WIDTH'((code >> S2) & WIDE'((1 << (S1 - S2)) - 1));
           end
           default: begin
             keep_o = detected && ((offset >>> 4) == '0);
@@ -88,20 +90,14 @@ module data_filter #(
           end
         endcase
       end
-      logic unused_final;
-      assign unused_final = final_pass_i;
     end else if (READOUT == dtof_pkg::READOUT_PIFH && NP > NB) begin : g_pifh
       assign keep_o = detected && (timestamp_i[NP-1:NB] == pass_i);
       assign bin_o = timestamp_i[NB-1:0];
       assign start_o = '0;
-      logic unused_final;
-      assign unused_final = final_pass_i ^ (^peak_i);
     end else begin : g_coarse
       assign keep_o = detected;
       assign bin_o = timestamp_i[NP-1-:BIN_WIDTH];
       assign start_o = '0;
-      logic unused_inputs;
-      assign unused_inputs = final_pass_i ^ (^peak_i) ^ (^pass_i);
     end
   endgenerate
 

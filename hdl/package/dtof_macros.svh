@@ -23,9 +23,9 @@
 `define DTOF_ASSERT(LABEL, CONDITION, SENTENCE)
 `else
 `define DTOF_ASSERT(LABEL, CONDITION, SENTENCE) \
-  always_ff @(posedge clk_i) begin \
-    if (rst_ni === 1'b1) begin \
-      LABEL : assert (CONDITION) else $error("%m: %s", SENTENCE); \
+  always @(posedge clk_i) begin \
+    if (rst_ni === 1'b1) begin : LABEL \
+      assert (CONDITION) else $error("%m: %s", SENTENCE); \
     end \
   end
 `endif

@@ -62,7 +62,9 @@ module dtof_array #(
                 "dtof_array: FRACTION_BITS must be 0 to 8 and NP + FRACTION_BITS at most 16")
   `DTOF_REQUIRE(g_illegal_confidence, CONFIDENCE_WIDTH >= 0 && CONFIDENCE_WIDTH <= 8,
                 "dtof_array: CONFIDENCE_WIDTH must be 0 to 8")
-  `DTOF_REQUIRE(g_illegal_guard, GUARD >= 0 && GUARD <= (1 << NP), "dtof_array: GUARD must be 0 to 2^NP")
+  `DTOF_REQUIRE(g_illegal_guard,
+                READOUT != dtof_pkg::READOUT_HISPOINTER || (GUARD >= 0 && GUARD <= (1 << NP)),
+                "dtof_array: GUARD must be 0 to 2^NP")
   `DTOF_REQUIRE(g_illegal_ports, POINTER_PORTS == 2 || (POINTER_PORTS == 1 && SLOTS >= 2),
                 "dtof_array: POINTER_PORTS must be 2, or 1 with SLOTS of at least 2")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 1 && ACQ_WIDTH <= 24, "dtof_array: ACQ_WIDTH must be 1 to 24")
@@ -136,7 +138,7 @@ module dtof_array #(
       .gear_o     (gear)
   );
 
-  logic fetch, beat_t1, first_slot_t1, first_acq_t1, beat_t2, last_slot_t2, beat_t5;
+  logic fetch, beat_t1, first_slot_t1, first_acq_t1, last_slot_t2, beat_t5;
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
   logic [3:1] same_pixel_t4;
 
@@ -158,7 +160,6 @@ module dtof_array #(
       .beat_t1_o      (beat_t1),
       .first_slot_t1_o(first_slot_t1),
       .first_acq_t1_o (first_acq_t1),
-      .beat_t2_o      (beat_t2),
       .last_slot_t2_o (last_slot_t2),
       .pixel_t2_o     (pixel_t2),
       .same_pixel_t4_o(same_pixel_t4),
