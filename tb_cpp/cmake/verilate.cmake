@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+#
+# Verilated models of dtof_array.
+#
+#   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
+#                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
+#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [OPTIMISATION -O2])
+#
+# makes the object library dtof_rtl_<name>. A program that links it finds the configuration in the registry of
+# rtl/registry.hpp. Left-out parameters take ReadoutParameters::defaults(). <read-out> is the command-line name.
+# Verilator runs again when a file of hdl/dtof.f, an included header or the wrapper changes; the result is one
+# translation unit.
+
+find_program(VERILATOR verilator REQUIRED)
+execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT
+                OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+set(VERILATOR_INCLUDE ${VERILATOR_ROOT}/include)
+find_package(Threads REQUIRED)
+
+set(DTOF_HDL_DIR ${PROJECT_ROOT}/hdl CACHE PATH "Folder that holds dtof.f and the SystemVerilog sources")
+file(GLOB_RECURSE DTOF_HDL_FILES CONFIGURE_DEPENDS ${DTOF_HDL_DIR}/*.sv ${DTOF_HDL_DIR}/*.svh ${DTOF_HDL_DIR}/*.f)
+
+# Verilator's runtime, compiled once. Stop, finish, fatal and printing are ours (rtl/verilated_hooks.cpp).
+add_library(verilated_runtime STATIC
+  ${VERILATOR_INCLUDE}/verilated.cpp
+  ${VERILATOR_INCLUDE}/verilated_threads.cpp
+  ${VERILATOR_INCLUDE}/verilated_fst_c.cpp)
+target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_INCLUDE} ${VERILATOR_INCLUDE}/vltstd)
+target_compile_definitions(verilated_runtime
+  PUBLIC VM_COVERAGE=0 VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1
+  PRIVATE VL_USER_STOP VL_USER_FINISH VL_USER_FATAL VL_PRINTF=dtof_verilated_printf)
+target_compile_options(verilated_runtime PRIVATE -w
+  -include ${CMAKE_CURRENT_LIST_DIR}/../rtl/verilated_printf.h)
+target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
+
+# -Wno-SYNCASYNCNET: the assertions look at the asynchronous reset in a clocked block.
+set(DTOF_READOUTS ezpointer hispointer1 hispointer sifh fifh threesteps pifh histogram)
+set(DTOF_PARAMETERS NP NB PIXELS_PER_SRAM SRAM_NUM SLOTS COUNT_WIDTH POINTER_STEP FRACTION_BITS CONFIDENCE_WIDTH
+  GUARD WINDOW_CENTRED POINTER_PORTS SIGNALLED_CLEAR)
+set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
+
+function(dtof_verilate name)
+  cmake_parse_arguments(P "" "READOUT;OPTIMISATION;${DTOF_PARAMETERS}" "" ${ARGN})
+  if(P_UNPARSED_ARGUMENTS)
+    message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
+  endif()
+  list(FIND DTOF_READOUTS "${P_READOUT}" P_READOUT_NUMBER)
+  if(P_READOUT_NUMBER LESS 0)
+    message(FATAL_ERROR "dtof_verilate(${name}): unknown read-out '${P_READOUT}'")
+  endif()
+
+  set(default_NP 10)
+  if(NOT DEFINED P_NP)
+    set(P_NP ${default_NP})
+  endif()
+  # As ReadoutParameters::defaults().
+  if(P_READOUT STREQUAL sifh)
+    math(EXPR default_NB "${P_NP} / 2 + 1")
+  elseif(P_READOUT STREQUAL histogram)
+    set(default_NB ${P_NP})
+  elseif(P_READOUT STREQUAL pifh)
+    if(P_NP LESS 6)
+      set(default_NB ${P_NP})
+    else()
+      set(default_NB 6)
+    endif()
+  else()
+    math(EXPR default_NB "${P_NP} / 2")
+  endif()
+  math(EXPR default_GUARD "((1 << (${P_NP} + 1)) + 44) / 45")
+  set(default_PIXELS_PER_SRAM 160)
+  set(default_SRAM_NUM 8)
+  set(default_SLOTS 2)
+  set(default_COUNT_WIDTH 10)
+  set(default_POINTER_STEP 1)
+  set(default_FRACTION_BITS 0)
+  set(default_CONFIDENCE_WIDTH 4)
+  set(default_WINDOW_CENTRED 0)
+  set(default_POINTER_PORTS 2)
+  set(default_SIGNALLED_CLEAR 0)
+  set(overrides -GREADOUT=${P_READOUT_NUMBER})
+  foreach(parameter ${DTOF_PARAMETERS})
+    if(NOT DEFINED P_${parameter})
+      set(P_${parameter} ${default_${parameter}})
+    endif()
+    list(APPEND overrides -G${parameter}=${P_${parameter}})
+  endforeach()
+  if(NOT DEFINED P_OPTIMISATION)
+    set(P_OPTIMISATION -O2)
+  endif()
+
+  set(P_CLASS V${name})
+  set(directory ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name})
+  set(registration ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_registration.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/rtl/registration.cpp.in ${registration} @ONLY)
+  set(wrapper ${PROJECT_SOURCE_DIR}/rtl/dtof_array_testbench.sv)
+  add_custom_command(
+    OUTPUT ${directory}/model.cpp
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${directory}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${directory}
+    COMMAND ${VERILATOR} --cc --top-module dtof_array_testbench --prefix ${P_CLASS} --Mdir ${directory}
+            --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET --trace-fst --timescale 1ns/1ps
+            ${overrides} -F ${DTOF_HDL_DIR}/dtof.f ${wrapper}
+    COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
+            -P ${DTOF_VERILATE_DIR}/unity.cmake
+    DEPENDS ${DTOF_HDL_FILES} ${wrapper} ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
+    COMMENT "Verilating ${name}"
+    VERBATIM)
+  add_library(dtof_rtl_${name} OBJECT ${directory}/model.cpp)
+  target_include_directories(dtof_rtl_${name} PRIVATE ${directory} ${PROJECT_SOURCE_DIR})
+  target_compile_options(dtof_rtl_${name} PRIVATE ${P_OPTIMISATION} -w)
+  target_link_libraries(dtof_rtl_${name} PUBLIC dtof_rtl)
+endfunction()

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+
+namespace dtof {
+
+/// One Verilated dtof_array_testbench with its type erased: the ports by address, and eval().
+class ArrayModel {
+ public:
+  /// Where the model keeps its ports. Inputs are written before eval(), outputs read after it.
+  struct Ports {
+    std::uint8_t* clock;
+    std::uint8_t* reset_n;
+    std::uint8_t* start;
+    std::uint16_t* acquisitions;
+    std::uint8_t* tdc_valid;
+    std::uint32_t* timestamps;  ///< 16 bits a column, column 0 in the low half of word 0
+    std::size_t timestamp_words;
+    std::uint8_t* result_ready;
+
+    const std::uint8_t* busy;
+    const std::uint8_t* done;
+    const std::uint8_t* state;
+    const std::uint8_t* tdc_ready;
+    const std::uint8_t* result_valid;
+    const std::uint8_t* result_last;
+    const std::uint16_t* result_column;
+    const std::uint16_t* result_row;
+    const std::uint16_t* result_code;
+    const std::uint16_t* result_fraction;
+    const std::uint16_t* result_confidence;
+  };
+
+  ArrayModel() = default;
+  ArrayModel(const ArrayModel&) = delete;
+  ArrayModel& operator=(const ArrayModel&) = delete;
+  ArrayModel(ArrayModel&&) = delete;
+  ArrayModel& operator=(ArrayModel&&) = delete;
+  virtual ~ArrayModel() = default;
+
+  [[nodiscard]] virtual Ports ports() = 0;
+  virtual void eval() = 0;
+  /// Begins a waveform (FST) of all signals. Throws InputError if the file cannot be written.
+  virtual void open_trace(const std::filesystem::path& file) = 0;
+  /// Writes the signals' values at `time` (ns).
+  virtual void dump_trace(std::uint64_t time) = 0;
+  virtual void close_trace() = 0;
+};
+
+}  // namespace dtof

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "core/parameters.hpp"
+
+namespace dtof {
+
+/// Parameters of one compiled dtof_array.
+struct RtlConfiguration {
+  ReadoutParameters parameters;
+  int pixels_per_sram = 160;     ///< PIXELS_PER_SRAM, rows of a column
+  int sram_num = 8;              ///< SRAM_NUM, columns
+  int pointer_ports = 2;         ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
+  bool signalled_clear = false;  ///< SIGNALLED_CLEAR (histogram read-outs)
+
+  /// E.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".
+  [[nodiscard]] std::string to_string() const;
+};
+
+/// FSM state as `state_o` codes it (docs/architecture.md, "States").
+enum class RtlState : int { kIdle = 0, kReset = 1, kM0 = 2, kM1 = 3, kM2 = 4, kM3 = 5, kM4 = 6, kM5 = 7 };
+
+inline constexpr std::size_t kRtlStateCount = 8;
+
+/// IDLE, RESET, M0 .. M5.
+std::string_view rtl_state_name(RtlState state);
+
+}  // namespace dtof

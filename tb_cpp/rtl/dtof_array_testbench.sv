@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/// dtof_array behind ports whose C++ types are the same for every configuration, so that one driver runs
+/// them all: 16 bits a column of timestamp on a bus of at least 128 bits (an array of words in C++), each
+/// field of the result on its own 16-bit port.
+module dtof_array_testbench #(
+    parameter READOUT = 0,
+    parameter NP = 10,
+    parameter NB = 5,
+    parameter PIXELS_PER_SRAM = 160,
+    parameter SRAM_NUM = 8,
+    parameter SLOTS = 2,
+    parameter COUNT_WIDTH = 10,
+    parameter POINTER_STEP = 1,
+    parameter FRACTION_BITS = 0,
+    parameter CONFIDENCE_WIDTH = 4,
+    parameter GUARD = 46,
+    parameter WINDOW_CENTRED = 0,
+    parameter POINTER_PORTS = 2,
+    parameter SIGNALLED_CLEAR = 0,
+    localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
+) (
+    input  logic                 clk_i,
+    input  logic                 rst_ni,
+    input  logic                 start_i,
+    input  logic [         15:0] acq_num_i,
+    output logic                 busy_o,
+    output logic                 done_o,
+    output logic [          2:0] state_o,
+    input  logic                 tdc_valid_i,
+    output logic                 tdc_ready_o,
+    input  logic [BUS_WIDTH-1:0] tdc_timestamp_i,
+    output logic                 result_tvalid_o,
+    input  logic                 result_tready_i,
+    output logic                 result_tlast_o,
+    output logic [         15:0] result_column_o,
+    output logic [         15:0] result_row_o,
+    output logic [         15:0] result_code_o,
+    output logic [         15:0] result_fraction_o,
+    output logic [         15:0] result_confidence_o
+);
+
+  // Read-outs 0 to 2 end in a pointer (hdl/package/dtof_pkg.sv).
+  localparam IS_POINTER = READOUT <= 2;
+  localparam COLUMN_WIDTH = SRAM_NUM > 1 ? $clog2(SRAM_NUM) : 1;
+  localparam ROW_WIDTH = PIXELS_PER_SRAM > 1 ? $clog2(PIXELS_PER_SRAM) : 1;
+  localparam FRACTION_WIDTH = IS_POINTER ? FRACTION_BITS : 0;
+  localparam RESULT_CONFIDENCE_WIDTH = IS_POINTER ? CONFIDENCE_WIDTH : COUNT_WIDTH;
+  localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + NP + FRACTION_WIDTH + RESULT_CONFIDENCE_WIDTH;
+
+  localparam FRACTION_LSB = RESULT_CONFIDENCE_WIDTH;
+  localparam CODE_LSB = FRACTION_LSB + FRACTION_WIDTH;
+  localparam ROW_LSB = CODE_LSB + NP;
+  localparam COLUMN_LSB = ROW_LSB + ROW_WIDTH;
+
+  logic [SRAM_NUM*NP-1:0] timestamp;
+  logic [RESULT_WIDTH-1:0] result;
+
+  for (genvar column = 0; column < SRAM_NUM; ++column) begin : gen_timestamp
+    assign timestamp[column*NP+:NP] = tdc_timestamp_i[column*16+:NP];
+  end
+
+  dtof_array #(
+      .READOUT(READOUT),
+      .NP(NP),
+      .NB(NB),
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .SRAM_NUM(SRAM_NUM),
+      .SLOTS(SLOTS),
+      .COUNT_WIDTH(COUNT_WIDTH),
+      .POINTER_STEP(POINTER_STEP),
+      .FRACTION_BITS(FRACTION_BITS),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .GUARD(GUARD),
+      .WINDOW_CENTRED(WINDOW_CENTRED),
+      .POINTER_PORTS(POINTER_PORTS),
+      .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .ACQ_WIDTH(16)
+  ) u_array (
+      .clk_i,
+      .rst_ni,
+      .start_i,
+      .acq_num_i,
+      .busy_o,
+      .done_o,
+      .state_o,
+      .tdc_valid_i,
+      .tdc_ready_o,
+      .tdc_timestamp_i(timestamp),
+      .result_tvalid_o,
+      .result_tready_i,
+      .result_tdata_o(result),
+      .result_tlast_o
+  );
+
+  assign result_column_o = 16'(result[COLUMN_LSB+:COLUMN_WIDTH]);
+  assign result_row_o = 16'(result[ROW_LSB+:ROW_WIDTH]);
+  assign result_code_o = 16'(result[CODE_LSB+:NP]);
+  if (FRACTION_WIDTH > 0) begin : gen_fraction
+    assign result_fraction_o = 16'(result[FRACTION_LSB+:FRACTION_WIDTH]);
+  end else begin : gen_no_fraction
+    assign result_fraction_o = '0;
+  end
+  if (RESULT_CONFIDENCE_WIDTH > 0) begin : gen_confidence
+    assign result_confidence_o = 16'(result[0+:RESULT_CONFIDENCE_WIDTH]);
+  end else begin : gen_no_confidence
+    assign result_confidence_o = '0;
+  end
+
+  // The padding of the timestamp bus.
+  logic unused;
+  assign unused = &{1'b0, tdc_timestamp_i};
+
+endmodule

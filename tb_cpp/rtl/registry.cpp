@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rtl/registry.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace dtof {
+namespace {
+
+struct Entry {
+  RtlConfiguration configuration;
+  ArrayModelFactory factory;
+};
+
+// Keyed by RtlConfiguration::to_string(): configurations that differ only in unused parameters are one.
+std::map<std::string, Entry>& registry() {
+  static std::map<std::string, Entry> entries;
+  return entries;
+}
+
+InputError not_compiled(const std::string& wanted) {
+  std::string message = fmt::format("no RTL is compiled for {}; compiled are:", wanted);
+  for (const auto& [text, entry] : registry()) {
+    message += "\n  " + text;
+  }
+  return InputError(message);
+}
+
+}  // namespace
+
+bool register_rtl_configuration(const RtlConfiguration& configuration, ArrayModelFactory factory) {
+  registry().insert_or_assign(configuration.to_string(), Entry{configuration, std::move(factory)});
+  return true;
+}
+
+std::vector<RtlConfiguration> compiled_rtl_configurations() {
+  std::vector<RtlConfiguration> configurations;
+  for (const auto& [text, entry] : registry()) {
+    configurations.push_back(entry.configuration);
+  }
+  return configurations;
+}
+
+RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns) {
+  const std::string wanted = parameters.to_string();
+  std::optional<RtlConfiguration> best;
+  const auto cost = [columns](const RtlConfiguration& candidate) {
+    const int groups = (columns + candidate.sram_num - 1) / candidate.sram_num;
+    const bool variant = candidate.pointer_ports != 2 || candidate.signalled_clear;
+    return std::tuple(variant, candidate.pixels_per_sram, groups * candidate.sram_num, groups);
+  };
+  for (const auto& [text, entry] : registry()) {
+    const RtlConfiguration& candidate = entry.configuration;
+    if (candidate.parameters.to_string() == wanted && candidate.pixels_per_sram >= rows &&
+        (!best.has_value() || cost(candidate) < cost(*best))) {
+      best = candidate;
+    }
+  }
+  if (!best.has_value()) {
+    throw not_compiled(fmt::format("{} with at least {} rows", wanted, rows));
+  }
+  return *best;
+}
+
+std::unique_ptr<ArrayModel> make_array_model(const RtlConfiguration& configuration,
+                                             VerilatedContext& context) {
+  const auto entry = registry().find(configuration.to_string());
+  if (entry == registry().end()) {
+    throw not_compiled(configuration.to_string());
+  }
+  return entry->second.factory(context);
+}
+
+}  // namespace dtof

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rtl/rtl_readout.hpp"
+
+#include <fmt/format.h>
+#include <verilated.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/progress.hpp"
+#include "core/random.hpp"
+#include "rtl/array_model.hpp"
+#include "rtl/error.hpp"
+#include "rtl/registry.hpp"
+#include "rtl/tdc_driver.hpp"
+
+namespace dtof {
+namespace {
+
+// Streams of CounterRandom below one seed.
+enum class ControlStream : std::uint32_t { kPause = 1, kClock = 2, kReset = 3 };
+
+CounterRandom control_random(std::uint64_t seed, ControlStream stream) {
+  return {seed, static_cast<std::uint32_t>(RandomPurpose::kTestControl), static_cast<std::uint32_t>(stream),
+          0};
+}
+
+constexpr std::uint64_t kTracePeriod = 10;  // ns
+constexpr int kResetClocks = 2;
+constexpr std::uint64_t kFirstContentsSeed = 1;
+
+}  // namespace
+
+void RtlStatistics::merge(const RtlStatistics& other) {
+  if (other.cycles > cycles) {
+    cycles = other.cycles;
+    state_cycles = other.state_cycles;
+  }
+  column_cycles += other.column_cycles;
+  seconds += other.seconds;
+}
+
+/// The model, its context, and the clock.
+class RtlReadout::Simulation {
+ public:
+  Simulation(const RtlConfiguration& configuration, std::uint64_t seed, bool sram_report)
+      : configuration_(configuration), context_(std::make_unique<VerilatedContext>()) {
+    Verilated::threadContextp(context_.get());
+    context_->randReset(2);  // memories and uninitialised registers start random
+    context_->randSeed(static_cast<int>(seed % 0x7FFFFFFFU) + 1);
+    context_->traceEverOn(true);
+    std::array<const char*, 2> arguments = {"dtof", "+sram_report"};
+    context_->commandArgs(sram_report ? 2 : 1, arguments.data());
+    model_ = make_array_model(configuration, *context_);
+    ports_ = model_->ports();
+    *ports_.clock = 0;
+    *ports_.reset_n = 0;
+    *ports_.start = 0;
+    *ports_.tdc_valid = 0;
+    *ports_.result_ready = 0;
+    model_->eval();
+  }
+
+  [[nodiscard]] bool broken() const { return broken_; }
+
+  RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
+               const RtlRunOptions& options) {
+    Verilated::threadContextp(context_.get());  // the instance may have moved to another thread
+    const auto begin = std::chrono::steady_clock::now();
+    TdcDriver driver(configuration_, ports_, columns, acquisitions);
+    driver_ = &driver;
+    options_ = &options;
+    acquisitions_ = acquisitions;
+    expected_beats_ = static_cast<std::uint64_t>(configuration_.pixels_per_sram) *
+                      static_cast<std::uint64_t>(configuration_.sram_num);
+    total_cycles_ = 0;
+    broken_ = true;  // until the frame ends without an exception
+    if (!options.trace.empty()) {
+      model_->open_trace(options.trace);
+    }
+    tracing_ = !options.trace.empty();
+
+    frame_ = RtlFrame{};
+    frame_.columns = static_cast<int>(columns.size());
+    const std::size_t rows = columns.empty() ? 0 : static_cast<std::size_t>(columns.front().rows());
+    frame_.results.resize(rows * columns.size());
+    frame_.result_cycles.resize(frame_.results.size());
+
+    if (options.reset_first) {
+      reset();
+    }
+    if (!run_frame(options.reset_at)) {
+      reset();
+      run_frame(std::nullopt);
+    }
+    if (tracing_) {
+      model_->close_trace();
+    }
+    broken_ = false;
+    frame_.statistics.column_cycles = total_cycles_ * static_cast<std::uint64_t>(configuration_.sram_num);
+    frame_.statistics.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(frame_);
+  }
+
+ private:
+  // Inputs are set; settles the outputs of this clock.
+  void settle() {
+    *ports_.clock = 0;
+    eval(0);
+  }
+  void rising_edge() {
+    *ports_.clock = 1;
+    eval(kTracePeriod / 2);
+    ++total_cycles_;
+    time_ += kTracePeriod;
+  }
+  void eval(std::uint64_t offset) {
+    context_->time(time_ + offset);
+    model_->eval();
+    if (tracing_) {
+      model_->dump_trace(time_ + offset);
+    }
+  }
+
+  void reset() {
+    *ports_.reset_n = 0;
+    *ports_.start = 0;
+    *ports_.tdc_valid = 0;
+    *ports_.result_ready = 0;
+    for (int i = 0; i < kResetClocks; ++i) {
+      settle();
+      rising_edge();
+    }
+    *ports_.reset_n = 1;
+  }
+
+  [[nodiscard]] std::uint64_t cycle_limit() const {
+    if (options_->cycle_limit > 0) {
+      return options_->cycle_limit;
+    }
+    const auto pixels = static_cast<std::uint64_t>(configuration_.pixels_per_sram);
+    const auto codes = static_cast<std::uint64_t>(configuration_.parameters.code_count());
+    const std::uint64_t stream =
+        acquisitions_ * pixels * static_cast<std::uint64_t>(configuration_.parameters.slots);
+    // Every code of every pixel cleared and scanned, and the results, with room for latencies.
+    return 2 * stream + 8 * pixels * codes + 8 * expected_beats_ + 100 * codes + 10000;
+  }
+
+  // False if the frame was cut off by the reset.
+  bool run_frame(std::optional<std::uint64_t> reset_at) {
+    driver_->rewind(options_->pause_probability, control_random(options_->seed, ControlStream::kPause));
+    CounterRandom random = control_random(options_->seed, ControlStream::kClock);
+    beats_ = 0;
+    stalled_clocks_ = 0;
+    pending_beat_ = false;
+    frame_.statistics = RtlStatistics{};
+    const std::uint64_t limit = cycle_limit();
+    const bool disturb = options_->stall_probability > 0.0 || options_->start_probability > 0.0;
+    constexpr std::uint64_t kInterruptionInterval = 1U << 20U;
+
+    *ports_.result_ready = 1;
+    for (cycle_ = 0;; ++cycle_) {
+      if (reset_at.has_value() && cycle_ >= *reset_at) {
+        return false;
+      }
+      *ports_.start = cycle_ == 0 ? 1 : 0;
+      *ports_.acquisitions = static_cast<std::uint16_t>(acquisitions_);
+      if (disturb) {
+        *ports_.result_ready = random.uniform() < options_->stall_probability ? 0 : 1;
+        if (cycle_ > 0 && random.uniform() < options_->start_probability) {
+          *ports_.start = 1;
+          *ports_.acquisitions = static_cast<std::uint16_t>(random());
+        }
+      }
+      driver_->drive();
+      settle();
+      const bool done = observe();
+      // A start pulse in the clock after done would begin another frame; the loop ends before it can.
+      driver_->finish_clock();
+      rising_edge();
+      if (done) {
+        break;
+      }
+      if (cycle_ - driver_->pause_clocks() - stalled_clocks_ > limit) {
+        throw RtlError(fmt::format(
+            "{}: the frame did not end within {} clocks; state {}, {} of {} acquisitions begun, {} of {} "
+            "results sent",
+            configuration_.to_string(), limit, rtl_state_name(static_cast<RtlState>(*ports_.state)),
+            driver_->acquisitions_begun(), acquisitions_, beats_, expected_beats_));
+      }
+      if (cycle_ % kInterruptionInterval == 0) {
+        check_interruption();
+      }
+    }
+    frame_.statistics.cycles = cycle_;
+    *ports_.start = 0;
+    *ports_.tdc_valid = 0;
+    settle();
+    require(*ports_.busy == 0 && *ports_.state == 0, "busy after done");
+    require(*ports_.done == 0, "done_o is longer than one clock");
+    require(beats_ == expected_beats_, "done before the last result");
+    rising_edge();
+    return true;
+  }
+
+  void require(bool holds, const char* what) const {
+    if (!holds) {
+      throw RtlError(fmt::format("{}: {} (clock {}, state {})", configuration_.to_string(), what, cycle_,
+                                 rtl_state_name(static_cast<RtlState>(*ports_.state))));
+    }
+  }
+
+  // Looks at the settled outputs; true in the frame's last clock.
+  bool observe() {
+    const std::uint8_t state = *ports_.state;
+    ++frame_.statistics.state_cycles[state];
+    const bool busy = cycle_ > 0;
+    require((*ports_.busy != 0) == busy, busy ? "busy_o fell before done" : "busy before start");
+    require(busy || *ports_.tdc_ready == 0, "tdc_ready_o is high in IDLE");
+    if (*ports_.result_valid != 0 || pending_beat_) {
+      observe_result();
+    }
+    if (options_->observer) {
+      options_->observer({.cycle = cycle_,
+                          .state = static_cast<RtlState>(state),
+                          .acquisition_start = driver_->begins(),
+                          .result_beat = *ports_.result_valid != 0 && *ports_.result_ready != 0});
+    }
+    return *ports_.done != 0;
+  }
+
+  void observe_result() {
+    require(*ports_.result_valid != 0, "result_tvalid_o fell before tready");
+    const Beat beat = {.column = *ports_.result_column,
+                       .row = *ports_.result_row,
+                       .result = {.code = *ports_.result_code,
+                                  .fraction = *ports_.result_fraction,
+                                  .confidence = *ports_.result_confidence},
+                       .last = *ports_.result_last != 0};
+    require(!pending_beat_ || beat == last_beat_, "result_tdata_o changed before tready");
+    last_beat_ = beat;
+    pending_beat_ = *ports_.result_ready == 0;
+    if (pending_beat_) {
+      ++stalled_clocks_;
+      return;
+    }
+    const auto width = static_cast<std::uint64_t>(configuration_.sram_num);
+    require(beats_ < expected_beats_, "more results than pixels");
+    require(beat.row == beats_ / width && beat.column == beats_ % width, "result out of order");
+    require(beat.last == (beats_ + 1 == expected_beats_), "result_tlast_o on the wrong result");
+    ++beats_;
+    const auto columns = static_cast<std::size_t>(frame_.columns);
+    const std::size_t index = beat.row * columns + beat.column;
+    if (beat.column < columns && index < frame_.results.size()) {
+      frame_.results[index] = beat.result;
+      frame_.result_cycles[index] = cycle_;
+    }
+  }
+
+  struct Beat {
+    std::uint16_t column = 0;
+    std::uint16_t row = 0;
+    PixelResult result;
+    bool last = false;
+    bool operator==(const Beat&) const = default;
+  };
+
+  RtlConfiguration configuration_;
+  std::unique_ptr<VerilatedContext> context_;  // outlives the model
+  std::unique_ptr<ArrayModel> model_;
+  ArrayModel::Ports ports_{};
+  bool broken_ = false;
+  bool tracing_ = false;
+  std::uint64_t time_ = 0;
+
+  // Of the current run.
+  TdcDriver* driver_ = nullptr;
+  const RtlRunOptions* options_ = nullptr;
+  std::uint32_t acquisitions_ = 0;
+  std::uint64_t expected_beats_ = 0;
+  std::uint64_t total_cycles_ = 0;
+  std::uint64_t cycle_ = 0;
+  std::uint64_t beats_ = 0;
+  std::uint64_t stalled_clocks_ = 0;
+  bool pending_beat_ = false;
+  Beat last_beat_;
+  RtlFrame frame_;
+};
+
+RtlReadout::RtlReadout(const RtlConfiguration& configuration, bool sram_report)
+    : configuration_(configuration),
+      simulation_(std::make_unique<Simulation>(configuration, kFirstContentsSeed, sram_report)) {}
+
+RtlReadout::~RtlReadout() = default;
+
+const RtlConfiguration& RtlReadout::configuration() const { return configuration_; }
+
+RtlFrame RtlReadout::run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
+                         const RtlRunOptions& options) {
+  if (simulation_->broken()) {  // an exception left the model inside an evaluation
+    simulation_ = std::make_unique<Simulation>(configuration_, options.seed, false);
+  }
+  return simulation_->run(columns, acquisitions, options);
+}
+
+}  // namespace dtof

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/result.hpp"
+#include "rtl/configuration.hpp"
+
+namespace dtof {
+
+/// What the array showed in one clock, for tests that follow a frame state by state.
+struct RtlCycle {
+  std::uint64_t cycle;  ///< since the start clock of the frame
+  RtlState state;
+  bool acquisition_start;  ///< valid and ready: pixel 0, slot 0 of an acquisition is on the port
+  bool result_beat;        ///< a result is transferred
+};
+
+/// How a frame is driven. The defaults are an ideal source and sink.
+struct RtlRunOptions {
+  std::uint64_t seed = 1;                 ///< of everything random below
+  double pause_probability = 0.0;         ///< the source pauses before an acquisition (1 to 8 clocks)
+  double stall_probability = 0.0;         ///< per clock: tready is low
+  double start_probability = 0.0;         ///< per clock while busy: start_i with another acq_num_i
+  std::optional<std::uint64_t> reset_at;  ///< reset in this clock after start, then a whole frame
+  bool reset_first = true;                ///< false: start as the frame before left the array
+  /// Clocks after which a frame is given up; 0: several times what its size needs. Clocks in which source or
+  /// sink hold the array up do not count.
+  std::uint64_t cycle_limit = 0;
+  std::filesystem::path trace;                    ///< FST waveform of the run; clock n begins at 10 n ns
+  std::function<void(const RtlCycle&)> observer;  ///< called in every clock of the frame
+};
+
+struct RtlStatistics {
+  std::uint64_t cycles = 0;  ///< start to done
+  std::array<std::uint64_t, kRtlStateCount> state_cycles{};
+  std::uint64_t column_cycles = 0;  ///< clocks simulated, resets included, times SRAM_NUM
+  double seconds = 0.0;             ///< wall time of the simulation
+
+  /// Sum of two runs; `cycles` and `state_cycles` become those of the longer one.
+  void merge(const RtlStatistics& other);
+};
+
+struct RtlFrame {
+  int columns = 0;
+  std::vector<PixelResult> results;          ///< index = row * columns + column
+  std::vector<std::uint64_t> result_cycles;  ///< clock of each result, since start; same index
+  RtlStatistics statistics;
+};
+
+/// A Verilated dtof_array with source and sink. Not thread-safe: one instance a thread.
+class RtlReadout {
+ public:
+  /// `sram_report` makes every SRAM print its size and organisation on standard output. Throws InputError
+  /// listing what is compiled if `configuration` is not.
+  explicit RtlReadout(const RtlConfiguration& configuration, bool sram_report = false);
+  RtlReadout(const RtlReadout&) = delete;
+  RtlReadout& operator=(const RtlReadout&) = delete;
+  RtlReadout(RtlReadout&&) = delete;
+  RtlReadout& operator=(RtlReadout&&) = delete;
+  ~RtlReadout();
+
+  [[nodiscard]] const RtlConfiguration& configuration() const;
+
+  /// Runs one frame of `acquisitions` (0 to 65,535) on up to SRAM_NUM columns of equally many rows, at most
+  /// PIXELS_PER_SRAM; columns and rows beyond the given ones see no detection and are not in the result.
+  /// Throws InputError for a stream that the configuration cannot take, RtlError for misbehaving RTL.
+  RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
+               const RtlRunOptions& options = {});
+
+ private:
+  class Simulation;
+  RtlConfiguration configuration_;
+  std::unique_ptr<Simulation> simulation_;
+};
+
+}  // namespace dtof

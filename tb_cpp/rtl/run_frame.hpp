@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/parameters.hpp"
+#include "core/progress.hpp"
+#include "core/result.hpp"
+#include "rtl/rtl_readout.hpp"
+
+namespace dtof {
+
+struct RtlSourceFrame {
+  std::vector<PixelResult> results;          ///< index = row * n + i for the i-th of n columns read
+  std::vector<std::uint64_t> result_cycles;  ///< clock of each result within its column group; same index
+  RtlStatistics statistics;                  ///< sum over the column groups; `cycles` of the longest
+};
+
+/// Reads out a frame with the RTL: the chosen columns in groups of SRAM_NUM, one model instance each, on at
+/// most `threads` threads (0 = all processors).
+///
+/// `columns` lists the columns to read, in the order of the result; empty means all; columns not read cost
+/// nothing. `progress`, if given, advances by one a column. A trace holds one group: more columns than
+/// SRAM_NUM with `options.trace` set are refused. Throws InputError as RtlReadout::run and for a column
+/// outside the source.
+RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration,
+                             int threads = 0, std::span<const int> columns = {},
+                             const RtlRunOptions& options = {}, Progress* progress = nullptr);
+
+/// The same with the compiled configuration that suits (find_rtl_configuration).
+RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters& parameters, int threads = 0,
+                             std::span<const int> columns = {}, const RtlRunOptions& options = {},
+                             Progress* progress = nullptr);
+
+}  // namespace dtof

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/random.hpp"
+#include "rtl/array_model.hpp"
+#include "rtl/configuration.hpp"
+
+namespace dtof {
+
+/// Plays the TDCs of an array: turns sparse columns into one timestamp per clock and column on the port.
+///
+/// Always offers the next acquisition, but for random pauses; after the last one it offers detections that
+/// the array must not take. While it pauses the bus carries detections, too.
+class TdcDriver {
+ public:
+  /// `columns` must outlive the driver. Throws InputError for a stream that the configuration cannot take.
+  TdcDriver(const RtlConfiguration& configuration, const ArrayModel::Ports& ports,
+            std::span<const ColumnStream> columns, std::uint32_t acquisitions);
+
+  /// Back to the frame's first timestamp.
+  void rewind(double pause_probability, CounterRandom random);
+  /// Puts this clock's timestamps on the port.
+  void drive();
+  /// Ends the clock. Throws RtlError if the array takes an acquisition that does not exist.
+  void finish_clock();
+
+  /// Clocks so far in which the source made the array wait.
+  [[nodiscard]] std::uint64_t pause_clocks() const { return pause_clocks_; }
+  /// Acquisitions begun so far.
+  [[nodiscard]] std::uint32_t acquisitions_begun() const { return begun_; }
+  /// An acquisition begins in this clock (valid after the array's outputs settled).
+  [[nodiscard]] bool begins() const { return !inside_ && *ports_.tdc_valid != 0 && *ports_.tdc_ready != 0; }
+
+ private:
+  struct Cursor {
+    const Detection* next;
+    const Detection* end;
+  };
+
+  void load_pixel();
+  void fill_bus(int byte);
+  void maybe_pause();
+
+  ArrayModel::Ports ports_;
+  std::span<const ColumnStream> columns_;
+  std::uint32_t acquisitions_;
+  std::size_t rows_;
+  std::size_t slots_;
+  std::size_t pixels_per_sram_;
+
+  std::vector<Cursor> cursors_;                  // [row * columns + column]
+  std::vector<std::uint32_t> next_acquisition_;  // [row]: the next with a detection in any column
+  std::vector<std::uint16_t> lines_;             // [slot * line + column], the bus contents of a pixel
+  std::size_t line_;                             // 16-bit words on the bus
+
+  double pause_probability_ = 0.0;
+  CounterRandom random_{0, 0, 0, 0};
+  std::uint32_t pause_left_ = 0;
+  std::uint64_t pause_clocks_ = 0;
+  std::uint32_t begun_ = 0;
+  std::uint32_t acquisition_ = 0;
+  std::size_t row_ = 0;
+  std::size_t slot_ = 0;
+  bool inside_ = false;      // between the first and the last timestamp of an acquisition
+  bool empty_pixel_ = true;  // no detection in any column
+  bool bus_idle_ = false;    // the bus carries "no detection" everywhere
+};
+
+}  // namespace dtof

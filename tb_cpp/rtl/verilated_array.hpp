@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+#include <verilated.h>
+#include <verilated_fst_c.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "core/error.hpp"
+#include "rtl/array_model.hpp"
+
+namespace dtof {
+
+/// ArrayModel over the class that Verilator generated for one configuration.
+template <typename Model>
+class VerilatedArray final : public ArrayModel {
+ public:
+  explicit VerilatedArray(VerilatedContext& context) : model_(&context, "array") {}
+  ~VerilatedArray() override { close_trace(); }
+  VerilatedArray(const VerilatedArray&) = delete;
+  VerilatedArray& operator=(const VerilatedArray&) = delete;
+  VerilatedArray(VerilatedArray&&) = delete;
+  VerilatedArray& operator=(VerilatedArray&&) = delete;
+
+  [[nodiscard]] Ports ports() override {
+    return {.clock = &model_.clk_i,
+            .reset_n = &model_.rst_ni,
+            .start = &model_.start_i,
+            .acquisitions = &model_.acq_num_i,
+            .tdc_valid = &model_.tdc_valid_i,
+            .timestamps = model_.tdc_timestamp_i.data(),
+            .timestamp_words = sizeof(model_.tdc_timestamp_i) / sizeof(std::uint32_t),
+            .result_ready = &model_.result_tready_i,
+            .busy = &model_.busy_o,
+            .done = &model_.done_o,
+            .state = &model_.state_o,
+            .tdc_ready = &model_.tdc_ready_o,
+            .result_valid = &model_.result_tvalid_o,
+            .result_last = &model_.result_tlast_o,
+            .result_column = &model_.result_column_o,
+            .result_row = &model_.result_row_o,
+            .result_code = &model_.result_code_o,
+            .result_fraction = &model_.result_fraction_o,
+            .result_confidence = &model_.result_confidence_o};
+  }
+
+  void eval() override { model_.eval(); }
+
+  void open_trace(const std::filesystem::path& file) override {
+    // Verilator's writer says nothing about a file it cannot create.
+    if (!std::ofstream(file).is_open()) {
+      throw InputError(fmt::format("cannot write trace file '{}'", file.string()));
+    }
+    trace_ = std::make_unique<VerilatedFstC>();
+    model_.trace(trace_.get(), kAllLevels);
+    trace_->open(file.c_str());
+  }
+  void dump_trace(std::uint64_t time) override { trace_->dump(time); }
+  void close_trace() override {
+    if (trace_ != nullptr) {
+      trace_->close();
+      trace_.reset();
+    }
+  }
+
+ private:
+  static constexpr int kAllLevels = 99;
+  Model model_;
+  std::unique_ptr<VerilatedFstC> trace_;
+};
+
+}  // namespace dtof

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scoreboard/scoreboard.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "readout/model.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr std::size_t kDescribedMismatches = 5;
+
+std::string to_text(const PixelResult& result) {
+  return fmt::format("code {} fraction {} confidence {}", result.code, result.fraction, result.confidence);
+}
+
+std::vector<PixelResult> run_model(const ReadoutParameters& parameters, std::span<const ColumnStream> columns,
+                                   std::uint32_t acquisitions) {
+  const std::size_t rows = columns.empty() ? 0 : static_cast<std::size_t>(columns.front().rows());
+  std::vector<PixelResult> results(rows * columns.size());
+  const std::unique_ptr<ReadoutModel> model = make_readout_model(parameters);
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    const std::vector<PixelResult> expected = model->run_column(columns[column], acquisitions);
+    for (std::size_t row = 0; row < rows; ++row) {
+      results[row * columns.size() + column] = expected[row];
+    }
+  }
+  return results;
+}
+
+std::vector<ColumnStream> cut(std::span<const ColumnStream> columns, std::uint32_t acquisitions) {
+  std::vector<ColumnStream> shorter(columns.size());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    for (int row = 0; row < columns[i].rows(); ++row) {
+      const std::span<const Detection> all = columns[i].row(row);
+      const auto end = std::ranges::lower_bound(all, acquisitions, {}, &Detection::acquisition);
+      shorter[i].append_row(all.first(static_cast<std::size_t>(end - all.begin())));
+    }
+  }
+  return shorter;
+}
+
+std::vector<Mismatch> run_both(RtlReadout& rtl, std::span<const ColumnStream> columns,
+                               std::uint32_t acquisitions, const RtlRunOptions& options, RtlFrame& frame) {
+  frame = rtl.run(columns, acquisitions, options);
+  std::vector<int> numbers(columns.size());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return compare_frames(numbers, run_model(rtl.configuration().parameters, columns, acquisitions),
+                        frame.results, frame.result_cycles);
+}
+
+// Bisection; a fault need not be monotonic in the frame's length, so the answer is short, not proven
+// shortest.
+std::uint32_t shortest_failing_frame(RtlReadout& rtl, std::span<const ColumnStream> columns,
+                                     std::uint32_t acquisitions, RtlRunOptions options) {
+  options.trace.clear();
+  std::uint32_t agrees = 0;
+  std::uint32_t differs = acquisitions;
+  RtlFrame frame;
+  while (differs > agrees + 1) {
+    const std::uint32_t middle = agrees + (differs - agrees) / 2;
+    const bool same = run_both(rtl, cut(columns, middle), middle, options, frame).empty();
+    (same ? agrees : differs) = middle;
+  }
+  return differs;
+}
+
+}  // namespace
+
+std::vector<Mismatch> compare_frames(std::span<const int> columns, std::span<const PixelResult> expected,
+                                     std::span<const PixelResult> actual,
+                                     std::span<const std::uint64_t> result_cycles) {
+  const bool whole_rows = columns.empty() ? expected.empty() : expected.size() % columns.size() == 0;
+  if (!whole_rows || actual.size() != expected.size() || result_cycles.size() != expected.size()) {
+    throw InputError(fmt::format("frames of {} and {} results, {} result clocks, {} columns do not compare",
+                                 expected.size(), actual.size(), result_cycles.size(), columns.size()));
+  }
+  std::vector<Mismatch> mismatches;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (expected[i] != actual[i]) {
+      mismatches.push_back({.column = columns[i % columns.size()],
+                            .row = static_cast<int>(i / columns.size()),
+                            .expected = expected[i],
+                            .actual = actual[i],
+                            .cycle = result_cycles[i]});
+    }
+  }
+  return mismatches;
+}
+
+std::string describe_mismatches(std::span<const Mismatch> mismatches, std::size_t pixels,
+                                const FrameContext& context) {
+  std::string text = fmt::format("{} of {} pixels differ between RTL and model\n", mismatches.size(), pixels);
+  text += fmt::format("  read-out   {}\n", context.configuration.to_string());
+  text += fmt::format("  frame      {} acquisitions, seed {}\n", context.acquisitions, context.seed);
+  if (context.shortest_failing_frame.has_value()) {
+    text += fmt::format("             differs already when cut to {} acquisitions\n",
+                        *context.shortest_failing_frame);
+  }
+  for (const Mismatch& mismatch : mismatches.first(std::min(mismatches.size(), kDescribedMismatches))) {
+    text += fmt::format("  column {} row {}: expected {}, actual {}, clock {}\n", mismatch.column,
+                        mismatch.row, to_text(mismatch.expected), to_text(mismatch.actual), mismatch.cycle);
+  }
+  return text + fmt::format("  reproduce  {}\n", context.reproduce);
+}
+
+std::string check_frame(RtlReadout& rtl, std::span<const ColumnStream> columns, std::uint32_t acquisitions,
+                        const RtlRunOptions& options, const std::string& reproduce, RtlFrame* frame) {
+  RtlFrame local;
+  RtlFrame& rtl_frame = frame != nullptr ? *frame : local;
+  const std::vector<Mismatch> mismatches = run_both(rtl, columns, acquisitions, options, rtl_frame);
+  if (mismatches.empty()) {
+    return {};
+  }
+  FrameContext context{.configuration = rtl.configuration(),
+                       .acquisitions = acquisitions,
+                       .seed = options.seed,
+                       .reproduce = reproduce,
+                       .shortest_failing_frame = std::nullopt};
+  if (acquisitions > 0) {
+    context.shortest_failing_frame = shortest_failing_frame(rtl, columns, acquisitions, options);
+  }
+  return describe_mismatches(mismatches, rtl_frame.results.size(), context);
+}
+
+}  // namespace dtof
