@@ -7,11 +7,12 @@
 
 namespace dtof {
 
+inline constexpr std::uint64_t kDefaultTestSeed = 20240611;
+
 /// Seed of randomised tests: the environment variable DTOF_TEST_SEED, else a fixed one. Tests print it.
 inline std::uint64_t test_seed() {
   const char* text = std::getenv("DTOF_TEST_SEED");
-  constexpr std::uint64_t kDefaultSeed = 20240611;
-  return text == nullptr ? kDefaultSeed : std::stoull(text);
+  return text == nullptr ? kDefaultTestSeed : std::stoull(text);
 }
 
 /// For SCOPED_TRACE: how to repeat the run.

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "metrics/lookup_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/error.hpp"
+
+namespace dtof {
+namespace {
+
+struct Pool {
+  CalibrationPoint mean;
+  double weight;
+};
+
+Pool merged(const Pool& a, const Pool& b) {
+  const double weight = a.weight + b.weight;
+  const double share = b.weight / weight;
+  return {{std::lerp(a.mean.position, b.mean.position, share),
+           std::lerp(a.mean.distance_m, b.mean.distance_m, share)},
+          weight};
+}
+
+}  // namespace
+
+LookupTable LookupTable::fit(std::span<const CalibrationPoint> points) {
+  if (points.size() < 2) {
+    throw InputError(
+        fmt::format("a look-up table needs at least 2 calibration points, but there are {}", points.size()));
+  }
+  std::vector<CalibrationPoint> sorted(points.begin(), points.end());
+  for (const CalibrationPoint& point : sorted) {
+    if (!std::isfinite(point.position) || !std::isfinite(point.distance_m)) {
+      throw InputError(fmt::format("calibration point (position {}, distance {} m) is not finite",
+                                   point.position, point.distance_m));
+    }
+  }
+  std::ranges::stable_sort(sorted, {}, &CalibrationPoint::position);
+
+  std::vector<Pool> pools;
+  for (auto point = sorted.begin(); point != sorted.end();) {
+    Pool pool{*point, 1.0};
+    for (++point; point != sorted.end() && point->position == pool.mean.position; ++point) {
+      pool = merged(pool, {*point, 1.0});
+    }
+    while (!pools.empty() && pools.back().mean.distance_m >= pool.mean.distance_m) {
+      pool = merged(pools.back(), pool);
+      pools.pop_back();
+    }
+    pools.push_back(pool);
+  }
+
+  std::vector<CalibrationPoint> knots;
+  knots.reserve(pools.size());
+  for (const Pool& pool : pools) {
+    knots.push_back(pool.mean);
+  }
+  return LookupTable(std::move(knots));
+}
+
+LookupTable::LookupTable(std::vector<CalibrationPoint> knots) : knots_(std::move(knots)), mean_slope_(0.0) {
+  const CalibrationPoint& first = knots_.front();
+  const CalibrationPoint& last = knots_.back();
+  if (knots_.size() > 1) {
+    mean_slope_ = (last.distance_m - first.distance_m) / (last.position - first.position);
+  }
+}
+
+double LookupTable::distance(double position) const {
+  const auto above = std::ranges::upper_bound(knots_, position, {}, &CalibrationPoint::position);
+  if (above == knots_.begin() || above == knots_.end()) {
+    const CalibrationPoint& end = above == knots_.begin() ? knots_.front() : knots_.back();
+    return end.distance_m + mean_slope_ * (position - end.position);
+  }
+  const CalibrationPoint& below = *(above - 1);
+  const double share = (position - below.position) / (above->position - below.position);
+  return std::lerp(below.distance_m, above->distance_m, share);
+}
+
+}  // namespace dtof
