@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+#include <string_view>
+
+#include "photon/target_map.hpp"
+
+namespace dtof {
+
+/// Scenes that need no file. Depth is the range along a pixel's ray.
+enum class Scene {
+  kFlat,       ///< one distance everywhere
+  kStaircase,  ///< steps from near (column 0) to far (last column), equally wide and equally high
+  kPlane,      ///< slanted: range grows linearly from near (column 0) to far (last column)
+  kRoom,       ///< sphere and boxes before the walls of a room, 0.8 to 5 m, reflectivity 0.2 to 1
+};
+
+inline constexpr std::array<Scene, 4> kAllScenes = {Scene::kFlat, Scene::kStaircase, Scene::kPlane,
+                                                    Scene::kRoom};
+
+/// Command-line name: flat, staircase, plane, room.
+std::string_view scene_name(Scene scene);
+/// One sentence on what the scene shows.
+std::string_view scene_summary(Scene scene);
+/// Throws InputError naming the legal names.
+Scene parse_scene(std::string_view name);
+
+struct SceneParameters {
+  int columns = 200;
+  int rows = 160;
+  double distance_m = 1.0;    ///< flat
+  double near_m = 0.8;        ///< staircase and plane
+  double far_m = 5.0;         ///< staircase and plane; may be below near_m
+  int steps = 8;              ///< staircase; >= 1
+  double reflectivity = 1.0;  ///< of every surface; in the room of the brightest, to which the others relate
+};
+
+/// Throws InputError if a parameter that the scene uses is out of range (distances finite and > 0,
+/// reflectivity finite and >= 0).
+TargetMap make_scene(Scene scene, const SceneParameters& parameters);
+
+/// A depth image of width x height (`metres` row by row, row 0 on top; 0, NaN, infinite: unknown, thus no
+/// target), resampled to the array by nearest neighbour over the whole image.
+/// Throws InputError for a wrong number of values or a negative depth.
+TargetMap scene_from_depth_image(int width, int height, std::span<const float> metres, int columns, int rows,
+                                 double reflectivity = 1.0);
+
+}  // namespace dtof
