@@ -28,6 +28,7 @@ constexpr double kLineHeight = 22.0;
 constexpr double kBarWidth = 18.0;
 constexpr double kBarArea = 92.0;
 constexpr double kTickLength = 5.0;
+constexpr double kPointLength = 10.0;
 constexpr int kWantedMapWidth = 480;
 constexpr int kLargestPixelSize = 16;
 constexpr int kLargestExtent = 32767;  ///< of a cairo image
@@ -168,13 +169,12 @@ class Picture {
       text(x + kBarWidth + kTickLength + 3.0, at + kFontSize * 0.36, kFontSize,
            fmt::format("{:.{}f}", value == 0.0 ? 0.0 : value, digits));
     }
-    text(x, y - 8.0, kFontSize, scale.kind == MapKind::kDepth ? "depth, m" : "error, m");
-    std::string beyond;
-    if (scale.values_below || scale.values_above) {
-      beyond = scale.values_below && scale.values_above ? "beyond: end colours"
-               : scale.values_above                     ? "above: top colour"
-                                                        : "below: end colour";
-      text(x - 2.0, y + steps + 16.0, 10.0, beyond);
+    text(x, y - kPointLength - 7.0, kFontSize, scale.kind == MapKind::kDepth ? "depth, m" : "error, m");
+    if (scale.values_above) {
+      point(x, y - 1.0, -kPointLength, colour_at(scale.kind, 1.0));
+    }
+    if (scale.values_below) {
+      point(x, y + steps + 1.0, kPointLength, colour_at(scale.kind, 0.0));
     }
   }
 
@@ -205,6 +205,19 @@ class Picture {
   static std::uint32_t packed(const Colour& colour) {
     const auto byte = [](double value) { return static_cast<std::uint32_t>(std::lround(value * 255.0)); };
     return byte(colour[0]) << 16U | byte(colour[1]) << 8U | byte(colour[2]);
+  }
+
+  /// Triangle on an end of the bar: values lie beyond it.
+  void point(double x, double y, double length, const Colour& colour) {
+    cairo_t* const cr = context_.get();
+    cairo_move_to(cr, x, y);
+    cairo_line_to(cr, x + kBarWidth / 2.0, y + length);
+    cairo_line_to(cr, x + kBarWidth, y);
+    cairo_close_path(cr);
+    cairo_set_source_rgb(cr, colour[0], colour[1], colour[2]);
+    cairo_fill_preserve(cr);
+    cairo_set_source_rgb(cr, 0.0, 0.0, 0.0);
+    cairo_stroke(cr);
   }
 
   void frame(double x, double y, double width, double height) {
@@ -330,7 +343,8 @@ void write_map_picture(const std::filesystem::path& path, std::span<const MapPan
   const auto caption = wrap(ruler, layout.caption, kFontSize * 0.85, false, text_width);
   const double title_height = static_cast<double>(title.size()) * kLineHeight + kMargin;
   constexpr double kSmallestBar = 110.0;
-  const double grid_height = std::max(down * cell_height, kSmallestBar + kLineHeight) + kMargin;
+  const double grid_height =
+      std::max(down * cell_height, kSmallestBar + kLineHeight + 2.0 * kPointLength) + kMargin;
   const double height =
       title_height + grid_height + static_cast<double>(caption.size()) * kFontSize * 1.3 + kMargin;
   if (width > kLargestExtent || height > kLargestExtent) {
@@ -353,11 +367,11 @@ void write_map_picture(const std::filesystem::path& path, std::span<const MapPan
     const Scale& scale = *std::ranges::find(scales, panels[i].kind, &Scale::kind);
     picture.map(x, top + kLineHeight, panels[i].image, scale, pixel_size);
   }
-  const double bar_height =
-      std::max(kSmallestBar, std::min(down * cell_height - kLineHeight - kMargin / 2.0, 480.0));
+  const double bar_height = std::max(
+      kSmallestBar, std::min(down * cell_height - kLineHeight - kMargin / 2.0 - 2.0 * kPointLength, 480.0));
   for (std::size_t i = 0; i < scales.size(); ++i) {
     picture.scale_bar(kMargin + across * cell_width + static_cast<double>(i) * kBarArea,
-                      grid_top + kLineHeight, bar_height, scales[i]);
+                      grid_top + kLineHeight + kPointLength, bar_height, scales[i]);
   }
   y = grid_top + grid_height;
   for (const std::string& line : caption) {

@@ -16,7 +16,7 @@ enum class MapKind {
   kError,  ///< blue - white - red, symmetric about 0; NaN is unknown
 };
 
-/// Range of a colour scale in m; values beyond take its end colours and the bar's end label says so.
+/// Range of a colour scale in m; values beyond take its end colours, and that end of the bar has a point.
 struct ColourRange {
   double lowest = 0.0;
   double highest = 1.0;

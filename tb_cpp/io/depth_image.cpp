@@ -207,7 +207,7 @@ DepthImage read_depth_image(const std::filesystem::path& path) {
 
 DepthImage read_depth_png(const std::filesystem::path& path) {
   const GreyImage grey = read_grey_png(path, 16, "a depth image");
-  DepthImage image{.width = grey.width, .height = grey.height, .metres = {}};
+  DepthImage image{.width = grey.width, .height = grey.height};
   image.metres.reserve(grey.values.size());
   for (const std::uint16_t millimetres : grey.values) {
     image.metres.push_back(static_cast<float>(millimetres) / 1000.0F);
@@ -220,7 +220,7 @@ DepthImage read_disparity_png(const std::filesystem::path& path, double metres_a
     fail(path, fmt::format("depth at disparity 1 is {}, must be a positive number of metres", metres_at_one));
   }
   const GreyImage grey = read_grey_png(path, 8, "a disparity map");
-  DepthImage image{.width = grey.width, .height = grey.height, .metres = {}};
+  DepthImage image{.width = grey.width, .height = grey.height};
   image.metres.reserve(grey.values.size());
   for (const std::uint16_t disparity : grey.values) {
     image.metres.push_back(disparity == 0 ? 0.0F : static_cast<float>(metres_at_one / disparity));

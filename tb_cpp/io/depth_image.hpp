@@ -11,7 +11,7 @@ namespace dtof {
 struct DepthImage {
   int width = 0;
   int height = 0;
-  std::vector<float> metres;  ///< [row][column], row 0 on top
+  std::vector<float> metres = {};  ///< [row][column], row 0 on top
 
   [[nodiscard]] float at(int column, int row) const {
     return metres[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +

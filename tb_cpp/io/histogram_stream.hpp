@@ -15,10 +15,10 @@ struct HistogramCube {
   int columns = 0;
   int rows = 0;
   int bins = 0;
-  double bin_width = 0.0;             ///< s
-  double offset = 0.0;                ///< s, time of the left edge of bin 0
-  std::vector<double> counts;         ///< [row][column][bin], rows * columns * bins numbers >= 0
-  std::vector<double> true_distance;  ///< m, [row][column], NaN = unknown; empty: none known
+  double bin_width = 0.0;                  ///< s
+  double offset = 0.0;                     ///< s, time of the left edge of bin 0
+  std::vector<double> counts = {};         ///< [row][column][bin], rows * columns * bins numbers >= 0
+  std::vector<double> true_distance = {};  ///< m, [row][column], NaN = unknown; empty: none known
 
   [[nodiscard]] std::span<const double> pixel(int column, int row) const {
     const auto index =

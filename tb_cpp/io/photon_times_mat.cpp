@@ -3,13 +3,17 @@
 
 #include <fmt/format.h>
 #include <matio.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -30,9 +34,65 @@ using Variable = std::unique_ptr<matvar_t, VariableDeleter>;
   throw InputError(fmt::format("{}: {}", path.string(), reason));
 }
 
+std::uint32_t word_at(std::string_view file, std::size_t offset) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, &file[offset], sizeof word);
+  return word;
+}
+
+/// zlib data that decompresses to its end with the right checksum.
+bool is_sound_zlib(std::string_view data) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) {
+    return false;
+  }
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
+  stream.avail_in = static_cast<uInt>(data.size());
+  std::array<Bytef, std::size_t{1} << 16U> discarded{};
+  int status = Z_OK;
+  while (status == Z_OK) {
+    stream.next_out = discarded.data();
+    stream.avail_out = static_cast<uInt>(discarded.size());
+    status = inflate(&stream, Z_NO_FLUSH);
+  }
+  inflateEnd(&stream);
+  return status == Z_STREAM_END;
+}
+
+/// matio hands out what it could read of a truncated file and ignores zlib's checksum, so the container is
+/// checked here: after the header of 128 bytes the elements (type, size, data) must fill the file exactly.
+void check_mat_file(const std::filesystem::path& path) {
+  constexpr std::size_t kHeaderSize = 128;
+  constexpr std::size_t kTagSize = 8;
+  constexpr std::uint32_t kCompressed = 15;
+  constexpr std::string_view kLittleEndianLevel5 = {"\x00\x01IM", 4};
+  const std::string contents = read_file(path);
+  const std::string_view file = contents;
+  if (!file.starts_with("MATLAB")) {
+    fail(path, "not a MATLAB file");
+  }
+  if (file.size() < kHeaderSize) {
+    fail(path, "damaged: the file ends in its header");
+  }
+  if (file.substr(kHeaderSize - kLittleEndianLevel5.size(), kLittleEndianLevel5.size()) !=
+      kLittleEndianLevel5) {
+    fail(path, "not a little-endian MATLAB 5 file (save with -v7 or -v6)");
+  }
+  std::size_t offset = kHeaderSize;
+  while (offset < file.size()) {
+    if (file.size() - offset < kTagSize || file.size() - offset - kTagSize < word_at(file, offset + 4)) {
+      fail(path, fmt::format("damaged: the variable at byte {} ends beyond the file", offset));
+    }
+    const std::size_t size = word_at(file, offset + 4);
+    if (word_at(file, offset) == kCompressed && !is_sound_zlib(file.substr(offset + kTagSize, size))) {
+      fail(path, fmt::format("damaged: the variable at byte {} does not decompress", offset));
+    }
+    offset += kTagSize + size;
+  }
+}
+
 Variable read_variable(const std::filesystem::path& path, const std::string& name) {
-  // matio reports a missing, empty or foreign file all alike; this tells the first two apart.
-  (void)read_file(path);
+  check_mat_file(path);
   const std::unique_ptr<mat_t, MatCloser> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) {
     fail(path, "not a MATLAB file");

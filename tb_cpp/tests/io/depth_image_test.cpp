@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/depth_image.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "io_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::FloatEq;
+using ::testing::HasSubstr;
+
+class DepthImageTest : public test::IoTest {
+ protected:
+  /// Any PNG that libpng's simplified interface can make.
+  std::filesystem::path write_png(const char* name, png_uint_32 format) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = 3;
+    image.height = 2;
+    image.format = format;
+    const std::vector<png_byte> pixels(64, 100);
+    png_image_write_to_file(&image, path(name).c_str(), 0, pixels.data(), 0, nullptr);
+    return path(name);
+  }
+  void refused(const std::filesystem::path& file, const std::string& reason) {
+    test::expect_input_error([&] { (void)read_depth_image(file); }, file.string() + ": " + reason);
+  }
+};
+
+TEST_F(DepthImageTest, PngRoundTrip) {
+  const DepthImage image{
+      .width = 3, .height = 2, .metres = {0.0F, 0.001F, 1.2344F, 65.535F, std::nanf(""), -0.3F}};
+  write_depth_png(path("a.png"), image);
+  const DepthImage back = read_depth_image(path("a.png"));
+  EXPECT_EQ(back.width, 3);
+  EXPECT_EQ(back.height, 2);
+  EXPECT_THAT(back.metres, ElementsAre(0.0F, FloatEq(0.001F), FloatEq(1.234F), FloatEq(65.535F), 0.0F, 0.0F));
+  EXPECT_EQ(back.at(0, 1), back.metres[3]);
+}
+
+TEST_F(DepthImageTest, PngRefusesWhatMillimetresCannotHold) {
+  test::expect_input_error(
+      [&] {
+        write_depth_png(path("a.png"), {.width = 2, .height = 1, .metres = {1.0F, 65.6F}});
+      },
+      EndsWith("column 1, row 0: a depth of 65.6 m does not fit 16 bits of millimetres"));
+  test::expect_input_error(
+      [&] { write_depth_png(path("a.png"), {.width = 2, .height = 2, .metres = {1.0F}}); },
+      "image: 1 values for 2 x 2 pixels");
+  test::expect_input_error(
+      [&] { write_depth_png(path("none/a.png"), {.width = 1, .height = 1, .metres = {1.0F}}); },
+      EndsWith("cannot write: No such file or directory"));
+  EXPECT_EQ(file_count(), 0U);
+}
+
+TEST_F(DepthImageTest, PngRefusesOtherDepthsAndColours) {
+  refused(write_png("8.png", PNG_FORMAT_GRAY),
+          "8-bit greyscale PNG: a depth image must be a 16-bit greyscale PNG");
+  refused(write_png("rgb.png", PNG_FORMAT_RGB),
+          "8-bit RGB PNG: a depth image must be a 16-bit greyscale PNG");
+  refused(write_png("rgba.png", PNG_FORMAT_RGBA),
+          "8-bit RGB with alpha PNG: a depth image must be a 16-bit greyscale PNG");
+  refused(write_png("ga16.png", PNG_FORMAT_LINEAR_Y_ALPHA),
+          "16-bit greyscale with alpha PNG: a depth image must be a 16-bit greyscale PNG");
+  refused(write("text.png", "hello"), "neither a PNG nor a PFM file");
+  refused(path("none.png"), "cannot read: No such file or directory");
+}
+
+TEST_F(DepthImageTest, PngTruncatedAnywhereIsRefused) {
+  DepthImage image{.width = 20, .height = 20, .metres = std::vector<float>(400)};
+  for (std::size_t i = 0; i < image.metres.size(); ++i) {
+    image.metres[i] = static_cast<float>(i % 37) * 0.1F;
+  }
+  write_depth_png(path("a.png"), image);
+  const std::string whole = contents(path("a.png"));
+  for (std::size_t size = 8; size < whole.size(); ++size) {
+    test::expect_input_error([&] { (void)read_depth_image(write("t.png", whole.substr(0, size))); },
+                             HasSubstr("t.png: damaged PNG: "));
+  }
+  std::string damaged = whole;
+  damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 0x55);
+  test::expect_input_error([&] { (void)read_depth_image(write("t.png", damaged)); },
+                           HasSubstr("damaged PNG"));
+}
+
+TEST_F(DepthImageTest, PfmRoundTripAndBothByteOrders) {
+  const DepthImage image{.width = 2, .height = 2, .metres = {1.5F, 0.0F, 3.25F, 100.0F}};
+  write_pfm(path("a.pfm"), image);
+  const DepthImage back = read_depth_image(path("a.pfm"));
+  EXPECT_EQ(back.metres, image.metres);
+
+  std::string big = contents(path("a.pfm"));
+  big.replace(big.find("-1.0"), 4, "1.0");
+  for (auto value = big.end() - 16; value != big.end(); value += 4) {
+    std::reverse(value, value + 4);
+  }
+  EXPECT_EQ(read_depth_image(write("big.pfm", big)).metres, image.metres);
+}
+
+TEST_F(DepthImageTest, PfmUnknownValuesBecomeZero) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  write_pfm(path("a.pfm"), {.width = 3, .height = 1, .metres = {std::nanf(""), kInfinity, -kInfinity}});
+  EXPECT_THAT(read_depth_pfm(path("a.pfm")).metres, ElementsAre(0.0F, 0.0F, 0.0F));
+}
+
+TEST_F(DepthImageTest, PfmRefusals) {
+  const std::string one(4, '\0');
+  refused(write("a.pfm", "PF\n1 1\n-1.0\n" + one + one + one),
+          "colour PFM: a depth image must be a greyscale PFM (\"Pf\")");
+  refused(write("a.pfm", "Pf\n1 1\n-0.0039\n" + one),
+          "PFM scale -0.0039 is not 1 or -1: the values are not metres");
+  refused(write("a.pfm", "Pf\n1 x\n-1.0\n" + one), "PFM height \"x\" is not a number");
+  refused(write("a.pfm", "Pf\n0 1\n-1.0\n"), "0 x 1 pixels: each must be 1..65535");
+  refused(write("a.pfm", "Pf\n1"), "the PFM header is damaged");
+  refused(write("a.pfm", "Pf\n2 1\n-1.0\n" + one), "2 x 1 pixels need 8 bytes, the file has 4");
+  refused(write("a.pfm", "Pf\n1 1\n-1.0\n" + one + "x"), "1 x 1 pixels need 4 bytes, the file has 5");
+  write_pfm(path("n.pfm"), {.width = 2, .height = 1, .metres = {1.0F, -2.0F}});
+  refused(path("n.pfm"), "column 1, row 0: negative depth -2 m");
+}
+
+TEST_F(DepthImageTest, Disparity) {
+  const DepthImage image = read_disparity_png(write_png("8.png", PNG_FORMAT_GRAY), 50.0);
+  EXPECT_THAT(image.metres, ::testing::Each(FloatEq(0.5F)));
+  test::expect_input_error([&] { (void)read_disparity_png(path("8.png"), -1.0); },
+                           EndsWith("depth at disparity 1 is -1, must be a positive number of metres"));
+  test::expect_input_error([&] { (void)read_disparity_png(write_png("rgb.png", PNG_FORMAT_RGB), 1.0); },
+                           EndsWith("8-bit RGB PNG: a disparity map must be a 8-bit greyscale PNG"));
+}
+
+TEST_F(DepthImageTest, ReadsTheMiddleburyScene) {
+  const auto file = test::shared_data("middlebury_Art_disp1.png");
+  DTOF_SKIP_IF_ABSENT(file);
+  const DepthImage image = read_disparity_png(file, 200.0);
+  EXPECT_EQ(image.width, 695);
+  EXPECT_EQ(image.height, 555);
+  const auto unknown = std::ranges::count(image.metres, 0.0F);
+  EXPECT_GT(unknown, 0);
+  EXPECT_LT(unknown, std::ssize(image.metres) / 5);
+  refused(file, "8-bit greyscale PNG: a depth image must be a 16-bit greyscale PNG");
+}
+
+}  // namespace
+}  // namespace dtof
