@@ -1,0 +1,243 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Mapped netlists as Yosys writes them in JSON: counts, fan-out trees, and the reduced array for timing.
+
+The array is synthesised as it is, SRAM_NUM instances of one column module. A net that drives more than its
+driver can is given a tree of buffers, so that the broadcast from the shared logic to all columns is counted
+and timed. For timing, all but a few columns are replaced by stubs with the same input load.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from .errors import FlowError
+from .liberty import THRESHOLDS, Group, bus_type
+from .library import Buffer, Library
+
+Module = dict
+COLUMN_SUFFIX = "_column"
+STUB = "column_stub"
+# A driver is given a tree when its load exceeds this share of its max_capacitance; trees fill to it.
+TREE_LOAD_SHARE = 0.3
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Cells of one module (its columns and macros apart)."""
+
+    cells: int
+    flip_flops: int
+    area: float
+    buffers: int
+    buffer_area: float
+    clock_ff: float
+    clock_energy_fj: float
+
+
+def modules(design: dict) -> dict[str, Module]:
+    return design["modules"]
+
+
+def column_module(design: dict) -> str:
+    """Name of the one column module; FlowError if there is not exactly one kind."""
+    used = {cell["type"] for cell in top(design)["cells"].values() if cell["type"].endswith(COLUMN_SUFFIX)}
+    if len(used) != 1:
+        raise FlowError(f"the array has {len(used)} kinds of columns instead of one: {sorted(used)}")
+    return used.pop()
+
+
+def top(design: dict) -> Module:
+    for module in modules(design).values():
+        if int(module["attributes"].get("top", "0"), 2):
+            return module
+    raise FlowError("the netlist has no top module")
+
+
+def rename_columns(design: dict) -> None:
+    """Gives the derived column module its plain name, which every tool reads."""
+    old = column_module(design)
+    plain = old.split("\\")[-1]
+    modules(design)[plain] = modules(design).pop(old)
+    for cell in top(design)["cells"].values():
+        if cell["type"] == old:
+            cell["type"] = plain
+
+
+def count(module: Module, library: Library) -> Counts:
+    kinds = Counter(cell["type"] for cell in module["cells"].values())
+    trees = Counter(cell["type"] for name, cell in module["cells"].items() if name.startswith("fanout_"))
+    flops = {kind: number for kind, number in kinds.items() if kind in library.sequential}
+    return Counts(sum(number for kind, number in kinds.items() if kind in library.area),
+                  sum(flops.values()),
+                  sum(library.area.get(kind, 0) * number for kind, number in kinds.items()),
+                  sum(trees.values()),
+                  sum(library.area[kind] * number for kind, number in trees.items()),
+                  sum(library.clock_pin_ff[kind] * number for kind, number in flops.items()),
+                  sum(library.clock_energy_fj[kind] * number for kind, number in flops.items()))
+
+
+def foreign_cells(design: dict, library: Library, macros: set[str]) -> set[str]:
+    """Cell types that are neither library cells, macros nor modules of the design."""
+    found = {cell["type"] for module in modules(design).values() for cell in module["cells"].values()}
+    return found - set(library.area) - macros - {name for name, module in modules(design).items()
+                                                 if module["cells"]}
+
+
+@dataclass
+class _Sink:
+    """One load of a net: the connection list and index to rewire, and its capacitance."""
+
+    bits: list
+    index: int
+    load: float
+
+
+def _sinks(module: Module, pin_load: Callable[[str, str], float], wire: float) -> dict[int, list[_Sink]]:
+    nets: dict[int, list[_Sink]] = {}
+    for cell in module["cells"].values():
+        for pin, bits in cell["connections"].items():
+            if cell["port_directions"].get(pin) == "output":
+                continue
+            load = pin_load(cell["type"], pin) + wire
+            for index, bit in enumerate(bits):
+                if isinstance(bit, int):
+                    nets.setdefault(bit, []).append(_Sink(bits, index, load))
+    return nets
+
+
+def _drivers(module: Module, library: Library, port_drive: float) -> Iterator[tuple[int, float]]:
+    """(net, load the driver takes) of every driven net; an input port drives like the smallest buffer."""
+    for port in module["ports"].values():
+        if port["direction"] == "input":
+            yield from ((bit, port_drive) for bit in port["bits"] if isinstance(bit, int))
+    for cell in module["cells"].values():
+        for pin, bits in cell["connections"].items():
+            if cell["port_directions"].get(pin) == "output":
+                limit = library.max_load_ff.get(cell["type"], {}).get(pin, 0.0) or port_drive
+                yield from ((bit, limit) for bit in bits if isinstance(bit, int))
+
+
+def _next_net(module: Module) -> int:
+    used = [bit for port in module["ports"].values() for bit in port["bits"] if isinstance(bit, int)]
+    used += [bit for cell in module["cells"].values() for bits in cell["connections"].values()
+             for bit in bits if isinstance(bit, int)]
+    return max(used, default=1) + 1
+
+
+def _clusters(sinks: list[_Sink], limit: float) -> list[list[_Sink]]:
+    """As few clusters as the limit allows, evenly filled."""
+    total = sum(sink.load for sink in sinks)
+    share = total / max(1, -(-total // limit))
+    clusters: list[list[_Sink]] = [[]]
+    filled = 0.0
+    for sink in sinks:
+        if clusters[-1] and filled + sink.load > share * 1.0001:
+            clusters.append([])
+            filled = 0.0
+        clusters[-1].append(sink)
+        filled += sink.load
+    return clusters
+
+
+def _smallest(buffers: list[Buffer], load: float) -> Buffer:
+    return next((buffer for buffer in buffers if buffer.max_load_ff * TREE_LOAD_SHARE >= load), buffers[-1])
+
+
+def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[str, str], float],
+                        skip: set[int]) -> None:
+    """Buffers every overloaded net of a module; `skip` are clock nets."""
+    wire = library.wire_ff_per_sink
+    buffers = library.buffers
+    leaf = buffers[-2] if len(buffers) > 2 else buffers[-1]
+    port_drive = buffers[0].max_load_ff
+    nets = _sinks(module, pin_load, wire)
+    fresh = _next_net(module)
+    for net, maximum in list(_drivers(module, library, port_drive)):
+        sinks = nets.get(net, [])
+        level = 0
+        while (net not in skip and len(sinks) > 1
+               and sum(sink.load for sink in sinks) > maximum * TREE_LOAD_SHARE):
+            parents = []
+            for cluster in _clusters(sinks, leaf.max_load_ff * TREE_LOAD_SHARE):
+                buffer = _smallest(buffers, sum(sink.load for sink in cluster))
+                for sink in cluster:
+                    sink.bits[sink.index] = fresh
+                cell = {"hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
+                        "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
+                        "connections": {buffer.input_pin: [net], buffer.output_pin: [fresh]}}
+                module["cells"][f"fanout_{net}_{fresh}"] = cell
+                parents.append(_Sink(cell["connections"][buffer.input_pin], 0, buffer.input_ff + wire))
+                fresh += 1
+            if len(parents) == 1 and level > 0:
+                break
+            sinks = parents
+            level += 1
+
+
+def clock_nets(module: Module) -> set[int]:
+    return {bit for name, port in module["ports"].items() if name.startswith("clk") for bit in port["bits"]}
+
+
+def port_loads(module: Module, pin_load: Callable[[str, str], float], wire: float) -> dict[str, list[float]]:
+    """Load behind each bit of each input port, fF."""
+    nets = _sinks(module, pin_load, wire)
+    return {name: [sum(sink.load for sink in nets.get(bit, [])) if isinstance(bit, int) else 0.0
+                   for bit in port["bits"]]
+            for name, port in module["ports"].items() if port["direction"] == "input"}
+
+
+def finish(design: dict, library: Library, macro_pin_ff: float) -> dict[str, list[float]]:
+    """Inserts the fan-out trees of column and top; returns the load of the column's input ports."""
+    column = modules(design)[column_module(design)]
+    wire = library.wire_ff_per_sink
+
+    def cell_load(kind: str, pin: str) -> float:
+        return library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
+
+    insert_fanout_trees(column, library, cell_load, clock_nets(column))
+    loads = port_loads(column, cell_load, wire)
+    mean = {port: max(values, default=0.0) for port, values in loads.items()}
+    name = column_module(design)
+
+    def top_load(kind: str, pin: str) -> float:
+        return mean.get(pin, 0.0) if kind == name else cell_load(kind, pin)
+
+    array = top(design)
+    insert_fanout_trees(array, library, top_load, clock_nets(array))
+    return loads
+
+
+def keep_columns(design: dict, kept: int) -> None:
+    """Replaces all columns but the first `kept - 1` and the last by stubs of the same load."""
+    name = column_module(design)
+    columns = [cell for cell in top(design)["cells"].values() if cell["type"] == name]
+    for cell in columns[max(kept - 1, 1):-1]:
+        cell["type"] = STUB
+    stub = {"attributes": {"blackbox": "1"}, "cells": {}, "netnames": {},
+            "ports": modules(design)[name]["ports"]}
+    modules(design)[STUB] = stub
+
+
+def stub_liberty(design: dict, loads: dict[str, list[float]], voltage: float) -> str:
+    """Liberty of the stub: the column's ports with their loads, no arcs."""
+    library = Group("library", [STUB], [("delay_model", "table_lookup"), ("time_unit", '"1ns"'),
+                                        ("voltage_unit", '"1V"'), ("current_unit", '"1mA"'),
+                                        ("capacitive_load_unit", ["1", "ff"]),
+                                        ("nom_voltage", f"{voltage}"), *THRESHOLDS])
+    ports = modules(design)[column_module(design)]["ports"]
+    spans = {(len(port["bits"]), port.get("offset", 0)) for port in ports.values()}
+    library.groups += [bus_type(width, offset) for width, offset in sorted(spans)]
+    cell = library.add(Group("cell", [STUB], [("area", "0"), ("interface_timing", "true")]))
+    for port, description in ports.items():
+        width, offset = len(description["bits"]), description.get("offset", 0)
+        load = max(loads.get(port, [0.0]))
+        attributes: list[tuple[str, str | list[str]]] = [("direction", description["direction"])]
+        if description["direction"] == "input":
+            attributes.append(("capacitance", f"{load:.4f}"))
+        if width == 1 and not offset:
+            cell.add(Group("pin", [port], attributes))
+        else:
+            cell.add(Group("bus", [port], [("bus_type", f"bits_{width}_{offset}"), *attributes]))
+    return library.write() + "\n"
