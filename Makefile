@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+# make            install what is missing, build, read one scene out through the RTL of every read-out, report
+# make test       every test and the lint
+# make sim        the main job without the installation step
+# make synth      area, timing and power of every configuration
+# make lint       RTL in three tools, C++ format and static analysis
+# make bench      speed of RTL, models and photon model
+# make clean      remove build/
+BUILD := build/cpp
+SEED ?= 1
+SHARED_DATA ?= ../shared/data
+DTOF := $(BUILD)/app/dtof
+
+.DEFAULT_GOAL := all
+.PHONY: all packages configure build sim report test lint bench clean
+
+all: packages sim report
+
+packages:
+	@scripts/install_packages.sh
+
+configure: packages
+	@cmake -S tb_cpp -B $(BUILD) -G Ninja > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+
+build: | build_folder
+	@$(MAKE) --no-print-directory configure
+	@ninja -C $(BUILD) dtof
+
+build_folder:
+	@mkdir -p build
+
+sim: build
+	@SEED=$(SEED) SHARED_DATA=$(SHARED_DATA) scripts/simulate.sh $(DTOF)
+
+report:
+	@scripts/print_report.sh
+
+test: | build_folder
+	@$(MAKE) --no-print-directory configure
+	@ninja -C $(BUILD)
+	@scripts/lint.sh
+	@scripts/run_tests.sh $(BUILD)
+
+lint: | build_folder
+	@$(MAKE) --no-print-directory configure
+	@scripts/lint.sh --static-analysis
+
+bench: | build_folder
+	@$(MAKE) --no-print-directory configure
+	@ninja -C $(BUILD) dtof_bench
+	@$(BUILD)/bench/dtof_bench
+
+clean:
+	rm -rf build
+
+-include synth/synth.mk

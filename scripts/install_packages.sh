@@ -1,0 +1,36 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Installs the Debian packages the project needs, if any is missing: with apt-get as root, else with sudo.
+# Where neither works it names the missing packages and fails.
+set -euo pipefail
+
+packages=(
+  # C++ build
+  cmake ninja-build g++ ccache pkg-config make
+  libcli11-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev librandom123-dev
+  libboost-dev libmatio-dev libpng-dev libcairo2-dev zlib1g-dev libtbb-dev
+  # RTL: simulation, lint, synthesis, timing
+  verilator yosys iverilog opensta qflow-tech-osu018
+  # scripts, plots, checks
+  python3 python3-numpy gnuplot-nox clang-format clang-tidy
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if [ "$(id -u)" -eq 0 ]; then
+  as_root=()
+elif command -v sudo >/dev/null && sudo -n true 2>/dev/null || { [ -t 0 ] && command -v sudo >/dev/null; }; then
+  as_root=(sudo)
+else
+  echo "error: missing Debian packages, and neither root nor sudo to install them: ${missing[*]}" >&2
+  exit 1
+fi
+
+echo "Installing: ${missing[*]}"
+export DEBIAN_FRONTEND=noninteractive
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -1,0 +1,98 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the RTL of every named configuration with Verilator -Wall, Yosys and Icarus Verilog.
+
+Also checks that illegal parameters stop elaboration with a sentence. Exits non-zero with the tool's message.
+"""
+
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+HDL = ROOT / "hdl"
+sys.path.insert(0, str(ROOT / "synth"))
+
+from dtof_synth.configuration import load  # noqa: E402
+
+COLUMNS = 2  # enough to see every connection between columns
+ILLEGAL = {  # parameters and a word of the sentence that must appear
+    "NP=2": "NP must be",
+    "NB=11": "NB must be",
+    "SRAM_NUM=0": "SRAM_NUM must be",
+    "COUNT_WIDTH=17": "COUNT_WIDTH must be",
+    "POINTER_STEP=512": "POINTER_STEP must be",
+    "READOUT=8": "READOUT must be",
+    "CONFIDENCE_WIDTH=9": "CONFIDENCE_WIDTH must be",
+    "FRACTION_BITS=7": "FRACTION_BITS must be",
+    "POINTER_PORTS=3": "POINTER_PORTS must be",
+}
+
+
+def source_files() -> list[str]:
+    """RTL files of the file list, without options and waivers."""
+    lines = (HDL / "dtof.f").read_text().split()
+    return [line for line in lines if line.endswith(".sv")]
+
+
+def verilator(parameters: dict[str, int]) -> list[str]:
+    overrides = [f"-G{name}={value}" for name, value in parameters.items()]
+    return ["verilator", "--lint-only", "-Wall", "-f", "dtof.f", "--top-module", "dtof_array", *overrides]
+
+
+def yosys(parameters: dict[str, int]) -> list[str]:
+    settings = " ".join(f"-set {name} {value}" for name, value in parameters.items())
+    script = (
+        f"read_verilog -sv -Ipackage {' '.join(source_files())}; chparam {settings} dtof_array; "
+        "hierarchy -check -top dtof_array; proc; check -assert"
+    )
+    return ["yosys", "-q", "-p", script]
+
+
+def icarus(parameters: dict[str, int]) -> list[str]:
+    overrides = [f"-Pdtof_array.{name}={value}" for name, value in parameters.items()]
+    return ["iverilog", "-g2012", "-Ipackage", "-t", "null", "-s", "dtof_array", *overrides, *source_files()]
+
+
+def run(command: list[str]) -> subprocess.CompletedProcess:
+    return subprocess.run(command, cwd=HDL, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def check_legal(name: str, parameters: dict[str, int]) -> list[str]:
+    failures = []
+    for tool in (verilator, yosys, icarus):
+        result = run(tool(parameters))
+        if result.returncode != 0:
+            failures.append(f"{tool.__name__} refuses configuration {name}:\n{result.stdout}")
+    return failures
+
+
+def check_illegal(setting: str, sentence: str) -> list[str]:
+    name, value = setting.split("=")
+    result = run(verilator({name: int(value)}))
+    if result.returncode == 0 or sentence not in result.stdout:
+        return [f"illegal {setting} does not stop elaboration with '{sentence}':\n{result.stdout}"]
+    return []
+
+
+def main() -> int:
+    configurations = load(ROOT / "configurations.toml").values()
+    with ThreadPoolExecutor(max_workers=2) as pool:
+        legal = pool.map(
+            lambda c: check_legal(c.name, c.rtl_parameters() | {"SRAM_NUM": COLUMNS}), configurations
+        )
+        illegal = pool.map(lambda item: check_illegal(*item), ILLEGAL.items())
+        failures = [text for group in (*legal, *illegal) for text in group]
+    for text in failures:
+        print(text, file=sys.stderr)
+    if not failures:
+        print(
+            f"RTL lint: {len(configurations)} configurations clean in Verilator, Yosys and Icarus Verilog; "
+            f"{len(ILLEGAL)} illegal parameters refused"
+        )
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

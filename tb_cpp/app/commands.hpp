@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace dtof {
+
+/// Each adds its subcommand, which runs when the command line is parsed. `command_line` is the whole command
+/// line as typed, for reports; it must outlive the parsing.
+void add_frame_command(CLI::App& app, const std::string& command_line);
+void add_replay_command(CLI::App& app, const std::string& command_line);
+void add_accuracy_command(CLI::App& app, const std::string& command_line);
+void add_list_command(CLI::App& app);
+
+}  // namespace dtof

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <numeric>
+
+#include "app/columns.hpp"
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/output_folder.hpp"
+#include "app/readout_run.hpp"
+#include "app/table.hpp"
+#include "core/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/colour_png.hpp"
+#include "io/depth_image.hpp"
+#include "io/ply.hpp"
+#include "io/result_csv.hpp"
+#include "io/stream_csv.hpp"
+#include "metrics/depth.hpp"
+#include "metrics/error_statistics.hpp"
+#include "photon/photon_source.hpp"
+#include "scene/scene.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+struct FrameOptions {
+  ReadoutOptions readout;
+  RunOptions run;
+  SensorOptions sensor;
+  std::string scene = "room";
+  std::string depth_file;
+  SceneParameters scene_parameters;
+  std::optional<double> reflectivity;
+  std::string out = "build/frame";
+  std::string record;
+  std::string command_line;
+};
+
+/// What one read-out made of the frame, over the columns read.
+struct MeasuredFrame {
+  ReadoutParameters parameters;
+  ReadoutRun run;
+  DepthImage depth;
+  DepthImage error;
+};
+
+TargetMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
+  SceneParameters parameters = options.scene_parameters;
+  parameters.reflectivity = options.reflectivity.value_or(sensor.default_reflectivity);
+  if (!options.depth_file.empty()) {
+    const DepthImage image = read_depth_image(options.depth_file);
+    return scene_from_depth_image(image.width, image.height, image.metres, parameters.columns,
+                                  parameters.rows, parameters.reflectivity);
+  }
+  return make_scene(parse_scene(options.scene), parameters);
+}
+
+DepthImage true_depth(const TargetMap& targets, std::span<const int> columns) {
+  DepthImage image{static_cast<int>(columns.size()), targets.rows(), {}};
+  for (int row = 0; row < targets.rows(); ++row) {
+    for (const int column : columns) {
+      const PixelTarget& target = targets.at(column, row);
+      image.metres.push_back(target.returns_signal() ? static_cast<float>(target.depth_m) : kUnknown);
+    }
+  }
+  return image;
+}
+
+MeasuredFrame measure(const PhotonSource& source, const ReadoutParameters& parameters,
+                      const FrameOptions& options, std::span<const int> columns, const DepthImage& truth) {
+  MeasuredFrame frame;
+  frame.parameters = parameters;
+  frame.run = run_readout(source, parameters, options.run, columns, options.command_line);
+  const SensorModel& sensor = source.model();
+  const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
+  frame.depth = truth;
+  frame.error = truth;
+  for (std::size_t i = 0; i < truth.metres.size(); ++i) {
+    const auto depth =
+        static_cast<float>(scale.depth(code_position(frame.run.results[i], parameters.fraction_bits)));
+    frame.depth.metres[i] = std::max(depth, 0.0F);
+    frame.error.metres[i] = depth - truth.metres[i];
+  }
+  return frame;
+}
+
+void write_readout_files(const MeasuredFrame& frame, std::span<const int> columns,
+                         const ColourRange& depth_range, const std::filesystem::path& folder) {
+  const std::string name(readout_name(frame.parameters.readout));
+  std::vector<ResultRecord> records;
+  for (std::size_t i = 0; i < frame.run.results.size(); ++i) {
+    records.push_back(
+        {columns[i % columns.size()], static_cast<int>(i / columns.size()), frame.run.results[i]});
+  }
+  write_result_csv(folder / (name + ".csv"), records);
+  write_depth_png(folder / (name + "_depth_mm.png"), frame.depth);
+  write_ply(folder / (name + ".ply"), frame.depth, depth_range);
+  const std::string title(readout_title(frame.parameters.readout));
+  write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{frame.depth, "", MapKind::kDepth}},
+                    {.title = title, .depth_range = depth_range});
+  write_map_picture(folder / (name + "_error.png"), std::vector<MapPanel>{{frame.error, "", MapKind::kError}},
+                    {.title = title + ", error"});
+}
+
+Table summarise(const std::vector<MeasuredFrame>& frames, const DepthImage& truth) {
+  Table table({"read-out", "rmse mm", "bias mm", "above 3 %", "above 10 %", "cycles", "seconds"});
+  for (const MeasuredFrame& frame : frames) {
+    ErrorStatistics statistics;
+    for (std::size_t i = 0; i < truth.metres.size(); ++i) {
+      if (!std::isnan(truth.metres[i])) {
+        statistics.add(truth.metres[i], truth.metres[i] + frame.error.metres[i]);
+      }
+    }
+    std::vector<std::string> row = {std::string(readout_title(frame.parameters.readout))};
+    if (statistics.count() == 0) {
+      row.insert(row.end(), {"-", "-", "-", "-"});
+    } else {
+      const ErrorSummary summary = statistics.summary();
+      row.insert(row.end(),
+                 {fmt::format("{:.0f}", summary.rmse_m * 1e3), fmt::format("{:.0f}", summary.bias_m * 1e3),
+                  fmt::format("{:.2f} %", summary.share_above_3_percent * 100.0),
+                  fmt::format("{:.2f} %", summary.share_above_10_percent * 100.0)});
+    }
+    row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
+    row.push_back(fmt::format("{:.2f}", frame.run.seconds));
+    table.add(row);
+  }
+  return table;
+}
+
+void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& truth,
+                    const ColourRange& depth_range, const FrameOptions& options) {
+  std::vector<MapPanel> depths = {{truth, "true depth", MapKind::kDepth}};
+  std::vector<MapPanel> errors;
+  for (const MeasuredFrame& frame : frames) {
+    const std::string title(readout_title(frame.parameters.readout));
+    depths.push_back({frame.depth, title, MapKind::kDepth});
+    errors.push_back({frame.error, title, MapKind::kError});
+  }
+  const std::filesystem::path folder(options.out);
+  const std::string title = fmt::format("{}, {} klux, preset {}, engine {}",
+                                        options.depth_file.empty() ? options.scene : options.depth_file,
+                                        options.sensor.klux, options.sensor.preset, options.run.engine);
+  const int pixel_size = truth.width >= 100 ? 2 : 0;
+  write_map_picture(folder / "overview.png", depths,
+                    {.title = "Depth: " + title,
+                     .caption = options.command_line,
+                     .panels_per_row = 3,
+                     .pixel_size = pixel_size,
+                     .depth_range = depth_range});
+  write_map_picture(folder / "errors.png", errors,
+                    {.title = "Error: " + title,
+                     .caption = options.command_line,
+                     .panels_per_row = 3,
+                     .pixel_size = pixel_size,
+                     .largest_error = 0.25});
+}
+
+void run_frame_command(const FrameOptions& options) {
+  options.run.validate();
+  const std::vector<ReadoutParameters> readouts = options.readout.parameters();
+  if (!options.run.trace.empty() && readouts.size() != 1) {
+    throw InputError("--trace needs exactly one read-out");
+  }
+  const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
+  const PhotonSource source(sensor, make_targets(options, sensor), options.sensor.klux, options.run.seed);
+  std::vector<int> columns = parse_columns(options.run.columns, source.columns());
+  if (columns.empty()) {
+    columns.resize(static_cast<std::size_t>(source.columns()));
+    std::iota(columns.begin(), columns.end(), 0);
+  }
+  create_output_folder(options.out);
+  const DepthImage truth = true_depth(source.targets(), columns);
+  const ColourRange range = depth_range(std::vector<MapPanel>{{truth, "", MapKind::kDepth}});
+  if (!options.record.empty()) {
+    write_stream_csv(options.record, source);
+  }
+  std::vector<MeasuredFrame> frames;
+  for (const ReadoutParameters& parameters : readouts) {
+    frames.push_back(measure(source, parameters, options, columns, truth));
+    write_readout_files(frames.back(), columns, range, options.out);
+  }
+  write_overview(frames, truth, range, options);
+  const Table table = summarise(frames, truth);
+  const std::string heading =
+      fmt::format("Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, engine {}{}, seed {}.\n",
+                  options.depth_file.empty() ? options.scene : options.depth_file, truth.width, truth.height,
+                  options.sensor.klux, options.sensor.preset, sensor.acquisitions, options.run.engine,
+                  options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
+  write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
+  write_file(std::filesystem::path(options.out) / "summary.md",
+             fmt::format("{}\n{}\nCommand: `{}`\n", heading, table.markdown(), options.command_line));
+  fmt::print("{}\n{}\nDepth maps, error maps, point clouds and CSV are in {}\n", heading, table.markdown(),
+             options.out);
+}
+
+}  // namespace
+
+void add_frame_command(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<FrameOptions>();
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand(
+      "frame", "One frame of a scene: photons, TDC stream, read-out, depth map with errors");
+  auto* scene = command->add_option_group("scene");
+  scene->add_option("--scene", options->scene, "flat, staircase, plane or room")->capture_default_str();
+  scene->add_option("--depth", options->depth_file,
+                    "depth image instead of a scene: 16-bit PNG in millimetres, or PFM in metres");
+  scene->add_option("--array-columns", options->scene_parameters.columns, "columns of the array")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  scene->add_option("--array-rows", options->scene_parameters.rows, "rows of the array (pixels a column)")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  scene->add_option("--distance", options->scene_parameters.distance_m, "flat: distance in m")
+      ->capture_default_str();
+  scene->add_option("--near", options->scene_parameters.near_m, "staircase, plane: near end in m")
+      ->capture_default_str();
+  scene->add_option("--far", options->scene_parameters.far_m, "staircase, plane: far end in m")
+      ->capture_default_str();
+  scene->add_option("--steps", options->scene_parameters.steps, "staircase: steps")->capture_default_str();
+  scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the preset's)");
+  options->sensor.add_to(*command);
+  options->readout.add_to(*command);
+  options->run.add_to(*command);
+  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  command->add_option("--record", options->record, "also write the TDC stream as CSV, for `dtof replay`");
+  command->callback([options] { run_frame_command(*options); });
+}
+
+}  // namespace dtof

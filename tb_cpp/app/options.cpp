@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/options.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr double kNanosecond = 1e-9;
+
+template <typename T>
+void override_with(const std::optional<T>& value, T& parameter) {
+  if (value) {
+    parameter = *value;
+  }
+}
+
+}  // namespace
+
+void ReadoutOptions::add_to(CLI::App& command) {
+  auto* group = command.add_option_group("read-out");
+  group
+      ->add_option("-r,--readout", readouts,
+                   "read-outs to run: all, or names from `dtof list`, separated by commas")
+      ->take_last()
+      ->capture_default_str();
+  group->add_option("--np", np, "NP, bits of a timestamp")->capture_default_str();
+  group->add_option("--nb", nb, "NB, bits of the coarse index (default: the read-out's own)");
+  group->add_option("--slots", slots, "SLOTS, timestamps a pixel and acquisition");
+  group->add_option("--count-width", count_width, "COUNT_WIDTH, bits of a histogram bin");
+  group->add_option("--pointer-step", pointer_step, "POINTER_STEP, bins");
+  group->add_option("--fraction-bits", fraction_bits, "FRACTION_BITS of the pointer read-outs");
+  group->add_option("--confidence-width", confidence_width, "CONFIDENCE_WIDTH of the pointer read-outs");
+  group->add_option("--guard", guard, "GUARD of hisPointer's window, bins");
+  group->add_flag("--window-centred", window_centred, "WINDOW_CENTRED: SiFH's window as in Fig. 3.8");
+}
+
+std::vector<ReadoutParameters> ReadoutOptions::parameters() const {
+  std::vector<Readout> chosen;
+  for (const std::string& name : CLI::detail::split(readouts, ',')) {
+    if (name == "all") {
+      chosen.insert(chosen.end(), kAllReadouts.begin(), kAllReadouts.end());
+    } else {
+      chosen.push_back(parse_readout(name));
+    }
+  }
+  std::vector<ReadoutParameters> all;
+  for (const Readout readout : chosen) {
+    ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
+    if (readout != Readout::kHistogram) {
+      override_with(nb, parameters.nb);
+    }
+    override_with(slots, parameters.slots);
+    override_with(count_width, parameters.count_width);
+    override_with(pointer_step, parameters.pointer_step);
+    override_with(fraction_bits, parameters.fraction_bits);
+    override_with(confidence_width, parameters.confidence_width);
+    override_with(guard, parameters.guard);
+    parameters.window_centred = window_centred;
+    parameters.validate();
+    if (std::find(all.begin(), all.end(), parameters) == all.end()) {
+      all.push_back(parameters);
+    }
+  }
+  return all;
+}
+
+void RunOptions::add_to(CLI::App& command) {
+  auto* group = command.add_option_group("run");
+  group->add_option("-e,--engine", engine, "model (C++) or rtl (the Verilated hardware)")
+      ->check(CLI::IsMember({"model", "rtl"}))
+      ->capture_default_str();
+  group->add_flag("--verify", verify, "with --engine rtl: compare every pixel with the model");
+  group->add_option("--trace", trace, "with --engine rtl and one read-out: waveform file (FST)")->take_last();
+  group->add_option("-s,--seed", seed, "seed of everything random")->capture_default_str();
+  group->add_option("-j,--threads", threads, "threads, 0 = all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  group->add_option("--columns", columns, "columns to read out: all, or e.g. 0-9,20; others cost nothing")
+      ->take_last()
+      ->capture_default_str();
+}
+
+void RunOptions::validate() const {
+  if (!rtl() && (verify || !trace.empty())) {
+    throw InputError("--verify and --trace need --engine rtl");
+  }
+}
+
+void SensorOptions::add_to(CLI::App& command) {
+  auto* group = command.add_option_group("sensor and light");
+  group->add_option("-p,--preset", preset, "thesis or phone")->capture_default_str();
+  group->add_option("-k,--klux", klux, "background light in klux")->capture_default_str();
+  group->add_option("-a,--acquisitions", acquisitions, "laser pulses a frame (default: the preset's)");
+  group->add_option("--dead-time", dead_time_ns, "dead time of a pixel in ns");
+  group->add_option("--binning", binning, "B: blocks of B x B pixels share one stream")
+      ->capture_default_str();
+  group->add_option("--gate", time_gate_ns, "time gate, BEGIN END in ns")->expected(2);
+  group->add_option("--coincidence", coincidence_ns, "coincidence window in ns");
+}
+
+SensorModel SensorOptions::model(int np, int slots) const {
+  SensorModel sensor = parse_preset(preset);
+  sensor.np = np;
+  sensor.slots = slots;
+  override_with(acquisitions, sensor.acquisitions);
+  if (dead_time_ns) {
+    sensor.dead_time_s = *dead_time_ns * kNanosecond;
+  }
+  sensor.binning = binning;
+  if (!time_gate_ns.empty()) {
+    sensor.time_gate = TimeGate{time_gate_ns[0] * kNanosecond, time_gate_ns[1] * kNanosecond};
+  }
+  if (coincidence_ns) {
+    sensor.coincidence_window_s = *coincidence_ns * kNanosecond;
+  }
+  sensor.validate();
+  return sensor;
+}
+
+}  // namespace dtof

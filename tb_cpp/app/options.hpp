@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/parameters.hpp"
+#include "photon/preset.hpp"
+
+namespace dtof {
+
+/// --readout and the overrides of its parameters.
+struct ReadoutOptions {
+  std::string readouts = "all";  ///< names separated by commas
+  int np = 10;
+  std::optional<int> nb;
+  std::optional<int> slots;
+  std::optional<int> count_width;
+  std::optional<int> pointer_step;
+  std::optional<int> fraction_bits;
+  std::optional<int> confidence_width;
+  std::optional<int> guard;
+  bool window_centred = false;
+
+  void add_to(CLI::App& command);
+  /// One set of parameters a read-out asked for; "all" is every read-out. Throws InputError.
+  [[nodiscard]] std::vector<ReadoutParameters> parameters() const;
+};
+
+/// Which engine runs, how, and what is random.
+struct RunOptions {
+  std::string engine = "model";
+  bool verify = false;
+  std::string trace;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string columns = "all";
+
+  void add_to(CLI::App& command);
+  /// Throws InputError for contradictory options.
+  void validate() const;
+  [[nodiscard]] bool rtl() const { return engine == "rtl"; }
+};
+
+/// Light, sensor and the improvement methods of thesis section 2.2.4.
+struct SensorOptions {
+  std::string preset = "thesis";
+  double klux = 14.0;
+  std::optional<std::uint32_t> acquisitions;
+  std::optional<double> dead_time_ns;
+  int binning = 1;
+  std::vector<double> time_gate_ns;
+  std::optional<double> coincidence_ns;
+
+  void add_to(CLI::App& command);
+  /// The preset with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
+  [[nodiscard]] SensorModel model(int np, int slots) const;
+};
+
+}  // namespace dtof

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "io/histogram_stream.hpp"
+#include "io/npy.hpp"
+#include "io/photon_times_mat.hpp"
+#include "io/stream_csv.hpp"
+#include "io/tmf8820_json.hpp"
+#include "io/tmf8829_json.hpp"
+
+namespace dtof {
+namespace {
+
+std::string format_of(const RecordingOptions& options) {
+  if (options.format != "auto") {
+    return options.format;
+  }
+  const std::string& file = options.file;
+  if (file.ends_with(".csv")) {
+    return "csv";
+  }
+  if (file.ends_with(".npy")) {
+    return "npy";
+  }
+  if (file.ends_with(".mat")) {
+    return "mat";
+  }
+  if (file.ends_with(".json") || file.ends_with(".json.gz")) {
+    return file.find("8829") == std::string::npos ? "tmf8820" : "tmf8829";
+  }
+  throw InputError(fmt::format("{}: unknown kind of recording; name it with --format", file));
+}
+
+Recording from_cube(HistogramCube cube, const Resampling& resampling, std::string what) {
+  Recording recording;
+  recording.true_distance = cube.true_distance;
+  recording.description = std::move(what);
+  recording.source = std::make_unique<HistogramStream>(std::move(cube), resampling);
+  return recording;
+}
+
+}  // namespace
+
+Recording open_recording(const RecordingOptions& options) {
+  const std::string format = format_of(options);
+  Resampling resampling = options.resampling;
+  if (options.acquisitions) {
+    resampling.acquisitions = *options.acquisitions;
+  }
+  if (format == "csv") {
+    auto stream = std::make_unique<RecordedStream>(read_stream_csv(
+        options.file,
+        {.np = resampling.np, .slots = resampling.slots, .acquisitions = options.acquisitions}));
+    Recording recording;
+    recording.description = fmt::format("recorded stream, {} detections", stream->detection_count());
+    recording.source = std::move(stream);
+    return recording;
+  }
+  if (format == "tmf8820") {
+    const std::vector<Tmf8820Capture> captures = read_tmf8820_json(options.file);
+    return from_cube(tmf8820_cube(captures), resampling,
+                     fmt::format("ams TMF8820, {} captures of 9 zones", captures.size()));
+  }
+  if (format == "tmf8829") {
+    const std::vector<Tmf8829Frame> frames = read_tmf8829_json(options.file);
+    return from_cube(tmf8829_cube(frames), resampling, fmt::format("ams TMF8829, {} frames", frames.size()));
+  }
+  if (format == "npy") {
+    if (!options.bin_width_s) {
+      throw InputError(fmt::format("{}: an NPY histogram needs --bin-width", options.file));
+    }
+    return from_cube(histogram_cube(read_npy(options.file), *options.bin_width_s), resampling,
+                     "histogram cube");
+  }
+  PhotonTimes photons = read_photon_times_mat(options.file, options.variable);
+  Recording recording;
+  recording.description = fmt::format("photon times, {} photons of {} x {} pixels", photons.ticks.size(),
+                                      photons.columns, photons.rows);
+  recording.source = std::make_unique<PhotonTimesStream>(std::move(photons), options.tick_s, resampling);
+  return recording;
+}
+
+}  // namespace dtof

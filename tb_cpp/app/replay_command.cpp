@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "app/columns.hpp"
+#include "app/commands.hpp"
+#include "app/options.hpp"
+#include "app/output_folder.hpp"
+#include "app/plot.hpp"
+#include "app/readout_run.hpp"
+#include "app/recording.hpp"
+#include "app/table.hpp"
+#include "core/error.hpp"
+#include "io/atomic_file.hpp"
+#include "io/result_csv.hpp"
+#include "metrics/depth.hpp"
+#include "metrics/error_statistics.hpp"
+
+namespace dtof {
+namespace {
+
+struct ReplayOptions {
+  ReadoutOptions readout;
+  RunOptions run;
+  RecordingOptions recording;
+  double shift_ns = 0.0;
+  double bin_width_ps = 0.0;
+  double tick_ps = 8.0;
+  double t_int_ns = 45.0;
+  std::optional<double> photons;
+  std::string out = "build/replay";
+  std::string command_line;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Distances of one read-out against the recording's truth.
+struct Comparison {
+  std::string title;
+  std::vector<double> true_m;
+  std::vector<double> measured_m;  ///< the median difference to truth is removed: the sensor's own offset
+  double offset_m = 0.0;
+};
+
+Comparison compare(const Recording& recording, const ReadoutParameters& parameters, const ReadoutRun& run,
+                   std::span<const int> columns, double t_int_s) {
+  // No pulse width is subtracted: the recording's zero distance is part of the offset.
+  const DepthScale scale(t_int_s, parameters.np, 0.0);
+  Comparison comparison;
+  comparison.title = readout_title(parameters.readout);
+  std::vector<double> differences;
+  const auto width = static_cast<std::size_t>(recording.source->columns());
+  for (std::size_t i = 0; i < run.results.size(); ++i) {
+    const std::size_t pixel =
+        i / columns.size() * width + static_cast<std::size_t>(columns[i % columns.size()]);
+    const double truth = recording.true_distance[pixel];
+    if (!std::isnan(truth)) {
+      comparison.true_m.push_back(truth);
+      comparison.measured_m.push_back(scale.depth(code_position(run.results[i], parameters.fraction_bits)));
+      differences.push_back(comparison.measured_m.back() - truth);
+    }
+  }
+  if (differences.empty()) {
+    throw InputError("the chosen columns have no true distance");
+  }
+  comparison.offset_m = median(differences);
+  for (double& measured : comparison.measured_m) {
+    measured -= comparison.offset_m;
+  }
+  return comparison;
+}
+
+double rms_error(const Comparison& comparison) {
+  RunningMoments error;
+  for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
+    error.add(comparison.measured_m[i] - comparison.true_m[i]);
+  }
+  return std::sqrt(error.mean_square());
+}
+
+double median_error(const Comparison& comparison) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
+    errors.push_back(std::abs(comparison.measured_m[i] - comparison.true_m[i]));
+  }
+  return median(errors);
+}
+
+Table summarise(const std::vector<Comparison>& comparisons) {
+  Table table({"read-out", "slope", "rms error mm", "median error mm", "offset mm", "measurements"});
+  for (const Comparison& comparison : comparisons) {
+    const LinearFit fit = fit_line(comparison.true_m, comparison.measured_m);
+    table.add({comparison.title, fmt::format("{:.3f}", fit.slope),
+               fmt::format("{:.1f}", rms_error(comparison) * 1e3),
+               fmt::format("{:.1f}", median_error(comparison) * 1e3),
+               fmt::format("{:.0f}", comparison.offset_m * 1e3),
+               fmt::format("{}", comparison.true_m.size())});
+  }
+  return table;
+}
+
+/// Median measured distance in about ten groups of true distance.
+Table distances_against_truth(const std::vector<Comparison>& comparisons) {
+  constexpr double kGroups = 10.0;
+  std::vector<std::string> header = {"true mm"};
+  for (const Comparison& comparison : comparisons) {
+    header.push_back(comparison.title);
+  }
+  Table table(header);
+  const auto [lowest, highest] =
+      std::minmax_element(comparisons.front().true_m.begin(), comparisons.front().true_m.end());
+  const double first = *lowest;
+  const double width = std::max((*highest - first) / kGroups, 1e-3);
+  std::map<int, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < comparisons.front().true_m.size(); ++i) {
+    groups[static_cast<int>((comparisons.front().true_m[i] - first) / width)].push_back(i);
+  }
+  for (const auto& [group, members] : groups) {
+    std::vector<double> truths;
+    for (const std::size_t i : members) {
+      truths.push_back(comparisons.front().true_m[i]);
+    }
+    std::vector<std::string> row = {fmt::format("{:.0f}", median(truths) * 1e3)};
+    for (const Comparison& comparison : comparisons) {
+      std::vector<double> errors;
+      for (const std::size_t i : members) {
+        errors.push_back(comparison.measured_m[i] - comparison.true_m[i]);
+      }
+      row.push_back(fmt::format("{:.0f}", (median(truths) + median(errors)) * 1e3));
+    }
+    table.add(row);
+  }
+  return table;
+}
+
+void write_comparison(const std::vector<Comparison>& comparisons, const ReplayOptions& options,
+                      const std::string& heading) {
+  const std::filesystem::path folder(options.out);
+  const Table summary = summarise(comparisons);
+  const Table distances = distances_against_truth(comparisons);
+  Table measurements({"true_mm", "readout", "measured_mm"});
+  std::vector<PlotSeries> series;
+  for (const Comparison& comparison : comparisons) {
+    PlotSeries& line = series.emplace_back(PlotSeries{comparison.title, {}, {}});
+    std::map<double, std::vector<double>> by_truth;
+    for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
+      measurements.add({fmt::format("{:.1f}", comparison.true_m[i] * 1e3), comparison.title,
+                        fmt::format("{:.1f}", comparison.measured_m[i] * 1e3)});
+      by_truth[comparison.true_m[i] * 1e3].push_back(comparison.measured_m[i] * 1e3);
+    }
+    for (const auto& [truth, measured] : by_truth) {
+      line.x.push_back(truth);
+      line.y.push_back(median(measured));
+    }
+  }
+  write_file(folder / "summary.csv", summary.csv());
+  write_file(folder / "measurements.csv", measurements.csv());
+  write_file(folder / "summary.md",
+             fmt::format("{}\n{}\nMeasured distance in mm (median of each group of true distances):\n\n{}\n"
+                         "Command: `{}`\n",
+                         heading, summary.markdown(), distances.markdown(), options.command_line));
+  write_plot(folder / "distance.svg", series,
+             {.title = "Measured against true distance: " + options.recording.file,
+              .x_label = "true distance, mm",
+              .y_label = "measured distance, mm"});
+  fmt::print("{}\n{}\nMeasured distance in mm (median of each group of true distances):\n\n{}\n", heading,
+             summary.markdown(), distances.markdown());
+}
+
+void run_replay_command(const ReplayOptions& options) {
+  options.run.validate();
+  const std::vector<ReadoutParameters> readouts = options.readout.parameters();
+  if (!options.run.trace.empty() && readouts.size() != 1) {
+    throw InputError("--trace needs exactly one read-out");
+  }
+  RecordingOptions recording_options = options.recording;
+  recording_options.tick_s = options.tick_ps * 1e-12;
+  if (options.bin_width_ps > 0.0) {
+    recording_options.bin_width_s = options.bin_width_ps * 1e-12;
+  }
+  Resampling& resampling = recording_options.resampling;
+  resampling.np = options.readout.np;
+  resampling.slots = readouts.front().slots;
+  resampling.integration_time = options.t_int_ns * 1e-9;
+  resampling.time_shift = options.shift_ns * 1e-9;
+  resampling.photon_budget = options.photons;
+  resampling.seed = options.run.seed;
+  const Recording recording = open_recording(recording_options);
+  std::vector<int> columns = parse_columns(options.run.columns, recording.source->columns());
+  if (columns.empty()) {
+    columns.resize(static_cast<std::size_t>(recording.source->columns()));
+    std::iota(columns.begin(), columns.end(), 0);
+  }
+  create_output_folder(options.out);
+  std::vector<Comparison> comparisons;
+  for (const ReadoutParameters& parameters : readouts) {
+    const ReadoutRun run =
+        run_readout(*recording.source, parameters, options.run, columns, options.command_line);
+    std::vector<ResultRecord> records;
+    for (std::size_t i = 0; i < run.results.size(); ++i) {
+      records.push_back({columns[i % columns.size()], static_cast<int>(i / columns.size()), run.results[i]});
+    }
+    write_result_csv(
+        std::filesystem::path(options.out) / fmt::format("{}.csv", readout_name(parameters.readout)),
+        records);
+    if (!recording.true_distance.empty()) {
+      comparisons.push_back(compare(recording, parameters, run, columns, resampling.integration_time));
+    }
+  }
+  const std::string heading = fmt::format(
+      "{} ({}): {} columns x {} rows, {} acquisitions{}, engine {}{}, seed {}.\n", options.recording.file,
+      recording.description, columns.size(), recording.source->rows(), recording.source->acquisitions(),
+      options.photons ? fmt::format(", thinned to {:g} photons a pixel and frame", *options.photons) : "",
+      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
+  if (comparisons.empty()) {
+    fmt::print("{}", heading);
+  } else {
+    write_comparison(comparisons, options, heading);
+  }
+  fmt::print("Results are in {}\n", options.out);
+}
+
+}  // namespace
+
+void add_replay_command(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<ReplayOptions>();
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand(
+      "replay",
+      "Reads out recorded data: TDC streams (CSV), histograms (NPY, TMF8820, TMF8829), photon times (MAT)");
+  command->add_option("file", options->recording.file, "recording")->required();
+  command->add_option("--format", options->recording.format, "kind of file")
+      ->check(CLI::IsMember({"auto", "csv", "npy", "mat", "tmf8820", "tmf8829"}))
+      ->capture_default_str();
+  command->add_option("-a,--acquisitions", options->recording.acquisitions,
+                      "laser pulses a frame (default: CSV: the last one recorded, else 3333)");
+  command->add_option("--photons", options->photons,
+                      "measured data: thin to this mean number of photons a pixel and frame");
+  command
+      ->add_option("--background", options->recording.resampling.background,
+                   "measured data: background events to add per acquisition and T_int")
+      ->capture_default_str();
+  command->add_option("--shift", options->shift_ns, "measured data: ns to add to every time")
+      ->capture_default_str();
+  command->add_option("--t-int", options->t_int_ns, "T_int in ns; T_res = T_int / 2^NP")
+      ->capture_default_str();
+  command->add_option("--bin-width", options->bin_width_ps, "NPY: width of a bin in ps");
+  command->add_option("--tick", options->tick_ps, "MAT: duration of a tick in ps")->capture_default_str();
+  command->add_option("--variable", options->recording.variable, "MAT: name of the cell array")
+      ->capture_default_str();
+  options->readout.add_to(*command);
+  options->run.add_to(*command);
+  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  command->callback([options] { run_replay_command(*options); });
+}
+
+}  // namespace dtof
