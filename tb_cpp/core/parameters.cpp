@@ -17,19 +17,20 @@ struct ReadoutText {
   std::string_view summary;
 };
 
-const ReadoutText& text(Readout readout) {
-  static constexpr std::array<ReadoutText, kAllReadouts.size()> kTexts = {{
-      {"ezpointer", "ezPointer", "one pointer a pixel steps towards each timestamp: a circular median"},
-      {"hispointer1", "hisPointer v1", "coarse histogram, then the pointer starts at its peak"},
-      {"hispointer", "hisPointer", "coarse histogram, then the pointer sees only a window around its peak"},
-      {"sifh", "SiFH", "coarse histogram, then a fine histogram shifted onto its peak"},
-      {"fifh", "FiFH", "coarse histogram, then a fine histogram of exactly its peak bin"},
-      {"threesteps", "three steps", "three coarse histograms of 8 bins zoom in, then 16 fine bins"},
-      {"pifh", "PiFH", "the range is scanned partition by partition in one small histogram"},
-      {"histogram", "histogram", "all 2^NP bins of every pixel, the classical baseline"},
-  }};
-  return kTexts[static_cast<std::size_t>(readout)];
-}
+constexpr double kFwhmOverRange = 2.0 / 45.0;  // thesis: FWHM 2 ns, T_int 45 ns
+
+constexpr std::array<ReadoutText, kAllReadouts.size()> kTexts = {{
+    {"ezpointer", "ezPointer", "one pointer a pixel steps towards each timestamp: a circular median"},
+    {"hispointer1", "hisPointer v1", "coarse histogram, then the pointer starts at its peak"},
+    {"hispointer", "hisPointer", "coarse histogram, then the pointer sees only a window around its peak"},
+    {"sifh", "SiFH", "coarse histogram, then a fine histogram shifted onto its peak"},
+    {"fifh", "FiFH", "coarse histogram, then a fine histogram of exactly its peak bin"},
+    {"threesteps", "three steps", "three coarse histograms of 8 bins zoom in, then 16 fine bins"},
+    {"pifh", "PiFH", "the range is scanned partition by partition in one small histogram"},
+    {"histogram", "histogram", "all 2^NP bins of every pixel, the classical baseline"},
+}};
+
+const ReadoutText& text(Readout readout) { return kTexts[static_cast<std::size_t>(readout)]; }
 
 void require_range(std::string_view name, int value, int lowest, int highest) {
   if (value < lowest || value > highest) {
@@ -60,7 +61,6 @@ bool is_pointer_readout(Readout readout) {
 }
 
 ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
-  constexpr double kFwhmOverRange = 2.0 / 45.0;  // thesis: FWHM 2 ns, T_int 45 ns
   ReadoutParameters parameters;
   parameters.readout = readout;
   parameters.np = np;

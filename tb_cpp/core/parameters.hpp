@@ -58,7 +58,7 @@ struct ReadoutParameters {
   [[nodiscard]] int code_count() const { return 1 << np; }
   /// 2^NP - 1.
   [[nodiscard]] int no_detection() const { return (1 << np) - 1; }
-  /// E.g. "sifh NP=10 NB=6 SLOTS=2 COUNT_WIDTH=10 WINDOW_CENTRED=0".
+  /// E.g. "sifh NP=10 SLOTS=2 NB=6 COUNT_WIDTH=10 WINDOW_CENTRED=0".
   [[nodiscard]] std::string to_string() const;
 
   bool operator==(const ReadoutParameters&) const = default;

@@ -43,11 +43,13 @@ class PassCursor {
   /// Calls `apply(timestamp)` for the remaining detections of acquisitions before `end`.
   template <typename Apply>
   void advance_to(std::uint32_t end, Apply&& apply) {
-    for (; next_ != last_ && next_->acquisition < end; ++next_) {
-      if (next_->timestamp != no_detection_) {
-        apply(std::uint32_t{next_->timestamp});
+    const Detection* next = next_;  // a local stays in a register across the calls
+    for (; next != last_ && next->acquisition < end; ++next) {
+      if (next->timestamp != no_detection_) {
+        apply(std::uint32_t{next->timestamp});
       }
     }
+    next_ = next;
   }
 
  private:

@@ -12,39 +12,45 @@
 
 namespace dtof {
 
-/// Widths of a pointer word: NP integer bits and FRACTION_BITS below the point. Words are in units of
-/// 2^-fraction_bits bin and wrap.
-struct PointerFormat {
-  int integer_bits;
-  int fraction_bits;
+/// A pointer word in the model: left-aligned in 32 bits, so that the machine's wrap-around is the range's,
+/// and a distance is right or left by its sign.
+using PointerWord = std::uint32_t;
 
-  [[nodiscard]] constexpr unsigned bits() const {
-    return static_cast<unsigned>(integer_bits + fraction_bits);
+/// Eq. 3.12: the word after a timestamp at `distance` = (timestamp - word). The opposite point, the most
+/// negative distance, counts as right. Free of branches: the direction is as good as random, and
+/// mispredictions would dominate the run time.
+constexpr PointerWord pointer_move(PointerWord word, PointerWord distance, PointerWord step) {
+  const auto left = static_cast<PointerWord>(static_cast<std::int32_t>(distance - 1) >> 31);  // 0 or all ones
+  const PointerWord signed_step = (step ^ left) - left;
+  return word + (distance == 0 ? 0 : signed_step);
+}
+
+/// Where a pointer's parameters put bins, steps and fractions in a word.
+class PointerFormat {
+ public:
+  constexpr explicit PointerFormat(const ReadoutParameters& parameters)
+      : integer_bits_(static_cast<unsigned>(parameters.np)),
+        fraction_bits_(static_cast<unsigned>(parameters.fraction_bits)) {}
+
+  [[nodiscard]] constexpr unsigned fraction_bits() const { return fraction_bits_; }
+  /// Word of a number of whole bins.
+  [[nodiscard]] constexpr PointerWord word(std::uint32_t bins) const { return bins << (32 - integer_bits_); }
+  [[nodiscard]] constexpr std::uint32_t code(PointerWord word) const { return word >> (32 - integer_bits_); }
+  /// In units of 2^-fraction_bits bin.
+  [[nodiscard]] constexpr std::uint32_t fraction(PointerWord word) const {
+    return (word >> (32 - integer_bits_ - fraction_bits_)) & ((1U << fraction_bits_) - 1);
   }
-  [[nodiscard]] constexpr std::uint32_t mask() const { return (1U << bits()) - 1; }
+  /// True if the top min(5, NP + FRACTION_BITS) bits of `distance` are all 0 or all 1: the timestamp supports
+  /// the pointer.
+  [[nodiscard]] constexpr bool near(PointerWord distance) const {
+    const PointerWord reach = 1U << (32 - std::min(5U, integer_bits_ + fraction_bits_));
+    return distance + reach < 2 * reach;
+  }
+
+ private:
+  unsigned integer_bits_;
+  unsigned fraction_bits_;
 };
-
-/// Distance from the pointer to a timestamp, to the right, modulo the range.
-constexpr std::uint32_t pointer_distance(PointerFormat format, std::uint32_t word, std::uint32_t timestamp) {
-  return ((timestamp << static_cast<unsigned>(format.fraction_bits)) - word) & format.mask();
-}
-
-/// Eq. 3.12: the word after a timestamp at `distance`; `step` in word units. The opposite point counts as
-/// right.
-constexpr std::uint32_t pointer_move(PointerFormat format, std::uint32_t word, std::uint32_t distance,
-                                     std::uint32_t step) {
-  const std::uint32_t half = 1U << (format.bits() - 1);
-  const std::uint32_t right = (word + step) & format.mask();
-  const std::uint32_t left = (word - step) & format.mask();
-  const std::uint32_t moved = distance <= half ? right : left;
-  return distance == 0 ? word : moved;
-}
-
-/// True if the top min(5, width) bits of `distance` are all 0 or all 1: the timestamp supports the pointer.
-constexpr bool pointer_near(PointerFormat format, std::uint32_t distance) {
-  const std::uint32_t reach = 1U << (format.bits() - std::min(5U, format.bits()));
-  return ((distance + reach) & format.mask()) < 2 * reach;
-}
 
 /// Codes above < x <= up_to, signed, no wrap.
 struct CodeWindow {
@@ -56,44 +62,41 @@ struct CodeWindow {
 class PointerBuilder {
  public:
   explicit PointerBuilder(const ReadoutParameters& parameters)
-      : format_{parameters.np, parameters.fraction_bits},
-        step_(static_cast<std::uint32_t>(parameters.pointer_step)
-              << static_cast<unsigned>(parameters.fraction_bits)),
+      : format_(parameters),
+        step_(format_.word(static_cast<std::uint32_t>(parameters.pointer_step))),
         confidence_limit_((1U << static_cast<unsigned>(parameters.confidence_width)) - 1) {}
-
-  [[nodiscard]] PointerFormat format() const { return format_; }
 
   /// Fixes the acquisitions that move the pointer; gear g (step >> g) ends where a 2^-(g+1)th is left.
   void start_frame(AcquisitionRange measurement) {
-    for (int gear = 0; gear <= format_.fraction_bits; ++gear) {
-      const std::uint32_t left =
-          gear == format_.fraction_bits ? 0 : measurement.size() >> static_cast<unsigned>(gear + 1);
-      gear_end_[static_cast<std::size_t>(gear)] = measurement.end - left;
+    for (unsigned gear = 0; gear <= format_.fraction_bits(); ++gear) {
+      const std::uint32_t left = gear == format_.fraction_bits() ? 0 : measurement.size() >> (gear + 1);
+      gear_end_[gear] = measurement.end - left;
     }
   }
 
-  /// Starts at `word` and follows the rest of the row's detections inside `window`.
-  [[nodiscard]] PixelResult follow(PassCursor& row, std::uint32_t word, CodeWindow window) const {
+  /// Starts at code `start` and follows the rest of the row's detections inside `window`.
+  [[nodiscard]] PixelResult follow(PassCursor& row, std::uint32_t start, CodeWindow window) const {
+    const PointerFormat format = format_;
+    const std::uint32_t limit = confidence_limit_;
+    PointerWord word = format.word(start);
     std::uint32_t confidence = 0;
-    for (int gear = 0; gear <= format_.fraction_bits; ++gear) {
-      const std::uint32_t step = step_ >> static_cast<unsigned>(gear);
-      row.advance_to(gear_end_[static_cast<std::size_t>(gear)], [&](std::uint32_t timestamp) {
+    for (unsigned gear = 0; gear <= format.fraction_bits(); ++gear) {
+      const PointerWord step = step_ >> gear;
+      row.advance_to(gear_end_[gear], [&](std::uint32_t timestamp) {
         const auto code = static_cast<std::int32_t>(timestamp);
         if (code <= window.above || code > window.up_to) {
           return;
         }
-        const std::uint32_t distance = pointer_distance(format_, word, timestamp);
-        word = pointer_move(format_, word, distance, step);
-        if (pointer_near(format_, distance)) {
-          confidence += confidence < confidence_limit_ ? 1 : 0;
-        } else if ((timestamp & kFarSampleMask) == 0) {
-          confidence -= confidence > 0 ? 1 : 0;
-        }
+        const PointerWord distance = format.word(timestamp) - word;
+        word = pointer_move(word, distance, step);
+        const bool near = format.near(distance);
+        const bool counted_far = !near & ((timestamp & kFarSampleMask) == 0);
+        confidence += static_cast<std::uint32_t>(near & (confidence < limit));
+        confidence -= static_cast<std::uint32_t>(counted_far & (confidence > 0));
       });
     }
-    const std::uint32_t fraction_mask = (1U << static_cast<unsigned>(format_.fraction_bits)) - 1;
-    return {static_cast<std::uint16_t>(word >> static_cast<unsigned>(format_.fraction_bits)),
-            static_cast<std::uint16_t>(word & fraction_mask), static_cast<std::uint16_t>(confidence)};
+    return {static_cast<std::uint16_t>(format.code(word)), static_cast<std::uint16_t>(format.fraction(word)),
+            static_cast<std::uint16_t>(confidence)};
   }
 
  private:
@@ -101,7 +104,7 @@ class PointerBuilder {
   static constexpr std::size_t kMostGears = 9;        // FRACTION_BITS 0 .. 8
 
   PointerFormat format_;
-  std::uint32_t step_;
+  PointerWord step_;
   std::uint32_t confidence_limit_;
   std::array<std::uint32_t, kMostGears> gear_end_{};
 };

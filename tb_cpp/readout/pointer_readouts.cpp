@@ -10,16 +10,17 @@ namespace {
 class EzPointerPixel {
  public:
   explicit EzPointerPixel(const ReadoutParameters& parameters)
-      : pointer_(parameters), all_codes_{-1, parameters.no_detection()} {}
+      : pointer_(parameters),
+        middle_(static_cast<std::uint32_t>(parameters.code_count()) / 2),
+        all_codes_{-1, parameters.no_detection()} {}
 
   void start_frame(std::uint32_t acquisitions) { pointer_.start_frame({0, acquisitions}); }
 
-  [[nodiscard]] PixelResult read(PassCursor row) const {
-    return pointer_.follow(row, 1U << (pointer_.format().bits() - 1), all_codes_);
-  }
+  [[nodiscard]] PixelResult read(PassCursor row) const { return pointer_.follow(row, middle_, all_codes_); }
 
  private:
   PointerBuilder pointer_;
+  std::uint32_t middle_;
   CodeWindow all_codes_;
 };
 
@@ -43,8 +44,7 @@ class HisPointerPixel {
     const std::uint32_t coarse_bin = 1U << static_cast<unsigned>(coarse_.bin_shift);
     const std::uint32_t centre = coarse * coarse_bin + coarse_bin / 2;
     const auto signed_centre = static_cast<std::int32_t>(centre);
-    return pointer_.follow(row, centre << static_cast<unsigned>(pointer_.format().fraction_bits),
-                           {signed_centre - reach_, signed_centre + reach_});
+    return pointer_.follow(row, centre, {signed_centre - reach_, signed_centre + reach_});
   }
 
  private:

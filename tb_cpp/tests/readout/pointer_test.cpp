@@ -10,20 +10,25 @@
 namespace dtof {
 namespace {
 
-constexpr PointerFormat kFourBits{4, 0};
+ReadoutParameters ezpointer(int np) { return ReadoutParameters::defaults(Readout::kEzPointer, np); }
 
-std::uint32_t move(std::uint32_t word, std::uint32_t timestamp, std::uint32_t step = 1,
-                   PointerFormat format = kFourBits) {
-  return pointer_move(format, word, pointer_distance(format, word, timestamp), step);
+/// Four-bit pointer at `code` after `timestamp`.
+std::uint32_t move(std::uint32_t code, std::uint32_t timestamp, std::uint32_t step = 1) {
+  const PointerFormat format(ezpointer(4));
+  const PointerWord word = format.word(code);
+  return format.code(pointer_move(word, format.word(timestamp) - word, format.word(step)));
 }
 
-ReadoutParameters four_bit_ezpointer() { return ReadoutParameters::defaults(Readout::kEzPointer, 4); }
+bool near(int np, std::uint32_t distance) {
+  const PointerFormat format(ezpointer(np));
+  return format.near(format.word(distance));
+}
 
 TEST(PointerMove, ThesisFigure37) {
   EXPECT_EQ(move(7, 11), 8U);
   EXPECT_EQ(move(8, 9), 9U);
 
-  PointerBuilder pointer(four_bit_ezpointer());
+  PointerBuilder pointer(ezpointer(4));
   pointer.start_frame({0, 3});
   const std::vector<Detection> row = {{0, 11}, {1, 9}, {2, 15}};
   PassCursor cursor(row, 15);
@@ -44,50 +49,48 @@ TEST(PointerMove, StaysOnItsOwnCodeAndWrapsAtBothEnds) {
   EXPECT_EQ(move(1, 14, 5), 12U);
 }
 
-TEST(PointerNear, ReachIsASixteenthOfTheRangeOnEachSideHalved) {
-  constexpr PointerFormat kTenBits{10, 0};
-  EXPECT_TRUE(pointer_near(kTenBits, 0));
-  EXPECT_TRUE(pointer_near(kTenBits, 31));
-  EXPECT_FALSE(pointer_near(kTenBits, 32));
-  EXPECT_FALSE(pointer_near(kTenBits, 991));
-  EXPECT_TRUE(pointer_near(kTenBits, 992));
-  EXPECT_TRUE(pointer_near(kTenBits, 1023));
-  constexpr PointerFormat kThreeBits{3, 0};
-  EXPECT_TRUE(pointer_near(kThreeBits, 0));
-  EXPECT_FALSE(pointer_near(kThreeBits, 1));
-  EXPECT_TRUE(pointer_near(kThreeBits, 7));
+TEST(PointerNear, ASixteenthOfTheRangeAroundThePointer) {
+  EXPECT_TRUE(near(10, 0));
+  EXPECT_TRUE(near(10, 31));
+  EXPECT_FALSE(near(10, 32));
+  EXPECT_FALSE(near(10, 991));
+  EXPECT_TRUE(near(10, 992));
+  EXPECT_TRUE(near(10, 1023));
+  EXPECT_TRUE(near(3, 0));
+  EXPECT_FALSE(near(3, 1));
+  EXPECT_TRUE(near(3, 7));
 }
 
 TEST(PointerBuilder, StepHalvesByGears) {
-  ReadoutParameters parameters = four_bit_ezpointer();
+  ReadoutParameters parameters = ezpointer(4);
   parameters.fraction_bits = 2;
   PointerBuilder pointer(parameters);
   pointer.start_frame({0, 4});
   // Words in quarters from 32: full step twice, half a bin, then a quarter.
   const std::vector<Detection> row = {{0, 12}, {1, 12}, {2, 12}, {3, 12}};
   PassCursor cursor(row, 15);
-  const PixelResult result = pointer.follow(cursor, 32, {-1, 15});
+  const PixelResult result = pointer.follow(cursor, 8, {-1, 15});
   EXPECT_EQ(result.code, 10U);
   EXPECT_EQ(result.fraction, 3U);  // 32 + 4 + 4 + 2 + 1 = 43
 }
 
 TEST(PointerBuilder, GearsCountFromTheMeasurementsBegin) {
-  ReadoutParameters parameters = four_bit_ezpointer();
+  ReadoutParameters parameters = ezpointer(4);
   parameters.fraction_bits = 1;
   PointerBuilder pointer(parameters);
   pointer.start_frame({4, 8});
   const std::vector<Detection> row = {{5, 12}, {6, 12}};
   PassCursor cursor(row, 15);
-  const PixelResult result = pointer.follow(cursor, 16, {-1, 15});
+  const PixelResult result = pointer.follow(cursor, 8, {-1, 15});
   EXPECT_EQ(result.code, 9U);
   EXPECT_EQ(result.fraction, 1U);
 }
 
 TEST(PointerBuilder, ConfidenceRisesNearTheTopAndFallsByOneFarTimestampInEight) {
-  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kEzPointer, 10);
-  PointerBuilder pointer(parameters);
+  PointerBuilder pointer(ezpointer(10));
   const auto confidence_after = [&](const std::vector<Timestamp>& timestamps) {
     std::vector<Detection> row;
+    row.reserve(timestamps.size());
     for (const Timestamp timestamp : timestamps) {
       row.push_back({static_cast<std::uint32_t>(row.size()), timestamp});
     }
@@ -103,7 +106,7 @@ TEST(PointerBuilder, ConfidenceRisesNearTheTopAndFallsByOneFarTimestampInEight) 
 }
 
 TEST(PointerBuilder, NoConfidenceBitsMeansZero) {
-  ReadoutParameters parameters = four_bit_ezpointer();
+  ReadoutParameters parameters = ezpointer(4);
   parameters.confidence_width = 0;
   PointerBuilder pointer(parameters);
   pointer.start_frame({0, 2});

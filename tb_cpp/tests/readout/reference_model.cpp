@@ -190,7 +190,9 @@ class Frame {
       const std::int64_t step = p_.pointer_step * power2(p_.fraction_bits) / power2(gear);
       const std::int64_t d = modulo(detection.timestamp * power2(p_.fraction_bits) - word, range);
 
-      const std::string text = std::bitset<16>(static_cast<std::uint64_t>(d)).to_string().substr(16 - bits);
+      const std::string text = std::bitset<16>(static_cast<std::uint64_t>(d))
+                                   .to_string()
+                                   .substr(static_cast<std::size_t>(16 - bits));
       const std::string top = text.substr(0, static_cast<std::size_t>(std::min(5, bits)));
       const bool near = top.find('1') == std::string::npos || top.find('0') == std::string::npos;
       if (near) {

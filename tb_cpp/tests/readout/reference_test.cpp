@@ -13,7 +13,8 @@
 
 namespace dtof {
 
-static void PrintTo(const PixelResult& result, std::ostream* out) {
+// GoogleTest finds its printer by this name.
+static void PrintTo(const PixelResult& result, std::ostream* out) {  // NOLINT(readability-identifier-naming)
   *out << fmt::format("code {} fraction {} confidence {}", result.code, result.fraction, result.confidence);
 }
 
