@@ -2,6 +2,7 @@
 #include "photon/event_sampler.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/random/exponential_distribution.hpp>
 #include <boost/random/normal_distribution.hpp>
@@ -22,17 +23,25 @@ constexpr double kSortWhileDrawing = 16.0;
 // A pulse whose centre is this many sigma outside the gate sends nothing into it (probability below 1e-32).
 constexpr double kNegligibleSigma = 12.0;
 
-/// 64 bits a call, so that Boost's ziggurats fill a double's mantissa from one word.
+/// 64 bits a call, so that Boost's ziggurats fill a double's mantissa from one word. One per pixel.
 class Bits64 {
  public:
   using result_type = std::uint64_t;
   explicit Bits64(CounterRandom& random) : random_(random) {}
   static constexpr result_type min() { return 0; }
   static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
-  result_type operator()() { return random_.bits64(); }
+  result_type operator()() {
+    if (next_ == words_.size()) {
+      random_.fill(words_);
+      next_ = 0;
+    }
+    return words_[next_++];
+  }
 
  private:
   CounterRandom& random_;
+  std::array<std::uint64_t, 32> words_;
+  std::size_t next_ = words_.size();
 };
 
 double draw_exponential(Bits64& bits) { return boost::random::exponential_distribution<double>(1.0)(bits); }
@@ -107,7 +116,8 @@ void EventSampler::walk_background(double events_per_acquisition, CounterRandom&
   const bool gated = gate_width < code_count_;
   const double acquisitions_per_event = 1.0 / events_per_acquisition;
   const double bins_per_event = code_count_ / events_per_acquisition;
-  for (double walked = draw_exponential(bits); walked < end; walked += draw_exponential(bits)) {
+  double walked = 0.0;
+  while ((walked += draw_exponential(bits)) < end) {
     double position = walked * bins_per_event;
     if (gated) {
       const double acquisition = std::floor(walked * acquisitions_per_event);
@@ -128,7 +138,8 @@ void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
   const double acquisitions_per_event = 1.0 / rates.signal;
   const double end = rates.signal * acquisitions_;
   const bool sort_now = rates.signal <= kSortWhileDrawing;
-  for (double walked = draw_exponential(bits); walked < end; walked += draw_exponential(bits)) {
+  double walked = 0.0;
+  while ((walked += draw_exponential(bits)) < end) {
     const double acquisition = std::floor(walked * acquisitions_per_event);
     const double time = rates.centre_bins + sigma_ * draw_normal(bits);
     const double position = acquisition * code_count_ + time;
@@ -171,7 +182,7 @@ void EventSampler::walk_in_time_order(const PixelRates& rates, double background
   Bits64 bits(random);
   event_count_ = 0;
   const double bins_per_background = (gate_end_ - gate_begin_) / background;
-  for (double acquisition = 0.0; acquisition < acquisitions_; acquisition += 1.0) {
+  for (std::uint32_t acquisition = 0; acquisition < acquisitions_; ++acquisition) {
     double now = gate_begin_;
     for (std::size_t kept = 0; kept < keep_; ++kept) {
       // Both processes are memoryless, so they may be restarted at any time.

@@ -43,7 +43,7 @@ class EventSampler {
   void drop_in_dead_time();
 
   double code_count_;
-  double acquisitions_;
+  std::uint32_t acquisitions_;
   double frame_end_;
   double gate_begin_;
   double gate_end_;

@@ -26,15 +26,19 @@ class TdcRow {
     if (detections_.size() < events.size()) {
       detections_.resize(events.size());
     }
-    const std::uint64_t code_mask = (std::uint64_t{1} << static_cast<unsigned>(np_)) - 1;
+    const auto shift = static_cast<unsigned>(np_);
+    const std::uint64_t code_mask = (std::uint64_t{1} << shift) - 1;
+    const auto whole = [](double position) {
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(position));
+    };
     std::size_t count = 0;
     for (std::size_t i = 0; i < events.size(); ++i) {
-      const auto position = static_cast<std::uint64_t>(static_cast<std::int64_t>(events[i]));
-      const std::uint64_t acquisition = position >> static_cast<unsigned>(np_);
+      const std::uint64_t position = whole(events[i]);
+      const std::uint64_t acquisition = position >> shift;
       detections_[count] = {static_cast<std::uint32_t>(acquisition),
                             static_cast<Timestamp>(position & code_mask)};
-      // A full acquisition is one whose event SLOTS places earlier is of the same acquisition.
-      const bool full = count >= slots_ && detections_[count - slots_].acquisition == acquisition;
+      // The slots are full if the event SLOTS places earlier is of the same acquisition.
+      const bool full = i >= slots_ && whole(events[i - slots_]) >> shift == acquisition;
       count += full ? 0 : 1;
     }
     stream.append_row(std::span<const Detection>(detections_).first(count));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/physical_constants.hpp"
+
 namespace dtof {
 
 double pulse_energy_j(const OpticalInputs& inputs) {

@@ -3,7 +3,6 @@
 
 namespace dtof {
 
-inline constexpr double kSpeedOfLight = 299792458.0;       ///< m/s
 inline constexpr double kPlanckConstant = 6.62607015e-34;  ///< J s
 
 /// Inputs of the optical link budget (thesis section 3.2). The defaults are the thesis's system.
