@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
 #include <algorithm>
 #include <array>
 #include <set>
@@ -62,18 +61,6 @@ TEST(CounterRandom, UniformIsOpenAndCentred) {
   }
   EXPECT_NEAR(sum / count, 0.5, 5 * 0.2887 / 256);  // five standard errors; the seed is fixed
   EXPECT_NEAR(squares / count, 1.0 / 12.0, 5 * 0.0745 / 256);
-}
-
-TEST(CounterRandom, FillGivesTheWordsOfSingleCalls) {
-  CounterRandom bulk(1, 2, 3, 4);
-  CounterRandom single(1, 2, 3, 4);
-  for (int repeat = 0; repeat < 3; ++repeat) {
-    std::array<std::uint64_t, 6> words{};
-    bulk.fill(words);
-    for (const std::uint64_t word : words) {
-      EXPECT_EQ(word, single.bits64());
-    }
-  }
 }
 
 TEST(CounterRandom, FillGivesTheWordsOfSingleCalls) {
