@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "io/atomic_file.hpp"
+#include "io/input_file.hpp"
+
+namespace dtof {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int exit_code;
+  std::string output;  ///< standard output and standard error
+};
+
+class CommandLine : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / fmt::format("dtof_command_line_{}", getpid());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  [[nodiscard]] std::string file(const std::string& name, const std::string& contents) const {
+    write_file(folder_ / name, contents);
+    return path(name);
+  }
+
+  [[nodiscard]] Outcome dtof(const std::string& arguments) const {
+    const std::string command =
+        fmt::format("cd '{}' && {} {} 2>&1", folder_.string(), DTOF_PROGRAM, arguments);
+    std::FILE* pipe = popen(command.c_str(), "r");
+    Outcome outcome{-1, ""};
+    std::array<char, 4096> buffer{};
+    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+      outcome.output.append(buffer.data(), n);
+    }
+    const int status = pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+
+  // Bad input: exit code 1 and exactly one line, which holds `reason`; no output folder is filled.
+  void expect_refused(const std::string& arguments, const std::string& reason) const {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = dtof(arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr(reason));
+    EXPECT_THAT(outcome.output, ::testing::StartsWith("dtof: error: "));
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "summary.csv"));
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+const std::string kSmallScene = "--array-columns 6 --array-rows 5 --acquisitions 300";
+
+TEST_F(CommandLine, HelpTeaches) {
+  const Outcome outcome = dtof("--help");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("dtof frame --scene room"));
+  EXPECT_EQ(dtof("frame --help").exit_code, 0);
+}
+
+TEST_F(CommandLine, ListNamesReadoutsPresetsScenesAndHardware) {
+  const Outcome outcome = dtof("list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* word : {"hispointer1", "threesteps", "phone", "room", "PIXELS_PER_SRAM=160"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(word));
+  }
+}
+
+TEST_F(CommandLine, FrameThroughTheRtlEqualsTheModelAndIsWritten) {
+  const Outcome outcome = dtof(fmt::format("frame --engine rtl --verify {} --out out", kSmallScene));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("every pixel equal to the model"));
+  for (const char* name : {"summary.md", "summary.csv", "overview.png", "errors.png", "sifh.csv", "sifh.ply",
+                           "sifh_depth_mm.png", "sifh_depth.png", "sifh_error.png"}) {
+    EXPECT_GT(std::filesystem::file_size(path("out") + "/" + name), 0U) << name;
+  }
+}
+
+TEST_F(CommandLine, ThreadsAndChosenColumnsDoNotChangeAResult) {
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 1 --out one", kSmallScene)).exit_code, 0);
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 2 --out two", kSmallScene)).exit_code, 0);
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --columns 4 --out four", kSmallScene)).exit_code, 0);
+  const std::string whole = read_file(path("one/fifh.csv"));
+  EXPECT_EQ(whole, read_file(path("two/fifh.csv")));
+  std::ifstream part(path("four/fifh.csv"));
+  std::string line;
+  int lines = 0;
+  for (std::getline(part, line); std::getline(part, line); ++lines) {
+    EXPECT_THAT(whole, HasSubstr(line + "\n"));
+  }
+  EXPECT_EQ(lines, 5);
+}
+
+TEST_F(CommandLine, ARecordedFrameReplaysToTheSameResult) {
+  ASSERT_EQ(
+      dtof(fmt::format("frame -r hispointer {} --record stream.csv --out frame", kSmallScene)).exit_code, 0);
+  for (const char* engine : {"model", "rtl"}) {
+    const Outcome outcome = dtof(
+        fmt::format("replay stream.csv -r hispointer --acquisitions 300 --engine {} --out replay", engine));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_EQ(read_file(path("frame/hispointer.csv")), read_file(path("replay/hispointer.csv"))) << engine;
+  }
+}
+
+TEST_F(CommandLine, AccuracyPrintsTheSweep) {
+  const Outcome outcome = dtof("accuracy -r hispointer,histogram --distances 1 2 --frames 20 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("relative precision"));
+  EXPECT_GT(std::filesystem::file_size(path("out/relative_precision.svg")), 0U);
+}
+
+TEST_F(CommandLine, RefusesBadStreams) {
+  const std::string header = "acquisition,column,row,timestamp\n";
+  expect_refused("replay nowhere.csv --out out", "nowhere.csv");
+  expect_refused("replay " + file("empty.csv", "") + " --out out", "empty.csv");
+  expect_refused("replay " + file("head.csv", "a,b\n") + " --out out", "head.csv:1:");
+  expect_refused("replay " + file("text.csv", header + "0,0,0,1\n0,0,x,1\n") + " --out out", "text.csv:3:");
+  expect_refused("replay " + file("cut.csv", header + "0,0,0,1\n0,0") + " --out out", "cut.csv:3:");
+  expect_refused("replay " + file("range.csv", header + "0,0,0,1024\n") + " --out out", "range.csv:2:");
+  expect_refused("replay " + file("slots.csv", header + "0,0,0,1\n0,0,0,2\n0,0,0,3\n") + " --out out",
+                 "slots.csv:4:");
+  expect_refused("replay " + file("late.csv", header + "7,0,0,1\n") + " -a 7 --out out", "late.csv:2:");
+  expect_refused("replay " + file("data.xyz", "1") + " --out out", "--format");
+  expect_refused("replay " + file("broken.json", "[{") + " --out out", "broken.json");
+  expect_refused("replay " + file("broken.npy", "\x93NUMPY") + " --bin-width 100 --out out", "broken.npy");
+  expect_refused("replay " + file("broken.mat", "not a MATLAB file") + " --out out", "broken.mat");
+}
+
+TEST_F(CommandLine, RefusesBadFlagsAndPhysics) {
+  expect_refused("frame --readout ezpionter --out out", "unknown read-out 'ezpionter'");
+  expect_refused("frame --readout sifh --nb 11 --out out", "NB");
+  expect_refused("frame --readout ezpointer --pointer-step 512 --out out", "POINTER_STEP");
+  expect_refused("frame --scene moon --out out", "moon");
+  expect_refused("frame --preset sun --out out", "sun");
+  expect_refused("frame --klux nan --out out", "klux");
+  expect_refused("frame --klux -1 --out out", "klux");
+  expect_refused("frame --dead-time -2 --out out", "dead");
+  expect_refused("frame --scene flat --distance nan --out out", "distance");
+  expect_refused("frame --reflectivity -0.5 --out out", "reflectivity");
+  expect_refused("frame --columns 0-999 --out out", "column");
+  expect_refused("frame --engine rtl --readout ezpointer --np 9 --out out", "compiled");
+  expect_refused("frame --verify --out out", "--engine rtl");
+  expect_refused("frame --trace x.fst --engine rtl --out out", "one read-out");
+  expect_refused("frame --frobnicate --out out", "--frobnicate");
+  expect_refused("accuracy --distances 0 --out out", "distances");
+  expect_refused("", "subcommand");
+}
+
+TEST_F(CommandLine, RefusesBadImages) {
+  // The smallest possible 8-bit greyscale PNG is not a depth image.
+  const std::string png8(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDAT\x78\x9c\x63\x68"
+      "\0\0\0"
+      "\x82\0\x81\x77\xcd\x72\xb6\0\0\0\0IEND\xae\x42\x60\x82",
+      67);
+  expect_refused("frame --depth " + file("eight.png", png8) + " --out out", "eight.png");
+  expect_refused("frame --depth nowhere.png --out out", "nowhere.png");
+  expect_refused("frame --depth " + file("cut.pfm", "Pf\n4 4\n-1\nabc") + " --out out", "cut.pfm");
+}
+
+TEST_F(CommandLine, RefusesAnUnwritableOutput) {
+  const std::string blocked = file("blocked", "a file, not a folder");
+  expect_refused(fmt::format("frame -r fifh {} --out blocked/out", kSmallScene), "blocked");
+  expect_refused(fmt::format("frame -r fifh {} --record nowhere/stream.csv --out out", kSmallScene),
+                 "nowhere");
+  EXPECT_EQ(read_file(blocked), "a file, not a folder");
+}
+
+}  // namespace
+}  // namespace dtof
