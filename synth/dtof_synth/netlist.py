@@ -19,8 +19,10 @@ from .library import Buffer, Library
 Module = dict
 COLUMN_SUFFIX = "_column"
 STUB = "column_stub"
+TREE_PREFIX = "fanout_"
+COPY_SUFFIX = "_copy"
 # A driver is given a tree when its load exceeds this share of its max_capacitance; trees fill to it.
-TREE_LOAD_SHARE = 0.3
+TREE_LOAD_SHARE = 0.4
 
 
 @dataclass(frozen=True)
@@ -67,7 +69,7 @@ def rename_columns(design: dict) -> None:
 
 def count(module: Module, library: Library) -> Counts:
     kinds = Counter(cell["type"] for cell in module["cells"].values())
-    trees = Counter(cell["type"] for name, cell in module["cells"].items() if name.startswith("fanout_"))
+    trees = Counter(cell["type"] for name, cell in module["cells"].items() if name.startswith(TREE_PREFIX))
     flops = {kind: number for kind, number in kinds.items() if kind in library.sequential}
     return Counts(sum(number for kind, number in kinds.items() if kind in library.area),
                   sum(flops.values()),
@@ -145,35 +147,94 @@ def _smallest(buffers: list[Buffer], load: float) -> Buffer:
     return next((buffer for buffer in buffers if buffer.max_load_ff * TREE_LOAD_SHARE >= load), buffers[-1])
 
 
-def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[str, str], float],
-                        skip: set[int]) -> None:
-    """Buffers every overloaded net of a module; `skip` are clock nets."""
-    wire = library.wire_ff_per_sink
-    buffers = library.buffers
-    leaf = buffers[-2] if len(buffers) > 2 else buffers[-1]
-    port_drive = buffers[0].max_load_ff
-    nets = _sinks(module, pin_load, wire)
-    fresh = _next_net(module)
-    for net, maximum in list(_drivers(module, library, port_drive)):
-        sinks = nets.get(net, [])
-        level = 0
-        while (net not in skip and len(sinks) > 1
-               and sum(sink.load for sink in sinks) > maximum * TREE_LOAD_SHARE):
-            parents = []
-            for cluster in _clusters(sinks, leaf.max_load_ff * TREE_LOAD_SHARE):
-                buffer = _smallest(buffers, sum(sink.load for sink in cluster))
-                for sink in cluster:
-                    sink.bits[sink.index] = fresh
-                cell = {"hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
-                        "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
-                        "connections": {buffer.input_pin: [net], buffer.output_pin: [fresh]}}
-                module["cells"][f"fanout_{net}_{fresh}"] = cell
-                parents.append(_Sink(cell["connections"][buffer.input_pin], 0, buffer.input_ff + wire))
-                fresh += 1
-            if len(parents) == 1 and level > 0:
+class _TreeBuilder:
+    """Adds buffers and register copies to one module."""
+
+    def __init__(self, module: Module, library: Library, pin_load: Callable[[str, str], float]) -> None:
+        self.module = module
+        self.buffers = library.buffers
+        self.wire = library.wire_ff_per_sink
+        self.library = library
+        self.pin_load = pin_load
+        self.nets = _sinks(module, pin_load, self.wire)
+        self.fresh = _next_net(module)
+        self.drivers = {bits[0]: name for name, cell in module["cells"].items()
+                        for pin, bits in cell["connections"].items()
+                        if cell["port_directions"].get(pin) == "output" and len(bits) == 1}
+
+    def _rewire(self, cluster: list[_Sink]) -> int:
+        for sink in cluster:
+            sink.bits[sink.index] = self.fresh
+        self.fresh += 1
+        return self.fresh - 1
+
+    def _buffer(self, net: int, cluster: list[_Sink]) -> _Sink:
+        """Puts the smallest sufficient buffer between a net and a cluster of its sinks."""
+        buffer = _smallest(self.buffers, _load(cluster))
+        output = self._rewire(cluster)
+        cell = {"hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
+                "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
+                "connections": {buffer.input_pin: [net], buffer.output_pin: [output]}}
+        self.module["cells"][f"{TREE_PREFIX}{net}_{output}"] = cell
+        return _Sink(cell["connections"][buffer.input_pin], 0, buffer.input_ff + self.wire)
+
+    def _copy_register(self, net: int, cluster: list[_Sink]) -> None:
+        """Gives a cluster its own copy of the register that drives the net."""
+        original = self.module["cells"][self.drivers[net]]
+        output = self._rewire(cluster)
+        pins = {pin: list(bits) for pin, bits in original["connections"].items()
+                if original["port_directions"][pin] == "input"}
+        out = next(pin for pin, bits in original["connections"].items() if bits == [net])
+        self.module["cells"][f"{self.drivers[net]}{COPY_SUFFIX}{output}"] = {
+            **original, "connections": {**pins, out: [output]}}
+        for pin, bits in pins.items():
+            load = self.pin_load(original["type"], pin) + self.wire
+            self.nets.setdefault(bits[0], []).append(_Sink(bits, 0, load))
+
+    def relieve(self, net: int, maximum: float, far: list[_Sink], copy: bool) -> None:
+        """Takes load off a net until its driver can carry it. `far` sinks go behind the tree, light ones stay
+        with the driver; `copy` replaces the root of the tree by copies of the driving register."""
+        limit = maximum * TREE_LOAD_SHARE
+        near = [sink for sink in self.nets[net] if all(sink is not other for other in far)]
+        if _load(near) > limit / 2:
+            far, near = self.nets[net], []
+        room = limit - _load(near)
+        leaf = self.buffers[-1].max_load_ff * TREE_LOAD_SHARE
+        sinks, first = far, True
+        while len(sinks) > 1 and _load(sinks) > room:
+            parents = [self._buffer(net, cluster) for cluster in _clusters(sinks, leaf)]
+            if copy and first and len(parents) > 1:
+                for cluster in _clusters(parents, limit):
+                    self._copy_register(net, cluster)
+                parents = []
+            first = False
+            if len(parents) == len(sinks):
                 break
             sinks = parents
-            level += 1
+        self.nets[net] = near + sinks
+
+
+def _load(sinks: list[_Sink]) -> float:
+    return sum(sink.load for sink in sinks)
+
+
+def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[str, str], float],
+                        skip: set[int], far_module: str = "") -> None:
+    """Relieves every overloaded net of a module. `skip` are clock nets. Sinks on instances of `far_module`
+    (the columns, spread over the die) go behind the tree; a register that broadcasts to them is copied."""
+    builder = _TreeBuilder(module, library, pin_load)
+    far_bits = {id(bits) for cell in module["cells"].values() if cell["type"] == far_module
+                for bits in cell["connections"].values()}
+    drivers = dict(_drivers(module, library, library.buffers[0].max_load_ff))
+    registers = {net for net, name in builder.drivers.items()
+                 if module["cells"][name]["type"] in library.sequential}
+    # Registers first: copies add load to the nets before them.
+    for net in sorted(drivers, key=lambda net: net not in registers):
+        sinks = builder.nets.get(net, [])
+        if net in skip or _load(sinks) <= drivers[net] * TREE_LOAD_SHARE:
+            continue
+        far = [sink for sink in sinks if id(sink.bits) in far_bits]
+        builder.relieve(net, drivers[net], far or sinks, copy=bool(far) and net in registers)
 
 
 def clock_nets(module: Module) -> set[int]:
@@ -205,7 +266,7 @@ def finish(design: dict, library: Library, macro_pin_ff: float) -> dict[str, lis
         return mean.get(pin, 0.0) if kind == name else cell_load(kind, pin)
 
     array = top(design)
-    insert_fanout_trees(array, library, top_load, clock_nets(array))
+    insert_fanout_trees(array, library, top_load, clock_nets(array), name)
     return loads
 
 

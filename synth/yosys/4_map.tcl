@@ -6,4 +6,5 @@ abc -liberty $liberty -constr $abc_constraints -D $abc_period_ps -script $abc_sc
 setundef -zero
 if {$tie_low ne "" && $tie_high ne ""} { hilomap -singleton -hicell {*}$tie_high -locell {*}$tie_low }
 splitnets
+yosys rename -wire
 opt_clean -purge
