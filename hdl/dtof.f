@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 lint/verilator.vlt
 +incdir+package
 package/dtof_pkg.sv
@@ -12,8 +13,8 @@ control/result_output.sv
 datapath/data_filter.sv
 datapath/histogram_builder.sv
 datapath/peak_detector.sv
-datapath/pointer_builder.sv
 datapath/pointer_update.sv
+datapath/pointer_builder.sv
 datapath/result_register.sv
 datapath/status_bits.sv
 column/ez_pointer_column.sv

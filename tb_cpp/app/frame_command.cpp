@@ -110,7 +110,7 @@ void write_readout_files(const MeasuredFrame& frame, std::span<const int> column
 }
 
 Table summarise(const std::vector<MeasuredFrame>& frames, const DepthImage& truth) {
-  Table table({"read-out", "rmse mm", "bias mm", "above 3 %", "above 10 %", "cycles", "seconds"});
+  Table table({"read-out", "rmse mm", "bias mm", "above 3 %", "above 10 %", "cycles"});
   for (const MeasuredFrame& frame : frames) {
     ErrorStatistics statistics;
     for (std::size_t i = 0; i < truth.metres.size(); ++i) {
@@ -129,7 +129,6 @@ Table summarise(const std::vector<MeasuredFrame>& frames, const DepthImage& trut
                   fmt::format("{:.2f} %", summary.share_above_10_percent * 100.0)});
     }
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
-    row.push_back(fmt::format("{:.2f}", frame.run.seconds));
     table.add(row);
   }
   return table;
@@ -188,6 +187,10 @@ void run_frame_command(const FrameOptions& options) {
     write_readout_files(frames.back(), columns, range, options.out);
   }
   write_overview(frames, truth, range, options);
+  double seconds = 0.0;
+  for (const MeasuredFrame& frame : frames) {
+    seconds += frame.run.seconds;
+  }
   const Table table = summarise(frames, truth);
   const std::string heading =
       fmt::format("Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, engine {}{}, seed {}.\n",
@@ -197,8 +200,9 @@ void run_frame_command(const FrameOptions& options) {
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}\n{}\nCommand: `{}`\n", heading, table.markdown(), options.command_line));
-  fmt::print("{}\n{}\nDepth maps, error maps, point clouds and CSV are in {}\n", heading, table.markdown(),
-             options.out);
+  // Times change from run to run and stay out of the files.
+  fmt::print("{}\n{}\nRead out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n", heading,
+             table.markdown(), seconds, options.out);
 }
 
 }  // namespace
