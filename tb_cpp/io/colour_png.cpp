@@ -157,9 +157,9 @@ class Picture {
     const double step = tick_step(range);
     const int digits = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
     const double first = std::ceil(range.lowest / step - 1e-9);
-    const double last = std::floor(range.highest / step + 1e-9);
-    for (double tick = first; tick <= last; ++tick) {
-      const double value = tick * step;
+    const auto count = static_cast<int>(std::floor(range.highest / step + 1e-9) - first) + 1;
+    for (int tick = 0; tick < count; ++tick) {
+      const double value = (first + tick) * step;
       const double at =
           std::round(y + steps * (range.highest - value) / (range.highest - range.lowest)) - 0.5;
       cairo_set_line_width(cr, 1.0);
@@ -360,10 +360,13 @@ void write_map_picture(const std::filesystem::path& path, std::span<const MapPan
   }
   const double grid_top = title_height;
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    const auto columns = static_cast<std::size_t>(across);
-    const double x = kMargin + static_cast<double>(i % columns) * cell_width;
-    const double top = grid_top + static_cast<double>(i / columns) * cell_height;
-    picture.text(x, top + kLineHeight - 7.0, kFontSize, panels[i].label);
+    const int row = static_cast<int>(i) / across;
+    const int column = static_cast<int>(i) % across;
+    const double x = kMargin + column * cell_width;
+    const double top = grid_top + row * cell_height;
+    const double label_width = std::max(1.0, picture.text_width(panels[i].label, kFontSize, false));
+    const double room = across > 1 ? cell_width - 4.0 : text_width;
+    picture.text(x, top + kLineHeight - 7.0, kFontSize * std::min(1.0, room / label_width), panels[i].label);
     const Scale& scale = *std::ranges::find(scales, panels[i].kind, &Scale::kind);
     picture.map(x, top + kLineHeight, panels[i].image, scale, pixel_size);
   }
