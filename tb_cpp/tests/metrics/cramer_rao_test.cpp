@@ -129,11 +129,37 @@ TEST(CramerRao, KeepingMoreEventsNeverHurtsAndTendsToAll) {
 
 TEST(CramerRao, PileUpWeightIsSmoothWhereItsFormulaChanges) {
   PulseObservation below = kThesis;
-  below.signal_events = 0.0001;
-  below.background_events = 0.9999e-5 * 1024;
+  below.signal_events = 1e-7;
+  below.kept_events = 1;
   PulseObservation above = below;
+  below.background_events = 0.9999e-5 * 1024;
   above.background_events = 1.0001e-5 * 1024;
   expect_relative(cramer_rao_bound(below), cramer_rao_bound(above), 2e-4);
+}
+
+TEST(CramerRao, LastBinIsNoDetectionAndTellsNothing) {
+  // One bin left, [0, 1), and half of the pulse's one sigma in it: rate Phi(0) - Phi(-1), slope phi(-1) -
+  // phi(0).
+  const PulseObservation one_bin{.signal_events = 1.0,
+                                 .background_events = 0.0,
+                                 .centre_bins = 1.0,
+                                 .sigma_bins = 1.0,
+                                 .np = 1,
+                                 .acquisitions = 1.0,
+                                 .kept_events = 0};
+  expect_relative(cramer_rao_bound(one_bin), std::sqrt(0.3413447460685429) / 0.1569715556, 1e-8);
+}
+
+TEST(CramerRao, TailsOfPulsesOutsideTheRangeDoNotCancel) {
+  for (const double sigmas : {0.5, 4.0, 8.0, 20.0}) {
+    PulseObservation before = kThesis;
+    before.background_events = 0.0;
+    before.kept_events = 0;
+    before.centre_bins = -sigmas * before.sigma_bins;
+    PulseObservation behind = before;
+    behind.centre_bins = 1023.0 - before.centre_bins;  // the mirror image
+    expect_relative(cramer_rao_bound(before), cramer_rao_bound(behind), 1e-9);
+  }
 }
 
 TEST(CramerRao, NothingToLearnIsInfinite) {

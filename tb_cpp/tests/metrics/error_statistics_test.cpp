@@ -80,14 +80,13 @@ TEST(ErrorStatistics, ByHand) {
   EXPECT_EQ(summary.share_above_3_percent, 0.5);
 }
 
-TEST(ErrorStatistics, OutliersAreStrictlyAboveTheLimit) {
+TEST(ErrorStatistics, SharesCountErrorsOfEitherSignAboveTheLimit) {
   ErrorStatistics statistics;
-  statistics.add(4.0, 4.25);
-  statistics.add(4.0, 3.5);
-  statistics.add(4.0, 4.125);
-  statistics.add(4.0, 4.0);
-  EXPECT_EQ(statistics.summary().share_above_10_percent, 0.25);
+  for (const double error : {2.99, -2.99, 3.01, -3.01, 9.99, -9.99, 10.01, -10.01}) {
+    statistics.add(100.0, 100.0 + error);
+  }
   EXPECT_EQ(statistics.summary().share_above_3_percent, 0.75);
+  EXPECT_EQ(statistics.summary().share_above_10_percent, 0.25);
 }
 
 TEST(ErrorStatistics, AConstantRelativeErrorHasNoSpread) {
