@@ -166,7 +166,7 @@ TEST_F(ColourPngTest, PicturesOfASceneUseTheWholeScale) {
   DepthImage error{.width = 100, .height = 80, .metres = std::vector<float>(8000)};
   for (int row = 0; row < 80; ++row) {
     for (int column = 0; column < 100; ++column) {
-      const auto i = static_cast<std::size_t>(row * 100 + column);
+      const auto i = static_cast<std::size_t>(row) * 100 + static_cast<std::size_t>(column);
       const double distance = std::hypot(column - 45, row - 40);
       const double wall = 3.0 + 0.02 * column;
       const double value = distance < 25.0 ? 1.4 - 0.4 * std::sqrt(1.0 - distance * distance / 625.0) : wall;

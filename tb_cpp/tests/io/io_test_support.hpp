@@ -19,6 +19,12 @@ namespace dtof::test {
 
 /// A directory of its own for each test, removed afterwards.
 class IoTest : public ::testing::Test {
+ public:
+  IoTest(const IoTest&) = delete;
+  IoTest& operator=(const IoTest&) = delete;
+  IoTest(IoTest&&) = delete;
+  IoTest& operator=(IoTest&&) = delete;
+
  protected:
   IoTest() {
     std::string name = (std::filesystem::temp_directory_path() / "dtof_io_XXXXXX").string();
@@ -29,10 +35,6 @@ class IoTest : public ::testing::Test {
     std::filesystem::permissions(directory_, std::filesystem::perms::owner_all, ignored);
     std::filesystem::remove_all(directory_, ignored);
   }
-  IoTest(const IoTest&) = delete;
-  IoTest& operator=(const IoTest&) = delete;
-  IoTest(IoTest&&) = delete;
-  IoTest& operator=(IoTest&&) = delete;
 
   [[nodiscard]] std::filesystem::path path(std::string_view name) const { return directory_ / name; }
 

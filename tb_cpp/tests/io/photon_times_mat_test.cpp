@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -25,17 +26,16 @@ constexpr double kTick = 8e-12;
 
 class PhotonTimesTest : public test::IoTest {
  protected:
-  /// 2 rows x 3 columns of cells; the cell of (row, column) holds `size` times 100 * row + 10 * column + i.
+  /// 2 rows x 3 columns of cells; the cell of (row, column) holds row + column times 100 * row + 10 * column
+  /// + i.
   std::filesystem::path write_cells(const char* name, matio_compression compression) {
     mat_t* const file = Mat_CreateVer(path(name).c_str(), nullptr, MAT_FT_MAT5);
     std::array<std::size_t, 2> dims = {2, 3};
     matvar_t* const cells = Mat_VarCreate("photon_times", MAT_C_CELL, MAT_T_CELL, 2, dims.data(), nullptr, 0);
     for (int column = 0; column < 3; ++column) {
       for (int row = 0; row < 2; ++row) {
-        std::vector<double> times;
-        for (int i = 0; i < row + column; ++i) {
-          times.push_back(100.0 * row + 10.0 * column + i);
-        }
+        std::vector<double> times(static_cast<std::size_t>(row) + static_cast<std::size_t>(column));
+        std::iota(times.begin(), times.end(), 100.0 * row + 10.0 * column);
         std::array<std::size_t, 2> size = {times.size(), 1};
         Mat_VarSetCell(cells, row + 2 * column,
                        Mat_VarCreate(nullptr, MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size.data(), times.data(), 0));
