@@ -114,7 +114,7 @@ TEST_F(Tmf8829Test, Refusals) {
 TEST_F(Tmf8829Test, GzipIsUnpackedAndDamageIsRefused) {
   const std::string text = nlohmann::json{{"Result_Set", {frame([](int, int) { return 1; })}}}.dump();
   const auto file = path("a.json.gz");
-  const gzFile gzip = gzopen(file.c_str(), "wb");
+  gzFile gzip = gzopen(file.c_str(), "wb");
   gzwrite(gzip, text.data(), static_cast<unsigned>(text.size()));
   gzclose(gzip);
   EXPECT_EQ(read_tmf8829_json(file).size(), 1U);
@@ -146,7 +146,8 @@ TEST_F(Tmf8829Test, PublishedLogHoldsRowZeroAndFollowsTheOnChipDistances) {
   double largest = 0.0;
   for (int row = 0; row < cube.rows; ++row) {
     for (int column = 0; column < cube.columns; ++column) {
-      const double reported = cube.true_distance[static_cast<std::size_t>(row * cube.columns + column)];
+      const double reported = cube.true_distance[static_cast<std::size_t>(row) * frames.size() +
+                                                 static_cast<std::size_t>(column)];
       const auto bins = cube.pixel(column, row);
       std::vector<double> first_bins(bins.begin(), bins.begin() + 50);
       std::ranges::nth_element(first_bins, first_bins.begin() + 25);
