@@ -289,13 +289,15 @@ TEST_F(PhotonSourceTest, BlocksAreCutAtTheArraysBorder) {
 
 TEST_F(PhotonSourceTest, CoincidenceMatchesBruteForce) {
   model_.acquisitions = 300;
-  model_.coincidence_window_s = 1e-9;
-  model_.time_gate = TimeGate{1e-9, 44e-9};
+  // Wide enough to reach over the gate's ends into the acquisitions before and after, which must not count.
+  constexpr double kWindow = 5e-9;
+  model_.coincidence_window_s = kWindow;
+  model_.time_gate = TimeGate{0.5e-9, 44.5e-9};
   TargetMap targets(4, 5, {.depth_m = 0.5, .reflectivity = 0.5});
   targets.at(2, 2).depth_m = 3.0;
   for (const int binning : {1, 3}) {
     model_.binning = binning;
-    const PhotonSource source(model_, targets, 50.0, test_seed(), 7);
+    const PhotonSource source(model_, targets, 100.0, test_seed(), 7);
     EventSampler sampler(model_, EventSampler::kAll);
     const auto events = [&](int column, int row) {
       const CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kPhotons), 7,
@@ -315,7 +317,7 @@ TEST_F(PhotonSourceTest, CoincidenceMatchesBruteForce) {
             }
             for (const double other : events(x, y)) {
               partner |= std::floor(other / 1024.0) == std::floor(event / 1024.0) &&
-                         std::abs(other - event) <= bins(model_, 1e-9);
+                         std::abs(other - event) <= bins(model_, kWindow);
             }
           }
         }
