@@ -12,7 +12,7 @@ module ez_pointer_column #(
     parameter int CONFIDENCE_WIDTH = 4,
     parameter int POINTER_PORTS = 2,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int GEAR_WIDTH = dtof_pkg::index_width(FRACTION_BITS + 1),
+    localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS),
     localparam int RESULT_WIDTH = NP + FRACTION_BITS + CONFIDENCE_WIDTH
 ) (
     input  logic                    clk_i,
@@ -27,7 +27,7 @@ module ez_pointer_column #(
     input  logic                    first_acq_t1_i,
     input  logic                    pointer_write_i,
     input  logic [   ROW_WIDTH-1:0] pointer_write_pixel_i,
-    input  logic [  GEAR_WIDTH-1:0] gear_t1_i,
+    input  logic [  STEP_WIDTH-1:0] step_t1_i,
     // clear schedule: the start value is written in RESET
     input  logic                    clear_s1_i,
     input  logic [   ROW_WIDTH-1:0] clear_pixel_s1_i,
@@ -70,7 +70,7 @@ module ez_pointer_column #(
       .first_acq_t1_i (first_acq_t1_i),
       .write_i        (pointer_write_i),
       .write_pixel_i  (pointer_write_pixel_i),
-      .gear_t1_i      (gear_t1_i),
+      .step_t1_i      (step_t1_i),
       .hit_t1_i       (beat_t1_i && timestamp_q != '1),
       .timestamp_t1_i (timestamp_q),
       .tag_t1_o       (unused_tag),

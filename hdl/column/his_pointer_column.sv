@@ -22,7 +22,7 @@ module his_pointer_column #(
     parameter int SIGNALLED_CLEAR = 0,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),
-    localparam int GEAR_WIDTH = dtof_pkg::index_width(FRACTION_BITS + 1),
+    localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS),
     localparam int RESULT_WIDTH = NP + FRACTION_BITS + CONFIDENCE_WIDTH
 ) (
     input  logic                    clk_i,
@@ -52,7 +52,7 @@ module his_pointer_column #(
     input  logic                    first_acq_t1_i,
     input  logic                    pointer_write_i,
     input  logic [   ROW_WIDTH-1:0] pointer_write_pixel_i,
-    input  logic [  GEAR_WIDTH-1:0] gear_t1_i,
+    input  logic [  STEP_WIDTH-1:0] step_t1_i,
     input  logic                    start_write_s3_i,
     input  logic [   ROW_WIDTH-1:0] start_pixel_s3_i,
     // result chain
@@ -182,7 +182,7 @@ module his_pointer_column #(
       .first_acq_t1_i (first_acq_t1_i),
       .write_i        (pointer_write_i),
       .write_pixel_i  (pointer_write_pixel_i),
-      .gear_t1_i      (gear_t1_i),
+      .step_t1_i      (step_t1_i),
       .hit_t1_i       (hit),
       .timestamp_t1_i (timestamp_q),
       .tag_t1_o       (tag_t1),

@@ -130,9 +130,12 @@ module partitioned_histogram_column #(
         end
       end
 
+      // The broadcast flag selects late, behind the comparator.
+      logic better;
+      assign better = first_pass_i ? (scan_count != '0) : (scan_count > best_q[RESULT_WIDTH+:COUNT_WIDTH]);
       always_comb begin
         best = first_pass_i ? '0 : best_q;
-        if (scan_count > best[RESULT_WIDTH+:COUNT_WIDTH]) begin
+        if (better) begin
           best = {scan_count, scan_code, scan_confidence};
         end
       end

@@ -8,7 +8,7 @@
 // Hazard: timestamps up to three clocks apart may meet in one address before it is written. Pending counts
 // are forwarded at T4; only distances at which two timestamps can be of one pixel have a comparator.
 // Latency: 5 clocks from T0 to the write. Reset of the columns is not needed: beat_t5_i masks every write.
-// Cost at the defaults: 45 flip-flops, an incrementer, one bin comparator.
+// Cost at the defaults: 46 flip-flops, an incrementer, one bin comparator.
 `include "dtof_macros.svh"
 
 module histogram_builder #(
@@ -110,34 +110,41 @@ module histogram_builder #(
   assign count_s2_o = count_q;
   assign incremented = operand + COUNT_WIDTH'(operand != '1);
 
+  // A pending count is forwarded if its bin equals; bins are compared at T3, one clock before the addition.
   generate
     if (FORWARD_DEPTH == 0) begin : g_no_forward
       logic unused_forward;
-      assign unused_forward = (^same_pixel_t4_i) ^ hit_t4_q;
+      assign unused_forward = ^same_pixel_t4_i;
       assign operand = count_q;
     end else if (FORWARD_DEPTH == 1) begin : g_forward_one
       logic unused_forward;
       assign unused_forward = ^same_pixel_t4_i[3:2];
-      assign operand = (same_pixel_t4_i[1] && hit_t5_q && bin_t5_q == bin_t4_q) ? written_q : count_q;
+      logic equal_t4_q;
+      always_ff @(posedge clk_i) begin
+        equal_t4_q <= hit_t4_q && (bin_t4_q == bin_t3_q);
+      end
+      assign operand = (same_pixel_t4_i[1] && equal_t4_q) ? written_q : count_q;
     end else begin : g_forward
       // Stages behind the write: T6 and T7.
-      logic hit_t6_q, hit_t7_q;
-      logic [BIN_WIDTH-1:0] bin_t6_q, bin_t7_q;
+      logic hit_t6_q;
+      logic [BIN_WIDTH-1:0] bin_t6_q;
       logic [COUNT_WIDTH-1:0] written_t6_q, written_t7_q;
+      logic [3:1] equal_t4_q;
       always_ff @(posedge clk_i) begin
         hit_t6_q <= hit_t5_q;
-        hit_t7_q <= hit_t6_q;
         bin_t6_q <= bin_t5_q;
-        bin_t7_q <= bin_t6_q;
         written_t6_q <= written_q;
         written_t7_q <= written_t6_q;
+        equal_t4_q[1] <= hit_t4_q && (bin_t4_q == bin_t3_q);
+        equal_t4_q[2] <= hit_t5_q && (bin_t5_q == bin_t3_q);
+        equal_t4_q[3] <= hit_t6_q && (bin_t6_q == bin_t3_q);
       end
       always_comb begin
-        if (same_pixel_t4_i[1] && hit_t5_q && bin_t5_q == bin_t4_q) begin
+        if (same_pixel_t4_i[1] && equal_t4_q[1]) begin
           operand = written_q;
-        end else if (same_pixel_t4_i[2] && hit_t6_q && bin_t6_q == bin_t4_q) begin
+        end else if (same_pixel_t4_i[2] && equal_t4_q[2]) begin
           operand = written_t6_q;
-        end else if (same_pixel_t4_i[3] && hit_t7_q && bin_t7_q == bin_t4_q) begin
+        end else if (same_pixel_t4_i[3] && equal_t4_q[3]) begin
           operand = written_t7_q;
         end else begin
           operand = count_q;

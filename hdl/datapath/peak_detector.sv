@@ -32,7 +32,8 @@ module peak_detector #(
         peak_q <= bin_s2_i;
         count_q <= count_s2_i;
       end
-      sum_q <= (first_s2_i ? '0 : sum_q) + SUM_WIDTH'(count_s2_i);
+      // The broadcast flag selects late, behind the adder.
+      sum_q <= first_s2_i ? SUM_WIDTH'(count_s2_i) : sum_q + SUM_WIDTH'(count_s2_i);
     end
   end
 

@@ -25,7 +25,7 @@ module pointer_builder #(
     localparam int POINTER_WIDTH = NP + FRACTION_BITS,
     localparam int CONFIDENCE_BITS = dtof_pkg::max_of(CONFIDENCE_WIDTH, 1),
     localparam int TAG_BITS = dtof_pkg::max_of(TAG_WIDTH, 1),
-    localparam int GEAR_WIDTH = dtof_pkg::index_width(FRACTION_BITS + 1)
+    localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS)
 ) (
     input  logic                       clk_i,
     input  logic                       rst_ni,
@@ -37,7 +37,7 @@ module pointer_builder #(
     input  logic                       first_acq_t1_i,
     input  logic                       write_i,           // last slot at T2
     input  logic [      ROW_WIDTH-1:0] write_pixel_i,
-    input  logic [     GEAR_WIDTH-1:0] gear_t1_i,
+    input  logic [     STEP_WIDTH-1:0] step_t1_i,
     // timestamp at T1
     input  logic                       hit_t1_i,
     input  logic [             NP-1:0] timestamp_t1_i,
@@ -116,7 +116,7 @@ module pointer_builder #(
   ) u_update (
       .hit_i       (hit_t1_i),
       .timestamp_i (timestamp_t1_i),
-      .gear_i      (gear_t1_i),
+      .step_i      (step_t1_i),
       .pointer_i   (current[POINTER_WIDTH-1:0]),
       .confidence_i(current_confidence),
       .pointer_o   (moved_pointer),

@@ -13,11 +13,11 @@ module pointer_update #(
     parameter int CONFIDENCE_WIDTH = 4,  // 0: no confidence
     localparam int POINTER_WIDTH = NP + FRACTION_BITS,
     localparam int CONFIDENCE_BITS = dtof_pkg::max_of(CONFIDENCE_WIDTH, 1),
-    localparam int GEAR_WIDTH = dtof_pkg::index_width(FRACTION_BITS + 1)
+    localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS)
 ) (
     input  logic                       hit_i,         // the timestamp counts
     input  logic [             NP-1:0] timestamp_i,
-    input  logic [     GEAR_WIDTH-1:0] gear_i,
+    input  logic [     STEP_WIDTH-1:0] step_i,        // (POINTER_STEP << F) >> gear; unused for F = 0
     input  logic [  POINTER_WIDTH-1:0] pointer_i,
     input  logic [CONFIDENCE_BITS-1:0] confidence_i,
     output logic [  POINTER_WIDTH-1:0] pointer_o,
@@ -25,13 +25,13 @@ module pointer_update #(
 );
 
   localparam int NEAR_BITS = (POINTER_WIDTH < 5) ? POINTER_WIDTH : 5;
-  localparam logic [POINTER_WIDTH-1:0] FULL_STEP = POINTER_WIDTH'(POINTER_STEP << FRACTION_BITS);
 
   logic [POINTER_WIDTH-1:0] target, difference, step, up, down;
   logic low_equal, equal, left;
 
   assign target = POINTER_WIDTH'(timestamp_i) << FRACTION_BITS;
-  assign step = FULL_STEP >> gear_i;
+  // A constant where it is one: synthesis of a column alone cannot see that its input never changes.
+  assign step = (FRACTION_BITS == 0) ? POINTER_WIDTH'(POINTER_STEP) : POINTER_WIDTH'(step_i);
   assign difference = target - pointer_i;
   assign up = pointer_i + step;
   assign down = pointer_i - step;

@@ -3,7 +3,7 @@
 `ifndef DTOF_MACROS_SVH
 `define DTOF_MACROS_SVH
 
-// Illegal parameters stop elaboration with a sentence. Icarus 11 knows no elaboration $fatal and stops at
+// Illegal parameters stop elaboration with a sentence. Icarus 11 knows no elaboration $error and stops at
 // time 0 instead.
 `ifdef __ICARUS__
 `define DTOF_REQUIRE(LABEL, CONDITION, SENTENCE) \
@@ -14,7 +14,7 @@
 `else
 `define DTOF_REQUIRE(LABEL, CONDITION, SENTENCE) \
   generate if (!(CONDITION)) begin : LABEL \
-    $fatal(1, SENTENCE); \
+    $error(SENTENCE); \
   end endgenerate
 `endif
 

@@ -79,6 +79,7 @@ module dtof_array #(
   localparam int FINE_BINS = (READOUT == dtof_pkg::READOUT_FIFH) ? (1 << (NP - NB)) : BINS;
   localparam int GEARS = dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
   localparam int GEAR_WIDTH = dtof_pkg::index_width(GEARS + 1);
+  localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, GEARS);
 
   // Control, once per array.
 
@@ -208,7 +209,7 @@ module dtof_array #(
   logic word_read, word_read_done_q;  // the pointer word, coarse peak or best peak of a pixel
   logic [ROW_WIDTH-1:0] word_read_pixel;
   logic pointer_write;
-  logic [GEAR_WIDTH-1:0] gear_t1_q;
+  logic [STEP_WIDTH-1:0] step_t1_q;
 
   assign clear_all = (state_o == dtof_pkg::STATE_RESET) || (state_o == dtof_pkg::STATE_M2);
   assign histogram_read_pixel = scan_s0 ? pixel_s0 : pixel_t2;
@@ -231,10 +232,10 @@ module dtof_array #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       word_read_done_q <= 1'b0;
-      gear_t1_q <= '0;
+      step_t1_q <= '0;
     end else begin
       word_read_done_q <= word_read;
-      gear_t1_q <= gear;
+      step_t1_q <= STEP_WIDTH'(POINTER_STEP << GEARS) >> gear;
     end
   end
 
@@ -267,7 +268,7 @@ module dtof_array #(
             .first_acq_t1_i       (first_acq_t1),
             .pointer_write_i      (pointer_write),
             .pointer_write_pixel_i(pixel_t2),
-            .gear_t1_i            (gear_t1_q),
+            .step_t1_i            (step_t1_q),
             .clear_s1_i           (clear_s1),
             .clear_pixel_s1_i     (pixel_s1),
             .result_load_i        (result_load),
@@ -314,7 +315,7 @@ module dtof_array #(
             .first_acq_t1_i         (first_acq_t1),
             .pointer_write_i        (pointer_write),
             .pointer_write_pixel_i  (pixel_t2),
-            .gear_t1_i              (gear_t1_q),
+            .step_t1_i              (step_t1_q),
             .start_write_s3_i       (peak_write),
             .start_pixel_s3_i       (pixel_s3),
             .result_load_i          (result_load),
