@@ -47,20 +47,21 @@ TEST(CounterRandom, BlocksDoNotRepeat) {
   EXPECT_GE(different.size(), 3998U);  // 4000^2 / 2^33: a chance repetition is already rare
 }
 
+constexpr int kUniformDraws = 1 << 16;
+
 TEST(CounterRandom, UniformIsOpenAndCentred) {
   CounterRandom random(5, 1, 0, 0);
-  constexpr int count = 1 << 16;
   double sum = 0.0;
   double squares = 0.0;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < kUniformDraws; ++i) {
     const double u = random.uniform();
     ASSERT_GT(u, 0.0);
     ASSERT_LT(u, 1.0);
     sum += u;
     squares += (u - 0.5) * (u - 0.5);
   }
-  EXPECT_NEAR(sum / count, 0.5, 5 * 0.2887 / 256);  // five standard errors; the seed is fixed
-  EXPECT_NEAR(squares / count, 1.0 / 12.0, 5 * 0.0745 / 256);
+  EXPECT_NEAR(sum / kUniformDraws, 0.5, 5 * 0.2887 / 256);  // five standard errors; the seed is fixed
+  EXPECT_NEAR(squares / kUniformDraws, 1.0 / 12.0, 5 * 0.0745 / 256);
 }
 
 TEST(CounterRandom, FillGivesTheWordsOfSingleCalls) {
