@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -36,9 +39,22 @@ std::string format_of(const RecordingOptions& options) {
   throw InputError(fmt::format("{}: unknown kind of recording; name it with --format", file));
 }
 
+// A pixel whose histogram is empty measured nothing: its result is no measurement of the true distance.
+void forget_truth_without_photons(const HistogramCube& cube, std::vector<double>& true_distance) {
+  for (std::size_t i = 0; i < true_distance.size(); ++i) {
+    const auto pixel =
+        std::span(cube.counts)
+            .subspan(i * static_cast<std::size_t>(cube.bins), static_cast<std::size_t>(cube.bins));
+    if (std::all_of(pixel.begin(), pixel.end(), [](double count) { return count == 0.0; })) {
+      true_distance[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
 Recording from_cube(HistogramCube cube, const Resampling& resampling, std::string what) {
   Recording recording;
   recording.true_distance = cube.true_distance;
+  forget_truth_without_photons(cube, recording.true_distance);
   recording.description = std::move(what);
   recording.source = std::make_unique<HistogramStream>(std::move(cube), resampling);
   return recording;

@@ -160,7 +160,7 @@ void write_comparison(const std::vector<Comparison>& comparisons, const ReplayOp
     }
     for (const auto& [truth, measured] : by_truth) {
       line.x.push_back(truth);
-      line.y.push_back(median(measured));
+      line.y.push_back(median(measured) - truth);
     }
   }
   write_file(folder / "summary.csv", summary.csv());
@@ -169,10 +169,10 @@ void write_comparison(const std::vector<Comparison>& comparisons, const ReplayOp
              fmt::format("{}\n{}\nMeasured distance in mm (median of each group of true distances):\n\n{}\n"
                          "Command: `{}`\n",
                          heading, summary.markdown(), distances.markdown(), options.command_line));
-  write_plot(folder / "distance.svg", series,
-             {.title = "Measured against true distance: " + options.recording.file,
+  write_plot(folder / "error.svg", series,
+             {.title = "Error of the measured distance: " + options.recording.file,
               .x_label = "true distance, mm",
-              .y_label = "measured distance, mm"});
+              .y_label = "measured - true, mm (median of the zones)"});
   fmt::print("{}\n{}\nMeasured distance in mm (median of each group of true distances):\n\n{}\n", heading,
              summary.markdown(), distances.markdown());
 }
