@@ -3,13 +3,15 @@
 #
 # Ports: every budget is the share of the clock period that the outside uses. The TDC's timestamps and the
 # result stream come from and go to registers; the handshakes have some logic outside.
-set uncertainty 0.10
+set setup_uncertainty 0.10
+set hold_uncertainty 0.05
 set tdc_share 0.30
 set control_share 0.30
 set stream_share 0.30
 
 create_clock -name clk -period $period [get_ports clk_i]
-set_clock_uncertainty $uncertainty [get_clocks clk]
+set_clock_uncertainty -setup $setup_uncertainty [get_clocks clk]
+set_clock_uncertainty -hold $hold_uncertainty [get_clocks clk]
 
 set_input_delay [expr {$tdc_share * $period}] -clock clk [get_ports {tdc_valid_i tdc_timestamp_i*}]
 set_output_delay [expr {$tdc_share * $period}] -clock clk [get_ports tdc_ready_o]

@@ -6,85 +6,70 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from . import netlist, sram_model, tools
+from . import netlist, power, sram_kit, sram_model, tools
 from .configuration import Configuration, bits_per_pixel, memories
 from .errors import FlowError
 from .library import Library
 from .netlist import Counts
+from .power import ClockTree, Power
 
 TOP = "dtof_array"
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
 KEPT_COLUMNS = 3
-# Delay target for ABC: the target period less clock-to-data, setup and uncertainty of the slow corner.
-LOGIC_SHARE = 0.72
-ACTIVITY = 0.1  # of the data nets, transitions a clock cycle; docs/synthesis.md
-HIT_RATE = 0.25  # share of timestamps that are detections, for the SRAM accesses
-
-ABC_SCRIPT = ("+strash;ifraig;scorr;dc2;dch,-f;map,-B,0.9,{D};topo;buffer,-c,-N,16;"
-              "upsize,{D};dnsize,{D};stime,-p")
+# Delay target for ABC as a share of the period: what clock-to-data, setup, uncertainty and the arrival of the
+# broadcast signals, of which ABC knows nothing, leave in the slow corner.
+LOGIC_SHARE = 0.5
+ABC_SCRIPT = "+strash;ifraig;scorr;dc2;dch,-f;map,-B,0.9,{D};topo;buffer,-c;upsize,{D};dnsize,{D};stime,-p"
+BOTH_CORNERS = ("typical", "slow")
 
 
 @dataclass(frozen=True)
 class Technology:
-    """Everything a run needs besides the RTL."""
+    """Everything a run needs besides the RTL. `slow` is the library that logic is mapped against."""
 
     typical: Library
     slow: Library
-    slow_is_typical: bool
     kit: Path
     root: Path
 
+    def library(self, corner: str) -> Library:
+        return self.typical if corner == "typical" else self.slow
+
 
 @dataclass(frozen=True)
-class Path_:
-    """A timing path."""
+class Timing:
+    """One corner. Slacks in ns: setup and hold at 330 MHz, setup at 500 MHz."""
 
+    slack: float
+    hold_slack: float
+    fast_slack: float
+    fmax_mhz: float
     start: str
     end: str
     stages: int
 
 
 @dataclass(frozen=True)
-class Timing:
-    """One corner. Slacks in ns at 330 MHz (setup, hold) and at 500 MHz (setup)."""
-
-    slack: float
-    hold_slack: float
-    fast_slack: float
-    fmax_mhz: float
-    critical: Path_
-    violations: list[str]
-
-
-@dataclass(frozen=True)
-class Power:
-    """mW of the whole array at 330 MHz, typical corner."""
-
-    logic: float
-    sram: float
-    clock: float
-
-    @property
-    def total(self) -> float:
-        return self.logic + self.sram + self.clock
-
-
-@dataclass(frozen=True)
 class Result:
-    """Figures of one configuration."""
+    """Figures of one configuration. Areas in um2."""
 
     configuration: Configuration
     column: Counts
     shared: Counts
-    memories: dict[str, str]
-    sram_column_um2: float
-    nand2_um2: float
+    clock_tree: ClockTree
+    nand2_area: float
     timing: dict[str, Timing]
-    power: Power | None
+    power: Power | None = None
+    sram_area: float = field(init=False)
+
+    def __post_init__(self) -> None:
+        areas = (sram_model.macro(size).area for size in memories(self.configuration).values())
+        object.__setattr__(self, "sram_area", sum(areas))
 
     @property
     def columns(self) -> int:
@@ -92,16 +77,15 @@ class Result:
 
     @property
     def total_mm2(self) -> float:
-        column = self.column.area + self.sram_column_um2
-        return (column * self.columns + self.shared.area) / 1e6
+        """Columns and shared logic; the clock tree is an estimate and reported apart."""
+        return ((self.column.area + self.sram_area) * self.columns + self.shared.area) / 1e6
 
     @property
     def bits_per_pixel(self) -> float:
         return bits_per_pixel(self.configuration)
 
-    @property
-    def column_kge(self) -> float:
-        return self.column.area / self.nand2_um2 / 1000
+    def kge(self, area: float) -> float:
+        return area / self.nand2_area / 1000
 
 
 def rtl_files(root: Path) -> list[Path]:
@@ -115,35 +99,37 @@ def rtl_files(root: Path) -> list[Path]:
             if line.endswith((".sv", ".v")) and not line.startswith("technology/")]
 
 
-def _tie(library: Library, value: str) -> list[str]:
-    return list(library.tie.get(value, ()))
-
-
 def synthesise(configuration: Configuration, technology: Technology, folder: Path) -> dict:
-    """Runs Yosys; returns the mapped design."""
+    """Runs Yosys; returns the mapped design, every step's checks passed."""
     folder.mkdir(parents=True, exist_ok=True)
     library = technology.slow
-    period_ps = 1e6 / TARGET_MHZ
-    load = 4 * library.input_ff[library.inverter][next(iter(library.input_ff[library.inverter]))]
+    inverter_ff = next(iter(library.input_ff[library.inverter].values()))
     constraints = folder / "abc.constr"
-    constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {load:.3f} [all_outputs]\n",
+    constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n",
                            encoding="utf-8")
+    scripts = technology.root / "synth" / "yosys"
     settings = folder / "yosys_settings.tcl"
     tools.write_settings(settings, {
-        "scripts": technology.root / "synth" / "yosys", "top": TOP,
+        "scripts": scripts, "top": TOP,
         "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "package",
         "technology_files": [technology.kit / f"{kind.module}.sv" for kind in sram_model.KINDS.values()],
         "black_boxes": technology.kit / "sram40_blackbox.v",
         "liberty": library.path, "parameters": configuration.rtl_parameters(),
-        "abc_constraints": constraints, "abc_period_ps": f"{period_ps * LOGIC_SHARE:.0f}",
-        "abc_script": ABC_SCRIPT, "tie_low": _tie(library, "0"), "tie_high": _tie(library, "1"),
-        "netlist_json": folder / "mapped.json"})
-    tools.run_yosys(technology.root / "synth" / "yosys", settings, folder / "yosys.log", configuration.name)
-    return json.loads((folder / "mapped.json").read_text(encoding="utf-8"))
+        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / TARGET_MHZ * LOGIC_SHARE:.0f}",
+        "abc_script": ABC_SCRIPT, "tie_low": list(library.tie.get("0", ())),
+        "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
+    tools.run_yosys(scripts / "flow.tcl", settings, folder / "yosys.log", configuration.name)
+    design = json.loads((folder / "mapped.json").read_text(encoding="utf-8"))
+    netlist.rename_columns(design)
+    macros = {size.name for size in memories(configuration).values()}
+    foreign = netlist.foreign_cells(design, library, macros)
+    if foreign:
+        raise FlowError(f"{configuration.name}: unmapped cells in the netlist: {', '.join(sorted(foreign))}")
+    return design
 
 
-def write_timing_netlist(design: dict, loads: dict[str, list[float]], technology: Technology,
-                         folder: Path, name: str) -> None:
+def _write_timing_netlist(design: dict, loads: dict[str, list[float]], technology: Technology,
+                          folder: Path, name: str) -> None:
     """Verilog of the array with few real columns, and the stub's Liberty."""
     netlist.keep_columns(design, KEPT_COLUMNS)
     (folder / "column_stub.lib").write_text(
@@ -151,54 +137,93 @@ def write_timing_netlist(design: dict, loads: dict[str, list[float]], technology
     (folder / "timing.json").write_text(json.dumps(design), encoding="utf-8")
     settings = folder / "write_settings.tcl"
     tools.write_settings(settings, {"netlist_json": folder / "timing.json", "netlist": folder / "timing.v"})
-    scripts = technology.root / "synth" / "yosys"
-    tools.run_yosys(scripts, settings, folder / "write.log", name, "write_verilog.tcl")
+    tools.run_yosys(technology.root / "synth" / "yosys" / "write_verilog.tcl", settings, folder / "write.log", name)
 
 
-def _path(text: str) -> Path_:
-    start = re.search(r"Startpoint: (\S+)", text)
-    end = re.search(r"Endpoint: (\S+)", text)
-    if not start or not end:
-        raise FlowError("OpenSTA reported no timing path")
-    # A stage is a cell output on the path: rows "  delay  time  edge  instance/pin (cell)", data part only.
-    data = text.split("data arrival time")[0]
-    stages = len(re.findall(r"[v^] \S+/(?:Y|Z|ZN|Q|QN|S|CO|CON|SN|YC|YS|GCK) \(", data))
-    return Path_(start.group(1), end.group(1), stages)
+def _readable(name: str) -> str:
+    """A register's or macro's name without generate levels, cell type and copy number."""
+    name = re.sub(r"\\+\w+$", "", name)
+    name = re.sub(r"^g_column\[\d+\]\.\S*?u_column/", "column ", name)
+    return re.sub(r"(\.(g_\w+|genblk\d+|u_macro))+$", "", name)
 
 
 def _section(output: str, name: str) -> str:
     return output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]
 
 
+def _critical_path(report: str) -> tuple[str, str, int]:
+    """(start, end, cells between them) of a report_checks path."""
+    start = re.search(r"Startpoint: (\S+)", report)
+    end = re.search(r"Endpoint: (\S+)", report)
+    if not start or not end:
+        raise FlowError("OpenSTA reported no timing path")
+    data = report.split("data arrival time")[0]
+    pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
+    gates = [pin for pin in pins if not pin.startswith((start.group(1), end.group(1)))]
+    return _readable(start.group(1)), _readable(end.group(1)), len(gates)
+
+
+def _number(output: str, label: str, index: int = 0) -> float:
+    found = re.search(rf"^{label} (.*)$", output, re.MULTILINE)
+    return float(found.group(1).split()[index])
+
+
 def time_corner(configuration: Configuration, technology: Technology, corner: str,
                 folder: Path) -> tuple[Timing, str]:
     """Runs OpenSTA in one corner; returns the timing and the output (for power)."""
-    library = technology.typical if corner == "typical" else technology.slow
+    library = technology.library(corner)
     settings = folder / f"sta_{corner}_settings.tcl"
     tools.write_settings(settings, {
         "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
         "netlist": folder / "timing.v", "top": TOP, "wire_load": library.wire_load,
         "constraints": technology.root / "constraints" / "dtof.sdc",
         "target_period": f"{1000 / TARGET_MHZ:.6f}", "fast_period": f"{1000 / FAST_MHZ:.6f}",
-        "activity": ACTIVITY})
+        "activity": power.ACTIVITY, "with_power": int(corner == "typical")})
+    name = f"{configuration.name}, {corner} corner"
     output = tools.run_sta(technology.root / "synth" / "sta" / "timing.tcl", settings,
-                           folder / f"sta_{corner}.log", f"{configuration.name} {corner}")
-    slack, hold = map(float, re.search(r"^DTOF_SLACK (\S+) (\S+)", output, re.MULTILINE).groups())
-    closing = float(re.search(r"^DTOF_CLOSING_PERIOD (\S+)", output, re.MULTILINE).group(1))
-    fast = float(re.search(r"^DTOF_FAST_SLACK (\S+)", output, re.MULTILINE).group(1))
+                           folder / f"sta_{corner}.log", name)
     violations = [line.strip() for line in _section(output, "DTOF_CHECKS").splitlines() if "VIOLATED" in line]
-    return Timing(slack, hold, fast, 1000 / closing, _path(_section(output, "DTOF_PATH_MAX")), violations), output
+    if violations:
+        raise FlowError(f"{name}: OpenSTA: {violations[0]} (see {folder / f'sta_{corner}.log'})")
+    timing = Timing(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
+                    _number(output, "DTOF_FAST_SLACK"), 1000 / _number(output, "DTOF_CLOSING_PERIOD"),
+                    *_critical_path(_section(output, "DTOF_PATH_MAX")))
+    return timing, output
 
 
-def key(configuration: Configuration, technology: Technology) -> str:
-    """Hash of all inputs of a run: same key, same result."""
+def run(configuration: Configuration, technology: Technology, folder: Path,
+        corners: Iterable[str] = BOTH_CORNERS) -> Result:
+    """The whole flow of one configuration; FlowError at the first step that fails."""
+    design = synthesise(configuration, technology, folder)
+    library = technology.slow
+    loads = netlist.finish(design, library, sram_kit.PIN_FF)
+    column = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
+    shared = netlist.count(netlist.top(design), library)
+    columns = configuration["SRAM_NUM"]
+    macros = len(memories(configuration))
+    tree = power.clock_tree(columns * (column.flip_flops + macros) + shared.flip_flops,
+                            columns * (column.clock_ff + macros * sram_kit.CLOCK_PIN_FF) + shared.clock_ff,
+                            library)
+    _write_timing_netlist(design, loads, technology, folder, configuration.name)
+    timing: dict[str, Timing] = {}
+    figures: Power | None = None
+    for corner in corners:
+        timing[corner], output = time_corner(configuration, technology, corner, folder)
+        if corner == "typical":
+            figures = Power(power.logic_mw(output, columns), power.sram_mw(configuration, TARGET_MHZ),
+                            power.clock_mw(output, columns, tree, technology.typical, TARGET_MHZ))
+    return Result(configuration, column, shared, tree, library.nand2_area, timing, figures)
+
+
+def input_digest(technology: Technology) -> str:
+    """Hash of everything but the parameters that a run's result depends on."""
     digest = hashlib.sha256()
-    digest.update(json.dumps(configuration.rtl_parameters(), sort_keys=True).encode())
     synth = technology.root / "synth"
     files = [*rtl_files(technology.root), *(technology.root / "hdl").rglob("*.svh"),
              *synth.glob("yosys/*.tcl"), *synth.glob("sta/*.tcl"), *synth.glob("dtof_synth/*.py"),
              *(technology.root / "constraints").glob("*.sdc"), *technology.kit.iterdir(),
              technology.typical.path, technology.slow.path]
     for file in sorted(set(files)):
+        digest.update(str(file.name).encode())
         digest.update(file.read_bytes())
     return digest.hexdigest()

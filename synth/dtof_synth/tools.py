@@ -42,9 +42,9 @@ _YOSYS_FATAL = re.compile(r"Warning: .*(is used but has no driver|multiple confl
                           r"found logic loop|Replacing memory|inferred latch)", re.IGNORECASE)
 
 
-def run_yosys(scripts: Path, settings: Path, log: Path, name: str, script: str = "flow.tcl") -> None:
-    """Runs the Yosys flow; FlowError names the step and Yosys's own message."""
-    output = _run(["yosys", "-c", str(scripts / script)], settings, log)
+def run_yosys(script: Path, settings: Path, log: Path, name: str) -> None:
+    """Runs a Yosys script; FlowError names the step and Yosys's own message."""
+    output = _run(["yosys", "-c", str(script)], settings, log)
     steps = re.findall(r"^DTOF_STEP (\S+)", output, re.MULTILINE)
     broken = _YOSYS_FATAL.search(output)
     error = re.search(r"ERROR: (.*)", output)

@@ -43,11 +43,22 @@ proc run {} {
   report_checks -path_delay min -digits 4 -fields {slew cap}
   puts "DTOF_CHECKS"
   report_check_types -all_violators -max_transition -min_period
-  puts "DTOF_POWER"
-  set_power_activity -global -activity $activity
-  report_power -digits 6
-  puts "DTOF_POWER_SRAM"
-  report_power -instances [get_cells -hierarchical *u_macro] -digits 6
+  if {$::with_power} { report_cell_power $activity }
+}
+
+# Power of every cell but the SRAMs, once with nearly idle data (what remains is the clock) and once with the
+# stated activity. Rows of `report_power -instances`: internal, switching, leakage, total, name.
+proc report_cell_power {activity} {
+  set cells {}
+  foreach cell [get_cells -hierarchical *] {
+    set name [get_full_name $cell]
+    if {![string match *u_macro $name] && ![string match *u_column $name]} { lappend cells $cell }
+  }
+  foreach {label value} [list CLOCK 1e-9 ALL $activity] {
+    puts "DTOF_POWER_$label"
+    set_power_activity -global -activity $value
+    report_power -instances $cells -digits 9
+  }
 }
 
 source $::env(DTOF_SETTINGS)

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Runs many configurations on all cores; results are kept until an input changes."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import pickle
+from collections.abc import Callable, Iterable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+
+from .configuration import Configuration
+from .run import BOTH_CORNERS, Result, Technology, input_digest, run
+
+
+@dataclass(frozen=True)
+class Job:
+    configuration: Configuration
+    corners: tuple[str, ...] = BOTH_CORNERS
+
+
+def _key(job: Job, digest: str) -> str:
+    text = json.dumps([job.configuration.rtl_parameters(), job.corners, digest], sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def _work(job: Job, technology: Technology, folder: Path, key: str) -> Result:
+    result = run(job.configuration, technology, folder, job.corners)
+    (folder / "result.pickle").write_bytes(pickle.dumps((key, result)))
+    return result
+
+
+def _kept(folder: Path, key: str) -> Result | None:
+    try:
+        kept_key, result = pickle.loads((folder / "result.pickle").read_bytes())
+    except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError):
+        return None
+    return result if kept_key == key else None
+
+
+def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: int,
+            progress: Callable[[str], None]) -> dict[str, Result]:
+    """Results by configuration name, in the order of the jobs. The first failure stops everything."""
+    digest = input_digest(technology)
+    jobs = list(jobs)
+    results: dict[str, Result] = {}
+    waiting = []
+    for job in jobs:
+        name = job.configuration.name
+        kept = _kept(build / name, _key(job, digest))
+        if kept is not None:
+            results[name] = kept
+        else:
+            waiting.append(job)
+    done = len(results)
+    with ProcessPoolExecutor(workers) as pool:
+        futures = {pool.submit(_work, job, technology, build / job.configuration.name, _key(job, digest)): job
+                   for job in waiting}
+        try:
+            for future in as_completed(futures):
+                name = futures[future].configuration.name
+                results[name] = future.result()
+                done += 1
+                progress(f"[{done}/{len(jobs)}] {name}")
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return {job.configuration.name: results[job.configuration.name] for job in jobs}

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Command line of the synthesis flow."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from pathlib import Path
+
+from . import batch, budgets, check, configuration, goals, growth, report, signalled_clear, sram_kit, sram_report
+from . import technology as technologies
+from .configuration import Configuration
+from .errors import FlowError
+from .run import input_digest
+
+ROOT = Path(__file__).resolve().parents[2]
+BUDGETS = ROOT / "synth" / "budgets.csv"
+PDK = ROOT.parent / "shared" / "pdk"
+
+
+def _say(text: str) -> None:
+    print(text, flush=True)
+
+
+def _all_configurations(named: dict[str, Configuration]) -> list[Configuration]:
+    """Named configurations and everything that is derived from them, for the list of SRAM sizes."""
+    return [*named.values(), *(point for _, _, point in growth.sweep(named)),
+            *signalled_clear.configurations(named)]
+
+
+def _select(named: dict[str, Configuration], names: list[str]) -> dict[str, Configuration]:
+    unknown = [name for name in names if name not in named]
+    if unknown:
+        raise FlowError(f"unknown configuration '{unknown[0]}'; known: {', '.join(named)}")
+    return {name: named[name] for name in names} if names else named
+
+
+def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Named configurations; with the generated library and no selection also growth, reports and budgets."""
+    started = time.monotonic()
+    chosen = _select(named, arguments.configuration)
+    foreign = arguments.liberty is not None
+    build = ROOT / "build" / "synth"
+    everything = _all_configurations(named)
+    technology = technologies.prepare(ROOT, build / (arguments.liberty.name if foreign else "generic40"), everything,
+                                      arguments.liberty, arguments.liberty_slow)
+    if foreign and arguments.liberty_slow is None:
+        _say("note: no LIBERTY_SLOW: the one library serves both corners")
+    full = not foreign and not arguments.configuration
+    jobs = [batch.Job(item) for item in chosen.values()]
+    if full:
+        jobs += growth.jobs(named) + [batch.Job(item, ("slow",)) for item in signalled_clear.configurations(named)]
+    runs = build / ("runs" if not foreign else f"runs_{technology.typical.name}")
+    results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
+    main = {name: results[name] for name in chosen}
+    _say(report.summary(main))
+    status = 0
+    if full:
+        status = _write_reports(arguments, named, results, technology, everything)
+    _say(f"{len(jobs)} configurations in {time.monotonic() - started:.0f} s")
+    return status
+
+
+def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration], results, technology,
+                   everything: list[Configuration]) -> int:
+    reports = ROOT / "reports"
+    reports.mkdir(exist_ok=True)
+    main = {name: results[name] for name in named}
+    digest = input_digest(technology)
+    found = goals.check(main)
+    extra = "\n".join([signalled_clear.section(named, results), report.goals_section(found),
+                       "How cost grows: [growth.csv](growth.csv)\n\n![growth](growth.png)\n"])
+    (reports / "area.md").write_text(report.area(main, extra, technology.typical.name, digest), encoding="utf-8")
+    (reports / "timing.md").write_text(report.timing(main, technology.typical.name, digest), encoding="utf-8")
+    report.write_area_csv(reports / "area.csv", main)
+    report.write_timing_csv(reports / "timing.csv", main)
+    growth.write(growth.sweep(named), results, reports, ROOT / "build" / "synth")
+    uses = technologies.needed_sizes(everything)
+    (reports / "sram.md").write_text(sram_report.text(uses, set(named), PDK), encoding="utf-8")
+    for goal in found:
+        if not goal.met:
+            _say(f"goal missed: {goal.text}: {goal.value}")
+    lines, worse = budgets.moved(budgets.read(BUDGETS), main)
+    for line in lines:
+        _say(f"budget: {line}")
+    if not lines:
+        _say(f"budgets: nothing moved by more than {budgets.TOLERANCE:.0%}")
+    _say("reports/area.md, reports/timing.md, reports/sram.md, reports/growth.csv written")
+    return 1 if arguments.strict and worse else 0
+
+
+def _sizes(_: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    uses = technologies.needed_sizes(_all_configurations(named))
+    sram_kit.write_sizes(ROOT / technologies.SIZES, sorted(uses))
+    _say(f"{technologies.SIZES}: {len(uses)} sizes")
+    return 0
+
+
+def _budgets(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Writes the figures of the last state as the new budgets."""
+    build = ROOT / "build" / "synth"
+    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    results = batch.run_all([batch.Job(item) for item in named.values()], technology, build / "runs",
+                            arguments.jobs, _say)
+    for line in budgets.moved(budgets.read(BUDGETS), results)[0]:
+        _say(line)
+    budgets.write(BUDGETS, results)
+    _say(f"{BUDGETS.relative_to(ROOT)}: review with git diff and commit")
+    return 0
+
+
+def _check(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    return check.run(ROOT, PDK, named, _all_configurations(named), arguments.jobs, _say)
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(description="Area, timing and power of the named configurations.")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at the same time")
+    commands = parser.add_subparsers(dest="command", required=True)
+    run = commands.add_parser("run", help="synthesise, time, report")
+    run.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, with reports")
+    run.add_argument("--liberty", type=Path, help="standard cells instead of the generated library")
+    run.add_argument("--liberty-slow", type=Path, help="the same cells in the slow corner")
+    run.add_argument("--strict", action="store_true", help="fail if a figure is worse than its budget")
+    run.set_defaults(action=_run)
+    for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
+                               ("budgets", _budgets, "propose new budgets from the current state"),
+                               ("check", _check, "compare the generated library with others")):
+        commands.add_parser(name, help=text).set_defaults(action=action)
+    return parser
+
+
+def main() -> int:
+    arguments = _parser().parse_args()
+    if arguments.jobs < 1:
+        print("error: --jobs must be at least 1", file=sys.stderr)
+        return 2
+    try:
+        return arguments.action(arguments, configuration.load(ROOT / "configurations.toml"))
+    except FlowError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130

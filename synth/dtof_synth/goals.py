@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The goals of the design, checked against the results of the generated library."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .run import FAST_MHZ, TARGET_MHZ, Result
+
+COLUMN_UM2 = {"ezpointer": 700.0}
+COLUMN_UM2_OTHERS = 1200.0
+ONE_PORT_EZPOINTER_MM2 = 0.65
+# Table 1 of the thesis: rank by area, equal where alike. Areas within this ratio count as alike.
+THESIS_RANK = {"ezpointer": 1, "hispointer": 2, "fifh": 2, "sifh": 3}
+ALIKE = 1.05
+
+
+@dataclass(frozen=True)
+class Goal:
+    text: str
+    value: str
+    met: bool
+
+
+def ranks(results: dict[str, Result]) -> dict[str, int]:
+    """Rank of the read-outs of Table 1 by our area."""
+    order = sorted(THESIS_RANK, key=lambda name: results[name].total_mm2)
+    found: dict[str, int] = {}
+    rank, first = 0, 0.0
+    for name in order:
+        area = results[name].total_mm2
+        if not found or area > first * ALIKE:
+            rank, first = rank + 1, area
+        found[name] = rank
+    return found
+
+
+def check(results: dict[str, Result]) -> list[Goal]:
+    goals = []
+    for name, result in results.items():
+        if result.configuration.variant_of:
+            continue
+        limit = COLUMN_UM2.get(name, COLUMN_UM2_OTHERS)
+        title = result.configuration.title
+        slow, typical = result.timing["slow"], result.timing["typical"]
+        goals += [
+            Goal(f"{title}: closes {TARGET_MHZ:g} MHz, slow corner", f"slack {slow.slack:+.3f} ns",
+                 slow.slack >= 0),
+            Goal(f"{title}: closes {FAST_MHZ:g} MHz, typical corner", f"slack {typical.fast_slack:+.3f} ns",
+                 typical.fast_slack >= 0),
+            Goal(f"{title}: logic of a column at most {limit:g} um2", f"{result.column.area:.0f} um2",
+                 result.column.area <= limit)]
+    area = results["ezpointer_one_port"].total_mm2
+    goals.append(Goal(f"ezPointer, one-port SRAM: array at most {ONE_PORT_EZPOINTER_MM2:g} mm2",
+                      f"{area:.3f} mm2", area <= ONE_PORT_EZPOINTER_MM2))
+    found = ranks(results)
+    goals.append(Goal("Table 1: area ranks ezPointer 1, FiFH and hisPointer 2, SiFH 3",
+                      ", ".join(f"{results[name].configuration.title} {rank}" for name, rank in found.items()),
+                      found == THESIS_RANK))
+    return goals

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""How cost grows: one parameter at a time, from the thesis's array."""
+
+from __future__ import annotations
+
+import csv
+import math
+import subprocess
+from pathlib import Path
+
+from .batch import Job
+from .configuration import Configuration
+from .errors import FlowError
+from .run import Result
+
+READOUTS = ("ezpointer", "hispointer", "sifh")
+SWEEPS = {"NP": (8, 9, 10, 11, 12), "NB": (4, 5, 6, 7), "PIXELS_PER_SRAM": (40, 80, 160, 320),
+          "SRAM_NUM": (50, 100, 200, 400)}
+LABELS = {"NP": "bits of a timestamp", "NB": "bits of the coarse index",
+          "PIXELS_PER_SRAM": "pixels of a column", "SRAM_NUM": "columns"}
+FWHM_NS, RANGE_NS = 2.0, 45.0
+
+
+def point(base: Configuration, parameter: str, value: int) -> Configuration:
+    """The base with one parameter changed, and with NP what follows from it (NB, GUARD)."""
+    changes = {parameter: value}
+    if parameter == "NP":
+        changes["NB"] = value // 2 + (1 if base.readout == "sifh" else 0)
+        changes["GUARD"] = math.ceil(FWHM_NS / RANGE_NS * 2**value)
+    return base.with_parameters(f"{base.name}_{parameter.lower()}{value}", **changes)
+
+
+def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int, Configuration]]:
+    """(parameter, value, configuration) of every point; the base itself is a point of every sweep."""
+    points = []
+    for readout in READOUTS:
+        base = configurations[readout]
+        for parameter, values in SWEEPS.items():
+            if parameter == "NB" and readout == "ezpointer":
+                continue
+            for value in values:
+                at_base = base[parameter] == value
+                points.append((parameter, value, base if at_base else point(base, parameter, value)))
+    return points
+
+
+def jobs(configurations: dict[str, Configuration]) -> list[Job]:
+    """The points that are no named configuration, timed in the slow corner only."""
+    return [Job(configuration, ("slow",)) for _, _, configuration in sweep(configurations)
+            if configuration.name not in configurations]
+
+
+def write(points: list[tuple[str, int, Configuration]], results: dict[str, Result], reports: Path,
+          build: Path) -> None:
+    """growth.csv and one plot a parameter."""
+    rows = []
+    for parameter, value, configuration in points:
+        result = results[configuration.name]
+        rows.append([configuration.readout, parameter, value, f"{result.total_mm2:.4f}",
+                     f"{result.bits_per_pixel:.1f}", f"{result.timing['slow'].fmax_mhz:.1f}",
+                     f"{result.column.area:.1f}", f"{result.shared.area:.1f}", f"{result.sram_area:.1f}"])
+    with (reports / "growth.csv").open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["readout", "parameter", "value", "total_mm2", "bits_per_pixel", "fmax_slow_mhz",
+                         "logic_column_um2", "shared_um2", "sram_column_um2"])
+        writer.writerows(rows)
+    script = build / "growth.gp"
+    script.write_text(_gnuplot(rows, reports), encoding="utf-8")
+    try:
+        subprocess.run(["gnuplot", str(script)], check=True, capture_output=True, text=True)
+    except FileNotFoundError:
+        raise FlowError("gnuplot is not installed; scripts/install_packages.sh installs it") from None
+    except subprocess.CalledProcessError as error:
+        raise FlowError(f"gnuplot: {error.stderr.strip().splitlines()[-1]} (see {script})") from None
+
+
+def _gnuplot(rows: list[list], reports: Path) -> str:
+    """One picture: a column a parameter; rows: area, bits of a pixel, highest clock frequency."""
+    metrics = ((3, "area, mm^2"), (4, "memory, bits a pixel"), (5, "slow-corner clock, MHz"))
+    lines = ["set terminal pngcairo size 1500,1000 font 'DejaVu Sans,10'",
+             f"set output '{reports / 'growth.png'}'",
+             f"set multiplot layout {len(metrics)},{len(SWEEPS)}",
+             "set grid", "set key top left"]
+    blocks, plots = [], []
+    for index, label in metrics:
+        for parameter in SWEEPS:
+            series = []
+            for readout in READOUTS:
+                data = [(row[2], row[index]) for row in rows if row[0] == readout and row[1] == parameter]
+                if data:
+                    name = f"$d{len(blocks)}"
+                    blocks.append(f"{name} << EOD\n" + "\n".join(f"{x} {y}" for x, y in data) + "\nEOD")
+                    series.append(f"{name} using 1:2 with linespoints lw 2 pt 7 title '{readout}'")
+            scale = "unset logscale y" if index == 5 else "set logscale y"
+            plots += [scale, f"set xlabel '{parameter}: {LABELS[parameter]}'", f"set ylabel '{label}'",
+                      ("set yrange [0:*]" if index == 5 else "set autoscale y"),
+                      "plot " + ", ".join(series)]
+    return "\n".join(blocks + lines + plots + ["unset multiplot", ""])

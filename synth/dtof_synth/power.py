@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Power of the whole array in the typical corner at 330 MHz, while a frame is being measured.
+
+Logic comes from OpenSTA's report of every cell; SRAM from access energies and access rates; the clock from the
+flip-flops' clock pins and an estimated clock tree. Activities are stated, not simulated (docs/synthesis.md).
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from . import sram_model
+from .configuration import Configuration, memories
+from .library import Library
+
+ACTIVITY = 0.1  # transitions of a data net per clock
+DETECTION_RATE = 0.25  # share of TDC slots that hold a detection
+TREE_LOAD_SHARE = 0.4
+
+
+@dataclass(frozen=True)
+class Power:
+    """mW of the array."""
+
+    logic: float
+    sram: float
+    clock: float
+
+    @property
+    def total(self) -> float:
+        return self.logic + self.sram + self.clock
+
+
+@dataclass(frozen=True)
+class ClockTree:
+    """Estimate: buffers of the largest kind, each level filled to its share of the load below it."""
+
+    buffers: int
+    area: float
+    load_ff: float
+
+
+def clock_tree(flip_flops: int, pins_ff: float, library: Library) -> ClockTree:
+    buffer = library.buffers[-1]
+    limit = buffer.max_load_ff * TREE_LOAD_SHARE
+    load = pins_ff + flip_flops * library.wire_ff_per_sink
+    total_load, total_buffers = load, 0
+    while load > limit:
+        level = -(-load // limit)
+        total_buffers += int(level)
+        load = level * (buffer.input_ff + library.wire_ff_per_sink)
+        total_load += load
+    return ClockTree(total_buffers, total_buffers * buffer.area, total_load)
+
+
+def _cell_power(output: str, label: str) -> dict[str, tuple[float, float, float]]:
+    """(internal, switching, leakage) W per cell of one section of the OpenSTA output."""
+    section = output.split(f"DTOF_POWER_{label}\n", 1)[1].split("\nDTOF_", 1)[0]
+    number = r"([-+.\d]+e[-+]\d+)"
+    rows = re.findall(rf"^\s*{number}\s+{number}\s+{number}\s+\S+\s+(\S+)$", section, re.MULTILINE)
+    return {name: (float(internal), float(switching), float(leakage))
+            for internal, switching, leakage, name in rows}
+
+
+def _array_sum(cells: dict[str, tuple[float, float, float]], columns: int) -> tuple[float, float, float]:
+    """Sum over the array: one kept column times all columns, plus everything outside columns."""
+    groups: dict[str, list[float]] = {}
+    for name, values in cells.items():
+        column = name.split("/")[0] if "/" in name else ""
+        group = groups.setdefault(column, [0.0, 0.0, 0.0])
+        for index, value in enumerate(values):
+            group[index] += value
+    shared = groups.pop("", [0.0, 0.0, 0.0])
+    one = next(iter(groups.values()), [0.0, 0.0, 0.0])
+    return tuple(outside + columns * inside for outside, inside in zip(shared, one))
+
+
+def logic_mw(output: str, columns: int) -> float:
+    """Logic without the clock. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
+    power is twice the power; test_power.py pins that behaviour."""
+    internal, switching, leakage = _array_sum(_cell_power(output, "ALL"), columns)
+    clock_internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), columns)
+    return ((internal - clock_internal) / 2 + switching + leakage) * 1e3
+
+
+def clock_mw(output: str, columns: int, tree: ClockTree, library: Library, mhz: float) -> float:
+    """Clock pins inside the flip-flops, and the tree's wires and pins, charged once a clock."""
+    internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), columns)
+    return internal / 2 * 1e3 + tree.load_ff * library.voltage**2 * mhz * 1e-6
+
+
+def access_rates(configuration: Configuration) -> dict[str, tuple[float, float]]:
+    """(reads, writes) per clock of each SRAM of a column, averaged over the measurements of a frame."""
+    pixel_rate = 1 / configuration["SLOTS"]
+    half = 0.5 if configuration.has_pointer else 1.0
+    return {"histogram": (half * DETECTION_RATE, half * DETECTION_RATE),
+            "pointer": ((pixel_rate, pixel_rate) if configuration.readout == "ezpointer"
+                        else (pixel_rate / 2, pixel_rate / 2)),
+            "coarse peak": (pixel_rate / 2, 0.0), "best peak": (0.0, 0.0)}
+
+
+def sram_mw(configuration: Configuration, mhz: float) -> float:
+    """All SRAMs of all columns."""
+    rates = access_rates(configuration)
+    total = 0.0
+    for use, size in memories(configuration).items():
+        macro = sram_model.macro(size)
+        reads, writes = rates[use]
+        dynamic = (reads * macro.read_energy + writes * macro.write_energy) * mhz * 1e-3
+        total += dynamic + macro.leakage * 1e-3
+    return total * configuration["SRAM_NUM"]

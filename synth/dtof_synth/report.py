@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The committed reports: area.md/.csv, timing.md/.csv, power in the latter, and the goals."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from pathlib import Path
+
+from . import goals, power, sram_model
+from .configuration import memories
+from .run import FAST_MHZ, TARGET_MHZ, Result
+
+# Why our area differs from the thesis's Table 5, a sentence each.
+WHY = {
+    "ezpointer": "The confidence adds 4 bits to the thesis's 10-bit word; without it the array is "
+                 "ezPointer, no confidence, below.",
+    "sifh": "The physical model's two-port array is denser at this size than the thesis's compiled macro.",
+    "fifh": "The thesis's SiFH and FiFH differ by 4.00 mm2 over 51,200 bits a column in 200 columns: 0.39 um2 "
+            "a bit, less than a two-port bitcell (0.472 um2). No physical model meets both; ours meets SiFH.",
+    "hispointer": "As FiFH, whose histogram it shares; the pointer SRAM comes on top.",
+}
+
+
+def _table(header: list[str], rows: Iterable[list[str]], left: int = 1) -> str:
+    lines = ["| " + " | ".join(header) + " |",
+             "|" + "|".join("---" if index < left else "---:" for index in range(len(header))) + "|"]
+    lines += ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join(lines) + "\n"
+
+
+def _provenance(library: str, digest: str) -> str:
+    return (f"Written by `make synth`: library `{library}`, SRAM model `sram40`, {TARGET_MHZ:g} MHz, thesis's array "
+            f"unless a row says otherwise; inputs `{digest[:12]}` (hash of RTL, constraints, scripts, "
+            "libraries). Generated libraries from public figures, not sign-off: "
+            "[docs/technology.md](../docs/technology.md); method: [docs/synthesis.md](../docs/synthesis.md).\n")
+
+
+def _sram_text(result: Result) -> str:
+    parts = []
+    for use, size in memories(result.configuration).items():
+        macro = sram_model.macro(size)
+        parts.append(f"{use} {size.words}x{size.bits} {'1RW' if size.ports == 1 else '1R1W'} "
+                     f"(mux {macro.mux}) {macro.area:.0f}")
+    return "<br>".join(parts)
+
+
+def _area_rows(results: Iterable[Result]) -> list[list[str]]:
+    return [[result.configuration.title, f"{result.column.cells}", f"{result.column.flip_flops}",
+             f"{result.kge(result.column.area):.2f}", f"{result.column.area:.0f}",
+             f"{result.shared.area:.0f}", _sram_text(result), f"{result.bits_per_pixel:.0f}",
+             f"{result.total_mm2:.3f}"] for result in results]
+
+
+AREA_HEADER = ["read-out", "cells", "flip-flops", "kGE", "logic um2", "shared um2", "SRAM, um2", "bits a pixel",
+               "total mm2"]
+
+
+def _split(results: dict[str, Result]) -> tuple[list[Result], list[Result]]:
+    main = [result for result in results.values() if not result.configuration.variant_of]
+    return main, [result for result in results.values() if result.configuration.variant_of]
+
+
+def _thesis_section(results: list[Result]) -> str:
+    rows = []
+    for result in results:
+        thesis = result.configuration.thesis_mm2
+        if thesis:
+            rows.append([result.configuration.title, f"{thesis:.2f}", f"{result.total_mm2:.2f}",
+                         f"{result.total_mm2 / thesis - 1:+.0%}", WHY[result.configuration.name]])
+    return _table(["read-out", "thesis mm2", "here mm2", "deviation", "why"], rows)
+
+
+def _variant_rows(variants: list[Result], results: dict[str, Result]) -> list[list[str]]:
+    rows = []
+    for result in variants:
+        base = results[result.configuration.variant_of]
+        rows.append([result.configuration.title, f"{result.column.area:.0f}",
+                     f"{result.column.area - base.column.area:+.0f}", f"{result.sram_area:.0f}",
+                     f"{result.sram_area - base.sram_area:+.0f}", f"{result.bits_per_pixel:.0f}",
+                     f"{result.total_mm2:.3f}", f"{result.total_mm2 / base.total_mm2 - 1:+.1%}",
+                     f"{result.timing['slow'].fmax_mhz:.0f}", result.configuration.note])
+    return rows
+
+
+def area(results: dict[str, Result], extra: str, library: str, digest: str) -> str:
+    main, variants = _split(results)
+    notes = [f"* {result.configuration.title}: {result.configuration.note}." for result in main
+             if result.configuration.note]
+    return "\n".join([
+        "# Area", "", _provenance(library, digest),
+        "Cells, flip-flops, kGE and logic um2 are of one column (kGE: NAND2 of the library). Shared logic is in the "
+        "array once, fan-out trees to the columns included. Total: columns with their SRAMs, and shared logic.", "",
+        _table(AREA_HEADER, _area_rows(main)), *notes, "",
+        "## Beside the thesis (Table 5)", "", _thesis_section(main),
+        "## Shared logic and fan-out", "",
+        "Buffers and register copies that carry the shared signals to all columns are counted in the shared logic. "
+        "The clock tree is an estimate from the clock loads and not in any total.", "",
+        _table(["read-out", "cells", "flip-flops", "um2", "of it fan-out buffers", "um2", "clock tree buffers",
+                "um2"],
+               [[result.configuration.title, f"{result.shared.cells}", f"{result.shared.flip_flops}",
+                 f"{result.shared.area:.0f}", f"{result.shared.buffers}", f"{result.shared.buffer_area:.0f}",
+                 f"{result.clock_tree.buffers}", f"{result.clock_tree.area:.0f}"] for result in main]),
+        "## Variants", "", "Changes are against the read-out that the variant belongs to.", "",
+        _table(["variant", "logic um2", "change", "SRAM um2", "change", "bits a pixel", "total mm2", "change",
+                "fmax slow", "note"], _variant_rows(variants, results)),
+        extra])
+
+
+def _timing_rows(results: Iterable[Result]) -> list[list[str]]:
+    rows = []
+    for result in results:
+        for corner in ("typical", "slow"):
+            timing = result.timing[corner]
+            rows.append([result.configuration.title, corner, f"{timing.slack:+.3f}", f"{timing.fast_slack:+.3f}",
+                         f"{timing.hold_slack:+.3f}", f"{timing.fmax_mhz:.0f}", f"`{timing.start}`",
+                         f"`{timing.end}`", f"{timing.stages}"])
+    return rows
+
+
+def _power_rows(results: Iterable[Result]) -> list[list[str]]:
+    return [[result.configuration.title, f"{result.power.logic:.1f}", f"{result.power.sram:.1f}",
+             f"{result.power.clock:.1f}", f"{result.power.total:.1f}"] for result in results]
+
+
+def timing(results: dict[str, Result], library: str, digest: str) -> str:
+    main, variants = _split(results)
+    header = ["read-out", "corner", f"slack at {TARGET_MHZ:g} MHz", f"at {FAST_MHZ:g} MHz", "hold slack",
+              "fmax MHz", "start", "end", "stages"]
+    return "\n".join([
+        "# Timing and power", "", _provenance(library, digest),
+        "Slacks in ns, ideal clock with the uncertainty and port budgets of "
+        "[constraints/dtof.sdc](../constraints/dtof.sdc). fmax: the shortest period without a setup violation, port "
+        "budgets scaled with it. Stages: cells between start and end. Hold is fixed in layout; a small negative "
+        "figure here is a register that feeds its neighbour. Wires inside a block are a wire load; the length of "
+        "the wires to the columns is not modelled.", "",
+        _table(header, _timing_rows(main)),
+        "## Power", "",
+        f"mW of the array at {TARGET_MHZ:g} MHz, typical corner, while measuring: data nets toggle "
+        f"{power.ACTIVITY:g} times a clock, {power.DETECTION_RATE:.0%} of the TDC slots hold a detection, every "
+        "detection is counted. SRAM: CACTI energies. Clock: flip-flop clock pins and the estimated tree.", "",
+        _table(["read-out", "logic", "SRAM", "clock", "total"], _power_rows(main)),
+        "## Variants", "", _table(header, _timing_rows(variants)),
+        _table(["variant", "logic mW", "SRAM mW", "clock mW", "total mW"], _power_rows(variants))])
+
+
+def goals_section(found: list[goals.Goal]) -> str:
+    rows = [[goal.text, goal.value, "yes" if goal.met else "**no**"] for goal in found]
+    return "\n".join(["## Goals", "", _table(["goal", "here", "met"], rows)])
+
+
+def write_area_csv(path: Path, results: dict[str, Result]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["configuration", "readout", "variant_of", "column_cells", "column_flip_flops",
+                         "column_kge", "column_um2", "shared_cells", "shared_flip_flops", "shared_um2",
+                         "fanout_buffers", "fanout_um2", "clock_tree_um2_estimate", "sram", "sram_column_um2",
+                         "bits_per_pixel", "columns", "total_mm2", "thesis_mm2", "deviation"])
+        for name, result in results.items():
+            configuration = result.configuration
+            sizes = " ".join(size.name for size in memories(configuration).values())
+            thesis = configuration.thesis_mm2
+            writer.writerow([name, configuration.readout, configuration.variant_of, result.column.cells,
+                             result.column.flip_flops, f"{result.kge(result.column.area):.3f}",
+                             f"{result.column.area:.1f}", result.shared.cells, result.shared.flip_flops,
+                             f"{result.shared.area:.1f}", result.shared.buffers,
+                             f"{result.shared.buffer_area:.1f}", f"{result.clock_tree.area:.1f}", sizes,
+                             f"{result.sram_area:.1f}", f"{result.bits_per_pixel:g}", result.columns,
+                             f"{result.total_mm2:.4f}", thesis or "",
+                             f"{result.total_mm2 / thesis - 1:.3f}" if thesis else ""])
+
+
+def write_timing_csv(path: Path, results: dict[str, Result]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["configuration", "corner", "slack_330_ns", "slack_500_ns", "hold_slack_ns", "fmax_mhz",
+                         "start", "end", "stages", "logic_mw", "sram_mw", "clock_mw"])
+        for name, result in results.items():
+            for corner, timing_ in result.timing.items():
+                figures = result.power if corner == "typical" else None
+                split = [f"{value:.2f}" for value in (figures.logic, figures.sram, figures.clock)] \
+                    if figures else ["", "", ""]
+                writer.writerow([name, corner, f"{timing_.slack:.4f}", f"{timing_.fast_slack:.4f}",
+                                 f"{timing_.hold_slack:.4f}", f"{timing_.fmax_mhz:.1f}", timing_.start,
+                                 timing_.end, timing_.stages, *split])
+
+
+def summary(results: dict[str, Result]) -> str:
+    """The table that the command prints."""
+    lines = [f"{'configuration':<26}{'logic':>8}{'shared':>8}{'SRAM':>8}{'total':>9}{'thesis':>8}"
+             f"{'slack':>8}{'fmax':>6}{'fmax':>6}{'power':>8}",
+             f"{'':<26}{'um2/col':>8}{'um2':>8}{'um2/col':>8}{'mm2':>9}{'mm2':>8}"
+             f"{'slow':>8}{'slow':>6}{'typ':>6}{'mW':>8}"]
+    for name, result in results.items():
+        slow, typical = result.timing["slow"], result.timing["typical"]
+        thesis = f"{result.configuration.thesis_mm2:.2f}" if result.configuration.thesis_mm2 else ""
+        lines.append(f"{name:<26}{result.column.area:>8.0f}{result.shared.area:>8.0f}{result.sram_area:>8.0f}"
+                     f"{result.total_mm2:>9.3f}{thesis:>8}{slow.slack:>+8.3f}{slow.fmax_mhz:>6.0f}"
+                     f"{typical.fmax_mhz:>6.0f}{result.power.total:>8.1f}")
+    return "\n".join(lines)

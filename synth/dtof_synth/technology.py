@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Prepares the libraries of a run: the generated ones, or any other Liberty, and the SRAM kit."""
+
+from __future__ import annotations
+
+import gzip
+from pathlib import Path
+
+from . import library, sram_kit, standard_cells
+from .configuration import Configuration, memories
+from .errors import FlowError
+from .run import Technology
+from .sram_model import Size
+
+SIZES = "synth/sram_sizes.csv"
+
+
+def needed_sizes(configurations: list[Configuration]) -> dict[Size, list[str]]:
+    """Every SRAM size in use and the configurations that use it."""
+    uses: dict[Size, list[str]] = {}
+    for configuration in configurations:
+        for size in memories(configuration).values():
+            uses.setdefault(size, []).append(configuration.name)
+    return uses
+
+
+def write_if_changed(path: Path, text: str) -> None:
+    if not path.exists() or path.read_text(encoding="utf-8") != text:
+        path.write_text(text, encoding="utf-8")
+
+
+def _plain_liberty(path: Path, folder: Path) -> Path:
+    """A Liberty that Yosys and OpenSTA read: unpacked if it is gzipped."""
+    if path.suffix != ".gz":
+        if not path.is_file():
+            raise FlowError(f"{path}: no such Liberty file")
+        return path
+    try:
+        text = gzip.decompress(path.read_bytes()).decode("utf-8", "replace")
+    except OSError as error:
+        raise FlowError(f"{path}: cannot unpack the Liberty file ({error})") from None
+    plain = folder / path.stem
+    write_if_changed(plain, text)
+    return plain
+
+
+def prepare(root: Path, build: Path, configurations: list[Configuration],
+            liberty: Path | None = None, liberty_slow: Path | None = None) -> Technology:
+    """Generated libraries unless `liberty` is given; without `liberty_slow` it serves both corners."""
+    build.mkdir(parents=True, exist_ok=True)
+    listed = sram_kit.read_sizes(root / SIZES)
+    for size, users in needed_sizes(configurations).items():
+        if size not in listed:
+            raise FlowError(f"{users[0]} needs the SRAM {size.name}, which is not in {SIZES}; "
+                            "run make synth-sizes")
+    kit = build / "technology"
+    sram_kit.write_kit(kit, listed)
+    if liberty is None:
+        paths = []
+        for corner in standard_cells.CORNERS:
+            paths.append(build / f"generic40_{corner.name}.lib")
+            write_if_changed(paths[-1], standard_cells.library(corner))
+    else:
+        paths = [_plain_liberty(liberty, build), _plain_liberty(liberty_slow or liberty, build)]
+    typical = library.read(paths[0])
+    slow = typical if paths[1] == paths[0] else library.read(paths[1])
+    return Technology(typical, slow, kit, root)

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: Apache-2.0
+# make synth           area, timing and power of every configuration in configurations.toml, into reports/
+#                      LIBERTY=<typical.lib> LIBERTY_SLOW=<slow.lib>   other standard cells (table only)
+#                      CONFIGURATIONS="sifh fifh"                      some configurations (table only)
+#                      STRICT=1                                        fail if a figure is worse than its budget
+# make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um
+# make synth-budgets   proposes new budgets (synth/budgets.csv)
+# make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
+.PHONY: synth synth-check synth-budgets synth-sizes
+
+synth:
+	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
+	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict)
+
+synth-check synth-budgets synth-sizes: synth-%:
+	@synth/synth.py $*
