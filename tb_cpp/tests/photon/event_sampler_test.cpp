@@ -228,7 +228,7 @@ INSTANTIATE_TEST_SUITE_P(
     Rates, EventSamplerRates,
     ::testing::Values(RateCase{"Background", {.background = 0.55, .signal = 0.0, .centre_bins = 0.0}},
                       RateCase{"Sparse", {.background = 0.15, .signal = 0.3, .centre_bins = 197.35}},
-                      RateCase{"PileUp", {.background = 0.5, .signal = 6.0, .centre_bins = 197.35}},
+                      RateCase{"PileUp", {.background = 0.5, .signal = 5.0, .centre_bins = 197.35}},
                       RateCase{"DensePulse", {.background = 0.15, .signal = 40.0, .centre_bins = 197.35}},
                       RateCase{"DenseBackground", {.background = 50.0, .signal = 2.0, .centre_bins = 197.35}},
                       RateCase{"SortedAfterwards",
