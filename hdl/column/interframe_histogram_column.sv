@@ -29,7 +29,7 @@ module interframe_histogram_column #(
     input  logic                    final_pass_i,
     // histogram schedule
     input  logic                    beat_t1_i,
-    input  logic [             3:1] same_pixel_t4_i,
+    input  logic [             3:1] same_pixel_t3_i,
     input  logic                    beat_t5_i,
     input  logic                    scan_s0_i,
     input  logic [   BIN_WIDTH-1:0] scan_bin_s0_i,
@@ -99,7 +99,7 @@ module interframe_histogram_column #(
       .rst_ni         (rst_ni),
       .hit_t1_i       (beat_t1_i && keep),
       .bin_t1_i       (bin_t1),
-      .same_pixel_t4_i(same_pixel_t4_i),
+      .same_pixel_t3_i(same_pixel_t3_i),
       .beat_t5_i      (beat_t5_i),
       .scan_s0_i      (scan_s0_i),
       .scan_bin_s0_i  (scan_bin_s0_i),

@@ -28,7 +28,7 @@ module partitioned_histogram_column #(
     input  logic                    first_pass_i,
     // histogram schedule
     input  logic                    beat_t1_i,
-    input  logic [             3:1] same_pixel_t4_i,
+    input  logic [             3:1] same_pixel_t3_i,
     input  logic                    beat_t5_i,
     input  logic                    scan_s0_i,
     input  logic [   BIN_WIDTH-1:0] scan_bin_s0_i,
@@ -58,7 +58,8 @@ module partitioned_histogram_column #(
   logic [BIN_WIDTH-1:0] bin_t1, scan_peak;
   logic [NP-1:0] scan_code;
   logic [COUNT_WIDTH-1:0] count, scan_count, scan_confidence;
-  logic [RESULT_WIDTH-1:0] result;
+  logic [RESULT_WIDTH-1:0] loaded_result;
+  logic load_result;
   logic signed [NP+1:0] unused_start;
 
   always_ff @(posedge clk_i) begin
@@ -90,7 +91,7 @@ module partitioned_histogram_column #(
       .rst_ni         (rst_ni),
       .hit_t1_i       (beat_t1_i && keep),
       .bin_t1_i       (bin_t1),
-      .same_pixel_t4_i(same_pixel_t4_i),
+      .same_pixel_t3_i(same_pixel_t3_i),
       .beat_t5_i      (beat_t5_i),
       .scan_s0_i      (scan_s0_i),
       .scan_bin_s0_i  (scan_bin_s0_i),
@@ -121,14 +122,20 @@ module partitioned_histogram_column #(
     if (COARSE_PASSES > 0) begin : g_partitions
       localparam int BEST_WIDTH = COUNT_WIDTH + RESULT_WIDTH;
       logic [BEST_WIDTH-1:0] best_data, best_q, best;
+      logic [COUNT_WIDTH-1:0] best_count_q;
 
       assign scan_code = {pass_i, scan_peak};
 
       always_ff @(posedge clk_i) begin
         if (best_read_done_i) begin
-          best_q <= best_data;
+          best_count_q <= best_data[RESULT_WIDTH+:COUNT_WIDTH];
         end
       end
+
+      // While scanning, the result chain's register holds the best code and confidence so far.
+      assign best_q = {best_count_q, result_o};
+      assign load_result = result_load_i || best_read_done_i;
+      assign loaded_result = best_read_done_i ? best_data[RESULT_WIDTH-1:0] : best[RESULT_WIDTH-1:0];
 
       // The broadcast flag selects late, behind the comparator.
       logic better;
@@ -139,7 +146,6 @@ module partitioned_histogram_column #(
           best = {scan_count, scan_code, scan_confidence};
         end
       end
-      assign result = best[RESULT_WIDTH-1:0];
 
       dtof_sram #(
           .PORTS(1),
@@ -160,7 +166,8 @@ module partitioned_histogram_column #(
       assign unused_best = first_pass_i ^ best_read_i ^ (^best_read_pixel_i) ^ best_read_done_i ^ best_write_s3_i
           ^ (^best_write_pixel_s3_i) ^ (^scan_count);
       assign scan_code = scan_peak;
-      assign result = {scan_code, scan_confidence};
+      assign load_result = result_load_i;
+      assign loaded_result = {scan_code, scan_confidence};
     end
   endgenerate
 
@@ -168,9 +175,9 @@ module partitioned_histogram_column #(
       .WIDTH(RESULT_WIDTH)
   ) u_result_register (
       .clk_i        (clk_i),
-      .load_i       (result_load_i),
+      .load_i       (load_result),
       .shift_i      (result_shift_i),
-      .result_i     (result),
+      .result_i     (loaded_result),
       .next_column_i(next_column_i),
       .result_o     (result_o)
   );

@@ -4,6 +4,7 @@
 // IDLE -> RESET -> (M0 -> M1 -> M2) x COARSE_PASSES -> M3 -> (M4 -> M5) x PIXELS_PER_SRAM -> IDLE
 //
 // start_i is taken in IDLE only; start_i while busy does nothing. done_o is high for the frame's last clock.
+// Both are registered, so that no port drives the state's logic.
 // Cost: 3 state bits, a pass counter and the run-time acquisition number, per array.
 module controller #(
     parameter int COARSE_PASSES = 1,
@@ -45,14 +46,14 @@ module controller #(
   logic [2:0] state_d, state_q;
   logic [PASS_WIDTH-1:0] pass_q;
   logic [ACQ_WIDTH-1:0] acq_num_q;
-  logic first_pass_q, final_pass_q;
+  logic first_pass_q, final_pass_q, start_q, done_q;
 
   always_comb begin
     state_d = state_q;
     case (state_q)
       // Wait for a frame.
       dtof_pkg::STATE_IDLE:
-      if (start_i) begin
+      if (start_q) begin
         state_d = dtof_pkg::STATE_RESET;
       end
       // Clear the memories.
@@ -99,9 +100,13 @@ module controller #(
       first_pass_q <= 1'b1;
       final_pass_q <= 1'b0;
       acq_num_q <= '0;
+      start_q <= 1'b0;
+      done_q <= 1'b0;
     end else begin
       state_q <= state_d;
-      if (state_q == dtof_pkg::STATE_IDLE && start_i) begin
+      start_q <= start_i && !busy_o;
+      done_q <= (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);
+      if (start_i && !busy_o) begin
         acq_num_q <= acq_num_i;
         pass_q <= '0;
         first_pass_q <= 1'b1;
@@ -117,8 +122,8 @@ module controller #(
   logic entering;
   assign entering = (state_d != state_q);
 
-  assign busy_o = (state_q != dtof_pkg::STATE_IDLE);
-  assign done_o = (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);
+  assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
+  assign done_o = done_q;
   assign state_o = state_q;
   assign load_o = (state_q == dtof_pkg::STATE_RESET);
   assign acq_num_o = acq_num_q;

@@ -8,9 +8,10 @@
 // Schedule (T0 = a timestamp's clock at the port):
 //   fetch    the next pixel's word is read on the first slot of a pixel (FETCH_ON_FIRST_SLOT = 1) or on its
 //            last slot (0), and pixel 0's in the clock before the first acquisition may start
-//   T1       beat_t1_o, first_slot_t1_o, first_acq_t1_o   timestamp register of the columns
+//   T0       first_slot_t0_o                              registered by the columns, as the timestamp is
+//   T1       beat_t1_o, visit_t1_o, first_acq_t1_o
 //   T2       last_slot_t2_o, pixel_t2_o        histogram read, pointer write
-//   T4       same_pixel_t4_o[d]: the timestamp d clocks ahead (1 to 3) is of the same pixel
+//   T3       same_pixel_t3_o[d]: the timestamp d clocks ahead (1 to 3) is of the same pixel
 //   T5       beat_t5_o, pixel_t5_o                        histogram write
 // Cost: counters and the stage copies of the pixel number, per array.
 `include "dtof_macros.svh"
@@ -33,11 +34,12 @@ module pixel_sequencer #(
     output logic                 fetch_o,
     output logic [ROW_WIDTH-1:0] fetch_pixel_o,
     output logic                 beat_t1_o,
-    output logic                 first_slot_t1_o,
+    output logic                 first_slot_t0_o,  // also while no acquisition is under way
+    output logic                 visit_t1_o,       // first slot of a pixel's visit
     output logic                 first_acq_t1_o,  // first acquisition of the pass
     output logic                 last_slot_t2_o,
     output logic [ROW_WIDTH-1:0] pixel_t2_o,
-    output logic [          3:1] same_pixel_t4_o,
+    output logic [          3:1] same_pixel_t3_o,
     output logic                 beat_t5_o,
     output logic [ROW_WIDTH-1:0] pixel_t5_o
 );
@@ -106,21 +108,21 @@ module pixel_sequencer #(
   `DTOF_ASSERT(a_contiguous_acquisition, !active_q || tdc_valid_i,
                "tdc_valid_i fell inside an acquisition")
 
-  // Copies of valid flag, pixel and slot for the stages T1 to T6.
-  logic [6:1] beat_tn_q;
+  // Copies of valid flag, pixel and slot for the stages T1 to T5.
+  logic [5:1] beat_tn_q;
   logic [2:1] last_slot_tn_q;
-  logic first_slot_t1_q, first_acq_t1_q;
-  logic [ROW_WIDTH-1:0] pixel_t1_q, pixel_t2_q, pixel_t3_q, pixel_t4_q, pixel_t5_q, pixel_t6_q;
-  logic [3:1] same_pixel_t4_q;
+  logic visit_t1_q, first_acq_t1_q;
+  logic [ROW_WIDTH-1:0] pixel_t1_q, pixel_t2_q, pixel_t3_q, pixel_t4_q, pixel_t5_q;
+  logic [3:1] same_pixel_t3_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       beat_tn_q <= '0;
-      first_slot_t1_q <= 1'b0;
+      visit_t1_q <= 1'b0;
       last_slot_tn_q <= '0;
     end else begin
-      beat_tn_q <= {beat_tn_q[5:1], beat && tdc_valid_i};
-      first_slot_t1_q <= beat && first_slot;
+      beat_tn_q <= {beat_tn_q[4:1], beat && tdc_valid_i};
+      visit_t1_q <= beat && first_slot;
       last_slot_tn_q <= {last_slot_tn_q[1], beat && last_slot};
     end
   end
@@ -132,18 +134,18 @@ module pixel_sequencer #(
     pixel_t3_q <= pixel_t2_q;
     pixel_t4_q <= pixel_t3_q;
     pixel_t5_q <= pixel_t4_q;
-    pixel_t6_q <= pixel_t5_q;
-    same_pixel_t4_q[1] <= beat_tn_q[4] && (pixel_t4_q == pixel_t3_q);
-    same_pixel_t4_q[2] <= beat_tn_q[5] && (pixel_t5_q == pixel_t3_q);
-    same_pixel_t4_q[3] <= beat_tn_q[6] && (pixel_t6_q == pixel_t3_q);
+    same_pixel_t3_q[1] <= beat_tn_q[3] && (pixel_t3_q == pixel_t2_q);
+    same_pixel_t3_q[2] <= beat_tn_q[4] && (pixel_t4_q == pixel_t2_q);
+    same_pixel_t3_q[3] <= beat_tn_q[5] && (pixel_t5_q == pixel_t2_q);
   end
 
   assign beat_t1_o = beat_tn_q[1];
-  assign first_slot_t1_o = first_slot_t1_q;
+  assign first_slot_t0_o = first_slot;
+  assign visit_t1_o = visit_t1_q;
   assign first_acq_t1_o = first_acq_t1_q;
   assign last_slot_t2_o = last_slot_tn_q[2];
   assign pixel_t2_o = pixel_t2_q;
-  assign same_pixel_t4_o = same_pixel_t4_q;
+  assign same_pixel_t3_o = same_pixel_t3_q;
   assign beat_t5_o = beat_tn_q[5];
   assign pixel_t5_o = pixel_t5_q;
 

@@ -4,8 +4,8 @@
 // The columns' result registers form a shift chain whose head is column 0; each accepted beat shifts it by
 // one column. The shift is a register's output, so no path leads from tready to 200 columns in one clock.
 // tdata = {column, row, code, fraction, confidence}; tlast on the last column of the last row.
-// Latency: 2 SRAM_NUM clocks a row when tready stays high. tvalid never falls before tready.
-// Cost: a column counter, three flip-flops.
+// Latency: 2 SRAM_NUM + 1 clocks a row when tready stays high. tvalid never falls before tready.
+// Cost: a column counter, four flip-flops.
 module result_output #(
     parameter int SRAM_NUM = 200,
     parameter int ROW_WIDTH = 8,
@@ -28,7 +28,7 @@ module result_output #(
 
   localparam logic [COLUMN_WIDTH-1:0] LAST_COLUMN = COLUMN_WIDTH'(SRAM_NUM - 1);
 
-  logic valid_q, shift_q;
+  logic valid_q, shift_q, done_q;
   logic [COLUMN_WIDTH-1:0] column_q;
   logic last_column, accepted;
 
@@ -39,9 +39,11 @@ module result_output #(
     if (!rst_ni) begin
       valid_q <= 1'b0;
       shift_q <= 1'b0;
+      done_q <= 1'b0;
       column_q <= '0;
     end else begin
       shift_q <= accepted && !last_column;
+      done_q <= accepted && last_column;
       if (start_i) begin
         valid_q <= 1'b1;
         column_q <= '0;
@@ -55,7 +57,7 @@ module result_output #(
   end
 
   assign shift_o = shift_q;
-  assign done_o = accepted && last_column;
+  assign done_o = done_q;
   assign tvalid_o = valid_q;
   assign tdata_o = {column_q, row_i, head_i};
   assign tlast_o = last_row_i && last_column;

@@ -25,7 +25,7 @@ module histogram_builder #(
     input  logic                   hit_t1_i,
     input  logic [  BIN_WIDTH-1:0] bin_t1_i,
     // schedule, common to all columns
-    input  logic [          3:1]   same_pixel_t4_i,
+    input  logic [          3:1]   same_pixel_t3_i,
     input  logic                   beat_t5_i,
     input  logic                   scan_s0_i,       // read for the scan instead of T2
     input  logic [  BIN_WIDTH-1:0] scan_bin_s0_i,
@@ -108,43 +108,46 @@ module histogram_builder #(
   end
 
   assign count_s2_o = count_q;
-  assign incremented = operand + COUNT_WIDTH'(operand != '1);
+  // All ones plus one overflows to zero: the overflow bit puts the ones back, beside the adder.
+  logic [COUNT_WIDTH:0] plus_one;
+  assign plus_one = {1'b0, operand} + 1'b1;
+  assign incremented = plus_one[COUNT_WIDTH-1:0] | {COUNT_WIDTH{plus_one[COUNT_WIDTH]}};
 
-  // A pending count is forwarded if its bin equals; bins are compared at T3, one clock before the addition.
+  // A pending count is forwarded if pixel and bin are the same; decided at T3, one clock before the addition.
   generate
     if (FORWARD_DEPTH == 0) begin : g_no_forward
       logic unused_forward;
-      assign unused_forward = ^same_pixel_t4_i;
+      assign unused_forward = ^same_pixel_t3_i;
       assign operand = count_q;
     end else if (FORWARD_DEPTH == 1) begin : g_forward_one
       logic unused_forward;
-      assign unused_forward = ^same_pixel_t4_i[3:2];
-      logic equal_t4_q;
+      assign unused_forward = ^same_pixel_t3_i[3:2];
+      logic forward_t4_q;
       always_ff @(posedge clk_i) begin
-        equal_t4_q <= hit_t4_q && (bin_t4_q == bin_t3_q);
+        forward_t4_q <= same_pixel_t3_i[1] && hit_t4_q && (bin_t4_q == bin_t3_q);
       end
-      assign operand = (same_pixel_t4_i[1] && equal_t4_q) ? written_q : count_q;
+      assign operand = forward_t4_q ? written_q : count_q;
     end else begin : g_forward
       // Stages behind the write: T6 and T7.
       logic hit_t6_q;
       logic [BIN_WIDTH-1:0] bin_t6_q;
       logic [COUNT_WIDTH-1:0] written_t6_q, written_t7_q;
-      logic [3:1] equal_t4_q;
+      logic [3:1] forward_t4_q;
       always_ff @(posedge clk_i) begin
         hit_t6_q <= hit_t5_q;
         bin_t6_q <= bin_t5_q;
         written_t6_q <= written_q;
         written_t7_q <= written_t6_q;
-        equal_t4_q[1] <= hit_t4_q && (bin_t4_q == bin_t3_q);
-        equal_t4_q[2] <= hit_t5_q && (bin_t5_q == bin_t3_q);
-        equal_t4_q[3] <= hit_t6_q && (bin_t6_q == bin_t3_q);
+        forward_t4_q[1] <= same_pixel_t3_i[1] && hit_t4_q && (bin_t4_q == bin_t3_q);
+        forward_t4_q[2] <= same_pixel_t3_i[2] && hit_t5_q && (bin_t5_q == bin_t3_q);
+        forward_t4_q[3] <= same_pixel_t3_i[3] && hit_t6_q && (bin_t6_q == bin_t3_q);
       end
       always_comb begin
-        if (same_pixel_t4_i[1] && equal_t4_q[1]) begin
+        if (forward_t4_q[1]) begin
           operand = written_q;
-        end else if (same_pixel_t4_i[2] && equal_t4_q[2]) begin
+        end else if (forward_t4_q[2]) begin
           operand = written_t6_q;
-        end else if (same_pixel_t4_i[3] && equal_t4_q[3]) begin
+        end else if (forward_t4_q[3]) begin
           operand = written_t7_q;
         end else begin
           operand = count_q;

@@ -9,7 +9,8 @@
 // slot + 2). Reads fall on first-slot clocks and writes one clock behind, so PORTS = 1 works for SLOTS >= 2.
 // Hazard: with very few pixels a pixel's word is read before it is written; its place in the cycle is fixed, so
 // the word is taken from a short history instead (no comparators).
-// Cost at the defaults: 24 flip-flops of a column, one pointer_update, PIXELS_PER_SRAM words of SRAM.
+// A broadcast flag arrives late in a column: first slot and step are registered here, like the timestamp.
+// Cost at the defaults: 29 flip-flops of a column, one pointer_update, PIXELS_PER_SRAM words of SRAM.
 `include "dtof_macros.svh"
 
 module pointer_builder #(
@@ -33,11 +34,12 @@ module pointer_builder #(
     input  logic                       read_i,            // fetch ahead, or result read-out
     input  logic [      ROW_WIDTH-1:0] read_pixel_i,
     input  logic                       read_done_i,       // read_i one clock later
-    input  logic                       first_slot_t1_i,
+    input  logic                       first_slot_t0_i,   // whether or not an acquisition is under way
+    input  logic                       visit_t1_i,        // first slot of a pixel's visit
     input  logic                       first_acq_t1_i,
     input  logic                       write_i,           // last slot at T2
     input  logic [      ROW_WIDTH-1:0] write_pixel_i,
-    input  logic [     STEP_WIDTH-1:0] step_t1_i,
+    input  logic [     STEP_WIDTH-1:0] step_t0_i,
     // timestamp at T1
     input  logic                       hit_t1_i,
     input  logic [             NP-1:0] timestamp_t1_i,
@@ -62,6 +64,8 @@ module pointer_builder #(
   logic [WORD_WIDTH-1:0] sram_data, read_q, fetched, current, moved, word_q, start_word;
   logic [CONFIDENCE_BITS-1:0] current_confidence, moved_confidence;
   logic [POINTER_WIDTH-1:0] moved_pointer;
+  logic [STEP_WIDTH-1:0] step_t1;
+  logic first_slot_t1_q;
 
   dtof_sram #(
       .PORTS(PORTS),
@@ -83,14 +87,27 @@ module pointer_builder #(
       read_q <= sram_data;
     end
     word_q <= moved;
+    first_slot_t1_q <= first_slot_t0_i;
   end
+
+  generate
+    if (FRACTION_BITS > 0) begin : g_step
+      logic [STEP_WIDTH-1:0] step_t1_q;
+      always_ff @(posedge clk_i) begin
+        step_t1_q <= step_t0_i;
+      end
+      assign step_t1 = step_t1_q;
+    end else begin : g_constant_step
+      assign step_t1 = step_t0_i;
+    end
+  endgenerate
 
   generate
     if (NEEDS_HISTORY != 0) begin : g_history
       // history_q[n]: the word of the pixel served n + 1 pixels before the one in word_q.
       logic [WORD_WIDTH*PIXELS_PER_SRAM-1:0] history_q;
       always_ff @(posedge clk_i) begin
-        if (first_slot_t1_i) begin
+        if (visit_t1_i) begin
           history_q <= (WORD_WIDTH*PIXELS_PER_SRAM)'({history_q, word_q});
         end
       end
@@ -100,13 +117,13 @@ module pointer_builder #(
         assign fetched = first_acq_t1_i ? read_q : history_q[(PIXELS_PER_SRAM-2)*WORD_WIDTH+:WORD_WIDTH];
       end
     end else begin : g_no_history
-      logic unused_first_acq;
-      assign unused_first_acq = first_acq_t1_i;
+      logic unused_history;
+      assign unused_history = first_acq_t1_i ^ visit_t1_i;
       assign fetched = read_q;
     end
   endgenerate
 
-  assign current = first_slot_t1_i ? fetched : word_q;
+  assign current = first_slot_t1_q ? fetched : word_q;
 
   pointer_update #(
       .NP              (NP),
@@ -116,7 +133,7 @@ module pointer_builder #(
   ) u_update (
       .hit_i       (hit_t1_i),
       .timestamp_i (timestamp_t1_i),
-      .step_i      (step_t1_i),
+      .step_i      (step_t1),
       .pointer_i   (current[POINTER_WIDTH-1:0]),
       .confidence_i(current_confidence),
       .pointer_o   (moved_pointer),

@@ -139,9 +139,9 @@ module dtof_array #(
       .gear_o     (gear)
   );
 
-  logic fetch, beat_t1, first_slot_t1, first_acq_t1, last_slot_t2, beat_t5;
+  logic fetch, beat_t1, first_slot_t0, visit_t1, first_acq_t1, last_slot_t2, beat_t5;
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
-  logic [3:1] same_pixel_t4;
+  logic [3:1] same_pixel_t3;
 
   pixel_sequencer #(
       .PIXELS_PER_SRAM    (PIXELS_PER_SRAM),
@@ -159,11 +159,12 @@ module dtof_array #(
       .fetch_o        (fetch),
       .fetch_pixel_o  (fetch_pixel),
       .beat_t1_o      (beat_t1),
-      .first_slot_t1_o(first_slot_t1),
+      .first_slot_t0_o(first_slot_t0),
+      .visit_t1_o     (visit_t1),
       .first_acq_t1_o (first_acq_t1),
       .last_slot_t2_o (last_slot_t2),
       .pixel_t2_o     (pixel_t2),
-      .same_pixel_t4_o(same_pixel_t4),
+      .same_pixel_t3_o(same_pixel_t3),
       .beat_t5_o      (beat_t5),
       .pixel_t5_o     (pixel_t5)
   );
@@ -209,7 +210,7 @@ module dtof_array #(
   logic word_read, word_read_done_q;  // the pointer word, coarse peak or best peak of a pixel
   logic [ROW_WIDTH-1:0] word_read_pixel;
   logic pointer_write;
-  logic [STEP_WIDTH-1:0] step_t1_q;
+  logic [STEP_WIDTH-1:0] step_t0;
 
   assign clear_all = (state_o == dtof_pkg::STATE_RESET) || (state_o == dtof_pkg::STATE_M2);
   assign histogram_read_pixel = scan_s0 ? pixel_s0 : pixel_t2;
@@ -217,6 +218,7 @@ module dtof_array #(
   assign peak_write = last_s3 && (state_o == dtof_pkg::STATE_M1);
   assign result_load = last_s3 && (state_o == dtof_pkg::STATE_M4);
   assign pointer_write = last_slot_t2 && final_pass;
+  assign step_t0 = STEP_WIDTH'(POINTER_STEP << GEARS) >> gear;
   assign word_read_pixel = scan_s0 ? pixel_s0 : fetch_pixel;
 
   generate
@@ -224,18 +226,18 @@ module dtof_array #(
       assign word_read = (fetch || scan_s0) && final_pass;
     end else if (READOUT == dtof_pkg::READOUT_SIFH || READOUT == dtof_pkg::READOUT_FIFH) begin : g_peak_read
       assign word_read = (fetch || last_s0) && final_pass;
-    end else begin : g_every_pass_read
+    end else if (THREE_STEPS != 0) begin : g_every_pass_read
       assign word_read = (fetch || last_s0) && !first_pass;
+    end else begin : g_best_read
+      assign word_read = last_s0 && !first_pass;
     end
   endgenerate
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       word_read_done_q <= 1'b0;
-      step_t1_q <= '0;
     end else begin
       word_read_done_q <= word_read;
-      step_t1_q <= STEP_WIDTH'(POINTER_STEP << GEARS) >> gear;
     end
   end
 
@@ -264,11 +266,12 @@ module dtof_array #(
             .pointer_read_i       (word_read),
             .pointer_read_pixel_i (word_read_pixel),
             .pointer_read_done_i  (word_read_done_q),
-            .first_slot_t1_i      (first_slot_t1),
+            .first_slot_t0_i      (first_slot_t0),
+            .visit_t1_i           (visit_t1),
             .first_acq_t1_i       (first_acq_t1),
             .pointer_write_i      (pointer_write),
             .pointer_write_pixel_i(pixel_t2),
-            .step_t1_i            (step_t1_q),
+            .step_t0_i            (step_t0),
             .clear_s1_i           (clear_s1),
             .clear_pixel_s1_i     (pixel_s1),
             .result_load_i        (result_load),
@@ -296,7 +299,7 @@ module dtof_array #(
             .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
             .final_pass_i           (final_pass),
             .beat_t1_i              (beat_t1),
-            .same_pixel_t4_i        (same_pixel_t4),
+            .same_pixel_t3_i        (same_pixel_t3),
             .beat_t5_i              (beat_t5),
             .scan_s0_i              (scan_s0),
             .scan_bin_s0_i          (bin_s0),
@@ -311,11 +314,12 @@ module dtof_array #(
             .pointer_read_i         (word_read),
             .pointer_read_pixel_i   (word_read_pixel),
             .pointer_read_done_i    (word_read_done_q),
-            .first_slot_t1_i        (first_slot_t1),
+            .first_slot_t0_i        (first_slot_t0),
+            .visit_t1_i             (visit_t1),
             .first_acq_t1_i         (first_acq_t1),
             .pointer_write_i        (pointer_write),
             .pointer_write_pixel_i  (pixel_t2),
-            .step_t1_i              (step_t1_q),
+            .step_t0_i              (step_t0),
             .start_write_s3_i       (peak_write),
             .start_pixel_s3_i       (pixel_s3),
             .result_load_i          (result_load),
@@ -339,7 +343,7 @@ module dtof_array #(
             .pass_i                 (pass),
             .first_pass_i           (first_pass),
             .beat_t1_i              (beat_t1),
-            .same_pixel_t4_i        (same_pixel_t4),
+            .same_pixel_t3_i        (same_pixel_t3),
             .beat_t5_i              (beat_t5),
             .scan_s0_i              (scan_s0),
             .scan_bin_s0_i          (bin_s0),
@@ -378,7 +382,7 @@ module dtof_array #(
             .pass_i                 (pass),
             .final_pass_i           (final_pass),
             .beat_t1_i              (beat_t1),
-            .same_pixel_t4_i        (same_pixel_t4),
+            .same_pixel_t3_i        (same_pixel_t3),
             .beat_t5_i              (beat_t5),
             .scan_s0_i              (scan_s0),
             .scan_bin_s0_i          (bin_s0),
