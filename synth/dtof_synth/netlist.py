@@ -22,7 +22,7 @@ STUB = "column_stub"
 TREE_PREFIX = "fanout_"
 COPY_SUFFIX = "_copy"
 # A driver is given a tree when its load exceeds this share of its max_capacitance; trees fill to it.
-TREE_LOAD_SHARE = 0.4
+TREE_LOAD_SHARE = 0.5
 
 
 @dataclass(frozen=True)

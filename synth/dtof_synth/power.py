@@ -13,10 +13,10 @@ from dataclasses import dataclass
 from . import sram_model
 from .configuration import Configuration, memories
 from .library import Library
+from .netlist import TREE_LOAD_SHARE
 
 ACTIVITY = 0.1  # transitions of a data net per clock
 DETECTION_RATE = 0.25  # share of TDC slots that hold a detection
-TREE_LOAD_SHARE = 0.4
 
 
 @dataclass(frozen=True)

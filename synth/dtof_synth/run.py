@@ -21,11 +21,26 @@ TOP = "dtof_array"
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
 KEPT_COLUMNS = 3
-# Delay target for ABC as a share of the period: what clock-to-data, setup, uncertainty and the arrival of the
-# broadcast signals, of which ABC knows nothing, leave in the slow corner.
-LOGIC_SHARE = 0.5
-ABC_SCRIPT = "+strash;ifraig;scorr;dc2;dch,-f;map,-B,0.9,{D};topo;buffer,-c;upsize,{D};dnsize,{D};stime,-p"
 BOTH_CORNERS = ("typical", "slow")
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How hard ABC tries: its script, and its delay target as a share of the period (what clock-to-data, setup,
+    uncertainty and the late broadcast signals, of which ABC knows nothing, leave)."""
+
+    share: float
+    script: str
+
+
+_SIZING = "topo;buffer,-c;upsize,{D};dnsize,{D};stime,-p"
+_START = "+strash;ifraig;scorr;dc2"
+_BALANCE = "dch,-f;if,-g;strash"
+_MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
+_SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
+_FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
+# From small to fast; the first that closes timing is taken.
+EFFORTS = (Effort(0.68, _SMALL), Effort(0.68, _FAST), Effort(0.62, _FAST), Effort(0.55, _FAST))
 
 
 @dataclass(frozen=True)
@@ -99,26 +114,35 @@ def rtl_files(root: Path) -> list[Path]:
             if line.endswith((".sv", ".v")) and not line.startswith("technology/")]
 
 
-def synthesise(configuration: Configuration, technology: Technology, folder: Path) -> dict:
-    """Runs Yosys; returns the mapped design, every step's checks passed."""
+def elaborate(configuration: Configuration, technology: Technology, folder: Path) -> None:
+    """RTL to the technology-independent netlist generic.il, checks passed."""
     folder.mkdir(parents=True, exist_ok=True)
+    scripts = technology.root / "synth" / "yosys"
+    settings = folder / "generic_settings.tcl"
+    tools.write_settings(settings, {
+        "scripts": scripts, "top": TOP,
+        "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "package",
+        "technology_files": [technology.kit / f"{kind.module}.sv" for kind in sram_model.KINDS.values()],
+        "black_boxes": technology.kit / "sram40_blackbox.v", "liberty": technology.slow.path,
+        "parameters": configuration.rtl_parameters(), "generic_netlist": folder / "generic.il"})
+    tools.run_yosys(scripts / "generic.tcl", settings, folder / "generic.log", configuration.name)
+
+
+def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort) -> dict:
+    """generic.il to the mapped design, checks passed."""
     library = technology.slow
     inverter_ff = next(iter(library.input_ff[library.inverter].values()))
     constraints = folder / "abc.constr"
     constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n",
                            encoding="utf-8")
     scripts = technology.root / "synth" / "yosys"
-    settings = folder / "yosys_settings.tcl"
+    settings = folder / "map_settings.tcl"
     tools.write_settings(settings, {
-        "scripts": scripts, "top": TOP,
-        "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "package",
-        "technology_files": [technology.kit / f"{kind.module}.sv" for kind in sram_model.KINDS.values()],
-        "black_boxes": technology.kit / "sram40_blackbox.v",
-        "liberty": library.path, "parameters": configuration.rtl_parameters(),
-        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / TARGET_MHZ * LOGIC_SHARE:.0f}",
-        "abc_script": ABC_SCRIPT, "tie_low": list(library.tie.get("0", ())),
+        "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
+        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / TARGET_MHZ * effort.share:.0f}",
+        "abc_script": effort.script, "tie_low": list(library.tie.get("0", ())),
         "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
-    tools.run_yosys(scripts / "flow.tcl", settings, folder / "yosys.log", configuration.name)
+    tools.run_yosys(scripts / "map.tcl", settings, folder / "map.log", configuration.name)
     design = json.loads((folder / "mapped.json").read_text(encoding="utf-8"))
     netlist.rename_columns(design)
     macros = {size.name for size in memories(configuration).values()}
@@ -191,28 +215,51 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     return timing, output
 
 
-def run(configuration: Configuration, technology: Technology, folder: Path,
-        corners: Iterable[str] = BOTH_CORNERS) -> Result:
-    """The whole flow of one configuration; FlowError at the first step that fails."""
-    design = synthesise(configuration, technology, folder)
+@dataclass(frozen=True)
+class _Attempt:
+    """Mapped with one effort and timed in the slow corner; its files are in a folder of its own."""
+
+    column: Counts
+    shared: Counts
+    slow: Timing
+    folder: Path
+
+
+def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int) -> _Attempt:
+    design = map_to_cells(configuration, technology, folder, EFFORTS[number])
     library = technology.slow
     loads = netlist.finish(design, library, sram_kit.PIN_FF)
     column = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
     shared = netlist.count(netlist.top(design), library)
+    own = folder / f"effort{number}"
+    own.mkdir(exist_ok=True)
+    _write_timing_netlist(design, loads, technology, own, configuration.name)
+    return _Attempt(column, shared, time_corner(configuration, technology, "slow", own)[0], own)
+
+
+def run(configuration: Configuration, technology: Technology, folder: Path,
+        corners: Iterable[str] = BOTH_CORNERS) -> Result:
+    """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
+    timed: with rising effort until it closes, else the best attempt stands."""
+    elaborate(configuration, technology, folder)
+    attempts: list[_Attempt] = []
+    for number in range(len(EFFORTS)):
+        attempts.append(_attempt(configuration, technology, folder, number))
+        if attempts[-1].slow.slack >= 0:
+            break
+    best = max(attempts, key=lambda attempt: attempt.slow.slack)
     columns = configuration["SRAM_NUM"]
     macros = len(memories(configuration))
-    tree = power.clock_tree(columns * (column.flip_flops + macros) + shared.flip_flops,
-                            columns * (column.clock_ff + macros * sram_kit.CLOCK_PIN_FF) + shared.clock_ff,
-                            library)
-    _write_timing_netlist(design, loads, technology, folder, configuration.name)
-    timing: dict[str, Timing] = {}
+    tree = power.clock_tree(
+        columns * (best.column.flip_flops + macros) + best.shared.flip_flops,
+        columns * (best.column.clock_ff + macros * sram_kit.CLOCK_PIN_FF) + best.shared.clock_ff, technology.slow)
+    timing = {"slow": best.slow}
     figures: Power | None = None
-    for corner in corners:
-        timing[corner], output = time_corner(configuration, technology, corner, folder)
-        if corner == "typical":
-            figures = Power(power.logic_mw(output, columns), power.sram_mw(configuration, TARGET_MHZ),
-                            power.clock_mw(output, columns, tree, technology.typical, TARGET_MHZ))
-    return Result(configuration, column, shared, tree, library.nand2_area, timing, figures)
+    if "typical" in corners:
+        timing["typical"], output = time_corner(configuration, technology, "typical", best.folder)
+        figures = Power(power.logic_mw(output, columns), power.sram_mw(configuration, TARGET_MHZ),
+                        power.clock_mw(output, columns, tree, technology.typical, TARGET_MHZ))
+    return Result(configuration, best.column, best.shared, tree, technology.slow.nand2_area, timing, figures)
 
 
 def input_digest(technology: Technology) -> str:

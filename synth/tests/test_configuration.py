@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+import tempfile
+import unittest
+from pathlib import Path
+
+from dtof_synth import configuration, goals, growth, sram_kit, technology
+from dtof_synth.configuration import bits_per_pixel, memories
+from dtof_synth.errors import FlowError
+from dtof_synth.run import _critical_path, _readable
+from dtof_synth.signalled_clear import configurations as clear_configurations
+from dtof_synth.sram_model import Size
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class Configurations(unittest.TestCase):
+    def setUp(self):
+        self.named = configuration.load(ROOT / "configurations.toml")
+
+    def load(self, text: str):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "c.toml"
+            path.write_text(text, encoding="utf-8")
+            return configuration.load(path)
+
+    def test_all_read_outs_are_there(self):
+        self.assertEqual({item.readout for item in self.named.values()}, set(configuration.READOUTS))
+
+    def test_bits_of_the_thesis(self):
+        # Spec section 6: 10, 640 and 320 bits a pixel; peak and pointer memories come on top.
+        self.assertEqual(bits_per_pixel(self.named["ezpointer_bare"]), 10)
+        self.assertEqual(bits_per_pixel(self.named["sifh"]), 640 + 6)
+        self.assertEqual(bits_per_pixel(self.named["fifh"]), 320 + 5)
+        self.assertEqual(memories(self.named["hispointer"])["pointer"], Size(2, 160, 19))
+
+    def test_committed_size_list_is_complete_and_minimal(self):
+        everything = [*self.named.values(), *(point for _, _, point in growth.sweep(self.named)),
+                      *clear_configurations(self.named)]
+        needed = set(technology.needed_sizes(everything))
+        self.assertEqual(set(sram_kit.read_sizes(ROOT / technology.SIZES)), needed)
+
+    def test_bad_files_are_refused(self):
+        for text, message in (("x = ", "Invalid value"), ("", "no \\[configuration"),
+                              ('[configuration.a]\nreadout = "nine"\n', "unknown read-out 'nine'"),
+                              ('[configuration.a]\nvariant_of = "b"\n', "not above it"),
+                              ('[configuration.a]\nreadout = "sifh"\n', "no value for"),
+                              ('[configuration.a]\nreadout = "sifh"\nparameters = { NX = 1 }\n',
+                               "unknown parameter NX")):
+            with self.subTest(text=text), self.assertRaisesRegex(FlowError, message):
+                self.load(text)
+
+
+class Names(unittest.TestCase):
+    def test_register_names_are_rtl_names(self):
+        self.assertEqual(_readable(r"u_pixel_sequencer.first_slot_t1_o\\DFFR_X1_copy5604"),
+                         "u_pixel_sequencer.first_slot_t1_o")
+        self.assertEqual(_readable(r"g_column[9].g_ez_pointer.u_column/u_pointer_builder.word_q[12]\\DFF_X1"),
+                         "column u_pointer_builder.word_q[12]")
+        self.assertEqual(_readable("g_column[0].genblk1.u_column/u_b.u_peak_sram.g_one_port.u_macro.g_160x6.u_macro"),
+                         "column u_b.u_peak_sram")
+
+    def test_stages_are_the_cells_between_start_and_end(self):
+        report = """Startpoint: a (rising edge-triggered flip-flop clocked by clk)
+Endpoint: b (rising edge-triggered flip-flop clocked by clk)
+  0.00 0.00 ^ a/CK (DFF_X1)
+  0.10 0.10 ^ a/Q (DFF_X1)
+  0.10 0.20 v n1/Y (NAND2_X1)
+  0.10 0.30 ^ n2/Y (INV_X1)
+  0.00 0.30 ^ b/D (DFF_X1)
+       0.30   data arrival time
+  0.00 3.00 ^ b/CK (DFF_X1)
+"""
+        self.assertEqual(_critical_path(report), ("a", "b", 2))
+
+
+class Ranks(unittest.TestCase):
+    def test_alike_areas_share_a_rank(self):
+        class Area:
+            def __init__(self, mm2):
+                self.total_mm2 = mm2
+
+        areas = {"ezpointer": Area(1.3), "fifh": Area(8.5), "hispointer": Area(9.6), "sifh": Area(14.9)}
+        self.assertEqual(goals.ranks(areas), goals.THESIS_RANK)
+        areas["hispointer"] = Area(12.0)
+        self.assertNotEqual(goals.ranks(areas), goals.THESIS_RANK)
+
+
+if __name__ == "__main__":
+    unittest.main()

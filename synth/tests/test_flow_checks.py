@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Every fault that must stop the flow stops it, with its message."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+from dtof_synth import sram_kit, standard_cells, tools
+from dtof_synth.errors import FlowError
+from dtof_synth.sram_model import Size
+
+SYNTH = Path(__file__).resolve().parents[1]
+HEAD = "module dtof_array(input wire clk_i, input wire [3:0] a, input wire e, output reg [3:0] q);\n"
+
+
+class FlowChecks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name)
+        sram_kit.write_kit(cls.folder, [Size(2, 160, 10)])
+        for corner in standard_cells.CORNERS:
+            (cls.folder / f"{corner.name}.lib").write_text(standard_cells.library(corner), encoding="utf-8")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def elaborate(self, body: str) -> None:
+        (self.folder / "design.sv").write_text(HEAD + body + "\nendmodule\n", encoding="utf-8")
+        settings = self.folder / "settings.tcl"
+        tools.write_settings(settings, {
+            "scripts": SYNTH / "yosys", "top": "dtof_array", "rtl_files": [self.folder / "design.sv"],
+            "rtl_include": self.folder,
+            "technology_files": [self.folder / "sram_1rw.sv", self.folder / "sram_1r1w.sv"],
+            "black_boxes": self.folder / "sram40_blackbox.v", "liberty": self.folder / "slow.lib",
+            "parameters": {}, "generic_netlist": self.folder / "generic.il"})
+        tools.run_yosys(SYNTH / "yosys" / "generic.tcl", settings, self.folder / "yosys.log", "test")
+
+    def sta(self, verilog: str, libraries: list[Path] | None = None) -> str:
+        (self.folder / "netlist.v").write_text(verilog, encoding="utf-8")
+        (self.folder / "test.sdc").write_text("create_clock -name clk -period $period [get_ports clk_i]\n",
+                                              encoding="utf-8")
+        settings = self.folder / "sta.tcl"
+        tools.write_settings(settings, {
+            "liberty_files": libraries or [self.folder / "typical.lib"], "netlist": self.folder / "netlist.v",
+            "top": "t", "wire_load": "block_1k", "constraints": self.folder / "test.sdc",
+            "target_period": 3.0, "fast_period": 2.0, "activity": 0.1, "with_power": 1})
+        return tools.run_sta(SYNTH / "sta" / "timing.tcl", settings, self.folder / "sta.log", "test")
+
+    def test_clean_rtl_passes(self):
+        self.elaborate("always_ff @(posedge clk_i) q <= a;")
+
+    def test_latch(self):
+        with self.assertRaisesRegex(FlowError, "2_check_rtl.*dlatch"):
+            self.elaborate("always @* if (e) q = a;")
+
+    def test_inferred_memory(self):
+        with self.assertRaisesRegex(FlowError, "2_check_rtl.*mem"):
+            self.elaborate("reg [3:0] m [0:255]; always_ff @(posedge clk_i) begin m[{a, a}] <= a; q <= m[{a, q}]; end")
+
+    def test_undriven_net(self):
+        with self.assertRaisesRegex(FlowError, "no driver"):
+            self.elaborate("wire [3:0] w; always_ff @(posedge clk_i) q <= a & w;")
+
+    def test_multiple_drivers(self):
+        with self.assertRaisesRegex(FlowError, "conflicting drivers"):
+            self.elaborate("wire [3:0] w; assign w = a; assign w = ~a; always_ff @(posedge clk_i) q <= w;")
+
+    def test_combinational_loop(self):
+        with self.assertRaisesRegex(FlowError, "loop"):
+            self.elaborate("wire w; assign w = w ^ e; always_ff @(posedge clk_i) q <= {4{w}};")
+
+    def test_unlisted_sram_size(self):
+        with self.assertRaisesRegex(FlowError, "not in synth/sram_sizes.csv"):
+            self.elaborate("sram_1r1w #(.DEPTH(161), .WIDTH(10)) u_macro (.clk_i(clk_i));")
+
+    def test_missing_module_and_syntax_error(self):
+        with self.assertRaisesRegex(FlowError, "nowhere"):
+            self.elaborate("nowhere u (.a(a));")
+        with self.assertRaisesRegex(FlowError, "syntax error"):
+            self.elaborate("always_ff @(posedge clk_i q <= a;")
+
+    def test_opensta_reports_a_clean_design(self):
+        output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n;"
+                          " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); DFF_X1 s(.D(n), .CK(clk_i), .Q(q)); endmodule")
+        self.assertIn("DTOF_SLACK", output)
+
+    def test_opensta_errors_are_seen_although_it_exits_0(self):
+        good = "module t(clk_i); input clk_i; endmodule"
+        for verilog, libraries in (("module t(clk_i; endmodule", None), (good, [self.folder / "absent.lib"]),
+                                   ("module other(clk_i); input clk_i; endmodule", None)):
+            with self.subTest(verilog=verilog), self.assertRaisesRegex(FlowError, "OpenSTA"):
+                self.sta(verilog, libraries)
+
+    def test_opensta_counts_rise_and_fall_for_every_transition(self):
+        # dtof_synth/power.py halves the internal power for this reason.
+        output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n;"
+                          " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); DFF_X1 s(.D(n), .CK(clk_i), .Q(q)); endmodule")
+        rows = output.split("DTOF_POWER_CLOCK\n")[1].split("DTOF_POWER_ALL")[0].splitlines()
+        watts = [float(row.split()[0]) for row in rows if row.endswith((" r", " s"))]
+        per_cycle = 2 * standard_cells.clock_energy_fj(1.1) * 1e-15 / 3e-9
+        self.assertEqual(len(watts), 2)
+        self.assertAlmostEqual(watts[0] / (2 * per_cycle), 1, delta=0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Fan-out trees keep the function and relieve every driver."""
+
+import random
+import os
+import unittest
+from pathlib import Path
+
+from dtof_synth import netlist
+from dtof_synth.library import Buffer, Library
+
+
+def library() -> Library:
+    buffers = [Buffer("BUF_X1", "A", "Y", 1.0, 1.0, 20.0), Buffer("BUF_X4", "A", "Y", 3.0, 2.0, 80.0)]
+    return Library(Path("x"), "x", {"BUF_X1": 1.0, "BUF_X4": 3.0, "DFF": 5.0, "INV": 0.5}, {"DFF"}, set(),
+                   {"BUF_X1": {"A": 1.0}, "BUF_X4": {"A": 2.0}, "DFF": {"D": 1.0, "CK": 1.0}, "INV": {"A": 1.0}},
+                   {"BUF_X1": {"Y": 20.0}, "BUF_X4": {"Y": 80.0}, "DFF": {"Q": 20.0}, "INV": {"Y": 20.0}},
+                   buffers, "INV", {}, 0.7, 1.1, "", 0.5, {"DFF": 1.0}, {"DFF": 2.0})
+
+
+def cell(kind: str, inputs: dict[str, int], outputs: dict[str, int]) -> dict:
+    return {"type": kind, "parameters": {}, "attributes": {},
+            "port_directions": {**dict.fromkeys(inputs, "input"), **dict.fromkeys(outputs, "output")},
+            "connections": {pin: [bit] for pin, bit in {**inputs, **outputs}.items()}}
+
+
+def broadcast(sinks: int) -> dict:
+    """A register that drives `sinks` columns, and one local inverter."""
+    cells = {"q": cell("DFF", {"D": 3, "CK": 2}, {"Q": 4}), "local": cell("INV", {"A": 4}, {"Y": 5})}
+    cells |= {f"column{index}": cell("col", {"x": 4}, {}) for index in range(sinks)}
+    return {"attributes": {"top": "1"}, "cells": cells,
+            "ports": {"clk_i": {"direction": "input", "bits": [2]}, "d": {"direction": "input", "bits": [3]}}}
+
+
+def pin_load(kind: str, pin: str) -> float:
+    return 3.0 if kind == "col" else library().input_ff[kind].get(pin, 0.0)
+
+
+def source(module: dict, bit: int) -> str:
+    """The register input net behind a net, through buffers and copies."""
+    for item in module["cells"].values():
+        for pin, bits in item["connections"].items():
+            if item["port_directions"][pin] == "output" and bits == [bit]:
+                if item["type"] == "DFF":
+                    return f"D{item['connections']['D'][0]}"
+                return source(module, item["connections"]["A"][0])
+    return f"port{bit}"
+
+
+class FanoutTrees(unittest.TestCase):
+    def setUp(self):
+        self.seed = int(os.environ.get("DTOF_TEST_SEED", random.randrange(2**31)))
+        self.random = random.Random(self.seed)
+
+    def test_every_sink_keeps_its_source_and_no_driver_is_overloaded(self):
+        for _ in range(20):
+            sinks = self.random.randint(1, 400)
+            with self.subTest(sinks=sinks, seed=self.seed):
+                module = broadcast(sinks)
+                netlist.insert_fanout_trees(module, library(), pin_load, {2}, "col")
+                loads: dict[int, float] = {}
+                for item in module["cells"].values():
+                    for pin, bits in item["connections"].items():
+                        if item["port_directions"][pin] == "input":
+                            loads[bits[0]] = loads.get(bits[0], 0) + pin_load(item["type"], pin) + 0.5
+                    if item["type"] == "col":
+                        behind = source(module, item["connections"]["x"][0])
+                        # D itself may have got a buffer in front of the register's copies.
+                        self.assertIn("port3", (source(module, int(behind[1:])), f"port{behind[1:]}"))
+                self.assertEqual(source(module, module["cells"]["local"]["connections"]["A"][0])[0], "D")
+                for name, item in module["cells"].items():
+                    for pin, bits in item["connections"].items():
+                        if item["port_directions"][pin] == "output" and bits[0] in loads:
+                            limit = library().max_load_ff[item["type"]][pin]
+                            self.assertLessEqual(loads[bits[0]], limit, f"{name} of {sinks} sinks")
+
+    def test_a_register_that_broadcasts_is_copied_and_counted(self):
+        module = broadcast(200)
+        before = netlist.count(module, library())
+        netlist.insert_fanout_trees(module, library(), pin_load, {2}, "col")
+        after = netlist.count(module, library())
+        self.assertEqual(before.flip_flops, 1)
+        self.assertGreater(after.flip_flops, 1)
+        self.assertGreater(after.buffers, 10)
+        self.assertAlmostEqual(after.area - before.area,
+                               after.buffer_area + 5.0 * (after.flip_flops - before.flip_flops))
+
+    def test_small_nets_and_clocks_are_left_alone(self):
+        module = broadcast(2)
+        netlist.insert_fanout_trees(module, library(), pin_load, {2}, "col")
+        self.assertEqual(netlist.count(module, library()).buffers, 0)
+        module = broadcast(200)
+        netlist.insert_fanout_trees(module, library(), pin_load, {2, 3, 4}, "col")
+        self.assertEqual(netlist.count(module, library()).buffers, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

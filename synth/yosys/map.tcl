@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: Apache-2.0
+# Technology-independent to mapped netlist; repeated with more effort if the timing does not close.
+yosys -import
+source $::env(DTOF_SETTINGS)
+read_rtlil $generic_netlist
+foreach step {4_map 5_check_netlist} {
+  puts "DTOF_STEP $step"
+  source $scripts/$step.tcl
+}
+write_json $netlist_json
