@@ -13,17 +13,10 @@
 namespace dtof {
 namespace {
 
-struct Pool {
-  CalibrationPoint mean;
-  double weight;
-};
-
-Pool merged(const Pool& a, const Pool& b) {
+CalibrationPoint merged(const CalibrationPoint& a, const CalibrationPoint& b) {
   const double weight = a.weight + b.weight;
   const double share = b.weight / weight;
-  return {{std::lerp(a.mean.position, b.mean.position, share),
-           std::lerp(a.mean.distance_m, b.mean.distance_m, share)},
-          weight};
+  return {std::lerp(a.position, b.position, share), std::lerp(a.distance_m, b.distance_m, share), weight};
 }
 
 }  // namespace
@@ -39,28 +32,25 @@ LookupTable LookupTable::fit(std::span<const CalibrationPoint> points) {
       throw InputError(fmt::format("calibration point (position {}, distance {} m) is not finite",
                                    point.position, point.distance_m));
     }
+    if (!std::isfinite(point.weight) || point.weight <= 0.0) {
+      throw InputError(fmt::format("calibration weight is {}, but must be above 0", point.weight));
+    }
   }
   std::ranges::stable_sort(sorted, {}, &CalibrationPoint::position);
 
-  std::vector<Pool> pools;
+  std::vector<CalibrationPoint> pools;
   for (auto point = sorted.begin(); point != sorted.end();) {
-    Pool pool{*point, 1.0};
-    for (++point; point != sorted.end() && point->position == pool.mean.position; ++point) {
-      pool = merged(pool, {*point, 1.0});
+    CalibrationPoint pool = *point;
+    for (++point; point != sorted.end() && point->position == pool.position; ++point) {
+      pool = merged(pool, *point);
     }
-    while (!pools.empty() && pools.back().mean.distance_m >= pool.mean.distance_m) {
+    while (!pools.empty() && pools.back().distance_m >= pool.distance_m) {
       pool = merged(pools.back(), pool);
       pools.pop_back();
     }
     pools.push_back(pool);
   }
-
-  std::vector<CalibrationPoint> knots;
-  knots.reserve(pools.size());
-  for (const Pool& pool : pools) {
-    knots.push_back(pool.mean);
-  }
-  return LookupTable(std::move(knots));
+  return LookupTable(std::move(pools));
 }
 
 LookupTable::LookupTable(std::vector<CalibrationPoint> knots) : knots_(std::move(knots)), mean_slope_(0.0) {

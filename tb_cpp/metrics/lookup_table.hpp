@@ -10,6 +10,7 @@ namespace dtof {
 struct CalibrationPoint {
   double position;
   double distance_m;
+  double weight = 1.0;  ///< > 0, e.g. the reciprocal of the position's variance
 
   bool operator==(const CalibrationPoint&) const = default;
 };
@@ -23,14 +24,14 @@ class LookupTable {
   ///
   /// Points in any order, repeated positions allowed. Outlying positions pull the fit as in any least-squares
   /// regression: calibrate with the median or mean position per distance where a read-out has outliers.
-  /// Throws InputError for fewer than two points or a value that is not finite.
+  /// Throws InputError for fewer than two points, a value that is not finite or a weight that is not above 0.
   static LookupTable fit(std::span<const CalibrationPoint> points);
 
   /// Distance in m: linear between knots; beyond both ends the line continues with the table's mean slope
   /// (constant if the fit left one knot only).
   [[nodiscard]] double distance(double position) const;
 
-  /// Strictly ascending in position and in distance; at least one.
+  /// Strictly ascending in position and in distance; at least one. Weights are the pools'.
   [[nodiscard]] const std::vector<CalibrationPoint>& knots() const { return knots_; }
 
  private:

@@ -40,12 +40,23 @@ TEST(LookupTable, ContinuesWithTheMeanSlopeBeyondItsEnds) {
 TEST(LookupTable, ViolatorsArePooledAtTheirMean) {
   const LookupTable table = LookupTable::fit(Points{{1, 1.0}, {2, 3.0}, {3, 2.0}, {4, 1.0}, {5, 6.0}});
   EXPECT_THAT(table.knots(),
-              ElementsAre(CalibrationPoint{1, 1.0}, CalibrationPoint{3, 2.0}, CalibrationPoint{5, 6.0}));
+              ElementsAre(CalibrationPoint{1, 1.0}, CalibrationPoint{3, 2.0, 3.0}, CalibrationPoint{5, 6.0}));
 }
 
 TEST(LookupTable, PoolingReachesBack) {
   const LookupTable table = LookupTable::fit(Points{{1, 4.0}, {2, 5.0}, {3, 6.0}, {4, 1.0}});
-  EXPECT_THAT(table.knots(), ElementsAre(CalibrationPoint{2.5, 4.0}));
+  EXPECT_THAT(table.knots(), ElementsAre(CalibrationPoint{2.5, 4.0, 4.0}));
+}
+
+TEST(LookupTable, WeightsCountAsRepetitions) {
+  const LookupTable table = LookupTable::fit(Points{{1, 1.0}, {2, 3.0, 3.0}, {4, 2.0}, {5, 6.0}});
+  EXPECT_THAT(table.knots(), ElementsAre(CalibrationPoint{1, 1.0}, CalibrationPoint{2.5, 2.75, 4.0},
+                                         CalibrationPoint{5, 6.0}));
+  EXPECT_THAT(
+      [] {
+        LookupTable::fit(Points{{1, 1.0}, {2, 2.0, 0.0}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("weight is 0")));
 }
 
 TEST(LookupTable, SpreadCodesOfOneDistanceBecomeOneKnot) {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/detection.hpp"
+
+namespace dtof {
+
+/// What a matched filter is matched to: a Gaussian pulse on a flat background, per acquisition.
+struct MatchedFilterParameters {
+  int np = 10;               ///< NP, 3 .. 16
+  double sigma_bins;         ///< standard deviation of the pulse in bins, > 0
+  double signal_events;      ///< mean signal events, > 0
+  double background_events;  ///< mean background events over all 2^np bins, > 0
+};
+
+/// Maximum-likelihood arrival time of one pulse from all detections of a frame: argmax over tau of
+/// sum_i log(1 + A g(t_i - tau) / b), A and b known. It needs every photon's time (a full histogram), so it
+/// is no read-out for a large array, but the practical bound for all of them. Pile-up is not modelled: near
+/// targets get a bias that the host's look-up table removes.
+///
+/// tau is searched on whole bins and refined by the parabola through the best three scores.
+class MatchedFilter {
+ public:
+  struct Result {
+    double position = 0.0;  ///< code axis (metrics/depth.hpp), 0 .. 2^np - 2; 0 without detections
+    double score = 0.0;     ///< the sum at its maximum: log-likelihood ratio but for a constant
+  };
+
+  /// Throws InputError for a parameter outside its range.
+  explicit MatchedFilter(const MatchedFilterParameters& parameters);
+
+  /// One pixel's frame; the no-detection code is dropped. Throws InputError for a timestamp outside the
+  /// range.
+  Result estimate(std::span<const Detection> detections);
+
+ private:
+  std::size_t no_detection_;
+  std::size_t reach_;             // bins on each side beyond which the template is negligible
+  std::vector<double> template_;  // 2 reach + 1 values
+  std::vector<double> counts_;
+  std::vector<double> scores_;  // with `reach_` bins of margin on both sides
+};
+
+}  // namespace dtof

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "readout/matched_filter.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "tests/core/test_seed.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr MatchedFilterParameters kPulse{
+    .np = 10, .sigma_bins = 19.3, .signal_events = 0.1, .background_events = 0.15};
+
+std::vector<Detection> detections_of(std::initializer_list<Timestamp> timestamps) {
+  std::vector<Detection> detections;
+  for (const Timestamp timestamp : timestamps) {
+    detections.push_back({static_cast<std::uint32_t>(detections.size()), timestamp});
+  }
+  return detections;
+}
+
+// Straight from the formula, over every whole bin and without a cut template.
+std::pair<int, double> brute_force(const MatchedFilterParameters& p, std::span<const Detection> detections) {
+  const double codes = std::ldexp(1.0, p.np);
+  std::pair<int, double> best{0, -1.0};
+  for (int tau = 0; tau < codes - 1; ++tau) {
+    double sum = 0.0;
+    for (const Detection& detection : detections) {
+      if (detection.timestamp < codes - 1) {
+        const double z = (detection.timestamp - tau) / p.sigma_bins;
+        const double pulse = std::exp(-0.5 * z * z) / (p.sigma_bins * std::sqrt(2.0 * std::numbers::pi));
+        sum += std::log(1.0 + p.signal_events * pulse / (p.background_events / codes));
+      }
+    }
+    if (sum > best.second) {
+      best = {tau, sum};
+    }
+  }
+  return best;
+}
+
+std::vector<Detection> random_frame(CounterRandom& random, double centre, int signal, int background) {
+  std::normal_distribution<double> pulse(centre, kPulse.sigma_bins);
+  std::vector<Detection> detections;
+  for (int i = 0; i < signal + background; ++i) {
+    const double time = i < signal ? pulse(random) : 1024.0 * random.uniform();
+    if (time >= 0.0 && time < 1024.0) {
+      detections.push_back({static_cast<std::uint32_t>(i), static_cast<Timestamp>(time)});
+    }
+  }
+  return detections;
+}
+
+TEST(MatchedFilter, OneDetectionIsItsOwnCentre) {
+  MatchedFilter filter(kPulse);
+  EXPECT_NEAR(filter.estimate(detections_of({300})).position, 300.0, 1e-9);
+  EXPECT_NEAR(filter.estimate(detections_of({300, 302})).position, 301.0, 1e-9);
+  EXPECT_NEAR(filter.estimate(detections_of({0})).position, 0.0, 1e-9);
+  EXPECT_NEAR(filter.estimate(detections_of({1022})).position, 1022.0, 1e-9);
+}
+
+TEST(MatchedFilter, NothingDetected) {
+  MatchedFilter filter(kPulse);
+  EXPECT_EQ(filter.estimate({}).position, 0.0);
+  EXPECT_EQ(filter.estimate(detections_of({1023, 1023})).score, 0.0);
+}
+
+TEST(MatchedFilter, FramesDoNotLeakIntoEachOther) {
+  MatchedFilter filter(kPulse);
+  (void)filter.estimate(detections_of({100, 100, 100}));
+  EXPECT_NEAR(filter.estimate(detections_of({300})).position, 300.0, 1e-9);
+}
+
+TEST(MatchedFilter, MaximumOfTheFormula) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), 1, 0);
+  MatchedFilter filter(kPulse);
+  for (int frame = 0; frame < 40; ++frame) {
+    const std::vector<Detection> detections = random_frame(random, 1024.0 * random.uniform(), 20, 60);
+    const MatchedFilter::Result result = filter.estimate(detections);
+    const auto [tau, score] = brute_force(kPulse, detections);
+    EXPECT_NEAR(result.position, tau, 0.5 + 1e-9) << "frame " << frame;
+    EXPECT_NEAR(result.score, score, 1e-3 * score) << "frame " << frame;
+  }
+}
+
+TEST(MatchedFilter, ReachesTheSpreadOfTheMeanWithoutBackground) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), 2, 0);
+  MatchedFilterParameters pure = kPulse;
+  pure.background_events = 1e-9;
+  MatchedFilter filter(pure);
+  constexpr int kFrames = 2000;
+  constexpr int kPhotons = 100;
+  double squares = 0.0;
+  double sum = 0.0;
+  for (int frame = 0; frame < kFrames; ++frame) {
+    // A code is its bin's begin: an arrival at 500.3 is position 499.8 plus rounding.
+    const double error = filter.estimate(random_frame(random, 500.3, kPhotons, 0)).position - 499.8;
+    squares += error * error;
+    sum += error;
+  }
+  const double bound = kPulse.sigma_bins / std::sqrt(kPhotons);
+  EXPECT_NEAR(std::sqrt(squares / kFrames), bound, 0.07 * bound);  // 4 standard errors
+  EXPECT_NEAR(sum / kFrames, 0.0, 4.0 * bound / std::sqrt(kFrames));
+}
+
+TEST(MatchedFilter, Refusals) {
+  const auto changed = [](auto change) {
+    MatchedFilterParameters parameters = kPulse;
+    change(parameters);
+    return [parameters] { const MatchedFilter filter(parameters); };
+  };
+  using testing::HasSubstr;
+  using testing::ThrowsMessage;
+  EXPECT_THAT(changed([](auto& p) { p.np = 2; }), ThrowsMessage<InputError>(HasSubstr("NP is 2")));
+  EXPECT_THAT(changed([](auto& p) { p.sigma_bins = 0.0; }), ThrowsMessage<InputError>(HasSubstr("sigma")));
+  EXPECT_THAT(changed([](auto& p) { p.signal_events = -1.0; }),
+              ThrowsMessage<InputError>(HasSubstr("signal")));
+  EXPECT_THAT(changed([](auto& p) { p.background_events = NAN; }),
+              ThrowsMessage<InputError>(HasSubstr("background")));
+  MatchedFilter small({.np = 4, .sigma_bins = 1.0, .signal_events = 1.0, .background_events = 1.0});
+  EXPECT_THROW((void)small.estimate(detections_of({16})), InputError);
+}
+
+}  // namespace
+}  // namespace dtof
