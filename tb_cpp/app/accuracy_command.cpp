@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
+#include "app/accuracy_study.hpp"
+#include "app/accuracy_tables.hpp"
 #include "app/commands.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/plot.hpp"
-#include "app/readout_run.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
-#include "metrics/cramer_rao.hpp"
-#include "metrics/depth.hpp"
-#include "metrics/error_statistics.hpp"
-#include "photon/photon_source.hpp"
-#include "photon/physics.hpp"
 
 namespace dtof {
 namespace {
@@ -25,34 +23,104 @@ struct AccuracyOptions {
   ReadoutOptions readout;
   RunOptions run;
   SensorOptions sensor;
-  std::vector<double> distances_m = {0.2, 0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0};
+  std::vector<double> klux = {14.0};
+  std::vector<double> distances_m = {0.2, 0.5, 0.8, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0};
   int frames = 1000;
+  std::optional<double> precision_percent;
+  int most_frames = 100'000;
+  std::optional<double> reject_percent;
   std::optional<double> reflectivity;
   std::string out = "build/accuracy";
   std::string command_line;
 };
 
-// Every pixel of a flat scene is one independent frame: `frames` pixels in equally long columns.
-TargetMap independent_frames(int frames, PixelTarget target) {
-  constexpr int kMostRows = 160;
-  int rows = std::min(frames, kMostRows);
-  while (frames % rows != 0) {
-    --rows;
+StudySettings settings_of(const AccuracyOptions& options) {
+  StudySettings settings;
+  settings.readouts = options.readout.parameters();
+  settings.sensor = options.sensor.model(options.readout.np, settings.readouts.front().slots);
+  settings.reflectivity = options.reflectivity.value_or(settings.sensor.default_reflectivity);
+  settings.distances_m = options.distances_m;
+  settings.frames = options.frames;
+  if (options.precision_percent) {
+    settings.precision = *options.precision_percent / 100.0;
   }
-  return {frames / rows, rows, target};
+  settings.most_frames = std::max(options.most_frames, options.frames);
+  if (options.reject_percent) {
+    settings.rejection = *options.reject_percent / 100.0;
+  }
+  settings.run = options.run;
+  settings.command = options.command_line;
+  return settings;
 }
 
-double cramer_rao_m(const PhotonSource& source, const DepthScale& scale) {
-  const PixelRates rates = source.rates(0, 0);
-  const SensorModel& sensor = source.model();
-  return scale.bin_depth() *
-         cramer_rao_bound({.signal_events = rates.signal,
-                           .background_events = rates.background,
-                           .centre_bins = rates.centre_bins,
-                           .sigma_bins = pulse_sigma_s(sensor.pulse_fwhm_s) / sensor.time_resolution_s(),
-                           .np = sensor.np,
-                           .acquisitions = static_cast<double>(sensor.acquisitions),
-                           .kept_events = sensor.slots});
+std::string heading(const AccuracyOptions& options, const StudySettings& settings) {
+  return fmt::format(
+      "Preset {}, reflectivity {:g}, {} acquisitions a frame, engine {}, seed {}. {} frames a distance{}; "
+      "the\n"
+      "look-up table comes from {} other frames every {:g} m, at the same light.\n",
+      options.sensor.preset, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
+      options.run.seed, settings.frames,
+      settings.precision
+          ? fmt::format(
+                " or more, up to {}, until the intervals of relative precision and rmse are within {:g} %",
+                settings.most_frames, *settings.precision * 100.0)
+          : "",
+      settings.calibration_frames, settings.calibration_step_m);
+}
+
+constexpr const char* kLegend =
+    "In brackets: 95 % confidence intervals, closed forms (Student's t for the bias, Welch for the slope, "
+    "Wilson's\n"
+    "score for shares, the fourth moment and the delta method for relative precision and rmse).\n"
+    "Relative precision (Eq. 3.14), bias and slope are those of Eq. 3.11, before the look-up table; rmse, "
+    "shares\n"
+    "of errors and efficiency (Cramer-Rao bound / rmse) are those after it. Slope: change of measured over "
+    "change\n"
+    "of true distance between the neighbouring distances. The matched filter has the full histogram and "
+    "knows\n"
+    "both rates.\n"
+    "An efficiency above 1 is no error: at close range pile-up shifts the pulse the more, the brighter it "
+    "is, and all\n"
+    "targets here have one reflectivity, so that brightness tells the distance too; the bound knows arrival "
+    "times "
+    "only.\n";
+
+struct Picture {
+  const char* name;
+  const char* y_label;
+  double (*value)(const AccuracyPoint&);
+  std::vector<double> limits;
+  bool logarithmic;
+};
+
+const std::vector<Picture>& pictures() {
+  static const std::vector<Picture> all = {
+      {"relative_precision",
+       "relative precision, %",
+       [](const AccuracyPoint& p) { return p.relative_precision.value * 100.0; },
+       {3.0},
+       true},
+      {"rmse",
+       "rmse after the look-up table, % of distance",
+       [](const AccuracyPoint& p) { return p.rmse_m.value / p.distance_m * 100.0; },
+       {3.0},
+       true},
+      {"outliers",
+       "errors above 10 %, %",
+       [](const AccuracyPoint& p) { return p.outlier_rate.value * 100.0; },
+       {},
+       false},
+      {"mean_distance",
+       "mean measured distance before the look-up table, m",
+       [](const AccuracyPoint& p) { return p.distance_m + p.bias_m.value; },
+       {},
+       false},
+      {"efficiency",
+       "Cramer-Rao bound / rmse",
+       [](const AccuracyPoint& p) { return p.efficiency.value; },
+       {1.0},
+       false}};
+  return all;
 }
 
 void run_accuracy_command(const AccuracyOptions& options) {
@@ -60,67 +128,69 @@ void run_accuracy_command(const AccuracyOptions& options) {
   if (options.run.columns != "all" || !options.run.trace.empty()) {
     throw InputError("accuracy: --columns and --trace do not apply, every frame is read out");
   }
-  const std::vector<ReadoutParameters> readouts = options.readout.parameters();
-  const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
-  const PixelTarget target{.reflectivity = options.reflectivity.value_or(sensor.default_reflectivity)};
-  create_output_folder(options.out);
-  Table table({"read-out", "distance m", "relative precision", "bias mm", "std mm", "rmse mm", "above 3 %",
-               "above 10 %", "Cramer-Rao mm"});
-  Table slopes({"read-out", "slope", "intercept mm"});
-  std::vector<PlotSeries> series;
-  for (const ReadoutParameters& parameters : readouts) {
-    const std::string title(readout_title(parameters.readout));
-    const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
-    PlotSeries& line = series.emplace_back(PlotSeries{title, {}, {}});
-    std::vector<double> truths;
-    std::vector<double> means;
-    for (const double distance : options.distances_m) {
-      PixelTarget at_distance = target;
-      at_distance.depth_m = distance;
-      const PhotonSource source(sensor, independent_frames(options.frames, at_distance), options.sensor.klux,
-                                options.run.seed, static_cast<std::uint32_t>(truths.size()));
-      const ReadoutRun run = run_readout(source, parameters, options.run, {}, options.command_line);
-      ErrorStatistics statistics;
-      for (const PixelResult& result : run.results) {
-        statistics.add(distance, scale.depth(code_position(result, parameters.fraction_bits)));
-      }
-      const ErrorSummary summary = statistics.summary();
-      table.add({title, fmt::format("{:g}", distance),
-                 fmt::format("{:.2f} %", summary.relative_precision * 100.0),
-                 fmt::format("{:.1f}", summary.bias_m * 1e3),
-                 fmt::format("{:.1f}", summary.standard_deviation_m * 1e3),
-                 fmt::format("{:.1f}", summary.rmse_m * 1e3),
-                 fmt::format("{:.1f} %", summary.share_above_3_percent * 100.0),
-                 fmt::format("{:.1f} %", summary.share_above_10_percent * 100.0),
-                 fmt::format("{:.2f}", cramer_rao_m(source, scale) * 1e3)});
-      line.x.push_back(distance);
-      line.y.push_back(summary.relative_precision * 100.0);
-      truths.push_back(distance);
-      means.push_back(distance + summary.bias_m);
+  StudySettings settings = settings_of(options);
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  std::vector<AccuracyPoint> all;
+  std::string report = fmt::format("# Accuracy\n\n{}\n{}", heading(options, settings), kLegend);
+  for (const double klux : options.klux) {
+    settings.klux = klux;
+    const AccuracyStudy study = run_accuracy_study(settings);
+    all.insert(all.end(), study.points.begin(), study.points.end());
+    const std::string overview = fmt::format(
+        "Relative precision, %:\n\n{}\nRmse after the look-up table, % of distance:\n\n{}\nErrors above 10 "
+        "%, "
+        "%:\n\n{}\n",
+        accuracy_matrix(
+            study.points,
+            [](const auto& p) { return fmt::format("{:.2f}", p.relative_precision.value * 100.0); })
+            .markdown(),
+        accuracy_matrix(
+            study.points,
+            [](const auto& p) { return fmt::format("{:.2f}", p.rmse_m.value / p.distance_m * 100.0); })
+            .markdown(),
+        accuracy_matrix(study.points, [](const auto& p) {
+          return fmt::format("{:.1f}", p.outlier_rate.value * 100.0);
+        }).markdown());
+    report += fmt::format("\n## {:g} klux\n\n{}", klux, overview);
+    fmt::print("{:g} klux\n\n{}", klux, overview);
+    if (!study.without_rejection.empty()) {
+      const std::string sentence =
+          fmt::format("No confidence leaves as few outliers as wanted, so nothing is rejected: {}.\n",
+                      fmt::join(study.without_rejection, ", "));
+      report += sentence;
+      fmt::print("{}", sentence);
     }
-    if (truths.size() > 1) {
-      const LinearFit fit = fit_line(truths, means);
-      slopes.add({title, fmt::format("{:.3f}", fit.slope), fmt::format("{:.0f}", fit.intercept * 1e3)});
+    if (settings.precision) {
+      const auto short_of = std::ranges::count(study.points, false, &AccuracyPoint::precision_reached);
+      const auto most = std::ranges::max(study.points, {}, &AccuracyPoint::frames).frames;
+      const std::string sentence =
+          fmt::format("Precision reached at {} of {} points, with up to {} frames.\n",
+                      study.points.size() - static_cast<std::size_t>(short_of), study.points.size(), most);
+      report += sentence;
+      fmt::print("{}\nFrames:\n\n{}\n", sentence, accuracy_matrix(study.points, [](const auto& p) {
+                                                    return fmt::format("{}{}", p.frames,
+                                                                       p.precision_reached ? "" : "+");
+                                                  }).markdown());
+    }
+    for_each_estimator(study.points, [&](std::span<const AccuracyPoint> points) {
+      report += fmt::format("\n### {}, {:g} klux\n\n{}", points.front().title, klux,
+                            accuracy_table(points).markdown());
+    });
+    for (const Picture& picture : pictures()) {
+      write_plot(folder / fmt::format("{}_{:g}klux.svg", picture.name, klux),
+                 accuracy_series(study.points, picture.value),
+                 {.title = fmt::format("{:g} klux, preset {}", klux, options.sensor.preset),
+                  .x_label = "distance, m",
+                  .y_label = picture.y_label,
+                  .logarithmic_y = picture.logarithmic,
+                  .y_limits = picture.limits});
     }
   }
-  const std::filesystem::path folder(options.out);
-  const std::string heading = fmt::format(
-      "{} frames a point, {} klux, preset {}, {} acquisitions, engine {}, seed {}; before the host's look-up "
-      "table.\n",
-      options.frames, options.sensor.klux, options.sensor.preset, sensor.acquisitions, options.run.engine,
-      options.run.seed);
-  write_file(folder / "accuracy.csv", table.csv());
-  write_file(folder / "accuracy.md", fmt::format("{}\n{}\n{}\nCommand: `{}`\n", heading, table.markdown(),
-                                                 slopes.markdown(), options.command_line));
-  write_plot(folder / "relative_precision.svg", series,
-             {.title = fmt::format("Relative precision, {} klux, preset {}", options.sensor.klux,
-                                   options.sensor.preset),
-              .x_label = "distance, m",
-              .y_label = "relative precision, %",
-              .logarithmic_y = true,
-              .y_limits = {3.0}});
-  fmt::print("{}\n{}\n{}\nTables and plot are in {}\n", heading, table.markdown(), slopes.markdown(),
-             options.out);
+  report += fmt::format("\nCommand: `{}`\n", options.command_line);
+  write_file(folder / "accuracy.csv", accuracy_csv(all).csv());
+  write_file(folder / "accuracy.md", report);
+  fmt::print("Tables with confidence intervals and plots are in {}\n", options.out);
 }
 
 }  // namespace
@@ -128,16 +198,33 @@ void run_accuracy_command(const AccuracyOptions& options) {
 void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<AccuracyOptions>();
   options->command_line = command_line;
-  CLI::App* command =
-      app.add_subcommand("accuracy", "Distance sweep: precision, bias and outliers of every read-out");
+  CLI::App* command = app.add_subcommand(
+      "accuracy", "Distance sweep: precision, bias, slope, outliers and efficiency of every read-out");
+  command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command->add_option("-d,--distances", options->distances_m, "distances in m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("-n,--frames", options->frames, "frames a distance")
-      ->check(CLI::Range(2, 10'000'000))
+  command->add_option("-n,--frames", options->frames, "frames a distance (with --precision: at least)")
+      ->check(CLI::Range(4, 10'000'000))
       ->capture_default_str();
+  command
+      ->add_option("--precision", options->precision_percent,
+                   "more frames until the 95 % intervals of relative precision and rmse are within this many "
+                   "per cent of their value")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-frames", options->most_frames, "where --precision gives up")
+      ->check(CLI::Range(4, 10'000'000))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--reject", options->reject_percent,
+          "reject measurements of low confidence, so that of the calibration's accepted ones at most "
+          "this many per cent are more than 10 % off")
+      ->check(CLI::Range(0.0, 100.0));
   command->add_option("--reflectivity", options->reflectivity, "of the target (default: the preset's)");
-  options->sensor.add_to(*command);
+  options->sensor.add_sensor_to(*command);
   options->readout.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();

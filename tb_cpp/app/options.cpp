@@ -90,9 +90,13 @@ void RunOptions::validate() const {
 }
 
 void SensorOptions::add_to(CLI::App& command) {
-  auto* group = command.add_option_group("sensor and light");
+  command.add_option("-k,--klux", klux, "background light in klux")->capture_default_str();
+  add_sensor_to(command);
+}
+
+void SensorOptions::add_sensor_to(CLI::App& command) {
+  auto* group = command.add_option_group("sensor");
   group->add_option("-p,--preset", preset, "thesis or phone")->capture_default_str();
-  group->add_option("-k,--klux", klux, "background light in klux")->capture_default_str();
   group->add_option("-a,--acquisitions", acquisitions, "laser pulses a frame (default: the preset's)");
   group->add_option("--dead-time", dead_time_ns, "dead time of a pixel in ns");
   group->add_option("--binning", binning, "B: blocks of B x B pixels share one stream")

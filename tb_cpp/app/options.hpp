@@ -56,6 +56,8 @@ struct SensorOptions {
   std::optional<double> coincidence_ns;
 
   void add_to(CLI::App& command);
+  /// Without --klux, for commands that take several light levels.
+  void add_sensor_to(CLI::App& command);
   /// The preset with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
   [[nodiscard]] SensorModel model(int np, int slots) const;
 };
