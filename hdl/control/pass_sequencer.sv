@@ -2,9 +2,10 @@
 // Decides which acquisitions belong to the current pass: the measurement split of a frame.
 //
 // Equation: pass r of P = COARSE_PASSES + 1 ends before acquisition floor(A * (r + 1) / P), A = acq_num_i
-// (spec section 2; PiFH: section 3). Three steps cut floor(A / 2) into three and leave the rest to the final
-// pass. Acquisition a belongs to pass r while left = A * (r + 1) - P * (a + 1) >= 0, so one signed
-// accumulator decides: an acquisition subtracts P, a new pass adds A.
+// (spec section 2; PiFH: section 3). Acquisition a belongs to pass r while left = A * (r + 1) - P * (a + 1) >= 0,
+// so one signed accumulator decides: an acquisition subtracts P, a new pass adds A.
+// Three steps cut floor(A / 2) into P = 3 the same way and leave the rest to the final pass, which ends when a
+// second counter, A - (a + 1), falls below zero.
 // GEAR (fractional pointers): with l acquisitions left of the L of the final pass, gear is the largest g with
 // l <= L >> g; it halves the step each time half of what was left is done.
 //
@@ -31,28 +32,19 @@ module pass_sequencer #(
   localparam int PARTS = (THREE_STEPS != 0) ? 3 : COARSE_PASSES + 1;
   localparam int LEFT_WIDTH = dtof_pkg::max_of(ACQ_WIDTH, $clog2(PARTS + 1)) + 2;
 
-  logic signed [LEFT_WIDTH-1:0] left_d, left_q;
-  logic signed [LEFT_WIDTH-1:0] base, per_acquisition;
-  logic [ACQ_WIDTH-1:0] first_half, second_half;
-  logic final_pass_q;
+  logic signed [LEFT_WIDTH-1:0] left_d, left_q, base;
+  logic final_pass_q;  // used where the final pass differs: three steps, gears
 
-  assign first_half = acq_num_i >> 1;
-  assign second_half = acq_num_i - first_half;
-  assign per_acquisition = (THREE_STEPS != 0 && final_pass_q) ? LEFT_WIDTH'(1) : LEFT_WIDTH'(PARTS);
-  assign base = (THREE_STEPS != 0) ? LEFT_WIDTH'(first_half) : LEFT_WIDTH'(acq_num_i);
+  assign base = (THREE_STEPS != 0) ? LEFT_WIDTH'(acq_num_i[ACQ_WIDTH-1:1]) : LEFT_WIDTH'(acq_num_i);
 
   always_comb begin
     left_d = left_q;
     if (load_i) begin
       left_d = base - LEFT_WIDTH'(PARTS);
     end else if (next_pass_i) begin
-      if (THREE_STEPS != 0 && final_i) begin
-        left_d = LEFT_WIDTH'(second_half) - LEFT_WIDTH'(1);
-      end else begin
-        left_d = left_q + base;
-      end
+      left_d = left_q + base;
     end else if (acq_done_i) begin
-      left_d = left_q - per_acquisition;
+      left_d = left_q - LEFT_WIDTH'(PARTS);
     end
   end
 
@@ -70,7 +62,23 @@ module pass_sequencer #(
     end
   end
 
-  assign more_o = !left_q[LEFT_WIDTH-1];
+  generate
+    if (THREE_STEPS != 0) begin : g_three_steps
+      logic signed [ACQ_WIDTH:0] left_in_frame_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          left_in_frame_q <= '1;
+        end else if (load_i) begin
+          left_in_frame_q <= $signed({1'b0, acq_num_i} - 1'b1);
+        end else if (acq_done_i) begin
+          left_in_frame_q <= left_in_frame_q - (ACQ_WIDTH + 1)'(1);
+        end
+      end
+      assign more_o = final_pass_q ? !left_in_frame_q[ACQ_WIDTH] : !left_q[LEFT_WIDTH-1];
+    end else begin : g_equal_passes
+      assign more_o = !left_q[LEFT_WIDTH-1];
+    end
+  endgenerate
 
   generate
     if (GEARS > 0) begin : g_gear
@@ -81,7 +89,7 @@ module pass_sequencer #(
       logic [ACQ_WIDTH-1:0] final_length;
       logic signed [LEFT_WIDTH-1:0] left_after;
 
-      assign final_length = (COARSE_PASSES == 0) ? acq_num_i : second_half;
+      assign final_length = (COARSE_PASSES == 0) ? acq_num_i : acq_num_i - (acq_num_i >> 1);
       assign left_after = left_q >>> PARTS_SHIFT;
 
       always_ff @(posedge clk_i or negedge rst_ni) begin
