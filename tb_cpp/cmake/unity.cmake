@@ -1,9 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-# Joins the C++ files that Verilator wrote into DIRECTORY, and REGISTRATION, into one translation unit.
+# Joins the C++ files that Verilator wrote into DIRECTORY, and REGISTRATION, into one translation unit. What runs
+# once (construction) or on demand (waveform) is not worth the optimiser's time: it would take longer than the rest.
 file(GLOB sources ${DIRECTORY}/V*.cpp)
 list(SORT sources)
+set(rare ${sources})
+list(FILTER rare INCLUDE REGEX "(Slow|__Syms|__Trace__[0-9]+|__ConstPool_[0-9]+)\\.cpp$")
+list(REMOVE_ITEM sources ${rare})
 set(text "")
-foreach(source ${sources} ${REGISTRATION})
+foreach(source ${sources})
   string(APPEND text "#include \"${source}\"\n")
 endforeach()
+string(APPEND text "#pragma GCC push_options\n#pragma GCC optimize(\"O0\")\n")
+foreach(source ${rare})
+  string(APPEND text "#include \"${source}\"\n")
+endforeach()
+string(APPEND text "#pragma GCC pop_options\n#include \"${REGISTRATION}\"\n")
 file(WRITE ${DIRECTORY}/model.cpp "${text}")

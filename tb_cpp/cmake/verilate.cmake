@@ -4,7 +4,7 @@
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
-#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [OPTIMISATION -O2])
+#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [OPTIMISATION -O2] [PROBE])
 #
 # makes the object library dtof_rtl_<name>. A program that links it finds the configuration in the registry of
 # rtl/registry.hpp. Left-out parameters take ReadoutParameters::defaults(). <read-out> is the command-line name.
@@ -40,7 +40,7 @@ set(DTOF_PARAMETERS NP NB PIXELS_PER_SRAM SRAM_NUM SLOTS COUNT_WIDTH POINTER_STE
 set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "" "READOUT;OPTIMISATION;${DTOF_PARAMETERS}" "" ${ARGN})
+  cmake_parse_arguments(P "PROBE" "READOUT;OPTIMISATION;${DTOF_PARAMETERS}" "" ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
   endif()
@@ -79,6 +79,9 @@ function(dtof_verilate name)
   set(default_POINTER_PORTS 2)
   set(default_SIGNALLED_CLEAR 0)
   set(overrides -GREADOUT=${P_READOUT_NUMBER})
+  if(P_PROBE)
+    list(APPEND overrides -GPROBE=1)
+  endif()
   foreach(parameter ${DTOF_PARAMETERS})
     if(NOT DEFINED P_${parameter})
       set(P_${parameter} ${default_${parameter}})

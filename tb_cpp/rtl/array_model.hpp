@@ -32,6 +32,11 @@ class ArrayModel {
     const std::uint16_t* result_code;
     const std::uint16_t* result_fraction;
     const std::uint16_t* result_confidence;
+
+    const std::uint8_t*
+        probe_write;  ///< column 0's histogram or pointer SRAM; silent unless built with PROBE
+    const std::uint16_t* probe_address;
+    const std::uint16_t* probe_data;
   };
 
   ArrayModel() = default;

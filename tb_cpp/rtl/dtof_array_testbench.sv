@@ -2,7 +2,8 @@
 
 /// dtof_array behind ports whose C++ types are the same for every configuration, so that one driver runs
 /// them all: 16 bits a column of timestamp on a bus of at least 128 bits (an array of words in C++), each
-/// field of the result on its own 16-bit port.
+/// field of the result on its own 16-bit port. PROBE = 1 shows the writes to column 0's histogram or pointer
+/// SRAM, for tests that follow the thesis's examples word by word.
 module dtof_array_testbench #(
     parameter READOUT = 0,
     parameter NP = 10,
@@ -18,6 +19,7 @@ module dtof_array_testbench #(
     parameter WINDOW_CENTRED = 0,
     parameter POINTER_PORTS = 2,
     parameter SIGNALLED_CLEAR = 0,
+    parameter PROBE = 0,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
 ) (
     input  logic                 clk_i,
@@ -37,15 +39,16 @@ module dtof_array_testbench #(
     output logic [         15:0] result_row_o,
     output logic [         15:0] result_code_o,
     output logic [         15:0] result_fraction_o,
-    output logic [         15:0] result_confidence_o
+    output logic [         15:0] result_confidence_o,
+    output logic                 probe_write_o,
+    output logic [         15:0] probe_address_o,
+    output logic [         15:0] probe_data_o
 );
 
-  // Read-outs 0 to 2 end in a pointer (hdl/package/dtof_pkg.sv).
-  localparam IS_POINTER = READOUT <= 2;
-  localparam COLUMN_WIDTH = SRAM_NUM > 1 ? $clog2(SRAM_NUM) : 1;
-  localparam ROW_WIDTH = PIXELS_PER_SRAM > 1 ? $clog2(PIXELS_PER_SRAM) : 1;
-  localparam FRACTION_WIDTH = IS_POINTER ? FRACTION_BITS : 0;
-  localparam RESULT_CONFIDENCE_WIDTH = IS_POINTER ? CONFIDENCE_WIDTH : COUNT_WIDTH;
+  localparam COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM);
+  localparam ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
+  localparam FRACTION_WIDTH = dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
+  localparam RESULT_CONFIDENCE_WIDTH = dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, CONFIDENCE_WIDTH);
   localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + NP + FRACTION_WIDTH + RESULT_CONFIDENCE_WIDTH;
 
   localparam FRACTION_LSB = RESULT_CONFIDENCE_WIDTH;
@@ -105,6 +108,21 @@ module dtof_array_testbench #(
     assign result_confidence_o = 16'(result[0+:RESULT_CONFIDENCE_WIDTH]);
   end else begin : gen_no_confidence
     assign result_confidence_o = '0;
+  end
+
+  `define DTOF_PROBE(SRAM) \
+    assign probe_write_o = SRAM.write_en_i; \
+    assign probe_address_o = 16'(SRAM.write_addr_i); \
+    assign probe_data_o = 16'(SRAM.write_data_i);
+
+  if (PROBE == 0) begin : gen_no_probe
+    assign probe_write_o = 1'b0;
+    assign probe_address_o = '0;
+    assign probe_data_o = '0;
+  end else if (READOUT == dtof_pkg::READOUT_EZPOINTER) begin : gen_pointer_probe
+    `DTOF_PROBE(u_array.g_column[0].g_ez_pointer.u_column.u_pointer_builder.u_pointer_sram)
+  end else begin : gen_histogram_probe
+    `DTOF_PROBE(u_array.g_column[0].g_interframe.u_column.u_histogram_builder.u_histogram_sram)
   end
 
   // The padding of the timestamp bus.

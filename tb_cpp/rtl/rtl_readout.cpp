@@ -88,7 +88,7 @@ class RtlReadout::Simulation {
     frame_.results.resize(rows * columns.size());
     frame_.result_cycles.resize(frame_.results.size());
 
-    if (options.reset_first) {
+    if (options.reset_first || !was_reset_) {
       reset();
     }
     if (!run_frame(options.reset_at)) {
@@ -135,6 +135,7 @@ class RtlReadout::Simulation {
       rising_edge();
     }
     *ports_.reset_n = 1;
+    was_reset_ = true;
   }
 
   [[nodiscard]] std::uint64_t cycle_limit() const {
@@ -154,7 +155,7 @@ class RtlReadout::Simulation {
     driver_->rewind(options_->pause_probability, control_random(options_->seed, ControlStream::kPause));
     CounterRandom random = control_random(options_->seed, ControlStream::kClock);
     beats_ = 0;
-    stalled_clocks_ = 0;
+    held_clocks_ = 0;
     pending_beat_ = false;
     frame_.statistics = RtlStatistics{};
     const std::uint64_t limit = cycle_limit();
@@ -178,13 +179,14 @@ class RtlReadout::Simulation {
       driver_->drive();
       settle();
       const bool done = observe();
+      held_clocks_ += driver_->pauses() || pending_beat_ ? 1 : 0;
       // A start pulse in the clock after done would begin another frame; the loop ends before it can.
       driver_->finish_clock();
       rising_edge();
       if (done) {
         break;
       }
-      if (cycle_ - driver_->pause_clocks() - stalled_clocks_ > limit) {
+      if (cycle_ + 1 - held_clocks_ > limit) {
         throw RtlError(fmt::format(
             "{}: the frame did not end within {} clocks; state {}, {} of {} acquisitions begun, {} of {} "
             "results sent",
@@ -227,7 +229,10 @@ class RtlReadout::Simulation {
       options_->observer({.cycle = cycle_,
                           .state = static_cast<RtlState>(state),
                           .acquisition_start = driver_->begins(),
-                          .result_beat = *ports_.result_valid != 0 && *ports_.result_ready != 0});
+                          .result_beat = *ports_.result_valid != 0 && *ports_.result_ready != 0,
+                          .sram_write = *ports_.probe_write != 0,
+                          .sram_address = *ports_.probe_address,
+                          .sram_data = *ports_.probe_data});
     }
     return *ports_.done != 0;
   }
@@ -244,7 +249,6 @@ class RtlReadout::Simulation {
     last_beat_ = beat;
     pending_beat_ = *ports_.result_ready == 0;
     if (pending_beat_) {
-      ++stalled_clocks_;
       return;
     }
     const auto width = static_cast<std::uint64_t>(configuration_.sram_num);
@@ -274,6 +278,7 @@ class RtlReadout::Simulation {
   ArrayModel::Ports ports_{};
   bool broken_ = false;
   bool tracing_ = false;
+  bool was_reset_ = false;
   std::uint64_t time_ = 0;
 
   // Of the current run.
@@ -284,7 +289,7 @@ class RtlReadout::Simulation {
   std::uint64_t total_cycles_ = 0;
   std::uint64_t cycle_ = 0;
   std::uint64_t beats_ = 0;
-  std::uint64_t stalled_clocks_ = 0;
+  std::uint64_t held_clocks_ = 0;  // source pauses or sink stalls
   bool pending_beat_ = false;
   Beat last_beat_;
   RtlFrame frame_;

@@ -22,6 +22,10 @@ struct RtlCycle {
   RtlState state;
   bool acquisition_start;  ///< valid and ready: pixel 0, slot 0 of an acquisition is on the port
   bool result_beat;        ///< a result is transferred
+  /// Column 0's histogram or pointer SRAM is written (configurations built with PROBE).
+  bool sram_write;
+  std::uint16_t sram_address;
+  std::uint16_t sram_data;
 };
 
 /// How a frame is driven. The defaults are an ideal source and sink.
@@ -31,7 +35,7 @@ struct RtlRunOptions {
   double stall_probability = 0.0;         ///< per clock: tready is low
   double start_probability = 0.0;         ///< per clock while busy: start_i with another acq_num_i
   std::optional<std::uint64_t> reset_at;  ///< reset in this clock after start, then a whole frame
-  bool reset_first = true;                ///< false: start as the frame before left the array
+  bool reset_first = true;  ///< false: start as the frame before left the array (if there was one)
   /// Clocks after which a frame is given up; 0: several times what its size needs. Clocks in which source or
   /// sink hold the array up do not count.
   std::uint64_t cycle_limit = 0;

@@ -95,7 +95,6 @@ void TdcDriver::rewind(double pause_probability, CounterRandom random) {
     }
   }
   pause_left_ = 0;
-  pause_clocks_ = 0;
   begun_ = 0;
   acquisition_ = 0;
   row_ = 0;
@@ -161,7 +160,6 @@ void TdcDriver::drive() {
 void TdcDriver::finish_clock() {
   if (pause_left_ > 0) {
     --pause_left_;
-    ++pause_clocks_;
     return;
   }
   if (!inside_) {

@@ -30,8 +30,8 @@ class TdcDriver {
   /// Ends the clock. Throws RtlError if the array takes an acquisition that does not exist.
   void finish_clock();
 
-  /// Clocks so far in which the source made the array wait.
-  [[nodiscard]] std::uint64_t pause_clocks() const { return pause_clocks_; }
+  /// The source pauses in this clock.
+  [[nodiscard]] bool pauses() const { return pause_left_ > 0; }
   /// Acquisitions begun so far.
   [[nodiscard]] std::uint32_t acquisitions_begun() const { return begun_; }
   /// An acquisition begins in this clock (valid after the array's outputs settled).
@@ -62,7 +62,6 @@ class TdcDriver {
   double pause_probability_ = 0.0;
   CounterRandom random_{0, 0, 0, 0};
   std::uint32_t pause_left_ = 0;
-  std::uint64_t pause_clocks_ = 0;
   std::uint32_t begun_ = 0;
   std::uint32_t acquisition_ = 0;
   std::size_t row_ = 0;

@@ -44,7 +44,10 @@ class VerilatedArray final : public ArrayModel {
             .result_row = &model_.result_row_o,
             .result_code = &model_.result_code_o,
             .result_fraction = &model_.result_fraction_o,
-            .result_confidence = &model_.result_confidence_o};
+            .result_confidence = &model_.result_confidence_o,
+            .probe_write = &model_.probe_write_o,
+            .probe_address = &model_.probe_address_o,
+            .probe_data = &model_.probe_data_o};
   }
 
   void eval() override { model_.eval(); }

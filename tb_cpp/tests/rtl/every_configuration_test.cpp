@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every compiled configuration against its model, on adversarial streams and every frame length that matters.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/rtl/rtl_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+class EveryConfiguration : public testing::TestWithParam<RtlConfiguration> {
+ protected:
+  [[nodiscard]] static std::uint64_t clocks_per_acquisition() {
+    return static_cast<std::uint64_t>(GetParam().pixels_per_sram) *
+           static_cast<std::uint64_t>(GetParam().parameters.slots);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, EveryConfiguration, testing::ValuesIn(compiled_rtl_configurations()),
+                         configuration_test_name);
+
+// Frames follow each other without a reset: whatever one leaves behind must not show in the next. Odd and
+// even lengths, lengths shorter than the number of passes, and none at all.
+TEST_P(EveryConfiguration, AgreesWithModelOnAdversarialStreams) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 1);
+  RtlReadout rtl(GetParam());
+  RtlRunOptions options = default_options(test_seed());
+  std::size_t first_kind = 0;
+  for (const std::uint32_t acquisitions : {5U, 0U, 1U, 2U, 3U, 64U, 0U, 33U, 151U, 7U, 400U}) {
+    SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
+    ASSERT_EQ(check_frame(rtl, adversarial_columns(GetParam(), acquisitions, first_kind, random),
+                          acquisitions, options, reproduce_command()),
+              "");
+    options.reset_first = false;
+    first_kind += 4;  // every kind reaches every pixel of the smallest array
+  }
+}
+
+TEST_P(EveryConfiguration, AgreesWithModelWhateverSourceAndSinkDo) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 2);
+  RtlReadout rtl(GetParam());
+  for (const std::uint32_t acquisitions : {1U, 2U, 9U, 40U, 77U}) {
+    SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
+    RtlRunOptions options = default_options(random.bits64());
+    options.pause_probability = random.uniform();
+    options.stall_probability = 0.9 * random.uniform();
+    options.start_probability = random.uniform();
+    options.reset_first = acquisitions % 2 == 0;
+    ASSERT_EQ(check_frame(
+                  rtl, adversarial_columns(GetParam(), acquisitions, random() % kStreamKinds.size(), random),
+                  acquisitions, options, reproduce_command()),
+              "");
+  }
+}
+
+TEST_P(EveryConfiguration, SurvivesResetInAnyState) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 3);
+  RtlReadout rtl(GetParam());
+  constexpr std::uint32_t kAcquisitions = 12;
+  const std::vector<ColumnStream> columns = adversarial_columns(GetParam(), kAcquisitions, 0, random);
+  RtlRunOptions options = default_options(test_seed());
+  std::array<std::uint64_t, kRtlStateCount> state_begin{};
+  std::array<std::uint64_t, kRtlStateCount> state_end{};
+  options.observer = [&](const RtlCycle& clock) {
+    const auto state = static_cast<std::size_t>(clock.state);
+    if (state_end[state] == 0) {
+      state_begin[state] = clock.cycle;
+    }
+    state_end[state] = clock.cycle + 1;
+  };
+  ASSERT_EQ(check_frame(rtl, columns, kAcquisitions, options, reproduce_command()), "");
+  options.observer = nullptr;
+  options.reset_first = false;
+  for (std::size_t state = 0; state < kRtlStateCount; ++state) {
+    const std::uint64_t length = state_end[state] - state_begin[state];
+    if (length == 0) {
+      continue;  // ezPointer and the histogram have no coarse pass
+    }
+    options.reset_at = state_begin[state] + random() % length;
+    SCOPED_TRACE(testing::Message() << "reset in clock " << *options.reset_at);
+    ASSERT_EQ(check_frame(rtl, columns, kAcquisitions, options, reproduce_command()), "");
+  }
+}
+
+// All detections in one bin, more than a counter holds: it must stay at its maximum, which is then the
+// confidence, the rest of the histogram being empty.
+TEST_P(EveryConfiguration, CountersSaturate) {
+  const ReadoutParameters& parameters = GetParam().parameters;
+  if (is_pointer_readout(parameters.readout)) {
+    GTEST_SKIP() << "the result carries no count";
+  }
+  const std::uint32_t runs =
+      parameters.readout == Readout::kPifh ? 1U << (parameters.np - parameters.nb) : 2U;
+  const std::uint32_t most = (1U << parameters.count_width) - 1;
+  const std::uint32_t acquisitions = runs * (most / static_cast<std::uint32_t>(parameters.slots) + 2);
+  if (acquisitions > 65535 || acquisitions * clocks_per_acquisition() > 4'000'000) {
+    GTEST_SKIP() << "too long; other configurations have this COUNT_WIDTH";
+  }
+  // The lower edge of a coarse bin, or its middle, where SiFH's centred window is.
+  const int offset = parameters.window_centred ? (1 << (parameters.np - parameters.nb)) / 2 : 0;
+  const auto code = static_cast<Timestamp>(parameters.code_count() / 2 + offset);
+  std::vector<ColumnStream> columns(1);
+  for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
+    for (int slot = 0; slot < parameters.slots; ++slot) {
+      columns[0].append({acquisition, code});
+    }
+  }
+  columns[0].finish_row();
+  RtlReadout rtl(GetParam());
+  RtlFrame frame;
+  ASSERT_EQ(check_frame(rtl, columns, acquisitions, default_options(1), reproduce_command(), &frame), "");
+  EXPECT_EQ(frame.results.at(0).confidence, most);
+}
+
+}  // namespace
+}  // namespace dtof

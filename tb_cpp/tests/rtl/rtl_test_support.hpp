@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/random.hpp"
+#include "rtl/registry.hpp"
+#include "rtl/rtl_readout.hpp"
+#include "scoreboard/scoreboard.hpp"
+#include "tests/core/test_seed.hpp"
+#include "tests/readout/test_streams.hpp"
+
+namespace dtof {
+
+/// GoogleTest's name of a configuration in failure messages.
+inline void PrintTo(const RtlConfiguration& configuration, std::ostream* stream) {
+  *stream << configuration.to_string();
+}
+
+/// Test name: letters and digits of the configuration's text.
+inline std::string configuration_test_name(const testing::TestParamInfo<RtlConfiguration>& configuration) {
+  std::string name = configuration.param.to_string();
+  std::erase_if(name, [](char c) { return c == '='; });
+  for (char& c : name) {
+    if (c == ' ' || c == '-') {
+      c = '_';
+    }
+  }
+  return name;
+}
+
+inline std::string readout_test_name(const testing::TestParamInfo<Readout>& readout) {
+  return std::string(readout_name(readout.param));
+}
+
+/// Command that repeats the running test and leaves a waveform of its last frame: a mismatch ends the test.
+inline std::string reproduce_command() {
+  const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
+  return test_seed_message() + " DTOF_TRACE=trace.fst " +
+         std::filesystem::read_symlink("/proc/self/exe").string() + " --gtest_filter='" +
+         info->test_suite_name() + "." + info->name() + "'";
+}
+
+/// Options with the waveform file that the environment asks for.
+inline RtlRunOptions default_options(std::uint64_t seed) {
+  RtlRunOptions options;
+  options.seed = seed;
+  if (const char* trace = std::getenv("DTOF_TRACE"); trace != nullptr) {
+    options.trace = trace;
+  }
+  return options;
+}
+
+inline CounterRandom test_random(std::uint64_t seed, std::uint32_t a) {
+  return {seed, static_cast<std::uint32_t>(RandomPurpose::kTestStream), a, 0};
+}
+
+/// Every pixel another adversarial stream: all kinds in turn, beginning with `first_kind`.
+inline std::vector<ColumnStream> adversarial_columns(const RtlConfiguration& configuration,
+                                                     std::uint32_t acquisitions, std::size_t first_kind,
+                                                     CounterRandom& random) {
+  std::vector<ColumnStream> columns(static_cast<std::size_t>(configuration.sram_num));
+  std::size_t kind = first_kind;
+  for (ColumnStream& column : columns) {
+    for (int row = 0; row < configuration.pixels_per_sram; ++row) {
+      column.append_row(make_stream(kStreamKinds[kind % kStreamKinds.size()], configuration.parameters,
+                                    acquisitions, random));
+      ++kind;
+    }
+  }
+  return columns;
+}
+
+/// Timestamps of one pixel, acquisition by acquisition, every slot filled.
+inline ColumnStream single_pixel(const std::vector<Timestamp>& timestamps, int slots) {
+  ColumnStream column;
+  for (std::size_t i = 0; i < timestamps.size(); ++i) {
+    column.append({static_cast<std::uint32_t>(i / static_cast<std::size_t>(slots)), timestamps[i]});
+  }
+  column.finish_row();
+  return column;
+}
+
+}  // namespace dtof
