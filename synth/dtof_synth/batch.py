@@ -12,22 +12,25 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .configuration import Configuration
-from .run import BOTH_CORNERS, Result, Technology, input_digest, run
+from .run import BOTH_CORNERS, EFFORTS, Result, Technology, input_digest, run
 
 
 @dataclass(frozen=True)
 class Job:
+    """`most_attempts` 1: only the area counts, whether timing closes or not."""
+
     configuration: Configuration
     corners: tuple[str, ...] = BOTH_CORNERS
+    most_attempts: int = len(EFFORTS)
 
 
 def _key(job: Job, digest: str) -> str:
-    text = json.dumps([job.configuration.rtl_parameters(), job.corners, digest], sort_keys=True)
+    text = json.dumps([job.configuration.rtl_parameters(), job.corners, job.most_attempts, digest], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _work(job: Job, technology: Technology, folder: Path, key: str) -> Result:
-    result = run(job.configuration, technology, folder, job.corners)
+    result = run(job.configuration, technology, folder, job.corners, job.most_attempts)
     (folder / "result.pickle").write_bytes(pickle.dumps((key, result)))
     return result
 

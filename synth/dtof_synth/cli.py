@@ -51,7 +51,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     full = not foreign and not arguments.configuration
     jobs = [batch.Job(item) for item in chosen.values()]
     if full:
-        jobs += growth.jobs(named) + [batch.Job(item, ("slow",)) for item in signalled_clear.configurations(named)]
+        jobs += signalled_clear.jobs(named) + growth.jobs(named)
     runs = build / ("runs" if not foreign else f"runs_{technology.typical.name}")
     results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
     main = {name: results[name] for name in chosen}

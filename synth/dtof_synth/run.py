@@ -238,12 +238,12 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
-        corners: Iterable[str] = BOTH_CORNERS) -> Result:
+        corners: Iterable[str] = BOTH_CORNERS, most_attempts: int = len(EFFORTS)) -> Result:
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
     timed: with rising effort until it closes, else the best attempt stands."""
     elaborate(configuration, technology, folder)
     attempts: list[_Attempt] = []
-    for number in range(len(EFFORTS)):
+    for number in range(most_attempts):
         attempts.append(_attempt(configuration, technology, folder, number))
         if attempts[-1].slow.slack >= 0:
             break

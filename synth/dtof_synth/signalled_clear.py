@@ -7,6 +7,7 @@ bits, so it is measured on two short columns and extended.
 
 from __future__ import annotations
 
+from .batch import Job
 from .configuration import Configuration, memories
 from .run import Result
 
@@ -21,6 +22,10 @@ def configurations(named: dict[str, Configuration]) -> list[Configuration]:
     return [base.with_parameters(f"{READOUT}_clear{signalled}_pixels{pixels}", PIXELS_PER_SRAM=pixels,
                                  SIGNALLED_CLEAR=signalled)
             for pixels in PIXELS for signalled in (0, 1)]
+
+
+def jobs(named: dict[str, Configuration]) -> list[Job]:
+    return [Job(item, ("slow",), most_attempts=1) for item in configurations(named)]
 
 
 def area_per_bit(named: dict[str, Configuration], results: dict[str, Result]) -> float:
