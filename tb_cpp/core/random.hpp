@@ -58,7 +58,37 @@ class CounterRandom {
   std::size_t next_ = 4;
 };
 
+/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014), for where Philox would cost more than what it feeds: a
+/// CounterRandom gives each pixel its start. Satisfies UniformRandomBitGenerator.
+class SplitMix64 {
+ public:
+  using result_type = std::uint64_t;
+
+  explicit SplitMix64(CounterRandom random) : state_(random.bits64()) {}
+
+  static constexpr result_type min() { return 0; }
+  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
+
+  result_type operator()() {
+    state_ += 0x9E3779B97F4A7C15U;
+    std::uint64_t word = state_;
+    word = (word ^ (word >> 30U)) * 0xBF58476D1CE4E5B9U;
+    word = (word ^ (word >> 27U)) * 0x94D049BB133111EBU;
+    return word ^ (word >> 31U);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
 /// Purposes of random streams; a new use gets a new number.
-enum class RandomPurpose : std::uint32_t { kPhotons = 1, kResampling = 2, kTestStream = 3, kTestControl = 4 };
+enum class RandomPurpose : std::uint32_t {
+  kPhotons = 1,
+  kResampling = 2,
+  kTestStream = 3,
+  kTestControl = 4,
+  kFastPhotons = 5,
+  kScene = 6
+};
 
 }  // namespace dtof

@@ -199,10 +199,10 @@ ColumnStream PhotonSource::combined_column(int index) const {
   return stream;
 }
 
-CounterRandom PhotonSource::random(int column, int row) const {
+CounterRandom PhotonSource::random(int column, int row, RandomPurpose purpose) const {
   const auto pixel = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns()) +
                      static_cast<std::uint32_t>(column);
-  return {seed_, static_cast<std::uint32_t>(RandomPurpose::kPhotons), frame_, pixel};
+  return {seed_, static_cast<std::uint32_t>(purpose), frame_, pixel};
 }
 
 }  // namespace dtof

@@ -47,11 +47,13 @@ class PhotonSource final : public StreamSource {
   [[nodiscard]] double klux() const { return klux_; }
   /// Mean events of a pixel before any loss.
   [[nodiscard]] PixelRates rates(int column, int row) const;
+  /// Random numbers of a pixel in this frame.
+  [[nodiscard]] CounterRandom random(int column, int row,
+                                     RandomPurpose purpose = RandomPurpose::kPhotons) const;
 
  private:
   [[nodiscard]] ColumnStream plain_column(int index) const;
   [[nodiscard]] ColumnStream combined_column(int index) const;
-  [[nodiscard]] CounterRandom random(int column, int row) const;
 
   SensorModel model_;
   std::shared_ptr<const TargetMap> targets_;

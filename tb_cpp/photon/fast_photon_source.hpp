@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/pixel_sampler.hpp"
+#include "photon/photon_source.hpp"
+
+namespace dtof {
+
+/// Faster stand-in for a PhotonSource: times come from a table of the pixel's cumulative mean events
+/// (ArrivalTable) instead of single events. Pile-up to SLOTS is included; other random numbers than the exact
+/// source's. Time gates work; dead time, binning and coincidence need the exact source.
+///
+/// Streams (`column`): one exponential gap per detection gives acquisition and time together; empty
+/// acquisitions and events after the last slot are not visited. Times are displaced by
+/// ArrivalTable::displacement against the exact distribution; nothing else is approximated.
+///
+/// Sampler (`pixel_sampler`): the number of a measurement's detections, then their times from the
+/// distribution of kept events, only those inside the asked window. Approximated beyond the table: which
+/// detections share an acquisition is forgotten.
+class FastPhotonSource final : public SampledSource {
+ public:
+  /// Throws InputError if the exact source's sensor has a dead time, binning or coincidence.
+  explicit FastPhotonSource(PhotonSource exact);
+
+  [[nodiscard]] int columns() const override { return exact_.columns(); }
+  [[nodiscard]] int rows() const override { return exact_.rows(); }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return exact_.acquisitions(); }
+  [[nodiscard]] ColumnStream column(int index) const override;
+  [[nodiscard]] std::unique_ptr<PixelSampler> pixel_sampler() const override;
+
+  /// False for what only the exact source models.
+  static bool supports(const SensorModel& model);
+
+ private:
+  PhotonSource exact_;
+};
+
+}  // namespace dtof
