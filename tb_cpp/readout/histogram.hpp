@@ -75,12 +75,14 @@ struct PrefixPass {
 };
 
 /// Peak of a prefix pass; `prefix << (prefix_shift - bin_shift) + peak.bin` is the longer prefix.
-inline HistogramPeak prefix_peak(const PrefixPass& pass, std::uint32_t prefix, PassCursor& row,
-                                 Histogram& histogram) {
+template <typename Cursor>
+HistogramPeak prefix_peak(const PrefixPass& pass, std::uint32_t prefix, Cursor& row, Histogram& histogram) {
   const auto prefix_shift = static_cast<unsigned>(pass.prefix_shift);
   const auto bin_shift = static_cast<unsigned>(pass.bin_shift);
   const std::uint32_t first = prefix << (prefix_shift - bin_shift);
-  row.advance_to(pass.end, [&](std::uint32_t timestamp) {
+  const auto first_code = static_cast<std::int32_t>(prefix << prefix_shift);
+  const auto last_code = static_cast<std::int32_t>((prefix + 1) << prefix_shift);
+  row.advance_to(pass.end, first_code, last_code, [&](std::uint32_t timestamp) {
     if (timestamp >> prefix_shift == prefix) {
       histogram.add((timestamp >> bin_shift) - first);
     }
@@ -96,10 +98,11 @@ constexpr std::uint32_t extend_prefix(const PrefixPass& pass, std::uint32_t pref
 
 /// Peak of a pass that keeps first <= x < first + 2^bin_bits in bin x - first. `first` may be negative and
 /// the window may pass the last code; it does not wrap.
-inline HistogramPeak window_peak(std::uint32_t end, std::int32_t first, int bin_bits, PassCursor& row,
-                                 Histogram& histogram) {
+template <typename Cursor>
+HistogramPeak window_peak(std::uint32_t end, std::int32_t first, int bin_bits, Cursor& row,
+                          Histogram& histogram) {
   const std::uint32_t bins = 1U << static_cast<unsigned>(bin_bits);
-  row.advance_to(end, [&](std::uint32_t timestamp) {
+  row.advance_to(end, first, first + static_cast<std::int32_t>(bins), [&](std::uint32_t timestamp) {
     const auto bin = static_cast<std::uint32_t>(static_cast<std::int32_t>(timestamp) - first);
     if (bin < bins) {
       histogram.add(bin);

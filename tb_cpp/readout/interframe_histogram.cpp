@@ -31,7 +31,8 @@ class SifhPixel {
     end_ = acquisitions;
   }
 
-  PixelResult read(PassCursor row) {
+  template <typename Cursor>
+  PixelResult read(Cursor row) {
     const std::uint32_t peak = prefix_peak(coarse_, 0, row, histogram_).bin;
     const auto first =
         static_cast<std::int32_t>(peak << static_cast<unsigned>(coarse_.bin_shift)) + window_offset_;
@@ -62,7 +63,8 @@ class FifhPixel {
     fine_.end = acquisitions;
   }
 
-  PixelResult read(PassCursor row) {
+  template <typename Cursor>
+  PixelResult read(Cursor row) {
     const std::uint32_t coarse = prefix_peak(coarse_, 0, row, histogram_).bin;
     const HistogramPeak fine = prefix_peak(fine_, coarse, row, histogram_);
     return {static_cast<std::uint16_t>(extend_prefix(fine_, coarse, fine)), 0,
@@ -98,7 +100,8 @@ class ThreeStepsPixel {
     end_ = acquisitions;
   }
 
-  PixelResult read(PassCursor row) {
+  template <typename Cursor>
+  PixelResult read(Cursor row) {
     std::uint32_t section = 0;
     for (const PrefixPass& step : steps_) {
       section = extend_prefix(step, section, prefix_peak(step, section, row, histogram_));

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/detection.hpp"
 #include "core/parameters.hpp"
+#include "core/pixel_sampler.hpp"
 #include "core/result.hpp"
 
 namespace dtof {
@@ -24,6 +26,10 @@ class ReadoutModel {
   /// Reads out one column's frame of `acquisitions`; one result per row.
   [[nodiscard]] virtual std::vector<PixelResult> run_column(const ColumnStream& column,
                                                             std::uint32_t acquisitions) = 0;
+  /// Reads out the column from what `sampler` draws, which must be of the same NP; one result per row, as
+  /// many as `results` holds.
+  virtual void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,
+                                  std::span<PixelResult> results) = 0;
 };
 
 /// Throws InputError for illegal parameters.

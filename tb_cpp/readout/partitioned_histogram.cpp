@@ -22,7 +22,8 @@ class PartitionedPixel {
     }
   }
 
-  PixelResult read(PassCursor row) {
+  template <typename Cursor>
+  PixelResult read(Cursor row) {
     PixelResult best;
     std::uint32_t best_count = 0;
     for (std::uint32_t run = 0; run < run_end_.size(); ++run) {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "core/detection.hpp"
+#include "core/pixel_sampler.hpp"
 
 namespace dtof {
 
@@ -40,9 +41,10 @@ class PassCursor {
   PassCursor(std::span<const Detection> row, std::uint32_t no_detection)
       : next_(row.data()), last_(row.data() + row.size()), no_detection_(no_detection) {}
 
-  /// Calls `apply(timestamp)` for the remaining detections of acquisitions before `end`.
+  /// Calls `apply(timestamp)` for the remaining detections of acquisitions before `end`. Only timestamps
+  /// first <= x < last matter to the caller; the others are in the row anyway, and passed on.
   template <typename Apply>
-  void advance_to(std::uint32_t end, Apply&& apply) {
+  void advance_to(std::uint32_t end, std::int32_t /*first*/, std::int32_t /*last*/, Apply&& apply) {
     const Detection* next = next_;  // a local stays in a register across the calls
     for (; next != last_ && next->acquisition < end; ++next) {
       if (next->timestamp != no_detection_) {
@@ -56,6 +58,31 @@ class PassCursor {
   const Detection* next_;
   const Detection* last_;
   std::uint32_t no_detection_;
+};
+
+/// The same walk over timestamps that a sampler draws on the way: only those that matter.
+class SampledCursor {
+ public:
+  SampledCursor(PixelSampler& sampler, std::uint32_t no_detection)
+      : sampler_(sampler), no_detection_(no_detection) {}
+
+  template <typename Apply>
+  void advance_to(std::uint32_t end, std::int32_t first, std::int32_t last, Apply&& apply) {
+    if (end <= next_) {
+      return;
+    }
+    for (const Timestamp timestamp : sampler_.draw(end - next_, first, last)) {
+      if (timestamp != no_detection_) {
+        apply(std::uint32_t{timestamp});
+      }
+    }
+    next_ = end;
+  }
+
+ private:
+  PixelSampler& sampler_;
+  std::uint32_t no_detection_;
+  std::uint32_t next_ = 0;  // acquisition
 };
 
 }  // namespace dtof

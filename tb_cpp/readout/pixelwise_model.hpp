@@ -15,7 +15,7 @@
 
 namespace dtof {
 
-/// A ReadoutModel around a `Pixel` with `start_frame(acquisitions)` and `read(PassCursor) -> PixelResult`:
+/// A ReadoutModel around a `Pixel` with `start_frame(acquisitions)` and `read(cursor) -> PixelResult`:
 /// the virtual call is per column, the loop over detections is inlined.
 template <typename Pixel>
 class PixelwiseModel final : public ReadoutModel {
@@ -36,6 +36,16 @@ class PixelwiseModel final : public ReadoutModel {
           pixel_.read(PassCursor(detections, static_cast<std::uint32_t>(parameters_.no_detection()))));
     }
     return results;
+  }
+
+  void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,
+                          std::span<PixelResult> results) override {
+    pixel_.start_frame(acquisitions);
+    for (std::size_t row = 0; row < results.size(); ++row) {
+      sampler.start_pixel(column, static_cast<int>(row));
+      results[row] =
+          pixel_.read(SampledCursor(sampler, static_cast<std::uint32_t>(parameters_.no_detection())));
+    }
   }
 
  private:

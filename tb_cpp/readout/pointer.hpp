@@ -75,14 +75,15 @@ class PointerBuilder {
   }
 
   /// Starts at code `start` and follows the rest of the row's detections inside `window`.
-  [[nodiscard]] PixelResult follow(PassCursor& row, std::uint32_t start, CodeWindow window) const {
+  template <typename Cursor>
+  [[nodiscard]] PixelResult follow(Cursor& row, std::uint32_t start, CodeWindow window) const {
     const PointerFormat format = format_;
     const std::uint32_t limit = confidence_limit_;
     PointerWord word = format.word(start);
     std::uint32_t confidence = 0;
     for (unsigned gear = 0; gear <= format.fraction_bits(); ++gear) {
       const PointerWord step = step_ >> gear;
-      row.advance_to(gear_end_[gear], [&](std::uint32_t timestamp) {
+      row.advance_to(gear_end_[gear], window.above + 1, window.up_to + 1, [&](std::uint32_t timestamp) {
         const auto code = static_cast<std::int32_t>(timestamp);
         if (code <= window.above || code > window.up_to) {
           return;

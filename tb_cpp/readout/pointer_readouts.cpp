@@ -16,7 +16,10 @@ class EzPointerPixel {
 
   void start_frame(std::uint32_t acquisitions) { pointer_.start_frame({0, acquisitions}); }
 
-  [[nodiscard]] PixelResult read(PassCursor row) const { return pointer_.follow(row, middle_, all_codes_); }
+  template <typename Cursor>
+  [[nodiscard]] PixelResult read(Cursor row) const {
+    return pointer_.follow(row, middle_, all_codes_);
+  }
 
  private:
   PointerBuilder pointer_;
@@ -39,7 +42,8 @@ class HisPointerPixel {
     pointer_.start_frame(measurement_2(acquisitions));
   }
 
-  PixelResult read(PassCursor row) {
+  template <typename Cursor>
+  PixelResult read(Cursor row) {
     const std::uint32_t coarse = prefix_peak(coarse_, 0, row, histogram_).bin;
     const std::uint32_t coarse_bin = 1U << static_cast<unsigned>(coarse_.bin_shift);
     const std::uint32_t centre = coarse * coarse_bin + coarse_bin / 2;

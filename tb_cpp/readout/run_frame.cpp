@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <functional>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -12,9 +13,10 @@
 
 namespace dtof {
 
-std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutParameters& parameters,
-                                   int threads, std::span<const int> columns, Progress* progress) {
-  parameters.validate();
+namespace {
+
+/// The columns to read; all if none is named. Throws InputError for one that the source has not.
+std::vector<int> select_columns(const StreamSource& source, std::span<const int> columns) {
   std::vector<int> selected(columns.begin(), columns.end());
   if (columns.empty()) {
     selected.resize(static_cast<std::size_t>(source.columns()));
@@ -26,19 +28,19 @@ std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutPara
           fmt::format("column {} is outside the source's 0 to {}", column, source.columns() - 1));
     }
   }
+  return selected;
+}
 
+/// `read(column, results)` fills one column's results; the frame is row-major.
+std::vector<PixelResult> read_columns(
+    const StreamSource& source, std::span<const int> selected, int threads, Progress* progress,
+    const std::function<void(int column, std::vector<PixelResult>& results)>& read) {
   const auto rows = static_cast<std::size_t>(source.rows());
   const std::size_t width = selected.size();
   std::vector<PixelResult> frame(rows * width);
   parallel_for(width, threads, [&](std::size_t index) {
-    const int column = selected[index];
-    const ColumnStream stream = source.column(column);
-    if (stream.rows() != source.rows()) {
-      throw InputError(
-          fmt::format("column {} has {} rows, its source says {}", column, stream.rows(), source.rows()));
-    }
-    const std::vector<PixelResult> results =
-        make_readout_model(parameters)->run_column(stream, source.acquisitions());
+    std::vector<PixelResult> results(rows);
+    read(selected[index], results);
     for (std::size_t row = 0; row < rows; ++row) {
       frame[row * width + index] = results[row];
     }
@@ -47,6 +49,33 @@ std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutPara
     }
   });
   return frame;
+}
+
+}  // namespace
+
+std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutParameters& parameters,
+                                   int threads, std::span<const int> columns, Progress* progress) {
+  parameters.validate();
+  return read_columns(source, select_columns(source, columns), threads, progress,
+                      [&](int column, std::vector<PixelResult>& results) {
+                        const ColumnStream stream = source.column(column);
+                        if (stream.rows() != source.rows()) {
+                          throw InputError(fmt::format("column {} has {} rows, its source says {}", column,
+                                                       stream.rows(), source.rows()));
+                        }
+                        results = make_readout_model(parameters)->run_column(stream, source.acquisitions());
+                      });
+}
+
+std::vector<PixelResult> run_sampled_frame(const SampledSource& source, const ReadoutParameters& parameters,
+                                           int threads, std::span<const int> columns, Progress* progress) {
+  parameters.validate();
+  return read_columns(source, select_columns(source, columns), threads, progress,
+                      [&](int column, std::vector<PixelResult>& results) {
+                        make_readout_model(parameters)
+                            ->run_sampled_column(*source.pixel_sampler(), column, source.acquisitions(),
+                                                 results);
+                      });
 }
 
 }  // namespace dtof

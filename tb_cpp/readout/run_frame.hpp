@@ -6,6 +6,7 @@
 
 #include "core/detection.hpp"
 #include "core/parameters.hpp"
+#include "core/pixel_sampler.hpp"
 #include "core/progress.hpp"
 #include "core/result.hpp"
 
@@ -19,5 +20,10 @@ namespace dtof {
 std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutParameters& parameters,
                                    int threads = 0, std::span<const int> columns = {},
                                    Progress* progress = nullptr);
+
+/// The same with the source's sampler instead of its streams: faster, other random numbers.
+std::vector<PixelResult> run_sampled_frame(const SampledSource& source, const ReadoutParameters& parameters,
+                                           int threads = 0, std::span<const int> columns = {},
+                                           Progress* progress = nullptr);
 
 }  // namespace dtof

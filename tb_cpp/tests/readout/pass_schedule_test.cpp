@@ -43,7 +43,7 @@ TEST(PassCursor, DropsNoDetectionAndStopsAtThePassEnd) {
   PassCursor cursor(row, 15);
   const auto take = [&cursor](std::uint32_t end) {
     std::vector<std::uint32_t> taken;
-    cursor.advance_to(end, [&taken](std::uint32_t timestamp) { taken.push_back(timestamp); });
+    cursor.advance_to(end, 0, 16, [&taken](std::uint32_t timestamp) { taken.push_back(timestamp); });
     return taken;
   };
   EXPECT_THAT(take(1), ElementsAre(3));
@@ -54,7 +54,7 @@ TEST(PassCursor, DropsNoDetectionAndStopsAtThePassEnd) {
 
 TEST(PassCursor, EmptyRow) {
   PassCursor cursor({}, 15);
-  cursor.advance_to(100, [](std::uint32_t /*timestamp*/) { FAIL() << "an empty row has no timestamp"; });
+  cursor.advance_to(100, 0, 16, [](std::uint32_t /*timestamp*/) { FAIL() << "an empty row has no timestamp"; });
 }
 
 }  // namespace
