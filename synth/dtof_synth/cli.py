@@ -56,6 +56,10 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
     main = {name: results[name] for name in chosen}
     _say(report.summary(main))
+    for name, result in main.items():
+        for corner, timing in result.timing.items():
+            if timing.slow_edges:
+                _say(f"note: {name}, {corner} corner: {timing.slow_edges} pins beyond max_transition")
     status = 0
     if full:
         status = _write_reports(arguments, named, results, technology, everything)

@@ -74,25 +74,29 @@ def write(points: list[tuple[str, int, Configuration]], results: dict[str, Resul
         raise FlowError(f"gnuplot: {error.stderr.strip().splitlines()[-1]} (see {script})") from None
 
 
+METRICS = ((3, "area, mm^2"), (4, "memory, bits a pixel"), (5, "slow-corner clock, MHz"))
+
+
 def _gnuplot(rows: list[list], reports: Path) -> str:
     """One picture: a column a parameter; rows: area, bits of a pixel, highest clock frequency."""
-    metrics = ((3, "area, mm^2"), (4, "memory, bits a pixel"), (5, "slow-corner clock, MHz"))
-    lines = ["set terminal pngcairo size 1500,1000 font 'DejaVu Sans,10'",
-             f"set output '{reports / 'growth.png'}'",
-             f"set multiplot layout {len(metrics)},{len(SWEEPS)}",
-             "set grid", "set key top left"]
     blocks, plots = [], []
-    for index, label in metrics:
-        for parameter in SWEEPS:
+    for index, label in METRICS:
+        for parameter, values in SWEEPS.items():
             series = []
-            for readout in READOUTS:
+            for colour, readout in enumerate(READOUTS, start=1):
                 data = [(row[2], row[index]) for row in rows if row[0] == readout and row[1] == parameter]
                 if data:
                     name = f"$d{len(blocks)}"
                     blocks.append(f"{name} << EOD\n" + "\n".join(f"{x} {y}" for x, y in data) + "\nEOD")
-                    series.append(f"{name} using 1:2 with linespoints lw 2 pt 7 title '{readout}'")
-            scale = "unset logscale y" if index == 5 else "set logscale y"
-            plots += [scale, f"set xlabel '{parameter}: {LABELS[parameter]}'", f"set ylabel '{label}'",
-                      ("set yrange [0:*]" if index == 5 else "set autoscale y"),
-                      "plot " + ", ".join(series)]
+                    series.append(f"{name} using 1:2 with linespoints lw 2 pt 7 lc {colour} title '{readout}'")
+            low, high = (250, 400) if index == 5 else ("*", "*")
+            ticks = ", ".join(map(str, values))
+            plots += ["unset logscale y" if index == 5 else "set logscale y", f"set yrange [{low}:{high}]",
+                      f"set xtics ({ticks})", f"set xlabel '{parameter}: {LABELS[parameter]}' noenhanced",
+                      f"set ylabel '{label}'", "plot " + ", ".join(series)]
+    lines = ["set terminal pngcairo size 1500,1000 font 'DejaVu Sans,10'",
+             f"set output '{reports / 'growth.png'}'",
+             f"set multiplot layout {len(METRICS)},{len(SWEEPS)}", "set grid",
+             "set key at graph 0.5, graph 1.02 center bottom horizontal", "set tmargin 2",
+             "set offsets graph 0.05, graph 0.05"]
     return "\n".join(blocks + lines + plots + ["unset multiplot", ""])

@@ -41,8 +41,11 @@ proc run {} {
   report_checks -path_delay max -digits 4 -fields {slew cap}
   puts "DTOF_PATH_MIN"
   report_checks -path_delay min -digits 4 -fields {slew cap}
-  puts "DTOF_CHECKS"
-  report_check_types -all_violators -max_transition -min_period
+  puts "DTOF_MIN_PERIOD"
+  report_check_types -all_violators -min_period
+  puts "DTOF_TRANSITION"
+  report_check_types -all_violators -max_transition
+  puts "DTOF_END"
   if {$::with_power} { report_cell_power $activity }
 }
 
