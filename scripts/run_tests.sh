@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Every test: GoogleTest programs through CTest, Python tests of the synthesis flow.
+# Every test: Python tests of the synthesis flow, then the GoogleTest programs through CTest.
 set -euo pipefail
 build=$1
+/usr/bin/python3 -m unittest discover -s synth/tests -t synth
 ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
