@@ -53,7 +53,8 @@ class ArrivalTable {
   [[nodiscard]] double cumulative(double time) const;
 
   /// Mean absolute displacement of an event, in bins, against the exact distribution: the area between the
-  /// table of C(t) and the exact C(t), over C's total (Wasserstein distance). 0 without events.
+  /// table of C(t) and the exact C(t), over C's total (Wasserstein distance). For a table on the scale of C;
+  /// 0 without a pulse in the gate.
   [[nodiscard]] double displacement() const;
 
  private:

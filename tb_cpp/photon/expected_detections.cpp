@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photon/expected_detections.hpp"
+
+#include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "photon/fast_photon_source.hpp"
+#include "photon/physics.hpp"
+
+namespace dtof {
+namespace {
+
+/// Share of a standard normal distribution between `from` and `to`; the tail on the pulse's side keeps small
+/// shares.
+double normal_share(double from, double to) {
+  const auto upper = [](double z) { return 0.5 * std::erfc(z / std::numbers::sqrt2); };
+  return from > 0.0 ? upper(from) - upper(to) : upper(-to) - upper(-from);
+}
+
+/// P(N > k at mean `after`) - P(N > k at mean `before`) for Poisson numbers N.
+double slot_probability(int k, double before, double after) {
+  using Policy = boost::math::policies::policy<
+      boost::math::policies::promote_double<false>,
+      boost::math::policies::underflow_error<boost::math::policies::ignore_error>>;
+  if (k == 0) {
+    return std::exp(-before) * -std::expm1(-(after - before));
+  }
+  const double step = after - before;
+  if (step < 1e-3 * before && step < 0.01) {
+    // The difference would cancel: Simpson's rule on the density mean^k exp(-mean) / k!, whose error is below
+    // (step / before)^4.
+    const auto density = [k](double mean) {
+      return std::exp(k * std::log(mean) - mean - std::lgamma(k + 1.0));
+    };
+    return step / 6.0 * (density(before) + 4.0 * density(before + 0.5 * step) + density(after));
+  }
+  // The smaller of both tails, so that the difference does not cancel.
+  const double shape = k + 1.0;
+  const double difference =
+      before > shape
+          ? boost::math::gamma_q(shape, before, Policy()) - boost::math::gamma_q(shape, after, Policy())
+          : boost::math::gamma_p(shape, after, Policy()) - boost::math::gamma_p(shape, before, Policy());
+  return std::max(difference, 0.0);
+}
+
+}  // namespace
+
+std::vector<std::vector<double>> expected_slot_detections(const SensorModel& model, const PixelRates& rates) {
+  if (!FastPhotonSource::supports(model)) {
+    throw InputError(
+        "expected detections know no dead time, binning or coincidence: use the exact photon model");
+  }
+  const auto codes = std::size_t{1} << static_cast<unsigned>(model.np);
+  const double resolution = model.time_resolution_s();
+  const double gate_begin = model.time_gate ? model.time_gate->begin_s / resolution : 0.0;
+  const double gate_end = model.time_gate ? model.time_gate->end_s / resolution : static_cast<double>(codes);
+  const double sigma = pulse_sigma_s(model.pulse_fwhm_s) / resolution;
+  std::vector<std::vector<double>> slots(static_cast<std::size_t>(model.slots),
+                                         std::vector<double>(codes, 0.0));
+  double before = 0.0;
+  for (std::size_t code = 0; code < codes; ++code) {
+    const double begin = std::clamp(static_cast<double>(code), gate_begin, gate_end);
+    const double end = std::clamp(static_cast<double>(code) + 1.0, gate_begin, gate_end);
+    double mean = rates.background * (end - begin) / static_cast<double>(codes);
+    if (rates.signal > 0.0 && end > begin) {
+      mean +=
+          rates.signal * normal_share((begin - rates.centre_bins) / sigma, (end - rates.centre_bins) / sigma);
+    }
+    for (std::size_t k = 0; mean > 0.0 && k < slots.size(); ++k) {
+      slots[k][code] = slot_probability(static_cast<int>(k), before, before + mean);
+    }
+    before += mean;
+  }
+  return slots;
+}
+
+std::vector<double> expected_detections(const SensorModel& model, const PixelRates& rates) {
+  std::vector<std::vector<double>> slots = expected_slot_detections(model, rates);
+  std::vector<double> sum = std::move(slots.front());
+  for (std::size_t k = 1; k < slots.size(); ++k) {
+    for (std::size_t code = 0; code < sum.size(); ++code) {
+      sum[code] += slots[k][code];
+    }
+  }
+  return sum;
+}
+
+}  // namespace dtof

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "core/pixel_sampler.hpp"
+#include "photon/photon_source.hpp"
+
+namespace dtof {
+
+/// The analytic model as a source: no random numbers. A pixel's detections are the expected number, spread
+/// evenly over the acquisitions, with times that fill the distribution of kept events evenly (multiples of
+/// the golden ratio's fraction, Weyl 1916). What a read-out makes of it is its systematic error alone.
+/// Time gates work; dead time, binning and coincidence need the exact source.
+class MeanPhotonSource final : public SampledSource {
+ public:
+  /// Throws InputError if the exact source's sensor has a dead time, binning or coincidence.
+  explicit MeanPhotonSource(PhotonSource exact);
+
+  [[nodiscard]] int columns() const override { return exact_.columns(); }
+  [[nodiscard]] int rows() const override { return exact_.rows(); }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return exact_.acquisitions(); }
+  [[nodiscard]] ColumnStream column(int index) const override;
+  [[nodiscard]] std::unique_ptr<PixelSampler> pixel_sampler() const override;
+
+ private:
+  PhotonSource exact_;
+};
+
+}  // namespace dtof
