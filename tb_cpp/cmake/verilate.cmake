@@ -4,12 +4,16 @@
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
-#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [OPTIMISATION -O2] [PROBE])
+#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [PROBE] TARGET <library>)
 #
-# makes the object library dtof_rtl_<name>. A program that links it finds the configuration in the registry of
-# rtl/registry.hpp. Left-out parameters take ReadoutParameters::defaults(). <read-out> is the command-line name.
-# Verilator runs again when a file of hdl/dtof.f, an included header or the wrapper changes; the result is one
-# translation unit.
+# adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
+# finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
+# ReadoutParameters::defaults(); <read-out> is the command-line name. Verilator runs again when a file of the
+# RTL or the wrapper changes; a model is one C++ file.
+#
+#   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
+#
+# BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers.
 
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT
@@ -39,8 +43,19 @@ set(DTOF_PARAMETERS NP NB PIXELS_PER_SRAM SRAM_NUM SLOTS COUNT_WIDTH POINTER_STE
   GUARD WINDOW_CENTRED POINTER_PORTS SIGNALLED_CLEAR)
 set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
+function(dtof_rtl_models library)
+  cmake_parse_arguments(P "" "BATCH" "OPTIONS" ${ARGN})
+  add_library(${library} OBJECT)
+  target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_compile_options(${library} PRIVATE ${P_OPTIONS} -w)
+  target_link_libraries(${library} PUBLIC dtof_rtl)
+  if(P_BATCH)
+    set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${P_BATCH})
+  endif()
+endfunction()
+
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE" "READOUT;OPTIMISATION;${DTOF_PARAMETERS}" "" ${ARGN})
+  cmake_parse_arguments(P "PROBE" "READOUT;TARGET;${DTOF_PARAMETERS}" "" ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
   endif()
@@ -88,10 +103,6 @@ function(dtof_verilate name)
     endif()
     list(APPEND overrides -G${parameter}=${P_${parameter}})
   endforeach()
-  if(NOT DEFINED P_OPTIMISATION)
-    set(P_OPTIMISATION -O2)
-  endif()
-
   set(P_CLASS V${name})
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name})
   set(registration ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_registration.cpp)
@@ -109,8 +120,5 @@ function(dtof_verilate name)
     DEPENDS ${DTOF_HDL_FILES} ${wrapper} ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
     COMMENT "Verilating ${name}"
     VERBATIM)
-  add_library(dtof_rtl_${name} OBJECT ${directory}/model.cpp)
-  target_include_directories(dtof_rtl_${name} PRIVATE ${directory} ${PROJECT_SOURCE_DIR})
-  target_compile_options(dtof_rtl_${name} PRIVATE ${P_OPTIMISATION} -w)
-  target_link_libraries(dtof_rtl_${name} PUBLIC dtof_rtl)
+  target_sources(${P_TARGET} PRIVATE ${directory}/model.cpp)
 endfunction()

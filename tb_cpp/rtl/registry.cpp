@@ -19,6 +19,9 @@ struct Entry {
   ArrayModelFactory factory;
 };
 
+// What an array simulates besides its columns takes about as long as this many of them.
+constexpr int kControlColumns = 3;
+
 // Keyed by RtlConfiguration::to_string(): configurations that differ only in unused parameters are one.
 std::map<std::string, Entry>& registry() {
   static std::map<std::string, Entry> entries;
@@ -54,7 +57,7 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   const auto cost = [columns](const RtlConfiguration& candidate) {
     const int groups = (columns + candidate.sram_num - 1) / candidate.sram_num;
     const bool variant = candidate.pointer_ports != 2 || candidate.signalled_clear;
-    return std::tuple(variant, candidate.pixels_per_sram, groups * candidate.sram_num, groups);
+    return std::tuple(variant, candidate.pixels_per_sram, groups * (candidate.sram_num + kControlColumns));
   };
   for (const auto& [text, entry] : registry()) {
     const RtlConfiguration& candidate = entry.configuration;

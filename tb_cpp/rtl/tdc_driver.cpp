@@ -18,6 +18,8 @@ static_assert(std::endian::native == std::endian::little, "timestamps are copied
 
 constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kLongestPause = 8;
+// Detections ahead in each pixel's list: too many lists in turn for the processor to guess.
+constexpr std::ptrdiff_t kPrefetchDistance = 8;
 constexpr int kNoDetectionByte = 0xFF;
 constexpr int kDetectionOfCode0Byte = 0x00;
 
@@ -129,6 +131,7 @@ void TdcDriver::load_pixel() {
       *slot = cursor->next->timestamp;
       slot += line_;
       ++cursor->next;
+      __builtin_prefetch(cursor->next + kPrefetchDistance);
     }
   }
   next_acquisition_[row_] = next;
