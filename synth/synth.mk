@@ -6,7 +6,8 @@
 # make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
-.PHONY: synth synth-check synth-budgets synth-sizes
+# make synth-test      the flow's own tests, and the porting example simulated
+.PHONY: synth synth-check synth-budgets synth-sizes synth-test
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -14,3 +15,6 @@ synth:
 
 synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
+
+synth-test:
+	@cd synth && /usr/bin/python3 -m unittest discover -q -s tests -t .

@@ -70,6 +70,7 @@ def run(root: Path, pdk: Path, named: dict[str, Configuration], everything: list
             say(line + flag)
         if not other.comparable:
             say("(another technology: shows that the flow retargets, not held against the limits)")
+    say("The generated library is meant to be slower: FO4 28 ps against Nangate's 25.8 ps, 0.2 ns on a 2.4 ns path.")
     say(f"limits: area within {AREA_LIMIT:.0%}, slack within {SLACK_LIMIT_NS} ns: "
         + (f"{outside} outside" if outside else "all within"))
     return 1 if outside else 0

@@ -97,6 +97,6 @@ def _gnuplot(rows: list[list], reports: Path) -> str:
     lines = ["set terminal pngcairo size 1500,1000 font 'DejaVu Sans,10'",
              f"set output '{reports / 'growth.png'}'",
              f"set multiplot layout {len(METRICS)},{len(SWEEPS)}", "set grid",
-             "set key at graph 0.5, graph 1.02 center bottom horizontal", "set tmargin 2",
+             "set key at graph 0.5, graph 1.02 center bottom horizontal", "set tmargin 4",
              "set offsets graph 0.05, graph 0.05"]
     return "\n".join(blocks + lines + plots + ["unset multiplot", ""])

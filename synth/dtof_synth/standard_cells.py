@@ -46,9 +46,9 @@ SLEW = STEP * _EDGE_PER_STEP * _MEASURED
 NAND2_LEAKAGE_NW = 17.0
 DFF_LEAKAGE_NW = 79.0
 
-# Wires inside a block of about a thousand gates: 3 um a sink, 0.2 fF/um.
-WIRE_FF_PER_UM = 0.2
-WIRE_UM_PER_FANOUT = 3.0
+# Wires inside a block of about a thousand gates, as Nangate's wire load for that size.
+WIRE_FF_PER_UM = 0.18
+WIRE_UM_PER_FANOUT = 2.0
 WIRE_LOAD = "block_1k"
 
 MAX_LOAD_INVERTERS = 24.0  # max_capacitance of drive 1, in inverter inputs
