@@ -11,11 +11,16 @@ namespace dtof {
 namespace {
 
 constexpr double kReachSigmas = 6.0;
-constexpr int kKnotsPerSigma = 8;
+constexpr int kKnotsPerSigma = 4;
 constexpr double kFlatKnots = 32.0;  // over the whole range
+constexpr double kSteep = 1.5;       // ratio of densities in a cell that a parabola is too coarse for
 
 /// Share of a standard normal distribution below z.
 double normal_share(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
+
+double normal_density(double z) {
+  return std::numbers::inv_sqrtpi / std::numbers::sqrt2 * std::exp(-0.5 * z * z);
+}
 
 bool same(const PixelRates& a, const PixelRates& b) {
   return a.background == b.background && a.signal == b.signal && a.centre_bins == b.centre_bins;
@@ -28,8 +33,13 @@ double one_minus_exp(double x) {
                     : -std::expm1(-x);
 }
 
+struct Kept {
+  double events;  // E[min(N, slots)]
+  double all;     // P(N >= slots): the next event is not kept
+};
+
 /// `some` = P(N >= 1).
-double kept_events(double mean, double some, int slots) {
+Kept kept_events(double mean, double some, int slots) {
   // Sum of P(N > k) for k below `slots`; each is the one before less P(N = k).
   double more = some;
   double exactly = 1.0 - some;
@@ -39,12 +49,48 @@ double kept_events(double mean, double some, int slots) {
     more = std::max(more - exactly, 0.0);
     kept += more;
   }
-  return kept;
+  return {kept, more};
 }
+
+/// Cubic between two knots with these paces at its ends.
+class Hermite {
+ public:
+  template <typename Knot>
+  Hermite(const Knot& left, const Knot& right)
+      : begin_(left.cumulative),
+        time_(left.time),
+        per_rise_(right.cumulative > left.cumulative ? 1.0 / (right.cumulative - left.cumulative) : 0.0),
+        step_(right.time - left.time) {
+    // At most three times the chord's slope keeps it monotone (Fritsch and Carlson 1980).
+    const double rise = right.cumulative - left.cumulative;
+    first_ = std::min(left.pace * rise, 3.0 * step_);
+    const double last = std::min(right.pace * rise, 3.0 * step_);
+    square_ = 3.0 * step_ - 2.0 * first_ - last;
+    cube_ = first_ + last - 2.0 * step_;
+  }
+  [[nodiscard]] double part(double cumulative) const {
+    return std::clamp((cumulative - begin_) * per_rise_, 0.0, 1.0);
+  }
+  [[nodiscard]] double time(double part) const {
+    return time_ + std::min(part * (first_ + part * (square_ + part * cube_)), step_);
+  }
+  [[nodiscard]] double pace(double part) const {
+    return per_rise_ * std::max(first_ + part * (2.0 * square_ + 3.0 * part * cube_), 0.0);
+  }
+
+ private:
+  double begin_;
+  double time_;
+  double per_rise_;
+  double step_;
+  double first_;
+  double square_;
+  double cube_;
+};
 
 }  // namespace
 
-double kept_events(double mean, int slots) { return kept_events(mean, -std::expm1(-mean), slots); }
+double kept_events(double mean, int slots) { return kept_events(mean, -std::expm1(-mean), slots).events; }
 
 double at_least(int k, double mean) {
   if (k <= 0) {
@@ -82,17 +128,21 @@ ArrivalTable::ArrivalTable(const SensorModel& model)
     const double z = static_cast<double>(i) / kKnotsPerSigma;
     pulse_offsets_.push_back(z * sigma_);
     pulse_shares_.push_back(normal_share(z));
+    pulse_densities_.push_back(normal_density(z) / sigma_);
   }
 }
 
-void ArrivalTable::add_knot(double time, double pulse_share) {
+void ArrivalTable::add_knot(double time, double pulse_share, double pulse_density) {
   const double mean = rates_.background * (time - gate_begin_) / code_count_ +
                       pulse_events_ * std::max(pulse_share - share_at_begin_, 0.0);
+  // Infinite where nothing comes; the cubic takes its chord there.
+  const double density = rates_.background / code_count_ + pulse_events_ * pulse_density;
   if (slots_ == 0) {
-    knots_.push_back({mean, time});
+    knots_.push_back({mean, time, 1.0 / density});
   } else {
     some_ += (1.0 - some_) * one_minus_exp(std::max(mean - events_, 0.0));
-    knots_.push_back({kept_events(mean, some_, slots_), time});
+    const Kept kept = kept_events(mean, some_, slots_);
+    knots_.push_back({kept.events, time, 1.0 / (density * (1.0 - kept.all))});
   }
   events_ = mean;
 }
@@ -100,7 +150,7 @@ void ArrivalTable::add_knot(double time, double pulse_share) {
 void ArrivalTable::add_flat_knots(double from, double to, double pulse_share) {
   const double step = code_count_ / kFlatKnots;
   for (double time = from; time < to; time += step) {
-    add_knot(time, pulse_share);
+    add_knot(time, pulse_share, 0.0);
   }
 }
 
@@ -129,27 +179,30 @@ void ArrivalTable::place_knots(const PixelRates& rates) {
   pulse_events_ = pulse_visible ? rates.signal : 0.0;
   if (!pulse_visible) {
     add_flat_knots(gate_begin_, gate_end_, 0.0);
-    add_knot(gate_end_, 0.0);
+    add_knot(gate_end_, 0.0, 0.0);
     return;
   }
   const auto share = [&](double time) { return normal_share((time - rates.centre_bins) / sigma_); };
+  const auto density = [&](double time) {
+    return normal_density((time - rates.centre_bins) / sigma_) / sigma_;
+  };
   if (pulse_begin < gate_begin_) {
     share_at_begin_ = share(gate_begin_);
-    add_knot(gate_begin_, share_at_begin_);
+    add_knot(gate_begin_, share_at_begin_, density(gate_begin_));
   } else {
     add_flat_knots(gate_begin_, pulse_begin, 0.0);
   }
   for (std::size_t i = 0; i < pulse_offsets_.size(); ++i) {
     const double time = rates.centre_bins + pulse_offsets_[i];
     if (time > gate_begin_ && time < gate_end_) {
-      add_knot(time, pulse_shares_[i]);
+      add_knot(time, pulse_shares_[i], pulse_densities_[i]);
     }
   }
   const bool cut = pulse_end > gate_end_;
   if (!cut) {
     add_flat_knots(pulse_end, gate_end_, 1.0);
   }
-  add_knot(gate_end_, cut ? share(gate_end_) : 1.0);
+  add_knot(gate_end_, cut ? share(gate_end_) : 1.0, cut ? density(gate_end_) : 0.0);
 }
 
 void ArrivalTable::fill_cells() {
@@ -157,19 +210,27 @@ void ArrivalTable::fill_cells() {
   std::uint32_t cell = 0;
   std::size_t first_knot = 0;  // the last one before the cell's begin
   double begin = gate_begin_;
+  double begin_pace = knots_.front().pace;
   for (std::size_t i = 0; i + 1 < knots_.size() && cell < kCells; ++i) {
-    const Knot& left = knots_[i];
-    const Knot& right = knots_[i + 1];
+    const Hermite cubic(knots_[i], knots_[i + 1]);
     const bool last = i + 2 == knots_.size();
-    const double rise = right.cumulative - left.cumulative;
-    const double slope = rise > 0.0 ? (right.time - left.time) / rise : 0.0;
     double end_cumulative = (cell + 1) * events_per_cell;
-    while (cell < kCells && (end_cumulative <= right.cumulative || last)) {
-      const double end = std::min(left.time + (end_cumulative - left.cumulative) * slope, right.time);
-      cells_[cell] =
-          i > first_knot + 1 ? Cell{static_cast<double>(first_knot), kSearch} : Cell{begin, end - begin};
+    while (cell < kCells && (end_cumulative <= knots_[i + 1].cumulative || last)) {
+      const double part = cubic.part(end_cumulative);
+      const double end = cubic.time(part);
+      const double end_pace = cubic.pace(part);
+      const bool steep = end_pace > kSteep * begin_pace || begin_pace > kSteep * end_pace;
+      if (i > first_knot + 1 || steep) {
+        cells_[cell] = {static_cast<double>(first_knot), kSearch, 0.0};
+      } else {
+        // Paces at both ends make the curve; more than the chord would turn back.
+        const double chord = end - begin;
+        const double curve = std::clamp(0.5 * (end_pace - begin_pace) * events_per_cell, -chord, chord);
+        cells_[cell] = {begin, chord - curve, curve};
+      }
       first_knot = i;
       begin = end;
+      begin_pace = end_pace;
       ++cell;
       end_cumulative = (cell + 1) * events_per_cell;
     }
@@ -181,9 +242,8 @@ double ArrivalTable::search(double cumulative, std::size_t first_knot) const {
   while (i + 2 < knots_.size() && cumulative >= knots_[i + 1].cumulative) {
     ++i;
   }
-  const double rise = knots_[i + 1].cumulative - knots_[i].cumulative;
-  const double part = rise > 0.0 ? std::min((cumulative - knots_[i].cumulative) / rise, 1.0) : 0.0;
-  return knots_[i].time + part * (knots_[i + 1].time - knots_[i].time);
+  const Hermite cubic(knots_[i], knots_[i + 1]);
+  return cubic.time(cubic.part(cumulative));
 }
 
 double ArrivalTable::cumulative(double time) const {
@@ -195,9 +255,17 @@ double ArrivalTable::cumulative(double time) const {
   }
   const auto right = std::upper_bound(knots_.begin(), knots_.end(), time,
                                       [](double t, const Knot& knot) { return t < knot.time; });
-  const Knot& left = *(right - 1);
-  return left.cumulative +
-         (right->cumulative - left.cumulative) * (time - left.time) / (right->time - left.time);
+  const Hermite cubic(*(right - 1), *right);
+  const double before = (right - 1)->cumulative;
+  const double rise = right->cumulative - before;
+  // The cubic is monotone: halving cannot miss, and a double's bits are more than enough.
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 40; ++i) {
+    const double middle = 0.5 * (low + high);
+    (cubic.time(middle) < time ? low : high) = middle;
+  }
+  return before + rise * 0.5 * (low + high);
 }
 
 double ArrivalTable::displacement() const {

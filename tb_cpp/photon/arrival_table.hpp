@@ -23,10 +23,10 @@ double at_least(int k, double mean);
 /// The mean number of kept events before t is kept_events(C(t), slots) (first `slots` events of an
 /// acquisition): built on that scale, the table gives times of kept events.
 ///
-/// C is linear between knots: every 1/8 sigma over the pulse, up to 6 sigma on both sides (the 2e-9 beyond
-/// are dropped), every 32nd of the range elsewhere. The inverse is linear in 512 cells of equal C, but for
-/// cells with several knots, which the tails of a pulse on little background fall into. Time is in units of
-/// T_res.
+/// The inverse is a monotone cubic (Hermite) between knots: every 1/4 sigma over the pulse, up to 6 sigma on
+/// both sides (the 2e-9 beyond are dropped), every 32nd of the range elsewhere. It is looked up in 256 cells
+/// of equal C, quadratic in each; only cells with several knots or a steep density, into which the tails of a
+/// pulse on little background fall, are searched. Time is in units of T_res.
 class ArrivalTable {
  public:
   explicit ArrivalTable(const SensorModel& model);
@@ -45,7 +45,8 @@ class ArrivalTable {
     const double position = cumulative * cells_per_event_;
     const auto index = std::min(static_cast<std::uint32_t>(static_cast<std::int32_t>(position)), kCells - 1);
     const Cell& cell = cells_[index];
-    const double time = cell.slope != kSearch ? cell.time + (position - index) * cell.slope
+    const double part = position - index;
+    const double time = cell.slope != kSearch ? cell.time + part * (cell.slope + part * cell.curve)
                                               : search(cumulative, static_cast<std::size_t>(cell.time));
     return std::min(time, last_time_);
   }
@@ -61,17 +62,19 @@ class ArrivalTable {
   struct Knot {
     double cumulative;
     double time;
+    double pace;  // d time / d cumulative
   };
   struct Cell {
     double time;   // at its begin; the knot to search from if slope is kSearch
     double slope;  // bins over the cell
+    double curve;
   };
-  static constexpr std::uint32_t kCells = 512;
+  static constexpr std::uint32_t kCells = 256;
   static constexpr double kSearch = -1.0;
 
   void build(const PixelRates& rates, int slots);
   void place_knots(const PixelRates& rates);
-  void add_knot(double time, double pulse_share);
+  void add_knot(double time, double pulse_share, double pulse_density);
   void add_flat_knots(double from, double to, double pulse_share);
   void fill_cells();
   [[nodiscard]] double search(double cumulative, std::size_t first_knot) const;
@@ -81,8 +84,9 @@ class ArrivalTable {
   double gate_end_;
   double last_time_;
   double sigma_;
-  std::vector<double> pulse_offsets_;  // of the pulse's knots from its centre
-  std::vector<double> pulse_shares_;   // of the pulse before each
+  std::vector<double> pulse_offsets_;    // of the pulse's knots from its centre
+  std::vector<double> pulse_shares_;     // of the pulse before each
+  std::vector<double> pulse_densities_;  // of the pulse at each, per bin
 
   PixelRates rates_;
   int slots_ = -1;
