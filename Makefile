@@ -2,6 +2,7 @@
 # make            install what is missing, build, read one scene out through the RTL of every read-out, report
 # make test       every test and the lint
 # make sim        the main job without the installation step
+# make reproduce  the thesis's accuracy statements, measured (minutes)
 # make synth      area, timing and power of every configuration
 # make lint       RTL in three tools, C++ format and static analysis
 # make bench      speed of RTL, models and photon model
@@ -54,3 +55,4 @@ clean:
 	rm -rf build
 
 -include synth/synth.mk
+-include scripts/reproduce.mk

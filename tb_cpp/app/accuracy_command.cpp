@@ -201,11 +201,8 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand(
       "accuracy", "Distance sweep: precision, bias, slope, outliers and efficiency of every read-out");
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
-      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  command->add_option("-d,--distances", options->distances_m, "distances in m")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  command->add_option("-d,--distances", options->distances_m, "distances in m")->capture_default_str();
   command->add_option("-n,--frames", options->frames, "frames a distance (with --precision: at least)")
       ->check(CLI::Range(4, 10'000'000))
       ->capture_default_str();

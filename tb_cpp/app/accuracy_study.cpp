@@ -117,7 +117,7 @@ class Sweep {
       throw InputError(fmt::format("accuracy: the calibration step is {} m, but must be above 0", step));
     }
     // Beyond both ends, so that no evaluated distance is extrapolated.
-    const double begin = std::max(0.5 * step, distances.front() - 4.0 * step);
+    const double begin = std::max(0.5 * distances.front(), distances.front() - 4.0 * step);
     const double end = std::max(std::min(distances.back() + 4.0 * step, farthest), begin + 2.0 * step);
     std::vector<double> sweep;
     for (int i = 0; begin + i * step <= end; ++i) {
@@ -334,7 +334,7 @@ void validate(const StudySettings& settings) {
   }
   for (const double distance : settings.distances_m) {
     if (!std::isfinite(distance) || distance <= 0.0) {
-      throw InputError(fmt::format("accuracy: distance {} m must be finite and above 0", distance));
+      throw InputError(fmt::format("accuracy: distances must be finite and above 0, not {} m", distance));
     }
   }
   if (settings.rejection && !settings.lookup_table) {

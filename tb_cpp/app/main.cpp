@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
       "  dtof frame --readout sifh --engine rtl --verify --columns 0-7 --out build/sifh\n"
       "  dtof replay recording.csv --readout hispointer --engine rtl --out build/replay\n"
       "  dtof accuracy --klux 14 --distances 0.5 1 2 3 --out build/accuracy\n"
+      "  dtof reproduce --out reports                                the thesis's statements, measured\n"
       "  dtof list\n"
       "Exit codes: 0 done, 1 bad input, 3 RTL misbehaved or differs from its model, 4 failure, 130 "
       "interrupted.");
@@ -44,6 +45,7 @@ int run(int argc, char** argv) {
   dtof::add_frame_command(app, command_line);
   dtof::add_replay_command(app, command_line);
   dtof::add_accuracy_command(app, command_line);
+  dtof::add_reproduce_command(app, command_line);
   dtof::add_list_command(app);
   try {
     app.parse(argc, argv);

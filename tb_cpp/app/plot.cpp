@@ -31,9 +31,9 @@ std::string gnuplot_script(const std::filesystem::path& output, const std::vecto
   std::string script = fmt::format(
       "set terminal svg size 900,560 font 'sans,13' background '#ffffff'\n"
       "set output {}\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n"
-      "set key outside right noenhanced\nset grid\n{}",
+      "set key outside right noenhanced\nset grid\n{}{}",
       quoted(output.string()), quoted(layout.title), quoted(layout.x_label), quoted(layout.y_label),
-      layout.logarithmic_y ? "set logscale y\n" : "");
+      layout.logarithmic_y ? "set logscale y\n" : "", layout.logarithmic_x ? "set logscale x\n" : "");
   std::string plots;
   for (std::size_t i = 0; i < series.size(); ++i) {
     script += fmt::format("$series{} << END\n", i);
@@ -43,8 +43,10 @@ std::string gnuplot_script(const std::filesystem::path& output, const std::vecto
       }
     }
     script += "END\n";
-    plots += fmt::format("{}$series{} using 1:2 with linespoints linewidth 1.5 pointtype {} title {}",
-                         i == 0 ? "plot " : ", ", i, i + 4, quoted(series[i].label));
+    plots +=
+        fmt::format("{}$series{} using 1:2 with {} title {}", i == 0 ? "plot " : ", ", i,
+                    layout.markers ? fmt::format("linespoints linewidth 1.5 pointtype {}", i + 4) : "lines",
+                    quoted(series[i].label));
   }
   for (const double limit : layout.y_limits) {
     plots += fmt::format(", {:.9g} with lines dashtype 2 linecolor rgb 'black' notitle", limit);

@@ -19,6 +19,8 @@ struct PlotLayout {
   std::string y_label;
   bool logarithmic_y = false;
   std::vector<double> y_limits = {};  ///< horizontal lines, e.g. a requirement
+  bool logarithmic_x = false;
+  bool markers = true;  ///< a symbol at each point
 };
 
 /// Draws lines with points as SVG through gnuplot. Values that are not finite are left out. Throws
