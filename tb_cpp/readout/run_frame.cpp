@@ -5,31 +5,15 @@
 
 #include <cstddef>
 #include <functional>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/select_columns.hpp"
 #include "readout/model.hpp"
 
 namespace dtof {
 
 namespace {
-
-/// The columns to read; all if none is named. Throws InputError for one that the source has not.
-std::vector<int> select_columns(const StreamSource& source, std::span<const int> columns) {
-  std::vector<int> selected(columns.begin(), columns.end());
-  if (columns.empty()) {
-    selected.resize(static_cast<std::size_t>(source.columns()));
-    std::iota(selected.begin(), selected.end(), 0);
-  }
-  for (const int column : selected) {
-    if (column < 0 || column >= source.columns()) {
-      throw InputError(
-          fmt::format("column {} is outside the source's 0 to {}", column, source.columns() - 1));
-    }
-  }
-  return selected;
-}
 
 /// `read(column, results)` fills one column's results; the frame is row-major.
 std::vector<PixelResult> read_columns(

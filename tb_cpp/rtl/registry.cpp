@@ -33,7 +33,7 @@ InputError not_compiled(const std::string& wanted) {
   for (const auto& [text, entry] : registry()) {
     message += "\n  " + text;
   }
-  return InputError(message);
+  return InputError{message};
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ TEST_P(FrameCycles, StayBelowTheLimit) {
   }
   RtlReadout rtl(configuration);
   RtlFrame frame;
-  ASSERT_EQ(check_frame(rtl, columns, kAcquisitions, default_options(1), reproduce_command(), &frame), "");
+  ASSERT_TRUE(agrees_with_model(rtl, columns, kAcquisitions, default_options(1), &frame));
 
   const int added_columns =
       GetParam() == Readout::kHistogram ? 0 : std::max(0, kColumns - configuration.sram_num);

@@ -116,7 +116,7 @@ TEST(RtlReadout, GivesUpAFrameThatDoesNotEnd) {
                                             HasSubstr("of 100 acquisitions begun"),
                                             HasSubstr("0 of 1 results sent"))));
   options.cycle_limit = 0;
-  EXPECT_EQ(check_frame(rtl, columns, 100, options, reproduce_command()), "") << "usable afterwards";
+  EXPECT_TRUE(agrees_with_model(rtl, columns, 100, options)) << "usable afterwards";
 }
 
 TEST(RtlReadout, CountsTheClocksOfEachState) {
@@ -213,19 +213,46 @@ TEST(VerilatedHooks, AssertionsOfTheRtlAreAlive) {
   EXPECT_THAT(run_until_the_gap, ThrowsMessage<RtlError>(HasSubstr("Assertion failed")));
 }
 
-// An array whose lowest code bit is inverted.
+// An array with a fault in its result stream.
 class FaultyArray : public ArrayModel {
  public:
-  explicit FaultyArray(VerilatedContext& context) : model_(make_array_model(small_sifh(), context)) {}
+  enum class Fault : std::uint8_t { kCode, kUnstable, kLast, kColumn, kDone };
+
+  FaultyArray(VerilatedContext& context, Fault fault)
+      : model_(make_array_model(small_sifh(), context)), fault_(fault) {}
   [[nodiscard]] Ports ports() override {
-    Ports ports = model_->ports();
-    right_code_ = ports.result_code;
-    ports.result_code = &wrong_code_;
+    right_ = model_->ports();
+    Ports ports = right_;
+    ports.result_code = &code_;
+    ports.result_last = &last_;
+    ports.result_column = &column_;
+    ports.done = &done_;
     return ports;
   }
   void eval() override {
     model_->eval();
-    wrong_code_ = *right_code_ ^ 1U;
+    ++evaluations_;
+    code_ = *right_.result_code;
+    last_ = *right_.result_last;
+    column_ = *right_.result_column;
+    done_ = *right_.done;
+    switch (fault_) {
+      case Fault::kCode:
+        code_ ^= 1U;
+        break;
+      case Fault::kUnstable:
+        code_ = static_cast<std::uint16_t>(evaluations_);
+        break;
+      case Fault::kLast:
+        last_ = 0;
+        break;
+      case Fault::kColumn:
+        ++column_;
+        break;
+      case Fault::kDone:
+        done_ = *right_.state == static_cast<std::uint8_t>(RtlState::kM4) ? 1 : 0;
+        break;
+    }
   }
   void open_trace(const std::filesystem::path& file) override { model_->open_trace(file); }
   void dump_trace(std::uint64_t time) override { model_->dump_trace(time); }
@@ -233,22 +260,55 @@ class FaultyArray : public ArrayModel {
 
  private:
   std::unique_ptr<ArrayModel> model_;
-  const std::uint16_t* right_code_ = nullptr;
-  std::uint16_t wrong_code_ = 0;
+  Fault fault_;
+  Ports right_{};
+  std::uint64_t evaluations_ = 0;
+  std::uint16_t code_ = 0;
+  std::uint16_t column_ = 0;
+  std::uint8_t last_ = 0;
+  std::uint8_t done_ = 0;
 };
 
-TEST(CheckFrame, ReportsAFaultWithTheShortestFrameAndTheCommand) {
-  RtlConfiguration configuration = small_sifh();
-  configuration.signalled_clear = true;  // not compiled at this size
-  register_rtl_configuration(
-      configuration, [](VerilatedContext& context) { return std::make_unique<FaultyArray>(context); });
-  RtlReadout rtl(configuration);
-  const std::vector<ColumnStream> columns = {single_pixel({11, 9, 11, 15, 10, 10, 15, 11}, 2)};
-  EXPECT_THAT(check_frame(rtl, columns, 4, default_options(9), "the command"),
+class FaultyRtl : public testing::Test {
+ protected:
+  // Under a name that is not compiled at this size.
+  static RtlReadout with(FaultyArray::Fault fault) {
+    RtlConfiguration configuration = small_sifh();
+    configuration.signalled_clear = true;
+    register_rtl_configuration(configuration, [fault](VerilatedContext& context) {
+      return std::make_unique<FaultyArray>(context, fault);
+    });
+    return RtlReadout(configuration);
+  }
+  static std::string error_of(FaultyArray::Fault fault) {
+    RtlReadout rtl = with(fault);
+    RtlRunOptions options = default_options(9);
+    options.stall_probability = 0.8;
+    try {
+      rtl.run(columns(), 4, options);
+    } catch (const RtlError& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+  static std::vector<ColumnStream> columns() { return {single_pixel({11, 9, 11, 15, 10, 10, 15, 11}, 2)}; }
+};
+
+TEST_F(FaultyRtl, AWrongResultIsReportedWithTheShortestFrameAndTheCommand) {
+  RtlReadout rtl = with(FaultyArray::Fault::kCode);
+  EXPECT_THAT(check_frame(rtl, columns(), 4, default_options(9), "the command"),
               AllOf(HasSubstr("1 of 1 pixels differ"), HasSubstr("sifh NP=4"), HasSubstr("seed 9"),
                     HasSubstr("cut to 1 acquisitions"),
                     HasSubstr("column 0 row 0: expected code 10 fraction 0 confidence 2, actual code 11"),
                     HasSubstr("reproduce  the command")));
+}
+
+TEST_F(FaultyRtl, ABrokenResultStreamIsAnError) {
+  using enum FaultyArray::Fault;
+  EXPECT_THAT(error_of(kUnstable), HasSubstr("result_tdata_o changed before tready"));
+  EXPECT_THAT(error_of(kLast), HasSubstr("result_tlast_o on the wrong result"));
+  EXPECT_THAT(error_of(kColumn), HasSubstr("result out of order"));
+  EXPECT_THAT(error_of(kDone), HasSubstr("busy after done"));
 }
 
 class RunFrame : public testing::Test {

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,17 @@ inline std::string reproduce_command() {
   return test_seed_message() + " DTOF_TRACE=trace.fst " +
          std::filesystem::read_symlink("/proc/self/exe").string() + " --gtest_filter='" +
          info->test_suite_name() + "." + info->name() + "'";
+}
+
+/// The scoreboard's verdict on a frame, for ASSERT_TRUE.
+inline testing::AssertionResult agrees_with_model(RtlReadout& rtl, std::span<const ColumnStream> columns,
+                                                  std::uint32_t acquisitions, const RtlRunOptions& options,
+                                                  RtlFrame* frame = nullptr) {
+  const std::string report = check_frame(rtl, columns, acquisitions, options, reproduce_command(), frame);
+  if (report.empty()) {
+    return testing::AssertionSuccess();
+  }
+  return testing::AssertionFailure() << report;
 }
 
 /// Options with the waveform file that the environment asks for.

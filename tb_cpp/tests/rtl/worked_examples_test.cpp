@@ -11,7 +11,6 @@ namespace dtof {
 namespace {
 
 using testing::ElementsAre;
-using testing::Pair;
 
 // Follows a frame: the states in order, and the SRAM as it stands when a state ends.
 class Follower {
@@ -50,7 +49,7 @@ TEST(WorkedExamples, SifhOfTables3And4StateByState) {
   const std::vector<ColumnStream> columns = {
       single_pixel({11, 9, 11, 15, /* measurement 2 */ 10, 10, 15, 11}, 2)};
   RtlFrame frame;
-  ASSERT_EQ(check_frame(rtl, columns, 4, options, reproduce_command(), &frame), "");
+  ASSERT_TRUE(agrees_with_model(rtl, columns, 4, options, &frame));
 
   using enum RtlState;
   EXPECT_THAT(follower.states_, ElementsAre(kIdle, kReset, kM0, kM1, kM2, kM3, kM4, kM5, kIdle));
@@ -98,7 +97,7 @@ TEST(WorkedExamples, EzPointerOfFigure37) {
     RtlRunOptions options = default_options(1);
     options.observer = std::ref(follower);
     RtlFrame frame;
-    ASSERT_EQ(check_frame(rtl, columns, acquisitions, options, reproduce_command(), &frame), "");
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, options, &frame));
     EXPECT_EQ(frame.results.at(0).code, step.pointer);
 
     using enum RtlState;  // Fig. 4.3: IDLE, RESET, EXECUTE, RESULT

@@ -44,6 +44,7 @@ TEST(CompareFrames, RefusesFramesOfDifferentShape) {
 
 TEST(DescribeMismatches, SaysEverythingNeededToFindTheFault) {
   std::vector<Mismatch> mismatches;
+  mismatches.reserve(8);
   for (int row = 0; row < 8; ++row) {
     mismatches.push_back(
         {.column = 12, .row = row, .expected = {511, 2, 9}, .actual = {512, 0, 1}, .cycle = 4000});
@@ -57,10 +58,9 @@ TEST(DescribeMismatches, SaysEverythingNeededToFindTheFault) {
   const std::string text = describe_mismatches(mismatches, 1280, context);
   for (const char* part : {"8 of 1280 pixels differ", "hispointer NP=10 SLOTS=2 NB=5", "GUARD=46",
                            "PIXELS_PER_SRAM=160", "3333 acquisitions", "seed 42", "cut to 17 acquisitions",
-                           "column 12 row 0: expected code 511 fraction 2 confidence 9, actual code 512 "
-                           "fraction 0 confidence 1, "
-                           "clock 4000",
-                           "row 4", "dtof frame --seed 42 --columns 12 --trace wave.fst"}) {
+                           "column 12 row 0: expected code 511 fraction 2 confidence 9, ",
+                           "actual code 512 fraction 0 confidence 1, clock 4000", "row 4",
+                           "dtof frame --seed 42 --columns 12 --trace wave.fst"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(text, Not(HasSubstr("row 5"))) << "only the first few";
