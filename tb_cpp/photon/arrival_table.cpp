@@ -63,8 +63,11 @@ class Hermite {
         step_(right.time - left.time) {
     // At most three times the chord's slope keeps it monotone (Fritsch and Carlson 1980).
     const double rise = right.cumulative - left.cumulative;
-    first_ = std::min(left.pace * rise, 3.0 * step_);
-    const double last = std::min(right.pace * rise, 3.0 * step_);
+    const auto end_slope = [&](double pace) {
+      return rise > 0.0 ? std::min(pace * rise, 3.0 * step_) : step_;
+    };
+    first_ = end_slope(left.pace);
+    const double last = end_slope(right.pace);
     square_ = 3.0 * step_ - 2.0 * first_ - last;
     cube_ = first_ + last - 2.0 * step_;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <cstddef>
@@ -71,6 +72,24 @@ inline double poisson_chi_square_p(const std::vector<std::uint64_t>& counts,
   }
   const boost::math::chi_squared_distribution<double> distribution(classes);
   return boost::math::cdf(boost::math::complement(distribution, chi_square));
+}
+
+/// Kolmogorov-Smirnov p-value of values being independent and uniform in [0, 1); at least 100 values.
+inline double kolmogorov_smirnov_p(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto count = static_cast<double>(values.size());
+  double distance = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    distance = std::max({distance, (static_cast<double>(i) + 1.0) / count - values[i],
+                         values[i] - static_cast<double>(i) / count});
+  }
+  // Stephens's correction (1970) of the limit distribution.
+  const double x = distance * (std::sqrt(count) + 0.12 + 0.11 / std::sqrt(count));
+  double p = 0.0;
+  for (int k = 1; k <= 100; ++k) {
+    p += (k % 2 == 1 ? 2.0 : -2.0) * std::exp(-2.0 * k * k * x * x);
+  }
+  return std::clamp(p, 0.0, 1.0);
 }
 
 /// Mean events of every bin of `count` bins: flat background plus a Gaussian pulse (bins).
