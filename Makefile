@@ -48,11 +48,13 @@ lint: | build_folder
 
 bench: | build_folder
 	@$(MAKE) --no-print-directory configure
-	@ninja -C $(BUILD) dtof_bench
-	@$(BUILD)/bench/dtof_bench
+	@ninja -C $(BUILD) rtl_bench photon_bench
+	@$(BUILD)/bench/rtl_bench
+	@$(BUILD)/bench/photon_bench
 
 clean:
 	rm -rf build
 
 -include synth/synth.mk
 -include scripts/reproduce.mk
+-include scripts/photon_report.mk

@@ -65,7 +65,7 @@ module pointer_builder #(
   logic [CONFIDENCE_BITS-1:0] current_confidence, moved_confidence;
   logic [POINTER_WIDTH-1:0] moved_pointer;
   logic [STEP_WIDTH-1:0] step_t1;
-  logic first_slot_t1_q;
+  logic first_slot_t1_q, take_fetched;
 
   dtof_sram #(
       .PORTS(PORTS),
@@ -123,7 +123,9 @@ module pointer_builder #(
     end
   endgenerate
 
-  assign current = first_slot_t1_q ? fetched : word_q;
+  // Between acquisitions word_q may be overwritten, but where the history takes it over.
+  assign take_fetched = (NEEDS_HISTORY != 0) ? visit_t1_i : first_slot_t1_q;
+  assign current = take_fetched ? fetched : word_q;
 
   pointer_update #(
       .NP              (NP),

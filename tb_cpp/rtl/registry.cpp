@@ -29,11 +29,11 @@ std::map<std::string, Entry>& registry() {
 }
 
 InputError not_compiled(const std::string& wanted) {
-  std::string message = fmt::format("no RTL is compiled for {}; compiled are:", wanted);
+  std::string compiled;
   for (const auto& [text, entry] : registry()) {
-    message += "\n  " + text;
+    compiled += fmt::format("{}{}", compiled.empty() ? "" : " | ", text);
   }
-  return InputError{message};
+  return InputError{fmt::format("no RTL is compiled for {}; compiled are: {}", wanted, compiled)};
 }
 
 }  // namespace
