@@ -38,9 +38,9 @@ Median median_position(const TargetRun& run, double step) {
   std::ranges::sort(positions);
   const std::size_t last = positions.size() - 1;
   const double middle = positions[last / 2];
-  const auto same = std::ranges::equal_range(positions, middle);
-  const auto below = static_cast<double>(same.begin() - positions.begin());
-  const auto equal = static_cast<double>(same.size());
+  const auto [first_equal, end_equal] = std::equal_range(positions.begin(), positions.end(), middle);
+  const auto below = static_cast<double>(first_equal - positions.begin());
+  const auto equal = static_cast<double>(end_equal - first_equal);
   const auto count = static_cast<double>(positions.size());
   // As for a normal distribution with these quartiles, but no finer than the raster.
   constexpr double kQuartilesPerSigma = 1.349;
