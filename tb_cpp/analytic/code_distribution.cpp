@@ -98,6 +98,9 @@ class ReadoutDistribution {
       case Readout::kHistogram:
         partitioned();
         break;
+      case Readout::kPoolPointer:
+      case Readout::kPoolPointerLean:
+        throw InputError("the analytic model knows no read-out that pools pixels");
     }
     return std::move(positions_);
   }

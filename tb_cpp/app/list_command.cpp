@@ -13,19 +13,19 @@ void add_list_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand("list", "Shows read-outs, presets, scenes and compiled hardware");
   command->callback([] {
     fmt::print("Read-outs (--readout):\n");
-    for (const Readout readout : kAllReadouts) {
-      fmt::print("  {:<12} {}\n", readout_name(readout), readout_summary(readout));
-      fmt::print("  {:<12}   defaults: {}\n", "", ReadoutParameters::defaults(readout).to_string());
+    for (const Readout readout : kModelReadouts) {
+      fmt::print("  {:<16} {}\n", readout_name(readout), readout_summary(readout));
+      fmt::print("  {:<16}   defaults: {}\n", "", ReadoutParameters::defaults(readout).to_string());
     }
     fmt::print("\nPresets (--preset), per pixel and pulse at 1 m, reflectivity 1, 14 klux:\n");
     for (const std::string_view name : preset_names()) {
       const SensorModel sensor = parse_preset(name);
-      fmt::print("  {:<12} {:.3f} signal events, {:.3f} background events, {} acquisitions a frame\n", name,
+      fmt::print("  {:<16} {:.3f} signal events, {:.3f} background events, {} acquisitions a frame\n", name,
                  sensor.signal_events(1.0, 1.0), sensor.background_events(14.0, 1.0), sensor.acquisitions);
     }
     fmt::print("\nScenes (--scene):\n");
     for (const Scene scene : kAllScenes) {
-      fmt::print("  {:<12} {}\n", scene_name(scene), scene_summary(scene));
+      fmt::print("  {:<16} {}\n", scene_name(scene), scene_summary(scene));
     }
     fmt::print("\nHardware compiled into this program (--engine rtl):\n");
     for (const RtlConfiguration& configuration : compiled_rtl_configurations()) {

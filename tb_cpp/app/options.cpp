@@ -23,7 +23,7 @@ void ReadoutOptions::add_to(CLI::App& command) {
   auto* group = command.add_option_group("read-out");
   group
       ->add_option("-r,--readout", readouts,
-                   "read-outs to run: all, or names from `dtof list`, separated by commas")
+                   "read-outs to run: all (those of the thesis), or names from `dtof list`, separated by commas")
       ->take_last()
       ->capture_default_str();
   group->add_option("--np", np, "NP, bits of a timestamp")->capture_default_str();
@@ -49,13 +49,16 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters() const {
   std::vector<ReadoutParameters> all;
   for (const Readout readout : chosen) {
     ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
-    if (readout != Readout::kHistogram) {
+    const bool pool = is_pool_readout(readout);
+    if (readout != Readout::kHistogram && !pool) {
       override_with(nb, parameters.nb);
     }
     override_with(slots, parameters.slots);
     override_with(count_width, parameters.count_width);
     override_with(pointer_step, parameters.pointer_step);
-    override_with(fraction_bits, parameters.fraction_bits);
+    if (!pool) {
+      override_with(fraction_bits, parameters.fraction_bits);
+    }
     override_with(confidence_width, parameters.confidence_width);
     override_with(guard, parameters.guard);
     parameters.window_centred = window_centred;
@@ -103,6 +106,16 @@ void SensorOptions::add_sensor_to(CLI::App& command) {
       ->capture_default_str();
   group->add_option("--gate", time_gate_ns, "time gate, BEGIN END in ns")->expected(2);
   group->add_option("--coincidence", coincidence_ns, "coincidence window in ns");
+  group
+      ->add_option("--fidelity", fidelity,
+                   "photon model: exact (event by event), fast (times from tables), analytic (expected\n"
+                   "detections, no noise), auto (the cheapest within --tolerance)")
+      ->check(CLI::IsMember({"exact", "fast", "analytic", "auto"}))
+      ->capture_default_str();
+  group
+      ->add_option("--tolerance", tolerance,
+                   "auto: what the model may leave out of a distance, relative (reports/speed_error.md)")
+      ->capture_default_str();
 }
 
 SensorModel SensorOptions::model(int np, int slots) const {
@@ -122,6 +135,10 @@ SensorModel SensorOptions::model(int np, int slots) const {
   }
   sensor.validate();
   return sensor;
+}
+
+Fidelity SensorOptions::photon_model(const PhotonSource& exact) const {
+  return parse_fidelity(fidelity, exact, tolerance);
 }
 
 }  // namespace dtof

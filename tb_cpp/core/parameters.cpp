@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -17,9 +18,12 @@ struct ReadoutText {
   std::string_view summary;
 };
 
+constexpr int kPoolCoarseBits = 5;
+constexpr int kPoolPositionBits = 16;
+
 constexpr double kFwhmOverRange = 2.0 / 45.0;  // thesis: FWHM 2 ns, T_int 45 ns
 
-constexpr std::array<ReadoutText, kAllReadouts.size()> kTexts = {{
+constexpr std::array<ReadoutText, kModelReadouts.size()> kTexts = {{
     {"ezpointer", "ezPointer", "one pointer a pixel steps towards each timestamp: a circular median"},
     {"hispointer1", "hisPointer v1", "coarse histogram, then the pointer starts at its peak"},
     {"hispointer", "hisPointer", "coarse histogram, then the pointer sees only a window around its peak"},
@@ -28,6 +32,9 @@ constexpr std::array<ReadoutText, kAllReadouts.size()> kTexts = {{
     {"threesteps", "three steps", "three coarse histograms of 8 bins zoom in, then 16 fine bins"},
     {"pifh", "PiFH", "the range is scanned partition by partition in one small histogram"},
     {"histogram", "histogram", "all 2^NP bins of every pixel, the classical baseline"},
+    {"poolpointer", "poolPointer",
+     "neighbours share a coarse histogram; each pixel picks and refines a candidate"},
+    {"poolpointer-lean", "poolPointer lean", "poolPointer in half the memory: larger groups, shorter words"},
 }};
 
 const ReadoutText& text(Readout readout) { return kTexts[static_cast<std::size_t>(readout)]; }
@@ -46,7 +53,7 @@ std::string_view readout_summary(Readout readout) { return text(readout).summary
 
 Readout parse_readout(std::string_view name) {
   std::string legal;
-  for (const Readout readout : kAllReadouts) {
+  for (const Readout readout : kModelReadouts) {
     if (readout_name(readout) == name) {
       return readout;
     }
@@ -58,6 +65,55 @@ Readout parse_readout(std::string_view name) {
 bool is_pointer_readout(Readout readout) {
   return readout == Readout::kEzPointer || readout == Readout::kHisPointer1 ||
          readout == Readout::kHisPointer;
+}
+
+bool is_pool_readout(Readout readout) {
+  return readout == Readout::kPoolPointer || readout == Readout::kPoolPointerLean;
+}
+
+PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
+  PoolPointerParameters parameters;
+  if (readout == Readout::kPoolPointerLean) {
+    parameters = {.group_size = 16,
+                  .dark_labels = 4,
+                  .dark_score_bits = 4,
+                  .bright_labels = 4,
+                  .bright_score_bits = 4,
+                  .bright_from = 0,
+                  .offset_bits = 0,
+                  .count_bits = 4,
+                  .pointer_bits = 8,
+                  .pointer_shift = 4,
+                  .rival_bits = 0,
+                  .coarse_share = 12,
+                  .track_share = 16};
+  }
+  return parameters;
+}
+
+void PoolPointerParameters::validate() const {
+  require_range("group size", group_size, 1, 64);
+  require_range("labels of dark groups", dark_labels, 2, 8);
+  require_range("score bits of dark groups", dark_score_bits, 1, 8);
+  require_range("labels of bright groups", bright_labels, 2, 8);
+  require_range("score bits of bright groups", bright_score_bits, 1, 8);
+  require_range("BRIGHT_FROM", bright_from, 0, 127);
+  require_range("offset bits", offset_bits, 0, 5);
+  require_range("count bits", count_bits, 3, 8);
+  require_range("pointer shift", pointer_shift, 0, 8);
+  require_range("pointer bits", pointer_bits, 1, 13 - pointer_shift);
+  require_range("rival bits", rival_bits, 0, 5);
+  require_range("coarse share", coarse_share, 1, 62);
+  require_range("track share", track_share, 1, 63 - coarse_share);
+}
+
+int PoolPointerParameters::word_bits() const {
+  const auto label_bits =
+      static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(dark_labels, bright_labels) - 1)));
+  const int scores = std::max(dark_labels * dark_score_bits, bright_labels * bright_score_bits);
+  const int track_word = scores + (offset_bits > 0 ? label_bits + offset_bits : 0);
+  const int pointer_word = 2 * label_bits + count_bits + pointer_bits + rival_bits;
+  return std::max(track_word, pointer_word);
 }
 
 ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
@@ -75,6 +131,13 @@ ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
     case Readout::kHistogram:
       parameters.nb = np;
       break;
+    case Readout::kPoolPointer:
+    case Readout::kPoolPointerLean:
+      parameters.nb = kPoolCoarseBits;
+      parameters.count_width = 8;
+      parameters.fraction_bits = kPoolPositionBits - np;
+      parameters.pool = PoolPointerParameters::defaults(readout);
+      break;
     default:
       parameters.nb = np / 2;
       break;
@@ -83,6 +146,15 @@ ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
 }
 
 void ReadoutParameters::validate() const {
+  if (is_pool_readout(readout)) {
+    require_range("NP", np, 8, kPoolPositionBits);
+    require_range("NB", nb, kPoolCoarseBits, kPoolCoarseBits);
+    require_range("SLOTS", slots, 1, 16);
+    require_range("COUNT_WIDTH", count_width, 4, 8);
+    require_range("FRACTION_BITS", fraction_bits, kPoolPositionBits - np, kPoolPositionBits - np);
+    pool.validate();
+    return;
+  }
   require_range("NP", np, 3, 16);
   require_range("NB", nb, 1, np);
   require_range("SLOTS", slots, 1, 16);
@@ -95,6 +167,15 @@ void ReadoutParameters::validate() const {
 
 std::string ReadoutParameters::to_string() const {
   std::string out = fmt::format("{} NP={} SLOTS={}", readout_name(readout), np, slots);
+  if (is_pool_readout(readout)) {
+    out += fmt::format(
+        " COUNT_WIDTH={} G={} LABELS={}x{}/{}x{} BRIGHT_FROM={} OFFSET={} COUNT={} POINTER={}<<{} RIVAL={} "
+        "SHARES={},{}",
+        count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.bright_labels,
+        pool.bright_score_bits, pool.bright_from, pool.offset_bits, pool.count_bits, pool.pointer_bits,
+        pool.pointer_shift, pool.rival_bits, pool.coarse_share, pool.track_share);
+    return out;
+  }
   if (readout != Readout::kEzPointer && readout != Readout::kThreeSteps && readout != Readout::kHistogram) {
     out += fmt::format(" NB={}", nb);
   }

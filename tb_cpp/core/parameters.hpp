@@ -7,7 +7,8 @@
 
 namespace dtof {
 
-/// The read-outs of spec section 3. The numbers are the RTL's READOUT parameter (hdl/package/dtof_pkg.sv).
+/// The read-outs of spec section 3, and poolPointer (docs/poolpointer.md). The numbers are the RTL's READOUT
+/// parameter (hdl/package/dtof_pkg.sv).
 enum class Readout : int {
   kEzPointer = 0,
   kHisPointer1 = 1,
@@ -17,13 +18,23 @@ enum class Readout : int {
   kThreeSteps = 5,
   kPifh = 6,
   kHistogram = 7,
+  kPoolPointer = 8,
+  kPoolPointerLean = 9,
 };
 
+/// Those of the thesis, which are compiled as RTL.
 inline constexpr std::array<Readout, 8> kAllReadouts = {
     Readout::kEzPointer, Readout::kHisPointer1, Readout::kHisPointer, Readout::kSifh,
     Readout::kFifh,      Readout::kThreeSteps,  Readout::kPifh,       Readout::kHistogram};
 
-/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram.
+/// Those that the model runs.
+inline constexpr std::array<Readout, 10> kModelReadouts = {
+    Readout::kEzPointer,   Readout::kHisPointer1,    Readout::kHisPointer, Readout::kSifh,
+    Readout::kFifh,        Readout::kThreeSteps,     Readout::kPifh,       Readout::kHistogram,
+    Readout::kPoolPointer, Readout::kPoolPointerLean};
+
+/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram,
+/// poolpointer, poolpointer-lean.
 std::string_view readout_name(Readout readout);
 /// Display name as the thesis writes it, e.g. "hisPointer v1".
 std::string_view readout_title(Readout readout);
@@ -33,6 +44,33 @@ std::string_view readout_summary(Readout readout);
 Readout parse_readout(std::string_view name);
 /// ezPointer and both hisPointers: the result comes from a pointer.
 bool is_pointer_readout(Readout readout);
+/// poolpointer and poolpointer-lean: the pixels of a column help each other.
+bool is_pool_readout(Readout readout);
+
+/// Parameters of the pool read-outs beyond those they share with the others (docs/poolpointer.md). Lengths
+/// are fractions of a coarse bin, a 32nd of the range.
+struct PoolPointerParameters {
+  int group_size = 8;       ///< G, pixels of a column that share a coarse histogram, 1 .. 64
+  int dark_labels = 8;      ///< candidate depths of a group with background below BRIGHT_FROM, 2 .. 8
+  int dark_score_bits = 3;  ///< width of a candidate's score in a pixel word there, 1 .. 8
+  int bright_labels = 6;    ///< the same in the other groups
+  int bright_score_bits = 4;
+  int bright_from = 12;   ///< BRIGHT_FROM, in units of a group's background word, 0 .. 127
+  int offset_bits = 5;    ///< leader's offset in the track phase, 32nds of a coarse bin, signed; 0: none
+  int count_bits = 8;     ///< the leader's advantage in the pointer phase, 3 .. 8
+  int pointer_bits = 13;  ///< the leader's pointer relative to its candidate, signed, 1 .. 13
+  int pointer_shift = 0;  ///< its unit is 2^(pointer_shift - 11) coarse bins, 0 .. 8
+  int rival_bits = 5;     ///< the rival's pointer, eighths of a coarse bin, signed, 0 .. 5
+  int coarse_share = 16;  ///< 64ths of the frame: coarse phase
+  int track_share = 16;   ///< 64ths of the frame: track phase
+
+  static PoolPointerParameters defaults(Readout readout);
+  /// Throws InputError.
+  void validate() const;
+  /// Bits of a pixel word.
+  [[nodiscard]] int word_bits() const;
+  bool operator==(const PoolPointerParameters&) const = default;
+};
 
 /// Parameters of a read-out, named as the RTL's (spec section 1; ranges in docs/readouts.md).
 struct ReadoutParameters {
@@ -46,9 +84,11 @@ struct ReadoutParameters {
   int confidence_width = 4;  ///< CONFIDENCE_WIDTH (pointer read-outs)
   int guard = 46;            ///< GUARD, bins (hisPointer v2)
   bool window_centred = false;  ///< WINDOW_CENTRED (SiFH)
+  PoolPointerParameters pool;   ///< pool read-outs
 
   /// Spec defaults: NB = floor(NP/2) + 1 for SiFH (Eq. 2.3), floor(NP/2) for FiFH and hisPointer,
-  /// min(NP, 6) for PiFH, NP for the histogram; GUARD = ceil(FWHM / T_res) scaled to NP.
+  /// min(NP, 6) for PiFH, NP for the histogram; GUARD = ceil(FWHM / T_res) scaled to NP. The pool read-outs
+  /// have NB = 5, COUNT_WIDTH = 8 and FRACTION_BITS = 16 - NP, which is no free choice there.
   static ReadoutParameters defaults(Readout readout, int np = 10);
 
   /// Throws InputError with one sentence if a parameter is outside its range.

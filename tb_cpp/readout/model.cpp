@@ -1,9 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "readout/model.hpp"
 
+#include <fmt/format.h>
+
+#include "core/error.hpp"
 #include "readout/pixelwise_model.hpp"
 
 namespace dtof {
+
+void check_detections(std::span<const Detection> detections, int row, const ReadoutParameters& parameters,
+                      std::uint32_t acquisitions) {
+  if (detections.empty()) {
+    return;
+  }
+  std::uint32_t seen_bits = 0;
+  for (const Detection& detection : detections) {
+    seen_bits |= detection.timestamp;
+  }
+  if (seen_bits > static_cast<std::uint32_t>(parameters.no_detection())) {
+    throw InputError(fmt::format("row {}: a timestamp is above {}, the largest code of NP = {}", row,
+                                 parameters.no_detection(), parameters.np));
+  }
+  if (detections.back().acquisition >= acquisitions) {
+    throw InputError(fmt::format("row {}: acquisition {} is outside the frame of {} acquisitions", row,
+                                 detections.back().acquisition, acquisitions));
+  }
+}
 
 std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {
   parameters.validate();
@@ -19,6 +41,9 @@ std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parame
     case Readout::kPifh:
     case Readout::kHistogram:
       return make_partitioned_histogram(parameters);
+    case Readout::kPoolPointer:
+    case Readout::kPoolPointerLean:
+      return make_pool_pointer(parameters);
   }
   throw InputError("unknown read-out number");
 }

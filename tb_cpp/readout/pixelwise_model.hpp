@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "core/error.hpp"
 #include "readout/model.hpp"
 #include "readout/pass_schedule.hpp"
 
 namespace dtof {
+
+/// Throws InputError for a timestamp or an acquisition outside the frame's range.
+void check_detections(std::span<const Detection> detections, int row, const ReadoutParameters& parameters,
+                      std::uint32_t acquisitions);
 
 /// A ReadoutModel around a `Pixel` with `start_frame(acquisitions)` and `read(cursor) -> PixelResult`:
 /// the virtual call is per column, the loop over detections is inlined.
@@ -31,7 +32,7 @@ class PixelwiseModel final : public ReadoutModel {
     results.reserve(static_cast<std::size_t>(column.rows()));
     for (int row = 0; row < column.rows(); ++row) {
       const std::span<const Detection> detections = column.row(row);
-      check(detections, row, acquisitions);
+      check_detections(detections, row, parameters_, acquisitions);
       results.push_back(
           pixel_.read(PassCursor(detections, static_cast<std::uint32_t>(parameters_.no_detection()))));
     }
@@ -49,24 +50,6 @@ class PixelwiseModel final : public ReadoutModel {
   }
 
  private:
-  void check(std::span<const Detection> detections, int row, std::uint32_t acquisitions) const {
-    if (detections.empty()) {
-      return;
-    }
-    std::uint32_t seen_bits = 0;
-    for (const Detection& detection : detections) {
-      seen_bits |= detection.timestamp;
-    }
-    if (seen_bits > static_cast<std::uint32_t>(parameters_.no_detection())) {
-      throw InputError(fmt::format("row {}: a timestamp is above {}, the largest code of NP = {}", row,
-                                   parameters_.no_detection(), parameters_.np));
-    }
-    if (detections.back().acquisition >= acquisitions) {
-      throw InputError(fmt::format("row {}: acquisition {} is outside the frame of {} acquisitions", row,
-                                   detections.back().acquisition, acquisitions));
-    }
-  }
-
   ReadoutParameters parameters_;
   Pixel pixel_;
 };
@@ -74,5 +57,6 @@ class PixelwiseModel final : public ReadoutModel {
 std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_partitioned_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_pointer_readout(const ReadoutParameters& parameters);
+std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters);
 
 }  // namespace dtof

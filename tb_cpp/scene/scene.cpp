@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "scene/outdoor.hpp"
 #include "scene/room.hpp"
 
 namespace dtof {
@@ -64,6 +65,14 @@ std::string_view scene_name(Scene scene) {
       return "plane";
     case Scene::kRoom:
       return "room";
+    case Scene::kPlanes:
+      return "planes";
+    case Scene::kClutter:
+      return "clutter";
+    case Scene::kPoles:
+      return "poles";
+    case Scene::kIsolated:
+      return "isolated";
   }
   throw InputError("scene: no such scene");
 }
@@ -78,6 +87,14 @@ std::string_view scene_summary(Scene scene) {
       return "A slanted plane, near on the left and far on the right.";
     case Scene::kRoom:
       return "A sphere and boxes of different reflectivity in a room, 0.8 to 5 m.";
+    case Scene::kPlanes:
+      return "28 slanted planes side by side, 0.5 to 5 m, reflectivity 0.1 to 0.9.";
+    case Scene::kClutter:
+      return "Branches and leaves before a slanted ground, 1 to 4.5 m.";
+    case Scene::kPoles:
+      return "Poles and wires of 1 to 3 pixels before a wall, 0.8 to 4 m.";
+    case Scene::kIsolated:
+      return "Single pixels at 3 m before a wall at 4 m.";
   }
   throw InputError("scene: no such scene");
 }
@@ -116,6 +133,14 @@ TargetMap make_scene(Scene scene, const SceneParameters& parameters) {
                             [&](int column) { return between(parameters, column, parameters.columns); });
     case Scene::kRoom:
       return make_room(parameters.columns, parameters.rows, parameters.reflectivity);
+    case Scene::kPlanes:
+      return make_planes(parameters.columns, parameters.rows, parameters.reflectivity, parameters.seed);
+    case Scene::kClutter:
+      return make_clutter(parameters.columns, parameters.rows, parameters.reflectivity, parameters.seed);
+    case Scene::kPoles:
+      return make_poles(parameters.columns, parameters.rows, parameters.reflectivity, parameters.seed);
+    case Scene::kIsolated:
+      return make_isolated(parameters.columns, parameters.rows, parameters.reflectivity);
   }
   throw InputError("scene: no such scene");
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -15,12 +16,17 @@ enum class Scene {
   kStaircase,  ///< steps from near (column 0) to far (last column), equally wide and equally high
   kPlane,      ///< slanted: range grows linearly from near (column 0) to far (last column)
   kRoom,       ///< sphere and boxes before the walls of a room, 0.8 to 5 m, reflectivity 0.2 to 1
+  kPlanes,     ///< 28 slanted planes side by side, 0.5 to 5 m, reflectivity 0.1 to 0.9
+  kClutter,    ///< branches and leaves before a slanted ground, 1 to 4.5 m
+  kPoles,      ///< poles and wires of 1 to 3 pixels before a wall, 0.8 to 4 m
+  kIsolated,   ///< single pixels at 3 m before a wall at 4 m
 };
 
-inline constexpr std::array<Scene, 4> kAllScenes = {Scene::kFlat, Scene::kStaircase, Scene::kPlane,
-                                                    Scene::kRoom};
+inline constexpr std::array<Scene, 8> kAllScenes = {Scene::kFlat,  Scene::kStaircase, Scene::kPlane,
+                                                    Scene::kRoom,  Scene::kPlanes,    Scene::kClutter,
+                                                    Scene::kPoles, Scene::kIsolated};
 
-/// Command-line name: flat, staircase, plane, room.
+/// Command-line name: flat, staircase, plane, room, planes, clutter, poles, isolated.
 std::string_view scene_name(Scene scene);
 /// One sentence on what the scene shows.
 std::string_view scene_summary(Scene scene);
@@ -35,6 +41,7 @@ struct SceneParameters {
   double far_m = 5.0;         ///< staircase and plane; may be below near_m
   int steps = 8;              ///< staircase; >= 1
   double reflectivity = 1.0;  ///< of every surface; in the room of the brightest, to which the others relate
+  std::uint64_t seed = 1;     ///< of the shapes of planes, clutter and poles
 };
 
 /// Throws InputError if a parameter that the scene uses is out of range (distances finite and > 0,

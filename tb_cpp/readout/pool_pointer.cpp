@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "readout/pool_pointer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "core/error.hpp"
+#include "readout/pixelwise_model.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr std::size_t kPairs = kCoarseBins - 1;
+constexpr int kSmoothedLabels = 3;  // the first candidates use the neighbouring groups too
+constexpr int kFirstPenalisedLabel = 2;
+
+constexpr std::int32_t kTrackWindowCells = 5;  // a timestamp supports a candidate within -5 .. 4 cells
+constexpr std::int32_t kOffsetDeadZone = kUnitsPerCell;
+constexpr std::int32_t kReach = 2 * kUnitsPerCoarseBin;  // farther timestamps move nothing
+constexpr std::int32_t kHitDistance = kUnitsPerCoarseBin * 5 / 4;
+constexpr std::int32_t kUnitsPerOffset = kUnitsPerCoarseBin / 32;
+constexpr std::int32_t kUnitsPerRivalStep = kUnitsPerCoarseBin / 8;
+constexpr std::int32_t kPositions = 1 << 16;
+
+/// Weight of a timestamp by its distance in cells: a redescending M-estimator.
+constexpr std::array<std::int32_t, 8> kWeight = {1, 2, 3, 4, 4, 3, 2, 1};
+constexpr std::int32_t kLateStep = 64;
+
+struct Gear {
+  int from;  // advantage
+  std::int32_t step;
+};
+// Near the optimal gain 1 / (number of hits); the counts beyond half of the range are slowed down (below).
+constexpr std::array<Gear, 9> kGears = {
+    {{0, 256}, {8, 128}, {16, 64}, {32, 32}, {64, 16}, {128, 8}, {160, 4}, {200, 2}, {216, 1}}};
+constexpr std::array<Gear, 6> kShortGears = {{{0, 512}, {4, 256}, {8, 128}, {12, 64}, {14, 32}, {15, 16}}};
+constexpr int kShortCountBits = 4;
+
+template <std::size_t kCount>
+std::int32_t gear_step(const std::array<Gear, kCount>& gears, int advantage) {
+  std::int32_t step = gears[0].step;
+  for (const Gear& gear : gears) {
+    step = advantage >= gear.from ? gear.step : step;
+  }
+  return step;
+}
+
+int signed_limit(int value, int bits) {
+  return bits == 0 ? 0 : std::clamp(value, -(1 << (bits - 1)), (1 << (bits - 1)) - 1);
+}
+
+/// Pair sums over adjacent coarse bins, from which candidates are taken one after the other.
+struct PairSums {
+  std::array<int, kPairs> pooled;  // three times the own histogram and both neighbours
+  std::array<int, kPairs> own;
+};
+
+void take(PairSums& sums, std::array<bool, kPairs>& taken, std::size_t peak, int least_own) {
+  const int own_excess = std::max(sums.own[peak] - least_own, 0) >> 2;
+  const int pooled_excess = std::max(sums.pooled[peak] - 5 * least_own, 0) >> 2;
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    const std::size_t distance = i > peak ? i - peak : peak - i;
+    taken[i] = taken[i] || distance <= 1;
+    if (distance == 2) {
+      sums.own[i] = std::max(sums.own[i] - own_excess, 0);
+      sums.pooled[i] = std::max(sums.pooled[i] - pooled_excess, 0);
+    }
+  }
+}
+
+std::size_t highest(const std::array<int, kPairs>& sums, const std::array<bool, kPairs>& taken) {
+  std::size_t best = kPairs;
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    if (!taken[i] && (best == kPairs || sums[i] > sums[best])) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+std::int32_t centre_cell(const std::array<int, kPairs>& sums, std::size_t peak) {
+  const int before = peak > 0 ? sums[peak - 1] : 0;
+  const int after = peak + 1 < kPairs ? sums[peak + 1] : 0;
+  const int tilt = after - before;
+  const int height = sums[peak] - std::min(before, after);
+  const bool tilted = height > 0 && 2 * std::abs(tilt) > height;
+  const int shift = tilted ? (tilt > 0 ? 1 : -1) : 0;
+  return 4 * (static_cast<std::int32_t>(peak) + 1) + shift;
+}
+
+}  // namespace
+
+PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {
+  const auto share = [&](int share_64ths) {
+    return static_cast<std::uint32_t>(
+        (std::uint64_t{acquisitions} * static_cast<std::uint64_t>(share_64ths)) >> 6U);
+  };
+  coarse_end = share(parameters.coarse_share);
+  track_end = share(parameters.coarse_share + parameters.track_share);
+  late_begin = track_end + static_cast<std::uint32_t>((std::uint64_t{acquisitions - track_end} * 5) >> 3U);
+}
+
+PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above, const CoarseHistogram& below,
+                       const PoolPointerParameters& parameters) {
+  PoolGroup group{};
+  int least_eighth = std::numeric_limits<int>::max();
+  for (std::size_t eighth = 0; eighth < kCoarseBins; eighth += 8) {
+    int sum = 0;
+    for (std::size_t i = eighth; i < eighth + 8; ++i) {
+      sum += own[i];
+    }
+    least_eighth = std::min(least_eighth, sum);
+  }
+  group.background = (5 * least_eighth) >> 7;
+  const bool bright = group.background >= parameters.bright_from;
+  group.labels = bright ? parameters.bright_labels : parameters.dark_labels;
+  group.score_limit = (1 << (bright ? parameters.bright_score_bits : parameters.dark_score_bits)) - 1;
+
+  PairSums sums{};
+  for (std::size_t i = 0; i < kPairs; ++i) {
+    sums.own[i] = own[i] + own[i + 1];
+    sums.pooled[i] = 3 * sums.own[i] + above[i] + above[i + 1] + below[i] + below[i + 1];
+  }
+  const int least_own = std::ranges::min(sums.own);
+  std::array<bool, kPairs> taken{};
+  for (int label = 0; label < group.labels; ++label) {
+    const auto& source = label < kSmoothedLabels ? sums.pooled : sums.own;
+    const std::size_t peak = highest(source, taken);
+    group.centre_cell[static_cast<std::size_t>(label)] = centre_cell(source, peak);
+    take(sums, taken, peak, least_own);
+  }
+  return group;
+}
+
+void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t position,
+                   const PoolPointerParameters& parameters) {
+  if (parameters.offset_bits > 0) {
+    const std::int32_t distance = position - (group.centre(word.leader) + word.offset * kUnitsPerOffset);
+    if (std::abs(distance) >= kOffsetDeadZone && std::abs(distance) < kReach) {
+      word.offset = signed_limit(word.offset + (distance > 0 ? 1 : -1), parameters.offset_bits);
+    }
+  }
+  const std::int32_t cell = position / kUnitsPerCell;
+  for (int label = 0; label < group.labels; ++label) {
+    const auto index = static_cast<std::size_t>(label);
+    const std::int32_t distance = cell - group.centre_cell[index];
+    if (distance < -kTrackWindowCells || distance >= kTrackWindowCells) {
+      continue;
+    }
+    if (word.score[index] < group.score_limit) {
+      ++word.score[index];
+    } else {
+      for (int other = 0; other < group.labels; ++other) {
+        int& score = word.score[static_cast<std::size_t>(other)];
+        score -= other != label && score > 0 ? 1 : 0;
+      }
+    }
+    if (parameters.offset_bits > 0 && label != word.leader &&
+        word.score[index] > word.score[static_cast<std::size_t>(word.leader)]) {
+      word.leader = label;
+      word.offset = 0;
+    }
+    return;  // the first candidate that fits takes the timestamp
+  }
+}
+
+PoolPointerWord first_pointer_word(const PoolTracks& tracks, std::span<const int> beliefs,
+                                   const PoolPointerParameters& parameters) {
+  const auto best = [&](int except) {
+    int winner = -1;
+    for (int label = 0; label < static_cast<int>(beliefs.size()); ++label) {
+      if (label != except && (winner < 0 || beliefs[static_cast<std::size_t>(label)] >
+                                                beliefs[static_cast<std::size_t>(winner)])) {
+        winner = label;
+      }
+    }
+    return winner;
+  };
+  PoolPointerWord word{};
+  word.leader = best(-1);
+  word.rival = best(word.leader);
+  const int margin =
+      beliefs[static_cast<std::size_t>(word.leader)] - beliefs[static_cast<std::size_t>(word.rival)];
+  word.advantage = std::min(margin, (1 << (parameters.count_bits - 1)) - 1);
+  if (parameters.offset_bits > 0) {
+    if (tracks.leader == word.leader) {
+      word.pointer = tracks.offset * kUnitsPerOffset;
+    } else if (tracks.leader == word.rival) {
+      word.rival_pointer = signed_limit(tracks.offset >> 2, parameters.rival_bits);
+    }
+  }
+  return word;
+}
+
+void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,
+                     std::uint32_t acquisition, bool late, const PoolPointerParameters& parameters) {
+  const bool short_count = parameters.count_bits <= kShortCountBits;
+  const std::int32_t unit = std::int32_t{1} << parameters.pointer_shift;
+  const std::int32_t distance = position - word.leader_position(group);
+  const std::int32_t rival_distance = position - word.rival_position(group);
+  const bool hit = std::abs(distance) < kHitDistance;
+  const bool rival_hit = !hit && std::abs(rival_distance) < kHitDistance;
+
+  if (distance != 0 && std::abs(distance) < kReach) {
+    std::int32_t step =
+        short_count ? gear_step(kShortGears, word.advantage) : gear_step(kGears, word.advantage);
+    step = late ? std::min(step, kLateStep) : step;
+    const std::int32_t weight = kWeight[static_cast<std::size_t>(std::abs(distance) / kUnitsPerCell)];
+    // A quarter of the product, whose part below the pointer's unit becomes a probability.
+    const auto dither = static_cast<std::int32_t>(acquisition & 3U) * unit;
+    const std::int32_t move = ((step * weight + dither) >> 2) & -unit;
+    const std::int32_t limit = std::int32_t{1} << (parameters.pointer_bits + parameters.pointer_shift - 1);
+    word.pointer = std::clamp(word.pointer + (distance > 0 ? move : -move), -limit, limit - unit);
+  }
+  if (rival_hit) {
+    const int move = rival_distance >= kUnitsPerRivalStep / 2   ? 1
+                     : rival_distance < -kUnitsPerRivalStep / 2 ? -1
+                                                                : 0;
+    word.rival_pointer = signed_limit(word.rival_pointer + move, parameters.rival_bits);
+  }
+  const int full = 1 << parameters.count_bits;
+  const std::uint32_t skip = word.advantage < full / 2 ? 0U : word.advantage < full * 3 / 4 ? 3U : 15U;
+  if (hit) {
+    if (word.advantage < full - 1 && (acquisition & skip) == 0) {
+      ++word.advantage;
+    }
+  } else if (rival_hit) {
+    if (word.advantage == 0) {
+      const std::int32_t coarse = word.pointer >> 8;
+      word.pointer = word.rival_pointer * kUnitsPerRivalStep;
+      word.rival_pointer = signed_limit(coarse, parameters.rival_bits);
+      std::swap(word.leader, word.rival);
+      word.advantage = 1;
+    } else if ((acquisition & skip) == 0) {
+      --word.advantage;
+    }
+  }
+}
+
+std::vector<std::array<int, kMostLabels>> chain_beliefs(std::span<const ChainNode> chain) {
+  using Messages = std::array<int, kMostLabels>;
+  const auto send = [](const ChainNode& from, const Messages& incoming, const ChainNode& to) {
+    Messages sums{};
+    int best = std::numeric_limits<int>::min();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(from.labels); ++k) {
+      sums[k] = from.evidence[k] + incoming[k];
+      best = std::max(best, sums[k]);
+    }
+    Messages message{};
+    for (std::size_t l = 0; l < static_cast<std::size_t>(to.labels); ++l) {
+      message[l] = -from.penalty;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(from.labels); ++k) {
+        if (std::abs(from.position[k] - to.position[l]) <= kUnitsPerCoarseBin) {
+          message[l] = std::max(message[l], sums[k] - best);
+        }
+      }
+    }
+    return message;
+  };
+  std::vector<Messages> beliefs(chain.size());
+  Messages incoming{};
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    if (i > 0) {
+      incoming = send(chain[i - 1], incoming, chain[i]);
+    }
+    beliefs[i] = incoming;
+  }
+  incoming = {};
+  for (std::size_t i = chain.size(); i-- > 0;) {
+    if (i + 1 < chain.size()) {
+      incoming = send(chain[i + 1], incoming, chain[i]);
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(chain[i].labels); ++k) {
+      beliefs[i][k] += chain[i].evidence[k] + incoming[k];
+    }
+  }
+  return beliefs;
+}
+
+namespace {
+
+class PoolPointerModel final : public ReadoutModel {
+ public:
+  explicit PoolPointerModel(const ReadoutParameters& parameters)
+      : parameters_(parameters),
+        pool_(parameters.pool),
+        no_detection_(static_cast<Timestamp>(parameters.no_detection())),
+        fraction_bits_(static_cast<unsigned>(parameters.fraction_bits)) {}
+
+  /// Throws InputError for a timestamp or an acquisition outside the frame's range.
+  [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
+                                                    std::uint32_t acquisitions) override {
+    const PoolSchedule schedule(acquisitions, pool_);
+    const auto rows = static_cast<std::size_t>(column.rows());
+    std::vector<std::span<const Detection>> rest;
+    for (int row = 0; row < column.rows(); ++row) {
+      check_detections(column.row(row), row, parameters_, acquisitions);
+      rest.push_back(column.row(row));
+    }
+    const std::vector<PoolGroup> groups = coarse_phase(rest, schedule);
+    const auto group_of = [&](std::size_t row) -> const PoolGroup& {
+      return groups[row / static_cast<std::size_t>(pool_.group_size)];
+    };
+    std::vector<PoolTracks> tracks(rows);
+    for (std::size_t row = 0; row < rows; ++row) {
+      for_each_until(rest[row], schedule.track_end, [&](std::uint32_t, std::int32_t position) {
+        follow_tracks(tracks[row], group_of(row), position, pool_);
+      });
+    }
+    std::vector<PoolPointerWord> words = choose_labels(tracks, group_of);
+    for (std::size_t row = 0; row < rows; ++row) {
+      for_each_until(rest[row], acquisitions, [&](std::uint32_t acquisition, std::int32_t position) {
+        follow_pointers(words[row], group_of(row), position, acquisition, acquisition >= schedule.late_begin,
+                        pool_);
+      });
+    }
+    return decide(words, group_of);
+  }
+
+  /// Throws InputError: the acquisition's number matters, which a sampler does not draw.
+  void run_sampled_column(PixelSampler& /*sampler*/, int /*column*/, std::uint32_t /*acquisitions*/,
+                          std::span<PixelResult> /*results*/) override {
+    throw InputError(fmt::format("{} needs the exact photon model", readout_name(parameters_.readout)));
+  }
+
+ private:
+  /// Calls apply(acquisition, position) for the row's detections before `end` and drops them.
+  template <typename Apply>
+  void for_each_until(std::span<const Detection>& row, std::uint32_t end, Apply&& apply) const {
+    std::size_t used = 0;
+    for (; used < row.size() && row[used].acquisition < end; ++used) {
+      if (row[used].timestamp != no_detection_) {
+        const auto half_bin = static_cast<std::int32_t>((1U << fraction_bits_) >> 1U);
+        apply(row[used].acquisition,
+              static_cast<std::int32_t>(row[used].timestamp) * (1 << fraction_bits_) + half_bin);
+      }
+    }
+    row = row.subspan(used);
+  }
+
+  std::vector<PoolGroup> coarse_phase(std::vector<std::span<const Detection>>& rest,
+                                      const PoolSchedule& schedule) const {
+    const auto size = static_cast<std::size_t>(pool_.group_size);
+    std::vector<CoarseHistogram> histograms((rest.size() + size - 1) / size, CoarseHistogram{});
+    const auto limit = static_cast<std::uint16_t>((1U << static_cast<unsigned>(parameters_.count_width)) - 1);
+    for (std::size_t row = 0; row < rest.size(); ++row) {
+      CoarseHistogram& histogram = histograms[row / size];
+      const auto count = [&](std::int32_t position) {
+        std::uint16_t& bin = histogram[static_cast<std::size_t>(position / kUnitsPerCoarseBin)];
+        bin = static_cast<std::uint16_t>(bin + (bin < limit ? 1 : 0));
+      };
+      // One timestamp an acquisition: the first, but in odd ones the second if there is one.
+      std::uint32_t current = 0;
+      std::int32_t chosen = -1;
+      int seen = 0;
+      for_each_until(rest[row], schedule.coarse_end, [&](std::uint32_t acquisition, std::int32_t position) {
+        if (seen > 0 && acquisition != current) {
+          count(chosen);
+          seen = 0;
+        }
+        current = acquisition;
+        if (seen == 0 || (seen == 1 && acquisition % 2 == 1)) {
+          chosen = position;
+        }
+        ++seen;
+      });
+      if (seen > 0) {
+        count(chosen);
+      }
+    }
+    std::vector<PoolGroup> groups;
+    for (std::size_t g = 0; g < histograms.size(); ++g) {
+      const CoarseHistogram& above = histograms[g > 0 ? g - 1 : g];
+      const CoarseHistogram& below = histograms[g + 1 < histograms.size() ? g + 1 : g];
+      groups.push_back(decode_group(histograms[g], above, below, pool_));
+    }
+    return groups;
+  }
+
+  template <typename GroupOf>
+  std::vector<PoolPointerWord> choose_labels(const std::vector<PoolTracks>& tracks,
+                                             const GroupOf& group_of) const {
+    std::vector<ChainNode> chain;
+    for (std::size_t row = 0; row < tracks.size(); ++row) {
+      const PoolGroup& group = group_of(row);
+      ChainNode node{
+          .labels = group.labels, .penalty = 2 + (group.background >> 2), .position = {}, .evidence = {}};
+      for (int label = 0; label < group.labels; ++label) {
+        const auto index = static_cast<std::size_t>(label);
+        node.position[index] = group.centre(label);
+        node.evidence[index] =
+            tracks[row].score[index] - (label >= kFirstPenalisedLabel ? group.background >> 2 : 0);
+      }
+      chain.push_back(node);
+    }
+    const auto beliefs = chain_beliefs(chain);
+    std::vector<PoolPointerWord> words;
+    for (std::size_t row = 0; row < tracks.size(); ++row) {
+      words.push_back(first_pointer_word(
+          tracks[row], std::span(beliefs[row]).first(static_cast<std::size_t>(chain[row].labels)), pool_));
+    }
+    return words;
+  }
+
+  template <typename GroupOf>
+  std::vector<PixelResult> decide(const std::vector<PoolPointerWord>& words, const GroupOf& group_of) const {
+    std::vector<ChainNode> chain;
+    for (std::size_t row = 0; row < words.size(); ++row) {
+      const PoolGroup& group = group_of(row);
+      chain.push_back({.labels = 2,
+                       .penalty = 4 + (group.background >> 3),
+                       .position = {words[row].leader_position(group), words[row].rival_position(group)},
+                       .evidence = {words[row].advantage, 0}});
+    }
+    const auto beliefs = chain_beliefs(chain);
+    std::vector<PixelResult> results;
+    for (std::size_t row = 0; row < words.size(); ++row) {
+      const int margin = beliefs[row][0] - beliefs[row][1];
+      // The code's fraction counts from its low end; its middle is what a timestamp stands for.
+      const auto half_bin = static_cast<std::int32_t>((1U << fraction_bits_) >> 1U);
+      const std::int32_t end = kPositions - (1 << fraction_bits_);  // M - 1 is no code
+      const auto position = static_cast<std::uint32_t>(
+          std::clamp(chain[row].position[margin >= 0 ? 0 : 1] - half_bin, 0, end - 1));
+      results.push_back({static_cast<std::uint16_t>(position >> fraction_bits_),
+                         static_cast<std::uint16_t>(position & ((1U << fraction_bits_) - 1)),
+                         static_cast<std::uint16_t>(std::abs(margin))});
+    }
+    return results;
+  }
+
+  ReadoutParameters parameters_;
+  PoolPointerParameters pool_;
+  Timestamp no_detection_;
+  unsigned fraction_bits_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters) {
+  return std::make_unique<PoolPointerModel>(parameters);
+}
+
+}  // namespace dtof
