@@ -67,7 +67,8 @@ struct ThesisStatement {
 };
 /// Every statement of section 3.4, Table 1 and section 6.2 on relative precision, as a predicate.
 const std::vector<ThesisStatement>& precision_statements();
-/// Other readings of statements that the figures contradict: narrower or wider ranges, plots with fewer points.
+/// Other readings of statements that the figures contradict: narrower or wider ranges, plots with fewer
+/// points.
 const std::vector<ThesisStatement>& alternative_readings();
 
 }  // namespace dtof

@@ -124,7 +124,7 @@ TEST_F(CommandLine, ARecordedFrameReplaysToTheSameResult) {
 TEST_F(CommandLine, AccuracyPrintsTheSweep) {
   const Outcome outcome = dtof("accuracy -r hispointer,histogram --distances 1 2 --frames 20 --out out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("relative precision"));
+  EXPECT_THAT(outcome.output, HasSubstr("Relative precision"));
   EXPECT_THAT(outcome.output, HasSubstr("matched filter"));
   EXPECT_GT(std::filesystem::file_size(path("out/relative_precision_14klux.svg")), 0U);
   EXPECT_THAT(read_file(path("out/accuracy.csv")), HasSubstr("\n14,hispointer,2,20,1,"));

@@ -54,7 +54,8 @@ TEST(PassCursor, DropsNoDetectionAndStopsAtThePassEnd) {
 
 TEST(PassCursor, EmptyRow) {
   PassCursor cursor({}, 15);
-  cursor.advance_to(100, 0, 16, [](std::uint32_t /*timestamp*/) { FAIL() << "an empty row has no timestamp"; });
+  cursor.advance_to(100, 0, 16,
+                    [](std::uint32_t /*timestamp*/) { FAIL() << "an empty row has no timestamp"; });
 }
 
 }  // namespace
