@@ -10,7 +10,7 @@ data=${SHARED_DATA:-../shared/data}
 publish() { # folder of a run, name under reports/
   mkdir -p "reports/$2"
   cp "$1"/summary.md "$1"/summary.csv "reports/$2/"
-  for picture in overview.png errors.png error.svg; do
+  for picture in overview.png error.svg; do
     if [ -f "$1/$picture" ]; then cp "$1/$picture" "reports/$2/"; fi
   done
 }
