@@ -7,6 +7,7 @@
 #include <memory>
 #include <numeric>
 
+#include "analytic/fidelity.hpp"
 #include "app/columns.hpp"
 #include "app/commands.hpp"
 #include "app/options.hpp"
@@ -73,12 +74,12 @@ DepthImage true_depth(const TargetMap& targets, std::span<const int> columns) {
   return image;
 }
 
-MeasuredFrame measure(const PhotonSource& source, const ReadoutParameters& parameters,
-                      const FrameOptions& options, std::span<const int> columns, const DepthImage& truth) {
+MeasuredFrame measure(const StreamSource& source, const SensorModel& sensor,
+                      const ReadoutParameters& parameters, const FrameOptions& options,
+                      std::span<const int> columns, const DepthImage& truth) {
   MeasuredFrame frame;
   frame.parameters = parameters;
   frame.run = run_readout(source, parameters, options.run, columns, options.command_line);
-  const SensorModel& sensor = source.model();
   const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
   frame.depth = truth;
   frame.error = truth;
@@ -169,21 +170,23 @@ void run_frame_command(const FrameOptions& options) {
     throw InputError("--trace needs exactly one read-out");
   }
   const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
-  const PhotonSource source(sensor, make_targets(options, sensor), options.sensor.klux, options.run.seed);
-  std::vector<int> columns = parse_columns(options.run.columns, source.columns());
+  const PhotonSource scene(sensor, make_targets(options, sensor), options.sensor.klux, options.run.seed);
+  const Fidelity fidelity = options.sensor.photon_model(scene);
+  const std::unique_ptr<StreamSource> source = make_source(fidelity, scene);
+  std::vector<int> columns = parse_columns(options.run.columns, source->columns());
   if (columns.empty()) {
-    columns.resize(static_cast<std::size_t>(source.columns()));
+    columns.resize(static_cast<std::size_t>(source->columns()));
     std::iota(columns.begin(), columns.end(), 0);
   }
   create_output_folder(options.out);
-  const DepthImage truth = true_depth(source.targets(), columns);
+  const DepthImage truth = true_depth(scene.targets(), columns);
   const ColourRange range = depth_range(std::vector<MapPanel>{{truth, "", MapKind::kDepth}});
   if (!options.record.empty()) {
-    write_stream_csv(options.record, source);
+    write_stream_csv(options.record, *source);
   }
   std::vector<MeasuredFrame> frames;
   for (const ReadoutParameters& parameters : readouts) {
-    frames.push_back(measure(source, parameters, options, columns, truth));
+    frames.push_back(measure(*source, sensor, parameters, options, columns, truth));
     write_readout_files(frames.back(), columns, range, options.out);
   }
   write_overview(frames, truth, range, options);
@@ -192,17 +195,17 @@ void run_frame_command(const FrameOptions& options) {
     seconds += frame.run.seconds;
   }
   const Table table = summarise(frames, truth);
-  const std::string heading =
-      fmt::format("Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, engine {}{}, seed {}.\n",
-                  options.depth_file.empty() ? options.scene : options.depth_file, truth.width, truth.height,
-                  options.sensor.klux, options.sensor.preset, sensor.acquisitions, options.run.engine,
-                  options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
+  const std::string heading = fmt::format(
+      "Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, {} photons, engine {}{}, seed {}.\n",
+      options.depth_file.empty() ? options.scene : options.depth_file, truth.width, truth.height,
+      options.sensor.klux, options.sensor.preset, sensor.acquisitions, fidelity_name(fidelity),
+      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}\n{}\nCommand: `{}`\n", heading, table.markdown(), options.command_line));
   // Times change from run to run and stay out of the files.
-  fmt::print("{}\n{}\nRead out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n", heading,
-             table.markdown(), seconds, options.out);
+  fmt::print("{}\n{}\nRead out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n",
+             heading, table.markdown(), seconds, options.out);
 }
 
 }  // namespace
@@ -235,7 +238,11 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   options->run.add_to(*command);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->add_option("--record", options->record, "also write the TDC stream as CSV, for `dtof replay`");
-  command->callback([options] { run_frame_command(*options); });
+  command->callback([options] {
+    // A recording must give the same results when it is replayed.
+    options->run.streams_only = !options->record.empty();
+    run_frame_command(*options);
+  });
 }
 
 }  // namespace dtof

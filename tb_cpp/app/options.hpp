@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analytic/fidelity.hpp"
 #include "core/parameters.hpp"
 #include "photon/preset.hpp"
 
@@ -38,6 +39,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   std::string columns = "all";
+  bool streams_only = false;  ///< read streams even from a source that could be sampled
 
   void add_to(CLI::App& command);
   /// Throws InputError for contradictory options.
@@ -54,12 +56,16 @@ struct SensorOptions {
   int binning = 1;
   std::vector<double> time_gate_ns;
   std::optional<double> coincidence_ns;
+  std::string fidelity = "exact";
+  double tolerance = 1e-3;
 
   void add_to(CLI::App& command);
   /// Without --klux, for commands that take several light levels.
   void add_sensor_to(CLI::App& command);
   /// The preset with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
   [[nodiscard]] SensorModel model(int np, int slots) const;
+  /// The photon model that --fidelity and --tolerance ask for (analytic/fidelity.hpp). Throws InputError.
+  [[nodiscard]] Fidelity photon_model(const PhotonSource& exact) const;
 };
 
 }  // namespace dtof

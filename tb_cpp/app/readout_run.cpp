@@ -6,6 +6,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "core/pixel_sampler.hpp"
 #include "core/progress.hpp"
 #include "readout/run_frame.hpp"
 #include "rtl/error.hpp"
@@ -59,7 +60,10 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
     }
     return run;
   }
-  run.results = run_frame(source, parameters, options.threads, columns, &progress);
+  const auto* sampled = dynamic_cast<const SampledSource*>(&source);
+  run.results = sampled != nullptr && !options.streams_only
+                    ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
+                    : run_frame(source, parameters, options.threads, columns, &progress);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }

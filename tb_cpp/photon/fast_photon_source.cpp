@@ -15,9 +15,9 @@
 namespace dtof {
 namespace {
 
-// With more mean events an acquisition, nearly every acquisition has detections and each costs a gap anyway;
-// below, times of kept events are near enough to linear between the table's knots.
-constexpr double kWalkFrom = 2.0;
+// With more mean events an acquisition, pairs of one acquisition are so common that pointers notice if they
+// are drawn apart (bias, outliers); then the sampler walks as the streams do.
+constexpr double kWalkFrom = 0.7;
 
 double draw_exponential(SplitMix64& random) {
   return boost::random::exponential_distribution<double>(1.0)(random);

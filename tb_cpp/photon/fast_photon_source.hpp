@@ -19,7 +19,8 @@ namespace dtof {
 ///
 /// Sampler (`pixel_sampler`): the number of a measurement's detections, then their times from the
 /// distribution of kept events, only those inside the asked window. Approximated beyond the table: which
-/// detections share an acquisition is forgotten.
+/// detections share an acquisition is forgotten. Pixels of more than 0.7 events an acquisition are walked as
+/// the streams are, without that approximation.
 class FastPhotonSource final : public SampledSource {
  public:
   /// Throws InputError if the exact source's sensor has a dead time, binning or coincidence.

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The photon model as a vectorised NumPy script: the side-by-side baseline of the C++ one.
+
+Same work as the exact model of tb_cpp/photon: a pixel's signal (Gaussian) and background (flat) events of a
+frame, Poisson numbers, sorted in time, at most SLOTS kept per acquisition, TDC codes. Preset "thesis", a plane
+from 0.8 to 5 m, 14 klux. Two scripts: "by acquisition" draws Poisson numbers for every acquisition, as the
+model is defined; "by frame" knows that a frame's number is Poisson too and spreads its events over the
+acquisitions, so that empty ones cost nothing. Prints detections per second of processor time; with --bench
+FILE also the C++ figures of a Google Benchmark JSON file and both ratios.
+"""
+import argparse
+import json
+import time
+
+import numpy as np
+
+ACQUISITIONS = 3333
+NP = 10
+SLOTS = 2
+T_INT = 45e-9
+FWHM = 2e-9
+SIGNAL_AT_1M = 0.30
+BACKGROUND = 0.15 + 1e4 * T_INT
+SPEED_OF_LIGHT = 299792458.0
+
+
+def by_acquisition(generator, depth):
+    """Acquisition and code of every detection of one pixel's frame."""
+    signal = generator.poisson(SIGNAL_AT_1M / depth**2, ACQUISITIONS)
+    background = generator.poisson(BACKGROUND, ACQUISITIONS)
+    index = np.arange(ACQUISITIONS)
+    acquisition = np.concatenate([np.repeat(index, signal), np.repeat(index, background)])
+    centre = 2 * depth / SPEED_OF_LIGHT + FWHM
+    times = np.concatenate([generator.normal(centre, FWHM / 2.354820045, signal.sum()),
+                            generator.random(background.sum()) * T_INT])
+    inside = (times >= 0) & (times < T_INT)
+    acquisition, times = acquisition[inside], times[inside]
+    order = np.lexsort((times, acquisition))
+    acquisition, times = acquisition[order], times[order]
+    keep = np.ones(len(times), dtype=bool)
+    keep[SLOTS:] = acquisition[SLOTS:] != acquisition[:-SLOTS]
+    code = (times * ((1 << NP) / T_INT)).astype(np.uint16)
+    return acquisition[keep], code[keep]
+
+
+def by_frame(generator, depth):
+    """The same without visiting acquisitions."""
+    signal_count = generator.poisson(SIGNAL_AT_1M / depth**2 * ACQUISITIONS)
+    background_count = generator.poisson(BACKGROUND * ACQUISITIONS)
+    count = signal_count + background_count
+    acquisition = generator.integers(0, ACQUISITIONS, count)
+    times = np.empty(count)
+    centre = 2 * depth / SPEED_OF_LIGHT + FWHM
+    times[:signal_count] = generator.normal(centre, FWHM / 2.354820045, signal_count)
+    times[signal_count:] = generator.random(background_count) * T_INT
+    inside = (times >= 0) & (times < T_INT)
+    position = np.sort(acquisition[inside] + times[inside] / T_INT)
+    acquisition = position.astype(np.int64)
+    keep = np.ones(len(position), dtype=bool)
+    keep[SLOTS:] = acquisition[SLOTS:] != acquisition[:-SLOTS]
+    code = ((position - acquisition) * (1 << NP)).astype(np.uint16)
+    return acquisition[keep], code[keep]
+
+
+def measure(pixel_detections, pixels, seed):
+    """Detections per second over pixels spread evenly over the plane; best of three."""
+    best = 0.0
+    for _ in range(3):
+        generator = np.random.Generator(np.random.SFC64(seed))
+        detections = 0
+        start = time.process_time()
+        for depth in np.linspace(0.8, 5.0, pixels):
+            detections += len(pixel_detections(generator, depth)[0])
+        best = max(best, detections / (time.process_time() - start))
+    return best
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--pixels", type=int, default=1000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--bench", help="Google Benchmark JSON of dtof_bench to compare with")
+    arguments = parser.parse_args()
+    baselines = {}
+    for script in (by_acquisition, by_frame):
+        name = script.__name__.replace("_", " ")
+        baselines[name] = measure(script, arguments.pixels, arguments.seed)
+        print(f"{f'NumPy {np.__version__}, {name}':44s} {baselines[name] / 1e6:8.2f} million detections/s")
+    if arguments.bench:
+        with open(arguments.bench, encoding="utf-8") as file:
+            runs = json.load(file)["benchmarks"]
+        for run in runs:
+            rate = run.get("detections/s")
+            if rate is not None and run.get("run_type") != "aggregate":
+                ratios = ", ".join(f"{rate / value:.1f} x {name}" for name, value in baselines.items())
+                print(f"{run['name']:44s} {rate / 1e6:8.2f} million detections/s   {ratios}")
+
+
+if __name__ == "__main__":
+    main()

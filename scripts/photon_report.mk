@@ -1,0 +1,14 @@
+# SPDX-License-Identifier: Apache-2.0
+# make photon-report  speed against error of the photon models, numerical stability (reports/)
+# make photon-bench   speed of the photon models beside NumPy
+.PHONY: photon-report photon-bench
+
+photon-report: build
+	@$(DTOF) stability --seed $(SEED) --out reports
+	@$(DTOF) speed-error --seed $(SEED) --out reports
+
+photon-bench: | build_folder
+	@$(MAKE) --no-print-directory configure
+	@ninja -C $(BUILD) photon_bench
+	@$(BUILD)/bench/photon_bench --benchmark_out=build/photon_bench.json --benchmark_out_format=json
+	@/usr/bin/python3 scripts/photon_baseline.py --seed $(SEED) --bench build/photon_bench.json

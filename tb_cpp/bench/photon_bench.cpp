@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// Speed of the photon models and of a frame through the read-out models: thesis preset, 14 klux, 200 x 160
+// pixels, 3,333 acquisitions; a plane from 0.8 to 5 m (columns of equal pixels) and the room (every pixel
+// different). CPU time adds the threads up; scripts/photon_baseline.py sets it beside NumPy.
+
+#include <benchmark/benchmark.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "analytic/code_distribution.hpp"
+#include "analytic/fidelity.hpp"
+#include "core/parallel.hpp"
+#include "photon/photon_source.hpp"
+#include "readout/run_frame.hpp"
+#include "scene/scene.hpp"
+
+namespace dtof {
+namespace {
+
+PhotonSource full_frame(Scene scene) { return {parse_preset("thesis"), make_scene(scene, {}), 14.0, 1}; }
+
+void set_rate(benchmark::State& state, std::uint64_t detections) {
+  state.counters["detections/s"] =
+      benchmark::Counter(static_cast<double>(detections), benchmark::Counter::kIsRate);
+}
+
+/// Streams of all columns, not read.
+void photons(benchmark::State& state, Fidelity fidelity, Scene scene, int threads) {
+  const auto source = make_source(fidelity, full_frame(scene));
+  std::atomic<std::uint64_t> detections = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    parallel_for(static_cast<std::size_t>(source->columns()), threads, [&](std::size_t column) {
+      detections += source->column(static_cast<int>(column)).detection_count();
+    });
+  }
+  set_rate(state, detections);
+}
+
+/// The sampler's timestamps of all pixels over the whole range, not read.
+void sampled_photons(benchmark::State& state, Scene scene, int threads) {
+  const auto source = make_source(Fidelity::kFast, full_frame(scene));
+  const auto& sampled = dynamic_cast<const SampledSource&>(*source);
+  std::atomic<std::uint64_t> detections = 0;
+  for ([[maybe_unused]] auto _ : state) {
+    parallel_for(static_cast<std::size_t>(source->columns()), threads, [&](std::size_t column) {
+      const auto sampler = sampled.pixel_sampler();
+      std::uint64_t count = 0;
+      for (int row = 0; row < source->rows(); ++row) {
+        sampler->start_pixel(static_cast<int>(column), row);
+        count += sampler->draw(source->acquisitions(), 0, 1 << 10).size();
+      }
+      detections += count;
+    });
+  }
+  set_rate(state, detections);
+}
+
+/// Photons and read-out of a frame, as `dtof frame` does it.
+void frame(benchmark::State& state, Fidelity fidelity, Scene scene, Readout readout) {
+  const auto source = make_source(fidelity, full_frame(scene));
+  const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
+  const auto* sampled = dynamic_cast<const SampledSource*>(source.get());
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(sampled != nullptr ? run_sampled_frame(*sampled, parameters)
+                                                : run_frame(*source, parameters));
+  }
+}
+
+/// One point of a distance sweep without drawing anything.
+void distribution(benchmark::State& state, Readout readout) {
+  const SensorModel sensor = parse_preset("thesis");
+  const PhotonSource source(sensor, TargetMap(1, 1, {.depth_m = 3.0, .reflectivity = 1.0}), 14.0, 1);
+  for ([[maybe_unused]] auto _ : state) {
+    benchmark::DoNotOptimize(
+        code_distribution(sensor, source.rates(0, 0), ReadoutParameters::defaults(readout)));
+  }
+}
+
+void register_benchmarks() {
+  const auto add = [](const std::string& name, auto function) {
+    benchmark::RegisterBenchmark(name.c_str(), function)
+        ->Unit(benchmark::kMillisecond)
+        ->MeasureProcessCPUTime()
+        ->UseRealTime();
+  };
+  for (const Scene scene : {Scene::kPlane, Scene::kRoom}) {
+    const std::string name(scene_name(scene));
+    for (const int threads : {1, hardware_threads()}) {
+      const std::string suffix = name + "/threads:" + std::to_string(threads);
+      add("photons/exact/" + suffix, [=](auto& state) { photons(state, Fidelity::kExact, scene, threads); });
+      add("photons/fast_stream/" + suffix,
+          [=](auto& state) { photons(state, Fidelity::kFast, scene, threads); });
+      add("photons/fast_sampler/" + suffix, [=](auto& state) { sampled_photons(state, scene, threads); });
+    }
+    for (const Fidelity fidelity : {Fidelity::kExact, Fidelity::kFast, Fidelity::kAnalytic}) {
+      for (const Readout readout : kAllReadouts) {
+        add("frame/" + std::string(fidelity_name(fidelity)) + "/" + name + "/" +
+                std::string(readout_name(readout)),
+            [=](auto& state) { frame(state, fidelity, scene, readout); });
+      }
+    }
+  }
+  for (const Readout readout : kAllReadouts) {
+    add("distribution/" + std::string(readout_name(readout)),
+        [=](auto& state) { distribution(state, readout); });
+  }
+}
+
+}  // namespace
+}  // namespace dtof
+
+int main(int argc, char** argv) {
+  dtof::register_benchmarks();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
+    return 1;
+  }
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+}
