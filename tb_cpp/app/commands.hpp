@@ -12,6 +12,8 @@ void add_frame_command(CLI::App& app, const std::string& command_line);
 void add_replay_command(CLI::App& app, const std::string& command_line);
 void add_accuracy_command(CLI::App& app, const std::string& command_line);
 void add_reproduce_command(CLI::App& app, const std::string& command_line);
+void add_speed_error_command(CLI::App& app, const std::string& command_line);
+void add_stability_command(CLI::App& app, const std::string& command_line);
 void add_list_command(CLI::App& app);
 
 }  // namespace dtof
