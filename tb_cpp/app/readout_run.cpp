@@ -61,9 +61,10 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
     return run;
   }
   const auto* sampled = dynamic_cast<const SampledSource*>(&source);
-  run.results = sampled != nullptr && !options.streams_only
-                    ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
-                    : run_frame(source, parameters, options.threads, columns, &progress);
+  // Read-outs that pool pixels need to know which detections share an acquisition.
+  const bool sample = sampled != nullptr && !options.streams_only && !is_pool_readout(parameters.readout);
+  run.results = sample ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
+                       : run_frame(source, parameters, options.threads, columns, &progress);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }

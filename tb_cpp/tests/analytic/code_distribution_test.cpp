@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -69,7 +71,13 @@ TEST_P(CodeDistribution, FollowsOptionsOfTheReadout) {
             kErrorRate);
 }
 
-INSTANTIATE_TEST_SUITE_P(Readouts, CodeDistribution, ::testing::ValuesIn(kAllReadouts),
+std::vector<Readout> single_pixel_readouts() {
+  std::vector<Readout> readouts;
+  std::ranges::remove_copy_if(kAllReadouts, std::back_inserter(readouts), is_pool_readout);
+  return readouts;
+}
+
+INSTANTIATE_TEST_SUITE_P(Readouts, CodeDistribution, ::testing::ValuesIn(single_pixel_readouts()),
                          [](const auto& parameter) { return std::string(readout_name(parameter.param)); });
 
 TEST(PredictedErrors, AreThoseOfTheSameDrawnErrors) {
@@ -90,6 +98,12 @@ TEST(PredictedErrors, AreThoseOfTheSameDrawnErrors) {
   EXPECT_NEAR(errors.standard_deviation_m, summary.standard_deviation_m * unbiased, 1e-12);
   EXPECT_NEAR(errors.share_above_3_percent, summary.share_above_3_percent, 1e-12);
   EXPECT_NEAR(errors.share_above_10_percent, summary.share_above_10_percent, 1e-12);
+}
+
+TEST(CodeDistributionRefusals, ReadoutsThatPoolPixels) {
+  EXPECT_THROW(
+      code_distribution(parse_preset("thesis"), {}, ReadoutParameters::defaults(Readout::kPoolPointer)),
+      InputError);
 }
 
 TEST(CodeDistributionRefusals, OtherNpOrSlotsThanTheSensor) {
