@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/scene_study.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "metrics/error_statistics.hpp"
+#include "photon/photon_source.hpp"
+#include "photon/physics.hpp"
+#include "readout/matched_filter.hpp"
+#include "readout/model.hpp"
+#include "readout/paired_his_pointer.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr double kOutlier = 0.10;
+constexpr double kEdge = 0.10;
+constexpr std::uint32_t kSceneFrame = 0;
+constexpr std::uint32_t kCalibrationFrame = 1;
+constexpr int kCalibrationPixels = 160;
+
+int picked_column(const StudyScene& scene, int index) {
+  return static_cast<int>((2 * std::int64_t{index} + 1) * scene.targets.columns() /
+                          (2 * std::int64_t{scene.columns}));
+}
+
+/// Fine where pile-up bends the scale.
+std::vector<double> calibration_distances() {
+  std::vector<double> distances;
+  for (int i = 2; i < 20; ++i) {
+    distances.push_back(0.05 * i);
+  }
+  for (int i = 5; i <= 31; ++i) {
+    distances.push_back(0.2 * i);
+  }
+  return distances;
+}
+
+ErrorShares shares(const ErrorStatistics& statistics, double mean_square) {
+  if (statistics.count() == 0) {
+    return {};
+  }
+  const ErrorSummary summary = statistics.summary();
+  return {statistics.count(), summary.share_above_3_percent, summary.share_above_10_percent,
+          std::sqrt(mean_square)};
+}
+
+struct Collector {
+  ErrorStatistics statistics;
+  RunningMoments relative;
+
+  void add(double truth, double measured) {
+    statistics.add(truth, measured);
+    relative.add((measured - truth) / truth);
+  }
+  [[nodiscard]] ErrorShares shares() const { return dtof::shares(statistics, relative.mean_square()); }
+};
+
+struct Judged {
+  double confidence;
+  bool outlier;
+};
+
+/// Pixels of equal confidence are dropped alike.
+std::vector<double> removed_outliers(std::vector<Judged> pixels) {
+  std::ranges::sort(pixels, {}, &Judged::confidence);
+  const auto outliers = static_cast<double>(std::ranges::count(pixels, true, &Judged::outlier));
+  std::vector<double> removed;
+  for (const double dropped : kDropped) {
+    double left = dropped * static_cast<double>(pixels.size());
+    double found = 0.0;
+    for (auto level = pixels.begin(); level != pixels.end() && left > 0.0;) {
+      const auto end =
+          std::ranges::upper_bound(level, pixels.end(), level->confidence, {}, &Judged::confidence);
+      const auto count = static_cast<double>(end - level);
+      const double share = std::min(1.0, left / count);
+      found +=
+          share * static_cast<double>(std::count_if(level, end, [](const Judged& p) { return p.outlier; }));
+      left -= count;
+      level = end;
+    }
+    removed.push_back(outliers > 0.0 ? found / outliers : std::nan(""));
+  }
+  return removed;
+}
+
+}  // namespace
+
+SceneTruth scene_truth(const StudyScene& scene) {
+  SceneTruth truth{.columns = scene.columns, .rows = scene.targets.rows(), .distance_m = {}, .edge = {}};
+  const auto distance = [&](int column, int row) {
+    const PixelTarget& target = scene.targets.at(column, row);
+    return target.returns_signal() ? target.depth_m : 0.0;
+  };
+  for (int row = 0; row < truth.rows; ++row) {
+    for (int i = 0; i < scene.columns; ++i) {
+      const int column = picked_column(scene, i);
+      const double here = distance(column, row);
+      bool edge = false;
+      constexpr std::pair<int, int> kNeighbours[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+      for (const auto& [right, down] : kNeighbours) {
+        const int x = column + right;
+        const int y = row + down;
+        edge = edge || (x >= 0 && x < scene.targets.columns() && y >= 0 && y < truth.rows &&
+                        std::abs(distance(x, y) - here) > kEdge * here);
+      }
+      truth.distance_m.push_back(here);
+      truth.edge.push_back(edge);
+    }
+  }
+  return truth;
+}
+
+SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurement) {
+  Collector all;
+  Collector edges;
+  Collector rest;
+  std::vector<Judged> judged;
+  for (std::size_t i = 0; i < truth.distance_m.size(); ++i) {
+    const double distance = truth.distance_m[i];
+    if (distance <= 0.0) {
+      continue;
+    }
+    const double measured = measurement.distance_m[i];
+    all.add(distance, measured);
+    (truth.edge[i] ? edges : rest).add(distance, measured);
+    judged.push_back({measurement.confidence[i], std::abs(measured - distance) > kOutlier * distance});
+  }
+  return {all.shares(), edges.shares(), rest.shares(), removed_outliers(std::move(judged))};
+}
+
+SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts,
+                       std::uint64_t seed, int threads)
+    : sensor_(std::move(sensor)),
+      klux_(klux),
+      readouts_(readouts.begin(), readouts.end()),
+      seed_(seed),
+      threads_(threads) {
+  for (const ReadoutParameters& readout : readouts_) {
+    titles_.emplace_back(readout_title(readout.readout));
+  }
+  titles_.emplace_back("hisPointer pairs");
+  titles_.emplace_back("matched filter");
+
+  const std::vector<double> distances = calibration_distances();
+  TargetMap targets(static_cast<int>(distances.size()), kCalibrationPixels);
+  for (std::size_t d = 0; d < distances.size(); ++d) {
+    for (int row = 0; row < kCalibrationPixels; ++row) {
+      targets.at(static_cast<int>(d), row) = {distances[d], sensor_.default_reflectivity};
+    }
+  }
+  const StudyScene scene{"calibration", std::move(targets), static_cast<int>(distances.size())};
+  const Positions positions = read(scene, kCalibrationFrame);
+  for (std::size_t e = 0; e < titles_.size(); ++e) {
+    std::vector<TargetRun> runs;
+    for (std::size_t d = 0; d < distances.size(); ++d) {
+      TargetRun run{{seed_, kCalibrationFrame}, distances[d], {}};
+      for (std::size_t row = 0; row < kCalibrationPixels; ++row) {
+        run.measurements.push_back(positions[e][row * distances.size() + d]);
+      }
+      runs.push_back(std::move(run));
+    }
+    const double step = e < readouts_.size() ? std::ldexp(1.0, -readouts_[e].fraction_bits)
+                                             : (e == readouts_.size() ? 1.0 : 0.0);
+    converters_.push_back(RangeConverter::calibrate(runs, step));
+  }
+}
+
+SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t frame) const {
+  const PhotonSource source(sensor_, scene.targets, klux_, seed_, frame);
+  const auto width = static_cast<std::size_t>(scene.columns);
+  const auto rows = static_cast<std::size_t>(scene.targets.rows());
+  Positions positions(titles_.size(), std::vector<Measurement>(width * rows));
+  const double sigma_bins = pulse_sigma_s(sensor_.pulse_fwhm_s) / sensor_.time_resolution_s();
+  parallel_for(width, threads_, [&](std::size_t index) {
+    const int column = picked_column(scene, static_cast<int>(index));
+    const ColumnStream stream = source.column(column);
+    const auto store = [&](std::size_t estimator, ReadoutModel& model, int fraction_bits) {
+      const std::vector<PixelResult> results = model.run_column(stream, sensor_.acquisitions);
+      for (std::size_t row = 0; row < rows; ++row) {
+        positions[estimator][row * width + index] = to_measurement(results[row], fraction_bits);
+      }
+    };
+    for (std::size_t e = 0; e < readouts_.size(); ++e) {
+      store(e, *make_readout_model(readouts_[e]), readouts_[e].fraction_bits);
+    }
+    ReadoutParameters his_pointer = ReadoutParameters::defaults(Readout::kHisPointer, sensor_.np);
+    his_pointer.slots = sensor_.slots;
+    store(readouts_.size(), *make_paired_his_pointer(his_pointer), his_pointer.fraction_bits);
+    // The template depends on the rates: neighbouring pixels of equal rates share a filter.
+    std::unique_ptr<MatchedFilter> filter;
+    PixelRates matched;
+    for (std::size_t row = 0; row < rows; ++row) {
+      const PixelRates rates = source.rates(column, static_cast<int>(row));
+      if (rates.signal <= 0.0) {
+        continue;
+      }
+      if (!filter || rates.signal != matched.signal || rates.background != matched.background) {
+        filter =
+            std::make_unique<MatchedFilter>(MatchedFilterParameters{.np = sensor_.np,
+                                                                    .sigma_bins = sigma_bins,
+                                                                    .signal_events = rates.signal,
+                                                                    .background_events = rates.background});
+        matched = rates;
+      }
+      const MatchedFilter::Result result = filter->estimate(stream.row(static_cast<int>(row)));
+      positions.back()[row * width + index] = {result.position, result.score};
+    }
+  });
+  return positions;
+}
+
+std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene) const {
+  const Positions positions = read(scene, kSceneFrame);
+  std::vector<SceneMeasurement> measurements;
+  for (std::size_t e = 0; e < titles_.size(); ++e) {
+    SceneMeasurement measurement;
+    for (const Measurement& pixel : positions[e]) {
+      measurement.distance_m.push_back(converters_[e].distance(pixel.position));
+      measurement.confidence.push_back(pixel.confidence);
+    }
+    measurements.push_back(std::move(measurement));
+  }
+  return measurements;
+}
+
+}  // namespace dtof

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/parameters.hpp"
+#include "host/range_converter.hpp"
+#include "photon/preset.hpp"
+#include "photon/target_map.hpp"
+
+namespace dtof {
+
+/// A scene of the study and how much of it is read out.
+struct StudyScene {
+  std::string name;
+  TargetMap targets;
+  int columns;  ///< read out, evenly spread over the map
+};
+
+/// What one estimator made of a scene.
+struct SceneMeasurement {
+  std::vector<double> distance_m;  ///< after the look-up table; index = row * columns + column read
+  std::vector<double> confidence;
+};
+
+struct ErrorShares {
+  std::uint64_t pixels = 0;
+  double above_3_percent = 0.0;   ///< share of pixels
+  double above_10_percent = 0.0;  ///< share of pixels
+  double rmse = 0.0;              ///< of the relative error
+};
+
+struct SceneScore {
+  ErrorShares all;
+  ErrorShares edges;  ///< pixels with a neighbour whose distance differs by more than 10 %
+  ErrorShares rest;
+  std::vector<double> removed;  ///< share of the outliers (above 10 %) among the pixels dropped; see kDropped
+};
+
+/// Shares of pixels, of lowest confidence, dropped for the confidence curve.
+inline constexpr double kDropped[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5};
+
+/// Truth of the pixels read, in the order of SceneMeasurement.
+struct SceneTruth {
+  int columns;
+  int rows;
+  std::vector<double> distance_m;  ///< 0: no target, not judged
+  std::vector<bool> edge;
+};
+SceneTruth scene_truth(const StudyScene& scene);
+
+SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurement);
+
+/// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and the matched
+/// filter on the full histogram that knows each pixel's signal and background. All see the same photons; a
+/// look-up table for each is fitted on flat targets of the preset's reflectivity, from other photons.
+class SceneStudy {
+ public:
+  SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts, std::uint64_t seed,
+             int threads);
+
+  [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
+  /// One measurement an estimator.
+  [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
+
+ private:
+  using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
+  [[nodiscard]] Positions read(const StudyScene& scene, std::uint32_t frame) const;
+
+  SensorModel sensor_;
+  double klux_;
+  std::vector<ReadoutParameters> readouts_;
+  std::vector<std::string> titles_;
+  std::uint64_t seed_;
+  int threads_;
+  std::vector<RangeConverter> converters_;
+};
+
+}  // namespace dtof
