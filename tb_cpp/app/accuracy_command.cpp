@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "analytic/fidelity.hpp"
 #include "app/accuracy_study.hpp"
 #include "app/accuracy_tables.hpp"
 #include "app/commands.hpp"
@@ -15,6 +16,7 @@
 #include "app/table.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
+#include "photon/photon_source.hpp"
 
 namespace dtof {
 namespace {
@@ -34,6 +36,22 @@ struct AccuracyOptions {
   std::string command_line;
 };
 
+SourceFactory source_factory(const SensorOptions& options) {
+  return [options](const SensorModel& sensor, const TargetMap& targets, double klux, std::uint64_t seed,
+                   std::uint32_t frame) {
+    const PhotonSource exact(sensor, targets, klux, seed, frame);
+    Fidelity fidelity = options.photon_model(exact);
+    if (fidelity == Fidelity::kAnalytic) {
+      if (options.fidelity != "auto") {
+        throw InputError(
+            "accuracy: the analytic photon model has no noise to measure; choose exact, fast or auto");
+      }
+      fidelity = Fidelity::kFast;
+    }
+    return make_source(fidelity, exact);
+  };
+}
+
 StudySettings settings_of(const AccuracyOptions& options) {
   StudySettings settings;
   settings.readouts = options.readout.parameters();
@@ -48,6 +66,7 @@ StudySettings settings_of(const AccuracyOptions& options) {
   if (options.reject_percent) {
     settings.rejection = *options.reject_percent / 100.0;
   }
+  settings.make_source = source_factory(options.sensor);
   settings.run = options.run;
   settings.command = options.command_line;
   return settings;
@@ -55,11 +74,12 @@ StudySettings settings_of(const AccuracyOptions& options) {
 
 std::string heading(const AccuracyOptions& options, const StudySettings& settings) {
   return fmt::format(
-      "Preset {}, reflectivity {:g}, {} acquisitions a frame, engine {}, seed {}. {} frames a distance{}; "
+      "Preset {}, reflectivity {:g}, {} acquisitions a frame, engine {}, photon model {}, seed {}. {} frames "
+      "a distance{}; "
       "the\n"
       "look-up table comes from {} other frames every {:g} m, at the same light.\n",
       options.sensor.preset, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
-      options.run.seed, settings.frames,
+      options.sensor.fidelity, options.run.seed, settings.frames,
       settings.precision
           ? fmt::format(
                 " or more, up to {}, until the intervals of relative precision and rmse are within {:g} %",

@@ -31,7 +31,7 @@ std::string gnuplot_script(const std::filesystem::path& output, const std::vecto
   std::string script = fmt::format(
       "set terminal svg size 900,560 font 'sans,13' background '#ffffff'\n"
       "set output {}\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n"
-      "set key outside right noenhanced\nset grid\n{}{}",
+      "set key outside right noenhanced\nset grid\nset autoscale xfix\n{}{}",
       quoted(output.string()), quoted(layout.title), quoted(layout.x_label), quoted(layout.y_label),
       layout.logarithmic_y ? "set logscale y\n" : "", layout.logarithmic_x ? "set logscale x\n" : "");
   std::string plots;

@@ -10,7 +10,9 @@
 
 namespace dtof {
 
-Table::Table(std::vector<std::string> header) { rows_.push_back(std::move(header)); }
+Table::Table(std::vector<std::string> header, std::size_t text_columns) : text_columns_(text_columns) {
+  rows_.push_back(std::move(header));
+}
 
 void Table::add(std::vector<std::string> row) {
   if (row.size() != rows_.front().size()) {
@@ -27,19 +29,22 @@ std::string Table::markdown() const {
       width[c] = std::max(width[c], row[c].size());
     }
   }
+  constexpr std::size_t kWidest = 60;
+  std::ranges::replace_if(
+      width, [](std::size_t w) { return w > kWidest; }, 3);
   std::string text;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     text += '|';
     for (std::size_t c = 0; c < columns; ++c) {
-      text += c == 0 ? fmt::format(" {:<{}} |", rows_[r][c], width[c])
-                     : fmt::format(" {:>{}} |", rows_[r][c], width[c]);
+      text += c < text_columns_ ? fmt::format(" {:<{}} |", rows_[r][c], width[c])
+                                : fmt::format(" {:>{}} |", rows_[r][c], width[c]);
     }
     text += '\n';
     if (r == 0) {
       text += '|';
       for (std::size_t c = 0; c < columns; ++c) {
-        text +=
-            c == 0 ? fmt::format("{:-<{}}|", "", width[c] + 2) : fmt::format("{:-<{}}:|", "", width[c] + 1);
+        text += c < text_columns_ ? fmt::format("{:-<{}}|", "", width[c] + 2)
+                                  : fmt::format("{:-<{}}:|", "", width[c] + 1);
       }
       text += '\n';
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,14 +12,16 @@ namespace dtof {
 /// terminal) and written as CSV.
 class Table {
  public:
-  explicit Table(std::vector<std::string> header);
+  /// The first `text_columns` hold text, the others figures.
+  explicit Table(std::vector<std::string> header, std::size_t text_columns = 1);
   /// Must have as many cells as the header (std::logic_error).
   void add(std::vector<std::string> row);
-  /// Markdown; the first column is left-aligned, the others right-aligned.
+  /// Markdown; text is left-aligned, figures right-aligned. Columns too wide for a terminal are not padded.
   [[nodiscard]] std::string markdown() const;
   [[nodiscard]] std::string csv() const;
 
  private:
+  std::size_t text_columns_;
   std::vector<std::vector<std::string>> rows_;  // the header is row 0
 };
 

@@ -53,7 +53,7 @@ LookupTable LookupTable::fit(std::span<const CalibrationPoint> points) {
   return LookupTable(std::move(pools));
 }
 
-LookupTable::LookupTable(std::vector<CalibrationPoint> knots) : knots_(std::move(knots)), mean_slope_(0.0) {
+LookupTable::LookupTable(std::vector<CalibrationPoint> knots) : knots_(std::move(knots)) {
   const CalibrationPoint& first = knots_.front();
   const CalibrationPoint& last = knots_.back();
   if (knots_.size() > 1) {

@@ -38,7 +38,7 @@ class LookupTable {
   explicit LookupTable(std::vector<CalibrationPoint> knots);
 
   std::vector<CalibrationPoint> knots_;
-  double mean_slope_;
+  double mean_slope_ = 0.0;
 };
 
 }  // namespace dtof

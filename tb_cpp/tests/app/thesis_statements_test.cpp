@@ -167,7 +167,7 @@ TEST(AlternativeReadings, CanAgreeAndFail) {
   for (const double klux : thesis_klux()) {
     for (AccuracyPoint& p : hopeless.at_klux.at(klux).points) {
       p = point(parse_readout(p.estimator), klux, p.distance_m, 0.9);
-      p.bias_m = {-0.5, {-0.51, -0.49}};
+      p.rmse_m = {0.5 * p.distance_m, {0.4 * p.distance_m, 0.6 * p.distance_m}};
     }
   }
   ThesisStudies perfect = claimed_studies();
