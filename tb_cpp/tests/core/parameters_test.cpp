@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -39,6 +40,22 @@ TEST(ReadoutNames, PointerReadouts) {
     const bool expected = std::string(readout_name(readout)).find("pointer") != std::string::npos;
     EXPECT_EQ(is_pointer_readout(readout), expected) << readout_name(readout);
   }
+}
+
+TEST(ReadoutNames, PoolReadoutsAreModelsOnly) {
+  std::set<std::string_view> names;
+  for (const Readout readout : kModelReadouts) {
+    EXPECT_EQ(parse_readout(readout_name(readout)), readout);
+    EXPECT_FALSE(readout_title(readout).empty());
+    EXPECT_FALSE(readout_summary(readout).empty());
+    names.insert(readout_name(readout));
+    const bool thesis = std::ranges::find(kAllReadouts, readout) != kAllReadouts.end();
+    EXPECT_EQ(is_pool_readout(readout), !thesis);
+    EXPECT_FALSE(is_pool_readout(readout) && is_pointer_readout(readout));
+  }
+  EXPECT_EQ(names.size(), kModelReadouts.size());
+  EXPECT_EQ(parse_readout("poolpointer"), Readout::kPoolPointer);
+  EXPECT_EQ(parse_readout("poolpointer-lean"), Readout::kPoolPointerLean);
 }
 
 TEST(ReadoutParameters, DefaultsOfTheSpecification) {

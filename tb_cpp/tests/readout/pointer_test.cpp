@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "readout/model.hpp"
+#include "readout/paired_his_pointer.hpp"
 
 namespace dtof {
 namespace {
@@ -113,6 +114,23 @@ TEST(PointerBuilder, NoConfidenceBitsMeansZero) {
   const std::vector<Detection> row = {{0, 8}, {1, 8}};
   PassCursor cursor(row, 15);
   EXPECT_EQ(pointer.follow(cursor, 8, {-1, 15}).confidence, 0U);
+}
+
+TEST(PairedHisPointer, APulseOnABorderBeatsALoneBin) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHisPointer);
+  // Coarse bins of 32 codes: 5 counts in bin 20, 4 and 4 either side of code 320. Then the pulse only.
+  ColumnStream column;
+  std::uint32_t acquisition = 0;
+  for (const auto& [code, count] :
+       {std::pair(650, 5), std::pair(319, 4), std::pair(320, 4), std::pair(322, 13)}) {
+    for (int i = 0; i < count; ++i) {
+      column.append({acquisition++, static_cast<Timestamp>(code)});
+    }
+  }
+  column.finish_row();
+  EXPECT_EQ(make_paired_his_pointer(parameters)->run_column(column, 26).front().code, 322);
+  // hisPointer starts in the middle of bin 20 and its window holds nothing of the pulse.
+  EXPECT_EQ(make_readout_model(parameters)->run_column(column, 26).front().code, 656);
 }
 
 }  // namespace

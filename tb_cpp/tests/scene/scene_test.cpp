@@ -157,6 +157,73 @@ TEST(Scene, RoomLooksTheSameOnASmallerArray) {
   }
 }
 
+TEST(Scene, PlanesDifferInSlopeAndReflectivity) {
+  const TargetMap map = make_scene(Scene::kPlanes, {});
+  std::set<double> reflectivities;
+  for (int column = 0; column < 200; ++column) {
+    const double step = map.at(column, 1).depth_m - map.at(column, 0).depth_m;
+    for (int row = 1; row < 160; ++row) {
+      ASSERT_NEAR(map.at(column, row).depth_m - map.at(column, row - 1).depth_m, step, 1e-9);
+      ASSERT_GE(map.at(column, row).depth_m, 0.5);
+      ASSERT_LE(map.at(column, row).depth_m, 5.0);
+    }
+    reflectivities.insert(map.at(column, 0).reflectivity);
+  }
+  EXPECT_EQ(reflectivities.size(), 28U);
+  EXPECT_NEAR(*reflectivities.begin(), 0.1, 1e-12);
+  EXPECT_NEAR(*reflectivities.rbegin(), 0.9, 1e-12);
+}
+
+TEST(Scene, ClutterHasManyDepthsInEightPixels) {
+  const TargetMap map = make_scene(Scene::kClutter, {});
+  int crowded = 0;
+  for (int column = 0; column < 200; ++column) {
+    for (int group = 0; group < 20; ++group) {
+      std::set<int> depths;
+      for (int row = 8 * group; row < 8 * group + 8; ++row) {
+        depths.insert(static_cast<int>(map.at(column, row).depth_m / 0.3));
+        ASSERT_GE(map.at(column, row).depth_m, 0.8);
+        ASSERT_LE(map.at(column, row).depth_m, 4.5);
+      }
+      crowded += depths.size() > 3 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(crowded, 4000 / 20);
+}
+
+TEST(Scene, PolesCoverAPartOfTheWall) {
+  const TargetMap map = make_scene(Scene::kPoles, {});
+  const std::vector<PixelTarget> targets = all_targets(map);
+  const auto wall = std::ranges::count(targets, 4.0, &PixelTarget::depth_m);
+  EXPECT_GT(wall, 200 * 160 / 4);
+  EXPECT_LT(wall, 200 * 160 * 9 / 10);
+  for (const PixelTarget& target : targets) {
+    ASSERT_TRUE(target.depth_m == 4.0 || (target.depth_m >= 0.8 && target.depth_m <= 3.5));
+  }
+}
+
+TEST(Scene, IsolatedPixelsHaveNoNeighbour) {
+  const TargetMap map = make_scene(Scene::kIsolated, {});
+  int isolated = 0;
+  for (int column = 0; column < 200; ++column) {
+    for (int row = 0; row < 160; ++row) {
+      if (map.at(column, row).depth_m == 3.0) {
+        ++isolated;
+        EXPECT_TRUE(row == 0 || map.at(column, row - 1).depth_m == 4.0);
+        EXPECT_TRUE(column == 0 || map.at(column - 1, row).depth_m == 4.0);
+      }
+    }
+  }
+  EXPECT_EQ(isolated, 200 * 160 / 20);
+}
+
+TEST(Scene, ShapesDependOnTheSeedAlone) {
+  for (const Scene scene : {Scene::kPlanes, Scene::kClutter, Scene::kPoles}) {
+    EXPECT_EQ(make_scene(scene, {.seed = 7}), make_scene(scene, {.seed = 7}));
+    EXPECT_FALSE(make_scene(scene, {.seed = 7}) == make_scene(scene, {.seed = 8}));
+  }
+}
+
 TEST(Scene, RefusesBadParameters) {
   for (const double bad : {kNan, kInfinity, -1.0, 0.0}) {
     EXPECT_THAT(refusal([&] { make_scene(Scene::kFlat, {.distance_m = bad}); }), HasSubstr("distance"));
