@@ -22,8 +22,9 @@ void override_with(const std::optional<T>& value, T& parameter) {
 void ReadoutOptions::add_to(CLI::App& command) {
   auto* group = command.add_option_group("read-out");
   group
-      ->add_option("-r,--readout", readouts,
-                   "read-outs to run: all (those of the thesis), or names from `dtof list`, separated by commas")
+      ->add_option(
+          "-r,--readout", readouts,
+          "read-outs to run: all (those of the thesis), or names from `dtof list`, separated by commas")
       ->take_last()
       ->capture_default_str();
   group->add_option("--np", np, "NP, bits of a timestamp")->capture_default_str();
