@@ -2,6 +2,7 @@
 #include "app/scene_study.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -103,7 +104,7 @@ SceneTruth scene_truth(const StudyScene& scene) {
       const int column = picked_column(scene, i);
       const double here = distance(column, row);
       bool edge = false;
-      constexpr std::pair<int, int> kNeighbours[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+      constexpr std::array<std::pair<int, int>, 4> kNeighbours = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
       for (const auto& [right, down] : kNeighbours) {
         const int x = column + right;
         const int y = row + down;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -41,7 +42,7 @@ struct SceneScore {
 };
 
 /// Shares of pixels, of lowest confidence, dropped for the confidence curve.
-inline constexpr double kDropped[] = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5};
+inline constexpr std::array kDropped = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5};
 
 /// Truth of the pixels read, in the order of SceneMeasurement.
 struct SceneTruth {

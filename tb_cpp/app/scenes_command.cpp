@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -43,7 +44,7 @@ struct ScenesOptions {
   std::string command_line;
 };
 
-constexpr double kFlatDistances[] = {0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
+constexpr std::array kFlatDistances = {0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 constexpr int kFlatColumns = 10;
 constexpr int kArrayColumns = 200;
 constexpr int kArrayRows = 160;

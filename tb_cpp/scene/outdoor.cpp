@@ -83,7 +83,8 @@ void draw_leaf(TargetMap& map, ShapeRandom& random, double reflectivity) {
 
 /// How many shapes an array gets that has `per_full_size` of them at 200 x 160 pixels.
 int shape_count(const TargetMap& map, int per_full_size) {
-  return static_cast<int>(std::int64_t{per_full_size} * map.columns() * map.rows() / (200 * 160));
+  constexpr std::int64_t kFullSize = 32000;
+  return static_cast<int>(std::int64_t{per_full_size} * map.columns() * map.rows() / kFullSize);
 }
 
 }  // namespace
