@@ -82,9 +82,8 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
                   .bright_from = 0,
                   .offset_bits = 0,
                   .count_bits = 4,
-                  .pointer_bits = 8,
                   .pointer_shift = 4,
-                  .rival_bits = 0,
+                  .rival_moves = false,
                   .coarse_share = 12,
                   .track_share = 16};
   }
@@ -101,8 +100,6 @@ void PoolPointerParameters::validate() const {
   require_range("offset bits", offset_bits, 0, 5);
   require_range("count bits", count_bits, 3, 8);
   require_range("pointer shift", pointer_shift, 0, 8);
-  require_range("pointer bits", pointer_bits, 1, 13 - pointer_shift);
-  require_range("rival bits", rival_bits, 0, 5);
   require_range("coarse share", coarse_share, 1, 62);
   require_range("track share", track_share, 1, 63 - coarse_share);
 }
@@ -112,7 +109,8 @@ int PoolPointerParameters::word_bits() const {
       static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(dark_labels, bright_labels) - 1)));
   const int scores = std::max(dark_labels * dark_score_bits, bright_labels * bright_score_bits);
   const int track_word = scores + (offset_bits > 0 ? label_bits + offset_bits : 0);
-  const int pointer_word = 2 * label_bits + count_bits + pointer_bits + rival_bits;
+  const int pointer_word = count_bits + (rival_moves ? kPoolPositionBits - pointer_shift + 8
+                                                     : 12 - pointer_shift + 2 * label_bits);
   return std::max(track_word, pointer_word);
 }
 
@@ -169,11 +167,11 @@ std::string ReadoutParameters::to_string() const {
   std::string out = fmt::format("{} NP={} SLOTS={}", readout_name(readout), np, slots);
   if (is_pool_readout(readout)) {
     out += fmt::format(
-        " COUNT_WIDTH={} G={} LABELS={}x{}/{}x{} BRIGHT_FROM={} OFFSET={} COUNT={} POINTER={}<<{} RIVAL={} "
+        " COUNT_WIDTH={} G={} LABELS={}x{}/{}x{} BRIGHT_FROM={} OFFSET={} COUNT={} SHIFT={} RIVAL={} "
         "SHARES={},{}",
         count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.bright_labels,
-        pool.bright_score_bits, pool.bright_from, pool.offset_bits, pool.count_bits, pool.pointer_bits,
-        pool.pointer_shift, pool.rival_bits, pool.coarse_share, pool.track_share);
+        pool.bright_score_bits, pool.bright_from, pool.offset_bits, pool.count_bits, pool.pointer_shift,
+        pool.rival_moves ? "moves" : "stays", pool.coarse_share, pool.track_share);
     return out;
   }
   if (readout != Readout::kEzPointer && readout != Readout::kThreeSteps && readout != Readout::kHistogram) {

@@ -58,11 +58,10 @@ struct PoolPointerParameters {
   int bright_from = 12;   ///< BRIGHT_FROM, in units of a group's background word, 0 .. 127
   int offset_bits = 5;    ///< leader's offset in the track phase, 32nds of a coarse bin, signed; 0: none
   int count_bits = 8;     ///< the leader's advantage in the pointer phase, 3 .. 8
-  int pointer_bits = 13;  ///< the leader's pointer relative to its candidate, signed, 1 .. 13
-  int pointer_shift = 0;  ///< its unit is 2^(pointer_shift - 11) coarse bins, 0 .. 8
-  int rival_bits = 5;     ///< the rival's pointer, eighths of a coarse bin, signed, 0 .. 5
-  int coarse_share = 16;  ///< 64ths of the frame: coarse phase
-  int track_share = 16;   ///< 64ths of the frame: track phase
+  int pointer_shift = 0;  ///< the unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins, 0 .. 8
+  bool rival_moves = true;  ///< the rival has a pointer of 8 bits; else it stays at its candidate
+  int coarse_share = 16;    ///< 64ths of the frame: coarse phase
+  int track_share = 16;     ///< 64ths of the frame: track phase
 
   static PoolPointerParameters defaults(Readout readout);
   /// Throws InputError.

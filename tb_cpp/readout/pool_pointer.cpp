@@ -19,13 +19,19 @@ constexpr std::size_t kPairs = kCoarseBins - 1;
 constexpr int kSmoothedLabels = 3;  // the first candidates use the neighbouring groups too
 constexpr int kFirstPenalisedLabel = 2;
 
-constexpr std::int32_t kTrackWindowCells = 5;  // a timestamp supports a candidate within -5 .. 4 cells
-constexpr std::int32_t kOffsetDeadZone = kUnitsPerCell;
-constexpr std::int32_t kReach = 2 * kUnitsPerCoarseBin;  // farther timestamps move nothing
-constexpr std::int32_t kHitDistance = kUnitsPerCoarseBin * 5 / 4;
+constexpr std::int32_t kHitCells = 5;    // a timestamp this near supports a candidate
+constexpr std::int32_t kReachCells = 8;  // farther timestamps move nothing
 constexpr std::int32_t kUnitsPerOffset = kUnitsPerCoarseBin / 32;
 constexpr std::int32_t kUnitsPerRivalStep = kUnitsPerCoarseBin / 8;
+constexpr std::int32_t kLeanReach = kUnitsPerCoarseBin;  // of a pointer whose rival stays
+constexpr std::int32_t kRivalHit = 10;                   // rival's units
 constexpr std::int32_t kPositions = 1 << 16;
+
+/// Distances are floored to whole cells (or rival's units): a window of n of them begins at -n and ends
+/// before n.
+bool within(std::int32_t distance, std::int32_t reach) { return distance >= -reach && distance < reach; }
+
+std::int32_t in_cells(std::int32_t distance) { return distance >> 9; }
 
 /// Weight of a timestamp by its distance in cells: a redescending M-estimator.
 constexpr std::array<std::int32_t, 8> kWeight = {1, 2, 3, 4, 4, 3, 2, 1};
@@ -48,6 +54,12 @@ std::int32_t gear_step(const std::array<Gear, kCount>& gears, int advantage) {
     step = advantage >= gear.from ? gear.step : step;
   }
   return step;
+}
+
+std::int32_t rival_position(const PoolPointerWord& word, const PoolGroup& group,
+                            const PoolPointerParameters& parameters) {
+  return parameters.rival_moves ? word.rival * kUnitsPerRivalStep + kUnitsPerRivalStep / 2
+                                : group.centre(word.rival);
 }
 
 int signed_limit(int value, int bits) {
@@ -139,17 +151,18 @@ PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above,
 
 void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t position,
                    const PoolPointerParameters& parameters) {
-  if (parameters.offset_bits > 0) {
-    const std::int32_t distance = position - (group.centre(word.leader) + word.offset * kUnitsPerOffset);
-    if (std::abs(distance) >= kOffsetDeadZone && std::abs(distance) < kReach) {
+  if (parameters.offset_bits > 0 && !word.leader_is_new) {
+    const std::int32_t distance =
+        in_cells(position - group.centre(word.leader) - word.offset * kUnitsPerOffset);
+    if (within(distance, kReachCells) && distance != 0 && distance != -1) {
       word.offset = signed_limit(word.offset + (distance > 0 ? 1 : -1), parameters.offset_bits);
     }
   }
-  const std::int32_t cell = position / kUnitsPerCell;
+  const std::int32_t cell = in_cells(position);
   for (int label = 0; label < group.labels; ++label) {
     const auto index = static_cast<std::size_t>(label);
     const std::int32_t distance = cell - group.centre_cell[index];
-    if (distance < -kTrackWindowCells || distance >= kTrackWindowCells) {
+    if (!within(distance, kHitCells)) {
       continue;
     }
     if (word.score[index] < group.score_limit) {
@@ -163,14 +176,15 @@ void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t positi
     if (parameters.offset_bits > 0 && label != word.leader &&
         word.score[index] > word.score[static_cast<std::size_t>(word.leader)]) {
       word.leader = label;
+      word.leader_is_new = true;
       word.offset = 0;
     }
     return;  // the first candidate that fits takes the timestamp
   }
 }
 
-PoolPointerWord first_pointer_word(const PoolTracks& tracks, std::span<const int> beliefs,
-                                   const PoolPointerParameters& parameters) {
+PoolPointerWord first_pointer_word(const PoolTracks& tracks, const PoolGroup& group,
+                                   std::span<const int> beliefs, const PoolPointerParameters& parameters) {
   const auto best = [&](int except) {
     int winner = -1;
     for (int label = 0; label < static_cast<int>(beliefs.size()); ++label) {
@@ -181,64 +195,62 @@ PoolPointerWord first_pointer_word(const PoolTracks& tracks, std::span<const int
     }
     return winner;
   };
-  PoolPointerWord word{};
-  word.leader = best(-1);
-  word.rival = best(word.leader);
-  const int margin =
-      beliefs[static_cast<std::size_t>(word.leader)] - beliefs[static_cast<std::size_t>(word.rival)];
-  word.advantage = std::min(margin, (1 << (parameters.count_bits - 1)) - 1);
-  if (parameters.offset_bits > 0) {
-    if (tracks.leader == word.leader) {
-      word.pointer = tracks.offset * kUnitsPerOffset;
-    } else if (tracks.leader == word.rival) {
-      word.rival_pointer = signed_limit(tracks.offset >> 2, parameters.rival_bits);
-    }
-  }
-  return word;
+  const auto start = [&](int label) {
+    return group.centre(label) + (label == tracks.leader ? tracks.offset * kUnitsPerOffset : 0);
+  };
+  const int leader = best(-1);
+  const int rival = best(leader);
+  const int margin = beliefs[static_cast<std::size_t>(leader)] - beliefs[static_cast<std::size_t>(rival)];
+  return {.leader = leader,
+          .advantage = std::min(margin, (1 << (parameters.count_bits - 1)) - 1),
+          .pointer = start(leader),
+          .rival = parameters.rival_moves ? start(rival) / kUnitsPerRivalStep : rival};
 }
 
 void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,
                      std::uint32_t acquisition, bool late, const PoolPointerParameters& parameters) {
-  const bool short_count = parameters.count_bits <= kShortCountBits;
-  const std::int32_t unit = std::int32_t{1} << parameters.pointer_shift;
-  const std::int32_t distance = position - word.leader_position(group);
-  const std::int32_t rival_distance = position - word.rival_position(group);
-  const bool hit = std::abs(distance) < kHitDistance;
-  const bool rival_hit = !hit && std::abs(rival_distance) < kHitDistance;
+  const PoolPointerWord before = word;
+  const std::int32_t distance = in_cells(position - before.pointer);
+  const bool hit = within(distance, kHitCells);
+  const std::int32_t rival_distance = position / kUnitsPerRivalStep - before.rival;
+  const bool rival_hit =
+      !hit && (parameters.rival_moves ? within(rival_distance, kRivalHit)
+                                      : within(in_cells(position - group.centre(before.rival)), kHitCells));
 
-  if (distance != 0 && std::abs(distance) < kReach) {
+  if (within(distance, kReachCells)) {
+    const bool short_count = parameters.count_bits <= kShortCountBits;
     std::int32_t step =
-        short_count ? gear_step(kShortGears, word.advantage) : gear_step(kGears, word.advantage);
+        short_count ? gear_step(kShortGears, before.advantage) : gear_step(kGears, before.advantage);
     step = late ? std::min(step, kLateStep) : step;
-    const std::int32_t weight = kWeight[static_cast<std::size_t>(std::abs(distance) / kUnitsPerCell)];
+    const std::int32_t weight = kWeight[static_cast<std::size_t>(distance >= 0 ? distance : ~distance)];
     // A quarter of the product, whose part below the pointer's unit becomes a probability.
+    const std::int32_t unit = std::int32_t{1} << parameters.pointer_shift;
     const auto dither = static_cast<std::int32_t>(acquisition & 3U) * unit;
     const std::int32_t move = ((step * weight + dither) >> 2) & -unit;
-    const std::int32_t limit = std::int32_t{1} << (parameters.pointer_bits + parameters.pointer_shift - 1);
-    word.pointer = std::clamp(word.pointer + (distance > 0 ? move : -move), -limit, limit - unit);
+    const std::int32_t lowest = parameters.rival_moves ? 0 : group.centre(before.leader) - kLeanReach;
+    const std::int32_t end = parameters.rival_moves ? kPositions : group.centre(before.leader) + kLeanReach;
+    word.pointer = std::clamp(before.pointer + (distance >= 0 ? move : -move), lowest, end - unit);
   }
-  if (rival_hit) {
-    const int move = rival_distance >= kUnitsPerRivalStep / 2   ? 1
-                     : rival_distance < -kUnitsPerRivalStep / 2 ? -1
-                                                                : 0;
-    word.rival_pointer = signed_limit(word.rival_pointer + move, parameters.rival_bits);
+  if (rival_hit && parameters.rival_moves) {
+    const int move = rival_distance > 0 ? 1 : rival_distance < 0 ? -1 : 0;
+    word.rival = before.rival + move;  // towards a timestamp, so within the range
   }
   const int full = 1 << parameters.count_bits;
-  const std::uint32_t skip = word.advantage < full / 2 ? 0U : word.advantage < full * 3 / 4 ? 3U : 15U;
+  const std::uint32_t skip = before.advantage < full / 2 ? 0U : before.advantage < full * 3 / 4 ? 3U : 15U;
+  const bool counted = (acquisition & skip) == 0;
   if (hit) {
-    if (word.advantage < full - 1 && (acquisition & skip) == 0) {
-      ++word.advantage;
-    }
-  } else if (rival_hit) {
-    if (word.advantage == 0) {
-      const std::int32_t coarse = word.pointer >> 8;
-      word.pointer = word.rival_pointer * kUnitsPerRivalStep;
-      word.rival_pointer = signed_limit(coarse, parameters.rival_bits);
+    word.advantage = std::min(before.advantage + (counted ? 1 : 0), full - 1);
+  } else if (rival_hit && before.advantage == 0) {
+    word.advantage = 1;
+    if (parameters.rival_moves) {
+      word.pointer = before.rival * kUnitsPerRivalStep + kUnitsPerRivalStep / 2;
+      word.rival = before.pointer / kUnitsPerRivalStep;
+    } else {
+      word.pointer = group.centre(before.rival);
       std::swap(word.leader, word.rival);
-      word.advantage = 1;
-    } else if ((acquisition & skip) == 0) {
-      --word.advantage;
     }
+  } else if (rival_hit && counted) {
+    word.advantage = before.advantage - 1;
   }
 }
 
@@ -308,7 +320,10 @@ class PoolPointerModel final : public ReadoutModel {
     };
     std::vector<PoolTracks> tracks(rows);
     for (std::size_t row = 0; row < rows; ++row) {
-      for_each_until(rest[row], schedule.track_end, [&](std::uint32_t, std::int32_t position) {
+      std::uint32_t current = 0;
+      for_each_until(rest[row], schedule.track_end, [&](std::uint32_t acquisition, std::int32_t position) {
+        tracks[row].leader_is_new = tracks[row].leader_is_new && acquisition == current;
+        current = acquisition;
         follow_tracks(tracks[row], group_of(row), position, pool_);
       });
     }
@@ -402,7 +417,8 @@ class PoolPointerModel final : public ReadoutModel {
     std::vector<PoolPointerWord> words;
     for (std::size_t row = 0; row < tracks.size(); ++row) {
       words.push_back(first_pointer_word(
-          tracks[row], std::span(beliefs[row]).first(static_cast<std::size_t>(chain[row].labels)), pool_));
+          tracks[row], group_of(row),
+          std::span(beliefs[row]).first(static_cast<std::size_t>(chain[row].labels)), pool_));
     }
     return words;
   }
@@ -414,7 +430,7 @@ class PoolPointerModel final : public ReadoutModel {
       const PoolGroup& group = group_of(row);
       chain.push_back({.labels = 2,
                        .penalty = 4 + (group.background >> 3),
-                       .position = {words[row].leader_position(group), words[row].rival_position(group)},
+                       .position = {words[row].pointer, rival_position(words[row], group, pool_)},
                        .evidence = {words[row].advantage, 0}});
     }
     const auto beliefs = chain_beliefs(chain);

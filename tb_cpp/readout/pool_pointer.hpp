@@ -44,7 +44,8 @@ PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above,
 struct PoolTracks {
   std::array<int, kMostLabels> score{};
   int leader = 0;
-  int offset = 0;  ///< of the leader, 32nds of a coarse bin
+  int offset = 0;              ///< of the leader, 32nds of a coarse bin
+  bool leader_is_new = false;  ///< since an earlier timestamp of the acquisition; not stored
 };
 /// The word after a timestamp at `position`.
 void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t position,
@@ -52,21 +53,13 @@ void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t positi
 
 /// Pointer word of a pixel.
 struct PoolPointerWord {
-  int leader;                ///< label
-  int rival;                 ///< label
-  int advantage;             ///< count, 0 .. 2^count_bits - 1
-  std::int32_t pointer = 0;  ///< of the leader, units, relative to its candidate
-  int rival_pointer = 0;     ///< eighths of a coarse bin, relative to the rival's candidate
-
-  [[nodiscard]] std::int32_t leader_position(const PoolGroup& group) const {
-    return group.centre(leader) + pointer;
-  }
-  [[nodiscard]] std::int32_t rival_position(const PoolGroup& group) const {
-    return group.centre(rival) + rival_pointer * (kUnitsPerCoarseBin / 8);
-  }
+  int leader;            ///< its label; only kept if the rival does not move
+  int advantage;         ///< of the leader over the rival, 0 .. 2^count_bits - 1
+  std::int32_t pointer;  ///< of the leader, units
+  int rival;             ///< rival's pointer, eighths of a coarse bin, or its label if it does not move
 };
-PoolPointerWord first_pointer_word(const PoolTracks& tracks, std::span<const int> beliefs,
-                                   const PoolPointerParameters& parameters);
+PoolPointerWord first_pointer_word(const PoolTracks& tracks, const PoolGroup& group,
+                                   std::span<const int> beliefs, const PoolPointerParameters& parameters);
 /// The word after a timestamp at `position` of acquisition `acquisition`; `late`: the last 3/8 of the phase.
 void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,
                      std::uint32_t acquisition, bool late, const PoolPointerParameters& parameters);
