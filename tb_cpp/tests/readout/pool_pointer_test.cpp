@@ -39,7 +39,8 @@ struct Pixel {
   int score[8] = {};
   int lead = 0;
   int offset = 0;
-  int a = 0, b = 0, count = 0, pa = 0, pb = 0;
+  int a = 0, b = 0, count = 0;  // labels only matter where the rival does not move
+  int pa = 0, pb = 0;           // positions, the rival's in units of 256
 };
 
 struct Group {
@@ -91,9 +92,12 @@ class Reference {
       decode(g);
     }
     for (std::size_t r = 0; r < pixels_.size(); ++r) {
-      for (const Event& e : pixels_[r].events) {
-        if (e.acquisition >= coarse_end && e.acquisition < track_end) {
-          track(pixels_[r], group(r), e.x);
+      for (int a = coarse_end; a < track_end; ++a) {
+        bool leader_changed = false;
+        for (const Event& e : pixels_[r].events) {
+          if (e.acquisition == a) {
+            leader_changed = track(pixels_[r], group(r), e.x, !leader_changed) || leader_changed;
+          }
         }
       }
     }
@@ -167,13 +171,14 @@ class Reference {
     }
   }
 
-  void track(Pixel& pixel, const Group& g, int x) const {
-    if (p_.offset_bits > 0) {
+  /// Whether the leader changed.
+  bool track(Pixel& pixel, const Group& g, int x, bool offset_moves) const {
+    if (p_.offset_bits > 0 && offset_moves) {
       const int half = 1 << (p_.offset_bits - 1);
       const int d = x - 512 * g.cell[static_cast<std::size_t>(pixel.lead)] - 64 * pixel.offset;
       if (d >= 512 && d < 4096 && pixel.offset < half - 1) {
         ++pixel.offset;
-      } else if (d <= -512 && d > -4096 && pixel.offset > -half) {
+      } else if (d < -512 && d >= -4096 && pixel.offset > -half) {
         --pixel.offset;
       }
     }
@@ -194,9 +199,11 @@ class Reference {
       if (p_.offset_bits > 0 && pixel.score[k] > pixel.score[pixel.lead]) {
         pixel.lead = static_cast<int>(k);
         pixel.offset = 0;
+        return true;
       }
-      break;
+      return false;
     }
+    return false;
   }
 
   /// Best total over all paths through each label, by dynamic programming per fixed label.
@@ -271,28 +278,31 @@ class Reference {
       const auto second = std::max_element(others.begin(), others.end());
       pixel.b = static_cast<int>(second - others.begin());
       pixel.count = std::min(*winner - *second, (1 << p_.count_bits) / 2 - 1);
-      if (p_.offset_bits > 0 && pixel.lead == pixel.a) {
-        pixel.pa = 64 * pixel.offset;
-      }
-      if (p_.offset_bits > 0 && pixel.lead == pixel.b) {
-        pixel.pb = rival(static_cast<int>(std::floor(pixel.offset / 4.0)));
-      }
+      const auto start = [&](int label) {
+        return 512 * group(r).cell[static_cast<std::size_t>(label)] +
+               (label == pixel.lead ? 64 * pixel.offset : 0);
+      };
+      pixel.pa = start(pixel.a);
+      pixel.pb = start(pixel.b) / 256;
     }
   }
 
-  [[nodiscard]] int rival(int value) const {
-    const int half = (1 << p_.rival_bits) / 2;
-    return half == 0 ? 0 : std::min(std::max(value, -half), half - 1);
+  /// Where the rival is: the middle of its unit, or its candidate.
+  [[nodiscard]] int rival_position(const Pixel& pixel, const Group& g) const {
+    return p_.rival_moves ? 256 * pixel.pb + 128 : 512 * g.cell[static_cast<std::size_t>(pixel.b)];
   }
 
   void point(Pixel& pixel, const Group& g, const Event& event, bool late) const {
     static const std::vector<int> kWeights = {1, 2, 3, 4, 4, 3, 2, 1};
-    const int a_position = 512 * g.cell[static_cast<std::size_t>(pixel.a)] + pixel.pa;
-    const int b_position = 512 * g.cell[static_cast<std::size_t>(pixel.b)] + 256 * pixel.pb;
-    const int da = event.x - a_position;
-    const int db = event.x - b_position;
-    const bool a_hit = std::abs(da) < 2560;
-    const bool b_hit = !a_hit && std::abs(db) < 2560;
+    const int da = event.x - pixel.pa;
+    const int db = event.x / 256 - pixel.pb;
+    const bool a_hit = da >= -2560 && da < 2560;
+    bool b_hit = db >= -10 && db <= 9;
+    if (!p_.rival_moves) {
+      const int d = event.x - rival_position(pixel, g);
+      b_hit = d >= -2560 && d < 2560;
+    }
+    b_hit = b_hit && !a_hit;
     const int c = pixel.count;
     int step = 0;
     if (p_.count_bits <= 4) {
@@ -312,30 +322,35 @@ class Reference {
       step = std::min(step, 64);
     }
     const int unit = 1 << p_.pointer_shift;
-    if (da != 0 && std::abs(da) < 4096) {
-      int move =
-          (step * kWeights[static_cast<std::size_t>(std::abs(da) / 512)] + event.acquisition % 4 * unit) / 4;
+    int moved = pixel.pa;
+    if (da >= -4096 && da < 4096) {
+      const int weight = kWeights[static_cast<std::size_t>(da >= 0 ? da / 512 : (-da - 1) / 512)];
+      int move = (step * weight + event.acquisition % 4 * unit) / 4;
       move -= move % unit;
-      const int limit = unit * (1 << (p_.pointer_bits - 1));
-      pixel.pa = std::min(std::max(pixel.pa + (da < 0 ? -move : move), -limit), limit - unit);
-    }
-    if (b_hit && db >= 128) {
-      pixel.pb = rival(pixel.pb + 1);
-    } else if (b_hit && db < -128) {
-      pixel.pb = rival(pixel.pb - 1);
+      moved += da < 0 ? -move : move;
+      const int home = 512 * g.cell[static_cast<std::size_t>(pixel.a)];
+      const int low = p_.rival_moves ? 0 : home - 2048;
+      const int high = (p_.rival_moves ? 65536 : home + 2048) - unit;
+      moved = std::min(std::max(moved, low), high);
     }
     const int all = 1 << p_.count_bits;
     const int every = c < all / 2 ? 1 : c < all / 4 * 3 ? 4 : 16;
     const bool counted = event.acquisition % every == 0;
-    if (a_hit && counted) {
-      pixel.count = std::min(c + 1, all - 1);
-    } else if (b_hit && c == 0) {
+    if (b_hit && c == 0) {
       const int old = pixel.pa;
+      pixel.pa = rival_position(pixel, g);
+      pixel.pb = old / 256;
       std::swap(pixel.a, pixel.b);
-      pixel.pa = 256 * pixel.pb;
-      pixel.pb = rival(static_cast<int>(std::floor(old / 256.0)));
       pixel.count = 1;
-    } else if (b_hit && counted) {
+      return;
+    }
+    pixel.pa = moved;
+    if (b_hit && db != 0) {
+      pixel.pb += db > 0 ? 1 : -1;
+    }
+    if (counted && a_hit) {
+      pixel.count = std::min(c + 1, all - 1);
+    } else if (counted && b_hit) {
       pixel.count = c - 1;
     }
   }
@@ -348,8 +363,7 @@ class Reference {
       const Pixel& pixel = pixels_[r];
       const Group& g = group(r);
       evidence.push_back({pixel.count, 0});
-      position.push_back({512 * g.cell[static_cast<std::size_t>(pixel.a)] + pixel.pa,
-                          512 * g.cell[static_cast<std::size_t>(pixel.b)] + 256 * pixel.pb});
+      position.push_back({pixel.pa, rival_position(pixel, g)});
       lambda.push_back(4 + g.background / 8);
     }
     const auto belief = max_marginals(evidence, position, lambda);
@@ -442,9 +456,13 @@ TEST_P(PoolPointer, MemoryIsWithinTheBudget) {
   EXPECT_EQ(pool.word_bits(), lean ? 16 : 32);
   // The coarse histogram uses the pixels' words.
   EXPECT_EQ(static_cast<int>(kCoarseBins) * parameters_.count_width, pool.group_size * pool.word_bits());
-  // 7 bits a centre and 7 bits background, one 64-bit word a group.
-  EXPECT_LE(7 * std::max(pool.dark_labels, pool.bright_labels) + 7, 64);
-  EXPECT_EQ(pool.word_bits() + 64 / pool.group_size, lean ? 20 : 40);
+  // Two pixels a memory word, 7 bits a centre and 7 bits background a group word, for 160 pixels.
+  const int group_word_bits = 7 * std::max(pool.dark_labels, pool.bright_labels) + 7;
+  const int width = std::max(2 * pool.word_bits(), group_word_bits);
+  EXPECT_EQ(width, lean ? 35 : 64);
+  const int words = 160 / 2 + 160 / pool.group_size;
+  EXPECT_EQ(words, lean ? 90 : 100);
+  EXPECT_LE(width * words, 160 * (lean ? 20 : 40));
 }
 
 TEST_P(PoolPointer, EveryKindOfStreamAsReference) {
@@ -499,8 +517,7 @@ TEST_P(PoolPointer, ParameterSweepAsReference) {
     pool.offset_bits = pick(random, 6);
     pool.count_bits = 3 + pick(random, 6);
     pool.pointer_shift = pick(random, 6);
-    pool.pointer_bits = 5 + pick(random, 9 - pool.pointer_shift);
-    pool.rival_bits = pick(random, 6);
+    pool.rival_moves = pick(random, 2) == 1;
     pool.coarse_share = 4 + pick(random, 24);
     pool.track_share = 4 + pick(random, 24);
     std::vector<int> codes;
