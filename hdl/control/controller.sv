@@ -3,6 +3,7 @@
 //
 // IDLE -> RESET -> (M0 -> M1 -> M2) x COARSE_PASSES -> M3 -> (M4 -> M5) x PIXELS_PER_SRAM -> IDLE
 //
+// The scan of a pixel begins with M5 of the pixel before, and ends in its M4.
 // start_i is taken in IDLE only; start_i while busy does nothing. done_o is high for the frame's last clock.
 // Both are registered, so that no port drives the state's logic.
 // Cost: 3 state bits, a pass counter and the run-time acquisition number, per array.
@@ -79,12 +80,12 @@ module controller #(
       if (stream_idle_i) begin
         state_d = dtof_pkg::STATE_M4;
       end
-      // Find one pixel's result in every column.
+      // Find one pixel's result in every column, to the end.
       dtof_pkg::STATE_M4:
       if (!scan_busy_i) begin
         state_d = dtof_pkg::STATE_M5;
       end
-      // Send these results.
+      // Send these results; begin the next pixel.
       dtof_pkg::STATE_M5:
       if (result_done_i) begin
         state_d = scan_last_row_i ? dtof_pkg::STATE_IDLE : dtof_pkg::STATE_M4;
@@ -134,9 +135,9 @@ module controller #(
   assign final_pass_o = final_pass_q;
   assign stream_o = (state_q == dtof_pkg::STATE_M0) || (state_q == dtof_pkg::STATE_M3);
   assign scan_reset_o = entering && (state_d == dtof_pkg::STATE_RESET);
-  assign scan_final_o = entering && (state_d == dtof_pkg::STATE_M4);
+  assign scan_final_o = entering && ((state_q == dtof_pkg::STATE_M3) || (result_start_o && !scan_last_row_i));
   assign scan_start_o = scan_reset_o || scan_final_o || (entering && state_d == dtof_pkg::STATE_M1);
-  assign scan_rewind_o = !(scan_final_o && state_q == dtof_pkg::STATE_M5);
+  assign scan_rewind_o = !result_start_o;
   assign result_start_o = entering && (state_d == dtof_pkg::STATE_M5);
 
 endmodule

@@ -4,7 +4,8 @@
 // The columns' result registers form a shift chain whose head is column 0; each accepted beat shifts it by
 // one column. The shift is a register's output, so no path leads from tready to 200 columns in one clock.
 // tdata = {column, row, code, fraction, confidence}; tlast on the last column of the last row.
-// Latency: 2 SRAM_NUM + 1 clocks a row when tready stays high. tvalid never falls before tready.
+// Latency: 2 SRAM_NUM + 1 clocks a row when tready stays high; the next row is scanned meanwhile. tvalid never
+// falls before tready.
 // Cost: a column counter, four flip-flops.
 module result_output #(
     parameter int SRAM_NUM = 200,
@@ -20,6 +21,7 @@ module result_output #(
     input  logic [                       RESULT_WIDTH-1:0] head_i,      // result register of column 0
     output logic                                           shift_o,
     output logic                                           done_o,      // last beat of the row accepted
+    output logic                                           busy_o,      // beats to come: chain and row_i are in use
     output logic                                           tvalid_o,
     input  logic                                           tready_i,
     output logic [COLUMN_WIDTH+ROW_WIDTH+RESULT_WIDTH-1:0] tdata_o,
@@ -58,6 +60,7 @@ module result_output #(
 
   assign shift_o = shift_q;
   assign done_o = done_q;
+  assign busy_o = valid_q || shift_q;
   assign tvalid_o = valid_q;
   assign tdata_o = {column_q, row_i, head_i};
   assign tlast_o = last_row_i && last_column;

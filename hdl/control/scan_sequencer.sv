@@ -4,7 +4,8 @@
 //
 // Schedule of one address: S0 read, S1 data registered by the column and address cleared, S2 peak search,
 // S3 (after a pixel's last bin) the peak is final.
-// Latency: one clock an address and 3 more; RESET clears only. In M4 it stops after one pixel.
+// Latency: one clock an address and 3 more; RESET clears only. In M4 it stops after one pixel, whose last bin it
+// holds back until the results of the pixel before have left the result chain (one clock at least).
 // Cost: two counters and their stage copies an array.
 module scan_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
@@ -20,6 +21,7 @@ module scan_sequencer #(
     input  logic                 reset_state_i,  // with start_i: clear only, all pixels
     input  logic                 final_state_i,  // with start_i: one pixel, FINAL_BINS addresses
     input  logic                 rewind_i,       // with start_i: begin with pixel 0
+    input  logic                 hold_i,         // the result chain is in use
     output logic                 busy_o,
     output logic [ROW_WIDTH-1:0] row_o,          // the pixel just scanned
     output logic                 last_row_o,     // ... was the last
@@ -42,7 +44,10 @@ module scan_sequencer #(
   localparam logic [BIN_WIDTH-1:0] LAST_BIN_RESET = BIN_WIDTH'(RESET_BINS - 1);
   localparam logic [BIN_WIDTH-1:0] LAST_BIN_FINAL = BIN_WIDTH'(FINAL_BINS - 1);
 
-  logic run_q, reset_q, final_q, last_row_q;
+  localparam logic [BIN_WIDTH-1:0] BEFORE_LAST_FINAL = BIN_WIDTH'(FINAL_BINS - 2);
+  localparam logic ONE_FINAL_BIN = (FINAL_BINS == 1);
+
+  logic run_q, hold_q, reset_q, final_q, last_row_q;
   logic [ROW_WIDTH-1:0] pixel_q, row_q;
   logic [BIN_WIDTH-1:0] bin_q, last_bin;
   logic last;
@@ -53,6 +58,7 @@ module scan_sequencer #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       run_q <= 1'b0;
+      hold_q <= 1'b0;
       reset_q <= 1'b0;
       final_q <= 1'b0;
       last_row_q <= 1'b0;
@@ -60,13 +66,17 @@ module scan_sequencer #(
       row_q <= '0;
       bin_q <= '0;
     end else if (start_i) begin
-      run_q <= !(SKIP_RESET != 0 && reset_state_i);
+      run_q <= !(SKIP_RESET != 0 && reset_state_i) && !(ONE_FINAL_BIN && final_state_i);
+      hold_q <= ONE_FINAL_BIN && final_state_i;
       reset_q <= reset_state_i;
       final_q <= final_state_i;
       bin_q <= '0;
       if (rewind_i) begin
         pixel_q <= '0;
       end
+    end else if (hold_q) begin
+      run_q <= !hold_i;
+      hold_q <= hold_i;
     end else if (run_q) begin
       bin_q <= last ? '0 : bin_q + 1'b1;
       if (last) begin
@@ -74,6 +84,9 @@ module scan_sequencer #(
         last_row_q <= (pixel_q == LAST_PIXEL);
         pixel_q <= (pixel_q == LAST_PIXEL) ? '0 : pixel_q + 1'b1;
         run_q <= !final_q && (pixel_q != LAST_PIXEL);
+      end else if (final_q && bin_q == BEFORE_LAST_FINAL) begin
+        run_q <= 1'b0;
+        hold_q <= 1'b1;
       end
     end
   end
@@ -106,7 +119,7 @@ module scan_sequencer #(
     bin_s2_q <= bin_s1_q;
   end
 
-  assign busy_o = run_q || clear_s1_q || (read_sn_q != '0);
+  assign busy_o = run_q || hold_q || clear_s1_q || (read_sn_q != '0);
   assign row_o = row_q;
   assign last_row_o = last_row_q;
   assign read_s0_o = run_q && !reset_q;

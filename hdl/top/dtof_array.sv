@@ -9,7 +9,8 @@
 //   pixel 0, slot 0 of every column; the other PIXELS_PER_SRAM * SLOTS - 1 timestamps follow on consecutive
 //   clocks, valid and ready held high. Between acquisitions the source may pause. All ones: no detection.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; rows in order, columns in a row.
-// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and scan + 2 SRAM_NUM a row.
+// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
+// larger of 2 SRAM_NUM and the bins to scan in M4.
 `include "dtof_macros.svh"
 
 module dtof_array #(
@@ -89,7 +90,7 @@ module dtof_array #(
   logic [GEAR_WIDTH-1:0] gear;
   logic stream, stream_idle;
   logic scan_start, scan_reset, scan_final, scan_rewind, scan_busy, scan_last_row;
-  logic result_start, result_done, result_shift;
+  logic result_start, result_done, result_busy, result_shift;
   logic [ROW_WIDTH-1:0] row;
 
   controller #(
@@ -186,6 +187,7 @@ module dtof_array #(
       .reset_state_i(scan_reset),
       .final_state_i(scan_final),
       .rewind_i     (scan_rewind),
+      .hold_i       (result_busy),
       .busy_o       (scan_busy),
       .row_o        (row),
       .last_row_o   (scan_last_row),
@@ -421,6 +423,7 @@ module dtof_array #(
       .head_i    (chain[RESULT_WIDTH-1:0]),
       .shift_o   (result_shift),
       .done_o    (result_done),
+      .busy_o    (result_busy),
       .tvalid_o  (result_tvalid_o),
       .tready_i  (result_tready_i),
       .tdata_o   (result_tdata_o),

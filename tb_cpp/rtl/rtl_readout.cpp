@@ -63,6 +63,13 @@ class RtlReadout::Simulation {
     model_->eval();
   }
 
+  // The model takes itself out of the thread's context, which may be another instance's.
+  ~Simulation() { Verilated::threadContextp(context_.get()); }
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+  Simulation(Simulation&&) = delete;
+  Simulation& operator=(Simulation&&) = delete;
+
   [[nodiscard]] bool broken() const { return broken_; }
 
   RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
@@ -157,12 +164,13 @@ class RtlReadout::Simulation {
     beats_ = 0;
     held_clocks_ = 0;
     pending_beat_ = false;
+    row_stall_left_ = options_->row_stall;
     frame_.statistics = RtlStatistics{};
     const std::uint64_t limit = cycle_limit();
+    const auto width = static_cast<std::uint64_t>(configuration_.sram_num);
     const bool disturb = options_->stall_probability > 0.0 || options_->start_probability > 0.0;
     constexpr std::uint64_t kInterruptionInterval = 1U << 20U;
 
-    *ports_.result_ready = 1;
     for (cycle_ = 0;; ++cycle_) {
       if (reset_at.has_value() && cycle_ >= *reset_at) {
         return false;
@@ -175,6 +183,11 @@ class RtlReadout::Simulation {
           *ports_.start = 1;
           *ports_.acquisitions = static_cast<std::uint16_t>(random());
         }
+      }
+      if (beats_ % width == 0 && row_stall_left_ > 0) {
+        *ports_.result_ready = 0;
+      } else if (!disturb) {
+        *ports_.result_ready = 1;
       }
       driver_->drive();
       settle();
@@ -249,8 +262,10 @@ class RtlReadout::Simulation {
     last_beat_ = beat;
     pending_beat_ = *ports_.result_ready == 0;
     if (pending_beat_) {
+      row_stall_left_ -= row_stall_left_ > 0 ? 1 : 0;
       return;
     }
+    row_stall_left_ = options_->row_stall;
     const auto width = static_cast<std::uint64_t>(configuration_.sram_num);
     require(beats_ < expected_beats_, "more results than pixels");
     require(beat.row == beats_ / width && beat.column == beats_ % width, "result out of order");
@@ -291,6 +306,7 @@ class RtlReadout::Simulation {
   std::uint64_t beats_ = 0;
   std::uint64_t held_clocks_ = 0;  // source pauses or sink stalls
   bool pending_beat_ = false;
+  std::uint64_t row_stall_left_ = 0;
   Beat last_beat_;
   RtlFrame frame_;
 };

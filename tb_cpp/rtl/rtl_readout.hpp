@@ -30,9 +30,11 @@ struct RtlCycle {
 
 /// How a frame is driven. The defaults are an ideal source and sink.
 struct RtlRunOptions {
-  std::uint64_t seed = 1;                 ///< of everything random below
-  double pause_probability = 0.0;         ///< the source pauses before an acquisition (1 to 8 clocks)
-  double stall_probability = 0.0;         ///< per clock: tready is low
+  std::uint64_t seed = 1;          ///< of everything random below
+  double pause_probability = 0.0;  ///< the source pauses before an acquisition (1 to 8 clocks)
+  double stall_probability = 0.0;  ///< per clock: tready is low
+  /// Clocks that tready stays low for each row's first result; 2 c stand for c more columns.
+  std::uint64_t row_stall = 0;
   double start_probability = 0.0;         ///< per clock while busy: start_i with another acq_num_i
   std::optional<std::uint64_t> reset_at;  ///< reset in this clock after start, then a whole frame
   bool reset_first = true;  ///< false: start as the frame before left the array (if there was one)

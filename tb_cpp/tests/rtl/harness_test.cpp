@@ -283,7 +283,7 @@ class FaultyRtl : public testing::Test {
   static std::string error_of(FaultyArray::Fault fault) {
     RtlReadout rtl = with(fault);
     RtlRunOptions options = default_options(9);
-    options.stall_probability = 0.8;
+    options.row_stall = 2;
     try {
       rtl.run(columns(), 4, options);
     } catch (const RtlError& error) {
