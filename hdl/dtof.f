@@ -10,6 +10,10 @@ control/pixel_sequencer.sv
 control/scan_sequencer.sv
 control/controller.sv
 control/result_output.sv
+control/pair_sequencer.sv
+control/pool_controller.sv
+control/engine_sequencer.sv
+control/pool_result_output.sv
 datapath/data_filter.sv
 datapath/histogram_builder.sv
 datapath/peak_detector.sv
@@ -17,8 +21,16 @@ datapath/pointer_update.sv
 datapath/pointer_builder.sv
 datapath/result_register.sv
 datapath/status_bits.sv
+datapath/label_match.sv
+datapath/track_update.sv
+datapath/twin_pointer_update.sv
+engine/candidate_decoder.sv
+engine/label_chain.sv
+engine/pool_engine.sv
 column/ez_pointer_column.sv
 column/his_pointer_column.sv
 column/interframe_histogram_column.sv
 column/partitioned_histogram_column.sv
+column/pool_pointer_column.sv
 top/dtof_array.sv
+top/pool_pointer_array.sv

@@ -92,4 +92,47 @@ package dtof_pkg;
         + confidence_width(readout, count_width, pointer_confidence_width);
   endfunction
 
+  // poolPointer (docs/poolpointer.md). Positions have 16 bits for the whole range; a cell is 512 of them.
+  localparam int POOL_COARSE_BINS = 32;
+  localparam int POOL_CELL_WIDTH = 7;
+  localparam int POOL_BACKGROUND_WIDTH = 7;
+  localparam int POOL_RIVAL_WIDTH = 8;
+  // Largest penalties along a column: 2 + (79 >> 2) in choose, 4 + (79 >> 3) in decide.
+  localparam int POOL_CHOOSE_PENALTY_WIDTH = 5;
+  localparam int POOL_DECIDE_PENALTY_WIDTH = 4;
+
+  // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
+  function automatic int pool_pointer_width(input int pointer_shift, input int rival_moves);
+    pool_pointer_width = ((rival_moves != 0) ? 16 : 12) - pointer_shift;
+  endfunction
+
+  // Bits of a pixel's word in the track phase: scores, leader, offset.
+  function automatic int pool_track_width(input int dark_labels, input int dark_score_bits, input int bright_labels,
+                                          input int bright_score_bits, input int offset_bits);
+    pool_track_width = max_of(dark_labels * dark_score_bits, bright_labels * bright_score_bits)
+        + ((offset_bits > 0) ? offset_bits + index_width(max_of(dark_labels, bright_labels)) : 0);
+  endfunction
+
+  // Bits of a pixel's word in the pointer phase: advantage, rival, pointer.
+  function automatic int pool_point_width(input int labels, input int advantage_width, input int pointer_shift,
+                                          input int rival_moves);
+    pool_point_width = advantage_width + pool_pointer_width(pointer_shift, rival_moves)
+        + ((rival_moves != 0) ? POOL_RIVAL_WIDTH : 2 * index_width(labels));
+  endfunction
+
+  // Bits of a group's word: candidates and background.
+  function automatic int pool_group_width(input int labels);
+    pool_group_width = POOL_CELL_WIDTH * labels + POOL_BACKGROUND_WIDTH;
+  endfunction
+
+  // Coarse bins in an SRAM word: a power of two.
+  function automatic int pool_bins_per_word(input int word_width, input int count_width);
+    pool_bins_per_word = 1 << ($clog2(word_width / count_width + 1) - 1);
+  endfunction
+
+  // Bits of a result's confidence: the advantage and both neighbours' penalties.
+  function automatic int pool_confidence_width(input int advantage_width);
+    pool_confidence_width = $clog2((1 << advantage_width) + 26);
+  endfunction
+
 endpackage

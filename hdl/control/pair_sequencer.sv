@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer: counts the timestamps of an acquisition, handshakes with the TDC stream and schedules the columns'
+// single-port SRAMs, two pixels a word, once per array.
+//
+// Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
+// before. An odd number of pixels leaves a pause of SLOTS clocks for the missing pixel of the last pair.
+//
+// Schedule (T0: a timestamp's clock at the port; c: the clock of its pair, 0 .. 2 SLOTS - 1):
+//   prime    before the first acquisition of a phase: group 0's word and pair 0's are read
+//   T2, c = 2 SLOTS - 3    read the next pair's group word, where it is another one
+//   T2, c = 2 SLOTS - 2    read the next pair; the group's word is registered
+//   T2, c = 2 SLOTS - 1    write the pair; the next is registered
+//   coarse   T2 of a pixel's last slot: read; T3: registered; T4: counted; T5 (T6 for SLOTS = 3): write
+// SRAM commands and loads are given one clock early (_d) for the array to register and spread.
+// Cost: counters and the stage copies of the pixel number, per array.
+`include "dtof_macros.svh"
+
+module pair_sequencer #(
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int SLOTS = 2,
+    parameter int GROUP_SIZE = 8,
+    localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
+    localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
+    localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUPS)
+) (
+    input  logic                  clk_i,
+    input  logic                  rst_ni,
+    input  logic                  stream_i,          // a phase is under way
+    input  logic                  coarse_i,          // it is the coarse phase
+    input  logic                  more_i,            // another acquisition belongs to it
+    input  logic [           3:0] acquisition_i,     // low bits of its number
+    input  logic                  late_i,
+    input  logic                  tdc_valid_i,
+    output logic                  tdc_ready_o,
+    output logic                  acq_done_o,        // last timestamp of an acquisition in this clock
+    output logic                  idle_o,            // nothing in the pipeline and nothing to come
+    // to the columns
+    output logic                  beat_t1_o,
+    output logic                  first_slot_t1_o,
+    output logic                  odd_t1_o,
+    output logic                  update_t2_o,
+    output logic                  first_slot_t2_o,
+    output logic                  second_pixel_t2_o,
+    output logic [           1:0] dither_t2_o,
+    output logic                  every_16_t2_o,
+    output logic                  late_t2_o,
+    output logic                  fresh_t2_o,
+    output logic                  load_t3_o,
+    output logic                  count_t4_o,
+    // SRAM, a clock early
+    output logic                  read_d_o,
+    output logic                  write_d_o,
+    output logic [ADDR_WIDTH-1:0] address_d_o,
+    output logic                  word_load_d_o,
+    output logic                  group_load_d_o
+);
+
+  localparam int PAIRS = (PIXELS_PER_SRAM + 1) / 2;
+  localparam int STEPS = 2 * SLOTS;
+  localparam int STEP_WIDTH = $clog2(STEPS);
+  localparam int PAIR_WIDTH = dtof_pkg::index_width(PAIRS);
+  localparam int SLOT_WIDTH = dtof_pkg::index_width(SLOTS);
+  localparam int GROUP_PAIRS = GROUP_SIZE / 2;
+  localparam int GROUP_SHIFT = $clog2(GROUP_PAIRS);
+  localparam bit ODD = (PIXELS_PER_SRAM % 2) != 0;
+  localparam logic [PAIR_WIDTH-1:0] LAST_PAIR = PAIR_WIDTH'(PAIRS - 1);
+  localparam logic [STEP_WIDTH-1:0] LAST_STEP = STEP_WIDTH'(STEPS - 1);
+  localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
+  localparam logic [3:0] DRAIN_CLOCKS = 4'd10;
+  localparam logic [2:0] PRIMED = 3'd6;
+
+  // T0
+
+  logic active_q;
+  logic [2:0] prime_q;
+  logic [3:0] drain_q;
+  logic [SLOT_WIDTH-1:0] raster_q;
+  logic [STEP_WIDTH-1:0] step_q;
+  logic [PAIR_WIDTH-1:0] pair_q;
+  logic at_start, busy, missing, second_pixel, last_pair;
+
+  assign at_start = stream_i && (prime_q == PRIMED) && (raster_q == '0) && !active_q && more_i;
+  assign busy = active_q || (at_start && tdc_valid_i);
+  assign second_pixel = (step_q >= STEP_WIDTH'(SLOTS));
+  assign last_pair = (pair_q == LAST_PAIR);
+  assign missing = ODD && last_pair && second_pixel;
+  assign tdc_ready_o = (active_q && !missing) || at_start;
+  assign acq_done_o = busy && last_pair && (step_q == LAST_STEP);
+  assign idle_o = (drain_q == '0);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      active_q <= 1'b0;
+      prime_q <= '0;
+      drain_q <= DRAIN_CLOCKS;
+      raster_q <= '0;
+      step_q <= '0;
+      pair_q <= '0;
+    end else begin
+      if (!stream_i) begin
+        prime_q <= '0;
+        raster_q <= '0;
+        drain_q <= DRAIN_CLOCKS;
+      end else begin
+        raster_q <= (raster_q == LAST_SLOT) ? '0 : raster_q + 1'b1;
+        if (prime_q != PRIMED) begin
+          prime_q <= prime_q + 1'b1;
+        end
+        if (more_i || busy) begin
+          drain_q <= DRAIN_CLOCKS;
+        end else if (drain_q != '0) begin
+          drain_q <= drain_q - 1'b1;
+        end
+      end
+      if (busy) begin
+        active_q <= !acq_done_o;
+        step_q <= (step_q == LAST_STEP) ? '0 : step_q + 1'b1;
+        if (step_q == LAST_STEP) begin
+          pair_q <= last_pair ? '0 : pair_q + 1'b1;
+        end
+      end
+    end
+  end
+
+  // A clock without a valid timestamp inside an acquisition counts as "no detection".
+  `DTOF_ASSERT(a_contiguous_acquisition, !active_q || missing || tdc_valid_i,
+               "tdc_valid_i fell inside an acquisition")
+
+  // T1
+
+  logic busy_t1_q, beat_t1_q, first_slot_t1_q, last_slot_t1_q, second_pixel_t1_q, late_t1_q;
+  logic [3:0] acquisition_t1_q;
+  logic [STEP_WIDTH-1:0] step_t1_q;
+  logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
+  logic first_slot, last_slot, next_group_t1, fetch_t1;
+
+  assign first_slot = (step_q == '0) || (step_q == STEP_WIDTH'(SLOTS));
+  assign last_slot = (step_q == STEP_WIDTH'(SLOTS - 1)) || (step_q == LAST_STEP);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      busy_t1_q <= 1'b0;
+      beat_t1_q <= 1'b0;
+      first_slot_t1_q <= 1'b0;
+      last_slot_t1_q <= 1'b0;
+    end else begin
+      busy_t1_q <= busy;
+      beat_t1_q <= busy && !missing && tdc_valid_i;
+      first_slot_t1_q <= busy && first_slot;
+      last_slot_t1_q <= busy && !missing && last_slot;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    step_t1_q <= step_q;
+    pair_t1_q <= pair_q;
+    second_pixel_t1_q <= second_pixel;
+    acquisition_t1_q <= acquisition_i;
+    late_t1_q <= late_i;
+  end
+
+  assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
+  assign next_group_t1 = (GROUPS > 1) && ((32'(next_pair_t1) % GROUP_PAIRS) == 0);
+  assign fetch_t1 = coarse_i && last_slot_t1_q;
+
+  // T2 and later
+
+  localparam int WRITE_STAGE = (SLOTS == 3) ? 6 : 5;
+
+  logic [WRITE_STAGE-1:2] fetch_tn_q;
+  logic [(WRITE_STAGE-2)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. WRITE_STAGE - 1, T2 lowest
+  logic [PAIR_WIDTH-1:0] write_pair;
+  logic update_t2_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      fetch_tn_q <= '0;
+      update_t2_q <= 1'b0;
+    end else begin
+      fetch_tn_q <= {fetch_tn_q[WRITE_STAGE-2:2], fetch_t1};
+      update_t2_q <= busy_t1_q && !coarse_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    pair_tn_q <= {pair_tn_q[(WRITE_STAGE-3)*PAIR_WIDTH-1:0], pair_t1_q};
+    first_slot_t2_o <= first_slot_t1_q;
+    second_pixel_t2_o <= second_pixel_t1_q;
+    dither_t2_o <= acquisition_t1_q[1:0];
+    every_16_t2_o <= (acquisition_t1_q == '0);
+    late_t2_o <= late_t1_q;
+    fresh_t2_o <= (GROUPS > 1) && !second_pixel_t1_q && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
+  end
+
+  assign beat_t1_o = beat_t1_q;
+  assign first_slot_t1_o = first_slot_t1_q;
+  assign odd_t1_o = acquisition_t1_q[0];
+  assign update_t2_o = update_t2_q;
+  assign load_t3_o = fetch_tn_q[3];
+  assign count_t4_o = fetch_tn_q[4];
+  assign write_pair = pair_tn_q[(WRITE_STAGE-3)*PAIR_WIDTH+:PAIR_WIDTH];
+
+  logic prime_group, prime_word, read_group, read_word, write_word;
+  assign prime_group = stream_i && !coarse_i && (prime_q == 3'd1);
+  assign prime_word = stream_i && !coarse_i && (prime_q == 3'd2);
+  assign read_group = busy_t1_q && !coarse_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 3));
+  assign read_word = busy_t1_q && !coarse_i && (PAIRS > 1) && (step_t1_q == STEP_WIDTH'(STEPS - 2));
+  assign write_word = busy_t1_q && !coarse_i && (step_t1_q == LAST_STEP);
+
+  assign read_d_o = prime_group || prime_word || read_group || read_word || fetch_t1;
+  assign write_d_o = write_word || fetch_tn_q[WRITE_STAGE-1];
+  assign group_load_d_o = prime_word || (busy_t1_q && !coarse_i && next_group_t1 && step_t1_q == STEP_WIDTH'(STEPS - 2));
+  assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3)
+      || (busy_t1_q && !coarse_i && (PAIRS > 1) && step_t1_q == LAST_STEP);
+
+  always_comb begin
+    address_d_o = '0;
+    if (read_group) begin
+      address_d_o = ADDR_WIDTH'(PIXEL_WORDS + (32'(next_pair_t1) >> GROUP_SHIFT));
+    end else if (prime_group) begin
+      address_d_o = ADDR_WIDTH'(PIXEL_WORDS);
+    end else if (read_word) begin
+      address_d_o = ADDR_WIDTH'(next_pair_t1);
+    end else if (write_word) begin
+      address_d_o = ADDR_WIDTH'(pair_t1_q);
+    end else if (fetch_t1) begin
+      address_d_o = ADDR_WIDTH'((32'(pair_t1_q) >> GROUP_SHIFT) << GROUP_SHIFT);
+    end else if (coarse_i) begin
+      address_d_o = ADDR_WIDTH'((32'(write_pair) >> GROUP_SHIFT) << GROUP_SHIFT);
+    end
+  end
+
+endmodule

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer: the state machine of a frame and its acquisition counter, once per array.
+//
+// IDLE -> RESET -> M0 -> M1 -> RESET -> M2 -> M3 -> M4 -> M5 -> IDLE
+//   RESET  clear the pixels' words, one address a clock      M0  coarse phase      M1  decode
+//   M2     track phase      M3  choose      M4  pointer phase      M5  decide and send the results
+// A phase takes acquisitions until its end of the schedule: coarse_end_i, track_end_i, acq_num_i, all sampled
+// with start_i in IDLE; start_i while busy does nothing. done_o is high for the frame's last clock.
+// Cost: an acquisition counter, four registers of ACQ_WIDTH bits, three comparators, per array.
+`include "dtof_macros.svh"
+
+module pool_controller #(
+    parameter int CLEAR_WORDS = 80,
+    parameter int ADDR_WIDTH = 7,
+    parameter int ACQ_WIDTH = 16
+) (
+    input  logic                  clk_i,
+    input  logic                  rst_ni,
+    input  logic                  start_i,
+    input  logic [ ACQ_WIDTH-1:0] acq_num_i,
+    input  logic [ ACQ_WIDTH-1:0] coarse_end_i,
+    input  logic [ ACQ_WIDTH-1:0] track_end_i,
+    input  logic [ ACQ_WIDTH-1:0] late_begin_i,
+    output logic                  busy_o,
+    output logic                  done_o,
+    output logic [           2:0] state_o,
+    // pair_sequencer
+    output logic                  stream_o,
+    output logic                  coarse_o,
+    output logic                  point_o,
+    output logic                  more_o,
+    output logic [           3:0] acquisition_o,
+    output logic                  late_o,
+    input  logic                  acq_done_i,
+    input  logic                  stream_idle_i,
+    // clear
+    output logic                  clear_o,
+    output logic [ADDR_WIDTH-1:0] clear_address_o,
+    // engines
+    output logic                  decode_o,
+    output logic                  choose_o,
+    output logic                  decide_o,
+    input  logic                  engine_done_i
+);
+
+  localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(CLEAR_WORDS - 1);
+
+  logic [2:0] state_d, state_q;
+  logic start_q, done_q, decoded_q, entered_q, more_q, late_q;
+  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, late_begin_q, acquisition_d, acquisition_q, phase_end;
+  logic [ADDR_WIDTH-1:0] address_q;
+  logic cleared;
+
+  assign cleared = (address_q == LAST_ADDRESS);
+
+  always_comb begin
+    state_d = state_q;
+    case (state_q)
+      dtof_pkg::STATE_IDLE:
+      if (start_q) begin
+        state_d = dtof_pkg::STATE_RESET;
+      end
+      dtof_pkg::STATE_RESET:
+      if (cleared) begin
+        state_d = decoded_q ? dtof_pkg::STATE_M2 : dtof_pkg::STATE_M0;
+      end
+      dtof_pkg::STATE_M0:
+      if (stream_idle_i) begin
+        state_d = dtof_pkg::STATE_M1;
+      end
+      dtof_pkg::STATE_M1:
+      if (engine_done_i) begin
+        state_d = dtof_pkg::STATE_RESET;
+      end
+      dtof_pkg::STATE_M2:
+      if (stream_idle_i) begin
+        state_d = dtof_pkg::STATE_M3;
+      end
+      dtof_pkg::STATE_M3:
+      if (engine_done_i) begin
+        state_d = dtof_pkg::STATE_M4;
+      end
+      dtof_pkg::STATE_M4:
+      if (stream_idle_i) begin
+        state_d = dtof_pkg::STATE_M5;
+      end
+      dtof_pkg::STATE_M5:
+      if (engine_done_i) begin
+        state_d = dtof_pkg::STATE_IDLE;
+      end
+      default: state_d = dtof_pkg::STATE_IDLE;
+    endcase
+  end
+
+  always_comb begin
+    phase_end = acq_num_q;
+    if (state_d == dtof_pkg::STATE_M0) begin
+      phase_end = coarse_end_q;
+    end else if (state_d == dtof_pkg::STATE_M2) begin
+      phase_end = track_end_q;
+    end
+  end
+
+  assign acquisition_d = acquisition_q + ACQ_WIDTH'(acq_done_i);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      state_q <= dtof_pkg::STATE_IDLE;
+      start_q <= 1'b0;
+      done_q <= 1'b0;
+      decoded_q <= 1'b0;
+      entered_q <= 1'b0;
+      more_q <= 1'b0;
+      late_q <= 1'b0;
+      acq_num_q <= '0;
+      coarse_end_q <= '0;
+      track_end_q <= '0;
+      late_begin_q <= '0;
+      acquisition_q <= '0;
+      address_q <= '0;
+    end else begin
+      state_q <= state_d;
+      entered_q <= (state_d != state_q);
+      start_q <= start_i && !busy_o;
+      done_q <= (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);
+      if (start_i && !busy_o) begin
+        acq_num_q <= acq_num_i;
+        coarse_end_q <= coarse_end_i;
+        track_end_q <= track_end_i;
+        late_begin_q <= late_begin_i;
+        acquisition_q <= '0;
+        decoded_q <= 1'b0;
+      end else begin
+        acquisition_q <= acquisition_d;
+        if (state_q == dtof_pkg::STATE_M1) begin
+          decoded_q <= 1'b1;
+        end
+      end
+      more_q <= (acquisition_d < phase_end);
+      late_q <= (acquisition_d >= late_begin_q);
+      address_q <= (state_q == dtof_pkg::STATE_RESET && !cleared) ? address_q + 1'b1 : '0;
+    end
+  end
+
+  `DTOF_ASSERT(a_schedule, !start_q || (coarse_end_q <= track_end_q && track_end_q <= late_begin_q
+                                        && late_begin_q <= acq_num_q),
+               "the schedule must be coarse_end_i <= track_end_i <= late_begin_i <= acq_num_i")
+
+  assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
+  assign done_o = done_q;
+  assign state_o = state_q;
+  assign stream_o = coarse_o || (state_q == dtof_pkg::STATE_M2) || point_o;
+  assign coarse_o = (state_q == dtof_pkg::STATE_M0);
+  assign point_o = (state_q == dtof_pkg::STATE_M4);
+  assign more_o = more_q;
+  assign acquisition_o = acquisition_q[3:0];
+  assign late_o = late_q;
+  assign clear_o = (state_q == dtof_pkg::STATE_RESET);
+  assign clear_address_o = address_q;
+  assign decode_o = entered_q && (state_q == dtof_pkg::STATE_M1);
+  assign choose_o = entered_q && (state_q == dtof_pkg::STATE_M3);
+  assign decide_o = entered_q && (state_q == dtof_pkg::STATE_M5);
+
+endmodule

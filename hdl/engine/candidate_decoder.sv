@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer: finds the candidate depths of a group of pixels in its coarse histogram and its neighbours'.
+//
+// Equations (docs/poolpointer.md, Decode): pair sums o of the group, w = 3 o + those of both neighbours; K times
+// the largest not taken, of w for the first three, of o for the others; its cell from its neighbours' tilt; a
+// quarter of its excess over the background is taken from the pairs two away. B from the least of four octets.
+//
+// Schedule: engine_sequencer. The bins leave three shift registers one clock apart; pair sums enter a ring of 32,
+//   pair -1 (nothing, taken) first, and turn once a candidate. A candidate is known in the clock after its turn
+//   (pair_i = 0) and takes its part away during the next.
+// Cost at the defaults: 704 flip-flops of ring, 192 of shift registers, per engine.
+module candidate_decoder #(
+    parameter int COUNT_WIDTH = 8,
+    parameter int LABELS = 8,
+    parameter int BINS_PER_WORD = 8,
+    localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
+    localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
+    localparam int LINE_WIDTH = BINS_PER_WORD * COUNT_WIDTH
+) (
+    input  logic                         clk_i,
+    input  logic [       LINE_WIDTH-1:0] line_i,           // bins, lowest first
+    input  logic                         capture_above_i,
+    input  logic                         capture_own_i,
+    input  logic                         capture_below_i,
+    input  logic                         fill_i,
+    input  logic                         search_i,
+    input  logic [                  4:0] pair_i,           // bin while filling, pair + 1 while searching
+    input  logic                         first_label_i,
+    input  logic                         pooled_i,
+    input  logic                         candidate_i,
+    output logic [LABELS*CELL_WIDTH-1:0] cells_o,
+    output logic [ BACKGROUND_WIDTH-1:0] background_o
+);
+
+  localparam int OWN_WIDTH = COUNT_WIDTH + 1;
+  localparam int BIN_SUM_WIDTH = COUNT_WIDTH + 3;
+  localparam int POOLED_WIDTH = COUNT_WIDTH + 4;
+  localparam int ENTRY_WIDTH = POOLED_WIDTH + OWN_WIDTH + 1;
+  localparam int ENTRIES = dtof_pkg::POOL_COARSE_BINS;
+  localparam int OCTET_WIDTH = COUNT_WIDTH + 3;
+  localparam logic [5:0] NOWHERE = 6'd48;  // not even two away from a pair
+
+  // Bins: above at one clock, own the next, below the next.
+
+  logic [LINE_WIDTH-1:0] above_q, own_q, below_q;
+  logic [COUNT_WIDTH-1:0] above_bin_q, own_bin_q, last_bin_q;
+  logic [BIN_SUM_WIDTH-1:0] partial_q, bin_sum, last_sum_q;
+
+  assign bin_sum = partial_q + BIN_SUM_WIDTH'(below_q[COUNT_WIDTH-1:0]);
+
+  always_ff @(posedge clk_i) begin
+    above_q <= capture_above_i ? line_i : above_q >> COUNT_WIDTH;
+    own_q <= capture_own_i ? line_i : own_q >> COUNT_WIDTH;
+    below_q <= capture_below_i ? line_i : below_q >> COUNT_WIDTH;
+    above_bin_q <= above_q[COUNT_WIDTH-1:0];
+    own_bin_q <= own_q[COUNT_WIDTH-1:0];
+    partial_q <= BIN_SUM_WIDTH'(above_bin_q) + BIN_SUM_WIDTH'(own_q[COUNT_WIDTH-1:0])
+        + (BIN_SUM_WIDTH'(own_q[COUNT_WIDTH-1:0]) << 1);
+    last_bin_q <= own_bin_q;
+    last_sum_q <= bin_sum;
+  end
+
+  // Background, and the least pair sum.
+
+  logic [OCTET_WIDTH-1:0] octet_q, octet, least_octet_q;
+  logic [OWN_WIDTH-1:0] own_pair, least_pair_q;
+  logic [POOLED_WIDTH-1:0] pooled_pair;
+  logic [OCTET_WIDTH+2:0] five_octets;
+
+  assign octet = ((pair_i[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin_q);
+  assign own_pair = OWN_WIDTH'(own_bin_q) + OWN_WIDTH'(last_bin_q);
+  assign pooled_pair = POOLED_WIDTH'(bin_sum) + POOLED_WIDTH'(last_sum_q);
+
+  always_ff @(posedge clk_i) begin
+    if (fill_i) begin
+      octet_q <= octet;
+      if (pair_i == 5'd7 || (pair_i[2:0] == 3'd7 && octet < least_octet_q)) begin
+        least_octet_q <= octet;
+      end
+      if (pair_i == 5'd1 || (pair_i != 5'd0 && own_pair < least_pair_q)) begin
+        least_pair_q <= own_pair;
+      end
+    end
+  end
+
+  assign five_octets = (OCTET_WIDTH + 3)'(least_octet_q) + ((OCTET_WIDTH + 3)'(least_octet_q) << 2);
+  assign background_o = BACKGROUND_WIDTH'(five_octets >> 7);
+
+  // The ring: {taken, own, pooled}.
+
+  logic [ENTRIES*ENTRY_WIDTH-1:0] ring_q;
+  logic [ENTRY_WIDTH-1:0] head, entry;
+  logic head_taken, taken;
+  logic [OWN_WIDTH-1:0] head_own, own;
+  logic [POOLED_WIDTH-1:0] head_pooled, pooled, value;
+
+  // What the last candidate takes away.
+  logic [5:0] peak_q, pair;
+  logic [OWN_WIDTH-1:0] own_part_q;
+  logic [POOLED_WIDTH-1:0] pooled_part_q;
+  logic beside, two_away;
+
+  assign head = ring_q[ENTRY_WIDTH-1:0];
+  assign head_pooled = head[POOLED_WIDTH-1:0];
+  assign head_own = head[POOLED_WIDTH+:OWN_WIDTH];
+  assign head_taken = head[ENTRY_WIDTH-1];
+  assign pair = {1'b0, pair_i};
+  assign beside = (pair + 6'd1 == peak_q) || (pair == peak_q) || (pair == peak_q + 6'd1);
+  assign two_away = (pair + 6'd2 == peak_q) || (pair == peak_q + 6'd2);
+
+  always_comb begin
+    taken = head_taken || beside;
+    own = head_own;
+    pooled = head_pooled;
+    if (two_away) begin
+      own = (head_own > own_part_q) ? head_own - own_part_q : '0;
+      pooled = (head_pooled > pooled_part_q) ? head_pooled - pooled_part_q : '0;
+    end
+    entry = '0;
+    if (fill_i) begin
+      entry = (pair_i == 5'd0) ? {1'b1, {(ENTRY_WIDTH - 1) {1'b0}}} : {1'b0, own_pair, pooled_pair};
+    end else if (search_i) begin
+      entry = {taken, own, pooled};
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:ENTRY_WIDTH]};
+  end
+
+  // The largest of a turn, the lowest on a tie, with its neighbours.
+
+  logic found_q, next_pending_q, better;
+  logic [4:0] best_pair_q;
+  logic [OWN_WIDTH-1:0] best_own_q;
+  logic [POOLED_WIDTH-1:0] best_pooled_q, best_q, before_q, after_q, last_value_q;
+
+  assign value = pooled_i ? pooled : POOLED_WIDTH'(own);
+  assign better = !taken && (!found_q || value > best_q);
+
+  always_ff @(posedge clk_i) begin
+    last_value_q <= value;
+    if (pair_i == 5'd0) begin
+      found_q <= 1'b0;
+      next_pending_q <= 1'b0;
+    end else begin
+      next_pending_q <= better;
+      if (better) begin
+        found_q <= 1'b1;
+        best_pair_q <= pair_i;
+        best_q <= value;
+        best_own_q <= own;
+        best_pooled_q <= pooled;
+        before_q <= last_value_q;
+        after_q <= '0;  // beyond the last pair
+      end else if (next_pending_q) begin
+        after_q <= value;
+      end
+    end
+  end
+
+  // A turn later (pair_i = 0): the candidate, and what it takes away.
+
+  logic [POOLED_WIDTH-1:0] tilt, height, lower, five_least, pooled_excess;
+  logic [OWN_WIDTH-1:0] own_excess;
+  logic tilted, upwards;
+  logic [CELL_WIDTH-1:0] peak_cell;
+  logic [LABELS*CELL_WIDTH-1:0] cells_q;
+
+  assign upwards = (after_q > before_q);
+  assign tilt = upwards ? after_q - before_q : before_q - after_q;
+  assign lower = upwards ? before_q : after_q;
+  assign height = best_q - lower;
+  assign tilted = (best_q > lower) && ({tilt, 1'b0} > {1'b0, height});
+  assign peak_cell = {best_pair_q, 2'b00} + (tilted ? (upwards ? CELL_WIDTH'(1) : '1) : '0);
+  assign own_excess = (best_own_q > least_pair_q) ? best_own_q - least_pair_q : '0;
+  assign five_least = POOLED_WIDTH'(least_pair_q) + (POOLED_WIDTH'(least_pair_q) << 2);
+  assign pooled_excess = (best_pooled_q > five_least) ? best_pooled_q - five_least : '0;
+
+  always_ff @(posedge clk_i) begin
+    if (search_i && pair_i == 5'd0) begin
+      peak_q <= first_label_i ? NOWHERE : {1'b0, best_pair_q};
+      own_part_q <= own_excess >> 2;
+      pooled_part_q <= pooled_excess >> 2;
+    end
+    if (candidate_i) begin
+      cells_q <= {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
+    end
+  end
+
+  assign cells_o = cells_q;
+
+endmodule

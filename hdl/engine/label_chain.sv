@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// Max-product messages along a chain of pixels, each with a few labels: one engine's arithmetic.
+//
+// Equations (docs/poolpointer.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
+// label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
+// message from the other side. Near: positions at most REACH apart.
+//
+// Schedule: engine_sequencer. begin_i: T and its largest; spread_i: differences to it; then a label l of the next
+//   pixel a clock with pass_label_i, which also ranks label l of this pixel; advance_i: the next pixel becomes
+//   this one and the prepared one the next. The two best beliefs are valid from the clock after the last label
+//   to the next begin_i.
+// Cost: LABELS comparators of positions and of differences.
+module label_chain #(
+    parameter int LABELS = 8,
+    parameter int POSITION_WIDTH = 8,   // signed
+    parameter int REACH = 4,
+    parameter int EVIDENCE_WIDTH = 6,   // signed
+    parameter int PENALTY_WIDTH = 5,
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
+    localparam int BELIEF_WIDTH = EVIDENCE_WIDTH + 2
+) (
+    input  logic                             clk_i,
+    input  logic                             begin_i,
+    input  logic                             spread_i,
+    input  logic                             pass_label_i,
+    input  logic [          LABEL_WIDTH-1:0] label_i,
+    input  logic                             advance_i,
+    input  logic                             clear_message_i,  // with advance_i: this pixel begins the chain
+    // a pixel prepared
+    input  logic [               LABELS-1:0] in_use_i,
+    input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
+    input  logic [LABELS*POSITION_WIDTH-1:0] position_i,
+    input  logic [        PENALTY_WIDTH-1:0] penalty_i,
+    // messages: received, and of the other side
+    output logic [ LABELS*PENALTY_WIDTH-1:0] message_o,
+    input  logic [ LABELS*PENALTY_WIDTH-1:0] other_message_i,  // with advance_i
+    // result
+    output logic [          LABEL_WIDTH-1:0] best_label_o,
+    output logic [          LABEL_WIDTH-1:0] second_label_o,
+    output logic [       POSITION_WIDTH-1:0] best_position_o,
+    output logic [       POSITION_WIDTH-1:0] second_position_o,
+    output logic [         BELIEF_WIDTH-1:0] margin_o          // unsigned
+);
+
+  localparam logic signed [POSITION_WIDTH:0] FAR = (POSITION_WIDTH + 1)'(REACH);
+
+  logic [LABELS-1:0] in_use_q, next_in_use_q;
+  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_q, next_evidence_q;
+  logic [LABELS*POSITION_WIDTH-1:0] position_q, next_position_q;
+  logic [PENALTY_WIDTH-1:0] penalty_q, next_penalty_q;
+  logic [LABELS*PENALTY_WIDTH-1:0] message_q, other_q;
+
+  always_ff @(posedge clk_i) begin
+    if (advance_i) begin
+      in_use_q <= next_in_use_q;
+      evidence_q <= next_evidence_q;
+      position_q <= next_position_q;
+      penalty_q <= next_penalty_q;
+      next_in_use_q <= in_use_i;
+      next_evidence_q <= evidence_i;
+      next_position_q <= position_i;
+      next_penalty_q <= penalty_i;
+      other_q <= other_message_i;
+    end
+  end
+
+  // T, its largest, and how far each stays behind.
+
+  logic [LABELS*BELIEF_WIDTH-1:0] sum, sum_q;
+  logic signed [BELIEF_WIDTH-1:0] largest, largest_q;
+  logic [LABELS*PENALTY_WIDTH-1:0] behind, behind_q;
+
+  genvar k;
+  generate
+    for (k = 0; k < LABELS; k = k + 1) begin : g_label
+      logic signed [BELIEF_WIDTH-1:0] evidence, received;
+      logic [BELIEF_WIDTH-1:0] difference;
+      assign evidence = $signed({{2{evidence_q[(k+1)*EVIDENCE_WIDTH-1]}}, evidence_q[k*EVIDENCE_WIDTH+:EVIDENCE_WIDTH]});
+      assign received = $signed(BELIEF_WIDTH'(message_q[k*PENALTY_WIDTH+:PENALTY_WIDTH]));
+      assign sum[k*BELIEF_WIDTH+:BELIEF_WIDTH] = evidence - received;
+      assign difference = largest_q - sum_q[k*BELIEF_WIDTH+:BELIEF_WIDTH];
+      assign behind[k*PENALTY_WIDTH+:PENALTY_WIDTH] =
+          (!in_use_q[k] || |difference[BELIEF_WIDTH-1:PENALTY_WIDTH]) ? '1 : difference[PENALTY_WIDTH-1:0];
+    end
+  endgenerate
+
+  // Label 0 is always in use.
+  logic signed [BELIEF_WIDTH-1:0] first_sum;
+  assign first_sum = $signed(sum[BELIEF_WIDTH-1:0]);
+
+  integer i;
+  always_comb begin
+    largest = first_sum;
+    for (i = 1; i < LABELS; i = i + 1) begin
+      if (in_use_q[i] && $signed(sum[i*BELIEF_WIDTH+:BELIEF_WIDTH]) > largest) begin
+        largest = $signed(sum[i*BELIEF_WIDTH+:BELIEF_WIDTH]);
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (begin_i) begin
+      sum_q <= sum;
+      largest_q <= largest;
+    end
+    if (spread_i) begin
+      behind_q <= behind;
+    end
+  end
+
+  // The message to one label of the next pixel. Which labels are near it is found a clock ahead.
+
+  logic [LABELS-1:0] near, near_q;
+  logic [LABEL_WIDTH-1:0] near_label;
+  logic signed [POSITION_WIDTH-1:0] target;
+  logic [PENALTY_WIDTH-1:0] cheapest;
+
+  assign near_label = spread_i ? '0 : label_i + 1'b1;
+  assign target = $signed(next_position_q[near_label*POSITION_WIDTH+:POSITION_WIDTH]);
+
+  generate
+    for (k = 0; k < LABELS; k = k + 1) begin : g_near
+      logic signed [POSITION_WIDTH:0] distance;
+      assign distance = $signed({position_q[(k+1)*POSITION_WIDTH-1], position_q[k*POSITION_WIDTH+:POSITION_WIDTH]})
+          - $signed({target[POSITION_WIDTH-1], target});
+      assign near[k] = (distance <= FAR) && (distance >= -FAR);
+    end
+  endgenerate
+
+  integer j;
+  always_comb begin
+    cheapest = penalty_q;
+    for (j = 0; j < LABELS; j = j + 1) begin
+      if (near_q[j] && behind_q[j*PENALTY_WIDTH+:PENALTY_WIDTH] < cheapest) begin
+        cheapest = behind_q[j*PENALTY_WIDTH+:PENALTY_WIDTH];
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    near_q <= near;
+    if (advance_i && clear_message_i) begin
+      message_q <= '0;
+    end else if (pass_label_i) begin
+      message_q <= {cheapest, message_q[LABELS*PENALTY_WIDTH-1:PENALTY_WIDTH]};
+    end
+  end
+
+  assign message_o = message_q;
+
+  // The two best beliefs, the lower label on a tie.
+
+  logic signed [BELIEF_WIDTH-1:0] belief, best_q, second_q;
+  logic [LABEL_WIDTH-1:0] best_label_q, second_label_q;
+  logic [POSITION_WIDTH-1:0] position, best_position_q, second_position_q;
+  logic first, better, runner_up;
+
+  assign belief = $signed(sum_q[label_i*BELIEF_WIDTH+:BELIEF_WIDTH])
+      - $signed(BELIEF_WIDTH'(other_q[label_i*PENALTY_WIDTH+:PENALTY_WIDTH]));
+  assign position = position_q[label_i*POSITION_WIDTH+:POSITION_WIDTH];
+  assign first = (label_i == '0);
+  assign better = first || (in_use_q[label_i] && belief > best_q);
+  assign runner_up = (label_i == LABEL_WIDTH'(1)) || (in_use_q[label_i] && belief > second_q);
+
+  always_ff @(posedge clk_i) begin
+    if (pass_label_i) begin
+      if (better) begin
+        best_q <= belief;
+        best_label_q <= label_i;
+        best_position_q <= position;
+        second_q <= best_q;
+        second_label_q <= best_label_q;
+        second_position_q <= best_position_q;
+      end else if (runner_up) begin
+        second_q <= belief;
+        second_label_q <= label_i;
+        second_position_q <= position;
+      end
+    end
+  end
+
+  assign best_label_o = best_label_q;
+  assign second_label_o = second_label_q;
+  assign best_position_o = best_position_q;
+  assign second_position_o = second_position_q;
+  assign margin_o = best_q - second_q;
+
+endmodule

@@ -1,0 +1,400 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
+// (docs/poolpointer.md). Columns that ENGINE_COLUMNS share an engine decode, choose and decide one by one.
+//
+// Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= late_begin_i <= acq_num_i;
+//   busy_o until done_o. Recommended: A C >> 6, A (C + T) >> 6 and track_end + (A - track_end) 5 >> 3 with
+//   (C, T) = (16, 16), lean (12, 16).
+// TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
+// Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
+//   each engine: column engine * ENGINE_COLUMNS + column of the engine.
+// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/poolpointer.md's cycle budget says.
+`include "dtof_macros.svh"
+
+module pool_pointer_array #(
+    parameter int NP = 10,                // bits of a timestamp, 8 to 16
+    parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
+    parameter int SRAM_NUM = 200,         // columns
+    parameter int SLOTS = 2,              // timestamps per pixel and acquisition, 2 to 4
+    parameter int COUNT_WIDTH = 8,        // bits of a coarse bin, 4 to 8
+    parameter int GROUP_SIZE = 8,         // pixels that share a coarse histogram, a power of two
+    parameter int DARK_LABELS = 8,        // candidates of a group in little light, 2 to 8
+    parameter int DARK_SCORE_BITS = 3,    // bits of their scores, 1 to 4
+    parameter int BRIGHT_LABELS = 6,      // the same in much light
+    parameter int BRIGHT_SCORE_BITS = 4,
+    parameter int BRIGHT_FROM = 12,       // background from which it is
+    parameter int OFFSET_BITS = 5,        // bits of a leader's offset in the track phase, 2 to 5, 0 for none
+    parameter int ADVANTAGE_WIDTH = 8,    // bits of the leader's advantage, 4 or 8
+    parameter int POINTER_SHIFT = 0,      // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins, 0 to 4
+    parameter int RIVAL_MOVES = 1,        // 1: absolute pointers; 0: relative ones, the rival rests
+    parameter int ENGINE_COLUMNS = 25,    // columns that share an engine
+    parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
+    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
+    localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH,
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
+) (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   start_i,
+    input  logic [  ACQ_WIDTH-1:0] acq_num_i,
+    input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
+    input  logic [  ACQ_WIDTH-1:0] track_end_i,
+    input  logic [  ACQ_WIDTH-1:0] late_begin_i,
+    output logic                   busy_o,
+    output logic                   done_o,
+    output logic [            2:0] state_o,
+    input  logic                   tdc_valid_i,
+    output logic                   tdc_ready_o,
+    input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
+    output logic                   result_tvalid_o,
+    input  logic                   result_tready_i,
+    output logic [TDATA_WIDTH-1:0] result_tdata_o,
+    output logic                   result_tlast_o
+);
+
+  localparam int LABELS = dtof_pkg::max_of(DARK_LABELS, BRIGHT_LABELS);
+  localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
+  localparam int PIXEL_WIDTH = dtof_pkg::max_of(
+      dtof_pkg::pool_track_width(DARK_LABELS, DARK_SCORE_BITS, BRIGHT_LABELS, BRIGHT_SCORE_BITS, OFFSET_BITS),
+      dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES));
+  localparam int WORD_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, dtof_pkg::pool_group_width(LABELS));
+  localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
+  localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2);
+  localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUPS);
+  localparam int BINS_PER_WORD = dtof_pkg::pool_bins_per_word(WORD_WIDTH, COUNT_WIDTH);
+  localparam int STEPS = (SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS;  // columns an engine serves
+  localparam int STEP_WIDTH = dtof_pkg::index_width(STEPS);
+  localparam int ENGINES = (SRAM_NUM + STEPS - 1) / STEPS;
+
+  `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "pool_pointer_array: NP must be 8 to 16")
+  `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "pool_pointer_array: PIXELS_PER_SRAM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1, "pool_pointer_array: SRAM_NUM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_slots, SLOTS >= 2 && SLOTS <= 4,
+                "pool_pointer_array: SLOTS must be 2 to 4, for its SRAM has one port")
+  `DTOF_REQUIRE(g_illegal_count, COUNT_WIDTH >= 4 && COUNT_WIDTH <= 8,
+                "pool_pointer_array: COUNT_WIDTH must be 4 to 8")
+  `DTOF_REQUIRE(g_illegal_group, GROUP_SIZE >= 2 && GROUP_SIZE <= 64 && (1 << $clog2(GROUP_SIZE)) == GROUP_SIZE,
+                "pool_pointer_array: GROUP_SIZE must be a power of two from 2 to 64")
+  `DTOF_REQUIRE(g_illegal_dark, DARK_LABELS >= 2 && DARK_LABELS <= 8 && DARK_SCORE_BITS >= 1 && DARK_SCORE_BITS <= 4,
+                "pool_pointer_array: DARK_LABELS must be 2 to 8 and DARK_SCORE_BITS 1 to 4")
+  `DTOF_REQUIRE(g_illegal_bright,
+                BRIGHT_LABELS >= 2 && BRIGHT_LABELS <= 8 && BRIGHT_SCORE_BITS >= 1 && BRIGHT_SCORE_BITS <= 4,
+                "pool_pointer_array: BRIGHT_LABELS must be 2 to 8 and BRIGHT_SCORE_BITS 1 to 4")
+  `DTOF_REQUIRE(g_illegal_from, BRIGHT_FROM >= 0 && BRIGHT_FROM <= 127,
+                "pool_pointer_array: BRIGHT_FROM must be 0 to 127")
+  `DTOF_REQUIRE(g_illegal_offset, OFFSET_BITS == 0 || (OFFSET_BITS >= 2 && OFFSET_BITS <= 5),
+                "pool_pointer_array: OFFSET_BITS must be 0 or 2 to 5")
+  `DTOF_REQUIRE(g_illegal_advantage,
+                (ADVANTAGE_WIDTH == 8 && POINTER_SHIFT == 0)
+                || (ADVANTAGE_WIDTH == 4 && POINTER_SHIFT >= 0 && POINTER_SHIFT <= 4),
+                "pool_pointer_array: ADVANTAGE_WIDTH must be 8 with POINTER_SHIFT 0, or 4 with POINTER_SHIFT 0 to 4")
+  `DTOF_REQUIRE(g_illegal_rival, RIVAL_MOVES == 0 || RIVAL_MOVES == 1,
+                "pool_pointer_array: RIVAL_MOVES must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_histogram,
+                BINS_PER_WORD >= 4 && dtof_pkg::POOL_COARSE_BINS <= BINS_PER_WORD * (GROUP_SIZE / 2),
+                "pool_pointer_array: 32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE pixels")
+  `DTOF_REQUIRE(g_illegal_engine, ENGINE_COLUMNS >= 1, "pool_pointer_array: ENGINE_COLUMNS must be at least 1")
+  `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 4 && ACQ_WIDTH <= 24,
+                "pool_pointer_array: ACQ_WIDTH must be 4 to 24")
+
+  // Control, once per array.
+
+  logic stream, coarse, point, more, late, acq_done, stream_idle, clear;
+  logic [3:0] acquisition;
+  logic decode, choose, decide, engine_done;
+  logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
+
+  pool_controller #(
+      .CLEAR_WORDS(PIXEL_WORDS),
+      .ADDR_WIDTH (ADDR_WIDTH),
+      .ACQ_WIDTH  (ACQ_WIDTH)
+  ) u_controller (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .start_i        (start_i),
+      .acq_num_i      (acq_num_i),
+      .coarse_end_i   (coarse_end_i),
+      .track_end_i    (track_end_i),
+      .late_begin_i   (late_begin_i),
+      .busy_o         (busy_o),
+      .done_o         (done_o),
+      .state_o        (state_o),
+      .stream_o       (stream),
+      .coarse_o       (coarse),
+      .point_o        (point),
+      .more_o         (more),
+      .acquisition_o  (acquisition),
+      .late_o         (late),
+      .acq_done_i     (acq_done),
+      .stream_idle_i  (stream_idle),
+      .clear_o        (clear),
+      .clear_address_o(clear_address),
+      .decode_o       (decode),
+      .choose_o       (choose),
+      .decide_o       (decide),
+      .engine_done_i  (engine_done)
+  );
+
+  logic beat_t1, first_slot_t1, odd_t1, update_t2, first_slot_t2, second_pixel_t2, every_16_t2, late_t2, fresh_t2;
+  logic load_t3, count_t4, stream_read, stream_write, stream_word_load, group_load;
+  logic [1:0] dither_t2;
+
+  pair_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .SLOTS          (SLOTS),
+      .GROUP_SIZE     (GROUP_SIZE)
+  ) u_pair_sequencer (
+      .clk_i            (clk_i),
+      .rst_ni           (rst_ni),
+      .stream_i         (stream),
+      .coarse_i         (coarse),
+      .more_i           (more),
+      .acquisition_i    (acquisition),
+      .late_i           (late),
+      .tdc_valid_i      (tdc_valid_i),
+      .tdc_ready_o      (tdc_ready_o),
+      .acq_done_o       (acq_done),
+      .idle_o           (stream_idle),
+      .beat_t1_o        (beat_t1),
+      .first_slot_t1_o  (first_slot_t1),
+      .odd_t1_o         (odd_t1),
+      .update_t2_o      (update_t2),
+      .first_slot_t2_o  (first_slot_t2),
+      .second_pixel_t2_o(second_pixel_t2),
+      .dither_t2_o      (dither_t2),
+      .every_16_t2_o    (every_16_t2),
+      .late_t2_o        (late_t2),
+      .fresh_t2_o       (fresh_t2),
+      .load_t3_o        (load_t3),
+      .count_t4_o       (count_t4),
+      .read_d_o         (stream_read),
+      .write_d_o        (stream_write),
+      .address_d_o      (stream_address),
+      .word_load_d_o    (stream_word_load),
+      .group_load_d_o   (group_load)
+  );
+
+  logic [STEP_WIDTH-1:0] engine_column;
+  logic [STEPS-1:0] engine_select;
+  logic engine_read, engine_write, engine_load;
+  logic capture_above, capture_own, capture_below, fill, search, first_label, pooled, candidate;
+  logic [4:0] pair;
+  logic deciding, clear_message, begin_step, spread, pass_label, capture_word, advance, odd_pixel;
+  logic [LABEL_WIDTH-1:0] label_index;
+  logic result, result_odd, scratch_read, scratch_write, send, send_last, send_busy;
+  logic [ROW_WIDTH-1:0] scratch_address, send_row;
+
+  engine_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .GROUP_SIZE     (GROUP_SIZE),
+      .LABELS         (LABELS),
+      .BINS_PER_WORD  (BINS_PER_WORD),
+      .ENGINE_COLUMNS (STEPS)
+  ) u_engine_sequencer (
+      .clk_i            (clk_i),
+      .rst_ni           (rst_ni),
+      .decode_i         (decode),
+      .choose_i         (choose),
+      .decide_i         (decide),
+      .done_o           (engine_done),
+      .column_o         (engine_column),
+      .select_o         (engine_select),
+      .read_d_o         (engine_read),
+      .write_d_o        (engine_write),
+      .address_d_o      (engine_address),
+      .load_d_o         (engine_load),
+      .capture_above_o  (capture_above),
+      .capture_own_o    (capture_own),
+      .capture_below_o  (capture_below),
+      .fill_o           (fill),
+      .search_o         (search),
+      .pair_o           (pair),
+      .first_label_o    (first_label),
+      .pooled_o         (pooled),
+      .candidate_o      (candidate),
+      .deciding_o       (deciding),
+      .clear_message_o  (clear_message),
+      .begin_o          (begin_step),
+      .spread_o         (spread),
+      .pass_label_o     (pass_label),
+      .label_o          (label_index),
+      .capture_word_o   (capture_word),
+      .advance_o        (advance),
+      .odd_pixel_o      (odd_pixel),
+      .result_o         (result),
+      .result_odd_o     (result_odd),
+      .scratch_read_o   (scratch_read),
+      .scratch_write_o  (scratch_write),
+      .scratch_address_o(scratch_address),
+      .send_o           (send),
+      .send_row_o       (send_row),
+      .send_last_o      (send_last),
+      .send_busy_i      (send_busy)
+  );
+
+  // What every column gets, registered to spread it.
+
+  logic coarse_q, point_q, engine_q, clear_q, decoding_q, read_q, write_q, word_load_q, group_load_q;
+  logic [ADDR_WIDTH-1:0] address_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      read_q <= 1'b0;
+      write_q <= 1'b0;
+    end else begin
+      read_q <= stream_read || engine_read;
+      write_q <= stream_write || engine_write || clear;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    coarse_q <= coarse;
+    point_q <= point;
+    engine_q <= !stream;
+    clear_q <= clear;
+    decoding_q <= (state_o == dtof_pkg::STATE_M1);
+    address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
+    word_load_q <= stream_word_load || engine_load;
+    group_load_q <= group_load;
+  end
+
+  // Engines with their columns.
+
+  logic [ENGINES*RESULT_WIDTH-1:0] results;
+
+  genvar e, c;
+  generate
+    for (e = 0; e < ENGINES; e = e + 1) begin : g_engine
+      localparam int FIRST = e * STEPS;
+      localparam int COLUMNS = (SRAM_NUM - FIRST < STEPS) ? SRAM_NUM - FIRST : STEPS;
+
+      logic [WORD_WIDTH-1:0] engine_word, word;
+      logic [COLUMNS*WORD_WIDTH-1:0] column_words;
+      logic [WORD_WIDTH-1:0] line;
+      integer i;
+
+      always_comb begin
+        line = '0;
+        for (i = 0; i < COLUMNS; i = i + 1) begin
+          line = line | column_words[i*WORD_WIDTH+:WORD_WIDTH];
+        end
+      end
+
+      for (c = 0; c < COLUMNS; c = c + 1) begin : g_column
+        pool_pointer_column #(
+            .NP               (NP),
+            .PIXELS_PER_SRAM  (PIXELS_PER_SRAM),
+            .COUNT_WIDTH      (COUNT_WIDTH),
+            .GROUP_SIZE       (GROUP_SIZE),
+            .DARK_LABELS      (DARK_LABELS),
+            .DARK_SCORE_BITS  (DARK_SCORE_BITS),
+            .BRIGHT_LABELS    (BRIGHT_LABELS),
+            .BRIGHT_SCORE_BITS(BRIGHT_SCORE_BITS),
+            .BRIGHT_FROM      (BRIGHT_FROM),
+            .OFFSET_BITS      (OFFSET_BITS),
+            .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
+            .POINTER_SHIFT    (POINTER_SHIFT),
+            .RIVAL_MOVES      (RIVAL_MOVES)
+        ) u_column (
+            .clk_i            (clk_i),
+            .rst_ni           (rst_ni),
+            .timestamp_i      (tdc_timestamp_i[(FIRST+c)*NP+:NP]),
+            .coarse_i         (coarse_q),
+            .point_i          (point_q),
+            .beat_t1_i        (beat_t1),
+            .first_slot_t1_i  (first_slot_t1),
+            .odd_t1_i         (odd_t1),
+            .update_t2_i      (update_t2),
+            .first_slot_t2_i  (first_slot_t2),
+            .second_pixel_t2_i(second_pixel_t2),
+            .dither_t2_i      (dither_t2),
+            .every_16_t2_i    (every_16_t2),
+            .late_t2_i        (late_t2),
+            .fresh_t2_i       (fresh_t2),
+            .load_t3_i        (load_t3),
+            .count_t4_i       (count_t4),
+            .read_i           (read_q),
+            .write_i          (write_q),
+            .address_i        (address_q),
+            .word_load_i      (word_load_q),
+            .group_load_i     (group_load_q),
+            .engine_i         (engine_q),
+            .select_i         (clear_q || engine_select[c]),
+            .engine_word_i    (engine_word),
+            .word_o           (column_words[c*WORD_WIDTH+:WORD_WIDTH])
+        );
+      end
+
+      pool_engine #(
+          .NP               (NP),
+          .PIXELS_PER_SRAM  (PIXELS_PER_SRAM),
+          .COUNT_WIDTH      (COUNT_WIDTH),
+          .DARK_LABELS      (DARK_LABELS),
+          .DARK_SCORE_BITS  (DARK_SCORE_BITS),
+          .BRIGHT_LABELS    (BRIGHT_LABELS),
+          .BRIGHT_SCORE_BITS(BRIGHT_SCORE_BITS),
+          .BRIGHT_FROM      (BRIGHT_FROM),
+          .OFFSET_BITS      (OFFSET_BITS),
+          .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
+          .POINTER_SHIFT    (POINTER_SHIFT),
+          .RIVAL_MOVES      (RIVAL_MOVES)
+      ) u_engine (
+          .clk_i            (clk_i),
+          .rst_ni           (rst_ni),
+          .line_i           (line),
+          .word_o           (word),
+          .decoding_i       (decoding_q),
+          .capture_above_i  (capture_above),
+          .capture_own_i    (capture_own),
+          .capture_below_i  (capture_below),
+          .fill_i           (fill),
+          .search_i         (search),
+          .pair_i           (pair),
+          .first_label_i    (first_label),
+          .pooled_i         (pooled),
+          .candidate_i      (candidate),
+          .deciding_i       (deciding),
+          .clear_message_i  (clear_message),
+          .begin_i          (begin_step),
+          .spread_i         (spread),
+          .pass_label_i     (pass_label),
+          .label_i          (label_index),
+          .capture_word_i   (capture_word),
+          .advance_i        (advance),
+          .odd_pixel_i      (odd_pixel),
+          .result_i         (result),
+          .result_odd_i     (result_odd),
+          .scratch_read_i   (scratch_read),
+          .scratch_write_i  (scratch_write),
+          .scratch_address_i(scratch_address),
+          .result_o         (results[e*RESULT_WIDTH+:RESULT_WIDTH])
+      );
+
+      assign engine_word = clear_q ? '0 : word;
+    end
+  endgenerate
+
+  pool_result_output #(
+      .ENGINES       (ENGINES),
+      .ENGINE_COLUMNS(STEPS),
+      .SRAM_NUM      (SRAM_NUM),
+      .ROW_WIDTH     (ROW_WIDTH),
+      .RESULT_WIDTH  (RESULT_WIDTH)
+  ) u_result_output (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_ni),
+      .send_i   (send),
+      .column_i (engine_column),
+      .row_i    (send_row),
+      .last_i   (send_last),
+      .results_i(results),
+      .busy_o   (send_busy),
+      .tvalid_o (result_tvalid_o),
+      .tready_i (result_tready_i),
+      .tdata_o  (result_tdata_o),
+      .tlast_o  (result_tlast_o)
+  );
+
+endmodule
