@@ -6,8 +6,10 @@ Same work as the exact model of tb_cpp/photon: a pixel's signal (Gaussian) and b
 frame, Poisson numbers, sorted in time, at most SLOTS kept per acquisition, TDC codes. Preset "thesis", a plane
 from 0.8 to 5 m, 14 klux. Two scripts: "by acquisition" draws Poisson numbers for every acquisition, as the
 model is defined; "by frame" knows that a frame's number is Poisson too and spreads its events over the
-acquisitions, so that empty ones cost nothing. Prints detections per second of processor time, of one core
-that is; with --bench FILE also the C++ figures of a Google Benchmark JSON file and both ratios.
+acquisitions, so that empty ones cost nothing. NumPy draws on one core. Prints its detections per second of
+processor time; with --bench FILE also the C++ figures of a Google Benchmark JSON file and their ratios to both
+scripts: of one core (processor time on both sides) and, for runs of several threads, of the whole run (wall
+time of all threads against the script's one core, whatever else the machine did).
 """
 import argparse
 import json
@@ -76,11 +78,16 @@ def measure(pixel_detections, pixels, seed):
     return best
 
 
+def print_ratios(label, rate, baselines):
+    ratios = ", ".join(f"{rate / value:.1f} x {name}" for name, value in baselines.items())
+    print(f"{label:44s} {rate / 1e6:8.2f} million detections/s   {ratios}")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--pixels", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--bench", help="Google Benchmark JSON of dtof_bench to compare with")
+    parser.add_argument("--bench", help="Google Benchmark JSON of photon_bench to compare with")
     arguments = parser.parse_args()
     baselines = {}
     for script in (by_acquisition, by_frame):
@@ -92,11 +99,11 @@ def main():
             runs = json.load(file)["benchmarks"]
         for run in runs:
             if "detections/s" in run and run.get("run_type") != "aggregate":
-                # Processor time: what other programs take away does not count on either side.
-                rate = run["detections/s"] * run["real_time"] / run["cpu_time"]
-                ratios = ", ".join(f"{rate / value:.1f} x {name}" for name, value in baselines.items())
                 label = run["name"].removesuffix("/process_time/real_time")
-                print(f"{label:44s} {rate / 1e6:8.2f} million detections/s   {ratios}")
+                one_core = run["detections/s"] * run["real_time"] / run["cpu_time"]
+                print_ratios(label + ", a core", one_core, baselines)
+                if not label.endswith("threads:1"):
+                    print_ratios(label + ", all", run["detections/s"], baselines)
 
 
 if __name__ == "__main__":

@@ -30,6 +30,8 @@ class ColumnStream {
     detections_.insert(detections_.end(), detections.begin(), detections.end());
     row_end_.push_back(detections_.size());
   }
+  /// Makes room for `detections` in all.
+  void reserve(std::size_t detections) { detections_.reserve(detections); }
   /// Appends one detection to the row that is being built; `finish_row` closes it.
   void append(Detection detection) { detections_.push_back(detection); }
   void finish_row() { row_end_.push_back(detections_.size()); }

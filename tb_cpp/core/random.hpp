@@ -3,9 +3,10 @@
 
 #include <Random123/philox.h>
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 namespace dtof {
 
@@ -31,19 +32,10 @@ class CounterRandom {
     }
     return block_[next_++];
   }
-  /// Fills `words` with whole blocks, two words each; unlike calls one by one, the blocks overlap in the
-  /// processor. Words of a block that was begun stay for later single calls.
-  template <std::size_t kWords>
-  void fill(std::array<std::uint64_t, kWords>& words) {
-    static_assert(kWords % 2 == 0);
-    r123::Philox4x32::ctr_type counter = counter_;
-    for (std::size_t i = 0; i < kWords; i += 2, ++counter[0]) {
-      const r123::Philox4x32::ctr_type block = r123::Philox4x32()(counter, key_);
-      words[i] = (std::uint64_t{block[0]} << 32U) | block[1];
-      words[i + 1] = (std::uint64_t{block[2]} << 32U) | block[3];
-    }
-    counter_ = counter;
-  }
+  /// Fills `words`, an even number of them, with whole blocks of two; unlike calls one by one, the blocks
+  /// overlap in the processor (vectors of them where it has AVX2: the same words). Words of a block that was
+  /// begun stay for later single calls.
+  void fill(std::span<std::uint64_t> words);
   std::uint64_t bits64() {
     const std::uint64_t high = (*this)();
     return (high << 32U) | (*this)();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/random/exponential_distribution.hpp>
 #include <boost/random/normal_distribution.hpp>
@@ -15,6 +16,9 @@ namespace dtof {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
+// Before a process's first event, in front of its list.
+constexpr double kBeforeFrame = -1.0;
+constexpr std::size_t kFirst = 1;
 
 // Drawing the kept events one after the other in time order costs as much as drawing and sorting this many
 // signal events, or four times as many background events, which come sorted (measured).
@@ -42,7 +46,7 @@ class Bits64 {
 
  private:
   CounterRandom& random_;
-  std::array<std::uint64_t, 32> words_;
+  std::array<std::uint64_t, 32> words_{};
   std::size_t next_ = words_.size();
 };
 
@@ -87,7 +91,9 @@ EventSampler::EventSampler(const SensorModel& model, std::size_t keep)
       gate_end_(model.time_gate ? model.time_gate->end_s / model.time_resolution_s() : code_count_),
       sigma_(pulse_sigma_s(model.pulse_fwhm_s) / model.time_resolution_s()),
       dead_time_(model.dead_time_s / model.time_resolution_s()),
-      keep_(keep) {}
+      keep_(keep),
+      background_{kBeforeFrame},
+      signal_{kBeforeFrame} {}
 
 std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRandom random) {
   PixelRates visible = rates;
@@ -109,9 +115,9 @@ std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRan
   return std::span<const double>(events_).first(event_count_);
 }
 
-void EventSampler::walk_background(double events_per_acquisition, CounterRandom& random) {
+[[gnu::flatten]] void EventSampler::walk_background(double events_per_acquisition, CounterRandom& random) {
   Bits64 bits(random);
-  background_count_ = 0;
+  background_end_ = kFirst;
   // `walked` is measured in mean events: gaps are exponential with mean 1, whatever the rate.
   const double end = events_per_acquisition * acquisitions_;
   const double gate_width = gate_end_ - gate_begin_;
@@ -129,14 +135,14 @@ void EventSampler::walk_background(double events_per_acquisition, CounterRandom&
     if (position >= frame_end_) {  // only by rounding
       break;
     }
-    make_room(background_, background_count_);
-    background_[background_count_++] = position;
+    make_room(background_, background_end_);
+    background_[background_end_++] = position;
   }
 }
 
-void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
+[[gnu::flatten]] void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
   Bits64 bits(random);
-  signal_count_ = 0;
+  signal_end_ = kFirst;
   const double acquisitions_per_event = 1.0 / rates.signal;
   const double end = rates.signal * acquisitions_;
   const bool sort_now = rates.signal <= kSortWhileDrawing;
@@ -148,35 +154,52 @@ void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
     if (time < gate_begin_ || time >= gate_end_ || position >= frame_end_) {
       continue;
     }
-    make_room(signal_, signal_count_);
-    std::size_t slot = signal_count_++;
-    for (; sort_now && slot > 0 && signal_[slot - 1] > position; --slot) {
+    make_room(signal_, signal_end_);
+    std::size_t slot = signal_end_++;
+    for (; sort_now && signal_[slot - 1] > position; --slot) {
       signal_[slot] = signal_[slot - 1];
     }
     signal_[slot] = position;
   }
   if (!sort_now) {
-    std::sort(signal_.begin(), signal_.begin() + static_cast<std::ptrdiff_t>(signal_count_));
+    std::sort(signal_.begin() + kFirst, signal_.begin() + static_cast<std::ptrdiff_t>(signal_end_));
   }
 }
 
 void EventSampler::merge() {
-  make_room(background_, background_count_);
-  make_room(signal_, signal_count_);
-  background_[background_count_] = kNever;
-  signal_[signal_count_] = kNever;
-  event_count_ = background_count_ + signal_count_;
+  make_room(background_, background_end_);
+  make_room(signal_, signal_end_);
+  background_[background_end_] = kNever;
+  signal_[signal_end_] = kNever;
+  event_count_ = background_end_ + signal_end_ - 2 * kFirst;
   if (events_.size() < event_count_) {
     events_.resize(event_count_);
   }
-  const double* background = background_.data();
-  const double* signal = signal_.data();
-  for (std::size_t i = 0; i < event_count_; ++i) {
-    // Without a branch: which process is next is not predictable.
-    const bool take_signal = *signal < *background;
+  // From both ends at once, two chains that the processor overlaps; without branches, since which process is
+  // next is not predictable; as integers, which order like the numbers and are compared faster.
+  const auto before = [](const double* a, const double* b) {
+    return std::bit_cast<std::int64_t>(*a) < std::bit_cast<std::int64_t>(*b);
+  };
+  const double* background = &background_[kFirst];
+  const double* signal = &signal_[kFirst];
+  const double* last_background = &background_[background_end_] - 1;
+  const double* last_signal = &signal_[signal_end_] - 1;
+  const auto merge_last = [&](std::size_t place) {
+    const bool take_background = before(last_signal, last_background);
+    events_[place] = take_background ? *last_background : *last_signal;
+    last_background -= take_background ? 1 : 0;
+    last_signal -= take_background ? 0 : 1;
+  };
+  const std::size_t half = event_count_ / 2;
+  for (std::size_t i = 0; i < half; ++i) {
+    const bool take_signal = before(signal, background);
     events_[i] = take_signal ? *signal : *background;
     signal += take_signal ? 1 : 0;
     background += take_signal ? 0 : 1;
+    merge_last(event_count_ - 1 - i);
+  }
+  if (event_count_ % 2 != 0) {
+    merge_last(half);
   }
 }
 

@@ -51,11 +51,12 @@ class EventSampler {
   double dead_time_;
   std::size_t keep_;
 
+  // Each process's events between two sentinels.
   std::vector<double> background_;
   std::vector<double> signal_;
+  std::size_t background_end_ = 0;
+  std::size_t signal_end_ = 0;
   std::vector<double> events_;
-  std::size_t background_count_ = 0;
-  std::size_t signal_count_ = 0;
   std::size_t event_count_ = 0;
 };
 

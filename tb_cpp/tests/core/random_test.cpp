@@ -68,7 +68,7 @@ TEST(CounterRandom, FillGivesTheWordsOfSingleCalls) {
   CounterRandom bulk(1, 2, 3, 4);
   CounterRandom single(1, 2, 3, 4);
   for (int repeat = 0; repeat < 3; ++repeat) {
-    std::array<std::uint64_t, 6> words{};
+    std::array<std::uint64_t, 38> words{};  // two batches and a rest
     bulk.fill(words);
     for (const std::uint64_t word : words) {
       EXPECT_EQ(word, single.bits64());
