@@ -22,6 +22,7 @@ datapath/pointer_builder.sv
 datapath/result_register.sv
 datapath/status_bits.sv
 datapath/label_match.sv
+datapath/minimum.sv
 datapath/track_update.sv
 datapath/twin_pointer_update.sv
 engine/candidate_decoder.sv

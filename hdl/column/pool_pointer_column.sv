@@ -273,19 +273,25 @@ module pool_pointer_column #(
 
   // The word in work, and the SRAM.
 
+  logic [WORD_WIDTH-1:0] counted_word;
   integer b;
+  always_comb begin
+    counted_word = word_q;
+    for (b = 0; b < BINS_PER_WORD; b = b + 1) begin
+      if (select_q == BIN_WIDTH'(b)) begin
+        counted_word[b*COUNT_WIDTH+:COUNT_WIDTH] = next_count;
+      end
+    end
+  end
+
   always_comb begin
     word_d = word_q;
     if (engine_i) begin
       word_d = (select_i && word_load_i) ? read_data : '0;
     end else if (word_load_i || (load_t3_i && load_q)) begin
       word_d = read_data;
-    end else if (coarse_i) begin
-      for (b = 0; b < BINS_PER_WORD; b = b + 1) begin
-        if (count_t4_i && pending_q && (select_q == BIN_WIDTH'(b))) begin
-          word_d[b*COUNT_WIDTH+:COUNT_WIDTH] = next_count;
-        end
-      end
+    end else if (count_t4_i && pending_q) begin
+      word_d = counted_word;
     end else if (update_t2_i && second_pixel_t2_i) begin
       word_d[2*PIXEL_WIDTH-1:PIXEL_WIDTH] = moved;
     end else if (update_t2_i) begin

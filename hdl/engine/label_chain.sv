@@ -67,7 +67,7 @@ module label_chain #(
   // T, its largest, and how far each stays behind.
 
   logic [LABELS*BELIEF_WIDTH-1:0] sum, sum_q;
-  logic signed [BELIEF_WIDTH-1:0] largest, largest_q;
+  logic [BELIEF_WIDTH-1:0] largest_q;
   logic [LABELS*PENALTY_WIDTH-1:0] behind, behind_q;
 
   genvar k;
@@ -84,24 +84,32 @@ module label_chain #(
     end
   endgenerate
 
-  // Label 0 is always in use.
-  logic signed [BELIEF_WIDTH-1:0] first_sum;
-  assign first_sum = $signed(sum[BELIEF_WIDTH-1:0]);
+  // The largest sum is what is left of the smallest complement; complements of sums with the top bit inverted are
+  // in the opposite order of the signed sums.
+  logic [LABELS*BELIEF_WIDTH-1:0] complement;
+  logic [BELIEF_WIDTH-1:0] smallest_complement;
 
-  integer i;
-  always_comb begin
-    largest = first_sum;
-    for (i = 1; i < LABELS; i = i + 1) begin
-      if (in_use_q[i] && $signed(sum[i*BELIEF_WIDTH+:BELIEF_WIDTH]) > largest) begin
-        largest = $signed(sum[i*BELIEF_WIDTH+:BELIEF_WIDTH]);
-      end
+  generate
+    for (k = 0; k < LABELS; k = k + 1) begin : g_complement
+      logic [BELIEF_WIDTH-1:0] term;
+      assign term = sum[k*BELIEF_WIDTH+:BELIEF_WIDTH];
+      assign complement[k*BELIEF_WIDTH+:BELIEF_WIDTH] =
+          in_use_q[k] ? {term[BELIEF_WIDTH-1], ~term[BELIEF_WIDTH-2:0]} : '1;
     end
-  end
+  endgenerate
+
+  minimum #(
+      .NUMBER(LABELS),
+      .WIDTH (BELIEF_WIDTH)
+  ) u_largest_sum (
+      .values_i  (complement),
+      .smallest_o(smallest_complement)
+  );
 
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
       sum_q <= sum;
-      largest_q <= largest;
+      largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
     end
     if (spread_i) begin
       behind_q <= behind;
@@ -127,15 +135,24 @@ module label_chain #(
     end
   endgenerate
 
-  integer j;
-  always_comb begin
-    cheapest = penalty_q;
-    for (j = 0; j < LABELS; j = j + 1) begin
-      if (near_q[j] && behind_q[j*PENALTY_WIDTH+:PENALTY_WIDTH] < cheapest) begin
-        cheapest = behind_q[j*PENALTY_WIDTH+:PENALTY_WIDTH];
-      end
+  logic [LABELS*PENALTY_WIDTH-1:0] reachable;
+  logic [PENALTY_WIDTH-1:0] nearest;
+
+  generate
+    for (k = 0; k < LABELS; k = k + 1) begin : g_reachable
+      assign reachable[k*PENALTY_WIDTH+:PENALTY_WIDTH] = near_q[k] ? behind_q[k*PENALTY_WIDTH+:PENALTY_WIDTH] : '1;
     end
-  end
+  endgenerate
+
+  minimum #(
+      .NUMBER(LABELS),
+      .WIDTH (PENALTY_WIDTH)
+  ) u_nearest (
+      .values_i  (reachable),
+      .smallest_o(nearest)
+  );
+
+  assign cheapest = (nearest < penalty_q) ? nearest : penalty_q;
 
   always_ff @(posedge clk_i) begin
     near_q <= near;

@@ -14,9 +14,13 @@ from .sram_model import Size
 READOUTS = {"ezpointer": 0, "hispointer1": 1, "hispointer": 2, "sifh": 3, "fifh": 4, "threesteps": 5,
             "pifh": 6, "histogram": 7}
 POINTER_READOUTS = ("ezpointer", "hispointer1", "hispointer")
+POOL_READOUTS = ("poolpointer", "poolpointer-lean")
 PARAMETERS = ("NP", "NB", "PIXELS_PER_SRAM", "SRAM_NUM", "SLOTS", "COUNT_WIDTH", "POINTER_STEP",
               "FRACTION_BITS", "CONFIDENCE_WIDTH", "GUARD", "WINDOW_CENTRED", "POINTER_PORTS",
               "SIGNALLED_CLEAR", "ACQ_WIDTH")
+POOL_PARAMETERS = ("NP", "PIXELS_PER_SRAM", "SRAM_NUM", "SLOTS", "COUNT_WIDTH", "GROUP_SIZE", "DARK_LABELS",
+                   "DARK_SCORE_BITS", "BRIGHT_LABELS", "BRIGHT_SCORE_BITS", "BRIGHT_FROM", "OFFSET_BITS",
+                   "ADVANTAGE_WIDTH", "POINTER_SHIFT", "RIVAL_MOVES", "ENGINE_COLUMNS", "ACQ_WIDTH")
 
 
 @dataclass(frozen=True)
@@ -39,11 +43,24 @@ class Configuration:
         return self.readout in POINTER_READOUTS
 
     @property
+    def is_pool(self) -> bool:
+        return self.readout in POOL_READOUTS
+
+    @property
+    def top(self) -> str:
+        return "pool_pointer_array" if self.is_pool else "dtof_array"
+
+    @property
+    def engines(self) -> int:
+        """Engines that the columns share (pool read-outs)."""
+        return -(-self["SRAM_NUM"] // self["ENGINE_COLUMNS"]) if self.is_pool else 0
+
+    @property
     def pixels(self) -> int:
         return self["PIXELS_PER_SRAM"] * self["SRAM_NUM"]
 
     def rtl_parameters(self) -> dict[str, int]:
-        return {"READOUT": READOUTS[self.readout], **self.parameters}
+        return self.parameters if self.is_pool else {"READOUT": READOUTS[self.readout], **self.parameters}
 
     def with_parameters(self, name: str, **changes: int) -> Configuration:
         return replace(self, name=name, parameters={**self.parameters, **changes})
@@ -57,6 +74,10 @@ def bin_width(configuration: Configuration) -> int:
 
 def memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one column by what they hold. The RTL asks for the same sizes, or elaboration stops."""
+    if configuration.is_pool:
+        groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
+        words = groups * (configuration["GROUP_SIZE"] // 2 + 1)
+        return {"pixels and groups": Size(1, words, pool_word_width(configuration))}
     pixels, np, nb = (configuration[name] for name in ("PIXELS_PER_SRAM", "NP", "NB"))
     found: dict[str, Size] = {}
     if configuration.readout != "ezpointer":
@@ -73,6 +94,31 @@ def memories(configuration: Configuration) -> dict[str, Size]:
     return found
 
 
+def pool_labels(configuration: Configuration) -> int:
+    return max(configuration["DARK_LABELS"], configuration["BRIGHT_LABELS"])
+
+
+def pool_word_width(configuration: Configuration) -> int:
+    """Two pixels or a group's word (dtof_pkg::pool_track_width, pool_point_width, pool_group_width)."""
+    labels = pool_labels(configuration)
+    label_width = max(1, (labels - 1).bit_length())
+    track = max(configuration["DARK_LABELS"] * configuration["DARK_SCORE_BITS"],
+                configuration["BRIGHT_LABELS"] * configuration["BRIGHT_SCORE_BITS"])
+    if configuration["OFFSET_BITS"] > 0:
+        track += label_width + configuration["OFFSET_BITS"]
+    moves = configuration["RIVAL_MOVES"]
+    point = (configuration["ADVANTAGE_WIDTH"] + (16 if moves else 12) - configuration["POINTER_SHIFT"]
+             + (8 if moves else 2 * label_width))
+    return max(2 * max(track, point), 7 * labels + 7)
+
+
+def engine_memories(configuration: Configuration) -> dict[str, Size]:
+    """The SRAMs of one engine."""
+    if not configuration.is_pool:
+        return {}
+    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(5 * pool_labels(configuration), 8))}
+
+
 def bits_per_pixel(configuration: Configuration) -> float:
     return sum(size.capacity for size in memories(configuration).values()) / configuration["PIXELS_PER_SRAM"]
 
@@ -83,18 +129,21 @@ def load(path: Path) -> dict[str, Configuration]:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise FlowError(f"{path}: {error}") from None
-    defaults = table.get("parameters", {})
     found: dict[str, Configuration] = {}
     for name, entry in table.get("configuration", {}).items():
         base = found.get(entry.get("variant_of", ""))
         if entry.get("variant_of") and base is None:
             raise FlowError(f"{path}: {name} is a variant of '{entry['variant_of']}', which is not above it")
         readout = entry.get("readout", base.readout if base else "")
-        if readout not in READOUTS:
-            raise FlowError(f"{path}: {name} has the unknown read-out '{readout}'; known: {', '.join(READOUTS)}")
+        if readout not in READOUTS and readout not in POOL_READOUTS:
+            raise FlowError(f"{path}: {name} has the unknown read-out '{readout}'; "
+                            f"known: {', '.join([*READOUTS, *POOL_READOUTS])}")
+        pool = readout in POOL_READOUTS
+        defaults = table.get("pool_parameters" if pool else "parameters", {})
         parameters = {**(base.parameters if base else defaults), **entry.get("parameters", {})}
-        unknown = sorted(set(parameters) - set(PARAMETERS))
-        missing = sorted(set(PARAMETERS) - set(parameters))
+        known = set(POOL_PARAMETERS if pool else PARAMETERS)
+        unknown = sorted(set(parameters) - known)
+        missing = sorted(known - set(parameters))
         if unknown or missing:
             what = f"unknown parameter {unknown[0]}" if unknown else f"no value for {missing[0]}"
             raise FlowError(f"{path}: {name} has {what}")

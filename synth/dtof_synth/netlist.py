@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 from .errors import FlowError
 from .liberty import THRESHOLDS, Group, bus_type
@@ -18,6 +18,7 @@ from .library import Buffer, Library
 
 Module = dict
 COLUMN_SUFFIX = "_column"
+ENGINE_SUFFIX = "_engine"
 STUB = "column_stub"
 TREE_PREFIX = "fanout_"
 COPY_SUFFIX = "_copy"
@@ -44,10 +45,22 @@ def modules(design: dict) -> dict[str, Module]:
 
 def column_module(design: dict) -> str:
     """Name of the one column module; FlowError if there is not exactly one kind."""
-    used = {cell["type"] for cell in top(design)["cells"].values() if cell["type"].endswith(COLUMN_SUFFIX)}
+    used = _kinds(design, COLUMN_SUFFIX)
     if len(used) != 1:
         raise FlowError(f"the array has {len(used)} kinds of columns instead of one: {sorted(used)}")
     return used.pop()
+
+
+def engine_module(design: dict) -> str:
+    """Name of the module that several columns share, if there is one; FlowError if there are several kinds."""
+    used = _kinds(design, ENGINE_SUFFIX)
+    if len(used) > 1:
+        raise FlowError(f"the array has {len(used)} kinds of engines instead of one: {sorted(used)}")
+    return used.pop() if used else ""
+
+
+def _kinds(design: dict, suffix: str) -> set[str]:
+    return {cell["type"] for cell in top(design)["cells"].values() if cell["type"].endswith(suffix)}
 
 
 def top(design: dict) -> Module:
@@ -57,14 +70,14 @@ def top(design: dict) -> Module:
     raise FlowError("the netlist has no top module")
 
 
-def rename_columns(design: dict) -> None:
-    """Gives the derived column module its plain name, which every tool reads."""
-    old = column_module(design)
-    plain = old.split("\\")[-1]
-    modules(design)[plain] = modules(design).pop(old)
-    for cell in top(design)["cells"].values():
-        if cell["type"] == old:
-            cell["type"] = plain
+def rename_parts(design: dict) -> None:
+    """Gives the derived column and engine modules their plain names, which every tool reads."""
+    for old in filter(None, (column_module(design), engine_module(design))):
+        plain = old.split("\\")[-1]
+        modules(design)[plain] = modules(design).pop(old)
+        for cell in top(design)["cells"].values():
+            if cell["type"] == old:
+                cell["type"] = plain
 
 
 def count(module: Module, library: Library) -> Counts:
@@ -78,6 +91,17 @@ def count(module: Module, library: Library) -> Counts:
                   sum(library.area[kind] * number for kind, number in trees.items()),
                   sum(library.clock_pin_ff[kind] * number for kind, number in flops.items()),
                   sum(library.clock_energy_fj[kind] * number for kind, number in flops.items()))
+
+
+def count_shared(design: dict, library: Library) -> Counts:
+    """Everything outside the columns: the top and its engines."""
+    total = count(top(design), library)
+    engine = engine_module(design)
+    number = sum(cell["type"] == engine for cell in top(design)["cells"].values())
+    if number:
+        one = count(modules(design)[engine], library)
+        total = Counts(*(a + number * b for a, b in zip(astuple(total), astuple(one))))
+    return total
 
 
 def foreign_cells(design: dict, library: Library, macros: set[str]) -> set[str]:
@@ -250,20 +274,22 @@ def port_loads(module: Module, pin_load: Callable[[str, str], float], wire: floa
 
 
 def finish(design: dict, library: Library, macro_pin_ff: float) -> dict[str, list[float]]:
-    """Inserts the fan-out trees of column and top; returns the load of the column's input ports."""
-    column = modules(design)[column_module(design)]
+    """Inserts the fan-out trees of column, engine and top; returns the load of the column's input ports."""
     wire = library.wire_ff_per_sink
+    name = column_module(design)
+    mean: dict[str, dict[str, float]] = {}
 
     def cell_load(kind: str, pin: str) -> float:
         return library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
 
-    insert_fanout_trees(column, library, cell_load, clock_nets(column))
-    loads = port_loads(column, cell_load, wire)
-    mean = {port: max(values, default=0.0) for port, values in loads.items()}
-    name = column_module(design)
+    for part in filter(None, (engine_module(design), name)):
+        module = modules(design)[part]
+        insert_fanout_trees(module, library, cell_load, clock_nets(module))
+        loads = port_loads(module, cell_load, wire)
+        mean[part] = {port: max(values, default=0.0) for port, values in loads.items()}
 
     def top_load(kind: str, pin: str) -> float:
-        return mean.get(pin, 0.0) if kind == name else cell_load(kind, pin)
+        return mean[kind].get(pin, 0.0) if kind in mean else cell_load(kind, pin)
 
     array = top(design)
     insert_fanout_trees(array, library, top_load, clock_nets(array), name)

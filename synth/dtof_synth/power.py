@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 
 from . import sram_model
-from .configuration import Configuration, memories
+from .configuration import Configuration, engine_memories, memories
 from .library import Library
 from .netlist import TREE_LOAD_SHARE
 
@@ -67,7 +67,7 @@ def _array_sum(cells: dict[str, tuple[float, float, float]], columns: int) -> tu
     """Sum over the array: one kept column times all columns, plus everything outside columns."""
     groups: dict[str, list[float]] = {}
     for name, values in cells.items():
-        column = name.split("/")[0] if "/" in name else ""
+        column = name.split("/")[0] if "u_column/" in name else ""
         group = groups.setdefault(column, [0.0, 0.0, 0.0])
         for index, value in enumerate(values):
             group[index] += value
@@ -94,6 +94,10 @@ def access_rates(configuration: Configuration) -> dict[str, tuple[float, float]]
     """(reads, writes) per clock of each SRAM of a column, averaged over the measurements of a frame."""
     pixel_rate = 1 / configuration["SLOTS"]
     half = 0.5 if configuration.has_pointer else 1.0
+    if configuration.is_pool:  # pairs of pixels in three quarters of the frame, chosen timestamps in the first
+        pair_rate = pixel_rate / 2
+        return {"pixels and groups": (0.25 * pixel_rate * 2 * DETECTION_RATE + 0.75 * pair_rate,
+                                      0.25 * pixel_rate * 2 * DETECTION_RATE + 0.75 * pair_rate)}
     return {"histogram": (half * DETECTION_RATE, half * DETECTION_RATE),
             "pointer": ((pixel_rate, pixel_rate) if configuration.readout == "ezpointer"
                         else (pixel_rate / 2, pixel_rate / 2)),
@@ -109,4 +113,5 @@ def sram_mw(configuration: Configuration, mhz: float) -> float:
         reads, writes = rates[use]
         dynamic = (reads * macro.read_energy + writes * macro.write_energy) * mhz * 1e-3
         total += dynamic + macro.leakage * 1e-3
-    return total * configuration["SRAM_NUM"]
+    idle = sum(sram_model.macro(size).leakage for size in engine_memories(configuration).values())
+    return total * configuration["SRAM_NUM"] + configuration.engines * idle * 1e-3

@@ -11,13 +11,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from . import netlist, power, sram_kit, sram_model, tools
-from .configuration import Configuration, bits_per_pixel, memories
+from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
 from .library import Library
 from .netlist import Counts
 from .power import ClockTree, Power
 
-TOP = "dtof_array"
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
 KEPT_COLUMNS = 3
@@ -71,6 +70,10 @@ class Timing:
     slow_edges: int
 
 
+def _area(used: dict[str, sram_model.Size]) -> float:
+    return sum(sram_model.macro(size).area for size in used.values())
+
+
 @dataclass(frozen=True)
 class Result:
     """Figures of one configuration. Areas in um2."""
@@ -82,11 +85,13 @@ class Result:
     nand2_area: float
     timing: dict[str, Timing]
     power: Power | None = None
-    sram_area: float = field(init=False)
+    sram_area: float = field(init=False)  # of a column
+    engine_sram_area: float = field(init=False)  # of all engines
 
     def __post_init__(self) -> None:
-        areas = (sram_model.macro(size).area for size in memories(self.configuration).values())
-        object.__setattr__(self, "sram_area", sum(areas))
+        object.__setattr__(self, "sram_area", _area(memories(self.configuration)))
+        object.__setattr__(self, "engine_sram_area",
+                           self.configuration.engines * _area(engine_memories(self.configuration)))
 
     @property
     def columns(self) -> int:
@@ -94,8 +99,8 @@ class Result:
 
     @property
     def total_mm2(self) -> float:
-        """Columns and shared logic; the clock tree is an estimate and reported apart."""
-        return ((self.column.area + self.sram_area) * self.columns + self.shared.area) / 1e6
+        """Columns, shared logic, engines; the clock tree is an estimate and reported apart."""
+        return ((self.column.area + self.sram_area) * self.columns + self.shared.area + self.engine_sram_area) / 1e6
 
     @property
     def bits_per_pixel(self) -> float:
@@ -122,7 +127,7 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
     scripts = technology.root / "synth" / "yosys"
     settings = folder / "generic_settings.tcl"
     tools.write_settings(settings, {
-        "scripts": scripts, "top": TOP,
+        "scripts": scripts, "top": configuration.top,
         "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "package",
         "technology_files": [technology.kit / f"{kind.module}.sv" for kind in sram_model.KINDS.values()],
         "black_boxes": technology.kit / "sram40_blackbox.v", "liberty": technology.slow.path,
@@ -146,8 +151,8 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
         "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
     tools.run_yosys(scripts / "map.tcl", settings, folder / "map.log", configuration.name)
     design = json.loads((folder / "mapped.json").read_text(encoding="utf-8"))
-    netlist.rename_columns(design)
-    macros = {size.name for size in memories(configuration).values()}
+    netlist.rename_parts(design)
+    macros = {size.name for size in [*memories(configuration).values(), *engine_memories(configuration).values()]}
     foreign = netlist.foreign_cells(design, library, macros)
     if foreign:
         raise FlowError(f"{configuration.name}: unmapped cells in the netlist: {', '.join(sorted(foreign))}")
@@ -201,7 +206,7 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     settings = folder / f"sta_{corner}_settings.tcl"
     tools.write_settings(settings, {
         "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
-        "netlist": folder / "timing.v", "top": TOP, "wire_load": library.wire_load,
+        "netlist": folder / "timing.v", "top": configuration.top, "wire_load": library.wire_load,
         "constraints": technology.root / "constraints" / "dtof.sdc",
         "target_period": f"{1000 / TARGET_MHZ:.6f}", "fast_period": f"{1000 / FAST_MHZ:.6f}",
         "activity": power.ACTIVITY, "with_power": int(corner == "typical")})
@@ -233,7 +238,7 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
     library = technology.slow
     loads = netlist.finish(design, library, sram_kit.PIN_FF)
     column = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
-    shared = netlist.count(netlist.top(design), library)
+    shared = netlist.count_shared(design, library)
     own = folder / f"effort{number}"
     own.mkdir(exist_ok=True)
     _write_timing_netlist(design, loads, technology, own, configuration.name)
@@ -252,10 +257,10 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
             break
     best = max(attempts, key=lambda attempt: attempt.slow.slack)
     columns = configuration["SRAM_NUM"]
-    macros = len(memories(configuration))
+    macros = columns * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))
     tree = power.clock_tree(
-        columns * (best.column.flip_flops + macros) + best.shared.flip_flops,
-        columns * (best.column.clock_ff + macros * sram_kit.CLOCK_PIN_FF) + best.shared.clock_ff, technology.slow)
+        columns * best.column.flip_flops + best.shared.flip_flops + macros,
+        columns * best.column.clock_ff + best.shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
     timing = {"slow": best.slow}
     figures: Power | None = None
     if "typical" in corners:

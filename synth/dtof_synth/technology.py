@@ -7,7 +7,7 @@ import gzip
 from pathlib import Path
 
 from . import library, sram_kit, standard_cells
-from .configuration import Configuration, memories
+from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .run import Technology
 from .sram_model import Size
@@ -19,7 +19,7 @@ def needed_sizes(configurations: list[Configuration]) -> dict[Size, list[str]]:
     """Every SRAM size in use and the configurations that use it."""
     uses: dict[Size, list[str]] = {}
     for configuration in configurations:
-        for size in memories(configuration).values():
+        for size in [*memories(configuration).values(), *engine_memories(configuration).values()]:
             uses.setdefault(size, []).append(configuration.name)
     return uses
 

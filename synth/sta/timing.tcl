@@ -55,7 +55,8 @@ proc report_cell_power {activity} {
   set cells {}
   foreach cell [get_cells -hierarchical *] {
     set name [get_full_name $cell]
-    if {![string match *u_macro $name] && ![string match *u_column $name]} { lappend cells $cell }
+    if {![string match *u_macro $name] && ![string match *u_column $name]
+        && ![string match *u_engine $name]} { lappend cells $cell }
   }
   foreach {label value} [list CLOCK 1e-9 ALL $activity] {
     puts "DTOF_POWER_$label"

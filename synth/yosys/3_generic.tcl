@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # Technology-independent synthesis. The column stays a module of its own, so that it is synthesised once
-# however many columns the array has; everything else is flattened into the shared logic.
+# however many columns the array has, and so does an engine that columns share; everything else is flattened
+# into the shared logic.
 #
 # `synth` up to its fine part, and that without opt_share: merging the +step and -step of a pointer behind one
 # multiplexed adder saves some area but puts the comparison in front of the adder.
-setattr -mod -set keep_hierarchy 1 *_column
+setattr -mod -set keep_hierarchy 1 *_column *_engine
 synth -flatten -noshare -top $top -run coarse:fine
 opt -fast -undriven -fine
 techmap
