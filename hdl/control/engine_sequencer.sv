@@ -15,8 +15,8 @@
 //   PERIOD - 5, PERIOD - 4          read the word and the group of the pixel two steps on
 //   PERIOD - 2                      word captured; scratch read (second pass)
 //   PERIOD - 1                      the pixel is prepared; the chain moves on
-//   s = 0 of the next step          choose: pointer word; s = 3: the pair is written. decide: results handed out,
-//                                   as soon as those of the step before are sent
+//   s = 0 of the next step          choose: pointer word, written with PERIOD - 3 if the pair is complete. decide:
+//                                   results handed out, as soon as those of the step before are sent
 // SRAM commands are given one clock early (_d); a word is on the engine's input three clocks after its command.
 // Latency, K labels: a column's groups x (32 K + 40), (pixels + 3) x PERIOD a pass.
 // Cost: counters, per array.
@@ -249,7 +249,7 @@ module engine_sequencer #(
 
   assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(4));
   assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(3));
-  assign write_pair = second_pass && !deciding_q && (n_q >= N_WIDTH'(LEAD + 1)) && (s_q == S_WIDTH'(3))
+  assign write_pair = second_pass && !deciding_q && (n_q >= N_WIDTH'(LEAD + 1)) && (s_q == last_s - S_WIDTH'(2))
       && (result_row[0] || n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
 
   assign read_d_o = read_bins || read_word || read_cells;
