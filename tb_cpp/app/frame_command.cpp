@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 
 #include "analytic/fidelity.hpp"
 #include "app/columns.hpp"
@@ -21,6 +24,7 @@
 #include "io/ply.hpp"
 #include "io/result_csv.hpp"
 #include "io/stream_csv.hpp"
+#include "metrics/confidence_interval.hpp"
 #include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
@@ -39,17 +43,23 @@ struct FrameOptions {
   std::string depth_file;
   SceneParameters scene_parameters;
   std::optional<double> reflectivity;
+  std::optional<double> precision_percent;
+  int most_frames = 1000;
   std::string out = "build/frame";
   std::string record;
   std::string command_line;
 };
 
-/// What one read-out made of the frame, over the columns read.
+/// What one read-out made of the frame, over the columns read. With --precision of several frames: the maps
+/// are those of the first.
 struct MeasuredFrame {
   ReadoutParameters parameters;
   ReadoutRun run;
   DepthImage depth;
   DepthImage error;
+  ErrorStatistics statistics;  ///< of all frames' pixels that have a target
+  int frames = 1;
+  bool precision_reached = true;
 };
 
 TargetMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
@@ -74,9 +84,21 @@ DepthImage true_depth(const TargetMap& targets, std::span<const int> columns) {
   return image;
 }
 
-MeasuredFrame measure(const StreamSource& source, const SensorModel& sensor,
-                      const ReadoutParameters& parameters, const FrameOptions& options,
-                      std::span<const int> columns, const DepthImage& truth) {
+/// Adds a frame's errors; returns its mean square, m2.
+double add_errors(const DepthImage& truth, const DepthImage& error, ErrorStatistics& all) {
+  RunningMoments errors;
+  for (std::size_t i = 0; i < truth.metres.size(); ++i) {
+    if (!std::isnan(truth.metres[i])) {
+      all.add(truth.metres[i], truth.metres[i] + error.metres[i]);
+      errors.add(error.metres[i]);
+    }
+  }
+  return errors.mean_square();
+}
+
+MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor,
+                           const ReadoutParameters& parameters, const FrameOptions& options,
+                           std::span<const int> columns, const DepthImage& truth) {
   MeasuredFrame frame;
   frame.parameters = parameters;
   frame.run = run_readout(source, parameters, options.run, columns, options.command_line);
@@ -88,6 +110,32 @@ MeasuredFrame measure(const StreamSource& source, const SensorModel& sensor,
         static_cast<float>(scale.depth(code_position(frame.run.results[i], parameters.fraction_bits)));
     frame.depth.metres[i] = std::max(depth, 0.0F);
     frame.error.metres[i] = depth - truth.metres[i];
+  }
+  return frame;
+}
+
+/// With --precision, frames until the rmse's interval is narrow enough. Pixels of a frame differ in distance,
+/// frames are equals: the interval comes from the spread of the frames' mean squares.
+MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const ReadoutParameters& parameters,
+                      const FrameOptions& options, std::span<const int> columns, const DepthImage& truth) {
+  MeasuredFrame frame =
+      measure_once(*make_source(fidelity, scene), scene.model(), parameters, options, columns, truth);
+  std::vector<double> mean_squares = {add_errors(truth, frame.error, frame.statistics)};
+  if (!options.precision_percent) {
+    return frame;
+  }
+  constexpr int kFewestFrames = 4;
+  const auto reached = [&] {
+    // A root's relative error is half its square's.
+    return frame.frames >= kFewestFrames &&
+           0.5 * estimate_mean(mean_squares).relative_half_width() <= *options.precision_percent / 100.0;
+  };
+  while (!(frame.precision_reached = reached()) && frame.frames < options.most_frames) {
+    const auto next = make_source(fidelity, scene.at_frame(static_cast<std::uint32_t>(frame.frames)));
+    const MeasuredFrame other = measure_once(*next, scene.model(), parameters, options, columns, truth);
+    frame.run.seconds += other.run.seconds;
+    mean_squares.push_back(add_errors(truth, other.error, frame.statistics));
+    ++frame.frames;
   }
   return frame;
 }
@@ -110,29 +158,57 @@ void write_readout_files(const MeasuredFrame& frame, std::span<const int> column
                     {.title = title + ", error"});
 }
 
-Table summarise(const std::vector<MeasuredFrame>& frames, const DepthImage& truth) {
-  Table table({"read-out", "rmse mm", "bias mm", "above 3 %", "above 10 %", "cycles"});
+Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
+  std::vector<std::string> head = {"read-out", "rmse mm", "bias mm", "above 3 %", "above 10 %", "cycles"};
+  if (options.precision_percent) {
+    head.emplace_back("frames");
+  }
+  Table table(head);
   for (const MeasuredFrame& frame : frames) {
-    ErrorStatistics statistics;
-    for (std::size_t i = 0; i < truth.metres.size(); ++i) {
-      if (!std::isnan(truth.metres[i])) {
-        statistics.add(truth.metres[i], truth.metres[i] + frame.error.metres[i]);
-      }
-    }
     std::vector<std::string> row = {std::string(readout_title(frame.parameters.readout))};
-    if (statistics.count() == 0) {
+    if (frame.statistics.count() == 0) {
       row.insert(row.end(), {"-", "-", "-", "-"});
     } else {
-      const ErrorSummary summary = statistics.summary();
+      const ErrorSummary summary = frame.statistics.summary();
       row.insert(row.end(),
                  {fmt::format("{:.0f}", summary.rmse_m * 1e3), fmt::format("{:.0f}", summary.bias_m * 1e3),
                   fmt::format("{:.2f} %", summary.share_above_3_percent * 100.0),
                   fmt::format("{:.2f} %", summary.share_above_10_percent * 100.0)});
     }
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
+    if (options.precision_percent) {
+      row.push_back(fmt::format("{}{}", frame.frames, frame.precision_reached ? "" : "+"));
+    }
     table.add(row);
   }
   return table;
+}
+
+/// What --precision came to; empty without it.
+std::string precision_sentence(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
+  if (!options.precision_percent) {
+    return "";
+  }
+  const auto reached = std::ranges::count(frames, true, &MeasuredFrame::precision_reached);
+  const int most = std::ranges::max(frames, {}, &MeasuredFrame::frames).frames;
+  return fmt::format(
+      "Rmse within {:g} % (95 % interval) for {} of {} read-outs, with up to {} frames; maps and files show "
+      "the first frame.\n\n",
+      *options.precision_percent, reached, frames.size(), most);
+}
+
+/// The photon model; with --precision one that has noise.
+Fidelity photon_model(const FrameOptions& options, const PhotonSource& scene) {
+  const Fidelity fidelity = options.sensor.photon_model(scene);
+  if (!options.precision_percent || fidelity != Fidelity::kAnalytic) {
+    return fidelity;
+  }
+  if (options.sensor.fidelity != "auto") {
+    throw InputError(
+        "frame: the analytic photon model has no noise, so --precision has nothing to do; choose exact, fast "
+        "or auto");
+  }
+  return Fidelity::kFast;
 }
 
 void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& truth,
@@ -169,24 +245,29 @@ void run_frame_command(const FrameOptions& options) {
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }
+  if (!options.run.trace.empty() && options.precision_percent) {
+    throw InputError("--trace shows one frame, --precision takes many: choose one");
+  }
   const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
   const PhotonSource scene(sensor, make_targets(options, sensor), options.sensor.klux, options.run.seed);
-  const Fidelity fidelity = options.sensor.photon_model(scene);
-  const std::unique_ptr<StreamSource> source = make_source(fidelity, scene);
-  std::vector<int> columns = parse_columns(options.run.columns, source->columns());
+  const Fidelity fidelity = photon_model(options, scene);
+  std::vector<int> columns = parse_columns(options.run.columns, scene.columns());
   if (columns.empty()) {
-    columns.resize(static_cast<std::size_t>(source->columns()));
+    columns.resize(static_cast<std::size_t>(scene.columns()));
     std::iota(columns.begin(), columns.end(), 0);
   }
-  create_output_folder(options.out);
   const DepthImage truth = true_depth(scene.targets(), columns);
+  if (options.precision_percent && std::ranges::all_of(truth.metres, [](float m) { return std::isnan(m); })) {
+    throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
+  }
+  create_output_folder(options.out);
   const ColourRange range = depth_range(std::vector<MapPanel>{{truth, "", MapKind::kDepth}});
   if (!options.record.empty()) {
-    write_stream_csv(options.record, *source);
+    write_stream_csv(options.record, *make_source(fidelity, scene));
   }
   std::vector<MeasuredFrame> frames;
   for (const ReadoutParameters& parameters : readouts) {
-    frames.push_back(measure(*source, sensor, parameters, options, columns, truth));
+    frames.push_back(measure(scene, fidelity, parameters, options, columns, truth));
     write_readout_files(frames.back(), columns, range, options.out);
   }
   write_overview(frames, truth, range, options);
@@ -194,18 +275,20 @@ void run_frame_command(const FrameOptions& options) {
   for (const MeasuredFrame& frame : frames) {
     seconds += frame.run.seconds;
   }
-  const Table table = summarise(frames, truth);
+  const Table table = summarise(frames, options);
+  const std::string precision = precision_sentence(frames, options);
   const std::string heading = fmt::format(
       "Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, {} photons, engine {}{}, seed {}.\n",
       options.depth_file.empty() ? options.scene : options.depth_file, truth.width, truth.height,
       options.sensor.klux, options.sensor.preset, sensor.acquisitions, fidelity_name(fidelity),
       options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
-  write_file(std::filesystem::path(options.out) / "summary.md",
-             fmt::format("{}\n{}\nCommand: `{}`\n", heading, table.markdown(), options.command_line));
+  write_file(
+      std::filesystem::path(options.out) / "summary.md",
+      fmt::format("{}\n{}\n{}Command: `{}`\n", heading, table.markdown(), precision, options.command_line));
   // Times change from run to run and stay out of the files.
-  fmt::print("{}\n{}\nRead out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n",
-             heading, table.markdown(), seconds, options.out);
+  fmt::print("{}\n{}\n{}Read out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n",
+             heading, table.markdown(), precision, seconds, options.out);
 }
 
 }  // namespace
@@ -233,6 +316,14 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   scene->add_option("--steps", options->scene_parameters.steps, "staircase: steps")->capture_default_str();
   scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the preset's)");
+  command
+      ->add_option("--precision", options->precision_percent,
+                   "more frames of the scene, until the 95 % interval of the rmse is within this many per "
+                   "cent of its value")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-frames", options->most_frames, "where --precision gives up")
+      ->check(CLI::Range(4, 1'000'000))
+      ->capture_default_str();
   options->sensor.add_to(*command);
   options->readout.add_to(*command);
   options->run.add_to(*command);

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <system_error>
 
@@ -26,14 +28,42 @@ std::string quoted(const std::string& text) {
   return out + "'";
 }
 
+/// Marks at 1, 2 and 5 of every decade, where gnuplot would label the decades only.
+std::string logarithmic_marks(const std::vector<PlotSeries>& series) {
+  double low = std::numeric_limits<double>::infinity();
+  double high = 0.0;
+  for (const PlotSeries& line : series) {
+    for (const double x : line.x) {
+      if (std::isfinite(x) && x > 0.0) {
+        low = std::min(low, x);
+        high = std::max(high, x);
+      }
+    }
+  }
+  constexpr double kFewDecades = 1e3;
+  if (high == 0.0 || high > kFewDecades * low) {
+    return "";
+  }
+  std::string marks;
+  const int last = static_cast<int>(std::ceil(std::log10(high)));
+  for (int decade = static_cast<int>(std::floor(std::log10(low))); decade <= last; ++decade) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      const double mark = digit * std::pow(10.0, decade);
+      marks += fmt::format("{}'{:g}' {:.9g}", marks.empty() ? "" : ", ", mark, mark);
+    }
+  }
+  return fmt::format("set xtics ({})\n", marks);
+}
+
 std::string gnuplot_script(const std::filesystem::path& output, const std::vector<PlotSeries>& series,
                            const PlotLayout& layout) {
   std::string script = fmt::format(
       "set terminal svg size 900,560 font 'sans,13' background '#ffffff'\n"
       "set output {}\nset title {} noenhanced\nset xlabel {} noenhanced\nset ylabel {} noenhanced\n"
-      "set key outside right noenhanced\nset grid\nset autoscale xfix\n{}{}",
+      "set key outside right noenhanced\nset grid\nset autoscale xfix\n{}{}{}",
       quoted(output.string()), quoted(layout.title), quoted(layout.x_label), quoted(layout.y_label),
-      layout.logarithmic_y ? "set logscale y\n" : "", layout.logarithmic_x ? "set logscale x\n" : "");
+      layout.logarithmic_y ? "set logscale y\n" : "", layout.logarithmic_x ? "set logscale x\n" : "",
+      layout.logarithmic_x ? logarithmic_marks(series) : "");
   std::string plots;
   for (std::size_t i = 0; i < series.size(); ++i) {
     script += fmt::format("$series{} << END\n", i);

@@ -130,6 +130,56 @@ TEST_F(CommandLine, AccuracyPrintsTheSweep) {
   EXPECT_THAT(read_file(path("out/accuracy.csv")), HasSubstr("\n14,hispointer,2,20,1,"));
 }
 
+TEST_F(CommandLine, AccuracyTakesMoreFramesUntilPreciseEnoughAndSaysHowMany) {
+  const std::string sweep = "accuracy -r hispointer --distances 2 --frames 50 --out out ";
+  const Outcome reached = dtof(sweep + "--precision 20");
+  EXPECT_EQ(reached.exit_code, 0) << reached.output;
+  EXPECT_THAT(reached.output, HasSubstr("Precision reached at 2 of 2 points"));
+  const Outcome given_up = dtof(sweep + "--precision 0.1 --max-frames 100");
+  EXPECT_EQ(given_up.exit_code, 0) << given_up.output;
+  EXPECT_THAT(given_up.output, HasSubstr("Precision reached at 0 of 2 points, with up to 100 frames"));
+}
+
+TEST_F(CommandLine, FrameTakesMoreFramesUntilPreciseEnoughAndSaysHowMany) {
+  const std::string frame = fmt::format("frame -r hispointer {} --out out ", kSmallScene);
+  const Outcome once = dtof(frame);
+  ASSERT_EQ(once.exit_code, 0) << once.output;
+  const std::string first = read_file(path("out/hispointer.csv"));
+  const Outcome given_up = dtof(frame + "--precision 0.01 --max-frames 5");
+  EXPECT_EQ(given_up.exit_code, 0) << given_up.output;
+  EXPECT_THAT(given_up.output, HasSubstr("for 0 of 1 read-outs, with up to 5 frames"));
+  EXPECT_THAT(given_up.output, HasSubstr("5+"));
+  EXPECT_EQ(read_file(path("out/hispointer.csv")), first);
+  const Outcome reached = dtof(frame + "--precision 50");
+  EXPECT_EQ(reached.exit_code, 0) << reached.output;
+  EXPECT_THAT(reached.output, HasSubstr("for 1 of 1 read-outs"));
+  EXPECT_THAT(read_file(path("out/summary.md")), HasSubstr("for 1 of 1 read-outs"));
+}
+
+TEST_F(CommandLine, FidelityAutoTakesTheCheapestModelWithinTheTolerance) {
+  const std::string frame = fmt::format("frame -r hispointer {} --out out --fidelity auto ", kSmallScene);
+  for (const auto& [tolerance, model] : {std::pair("0", "exact photons"), std::pair("1e-3", "fast photons"),
+                                         std::pair("9", "analytic photons")}) {
+    const Outcome outcome = dtof(frame + "--tolerance " + tolerance);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(model));
+  }
+  // Precision of statistics needs noise.
+  EXPECT_THAT(dtof(frame + "--tolerance 9 --precision 50").output, HasSubstr("fast photons"));
+  const std::string sweep = "accuracy -r hispointer --distances 2 --frames 20 --out out --fidelity ";
+  EXPECT_THAT(dtof(sweep + "auto --tolerance 0").output, HasSubstr("auto within 0: exact"));
+  EXPECT_THAT(dtof(sweep + "auto").output, HasSubstr("auto within 0.001: fast"));
+}
+
+TEST_F(CommandLine, RefusesPrecisionWithoutNoise) {
+  expect_refused("frame --fidelity analytic --precision 1 --out out", "no noise");
+  expect_refused("frame --fidelity auto --tolerance -1 --out out", "tolerance");
+  expect_refused("frame --fidelity auto --tolerance nan --out out", "tolerance");
+  expect_refused("frame --precision 0 --out out", "--precision");
+  expect_refused("frame -r fifh --engine rtl --trace x.fst --precision 5 --out out", "--trace");
+  expect_refused("accuracy --distances 2 --fidelity analytic --out out", "no noise");
+}
+
 TEST_F(CommandLine, RefusesBadStreams) {
   const std::string header = "acquisition,column,row,timestamp\n";
   expect_refused("replay nowhere.csv --out out", "nowhere.csv");
