@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
   dtof::add_speed_error_command(app, command_line);
   dtof::add_stability_command(app, command_line);
   dtof::add_scenes_command(app, command_line);
+  dtof::add_measured_command(app, command_line);
   dtof::add_list_command(app);
   try {
     app.parse(argc, argv);

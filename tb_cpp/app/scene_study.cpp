@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/scene_study.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "core/parallel.hpp"
+#include "metrics/cramer_rao.hpp"
+#include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
 #include "photon/physics.hpp"
@@ -94,7 +99,8 @@ std::vector<double> removed_outliers(std::vector<Judged> pixels) {
 }  // namespace
 
 SceneTruth scene_truth(const StudyScene& scene) {
-  SceneTruth truth{.columns = scene.columns, .rows = scene.targets.rows(), .distance_m = {}, .edge = {}};
+  SceneTruth truth{
+      .columns = scene.columns, .rows = scene.targets.rows(), .distance_m = {}, .edge = {}, .single = {}};
   const auto distance = [&](int column, int row) {
     const PixelTarget& target = scene.targets.at(column, row);
     return target.returns_signal() ? target.depth_m : 0.0;
@@ -104,15 +110,20 @@ SceneTruth scene_truth(const StudyScene& scene) {
       const int column = picked_column(scene, i);
       const double here = distance(column, row);
       bool edge = false;
+      bool single = true;
       constexpr std::array<std::pair<int, int>, 4> kNeighbours = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
       for (const auto& [right, down] : kNeighbours) {
         const int x = column + right;
         const int y = row + down;
-        edge = edge || (x >= 0 && x < scene.targets.columns() && y >= 0 && y < truth.rows &&
-                        std::abs(distance(x, y) - here) > kEdge * here);
+        if (x >= 0 && x < scene.targets.columns() && y >= 0 && y < truth.rows) {
+          const bool differs = std::abs(distance(x, y) - here) > kEdge * here;
+          edge = edge || differs;
+          single = single && differs;
+        }
       }
       truth.distance_m.push_back(here);
       truth.edge.push_back(edge);
+      truth.single.push_back(edge && single);
     }
   }
   return truth;
@@ -122,6 +133,7 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
   Collector all;
   Collector edges;
   Collector rest;
+  Collector singles;
   std::vector<Judged> judged;
   for (std::size_t i = 0; i < truth.distance_m.size(); ++i) {
     const double distance = truth.distance_m[i];
@@ -131,9 +143,44 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
     const double measured = measurement.distance_m[i];
     all.add(distance, measured);
     (truth.edge[i] ? edges : rest).add(distance, measured);
+    if (truth.single[i]) {
+      singles.add(distance, measured);
+    }
     judged.push_back({measurement.confidence[i], std::abs(measured - distance) > kOutlier * distance});
   }
-  return {all.shares(), edges.shares(), rest.shares(), removed_outliers(std::move(judged))};
+  return {all.shares(), edges.shares(), rest.shares(), singles.shares(), removed_outliers(std::move(judged))};
+}
+
+double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
+                               const SceneMeasurement& measurement) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < relative_bound.size(); ++i) {
+    const double bound = relative_bound[i] * truth.distance_m[i];
+    if (bound > 0.0 && std::isfinite(bound)) {
+      ratios.push_back(std::abs(measurement.distance_m[i] - truth.distance_m[i]) / bound);
+    }
+  }
+  if (ratios.empty()) {
+    return std::nan("");
+  }
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::ranges::nth_element(ratios, middle);
+  constexpr double kNormalMedian = 0.674489750196;  // of |x| for a standard normal x
+  return *middle / kNormalMedian;
+}
+
+std::string estimator_title(const ReadoutParameters& parameters) {
+  const ReadoutParameters defaults = ReadoutParameters::defaults(parameters.readout, parameters.np);
+  std::string title(readout_title(parameters.readout));
+  const auto add = [&](std::string_view name, int value, int usual) {
+    if (value != usual) {
+      title += fmt::format(" {}={}", name, value);
+    }
+  };
+  add("COUNT_WIDTH", parameters.count_width, defaults.count_width);
+  add("FRACTION_BITS", parameters.fraction_bits, defaults.fraction_bits);
+  add("WINDOW_CENTRED", parameters.window_centred ? 1 : 0, defaults.window_centred ? 1 : 0);
+  return title;
 }
 
 SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts,
@@ -144,7 +191,7 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
       seed_(seed),
       threads_(threads) {
   for (const ReadoutParameters& readout : readouts_) {
-    titles_.emplace_back(readout_title(readout.readout));
+    titles_.push_back(estimator_title(readout));
   }
   titles_.emplace_back("hisPointer pairs");
   titles_.emplace_back("matched filter");
@@ -229,6 +276,33 @@ std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene) const
     measurements.push_back(std::move(measurement));
   }
   return measurements;
+}
+
+std::vector<double> SceneStudy::relative_bounds(const StudyScene& scene) const {
+  const PhotonSource source(sensor_, scene.targets, klux_, seed_, kSceneFrame);
+  const auto width = static_cast<std::size_t>(scene.columns);
+  const auto rows = static_cast<std::size_t>(scene.targets.rows());
+  const DepthScale scale(sensor_.integration_time_s, sensor_.np, sensor_.pulse_fwhm_s);
+  std::vector<double> bounds(width * rows, 0.0);
+  parallel_for(width, threads_, [&](std::size_t index) {
+    const int column = picked_column(scene, static_cast<int>(index));
+    for (std::size_t row = 0; row < rows; ++row) {
+      const double distance = scene.targets.at(column, static_cast<int>(row)).depth_m;
+      const PixelRates rates = source.rates(column, static_cast<int>(row));
+      if (rates.signal > 0.0) {
+        const double bins = cramer_rao_bound(
+            {.signal_events = rates.signal,
+             .background_events = rates.background,
+             .centre_bins = arrival_centre_s(distance, sensor_.pulse_fwhm_s) / sensor_.time_resolution_s(),
+             .sigma_bins = pulse_sigma_s(sensor_.pulse_fwhm_s) / sensor_.time_resolution_s(),
+             .np = sensor_.np,
+             .acquisitions = static_cast<double>(sensor_.acquisitions),
+             .kept_events = sensor_.slots});
+        bounds[row * width + index] = bins * scale.bin_depth() / distance;
+      }
+    }
+  });
+  return bounds;
 }
 
 }  // namespace dtof

@@ -38,6 +38,7 @@ struct SceneScore {
   ErrorShares all;
   ErrorShares edges;  ///< pixels with a neighbour whose distance differs by more than 10 %
   ErrorShares rest;
+  ErrorShares singles;  ///< pixels whose distance differs by more than 10 % from that of all neighbours
   std::vector<double> removed;  ///< share of the outliers (above 10 %) among the pixels dropped; see kDropped
 };
 
@@ -49,11 +50,22 @@ struct SceneTruth {
   int columns;
   int rows;
   std::vector<double> distance_m;  ///< 0: no target, not judged
-  std::vector<bool> edge;
+  std::vector<bool> edge;          ///< differs by more than 10 % from a neighbour (left, right, above, below)
+  std::vector<bool> single;        ///< from every one of them
 };
 SceneTruth scene_truth(const StudyScene& scene);
 
 SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurement);
+
+/// Precision beside the bound of a single pixel: the median of |error| / bound over a normal variable's, so 1
+/// for an unbiased read-out that reaches each pixel's bound, and deaf to outliers. `relative_bound`: of each
+/// pixel, relative to its distance; pixels without a finite one above 0 are left out. NaN if none is left, or there are no bounds.
+double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
+                               const SceneMeasurement& measurement);
+
+/// Display name of a read-out with these parameters: those that change results and are not the defaults
+/// follow it, e.g. "hisPointer COUNT_WIDTH=8".
+std::string estimator_title(const ReadoutParameters& parameters);
 
 /// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and the matched
 /// filter on the full histogram that knows each pixel's signal and background. All see the same photons; a
@@ -66,6 +78,9 @@ class SceneStudy {
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
   /// One measurement an estimator.
   [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
+  /// Cramer-Rao bound of each pixel on its own over its distance, in the order of SceneMeasurement; 0 where
+  /// there is no target.
+  [[nodiscard]] std::vector<double> relative_bounds(const StudyScene& scene) const;
 
  private:
   using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column

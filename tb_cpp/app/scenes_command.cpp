@@ -24,6 +24,7 @@
 #include "io/atomic_file.hpp"
 #include "io/colour_png.hpp"
 #include "io/depth_image.hpp"
+#include "io/photon_times_mat.hpp"
 #include "scene/scene.hpp"
 
 namespace dtof {
@@ -34,9 +35,13 @@ struct ScenesOptions {
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
   std::string readouts =
       "ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,poolpointer,poolpointer-lean";
+  std::vector<std::string> variants;
   std::vector<std::string> scenes = {"flat", "room", "planes", "clutter", "poles", "isolated"};
   std::string disparity_file;
   double nearest_m = 1.0;
+  std::string surface_file;
+  std::string surface_variable = "T_second";
+  bool held_out = false;
   int columns = 200;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -61,22 +66,65 @@ void vary_reflectivity(TargetMap& targets, double reflectivity, std::uint64_t se
   }
 }
 
-StudyScene disparity_scene(const ScenesOptions& options, double reflectivity) {
-  DepthImage image = read_disparity_png(options.disparity_file, 1.0);
+/// The map scaled to its nearest point's distance.
+StudyScene depth_map_scene(const std::string& name, DepthImage image, double nearest_m, double reflectivity,
+                           const ScenesOptions& options) {
   float nearest = std::numeric_limits<float>::infinity();
   for (const float metres : image.metres) {
     nearest = metres > 0.0F ? std::min(nearest, metres) : nearest;
   }
   if (!std::isfinite(nearest)) {
-    throw InputError(fmt::format("{}: no known disparity", options.disparity_file));
+    throw InputError(fmt::format("{}: no known depth", name));
   }
   for (float& metres : image.metres) {
-    metres *= static_cast<float>(options.nearest_m) / nearest;
+    metres *= static_cast<float>(nearest_m) / nearest;
   }
   TargetMap targets =
       scene_from_depth_image(image.width, image.height, image.metres, kArrayColumns, kArrayRows);
   vary_reflectivity(targets, reflectivity, options.seed);
-  return {"disparity map", std::move(targets), std::min(options.columns, kArrayColumns)};
+  return {name, std::move(targets), std::min(options.columns, kArrayColumns)};
+}
+
+/// Rows become columns.
+DepthImage turned(const DepthImage& image) {
+  DepthImage turned{image.height, image.width, {}};
+  for (int row = 0; row < turned.height; ++row) {
+    for (int column = 0; column < turned.width; ++column) {
+      turned.metres.push_back(image.at(row, column));
+    }
+  }
+  return turned;
+}
+
+DepthImage read_surface(const ScenesOptions& options) {
+  const MatMatrix matrix = read_mat_matrix(options.surface_file, options.surface_variable);
+  DepthImage image{matrix.columns, matrix.rows, {}};
+  for (const double value : matrix.values) {
+    image.metres.push_back(static_cast<float>(value));
+  }
+  return image;
+}
+
+/// Scenes that poolPointer's parameters were not chosen on.
+void add_held_out(const ScenesOptions& options, double reflectivity, std::vector<StudyScene>& scenes) {
+  constexpr std::uint64_t kOtherShapes = 1000;
+  SceneParameters parameters;
+  parameters.reflectivity = reflectivity;
+  parameters.seed = options.seed + kOtherShapes;
+  const int columns = std::min(options.columns, kArrayColumns);
+  for (const Scene scene : {Scene::kPlanes, Scene::kClutter, Scene::kPoles, Scene::kStaircase}) {
+    scenes.push_back({fmt::format("held {}", scene_name(scene)), make_scene(scene, parameters), columns});
+  }
+  if (!options.disparity_file.empty()) {
+    constexpr double kNearer = 0.6;
+    scenes.push_back(depth_map_scene("held disparity map",
+                                     turned(read_disparity_png(options.disparity_file, 1.0)),
+                                     kNearer * options.nearest_m, reflectivity, options));
+  }
+  if (!options.surface_file.empty()) {
+    scenes.push_back(
+        depth_map_scene("held surface", read_surface(options), options.nearest_m, reflectivity, options));
+  }
 }
 
 std::vector<StudyScene> make_scenes(const ScenesOptions& options, double reflectivity) {
@@ -97,34 +145,47 @@ std::vector<StudyScene> make_scenes(const ScenesOptions& options, double reflect
     }
   }
   if (!options.disparity_file.empty()) {
-    scenes.push_back(disparity_scene(options, reflectivity));
+    scenes.push_back(depth_map_scene("disparity map", read_disparity_png(options.disparity_file, 1.0),
+                                     options.nearest_m, reflectivity, options));
+  }
+  if (options.held_out) {
+    add_held_out(options, reflectivity, scenes);
   }
   return scenes;
 }
 
-struct SceneResult {
-  std::string scene;
-  std::vector<SceneScore> scores;  // of each estimator
+struct EstimatorResult {
+  SceneScore score;
+  double error_over_bound;
 };
 
-/// Scenes down, estimators across.
+struct SceneResult {
+  std::string scene;
+  std::vector<EstimatorResult> estimators;
+};
+
+constexpr const char* kNoFigure = "-";
+
+/// Scenes down, estimators across; scenes without a figure are left out.
 Table matrix(const std::vector<SceneResult>& results, const std::vector<std::string>& estimators,
-             const std::function<std::string(const SceneScore&)>& cell) {
+             const std::function<std::string(const EstimatorResult&)>& cell) {
   std::vector<std::string> header = {"scene"};
   header.insert(header.end(), estimators.begin(), estimators.end());
   Table table(std::move(header));
   for (const SceneResult& result : results) {
     std::vector<std::string> row = {result.scene};
-    for (const SceneScore& score : result.scores) {
-      row.push_back(cell(score));
+    for (const EstimatorResult& estimator : result.estimators) {
+      row.push_back(cell(estimator));
     }
-    table.add(std::move(row));
+    if (std::any_of(row.begin() + 1, row.end(), [](const std::string& text) { return text != kNoFigure; })) {
+      table.add(std::move(row));
+    }
   }
   return table;
 }
 
 std::string share_pair(const ErrorShares& shares) {
-  return shares.pixels == 0 ? "-"
+  return shares.pixels == 0 ? kNoFigure
                             : fmt::format("{:.2f} / {:.2f}", shares.above_3_percent * 100.0,
                                           shares.above_10_percent * 100.0);
 }
@@ -158,7 +219,7 @@ PlotSeries confidence_curve(const std::vector<SceneResult>& results, std::size_t
     double removed = 0.0;
     double outliers = 0.0;
     for (const SceneResult& result : results) {
-      const SceneScore& score = result.scores[estimator];
+      const SceneScore& score = result.estimators[estimator].score;
       const double here = score.all.above_10_percent * static_cast<double>(score.all.pixels);
       if (here > 0.0) {
         removed += score.removed[d] * here;
@@ -171,15 +232,92 @@ PlotSeries confidence_curve(const std::vector<SceneResult>& results, std::size_t
   return series;
 }
 
+bool shows_pooled_gain(const std::string& scene) {
+  return scene.starts_with("flat") || scene.ends_with("planes");
+}
+
+double root_mean_square(const std::vector<double>& values) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (const double value : values) {
+    if (value > 0.0 && std::isfinite(value)) {
+      sum += value * value;
+      ++count;
+    }
+  }
+  return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
+}
+
+/// hisPointer beside poolPointer on flats and on slanted planes: a pool of pixels must not need a flat wall.
+std::string gain_by_pooling(const std::vector<SceneResult>& results,
+                            const std::vector<std::string>& estimators) {
+  const auto alone = std::ranges::find(estimators, readout_title(Readout::kHisPointer)) - estimators.begin();
+  const auto pooled =
+      std::ranges::find(estimators, readout_title(Readout::kPoolPointer)) - estimators.begin();
+  const auto count = static_cast<std::ptrdiff_t>(estimators.size());
+  if (alone == count || pooled == count) {
+    return "";
+  }
+  Table table({"scene", "above 3 %, hisPointer / poolPointer", "above 10 %", "rmse",
+               "median error over bound: hisPointer", "poolPointer"});
+  const auto ratio = [](double a, double b, double least) {
+    return b > 0.0 ? fmt::format("{:.1f}", a / b) : a > 0.0 ? fmt::format(">{:.0f}", a / least) : kNoFigure;
+  };
+  for (const SceneResult& result : results) {
+    if (!shows_pooled_gain(result.scene)) {
+      continue;
+    }
+    const EstimatorResult& a = result.estimators[static_cast<std::size_t>(alone)];
+    const EstimatorResult& b = result.estimators[static_cast<std::size_t>(pooled)];
+    const double one_pixel = 1.0 / static_cast<double>(std::max<std::uint64_t>(1, a.score.all.pixels));
+    table.add({result.scene, ratio(a.score.all.above_3_percent, b.score.all.above_3_percent, one_pixel),
+               ratio(a.score.all.above_10_percent, b.score.all.above_10_percent, one_pixel),
+               ratio(a.score.all.rmse, b.score.all.rmse, one_pixel),
+               fmt::format("{:.2f}", a.error_over_bound), fmt::format("{:.2f}", b.error_over_bound)});
+  }
+  return fmt::format("\n### Gain by pooling, flats and slanted planes\n\n{}", table.markdown());
+}
+
 std::string file_name(std::string text) {
   std::ranges::replace(text, ' ', '_');
   return text;
 }
 
+/// The read-outs asked for, and variants such as "hispointer:COUNT_WIDTH=8".
+std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options) {
+  ReadoutOptions plain;
+  plain.readouts = options.readouts;
+  std::vector<ReadoutParameters> readouts = plain.parameters();
+  for (const std::string& text : options.variants) {
+    const std::size_t colon = text.find(':');
+    const std::size_t equals = text.find('=');
+    int value = -1;
+    const bool number =
+        equals != std::string::npos && CLI::detail::lexical_cast(text.substr(equals + 1), value);
+    if (colon == std::string::npos || !number || equals < colon) {
+      throw InputError(fmt::format("variant {}: expected READOUT:PARAMETER=NUMBER", text));
+    }
+    ReadoutOptions variant;
+    variant.readouts = text.substr(0, colon);
+    const std::string parameter = text.substr(colon + 1, equals - colon - 1);
+    if (parameter == "COUNT_WIDTH") {
+      variant.count_width = value;
+    } else if (parameter == "FRACTION_BITS") {
+      variant.fraction_bits = value;
+    } else if (parameter == "WINDOW_CENTRED") {
+      variant.window_centred = value != 0;
+    } else {
+      throw InputError(
+          fmt::format("variant {}: parameters are COUNT_WIDTH, FRACTION_BITS, WINDOW_CENTRED", text));
+    }
+    const std::vector<ReadoutParameters> parameters = variant.parameters();
+    readouts.insert(readouts.end(), parameters.begin(), parameters.end());
+  }
+  return readouts;
+}
+
 void run_scenes_command(const ScenesOptions& options) {
-  ReadoutOptions readout_options;
-  readout_options.readouts = options.readouts;
-  const std::vector<ReadoutParameters> readouts = readout_options.parameters();
+  const std::vector<ReadoutParameters> readouts = parse_readouts(options);
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   std::vector<std::string> header = {"preset",
@@ -194,7 +332,11 @@ void run_scenes_command(const ScenesOptions& options) {
                                      "edge_above_3_percent",
                                      "edge_above_10_percent",
                                      "rest_above_3_percent",
-                                     "rest_above_10_percent"};
+                                     "rest_above_10_percent",
+                                     "single_pixels",
+                                     "single_above_10_percent",
+                                     "relative_bound",
+                                     "median_error_over_bound"};
   for (const double dropped : kDropped) {
     header.push_back(fmt::format("outliers_removed_at_{:g}_percent", dropped * 100.0));
   }
@@ -205,7 +347,11 @@ void run_scenes_command(const ScenesOptions& options) {
       "table fitted on flat targets. Seed {}, at most {} columns of a scene.\n\"hisPointer pairs\" takes its "
       "coarse "
       "peak over pairs of adjacent bins; the matched filter has the full histogram and knows signal and "
-      "background.\n\nCommand: `{}`\n",
+      "background. Edges: pixels with a "
+      "neighbour that differs by more than 10 %. Bound: Cramer-Rao bound of the pixel alone; the median of "
+      "|error| is\ndivided by a normal variable's. Scenes \"held\": no parameter of poolPointer was chosen "
+      "on "
+      "them.\n\nCommand: `{}`\n",
       options.seed, options.columns, options.command_line);
   for (const std::string& preset : options.presets) {
     const SensorModel sensor = parse_preset(preset);
@@ -219,23 +365,31 @@ void run_scenes_command(const ScenesOptions& options) {
       for (const StudyScene& scene : scenes) {
         const SceneTruth truth = scene_truth(scene);
         const std::vector<SceneMeasurement> measurements = study.measure(scene);
+        const std::vector<double> bounds =
+            shows_pooled_gain(scene.name) ? study.relative_bounds(scene) : std::vector<double>();
         SceneResult result{scene.name, {}};
         for (std::size_t e = 0; e < estimators.size(); ++e) {
-          result.scores.push_back(score_scene(truth, measurements[e]));
-          const SceneScore& score = result.scores.back();
-          std::vector<std::string> row = {preset,
-                                          fmt::format("{:g}", klux),
-                                          scene.name,
-                                          estimators[e],
-                                          fmt::format("{}", score.all.pixels),
-                                          fmt::format("{:.6f}", score.all.above_3_percent),
-                                          fmt::format("{:.6f}", score.all.above_10_percent),
-                                          fmt::format("{:.6f}", score.all.rmse),
-                                          fmt::format("{}", score.edges.pixels),
-                                          fmt::format("{:.6f}", score.edges.above_3_percent),
-                                          fmt::format("{:.6f}", score.edges.above_10_percent),
-                                          fmt::format("{:.6f}", score.rest.above_3_percent),
-                                          fmt::format("{:.6f}", score.rest.above_10_percent)};
+          result.estimators.push_back(
+              {score_scene(truth, measurements[e]), median_error_over_bound(truth, bounds, measurements[e])});
+          const SceneScore& score = result.estimators.back().score;
+          std::vector<std::string> row = {
+              preset,
+              fmt::format("{:g}", klux),
+              scene.name,
+              estimators[e],
+              fmt::format("{}", score.all.pixels),
+              fmt::format("{:.6f}", score.all.above_3_percent),
+              fmt::format("{:.6f}", score.all.above_10_percent),
+              fmt::format("{:.6f}", score.all.rmse),
+              fmt::format("{}", score.edges.pixels),
+              fmt::format("{:.6f}", score.edges.above_3_percent),
+              fmt::format("{:.6f}", score.edges.above_10_percent),
+              fmt::format("{:.6f}", score.rest.above_3_percent),
+              fmt::format("{:.6f}", score.rest.above_10_percent),
+              fmt::format("{}", score.singles.pixels),
+              fmt::format("{:.6f}", score.singles.above_10_percent),
+              bounds.empty() ? "" : fmt::format("{:.6f}", root_mean_square(bounds)),
+              bounds.empty() ? "" : fmt::format("{:.4f}", result.estimators.back().error_over_bound)};
           for (const double removed : score.removed) {
             row.push_back(std::isnan(removed) ? "" : fmt::format("{:.4f}", removed));
           }
@@ -250,23 +404,33 @@ void run_scenes_command(const ScenesOptions& options) {
         progress.advance();
       }
       const auto part = [&](const std::string& title,
-                            const std::function<std::string(const SceneScore&)>& cell) {
+                            const std::function<std::string(const EstimatorResult&)>& cell) {
         return fmt::format("\n### {}\n\n{}", title, matrix(results, estimators, cell).markdown());
       };
-      const std::string overview =
-          part("All pixels: above 3 % / 10 %", [](const SceneScore& s) { return share_pair(s.all); });
+      const std::string overview = part("All pixels: above 3 % / 10 %",
+                                        [](const EstimatorResult& r) { return share_pair(r.score.all); });
       fmt::print("\n## {:g} klux, preset {}\n{}", klux, preset, overview);
+      report += fmt::format("\n## {:g} klux, preset {}\n{}", klux, preset, overview);
       report +=
-          fmt::format("\n## {:g} klux, preset {}\n{}{}{}{}{}", klux, preset, overview,
-                      part("Pixels at depth edges", [](const SceneScore& s) { return share_pair(s.edges); }),
-                      part("Other pixels", [](const SceneScore& s) { return share_pair(s.rest); }),
-                      part("Relative rmse, %",
-                           [](const SceneScore& s) { return fmt::format("{:.2f}", s.all.rmse * 100.0); }),
-                      part("Outliers (above 10 %) removed by dropping the 5 % of lowest confidence, %",
-                           [](const SceneScore& s) {
-                             return std::isnan(s.removed[2]) ? std::string("-")
-                                                             : fmt::format("{:.0f}", s.removed[2] * 100.0);
-                           }));
+          part("Pixels at depth edges", [](const EstimatorResult& r) { return share_pair(r.score.edges); });
+      report += part("Other pixels", [](const EstimatorResult& r) { return share_pair(r.score.rest); });
+      report += part("Pixels unlike all their neighbours: above 10 %", [](const EstimatorResult& r) {
+        return r.score.singles.pixels == 0 ? kNoFigure
+                                           : fmt::format("{:.2f}", r.score.singles.above_10_percent * 100.0);
+      });
+      report += part("Relative rmse, %", [](const EstimatorResult& r) {
+        return fmt::format("{:.2f}", r.score.all.rmse * 100.0);
+      });
+      report += part("Median error over the single pixel's bound", [](const EstimatorResult& r) {
+        return std::isnan(r.error_over_bound) ? kNoFigure : fmt::format("{:.2f}", r.error_over_bound);
+      });
+      report += part("Outliers (above 10 %) removed by dropping the 5 % of lowest confidence, %",
+                     [](const EstimatorResult& r) {
+                       return std::isnan(r.score.removed[2])
+                                  ? kNoFigure
+                                  : fmt::format("{:.0f}", r.score.removed[2] * 100.0);
+                     });
+      report += gain_by_pooling(results, estimators);
       std::vector<PlotSeries> curves;
       for (std::size_t e = 0; e < estimators.size(); ++e) {
         curves.push_back(confidence_curve(results, e, estimators[e]));
@@ -296,6 +460,8 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-r,--readout", options->readouts, "names from `dtof list`, separated by commas")
       ->take_last()
       ->capture_default_str();
+  command->add_option("--variant", options->variants,
+                      "also READOUT:PARAMETER=NUMBER; COUNT_WIDTH, FRACTION_BITS or WINDOW_CENTRED");
   command->add_option("--scene", options->scenes, "scenes from `dtof list`, one or more")
       ->capture_default_str();
   command->add_option("--disparity", options->disparity_file,
@@ -303,6 +469,15 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--nearest", options->nearest_m, "distance of the disparity map's nearest point, m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  command->add_option(
+      "--surface", options->surface_file,
+      "with --held-out: also a measured surface (matrix of a MATLAB file, any unit, scaled like\n"
+      "the disparity map)");
+  command->add_option("--variable", options->surface_variable, "name of the matrix")->capture_default_str();
+  command->add_flag(
+      "--held-out", options->held_out,
+      "also scenes that no parameter was chosen on: planes, clutter and poles of other shapes, a\n"
+      "staircase, the disparity map turned and nearer");
   command->add_option("--columns", options->columns, "columns read of a scene, evenly spread")
       ->check(CLI::Range(1, kArrayColumns))
       ->capture_default_str();

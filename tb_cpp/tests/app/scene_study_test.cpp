@@ -20,6 +20,8 @@ TEST(SceneTruth, EdgesAreWhereANeighbourDiffersByTenPercent) {
   EXPECT_THAT(scene_truth({"nearly flat", targets, 3}).edge,
               ElementsAre(false, false, false, false, false, false, false, false, false));
   targets.at(1, 1).depth_m = 3.0;
+  EXPECT_THAT(scene_truth({"pole", targets, 3}).single,
+              ElementsAre(false, false, false, false, true, false, false, false, false));
   EXPECT_THAT(scene_truth({"pole", targets, 3}).edge,
               ElementsAre(false, true, false, true, true, true, false, true, false));
   // Only the middle column is read; its neighbours still make edges.
@@ -29,11 +31,12 @@ TEST(SceneTruth, EdgesAreWhereANeighbourDiffersByTenPercent) {
 }
 
 TEST(SceneScore, SharesEdgesAndConfidenceCurve) {
-  SceneTruth truth{.columns = 1, .rows = 101, .distance_m = {}, .edge = {}};
+  SceneTruth truth{.columns = 1, .rows = 101, .distance_m = {}, .edge = {}, .single = {}};
   SceneMeasurement measurement;
   for (int row = 0; row < 100; ++row) {
     truth.distance_m.push_back(2.0);
     truth.edge.push_back(row < 20);
+    truth.single.push_back(row < 4);
     // Ten outliers, two of them at edges; five more above 3 %.
     const bool outlier = row % 10 == 3;
     const bool bad = row % 20 == 5;
@@ -43,6 +46,7 @@ TEST(SceneScore, SharesEdgesAndConfidenceCurve) {
   }
   truth.distance_m.push_back(0.0);  // no target: not judged
   truth.edge.push_back(false);
+  truth.single.push_back(false);
   measurement.distance_m.push_back(1.0);
   measurement.confidence.push_back(0.0);
 
@@ -54,15 +58,43 @@ TEST(SceneScore, SharesEdgesAndConfidenceCurve) {
   EXPECT_EQ(score.edges.pixels, 20U);
   EXPECT_DOUBLE_EQ(score.edges.above_10_percent, 0.10);
   EXPECT_EQ(score.rest.pixels, 80U);
+  EXPECT_EQ(score.singles.pixels, 4U);
+  EXPECT_DOUBLE_EQ(score.singles.above_10_percent, 0.25);
   const auto near = [](double value) { return DoubleNear(value, 1e-9); };
   EXPECT_THAT(score.removed,
               ElementsAre(near(0.05), near(0.10), near(0.25), near(0.5), near(0.5), near(0.5), near(0.5)));
 }
 
 TEST(SceneScore, NothingToRemoveIsNoFigure) {
-  const SceneTruth truth{.columns = 1, .rows = 2, .distance_m = {1.0, 1.0}, .edge = {false, false}};
+  const SceneTruth truth{
+      .columns = 1, .rows = 2, .distance_m = {1.0, 1.0}, .edge = {false, false}, .single = {false, false}};
   const SceneScore score = score_scene(truth, {{1.0, 1.0}, {1.0, 2.0}});
   EXPECT_TRUE(std::ranges::all_of(score.removed, [](double share) { return std::isnan(share); }));
+}
+
+TEST(SceneScore, PrecisionBesideTheBound) {
+  const SceneTruth truth{.columns = 1,
+                         .rows = 4,
+                         .distance_m = {1.0, 2.0, 4.0, 0.0},
+                         .edge = {false, false, false, false},
+                         .single = {false, false, false, false}};
+  const std::vector<double> bounds = {0.01, 0.01, 0.01, 0.0};
+  // Errors of one, two and a hundred bounds.
+  EXPECT_NEAR(median_error_over_bound(truth, bounds, {{1.01, 2.04, 8.0, 1.0}, {}}), 2.0 / 0.67449, 1e-4);
+  const std::vector<double> none = {0.0, 0.0, INFINITY, 0.0};
+  EXPECT_TRUE(std::isnan(median_error_over_bound(truth, none, {{1.0, 2.0, 4.0, 0.0}, {}})));
+}
+
+TEST(SceneStudy, BoundsOfAWall) {
+  SensorModel sensor = parse_preset("thesis");
+  const SceneStudy study(sensor, 14.0, {}, 1, 1);
+  TargetMap targets(1, 2, {1.0, 1.0});
+  targets.at(0, 1).reflectivity = 0.0;
+  const std::vector<double> bounds = study.relative_bounds({"wall", targets, 1});
+  // 1000 signal events of 0.127 m standard deviation, most of them kept, over 500 background events.
+  EXPECT_GT(bounds[0], 0.127 / std::sqrt(1000.0));
+  EXPECT_LT(bounds[0], 1.3 * 0.127 / std::sqrt(1000.0));
+  EXPECT_EQ(bounds[1], 0.0);
 }
 
 TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
