@@ -193,6 +193,7 @@ COLOURS = {"ezPointer": "#1f77b4", "hisPointer": "#d62728", "hisPointer v1": "#f
            "FiFH": "#8c564b", "three steps": "#9467bd", "PiFH": "#7f7f7f", "poolPointer": "#e6a100",
            "poolPointer lean": "#b8860b"}
 OTHER_COLOUR = "#17becf"
+LEGEND = "small dots: variants; crosses: area of the thesis"
 
 
 class Panel:
@@ -242,7 +243,7 @@ def draw(points: list[Point], metric: int, what: str, path: Path, bound: dict[st
     areas = [p.mm2 for p in shown] + [p.thesis_mm2 for p in shown if p.thesis_mm2]
     x_range = (min(areas) * 0.75, max(areas) * 1.35)
     script = [f"set terminal svg size {WIDTH},{HEIGHT} font 'sans,{FONT}' background '#ffffff'",
-              f"set multiplot", "set logscale xy", "set grid lc rgb '#dddddd'", "unset key",
+              "set multiplot", "set logscale xy", "set grid lc rgb '#dddddd'", "unset key",
               "set xtics (0.5,0.7,1,1.5,2,3,5,7,10,15)", "set ytics (0.5,1,2,3,5,10,20,30,50,100)",
               f"set xrange [{x_range[0]}:{x_range[1]}]", f"set yrange [{y_range[0]}:{y_range[1]}]",
               "set xlabel 'area of 200 x 160 pixels, mm^2'", f"set ylabel '{what}, %'"]
@@ -270,9 +271,11 @@ def draw(points: list[Point], metric: int, what: str, path: Path, bound: dict[st
                       f"{100 * bound[light][metric]} nohead dt 2 lc rgb '#444444'")
         text = "matched filter on the full histogram"
         marks += [(panel.x1 - 20 - k * 15, bound_y) for k in range(int((panel.x1 - panel.x0) / 15))]
-        script.append(f"set label '{text}' at graph 0.02, first {100 * bound[light][metric]} offset 0,0.6 tc rgb "
-                      f"'#444444'")
-        marks += [(panel.x0 + 12 + LETTER * k, bound_y - 10) for k in range(len(text))]
+        script.append(f"set label '{text}' at graph 0.98, first {100 * bound[light][metric]} right offset 0,0.6 "
+                      f"tc rgb '#444444'")
+        script.append(f"set label '{LEGEND}' at graph 0.98, graph 0.05 right tc rgb '#444444'")
+        marks += [(panel.x1 - 12 - LETTER * k, bound_y - 10) for k in range(len(text))]
+        marks += [(panel.x1 - 12 - LETTER * k, HEIGHT - BOTTOM - 25) for k in range(len(LEGEND))]
         for text, left, middle, line in place_labels(panel, labels, marks):
             x, y = next((lx, ly) for name, lx, ly in labels if name == text)
             script.append(f"set label '{text}' at screen {left / WIDTH}, {1 - middle / HEIGHT} left")

@@ -9,7 +9,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -202,10 +202,8 @@ class MeasuredStudy {
   }
 
   [[nodiscard]] std::vector<int> all_columns() const {
-    std::vector<int> columns;
-    for (int column = 0; column < scene_.columns; ++column) {
-      columns.push_back(column);
-    }
+    std::vector<int> columns(static_cast<std::size_t>(scene_.columns));
+    std::iota(columns.begin(), columns.end(), 0);
     return columns;
   }
 
