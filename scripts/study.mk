@@ -18,7 +18,7 @@ scenes: build
 	  set -e; \
 	  $(DTOF) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --out build/scenes; \
 	  $(DTOF) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --preset thesis --klux 14 50 --readout fifh \
-	    --variant $(SCENE_VARIANTS) --columns 50 --out build/scenes_variants; \
+	    --variant $(SCENE_VARIANTS) --columns 25 --out build/scenes_variants; \
 	  mkdir -p reports/scenes; \
 	  cp build/scenes/scenes.md build/scenes/scenes.csv reports/; \
 	  cp $(addprefix build/scenes/,$(SCENE_PICTURES)) reports/scenes/; \
