@@ -443,7 +443,7 @@ void run_scenes_command(const ScenesOptions& options) {
   }
   write_file(folder / "scenes.csv", csv.csv());
   write_file(folder / "scenes.md", report);
-  fmt::print("\nTables, error maps and confidence curves are in {}\n", options.out);
+  fmt::print("\nSeed {}. Tables, error maps and confidence curves are in {}\n", options.seed, options.out);
 }
 
 }  // namespace

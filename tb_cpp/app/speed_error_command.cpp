@@ -407,7 +407,8 @@ class SpeedErrorReport {
         points * kReadouts.size(), points * kReadouts.size(),
         0.01 / static_cast<double>(points * kReadouts.size()), fast_bound_, analytic_bound_);
     write_file(folder / "speed_error.md", text);
-    fmt::print("{}\nWritten to {}\n", table.markdown(), (folder / "speed_error.md").string());
+    fmt::print("{}\nSeed {}. Written to {}\n", table.markdown(), options_.run.seed,
+               (folder / "speed_error.md").string());
   }
 
   const SpeedErrorOptions& options_;

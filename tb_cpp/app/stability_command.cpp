@@ -37,7 +37,8 @@ void run_stability_command(const StabilityOptions& options) {
                          "arithmetic (Boost.Multiprecision), closed forms or exact integers. A NaN counts as "
                          "an infinite error. Command: `{}`, seed {}.\n\n{}",
                          options.command_line, options.seed, table.markdown()));
-  fmt::print("{}\nWritten to {}\n", table.markdown(), (folder / "stability.md").string());
+  fmt::print("{}\nSeed {}. Written to {}\n", table.markdown(), options.seed,
+             (folder / "stability.md").string());
   const auto failed = std::ranges::count_if(results, [](const StabilityResult& r) { return !r.passed(); });
   if (failed > 0) {
     throw std::runtime_error(
