@@ -15,8 +15,10 @@ set_clock_uncertainty -hold $hold_uncertainty [get_clocks clk]
 
 set_input_delay [expr {$tdc_share * $period}] -clock clk [get_ports {tdc_valid_i tdc_timestamp_i*}]
 set_output_delay [expr {$tdc_share * $period}] -clock clk [get_ports tdc_ready_o]
+set_input_delay [expr {$control_share * $period}] -clock clk [get_ports {start_i acq_num_i*}]
+# dtof_array has the gate, pool_pointer_array the schedule.
 set_input_delay [expr {$control_share * $period}] -clock clk \
-  [get_ports {start_i acq_num_i* coarse_end_i* track_end_i* late_begin_i*}]
+  [get_ports -quiet {gate_begin_i* gate_end_i* coarse_end_i* track_end_i* late_begin_i*}]
 set_output_delay [expr {$control_share * $period}] -clock clk [get_ports {busy_o done_o state_o*}]
 set_input_delay [expr {$stream_share * $period}] -clock clk [get_ports result_tready_i]
 set_output_delay [expr {$stream_share * $period}] -clock clk [get_ports {result_tvalid_o result_tdata_o* result_tlast_o}]

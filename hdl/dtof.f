@@ -28,6 +28,7 @@ datapath/twin_pointer_update.sv
 engine/candidate_decoder.sv
 engine/label_chain.sv
 engine/pool_engine.sv
+datapath/time_gate.sv
 column/ez_pointer_column.sv
 column/his_pointer_column.sv
 column/interframe_histogram_column.sv

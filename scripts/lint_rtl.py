@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 sys.path.insert(0, str(ROOT / "synth"))
 
-from dtof_synth.configuration import load  # noqa: E402
+from dtof_synth.configuration import Configuration, load  # noqa: E402
 
 COLUMNS = 2  # enough to see every connection between columns
 ILLEGAL = {  # parameters and a word of the sentence that must appear
@@ -36,41 +36,42 @@ def source_files() -> list[str]:
     return [line for line in lines if line.endswith(".sv")]
 
 
-def verilator(parameters: dict[str, int]) -> list[str]:
+def verilator(top: str, parameters: dict[str, int]) -> list[str]:
     overrides = [f"-G{name}={value}" for name, value in parameters.items()]
-    return ["verilator", "--lint-only", "-Wall", "-f", "dtof.f", "--top-module", "dtof_array", *overrides]
+    return ["verilator", "--lint-only", "-Wall", "-f", "dtof.f", "--top-module", top, *overrides]
 
 
-def yosys(parameters: dict[str, int]) -> list[str]:
+def yosys(top: str, parameters: dict[str, int]) -> list[str]:
     settings = " ".join(f"-set {name} {value}" for name, value in parameters.items())
     script = (
-        f"read_verilog -sv -Ipackage {' '.join(source_files())}; chparam {settings} dtof_array; "
-        "hierarchy -check -top dtof_array; proc; check -assert"
+        f"read_verilog -sv -Ipackage {' '.join(source_files())}; chparam {settings} {top}; "
+        f"hierarchy -check -top {top}; proc; check -assert"
     )
     return ["yosys", "-q", "-p", script]
 
 
-def icarus(parameters: dict[str, int]) -> list[str]:
-    overrides = [f"-Pdtof_array.{name}={value}" for name, value in parameters.items()]
-    return ["iverilog", "-g2012", "-Ipackage", "-t", "null", "-s", "dtof_array", *overrides, *source_files()]
+def icarus(top: str, parameters: dict[str, int]) -> list[str]:
+    overrides = [f"-P{top}.{name}={value}" for name, value in parameters.items()]
+    return ["iverilog", "-g2012", "-Ipackage", "-t", "null", "-s", top, *overrides, *source_files()]
 
 
 def run(command: list[str]) -> subprocess.CompletedProcess:
     return subprocess.run(command, cwd=HDL, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
-def check_legal(name: str, parameters: dict[str, int]) -> list[str]:
+def check_legal(configuration: Configuration) -> list[str]:
+    parameters = configuration.rtl_parameters() | {"SRAM_NUM": COLUMNS}
     failures = []
     for tool in (verilator, yosys, icarus):
-        result = run(tool(parameters))
+        result = run(tool(configuration.top, parameters))
         if result.returncode != 0:
-            failures.append(f"{tool.__name__} refuses configuration {name}:\n{result.stdout}")
+            failures.append(f"{tool.__name__} refuses configuration {configuration.name}:\n{result.stdout}")
     return failures
 
 
 def check_illegal(setting: str, sentence: str) -> list[str]:
     name, value = setting.split("=")
-    result = run(verilator({name: int(value)}))
+    result = run(verilator("dtof_array", {name: int(value)}))
     if result.returncode == 0 or sentence not in result.stdout:
         return [f"illegal {setting} does not stop elaboration with '{sentence}':\n{result.stdout}"]
     return []
@@ -79,9 +80,7 @@ def check_illegal(setting: str, sentence: str) -> list[str]:
 def main() -> int:
     configurations = load(ROOT / "configurations.toml").values()
     with ThreadPoolExecutor(max_workers=2) as pool:
-        legal = pool.map(
-            lambda c: check_legal(c.name, c.rtl_parameters() | {"SRAM_NUM": COLUMNS}), configurations
-        )
+        legal = pool.map(check_legal, configurations)
         illegal = pool.map(lambda item: check_illegal(*item), ILLEGAL.items())
         failures = [text for group in (*legal, *illegal) for text in group]
     for text in failures:

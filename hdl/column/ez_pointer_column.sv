@@ -11,6 +11,7 @@ module ez_pointer_column #(
     parameter int FRACTION_BITS = 0,
     parameter int CONFIDENCE_WIDTH = 4,
     parameter int POINTER_PORTS = 2,
+    parameter int TIME_GATE = 0,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS),
     localparam int RESULT_WIDTH = NP + FRACTION_BITS + CONFIDENCE_WIDTH
@@ -18,6 +19,8 @@ module ez_pointer_column #(
     input  logic                    clk_i,
     input  logic                    rst_ni,
     input  logic [          NP-1:0] timestamp_i,
+    input  logic [          NP-1:0] gate_begin_i,
+    input  logic [          NP-1:0] gate_end_i,
     // pointer schedule
     input  logic                    beat_t1_i,
     input  logic                    pointer_read_i,
@@ -43,14 +46,21 @@ module ez_pointer_column #(
   localparam int CONFIDENCE_BITS = dtof_pkg::max_of(CONFIDENCE_WIDTH, 1);
   localparam logic [POINTER_WIDTH-1:0] MIDDLE = POINTER_WIDTH'(1) << (POINTER_WIDTH - 1);
 
-  logic [NP-1:0] timestamp_q;
+  logic [NP-1:0] timestamp_t1;
   logic [POINTER_WIDTH-1:0] pointer;
   logic [CONFIDENCE_BITS-1:0] confidence;
   logic unused_tag;
 
-  always_ff @(posedge clk_i) begin
-    timestamp_q <= timestamp_i;
-  end
+  time_gate #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_time_gate (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .timestamp_t1_o(timestamp_t1)
+  );
 
   pointer_builder #(
       .NP              (NP),
@@ -73,8 +83,8 @@ module ez_pointer_column #(
       .write_i        (pointer_write_i),
       .write_pixel_i  (pointer_write_pixel_i),
       .step_t0_i      (step_t0_i),
-      .hit_t1_i       (beat_t1_i && timestamp_q != '1),
-      .timestamp_t1_i (timestamp_q),
+      .hit_t1_i       (beat_t1_i && timestamp_t1 != '1),
+      .timestamp_t1_i (timestamp_t1),
       .tag_t1_o       (unused_tag),
       .start_write_i  (clear_s1_i),
       .start_pixel_i  (clear_pixel_s1_i),

@@ -20,6 +20,7 @@ module his_pointer_column #(
     parameter int GUARD = 46,
     parameter int POINTER_PORTS = 2,
     parameter int SIGNALLED_CLEAR = 0,
+    parameter int TIME_GATE = 0,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),
     localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, FRACTION_BITS),
@@ -28,6 +29,8 @@ module his_pointer_column #(
     input  logic                    clk_i,
     input  logic                    rst_ni,
     input  logic [          NP-1:0] timestamp_i,
+    input  logic [          NP-1:0] gate_begin_i,
+    input  logic [          NP-1:0] gate_end_i,
     // pass
     input  logic                    final_pass_i,
     // histogram schedule
@@ -70,7 +73,7 @@ module his_pointer_column #(
   localparam int TAG_BITS = dtof_pkg::max_of(TAG_WIDTH, 1);
   localparam int HALF_BIN = (1 << (NP - NB)) >> 1;
 
-  logic [NP-1:0] timestamp_q, centre;
+  logic [NP-1:0] timestamp_t1, centre;
   logic coarse_keep, coarse_hit, hit, in_window;
   logic [BIN_WIDTH-1:0] bin_t1, scan_peak;
   logic [COUNT_WIDTH-1:0] count, unused_peak_count, unused_confidence;
@@ -79,16 +82,23 @@ module his_pointer_column #(
   logic [POINTER_WIDTH-1:0] pointer;
   logic [CONFIDENCE_BITS-1:0] confidence;
 
-  always_ff @(posedge clk_i) begin
-    timestamp_q <= timestamp_i;
-  end
+  time_gate #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_time_gate (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .timestamp_t1_o(timestamp_t1)
+  );
 
   data_filter #(
       .READOUT(READOUT),
       .NP     (NP),
       .NB     (NB)
   ) u_data_filter (
-      .timestamp_i (timestamp_q),
+      .timestamp_i (timestamp_t1),
       .peak_i      (dtof_pkg::peak_width(READOUT, NP, NB)'(0)),
       .pass_i      (1'b0),
       .final_pass_i(1'b0),
@@ -150,7 +160,7 @@ module his_pointer_column #(
       localparam logic signed [OFFSET_WIDTH-1:0] LOWEST = OFFSET_WIDTH'(1 - SIDE_BAND);
       localparam logic signed [OFFSET_WIDTH-1:0] HIGHEST = OFFSET_WIDTH'(SIDE_BAND);
       logic signed [OFFSET_WIDTH-1:0] offset;
-      assign offset = $signed(OFFSET_WIDTH'(timestamp_q)) - $signed(OFFSET_WIDTH'(tag_t1) << (NP - NB))
+      assign offset = $signed(OFFSET_WIDTH'(timestamp_t1)) - $signed(OFFSET_WIDTH'(tag_t1) << (NP - NB))
           - $signed(OFFSET_WIDTH'(HALF_BIN));
       assign in_window = (offset >= LOWEST) && (offset <= HIGHEST);
       assign start_tag = scan_peak;
@@ -162,7 +172,7 @@ module his_pointer_column #(
     end
   endgenerate
 
-  assign hit = beat_t1_i && (timestamp_q != '1) && in_window;
+  assign hit = beat_t1_i && (timestamp_t1 != '1) && in_window;
 
   pointer_builder #(
       .NP              (NP),
@@ -186,7 +196,7 @@ module his_pointer_column #(
       .write_pixel_i  (pointer_write_pixel_i),
       .step_t0_i      (step_t0_i),
       .hit_t1_i       (hit),
-      .timestamp_t1_i (timestamp_q),
+      .timestamp_t1_i (timestamp_t1),
       .tag_t1_o       (tag_t1),
       .start_write_i  (start_write_s3_i),
       .start_pixel_i  (start_pixel_s3_i),

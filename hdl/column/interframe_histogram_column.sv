@@ -16,6 +16,7 @@ module interframe_histogram_column #(
     parameter int COUNT_WIDTH = 10,
     parameter int WINDOW_CENTRED = 0,
     parameter int SIGNALLED_CLEAR = 0,
+    parameter int TIME_GATE = 0,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),
     localparam int PASS_WIDTH = dtof_pkg::index_width(dtof_pkg::coarse_passes(READOUT, NP, NB) + 1),
@@ -24,6 +25,8 @@ module interframe_histogram_column #(
     input  logic                    clk_i,
     input  logic                    rst_ni,
     input  logic [          NP-1:0] timestamp_i,
+    input  logic [          NP-1:0] gate_begin_i,
+    input  logic [          NP-1:0] gate_end_i,
     // pass
     input  logic [  PASS_WIDTH-1:0] pass_i,
     input  logic                    final_pass_i,
@@ -58,7 +61,7 @@ module interframe_histogram_column #(
   localparam int FINE_WIDTH = (READOUT == dtof_pkg::READOUT_FIFH) ? NP - NB : BIN_WIDTH;
   localparam logic signed [NP+1:0] HIGHEST_CODE = $signed((NP + 2)'((1 << NP) - 2));
 
-  logic [NP-1:0] timestamp_q;
+  logic [NP-1:0] timestamp_t1;
   logic [PEAK_WIDTH-1:0] peak_data, peak_q, new_peak;
   logic keep;
   logic [BIN_WIDTH-1:0] bin_t1, scan_peak;
@@ -67,11 +70,21 @@ module interframe_histogram_column #(
   logic [COUNT_WIDTH-1:0] count, unused_peak_count, confidence;
 
   always_ff @(posedge clk_i) begin
-    timestamp_q <= timestamp_i;
     if (peak_read_done_i) begin
       peak_q <= peak_data;
     end
   end
+
+  time_gate #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_time_gate (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .timestamp_t1_o(timestamp_t1)
+  );
 
   data_filter #(
       .READOUT       (READOUT),
@@ -79,7 +92,7 @@ module interframe_histogram_column #(
       .NB            (NB),
       .WINDOW_CENTRED(WINDOW_CENTRED)
   ) u_data_filter (
-      .timestamp_i (timestamp_q),
+      .timestamp_i (timestamp_t1),
       .peak_i      (peak_q),
       .pass_i      (pass_i),
       .final_pass_i(final_pass_i),

@@ -14,6 +14,7 @@ module partitioned_histogram_column #(
     parameter int SLOTS = 2,
     parameter int COUNT_WIDTH = 10,
     parameter int SIGNALLED_CLEAR = 0,
+    parameter int TIME_GATE = 0,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),
     localparam int COARSE_PASSES = dtof_pkg::coarse_passes(READOUT, NP, NB),
@@ -23,6 +24,8 @@ module partitioned_histogram_column #(
     input  logic                    clk_i,
     input  logic                    rst_ni,
     input  logic [          NP-1:0] timestamp_i,
+    input  logic [          NP-1:0] gate_begin_i,
+    input  logic [          NP-1:0] gate_end_i,
     // pass
     input  logic [  PASS_WIDTH-1:0] pass_i,
     input  logic                    first_pass_i,
@@ -53,7 +56,7 @@ module partitioned_histogram_column #(
     output logic [RESULT_WIDTH-1:0] result_o
 );
 
-  logic [NP-1:0] timestamp_q;
+  logic [NP-1:0] timestamp_t1;
   logic keep;
   logic [BIN_WIDTH-1:0] bin_t1, scan_peak;
   logic [NP-1:0] scan_code;
@@ -62,16 +65,23 @@ module partitioned_histogram_column #(
   logic load_result;
   logic signed [NP+1:0] unused_start;
 
-  always_ff @(posedge clk_i) begin
-    timestamp_q <= timestamp_i;
-  end
+  time_gate #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_time_gate (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .timestamp_t1_o(timestamp_t1)
+  );
 
   data_filter #(
       .READOUT(READOUT),
       .NP     (NP),
       .NB     (NB)
   ) u_data_filter (
-      .timestamp_i (timestamp_q),
+      .timestamp_i (timestamp_t1),
       .peak_i      (dtof_pkg::peak_width(READOUT, NP, NB)'(0)),
       .pass_i      (pass_i),
       .final_pass_i(1'b0),

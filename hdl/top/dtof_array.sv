@@ -4,7 +4,7 @@
 // Everything that is common to the columns (state, counters, clear and scan addresses, result handshake) is
 // here once; a column holds its SRAM and its arithmetic.
 //
-// Frame: start_i samples acq_num_i (0 and 1 are legal); busy_o until done_o. See docs/architecture.md.
+// Frame: start_i samples acq_num_i (0 and 1 are legal) and the gate; busy_o until done_o. See docs/architecture.md.
 // TDC stream: an acquisition starts in the clock in which tdc_valid_i and tdc_ready_o are high, which carries
 //   pixel 0, slot 0 of every column; the other PIXELS_PER_SRAM * SLOTS - 1 timestamps follow on consecutive
 //   clocks, valid and ready held high. Between acquisitions the source may pause. All ones: no detection.
@@ -28,6 +28,7 @@ module dtof_array #(
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of the pointer SRAM; 1 needs SLOTS >= 2
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int ACQ_WIDTH = 16,        // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
@@ -38,6 +39,8 @@ module dtof_array #(
     input  logic                   rst_ni,
     input  logic                   start_i,
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,
+    input  logic [         NP-1:0] gate_begin_i,
+    input  logic [         NP-1:0] gate_end_i,
     output logic                   busy_o,
     output logic                   done_o,
     output logic [            2:0] state_o,
@@ -139,6 +142,25 @@ module dtof_array #(
       .more_o     (more),
       .gear_o     (gear)
   );
+
+  logic [NP-1:0] gate_begin, gate_end;
+
+  generate
+    if (TIME_GATE != 0) begin : g_time_gate
+      logic [NP-1:0] gate_begin_q, gate_end_q;
+      always_ff @(posedge clk_i) begin
+        if (start_i && !busy_o) begin
+          gate_begin_q <= gate_begin_i;
+          gate_end_q <= gate_end_i;
+        end
+      end
+      assign gate_begin = gate_begin_q;
+      assign gate_end = gate_end_q;
+    end else begin : g_no_time_gate
+      assign gate_begin = '0;
+      assign gate_end = '0;
+    end
+  endgenerate
 
   logic fetch, beat_t1, first_slot_t0, visit_t1, first_acq_t1, last_slot_t2, beat_t5;
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
@@ -259,11 +281,14 @@ module dtof_array #(
             .POINTER_STEP    (POINTER_STEP),
             .FRACTION_BITS   (FRACTION_BITS),
             .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
-            .POINTER_PORTS   (POINTER_PORTS)
+            .POINTER_PORTS   (POINTER_PORTS),
+            .TIME_GATE       (TIME_GATE)
         ) u_column (
             .clk_i                (clk_i),
             .rst_ni               (rst_ni),
             .timestamp_i          (tdc_timestamp_i[c*NP+:NP]),
+            .gate_begin_i         (gate_begin),
+            .gate_end_i           (gate_end),
             .beat_t1_i            (beat_t1),
             .pointer_read_i       (word_read),
             .pointer_read_pixel_i (word_read_pixel),
@@ -294,11 +319,14 @@ module dtof_array #(
             .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
             .GUARD           (GUARD),
             .POINTER_PORTS   (POINTER_PORTS),
-            .SIGNALLED_CLEAR (SIGNALLED_CLEAR)
+            .SIGNALLED_CLEAR (SIGNALLED_CLEAR),
+            .TIME_GATE       (TIME_GATE)
         ) u_column (
             .clk_i                  (clk_i),
             .rst_ni                 (rst_ni),
             .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
+            .gate_begin_i           (gate_begin),
+            .gate_end_i             (gate_end),
             .final_pass_i           (final_pass),
             .beat_t1_i              (beat_t1),
             .same_pixel_t3_i        (same_pixel_t3),
@@ -337,11 +365,14 @@ module dtof_array #(
             .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
             .SLOTS          (SLOTS),
             .COUNT_WIDTH    (COUNT_WIDTH),
-            .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+            .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+            .TIME_GATE      (TIME_GATE)
         ) u_column (
             .clk_i                  (clk_i),
             .rst_ni                 (rst_ni),
             .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
+            .gate_begin_i           (gate_begin),
+            .gate_end_i             (gate_end),
             .pass_i                 (pass),
             .first_pass_i           (first_pass),
             .beat_t1_i              (beat_t1),
@@ -376,11 +407,14 @@ module dtof_array #(
             .SLOTS          (SLOTS),
             .COUNT_WIDTH    (COUNT_WIDTH),
             .WINDOW_CENTRED (WINDOW_CENTRED),
-            .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
+            .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+            .TIME_GATE      (TIME_GATE)
         ) u_column (
             .clk_i                  (clk_i),
             .rst_ni                 (rst_ni),
             .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
+            .gate_begin_i           (gate_begin),
+            .gate_end_i             (gate_end),
             .pass_i                 (pass),
             .final_pass_i           (final_pass),
             .beat_t1_i              (beat_t1),

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from .errors import FlowError
@@ -17,7 +17,7 @@ POINTER_READOUTS = ("ezpointer", "hispointer1", "hispointer")
 POOL_READOUTS = ("poolpointer", "poolpointer-lean")
 PARAMETERS = ("NP", "NB", "PIXELS_PER_SRAM", "SRAM_NUM", "SLOTS", "COUNT_WIDTH", "POINTER_STEP",
               "FRACTION_BITS", "CONFIDENCE_WIDTH", "GUARD", "WINDOW_CENTRED", "POINTER_PORTS",
-              "SIGNALLED_CLEAR", "ACQ_WIDTH")
+              "SIGNALLED_CLEAR", "TIME_GATE", "ACQ_WIDTH")
 POOL_PARAMETERS = ("NP", "PIXELS_PER_SRAM", "SRAM_NUM", "SLOTS", "COUNT_WIDTH", "GROUP_SIZE", "DARK_LABELS",
                    "DARK_SCORE_BITS", "BRIGHT_LABELS", "BRIGHT_SCORE_BITS", "BRIGHT_FROM", "OFFSET_BITS",
                    "ADVANTAGE_WIDTH", "POINTER_SHIFT", "RIVAL_MOVES", "ENGINE_COLUMNS", "ACQ_WIDTH")
@@ -34,6 +34,7 @@ class Configuration:
     variant_of: str = ""
     thesis_mm2: float = 0.0
     note: str = ""
+    simulation: dict[str, int] = field(default_factory=dict)  # what the simulated array has instead
 
     def __getitem__(self, parameter: str) -> int:
         return self.parameters[parameter]
@@ -141,15 +142,16 @@ def load(path: Path) -> dict[str, Configuration]:
         pool = readout in POOL_READOUTS
         defaults = table.get("pool_parameters" if pool else "parameters", {})
         parameters = {**(base.parameters if base else defaults), **entry.get("parameters", {})}
+        simulation = {**(base.simulation if base else table.get("simulation", {})), **entry.get("simulation", {})}
         known = set(POOL_PARAMETERS if pool else PARAMETERS)
-        unknown = sorted(set(parameters) - known)
+        unknown = sorted((set(parameters) | set(simulation)) - known)
         missing = sorted(known - set(parameters))
         if unknown or missing:
             what = f"unknown parameter {unknown[0]}" if unknown else f"no value for {missing[0]}"
             raise FlowError(f"{path}: {name} has {what}")
         found[name] = Configuration(name, readout, entry.get("title", name), parameters,
                                     entry.get("variant_of", ""), float(entry.get("thesis_mm2", 0)),
-                                    entry.get("note", ""))
+                                    entry.get("note", ""), simulation)
     if not found:
         raise FlowError(f"{path}: no [configuration.<name>] table found")
     return found

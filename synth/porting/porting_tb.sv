@@ -27,6 +27,8 @@ module porting_tb;
       .rst_ni         (rst_n),
       .start_i        (start),
       .acq_num_i      (16'd40),
+      .gate_begin_i   ({NP{1'b0}}),
+      .gate_end_i     ({NP{1'b0}}),
       .busy_o         (busy),
       .done_o         (done),
       .state_o        (state),

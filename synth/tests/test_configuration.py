@@ -24,7 +24,7 @@ class Configurations(unittest.TestCase):
             return configuration.load(path)
 
     def test_all_read_outs_are_there(self):
-        self.assertEqual({item.readout for item in self.named.values()}, set(configuration.READOUTS))
+        self.assertEqual({item.readout for item in self.named.values()}, {*configuration.READOUTS, *configuration.POOL_READOUTS})
 
     def test_bits_of_the_thesis(self):
         # Spec section 6: 10, 640 and 320 bits a pixel; peak and pointer memories come on top.
@@ -39,12 +39,19 @@ class Configurations(unittest.TestCase):
         needed = set(technology.needed_sizes(everything))
         self.assertEqual(set(sram_kit.read_sizes(ROOT / technology.SIZES)), needed)
 
+    def test_simulated_arrays_differ_where_the_file_says(self):
+        self.assertEqual(self.named["sifh"].simulation, {"SRAM_NUM": 10})
+        self.assertEqual(self.named["ezpointer_gate"].simulation, {"SRAM_NUM": 20})
+        self.assertEqual(self.named["histogram"].simulation, {"SRAM_NUM": 10, "PIXELS_PER_SRAM": 160})
+
     def test_bad_files_are_refused(self):
         for text, message in (("x = ", "Invalid value"), ("", "no \\[configuration"),
                               ('[configuration.a]\nreadout = "nine"\n', "unknown read-out 'nine'"),
                               ('[configuration.a]\nvariant_of = "b"\n', "not above it"),
                               ('[configuration.a]\nreadout = "sifh"\n', "no value for"),
                               ('[configuration.a]\nreadout = "sifh"\nparameters = { NX = 1 }\n',
+                               "unknown parameter NX"),
+                              ('[simulation]\nNX = 1\n[configuration.a]\nreadout = "sifh"\n',
                                "unknown parameter NX")):
             with self.subTest(text=text), self.assertRaisesRegex(FlowError, message):
                 self.load(text)

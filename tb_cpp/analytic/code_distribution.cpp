@@ -66,6 +66,11 @@ class ReadoutDistribution {
                    << static_cast<unsigned>(parameters.fraction_bits)) {
     for (auto& slot : slots_) {
       slot.back() = 0.0;  // no detection
+      for (int code = 0; parameters.time_gate && code < parameters.no_detection(); ++code) {
+        if (!parameters.time_gate->contains(code)) {
+          slot[static_cast<std::size_t>(code)] = 0.0;
+        }
+      }
     }
     means_ = slots_.front();
     for (std::size_t k = 1; k < slots_.size(); ++k) {

@@ -233,7 +233,8 @@ void run_accuracy_command(const AccuracyOptions& options) {
   report += fmt::format("\nCommand: `{}`\n", options.command_line);
   write_file(folder / "accuracy.csv", accuracy_csv(all).csv());
   write_file(folder / "accuracy.md", report);
-  fmt::print("Seed {}. Tables with confidence intervals and plots are in {}\n", options.run.seed, options.out);
+  fmt::print("Seed {}. Tables with confidence intervals and plots are in {}\n", options.run.seed,
+             options.out);
 }
 
 }  // namespace

@@ -36,6 +36,10 @@ void ReadoutOptions::add_to(CLI::App& command) {
   group->add_option("--confidence-width", confidence_width, "CONFIDENCE_WIDTH of the pointer read-outs");
   group->add_option("--guard", guard, "GUARD of hisPointer's window, bins");
   group->add_flag("--window-centred", window_centred, "WINDOW_CENTRED: SiFH's window as in Fig. 3.8");
+  group
+      ->add_option("--code-gate", code_gate,
+                   "TIME_GATE of the read-out: codes BEGIN <= x < END count (--gate is the sensor's own)")
+      ->expected(2);
 }
 
 std::vector<ReadoutParameters> ReadoutOptions::parameters() const {
@@ -63,6 +67,9 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters() const {
     override_with(confidence_width, parameters.confidence_width);
     override_with(guard, parameters.guard);
     parameters.window_centred = window_centred;
+    if (!code_gate.empty()) {
+      parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};
+    }
     parameters.validate();
     if (std::find(all.begin(), all.end(), parameters) == all.end()) {
       all.push_back(parameters);

@@ -25,6 +25,7 @@ struct ReadoutOptions {
   std::optional<int> confidence_width;
   std::optional<int> guard;
   bool window_centred = false;
+  std::vector<int> code_gate;
 
   void add_to(CLI::App& command);
   /// One set of parameters a read-out asked for; "all" is every read-out. Throws InputError.

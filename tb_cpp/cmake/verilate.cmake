@@ -4,7 +4,7 @@
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
-#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [PROBE] TARGET <library>)
+#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [PROBE] TARGET <library>)
 #
 # adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
 # finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
@@ -13,8 +13,13 @@
 #
 #   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
 #
+#   dtof_verilate_named(readouts|variants <library>)
+#
+# adds configurations of configurations.toml (scripts/list_models.py).
+#
 # BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers.
 
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT
                 OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -40,7 +45,7 @@ target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 # -Wno-SYNCASYNCNET: the assertions look at the asynchronous reset in a clocked block.
 set(DTOF_READOUTS ezpointer hispointer1 hispointer sifh fifh threesteps pifh histogram)
 set(DTOF_PARAMETERS NP NB PIXELS_PER_SRAM SRAM_NUM SLOTS COUNT_WIDTH POINTER_STEP FRACTION_BITS CONFIDENCE_WIDTH
-  GUARD WINDOW_CENTRED POINTER_PORTS SIGNALLED_CLEAR)
+  GUARD WINDOW_CENTRED POINTER_PORTS SIGNALLED_CLEAR TIME_GATE)
 set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 function(dtof_rtl_models library)
@@ -93,6 +98,7 @@ function(dtof_verilate name)
   set(default_WINDOW_CENTRED 0)
   set(default_POINTER_PORTS 2)
   set(default_SIGNALLED_CLEAR 0)
+  set(default_TIME_GATE 0)
   set(overrides -GREADOUT=${P_READOUT_NUMBER})
   if(P_PROBE)
     list(APPEND overrides -GPROBE=1)
@@ -121,4 +127,17 @@ function(dtof_verilate name)
     COMMENT "Verilating ${name}"
     VERBATIM)
   target_sources(${P_TARGET} PRIVATE ${directory}/model.cpp)
+endfunction()
+
+function(dtof_verilate_named kind library)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_ROOT}/configurations.toml
+    ${PROJECT_ROOT}/scripts/list_models.py ${PROJECT_ROOT}/synth/dtof_synth/configuration.py)
+  execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_ROOT}/scripts/list_models.py ${kind}
+    OUTPUT_VARIABLE models OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ";" models "${models}")
+  foreach(model ${models})
+    separate_arguments(arguments UNIX_COMMAND "${model}")
+    list(POP_FRONT arguments name)
+    dtof_verilate(${name} ${arguments} TARGET ${library})
+  endforeach()
 endfunction()

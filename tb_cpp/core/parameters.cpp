@@ -151,20 +151,27 @@ void ReadoutParameters::validate() const {
     require_range("COUNT_WIDTH", count_width, 4, 8);
     require_range("FRACTION_BITS", fraction_bits, kPoolPositionBits - np, kPoolPositionBits - np);
     pool.validate();
-    return;
+  } else {
+    require_range("NP", np, 3, 16);
+    require_range("NB", nb, 1, np);
+    require_range("SLOTS", slots, 1, 16);
+    require_range("COUNT_WIDTH", count_width, 1, 16);
+    require_range("POINTER_STEP", pointer_step, 1, (1 << (np - 1)) - 1);
+    require_range("FRACTION_BITS", fraction_bits, 0, std::min(8, 16 - np));
+    require_range("CONFIDENCE_WIDTH", confidence_width, 0, 8);
+    require_range("GUARD", guard, 0, 1 << np);
   }
-  require_range("NP", np, 3, 16);
-  require_range("NB", nb, 1, np);
-  require_range("SLOTS", slots, 1, 16);
-  require_range("COUNT_WIDTH", count_width, 1, 16);
-  require_range("POINTER_STEP", pointer_step, 1, (1 << (np - 1)) - 1);
-  require_range("FRACTION_BITS", fraction_bits, 0, std::min(8, 16 - np));
-  require_range("CONFIDENCE_WIDTH", confidence_width, 0, 8);
-  require_range("GUARD", guard, 0, 1 << np);
+  if (time_gate) {
+    require_range("gate begin", time_gate->begin, 0, no_detection());
+    require_range("gate end", time_gate->end, 0, no_detection());
+  }
 }
 
 std::string ReadoutParameters::to_string() const {
   std::string out = fmt::format("{} NP={} SLOTS={}", readout_name(readout), np, slots);
+  if (time_gate) {
+    out += fmt::format(" TIME_GATE=1 GATE={}-{}", time_gate->begin, time_gate->end);
+  }
   if (is_pool_readout(readout)) {
     out += fmt::format(
         " COUNT_WIDTH={} G={} LABELS={}x{}/{}x{} BRIGHT_FROM={} OFFSET={} COUNT={} SHIFT={} RIVAL={} "

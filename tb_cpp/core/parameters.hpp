@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -71,6 +72,16 @@ struct PoolPointerParameters {
   bool operator==(const PoolPointerParameters&) const = default;
 };
 
+/// Digital time gate: a timestamp x with begin <= x < end counts, any other is no detection. Codes, 0 ..
+/// 2^NP - 1; with end <= begin nothing counts.
+struct CodeGate {
+  int begin = 0;
+  int end = 0;
+
+  [[nodiscard]] bool contains(int timestamp) const { return timestamp >= begin && timestamp < end; }
+  bool operator==(const CodeGate&) const = default;
+};
+
 /// Parameters of a read-out, named as the RTL's (spec section 1; ranges in docs/readouts.md).
 struct ReadoutParameters {
   Readout readout = Readout::kEzPointer;
@@ -83,7 +94,9 @@ struct ReadoutParameters {
   int confidence_width = 4;  ///< CONFIDENCE_WIDTH (pointer read-outs)
   int guard = 46;            ///< GUARD, bins (hisPointer v2)
   bool window_centred = false;  ///< WINDOW_CENTRED (SiFH)
-  PoolPointerParameters pool;   ///< pool read-outs
+  /// TIME_GATE = 1 and what gate_begin_i and gate_end_i say when the frame starts.
+  std::optional<CodeGate> time_gate;
+  PoolPointerParameters pool;  ///< pool read-outs
 
   /// Spec defaults: NB = floor(NP/2) + 1 for SiFH (Eq. 2.3), floor(NP/2) for FiFH and hisPointer,
   /// min(NP, 6) for PiFH, NP for the histogram; GUARD = ceil(FWHM / T_res) scaled to NP. The pool read-outs

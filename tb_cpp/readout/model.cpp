@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "core/error.hpp"
 #include "readout/pixelwise_model.hpp"
 
@@ -27,8 +29,9 @@ void check_detections(std::span<const Detection> detections, int row, const Read
   }
 }
 
-std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {
-  parameters.validate();
+namespace {
+
+std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parameters) {
   switch (parameters.readout) {
     case Readout::kEzPointer:
     case Readout::kHisPointer1:
@@ -46,6 +49,14 @@ std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parame
       return make_pool_pointer(parameters);
   }
   throw InputError("unknown read-out number");
+}
+
+}  // namespace
+
+std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {
+  parameters.validate();
+  std::unique_ptr<ReadoutModel> model = make_ungated_model(parameters);
+  return parameters.time_gate ? make_gated_model(parameters, std::move(model)) : std::move(model);
 }
 
 }  // namespace dtof

@@ -58,5 +58,8 @@ std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters&
 std::unique_ptr<ReadoutModel> make_partitioned_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_pointer_readout(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters);
+/// `model`, and the time gate of `parameters` before it.
+std::unique_ptr<ReadoutModel> make_gated_model(const ReadoutParameters& parameters,
+                                               std::unique_ptr<ReadoutModel> model);
 
 }  // namespace dtof

@@ -16,6 +16,8 @@ class ArrayModel {
     std::uint8_t* reset_n;
     std::uint8_t* start;
     std::uint16_t* acquisitions;
+    std::uint16_t* gate_begin;
+    std::uint16_t* gate_end;
     std::uint8_t* tdc_valid;
     std::uint32_t* timestamps;  ///< 16 bits a column, column 0 in the low half of word 0
     std::size_t timestamp_words;

@@ -19,6 +19,7 @@ module dtof_array_testbench #(
     parameter WINDOW_CENTRED = 0,
     parameter POINTER_PORTS = 2,
     parameter SIGNALLED_CLEAR = 0,
+    parameter TIME_GATE = 0,
     parameter PROBE = 0,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
 ) (
@@ -26,6 +27,8 @@ module dtof_array_testbench #(
     input  logic                 rst_ni,
     input  logic                 start_i,
     input  logic [         15:0] acq_num_i,
+    input  logic [         15:0] gate_begin_i,
+    input  logic [         15:0] gate_end_i,
     output logic                 busy_o,
     output logic                 done_o,
     output logic [          2:0] state_o,
@@ -78,12 +81,15 @@ module dtof_array_testbench #(
       .WINDOW_CENTRED(WINDOW_CENTRED),
       .POINTER_PORTS(POINTER_PORTS),
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .TIME_GATE(TIME_GATE),
       .ACQ_WIDTH(16)
   ) u_array (
       .clk_i,
       .rst_ni,
       .start_i,
       .acq_num_i,
+      .gate_begin_i(gate_begin_i[NP-1:0]),
+      .gate_end_i(gate_end_i[NP-1:0]),
       .busy_o,
       .done_o,
       .state_o,
@@ -125,8 +131,8 @@ module dtof_array_testbench #(
     `DTOF_PROBE(u_array.g_column[0].g_interframe.u_column.u_histogram_builder.u_histogram_sram)
   end
 
-  // The padding of the timestamp bus.
+  // The padding of the timestamp bus and of the gate.
   logic unused;
-  assign unused = &{1'b0, tdc_timestamp_i};
+  assign unused = &{1'b0, tdc_timestamp_i, gate_begin_i, gate_end_i};
 
 endmodule

@@ -22,10 +22,24 @@ struct Entry {
 // What an array simulates besides its columns takes about as long as this many of them.
 constexpr int kControlColumns = 3;
 
-// Keyed by RtlConfiguration::to_string(): configurations that differ only in unused parameters are one.
+// Keyed by RtlConfiguration::to_string() with an open gate: configurations that differ only in unused
+// parameters are one.
 std::map<std::string, Entry>& registry() {
   static std::map<std::string, Entry> entries;
   return entries;
+}
+
+// The gate's ends are set with every frame.
+ReadoutParameters compiled_parameters(ReadoutParameters parameters) {
+  if (parameters.time_gate) {
+    parameters.time_gate = CodeGate{0, parameters.no_detection()};
+  }
+  return parameters;
+}
+
+std::string key(RtlConfiguration configuration) {
+  configuration.parameters = compiled_parameters(configuration.parameters);
+  return configuration.to_string();
 }
 
 InputError not_compiled(const std::string& wanted) {
@@ -39,7 +53,7 @@ InputError not_compiled(const std::string& wanted) {
 }  // namespace
 
 bool register_rtl_configuration(const RtlConfiguration& configuration, ArrayModelFactory factory) {
-  registry().insert_or_assign(configuration.to_string(), Entry{configuration, std::move(factory)});
+  registry().insert_or_assign(key(configuration), Entry{configuration, std::move(factory)});
   return true;
 }
 
@@ -52,7 +66,7 @@ std::vector<RtlConfiguration> compiled_rtl_configurations() {
 }
 
 RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns) {
-  const std::string wanted = parameters.to_string();
+  const std::string wanted = compiled_parameters(parameters).to_string();
   std::optional<RtlConfiguration> best;
   const auto cost = [columns](const RtlConfiguration& candidate) {
     const int groups = (columns + candidate.sram_num - 1) / candidate.sram_num;
@@ -69,14 +83,15 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   if (!best.has_value()) {
     throw not_compiled(fmt::format("{} with at least {} rows", wanted, rows));
   }
+  best->parameters.time_gate = parameters.time_gate;
   return *best;
 }
 
 std::unique_ptr<ArrayModel> make_array_model(const RtlConfiguration& configuration,
                                              VerilatedContext& context) {
-  const auto entry = registry().find(configuration.to_string());
+  const auto entry = registry().find(key(configuration));
   if (entry == registry().end()) {
-    throw not_compiled(configuration.to_string());
+    throw not_compiled(key(configuration));
   }
   return entry->second.factory(context);
 }

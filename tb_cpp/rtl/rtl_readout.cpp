@@ -72,7 +72,7 @@ class RtlReadout::Simulation {
 
   [[nodiscard]] bool broken() const { return broken_; }
 
-  RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
+  RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions, CodeGate gate,
                const RtlRunOptions& options) {
     Verilated::threadContextp(context_.get());  // the instance may have moved to another thread
     const auto begin = std::chrono::steady_clock::now();
@@ -80,6 +80,7 @@ class RtlReadout::Simulation {
     driver_ = &driver;
     options_ = &options;
     acquisitions_ = acquisitions;
+    gate_ = gate;
     expected_beats_ = static_cast<std::uint64_t>(configuration_.pixels_per_sram) *
                       static_cast<std::uint64_t>(configuration_.sram_num);
     total_cycles_ = 0;
@@ -177,11 +178,15 @@ class RtlReadout::Simulation {
       }
       *ports_.start = cycle_ == 0 ? 1 : 0;
       *ports_.acquisitions = static_cast<std::uint16_t>(acquisitions_);
+      *ports_.gate_begin = static_cast<std::uint16_t>(gate_.begin);
+      *ports_.gate_end = static_cast<std::uint16_t>(gate_.end);
       if (disturb) {
         *ports_.result_ready = random.uniform() < options_->stall_probability ? 0 : 1;
         if (cycle_ > 0 && random.uniform() < options_->start_probability) {
           *ports_.start = 1;
           *ports_.acquisitions = static_cast<std::uint16_t>(random());
+          *ports_.gate_begin = static_cast<std::uint16_t>(random());
+          *ports_.gate_end = static_cast<std::uint16_t>(random());
         }
       }
       if (beats_ % width == 0 && row_stall_left_ > 0) {
@@ -300,6 +305,7 @@ class RtlReadout::Simulation {
   TdcDriver* driver_ = nullptr;
   const RtlRunOptions* options_ = nullptr;
   std::uint32_t acquisitions_ = 0;
+  CodeGate gate_;
   std::uint64_t expected_beats_ = 0;
   std::uint64_t total_cycles_ = 0;
   std::uint64_t cycle_ = 0;
@@ -324,7 +330,18 @@ RtlFrame RtlReadout::run(std::span<const ColumnStream> columns, std::uint32_t ac
   if (simulation_->broken()) {  // an exception left the model inside an evaluation
     simulation_ = std::make_unique<Simulation>(configuration_, options.seed, false);
   }
-  return simulation_->run(columns, acquisitions, options);
+  return simulation_->run(columns, acquisitions, configuration_.parameters.time_gate.value_or(CodeGate{}),
+                          options);
+}
+
+void RtlReadout::set_time_gate(CodeGate gate) {
+  ReadoutParameters parameters = configuration_.parameters;
+  if (!parameters.time_gate) {
+    throw InputError(fmt::format("{} has no time gate", configuration_.to_string()));
+  }
+  parameters.time_gate = gate;
+  parameters.validate();
+  configuration_.parameters = parameters;
 }
 
 }  // namespace dtof

@@ -76,6 +76,10 @@ class RtlReadout {
 
   [[nodiscard]] const RtlConfiguration& configuration() const;
 
+  /// The gate of the frames to come. Throws InputError for a configuration without TIME_GATE, or a gate out
+  /// of range.
+  void set_time_gate(CodeGate gate);
+
   /// Runs one frame of `acquisitions` (0 to 65,535) on up to SRAM_NUM columns of equally many rows, at most
   /// PIXELS_PER_SRAM; columns and rows beyond the given ones see no detection and are not in the result.
   /// Throws InputError for a stream that the configuration cannot take, RtlError for misbehaving RTL.

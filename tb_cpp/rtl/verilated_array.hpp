@@ -30,6 +30,8 @@ class VerilatedArray final : public ArrayModel {
             .reset_n = &model_.rst_ni,
             .start = &model_.start_i,
             .acquisitions = &model_.acq_num_i,
+            .gate_begin = &model_.gate_begin_i,
+            .gate_end = &model_.gate_end_i,
             .tdc_valid = &model_.tdc_valid_i,
             .timestamps = model_.tdc_timestamp_i.data(),
             .timestamp_words = sizeof(model_.tdc_timestamp_i) / sizeof(std::uint32_t),

@@ -60,6 +60,7 @@ TEST_P(CodeDistribution, FollowsOptionsOfTheReadout) {
   parameters.count_width = 4;  // saturates
   parameters.window_centred = GetParam() == Readout::kSifh;
   parameters.pointer_step = 2;
+  parameters.time_gate = CodeGate{40, 200};
   parameters.fraction_bits = is_pointer_readout(GetParam()) ? 2 : 0;
   const PhotonSource exact(sensor, TargetMap(10, 200, {.depth_m = 2.0, .reflectivity = 1.0}), 14.0,
                            test_seed());

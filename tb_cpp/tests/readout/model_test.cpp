@@ -191,6 +191,14 @@ TEST(IllegalParameters, RefusedWithASentence) {
       {[](ReadoutParameters& p) { p.fraction_bits = 7; }, "FRACTION_BITS is 7, but must be 0 to 6"},
       {[](ReadoutParameters& p) { p.confidence_width = 9; }, "CONFIDENCE_WIDTH is 9"},
       {[](ReadoutParameters& p) { p.guard = -1; }, "GUARD is -1"},
+      {[](ReadoutParameters& p) {
+         p.time_gate = CodeGate{0, 1024};
+       },
+       "gate end is 1024, but must be 0 to 1023"},
+      {[](ReadoutParameters& p) {
+         p.time_gate = CodeGate{-1, 7};
+       },
+       "gate begin is -1"},
   };
   for (const Readout readout : kAllReadouts) {
     for (const Case& bad : cases) {
@@ -199,6 +207,56 @@ TEST(IllegalParameters, RefusedWithASentence) {
       EXPECT_THAT([&] { (void)make_readout_model(parameters); },
                   ThrowsMessage<InputError>(HasSubstr(bad.message)));
     }
+  }
+}
+
+// Timestamps of a stream as a sampler hands them out.
+class StreamSampler final : public PixelSampler {
+ public:
+  explicit StreamSampler(const ColumnStream& stream) : stream_(stream) {}
+  void start_pixel(int /*column*/, int row) override {
+    detections_ = stream_.row(row);
+    end_ = 0;
+  }
+  std::span<const Timestamp> draw(std::uint32_t acquisitions, std::int32_t first,
+                                  std::int32_t last) override {
+    end_ += acquisitions;
+    drawn_.clear();
+    for (; !detections_.empty() && detections_.front().acquisition < end_;
+         detections_ = detections_.subspan(1)) {
+      const int timestamp = detections_.front().timestamp;
+      if (timestamp >= first && timestamp < last) {
+        drawn_.push_back(detections_.front().timestamp);
+      }
+    }
+    return drawn_;
+  }
+
+ private:
+  const ColumnStream& stream_;
+  std::span<const Detection> detections_;
+  std::uint32_t end_ = 0;
+  std::vector<Timestamp> drawn_;
+};
+
+// Twice the light at 3 as at 11; 12 is the gate's end, 8 its begin.
+TEST(TimeGate, WhatIsOutsideDoesNotExist) {
+  const ColumnStream stream =
+      stream_of({3, 11, 3, 7, 12, 3, 8, 11, 3, 3, 11, 3, 7, 12, 3, 11, 8, 11, 11, 3}, 1);
+  const ColumnStream inside =
+      stream_of({15, 11, 15, 15, 15, 15, 8, 11, 15, 15, 11, 15, 15, 15, 15, 11, 8, 11, 11, 15});
+  StreamSampler sampler(stream);
+  for (const Readout readout : kAllReadouts) {
+    ReadoutParameters parameters = ReadoutParameters::defaults(readout, 4);
+    const PixelResult expected = run(parameters, inside, 20);
+    EXPECT_NE(run(parameters, stream, 20), expected) << readout_name(readout);
+    parameters.time_gate = CodeGate{8, 12};
+    EXPECT_EQ(run(parameters, stream, 20), expected) << readout_name(readout);
+    std::vector<PixelResult> sampled(1);
+    make_readout_model(parameters)->run_sampled_column(sampler, 0, 20, sampled);
+    EXPECT_EQ(sampled.front(), expected) << readout_name(readout);
+    parameters.time_gate = CodeGate{12, 12};
+    EXPECT_EQ(run(parameters, stream, 20), run(parameters, stream_of({}), 20)) << readout_name(readout);
   }
 }
 
@@ -214,6 +272,13 @@ TEST(MalformedStream, RefusedWithRowAndReason) {
         run(parameters, stream_of({3, 4, 5}), 2);
       },
       ThrowsMessage<InputError>(HasSubstr("row 0: acquisition 2 is outside the frame of 2")));
+  ReadoutParameters gated = parameters;
+  gated.time_gate = CodeGate{3, 4};
+  EXPECT_THAT(
+      [&] {
+        run(gated, {3, 16, 4});
+      },
+      ThrowsMessage<InputError>(HasSubstr("row 0: a timestamp is above 15")));
 }
 
 }  // namespace

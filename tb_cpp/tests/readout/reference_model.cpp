@@ -31,7 +31,9 @@ class Frame {
         std::int64_t acquisitions)
       : p_(parameters), acquisitions_(acquisitions) {
     for (const Detection& detection : detections) {
-      if (detection.timestamp != p_.no_detection()) {
+      const bool gated = p_.time_gate && (detection.timestamp < p_.time_gate->begin ||
+                                          detection.timestamp >= p_.time_gate->end);
+      if (!gated && detection.timestamp != p_.no_detection()) {
         detections_.push_back(detection);
       }
     }

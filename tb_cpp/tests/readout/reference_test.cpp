@@ -33,6 +33,9 @@ ReadoutParameters random_parameters(Readout readout, int np, int nb, CounterRand
   parameters.confidence_width = pick(random, 9);
   parameters.guard = pick(random, pick(random, 2) == 0 ? 4 : (1 << np) + 1);
   parameters.window_centred = pick(random, 2) == 1;
+  if (pick(random, 3) == 0) {
+    parameters.time_gate = CodeGate{pick(random, 1 << np), pick(random, 1 << np)};
+  }
   return parameters;
 }
 

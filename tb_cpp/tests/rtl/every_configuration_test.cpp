@@ -24,6 +24,7 @@ TEST_P(EveryConfiguration, AgreesWithModelOnAdversarialStreams) {
   std::size_t first_kind = 0;
   for (const std::uint32_t acquisitions : {5U, 0U, 1U, 2U, 3U, 64U, 0U, 33U, 151U, 7U, 400U}) {
     SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
+    move_gate(rtl, random);
     ASSERT_TRUE(agrees_with_model(rtl, adversarial_columns(GetParam(), acquisitions, first_kind, random),
                                   acquisitions, options));
     options.reset_first = false;
@@ -42,6 +43,7 @@ TEST_P(EveryConfiguration, AgreesWithModelWhateverSourceAndSinkDo) {
     options.stall_probability = 0.9 * random.uniform();
     options.start_probability = random.uniform();
     options.reset_first = acquisitions % 2 == 0;
+    move_gate(rtl, random);
     ASSERT_TRUE(agrees_with_model(
         rtl, adversarial_columns(GetParam(), acquisitions, random() % kStreamKinds.size(), random),
         acquisitions, options));

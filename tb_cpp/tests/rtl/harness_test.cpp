@@ -213,6 +213,24 @@ TEST(VerilatedHooks, AssertionsOfTheRtlAreAlive) {
   EXPECT_THAT(run_until_the_gap, ThrowsMessage<RtlError>(HasSubstr("Assertion failed")));
 }
 
+TEST(TimeGate, IsRefusedWhereThereIsNoneOrOutOfRange) {
+  RtlReadout without(small_sifh());
+  EXPECT_THAT(
+      [&] {
+        without.set_time_gate({1, 2});
+      },
+      ThrowsMessage<InputError>(HasSubstr("has no time gate")));
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh);
+  parameters.time_gate = CodeGate{100, 200};
+  RtlReadout with(find_rtl_configuration(parameters, 5, 1));
+  EXPECT_EQ(with.configuration().parameters.time_gate, (CodeGate{100, 200}));
+  EXPECT_THAT(
+      [&] {
+        with.set_time_gate({0, 1024});
+      },
+      ThrowsMessage<InputError>(HasSubstr("gate end is 1024")));
+}
+
 // An array with a fault in its result stream.
 class FaultyArray : public ArrayModel {
  public:

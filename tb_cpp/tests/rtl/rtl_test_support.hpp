@@ -91,6 +91,14 @@ inline std::vector<ColumnStream> adversarial_columns(const RtlConfiguration& con
   return columns;
 }
 
+/// Where the array has a time gate: a new one, empty now and then.
+inline void move_gate(RtlReadout& rtl, CounterRandom& random) {
+  const ReadoutParameters& parameters = rtl.configuration().parameters;
+  if (parameters.time_gate) {
+    rtl.set_time_gate({pick(random, parameters.code_count()), pick(random, parameters.code_count())});
+  }
+}
+
 /// Timestamps of one pixel, acquisition by acquisition, every slot filled.
 inline ColumnStream single_pixel(const std::vector<Timestamp>& timestamps, int slots) {
   ColumnStream column;

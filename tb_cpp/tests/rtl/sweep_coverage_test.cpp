@@ -67,6 +67,7 @@ TEST_P(SweepCoverage, EveryValueOccurs) {
   EXPECT_THAT(values([](const C& c) { return c.pixels_per_sram; }), IsSupersetOf({1, 2, 3, 5, 7, 160}));
   EXPECT_THAT(values([](const C& c) { return c.sram_num; }), IsSupersetOf({1, 2, 3, 8}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.slots; }), IsSupersetOf(range(1, 4)));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.time_gate ? 1 : 0; }), IsSupersetOf({0, 1}));
   if (GetParam() != Kind::kEzPointer) {
     EXPECT_THAT(values([](const C& c) { return c.parameters.nb; }), IsSupersetOf(range(1, 12)));
     EXPECT_THAT(values([](const C& c) { return c.parameters.np - c.parameters.nb; }),

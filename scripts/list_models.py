@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Prints the models of dtof_array to Verilate, one a line: name, then names and values for dtof_verilate() of CMake.
+
+`list_models.py readouts`: the read-outs of configurations.toml, each with many columns and with one.
+`list_models.py variants`: its variants, with one column.
+"""
+
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "synth"))
+
+from dtof_synth.configuration import READOUTS, Configuration, load  # noqa: E402
+from dtof_synth.errors import FlowError  # noqa: E402
+
+HARNESS_ACQ_WIDTH = 16  # of tb_cpp/rtl/dtof_array_testbench.sv
+
+
+def line(name: str, configuration: Configuration, columns: int) -> str:
+    if configuration["ACQ_WIDTH"] != HARNESS_ACQ_WIDTH:
+        raise FlowError(f"{configuration.name}: the simulation harness drives ACQ_WIDTH = {HARNESS_ACQ_WIDTH} only")
+    parameters = {**configuration.parameters, **configuration.simulation, "SRAM_NUM": columns}
+    del parameters["ACQ_WIDTH"]
+    words = [f"{key} {value}" for key, value in parameters.items()]
+    return f"{name} READOUT {configuration.readout} {' '.join(words)}"
+
+
+def main() -> int:
+    if len(sys.argv) != 2 or sys.argv[1] not in ("readouts", "variants"):
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        for name, configuration in load(ROOT / "configurations.toml").items():
+            if configuration.readout not in READOUTS:
+                continue
+            if sys.argv[1] == "variants":
+                if configuration.variant_of:
+                    print(line(f"variant_{name}", configuration, 1))
+            elif not configuration.variant_of:
+                print(line(name, configuration, configuration.simulation["SRAM_NUM"]))
+                print(line(f"{name}_single", configuration, 1))
+    except FlowError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
