@@ -310,7 +310,8 @@ def report(points: list[Point], missing: list[str], scenes: Scenes, bound: dict[
         "# Area against accuracy", "",
         "Written by `make pareto`: areas of 200 columns of 160 pixels from [area.csv](area.csv) (`make synth`), "
         "accuracies from [scenes.csv](scenes.csv) and [scenes_variants.csv](scenes_variants.csv) (`make scenes`), "
-        f"preset `{PRESET}`, all scenes but the flats together: {', '.join(scenes.names(flats=False))}.", "",
+        f"preset `{PRESET}`, all scenes but the flats together: {', '.join(scenes.names(flats=False))}. Variants that "
+        "change results were read on fewer columns of each.", "",
         "![Pixels off by more than 3 %](pareto.svg)", "", "![Relative rmse](pareto_rmse.svg)", "",
         "Dots: read-outs, small dots: their variants, crosses: the area that the thesis gives (Table 5) at the accuracy "
         "measured here. Front: nothing is both smaller and better (above 3 %).", ""]
