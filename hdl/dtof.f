@@ -23,6 +23,7 @@ datapath/result_register.sv
 datapath/status_bits.sv
 datapath/label_match.sv
 datapath/minimum.sv
+datapath/pixel_distance.sv
 datapath/track_update.sv
 datapath/twin_pointer_update.sv
 engine/candidate_decoder.sv

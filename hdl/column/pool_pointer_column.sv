@@ -5,15 +5,14 @@
 // Equations: docs/poolpointer.md, Coarse, Track, Point. What needs several pixels at once (decode, choose,
 // decide) is done by an engine that several columns share (pool_engine).
 //
-// Coarse: a pixel's timestamp is chosen while its slots pass, its histogram word is read at T2 of the last slot,
-//   registered at the end of T3, counted in T4 and written in T5 (T6 for three slots). A pixel that counts in the
-//   word of the pixel before it goes on with the register, whose write may be still to come.
-// Track and point: an SRAM word holds two pixels. With c = 0 .. 2 SLOTS - 1 the clocks in which the timestamps of
-//   the pair are at T2: at c = 2 SLOTS - 2 the next pair is read, at c = 2 SLOTS - 1 this one is written and the
-//   next registered. The next group's word is read one clock earlier. A candidate's cell is looked up with a
-//   pixel's first slot and kept for the others, so that the group's word may change before the pair is written.
-//
-//   T0 timestamp registered   T1 candidates hit   T2 word updated
+// A pixel uses one timestamp an acquisition, chosen while its slots pass. T2 and later count from its last slot:
+//   clock   coarse                          track and point (an SRAM word holds two pixels)
+//   T2      histogram word read             hits and distances; with the second pixel the next pair is read
+//   T3      registered                      word updated, the other pixel's turn; with the second pixel the pair
+//   T4      counted                         is written and the next one registered
+//   T5      written (T6 for three slots)
+// In the coarse phase a pixel that counts in the word of the pixel before it goes on with the register, whose
+// write may be still to come. A group's word is read one clock before its first pair.
 //
 // Engine: while engine_i the register follows selected reads and is 0 otherwise, so that columns can be ORed.
 // Cost at the defaults: see reports/area.md.
@@ -24,8 +23,8 @@ module pool_pointer_column #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int COUNT_WIDTH = 8,
     parameter int GROUP_SIZE = 8,
-    parameter int DARK_LABELS = 8,
-    parameter int DARK_SCORE_BITS = 3,
+    parameter int DARK_LABELS = 6,
+    parameter int DARK_SCORE_BITS = 4,
     parameter int BRIGHT_LABELS = 6,
     parameter int BRIGHT_SCORE_BITS = 4,
     parameter int BRIGHT_FROM = 12,
@@ -54,13 +53,11 @@ module pool_pointer_column #(
     input  logic                  beat_t1_i,         // a timestamp, or none detected
     input  logic                  first_slot_t1_i,
     input  logic                  odd_t1_i,          // odd acquisition
-    input  logic                  update_t2_i,       // a slot of the pair is at T2
-    input  logic                  first_slot_t2_i,
-    input  logic                  second_pixel_t2_i,
-    input  logic [           1:0] dither_t2_i,       // acquisition mod 4
-    input  logic                  every_16_t2_i,     // acquisition mod 16 = 0
-    input  logic                  late_t2_i,
     input  logic                  fresh_t2_i,        // first pixel of a group
+    input  logic                  late_t2_i,
+    input  logic                  update_t3_i,
+    input  logic [           1:0] dither_t3_i,       // acquisition mod 4
+    input  logic                  every_16_t3_i,     // acquisition mod 16 = 0
     input  logic                  load_t3_i,
     input  logic                  count_t4_i,
     // SRAM
@@ -77,9 +74,7 @@ module pool_pointer_column #(
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
-  localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
-  localparam int SCORES_WIDTH = TRACK_WIDTH - ((OFFSET_BITS > 0) ? LABEL_WIDTH + OFFSET_BITS : 0);
-  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
+  localparam int SCORES_WIDTH = TRACK_WIDTH - ((OFFSET_BITS > 0) ? dtof_pkg::index_width(LABELS) + OFFSET_BITS : 0);
   localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
   localparam int BINS_PER_WORD = dtof_pkg::pool_bins_per_word(WORD_WIDTH, COUNT_WIDTH);
   localparam int BIN_WIDTH = $clog2(BINS_PER_WORD);
@@ -104,80 +99,55 @@ module pool_pointer_column #(
       .write_data_i(write_data)
   );
 
-  // Timestamp, and the candidates it supports.
+  // The timestamp that counts: the first, but the second in odd acquisitions if there is one.
 
   logic [NP-1:0] timestamp_t1_q, timestamp_t2_q;
-  logic [15:0] position_t2;
-  logic valid_t1, valid_t2_q, bright, bright_t2_q;
-  logic [GROUP_WIDTH-1:0] group_q;
-  logic [dtof_pkg::POOL_BACKGROUND_WIDTH-1:0] background;
-  logic [LABELS-1:0] hits_t1, hits_t2_q;
-
-  generate
-    if (NP == 16) begin : g_position
-      assign position_t2 = timestamp_t2_q;
-    end else begin : g_middle_of_bin
-      // The middle of a timestamp's bin; zeros follow.
-      assign position_t2 = {timestamp_t2_q, 1'b1, {(15 - NP) {1'b0}}};
-    end
-  endgenerate
+  logic [15:0] position;
+  logic valid_t1, valid_t2_q, only_one_q;
 
   assign valid_t1 = beat_t1_i && !(&timestamp_t1_q);
-  assign background = group_q[LABELS*CELL_WIDTH+:dtof_pkg::POOL_BACKGROUND_WIDTH];
-  assign bright = (BRIGHT_FROM == 0) || (background >= dtof_pkg::POOL_BACKGROUND_WIDTH'(BRIGHT_FROM));
-
-  label_match #(
-      .LABELS       (LABELS),
-      .DARK_LABELS  (DARK_LABELS),
-      .BRIGHT_LABELS(BRIGHT_LABELS)
-  ) u_label_match (
-      .valid_i (valid_t1),
-      .cell_i  (timestamp_t1_q[NP-1-:CELL_WIDTH]),
-      .bright_i(bright),
-      .cells_i (group_q[LABELS*CELL_WIDTH-1:0]),
-      .hits_o  (hits_t1)
-  );
 
   always_ff @(posedge clk_i) begin
     timestamp_t1_q <= timestamp_i;
-    timestamp_t2_q <= timestamp_t1_q;
-    valid_t2_q <= valid_t1;
-    bright_t2_q <= bright;
-    hits_t2_q <= hits_t1;
-    if (group_load_i) begin
-      group_q <= read_data[GROUP_WIDTH-1:0];
+    valid_t2_q <= valid_t1 || (valid_t2_q && !first_slot_t1_i);
+    if (valid_t1 || first_slot_t1_i) begin
+      only_one_q <= valid_t1 && (first_slot_t1_i || !valid_t2_q);
+    end
+    if (valid_t1 && (first_slot_t1_i || !valid_t2_q || (odd_t1_i && only_one_q))) begin
+      timestamp_t2_q <= timestamp_t1_q;
     end
   end
 
-  // Coarse: one timestamp an acquisition, the first, but the second in odd acquisitions if there is one.
+  generate
+    if (NP == 16) begin : g_position
+      assign position = timestamp_t2_q;
+    end else begin : g_middle_of_bin
+      // The middle of a timestamp's bin; zeros follow.
+      assign position = {timestamp_t2_q, 1'b1, {(15 - NP) {1'b0}}};
+    end
+  endgenerate
 
-  logic [COARSE_WIDTH-1:0] bin_q;
-  logic bin_valid_q, only_one_q, take;
+  // Coarse.
+
+  logic [COARSE_WIDTH-1:0] bin;
   logic same_line, fetch, pending_q, load_q, counted_q, write_q;
   logic [LINE_WIDTH-1:0] line, line_q, write_line_q;
   logic [BIN_WIDTH-1:0] select_q;
   logic [COUNT_WIDTH-1:0] count, next_count;
 
-  assign take = valid_t1 && (first_slot_t1_i || !bin_valid_q || (odd_t1_i && only_one_q));
-  assign same_line = counted_q && !fresh_t2_i && (bin_q[COARSE_WIDTH-1:BIN_WIDTH] == line_q);
-  assign fetch = coarse_i && read_i && bin_valid_q;
+  assign bin = timestamp_t2_q[NP-1-:COARSE_WIDTH];
+  assign same_line = counted_q && !fresh_t2_i && (bin[COARSE_WIDTH-1:BIN_WIDTH] == line_q);
+  assign fetch = coarse_i && read_i && valid_t2_q;
 
   always_ff @(posedge clk_i) begin
-    if (take) begin
-      bin_q <= timestamp_t1_q[NP-1-:COARSE_WIDTH];
-    end
-    bin_valid_q <= valid_t1 || (bin_valid_q && !first_slot_t1_i);
-    if (valid_t1 || first_slot_t1_i) begin
-      only_one_q <= valid_t1 && (first_slot_t1_i || !bin_valid_q);
-    end
     if (read_i || engine_i) begin
       pending_q <= fetch;
       load_q <= fetch && !same_line;
       counted_q <= coarse_i && (fetch || (counted_q && !fresh_t2_i));
     end
     if (fetch) begin
-      line_q <= bin_q[COARSE_WIDTH-1:BIN_WIDTH];
-      select_q <= bin_q[BIN_WIDTH-1:0];
+      line_q <= bin[COARSE_WIDTH-1:BIN_WIDTH];
+      select_q <= bin[BIN_WIDTH-1:0];
     end
     if (count_t4_i) begin
       write_q <= pending_q;
@@ -188,45 +158,86 @@ module pool_pointer_column #(
   assign count = word_q[select_q*COUNT_WIDTH+:COUNT_WIDTH];
   assign next_count = (&count) ? count : count + 1'b1;
 
-  // Track and point: the pixel at T2.
+  // Track and point, T2: where the timestamp is. The pixel in work is the word's low half.
 
-  logic [PIXEL_WIDTH-1:0] pixel, moved;
+  logic [GROUP_WIDTH-1:0] group_q;
+  logic [dtof_pkg::POOL_BACKGROUND_WIDTH-1:0] background;
+  logic bright;
+  logic [LABELS-1:0] hits_t2, hits_t3_q;
+  logic bright_t3_q, offset_up_t3_q, offset_down_t3_q, reach_t3_q, up_t3_q, hit_t3_q;
+  logic rival_hit_t3_q, rival_up_t3_q, rival_down_t3_q;
+  logic [2:0] weight_t3_q, weight_t2;
+  logic [3:0] gear_t3_q, gear_t2;
+  logic offset_up_t2, offset_down_t2, reach_t2, up_t2, hit_t2, rival_hit_t2, rival_up_t2, rival_down_t2;
+  logic [PIXEL_WIDTH-1:0] pixel;
+
+  assign pixel = word_q[PIXEL_WIDTH-1:0];
+  assign background = group_q[LABELS*CELL_WIDTH+:dtof_pkg::POOL_BACKGROUND_WIDTH];
+  assign bright = (BRIGHT_FROM == 0) || (background >= dtof_pkg::POOL_BACKGROUND_WIDTH'(BRIGHT_FROM));
+
+  label_match #(
+      .LABELS       (LABELS),
+      .DARK_LABELS  (DARK_LABELS),
+      .BRIGHT_LABELS(BRIGHT_LABELS)
+  ) u_label_match (
+      .valid_i (valid_t2_q),
+      .cell_i  (timestamp_t2_q[NP-1-:CELL_WIDTH]),
+      .bright_i(bright),
+      .cells_i (group_q[LABELS*CELL_WIDTH-1:0]),
+      .hits_o  (hits_t2)
+  );
+
+  pixel_distance #(
+      .LABELS         (LABELS),
+      .SCORES_WIDTH   (SCORES_WIDTH),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .PIXEL_WIDTH    (PIXEL_WIDTH)
+  ) u_pixel_distance (
+      .valid_i      (valid_t2_q),
+      .position_i   (position),
+      .point_i      (point_i),
+      .late_i       (late_t2_i),
+      .word_i       (pixel),
+      .cells_i      (group_q[LABELS*CELL_WIDTH-1:0]),
+      .hits_i       (hits_t2),
+      .offset_up_o  (offset_up_t2),
+      .offset_down_o(offset_down_t2),
+      .reach_o      (reach_t2),
+      .up_o         (up_t2),
+      .weight_o     (weight_t2),
+      .gear_o       (gear_t2),
+      .hit_o        (hit_t2),
+      .rival_hit_o  (rival_hit_t2),
+      .rival_up_o   (rival_up_t2),
+      .rival_down_o (rival_down_t2)
+  );
+
+  always_ff @(posedge clk_i) begin
+    hits_t3_q <= hits_t2;
+    bright_t3_q <= bright;
+    offset_up_t3_q <= offset_up_t2;
+    offset_down_t3_q <= offset_down_t2;
+    reach_t3_q <= reach_t2;
+    up_t3_q <= up_t2;
+    weight_t3_q <= weight_t2;
+    gear_t3_q <= gear_t2;
+    hit_t3_q <= hit_t2;
+    rival_hit_t3_q <= rival_hit_t2;
+    rival_up_t3_q <= rival_up_t2;
+    rival_down_t3_q <= rival_down_t2;
+    if (group_load_i) begin
+      group_q <= read_data[GROUP_WIDTH-1:0];
+    end
+  end
+
+  // T3: the pixel's next word.
+
+  logic [PIXEL_WIDTH-1:0] moved;
   logic [TRACK_WIDTH-1:0] tracked;
   logic [POINT_WIDTH-1:0] pointed;
-  logic [CELL_WIDTH-1:0] leader_cell, leader_cell_q;
-  logic [LABEL_WIDTH-1:0] leader;
-  logic leader_is_new_q, leader_is_new, swap;
-
-  assign pixel = second_pixel_t2_i ? word_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] : word_q[PIXEL_WIDTH-1:0];
-  assign leader_cell = first_slot_t2_i ? group_q[leader*CELL_WIDTH+:CELL_WIDTH] : leader_cell_q;
-
-  generate
-    if (RIVAL_MOVES != 0 && OFFSET_BITS > 0) begin : g_track_leader
-      assign leader = pixel[SCORES_WIDTH+:LABEL_WIDTH];
-    end else if (RIVAL_MOVES != 0) begin : g_no_leader
-      assign leader = '0;
-    end else if (OFFSET_BITS > 0) begin : g_either_leader
-      assign leader = point_i ? pixel[POINTER_WIDTH+:LABEL_WIDTH] : pixel[SCORES_WIDTH+:LABEL_WIDTH];
-    end else begin : g_point_leader
-      assign leader = pixel[POINTER_WIDTH+:LABEL_WIDTH];
-    end
-    if (RIVAL_MOVES != 0) begin : g_leader_cell
-      always_ff @(posedge clk_i) begin
-        leader_cell_q <= leader_cell;
-      end
-      logic unused;
-      assign unused = swap;
-    end else begin : g_both_cells
-      logic [LABEL_WIDTH-1:0] rival;
-      logic [CELL_WIDTH-1:0] rival_cell, rival_cell_q;
-      assign rival = pixel[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
-      assign rival_cell = first_slot_t2_i ? group_q[rival*CELL_WIDTH+:CELL_WIDTH] : rival_cell_q;
-      always_ff @(posedge clk_i) begin
-        leader_cell_q <= (swap && point_i) ? rival_cell : leader_cell;
-        rival_cell_q <= (swap && point_i) ? leader_cell : rival_cell;
-      end
-    end
-  endgenerate
 
   track_update #(
       .LABELS           (LABELS),
@@ -236,15 +247,12 @@ module pool_pointer_column #(
       .BRIGHT_SCORE_BITS(BRIGHT_SCORE_BITS),
       .OFFSET_BITS      (OFFSET_BITS)
   ) u_track_update (
-      .word_i         (pixel[TRACK_WIDTH-1:0]),
-      .hits_i         (hits_t2_q),
-      .valid_i        (valid_t2_q),
-      .position_i     (position_t2[15:6]),
-      .bright_i       (bright_t2_q),
-      .leader_cell_i  (leader_cell),
-      .leader_is_new_i(leader_is_new_q && !first_slot_t2_i),
-      .word_o         (tracked),
-      .leader_is_new_o(leader_is_new)
+      .word_i       (pixel[TRACK_WIDTH-1:0]),
+      .hits_i       (hits_t3_q),
+      .bright_i     (bright_t3_q),
+      .offset_up_i  (offset_up_t3_q),
+      .offset_down_i(offset_down_t3_q),
+      .word_o       (tracked)
   );
 
   twin_pointer_update #(
@@ -253,23 +261,21 @@ module pool_pointer_column #(
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES)
   ) u_pointer_update (
-      .word_i       (pixel[POINT_WIDTH-1:0]),
-      .valid_i      (valid_t2_q),
-      .position_i   (position_t2),
-      .hits_i       (hits_t2_q),
-      .leader_cell_i(leader_cell),
-      .dither_i     (dither_t2_i),
-      .every_16_i   (every_16_t2_i),
-      .late_i       (late_t2_i),
-      .word_o       (pointed),
-      .swap_o       (swap)
+      .word_i      (pixel[POINT_WIDTH-1:0]),
+      .reach_i     (reach_t3_q),
+      .up_i        (up_t3_q),
+      .weight_i    (weight_t3_q),
+      .gear_i      (gear_t3_q),
+      .hit_i       (hit_t3_q),
+      .rival_hit_i (rival_hit_t3_q),
+      .rival_up_i  (rival_up_t3_q),
+      .rival_down_i(rival_down_t3_q),
+      .dither_i    (dither_t3_i),
+      .every_16_i  (every_16_t3_i),
+      .word_o      (pointed)
   );
 
   assign moved = point_i ? PIXEL_WIDTH'(pointed) : PIXEL_WIDTH'(tracked);
-
-  always_ff @(posedge clk_i) begin
-    leader_is_new_q <= leader_is_new;
-  end
 
   // The word in work, and the SRAM.
 
@@ -292,10 +298,8 @@ module pool_pointer_column #(
       word_d = read_data;
     end else if (count_t4_i && pending_q) begin
       word_d = counted_word;
-    end else if (update_t2_i && second_pixel_t2_i) begin
-      word_d[2*PIXEL_WIDTH-1:PIXEL_WIDTH] = moved;
-    end else if (update_t2_i) begin
-      word_d[PIXEL_WIDTH-1:0] = moved;
+    end else if (update_t3_i) begin
+      word_d = updated;
     end
   end
 
@@ -303,20 +307,21 @@ module pool_pointer_column #(
     word_q <= word_d;
   end
 
+  // The halves change places with every pixel.
   generate
     if (WORD_WIDTH > 2 * PIXEL_WIDTH) begin : g_padding
-      assign updated = {word_q[WORD_WIDTH-1:2*PIXEL_WIDTH], moved, word_q[PIXEL_WIDTH-1:0]};
+      assign updated = {word_q[WORD_WIDTH-1:2*PIXEL_WIDTH], moved, word_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH]};
     end else begin : g_no_padding
-      assign updated = {moved, word_q[PIXEL_WIDTH-1:0]};
+      assign updated = {moved, word_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH]};
     end
   endgenerate
 
   assign write_data = engine_i ? engine_word_i : (coarse_i ? word_q : updated);
 
-  assign read = read_i && (engine_i ? select_i : (!coarse_i || (bin_valid_q && !same_line)));
+  assign read = read_i && (engine_i ? select_i : (!coarse_i || (valid_t2_q && !same_line)));
   assign write = write_i && (engine_i ? select_i : (!coarse_i || write_q));
   // In the coarse phase the common address is a group's first word.
-  assign line = write_i ? write_line_q : bin_q[COARSE_WIDTH-1:BIN_WIDTH];
+  assign line = write_i ? write_line_q : bin[COARSE_WIDTH-1:BIN_WIDTH];
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(line) : '0);
   assign word_o = word_q;
 

@@ -5,12 +5,12 @@
 // Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
 // before. An odd number of pixels leaves a pause of SLOTS clocks for the missing pixel of the last pair.
 //
-// Schedule (T0: a timestamp's clock at the port; c: the clock of its pair, 0 .. 2 SLOTS - 1):
-//   prime    before the first acquisition of a phase: group 0's word and pair 0's are read
-//   T2, c = 2 SLOTS - 3    read the next pair's group word, where it is another one
-//   T2, c = 2 SLOTS - 2    read the next pair; the group's word is registered
-//   T2, c = 2 SLOTS - 1    write the pair; the next is registered
-//   coarse   T2 of a pixel's last slot: read; T3: registered; T4: counted; T5 (T6 for SLOTS = 3): write
+// Schedule (T0: the clock of a pixel's last slot at the port):
+//   prime   before the first acquisition of a phase: group 0's word and pair 0's are read
+//   second pixel of a pair   T1: read the next pair's group word, where it is another one
+//                            T2: read the next pair; the group's word is registered
+//                            T3: write the pair; the next is registered
+//   coarse phase             T2: read, T3: registered, T4: counted, T5 (T6 for SLOTS = 3): write
 // SRAM commands and loads are given one clock early (_d) for the array to register and spread.
 // Cost: counters and the stage copies of the pixel number, per array.
 `include "dtof_macros.svh"
@@ -38,13 +38,11 @@ module pair_sequencer #(
     output logic                  beat_t1_o,
     output logic                  first_slot_t1_o,
     output logic                  odd_t1_o,
-    output logic                  update_t2_o,
-    output logic                  first_slot_t2_o,
-    output logic                  second_pixel_t2_o,
-    output logic [           1:0] dither_t2_o,
-    output logic                  every_16_t2_o,
-    output logic                  late_t2_o,
     output logic                  fresh_t2_o,
+    output logic                  late_t2_o,
+    output logic                  update_t3_o,
+    output logic [           1:0] dither_t3_o,
+    output logic                  every_16_t3_o,
     output logic                  load_t3_o,
     output logic                  count_t4_o,
     // SRAM, a clock early
@@ -132,7 +130,7 @@ module pair_sequencer #(
   logic [3:0] acquisition_t1_q;
   logic [STEP_WIDTH-1:0] step_t1_q;
   logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
-  logic first_slot, last_slot, next_group_t1, fetch_t1;
+  logic first_slot, last_slot, next_group_t1, last_step_t1, fetch_t1;
 
   assign first_slot = (step_q == '0) || (step_q == STEP_WIDTH'(SLOTS));
   assign last_slot = (step_q == STEP_WIDTH'(SLOTS - 1)) || (step_q == LAST_STEP);
@@ -161,6 +159,8 @@ module pair_sequencer #(
 
   assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
   assign next_group_t1 = (GROUPS > 1) && ((32'(next_pair_t1) % GROUP_PAIRS) == 0);
+  // Of a pixel, whether or not the last pair has a second one.
+  assign last_step_t1 = busy_t1_q && (step_t1_q == STEP_WIDTH'(SLOTS - 1) || step_t1_q == LAST_STEP);
   assign fetch_t1 = coarse_i && last_slot_t1_q;
 
   // T2 and later
@@ -169,49 +169,53 @@ module pair_sequencer #(
 
   logic [WRITE_STAGE-1:2] fetch_tn_q;
   logic [(WRITE_STAGE-2)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. WRITE_STAGE - 1, T2 lowest
-  logic [PAIR_WIDTH-1:0] write_pair;
-  logic update_t2_q;
+  logic [PAIR_WIDTH-1:0] pair_t2, write_pair;
+  logic visit_t2_q, update_t3_q, second_visit_t2_q;
+  logic [3:0] acquisition_t2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       fetch_tn_q <= '0;
-      update_t2_q <= 1'b0;
+      visit_t2_q <= 1'b0;
+      update_t3_q <= 1'b0;
+      second_visit_t2_q <= 1'b0;
     end else begin
       fetch_tn_q <= {fetch_tn_q[WRITE_STAGE-2:2], fetch_t1};
-      update_t2_q <= busy_t1_q && !coarse_i;
+      visit_t2_q <= last_step_t1 && !coarse_i;
+      update_t3_q <= visit_t2_q;
+      second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
     end
   end
 
   always_ff @(posedge clk_i) begin
     pair_tn_q <= {pair_tn_q[(WRITE_STAGE-3)*PAIR_WIDTH-1:0], pair_t1_q};
-    first_slot_t2_o <= first_slot_t1_q;
-    second_pixel_t2_o <= second_pixel_t1_q;
-    dither_t2_o <= acquisition_t1_q[1:0];
-    every_16_t2_o <= (acquisition_t1_q == '0);
+    acquisition_t2_q <= acquisition_t1_q;
     late_t2_o <= late_t1_q;
+    dither_t3_o <= acquisition_t2_q[1:0];
+    every_16_t3_o <= (acquisition_t2_q == '0);
     fresh_t2_o <= (GROUPS > 1) && !second_pixel_t1_q && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
   end
 
   assign beat_t1_o = beat_t1_q;
   assign first_slot_t1_o = first_slot_t1_q;
   assign odd_t1_o = acquisition_t1_q[0];
-  assign update_t2_o = update_t2_q;
+  assign update_t3_o = update_t3_q;
   assign load_t3_o = fetch_tn_q[3];
   assign count_t4_o = fetch_tn_q[4];
+  assign pair_t2 = pair_tn_q[PAIR_WIDTH-1:0];
   assign write_pair = pair_tn_q[(WRITE_STAGE-3)*PAIR_WIDTH+:PAIR_WIDTH];
 
   logic prime_group, prime_word, read_group, read_word, write_word;
   assign prime_group = stream_i && !coarse_i && (prime_q == 3'd1);
   assign prime_word = stream_i && !coarse_i && (prime_q == 3'd2);
-  assign read_group = busy_t1_q && !coarse_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 3));
-  assign read_word = busy_t1_q && !coarse_i && (PAIRS > 1) && (step_t1_q == STEP_WIDTH'(STEPS - 2));
-  assign write_word = busy_t1_q && !coarse_i && (step_t1_q == LAST_STEP);
+  assign read_group = busy_t1_q && !coarse_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 2));
+  assign read_word = busy_t1_q && !coarse_i && (PAIRS > 1) && (step_t1_q == LAST_STEP);
+  assign write_word = second_visit_t2_q;
 
   assign read_d_o = prime_group || prime_word || read_group || read_word || fetch_t1;
   assign write_d_o = write_word || fetch_tn_q[WRITE_STAGE-1];
-  assign group_load_d_o = prime_word || (busy_t1_q && !coarse_i && next_group_t1 && step_t1_q == STEP_WIDTH'(STEPS - 2));
-  assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3)
-      || (busy_t1_q && !coarse_i && (PAIRS > 1) && step_t1_q == LAST_STEP);
+  assign group_load_d_o = prime_word || (busy_t1_q && !coarse_i && next_group_t1 && step_t1_q == LAST_STEP);
+  assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || (second_visit_t2_q && (PAIRS > 1));
 
   always_comb begin
     address_d_o = '0;
@@ -222,7 +226,7 @@ module pair_sequencer #(
     end else if (read_word) begin
       address_d_o = ADDR_WIDTH'(next_pair_t1);
     end else if (write_word) begin
-      address_d_o = ADDR_WIDTH'(pair_t1_q);
+      address_d_o = ADDR_WIDTH'(pair_t2);
     end else if (fetch_t1) begin
       address_d_o = ADDR_WIDTH'((32'(pair_t1_q) >> GROUP_SHIFT) << GROUP_SHIFT);
     end else if (coarse_i) begin

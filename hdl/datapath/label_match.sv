@@ -4,8 +4,8 @@
 // Equation (docs/poolpointer.md, Track): hit[k] = (-5 <= (X >> 9) - cell[k] <= 4), for the candidates in use.
 // Cost: a 7-bit subtractor and a range check a candidate.
 module label_match #(
-    parameter int LABELS = 8,
-    parameter int DARK_LABELS = 8,
+    parameter int LABELS = 6,
+    parameter int DARK_LABELS = 6,
     parameter int BRIGHT_LABELS = 6
 ) (
     input  logic                                       valid_i,   // there is a timestamp

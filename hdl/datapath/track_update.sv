@@ -2,28 +2,25 @@
 // A pixel's track word after one timestamp: scores of the candidates, leader, its offset. Combinational.
 //
 // Equation (docs/poolpointer.md, Track): the lowest candidate hit gains a point, or the others lose one if its
-// score is full; it leads if it is now ahead of the leader. Before that the offset follows the timestamp by one
-// if it is 1 to 8 cells from C[leader] + 64 offset, unless the leader is new in this acquisition.
-// Cost: an incrementer or decrementer a score, an 11-bit subtractor; about 25 gate delays.
+// score is full; it leads if it is now ahead of the leader. The leader's offset follows the timestamp by one and
+// starts anew with a new leader.
+// Cost: an incrementer or decrementer a score; about 20 gate delays.
 module track_update #(
-    parameter int LABELS = 8,
-    parameter int DARK_LABELS = 8,
-    parameter int DARK_SCORE_BITS = 3,
+    parameter int LABELS = 6,
+    parameter int DARK_LABELS = 6,
+    parameter int DARK_SCORE_BITS = 4,
     parameter int BRIGHT_LABELS = 6,
     parameter int BRIGHT_SCORE_BITS = 4,
     parameter int OFFSET_BITS = 5,  // 0: neither offset nor leader
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(DARK_LABELS, DARK_SCORE_BITS, BRIGHT_LABELS,
                                                             BRIGHT_SCORE_BITS, OFFSET_BITS)
 ) (
-    input  logic [                  TRACK_WIDTH-1:0] word_i,           // {offset, leader, scores}
-    input  logic [                       LABELS-1:0] hits_i,           // none without a timestamp
-    input  logic                                     valid_i,
-    input  logic [                              9:0] position_i,       // X >> 6
-    input  logic                                     bright_i,
-    input  logic [dtof_pkg::POOL_CELL_WIDTH-1:0]      leader_cell_i,
-    input  logic                                     leader_is_new_i,  // since an earlier slot
-    output logic [                  TRACK_WIDTH-1:0] word_o,
-    output logic                                     leader_is_new_o
+    input  logic [TRACK_WIDTH-1:0] word_i,         // {offset, leader, scores}
+    input  logic [     LABELS-1:0] hits_i,         // none without a timestamp
+    input  logic                   bright_i,
+    input  logic                   offset_up_i,
+    input  logic                   offset_down_i,
+    output logic [TRACK_WIDTH-1:0] word_o
 );
 
   localparam int SCORES_WIDTH = dtof_pkg::max_of(DARK_LABELS * DARK_SCORE_BITS, BRIGHT_LABELS * BRIGHT_SCORE_BITS);
@@ -94,24 +91,16 @@ module track_update #(
       logic [LABEL_WIDTH-1:0] leader, winner_label;
       logic signed [OFFSET_BITS-1:0] offset, moved;
       logic [SCORE_WIDTH-1:0] leader_score;
-      logic signed [12:0] distance;
-      logic signed [9:0] cells;
-      logic change, follow;
+      logic change;
 
       assign leader = word_i[SCORES_WIDTH+:LABEL_WIDTH];
       assign offset = $signed(word_i[SCORES_WIDTH+LABEL_WIDTH+:OFFSET_BITS]);
-      assign distance = $signed({3'b000, position_i}) - $signed({3'b000, leader_cell_i, 3'b000}) 
-          - $signed({{(13 - OFFSET_BITS) {offset[OFFSET_BITS-1]}}, offset});
-      assign cells = distance[12:3];
-      logic unused;
-      assign unused = ^distance[2:0];
-      assign follow = valid_i && !leader_is_new_i;
 
       always_comb begin
         moved = offset;
-        if (follow && cells > 10'sd0 && cells < 10'sd8) begin
+        if (offset_up_i) begin
           moved = (offset == {1'b0, {(OFFSET_BITS - 1) {1'b1}}}) ? offset : offset + OFFSET_BITS'(1);
-        end else if (follow && cells < -10'sd1 && cells >= -10'sd8) begin
+        end else if (offset_down_i) begin
           moved = (offset == {1'b1, {(OFFSET_BITS - 1) {1'b0}}}) ? offset : offset - OFFSET_BITS'(1);
         end
       end
@@ -130,11 +119,9 @@ module track_update #(
       assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score);
       assign word_o[SCORES_WIDTH+:LABEL_WIDTH] = change ? winner_label : leader;
       assign word_o[SCORES_WIDTH+LABEL_WIDTH+:OFFSET_BITS] = change ? '0 : moved;
-      assign leader_is_new_o = change || leader_is_new_i;
     end else begin : g_no_offset
       logic unused;
-      assign unused = ^{1'b0, valid_i, position_i, leader_cell_i};
-      assign leader_is_new_o = leader_is_new_i;
+      assign unused = ^{offset_up_i, offset_down_i};
     end
   endgenerate
 

@@ -18,8 +18,8 @@ module pool_pointer_array #(
     parameter int SLOTS = 2,              // timestamps per pixel and acquisition, 2 to 4
     parameter int COUNT_WIDTH = 8,        // bits of a coarse bin, 4 to 8
     parameter int GROUP_SIZE = 8,         // pixels that share a coarse histogram, a power of two
-    parameter int DARK_LABELS = 8,        // candidates of a group in little light, 2 to 8
-    parameter int DARK_SCORE_BITS = 3,    // bits of their scores, 1 to 4
+    parameter int DARK_LABELS = 6,        // candidates of a group in little light, 2 to 8
+    parameter int DARK_SCORE_BITS = 4,    // bits of their scores, 1 to 4
     parameter int BRIGHT_LABELS = 6,      // the same in much light
     parameter int BRIGHT_SCORE_BITS = 4,
     parameter int BRIGHT_FROM = 12,       // background from which it is
@@ -137,9 +137,9 @@ module pool_pointer_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, update_t2, first_slot_t2, second_pixel_t2, every_16_t2, late_t2, fresh_t2;
+  logic beat_t1, first_slot_t1, odd_t1, fresh_t2, update_t3, late_t2, every_16_t3;
   logic load_t3, count_t4, stream_read, stream_write, stream_word_load, group_load;
-  logic [1:0] dither_t2;
+  logic [1:0] dither_t3;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -160,13 +160,11 @@ module pool_pointer_array #(
       .beat_t1_o        (beat_t1),
       .first_slot_t1_o  (first_slot_t1),
       .odd_t1_o         (odd_t1),
-      .update_t2_o      (update_t2),
-      .first_slot_t2_o  (first_slot_t2),
-      .second_pixel_t2_o(second_pixel_t2),
-      .dither_t2_o      (dither_t2),
-      .every_16_t2_o    (every_16_t2),
-      .late_t2_o        (late_t2),
       .fresh_t2_o       (fresh_t2),
+      .late_t2_o        (late_t2),
+      .update_t3_o      (update_t3),
+      .dither_t3_o      (dither_t3),
+      .every_16_t3_o    (every_16_t3),
       .load_t3_o        (load_t3),
       .count_t4_o       (count_t4),
       .read_d_o         (stream_read),
@@ -306,13 +304,11 @@ module pool_pointer_array #(
             .beat_t1_i        (beat_t1),
             .first_slot_t1_i  (first_slot_t1),
             .odd_t1_i         (odd_t1),
-            .update_t2_i      (update_t2),
-            .first_slot_t2_i  (first_slot_t2),
-            .second_pixel_t2_i(second_pixel_t2),
-            .dither_t2_i      (dither_t2),
-            .every_16_t2_i    (every_16_t2),
-            .late_t2_i        (late_t2),
             .fresh_t2_i       (fresh_t2),
+            .late_t2_i        (late_t2),
+            .update_t3_i      (update_t3),
+            .dither_t3_i      (dither_t3),
+            .every_16_t3_i    (every_16_t3),
             .load_t3_i        (load_t3),
             .count_t4_i       (count_t4),
             .read_i           (read_q),

@@ -52,8 +52,8 @@ bool is_pool_readout(Readout readout);
 /// are fractions of a coarse bin, a 32nd of the range.
 struct PoolPointerParameters {
   int group_size = 8;       ///< G, pixels of a column that share a coarse histogram, 1 .. 64
-  int dark_labels = 8;      ///< candidate depths of a group with background below BRIGHT_FROM, 2 .. 8
-  int dark_score_bits = 3;  ///< width of a candidate's score in a pixel word there, 1 .. 8
+  int dark_labels = 6;      ///< candidate depths of a group with background below BRIGHT_FROM, 2 .. 8
+  int dark_score_bits = 4;  ///< width of a candidate's score in a pixel word there, 1 .. 8
   int bright_labels = 6;    ///< the same in the other groups
   int bright_score_bits = 4;
   int bright_from = 12;   ///< BRIGHT_FROM, in units of a group's background word, 0 .. 127

@@ -151,7 +151,7 @@ PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above,
 
 void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t position,
                    const PoolPointerParameters& parameters) {
-  if (parameters.offset_bits > 0 && !word.leader_is_new) {
+  if (parameters.offset_bits > 0) {
     const std::int32_t distance =
         in_cells(position - group.centre(word.leader) - word.offset * kUnitsPerOffset);
     if (within(distance, kReachCells) && distance != 0 && distance != -1) {
@@ -176,7 +176,6 @@ void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t positi
     if (parameters.offset_bits > 0 && label != word.leader &&
         word.score[index] > word.score[static_cast<std::size_t>(word.leader)]) {
       word.leader = label;
-      word.leader_is_new = true;
       word.offset = 0;
     }
     return;  // the first candidate that fits takes the timestamp
@@ -309,30 +308,28 @@ class PoolPointerModel final : public ReadoutModel {
                                                     std::uint32_t acquisitions) override {
     const PoolSchedule schedule(acquisitions, pool_);
     const auto rows = static_cast<std::size_t>(column.rows());
-    std::vector<std::span<const Detection>> rest;
+    std::vector<std::vector<Timed>> used;
     for (int row = 0; row < column.rows(); ++row) {
       check_detections(column.row(row), row, parameters_, acquisitions);
-      rest.push_back(column.row(row));
+      used.push_back(one_an_acquisition(column.row(row)));
     }
+    std::vector<std::span<const Timed>> rest(used.begin(), used.end());
     const std::vector<PoolGroup> groups = coarse_phase(rest, schedule);
     const auto group_of = [&](std::size_t row) -> const PoolGroup& {
       return groups[row / static_cast<std::size_t>(pool_.group_size)];
     };
     std::vector<PoolTracks> tracks(rows);
     for (std::size_t row = 0; row < rows; ++row) {
-      std::uint32_t current = 0;
-      for_each_until(rest[row], schedule.track_end, [&](std::uint32_t acquisition, std::int32_t position) {
-        tracks[row].leader_is_new = tracks[row].leader_is_new && acquisition == current;
-        current = acquisition;
-        follow_tracks(tracks[row], group_of(row), position, pool_);
-      });
+      for (const Timed& timed : take_until(rest[row], schedule.track_end)) {
+        follow_tracks(tracks[row], group_of(row), timed.position, pool_);
+      }
     }
     std::vector<PoolPointerWord> words = choose_labels(tracks, group_of);
     for (std::size_t row = 0; row < rows; ++row) {
-      for_each_until(rest[row], acquisitions, [&](std::uint32_t acquisition, std::int32_t position) {
-        follow_pointers(words[row], group_of(row), position, acquisition, acquisition >= schedule.late_begin,
-                        pool_);
-      });
+      for (const Timed& timed : rest[row]) {
+        follow_pointers(words[row], group_of(row), timed.position, timed.acquisition,
+                        timed.acquisition >= schedule.late_begin, pool_);
+      }
     }
     return decide(words, group_of);
   }
@@ -344,48 +341,51 @@ class PoolPointerModel final : public ReadoutModel {
   }
 
  private:
-  /// Calls apply(acquisition, position) for the row's detections before `end` and drops them.
-  template <typename Apply>
-  void for_each_until(std::span<const Detection>& row, std::uint32_t end, Apply&& apply) const {
-    std::size_t used = 0;
-    for (; used < row.size() && row[used].acquisition < end; ++used) {
-      if (row[used].timestamp != no_detection_) {
-        const auto half_bin = static_cast<std::int32_t>((1U << fraction_bits_) >> 1U);
-        apply(row[used].acquisition,
-              static_cast<std::int32_t>(row[used].timestamp) * (1 << fraction_bits_) + half_bin);
+  struct Timed {
+    std::uint32_t acquisition;
+    std::int32_t position;
+  };
+
+  /// What a pixel uses: the first timestamp of an acquisition, but in odd ones the second if there is one.
+  [[nodiscard]] std::vector<Timed> one_an_acquisition(std::span<const Detection> row) const {
+    const auto half_bin = static_cast<std::int32_t>((1U << fraction_bits_) >> 1U);
+    std::vector<Timed> used;
+    int seen = 0;
+    for (const Detection& detection : row) {
+      if (detection.timestamp == no_detection_) {
+        continue;
+      }
+      const Timed timed{detection.acquisition,
+                        static_cast<std::int32_t>(detection.timestamp) * (1 << fraction_bits_) + half_bin};
+      if (used.empty() || used.back().acquisition != timed.acquisition) {
+        used.push_back(timed);
+        seen = 1;
+      } else if (++seen == 2 && timed.acquisition % 2 == 1) {
+        used.back() = timed;
       }
     }
-    row = row.subspan(used);
+    return used;
   }
 
-  std::vector<PoolGroup> coarse_phase(std::vector<std::span<const Detection>>& rest,
+  /// The timestamps before acquisition `end`, which are dropped from `rest`.
+  static std::span<const Timed> take_until(std::span<const Timed>& rest, std::uint32_t end) {
+    const auto last =
+        std::ranges::partition_point(rest, [end](const Timed& timed) { return timed.acquisition < end; });
+    const auto taken = rest.first(static_cast<std::size_t>(last - rest.begin()));
+    rest = rest.subspan(taken.size());
+    return taken;
+  }
+
+  std::vector<PoolGroup> coarse_phase(std::vector<std::span<const Timed>>& rest,
                                       const PoolSchedule& schedule) const {
     const auto size = static_cast<std::size_t>(pool_.group_size);
     std::vector<CoarseHistogram> histograms((rest.size() + size - 1) / size, CoarseHistogram{});
     const auto limit = static_cast<std::uint16_t>((1U << static_cast<unsigned>(parameters_.count_width)) - 1);
     for (std::size_t row = 0; row < rest.size(); ++row) {
-      CoarseHistogram& histogram = histograms[row / size];
-      const auto count = [&](std::int32_t position) {
-        std::uint16_t& bin = histogram[static_cast<std::size_t>(position / kUnitsPerCoarseBin)];
+      for (const Timed& timed : take_until(rest[row], schedule.coarse_end)) {
+        std::uint16_t& bin =
+            histograms[row / size][static_cast<std::size_t>(timed.position / kUnitsPerCoarseBin)];
         bin = static_cast<std::uint16_t>(bin + (bin < limit ? 1 : 0));
-      };
-      // One timestamp an acquisition: the first, but in odd ones the second if there is one.
-      std::uint32_t current = 0;
-      std::int32_t chosen = -1;
-      int seen = 0;
-      for_each_until(rest[row], schedule.coarse_end, [&](std::uint32_t acquisition, std::int32_t position) {
-        if (seen > 0 && acquisition != current) {
-          count(chosen);
-          seen = 0;
-        }
-        current = acquisition;
-        if (seen == 0 || (seen == 1 && acquisition % 2 == 1)) {
-          chosen = position;
-        }
-        ++seen;
-      });
-      if (seen > 0) {
-        count(chosen);
       }
     }
     std::vector<PoolGroup> groups;

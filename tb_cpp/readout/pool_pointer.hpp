@@ -44,8 +44,7 @@ PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above,
 struct PoolTracks {
   std::array<int, kMostLabels> score{};
   int leader = 0;
-  int offset = 0;              ///< of the leader, 32nds of a coarse bin
-  bool leader_is_new = false;  ///< since an earlier timestamp of the acquisition; not stored
+  int offset = 0;  ///< of the leader, 32nds of a coarse bin
 };
 /// The word after a timestamp at `position`.
 void follow_tracks(PoolTracks& word, const PoolGroup& group, std::int32_t position,

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -57,10 +58,15 @@ class Reference {
     const int scale = 1 << (16 - np_);
     for (int row = 0; row < column.rows(); ++row) {
       Pixel pixel;
+      std::map<int, std::vector<int>> seen;  // by acquisition
       for (const Detection& d : column.row(row)) {
         if (d.timestamp != parameters.no_detection()) {
-          pixel.events.push_back({static_cast<int>(d.acquisition), d.timestamp * scale + scale / 2});
+          seen[static_cast<int>(d.acquisition)].push_back(d.timestamp * scale + scale / 2);
         }
+      }
+      for (const auto& [acquisition, times] : seen) {
+        const bool second = acquisition % 2 == 1 && times.size() > 1;
+        pixel.events.push_back({acquisition, times[second ? 1 : 0]});
       }
       pixels_.push_back(pixel);
     }
@@ -74,16 +80,9 @@ class Reference {
     const int track_end = acquisitions_ * (p_.coarse_share + p_.track_share) / 64;
     const int late = track_end + (acquisitions_ - track_end) * 5 / 8;
     for (std::size_t r = 0; r < pixels_.size(); ++r) {
-      for (int a = 0; a < coarse_end; ++a) {
-        std::vector<int> now;
-        for (const Event& e : pixels_[r].events) {
-          if (e.acquisition == a) {
-            now.push_back(e.x);
-          }
-        }
-        if (!now.empty()) {
-          const int x = now.size() > 1 && a % 2 == 1 ? now[1] : now[0];
-          int& bin = group(r).h[static_cast<std::size_t>(x / 2048)];
+      for (const Event& e : pixels_[r].events) {
+        if (e.acquisition < coarse_end) {
+          int& bin = group(r).h[static_cast<std::size_t>(e.x / 2048)];
           bin = std::min(bin + 1, bin_max_);
         }
       }
@@ -92,12 +91,9 @@ class Reference {
       decode(g);
     }
     for (std::size_t r = 0; r < pixels_.size(); ++r) {
-      for (int a = coarse_end; a < track_end; ++a) {
-        bool leader_changed = false;
-        for (const Event& e : pixels_[r].events) {
-          if (e.acquisition == a) {
-            leader_changed = track(pixels_[r], group(r), e.x, !leader_changed) || leader_changed;
-          }
+      for (const Event& e : pixels_[r].events) {
+        if (e.acquisition >= coarse_end && e.acquisition < track_end) {
+          track(pixels_[r], group(r), e.x);
         }
       }
     }
@@ -171,9 +167,8 @@ class Reference {
     }
   }
 
-  /// Whether the leader changed.
-  bool track(Pixel& pixel, const Group& g, int x, bool offset_moves) const {
-    if (p_.offset_bits > 0 && offset_moves) {
+  void track(Pixel& pixel, const Group& g, int x) const {
+    if (p_.offset_bits > 0) {
       const int half = 1 << (p_.offset_bits - 1);
       const int d = x - 512 * g.cell[static_cast<std::size_t>(pixel.lead)] - 64 * pixel.offset;
       if (d >= 512 && d < 4096 && pixel.offset < half - 1) {
@@ -199,11 +194,9 @@ class Reference {
       if (p_.offset_bits > 0 && pixel.score[k] > pixel.score[pixel.lead]) {
         pixel.lead = static_cast<int>(k);
         pixel.offset = 0;
-        return true;
       }
-      return false;
+      return;
     }
-    return false;
   }
 
   /// Best total over all paths through each label, by dynamic programming per fixed label.
