@@ -27,7 +27,7 @@ module pool_pointer_array #(
     parameter int ADVANTAGE_WIDTH = 8,    // bits of the leader's advantage, 4 or 8
     parameter int POINTER_SHIFT = 0,      // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins, 0 to 4
     parameter int RIVAL_MOVES = 1,        // 1: absolute pointers; 0: relative ones, the rival rests
-    parameter int ENGINE_COLUMNS = 25,    // columns that share an engine
+    parameter int ENGINE_COLUMNS = 34,    // columns that share an engine
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
