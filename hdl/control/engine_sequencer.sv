@@ -15,7 +15,7 @@
 //   PERIOD - 5, PERIOD - 4          read the word and the group of the pixel two steps on
 //   PERIOD - 2                      word captured; scratch read (second pass)
 //   PERIOD - 1                      the pixel is prepared; the chain moves on
-//   s = 0 of the next step          choose: pointer word, written with PERIOD - 3 if the pair is complete. decide:
+//   s = 1 of the next step          choose: pointer word, written with PERIOD - 3 if the pair is complete. decide:
 //                                   results handed out, as soon as those of the step before are sent
 // SRAM commands are given one clock early (_d); a word is on the engine's input three clocks after its command.
 // Latency, K labels: a column's groups x (32 K + 40), (pixels + 3) x PERIOD a pass.
@@ -30,8 +30,7 @@ module engine_sequencer #(
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUPS),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS),
-    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS)
 ) (
     input  logic                      clk_i,
     input  logic                      rst_ni,
@@ -62,11 +61,10 @@ module engine_sequencer #(
     output logic                      begin_o,             // s = 0
     output logic                      spread_o,            // s = 1
     output logic                      pass_label_o,        // s = 2 ..
-    output logic [LABEL_WIDTH-1:0]    label_o,
     output logic                      capture_word_o,
     output logic                      advance_o,           // s = PERIOD - 1
     output logic                      odd_pixel_o,         // of the captured word, valid with advance_o
-    output logic                      result_o,            // results of a pixel are ready (second pass, s = 0)
+    output logic                      result_o,            // results of a pixel are ready (second pass, s = 1)
     output logic                      result_odd_o,        // its place in the pair
     output logic                      scratch_read_o,
     output logic                      scratch_write_o,
@@ -113,9 +111,9 @@ module engine_sequencer #(
   assign step_end = (state_q == CHAIN) && (s_q == last_s);
   assign pass_end = step_end && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
 
-  // Pixel p of a pass in work has n = p + LEAD; results of pixel p are known at s = 0 of n = p + LEAD + 1.
+  // Pixel p of a pass in work has n = p + LEAD; results of pixel p are known at s = 1 of n = p + LEAD + 1.
   logic results_step;
-  assign results_step = (state_q == CHAIN) && back_q && (s_q == '0) && (n_q >= N_WIDTH'(LEAD + 1));
+  assign results_step = (state_q == CHAIN) && back_q && (s_q == S_WIDTH'(1)) && (n_q >= N_WIDTH'(LEAD + 1));
   assign stall = results_step && deciding_q && send_busy_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -283,7 +281,6 @@ module engine_sequencer #(
   assign begin_o = chaining && (s_q == '0);
   assign spread_o = chaining && (s_q == S_WIDTH'(1));
   assign pass_label_o = chaining && (s_q >= S_WIDTH'(2)) && (32'(s_q) < (deciding_q ? 4 : LABELS + 2));
-  assign label_o = LABEL_WIDTH'(s_q - S_WIDTH'(2));
   assign capture_word_o = chaining && (s_q == last_s - S_WIDTH'(1));
   assign advance_o = step_end;
   assign odd_pixel_o = fetch_row[0];

@@ -62,21 +62,23 @@ module candidate_decoder #(
 
   // Background, and the least pair sum.
 
-  logic [OCTET_WIDTH-1:0] octet_q, octet, least_octet_q;
+  logic [OCTET_WIDTH-1:0] octet_q, least_octet_q;
+  logic octet_full_q, first_octet_q;
   logic [OWN_WIDTH-1:0] own_pair, least_pair_q;
   logic [POOLED_WIDTH-1:0] pooled_pair;
   logic [OCTET_WIDTH+2:0] five_octets;
 
-  assign octet = ((pair_i[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin_q);
   assign own_pair = OWN_WIDTH'(own_bin_q) + OWN_WIDTH'(last_bin_q);
   assign pooled_pair = POOLED_WIDTH'(bin_sum) + POOLED_WIDTH'(last_sum_q);
 
   always_ff @(posedge clk_i) begin
+    octet_full_q <= fill_i && (pair_i[2:0] == 3'd7);
+    first_octet_q <= (pair_i[4:3] == 2'd0);
+    if (octet_full_q && (first_octet_q || octet_q < least_octet_q)) begin
+      least_octet_q <= octet_q;
+    end
     if (fill_i) begin
-      octet_q <= octet;
-      if (pair_i == 5'd7 || (pair_i[2:0] == 3'd7 && octet < least_octet_q)) begin
-        least_octet_q <= octet;
-      end
+      octet_q <= ((pair_i[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin_q);
       if (pair_i == 5'd1 || (pair_i != 5'd0 && own_pair < least_pair_q)) begin
         least_pair_q <= own_pair;
       end
@@ -95,24 +97,22 @@ module candidate_decoder #(
   logic [POOLED_WIDTH-1:0] head_pooled, pooled, value;
 
   // What the last candidate takes away.
-  logic [5:0] peak_q, pair;
+  logic [5:0] peak_d, peak_q, next_pair;
   logic [OWN_WIDTH-1:0] own_part_q;
   logic [POOLED_WIDTH-1:0] pooled_part_q;
-  logic beside, two_away;
+  logic beside_q, two_away_q;  // of the pair at the head
 
   assign head = ring_q[ENTRY_WIDTH-1:0];
   assign head_pooled = head[POOLED_WIDTH-1:0];
   assign head_own = head[POOLED_WIDTH+:OWN_WIDTH];
   assign head_taken = head[ENTRY_WIDTH-1];
-  assign pair = {1'b0, pair_i};
-  assign beside = (pair + 6'd1 == peak_q) || (pair == peak_q) || (pair == peak_q + 6'd1);
-  assign two_away = (pair + 6'd2 == peak_q) || (pair == peak_q + 6'd2);
+  assign next_pair = {1'b0, pair_i} + 6'd1;
 
   always_comb begin
-    taken = head_taken || beside;
+    taken = head_taken || beside_q;
     own = head_own;
     pooled = head_pooled;
-    if (two_away) begin
+    if (two_away_q) begin
       own = (head_own > own_part_q) ? head_own - own_part_q : '0;
       pooled = (head_pooled > pooled_part_q) ? head_pooled - pooled_part_q : '0;
     end
@@ -126,6 +126,8 @@ module candidate_decoder #(
 
   always_ff @(posedge clk_i) begin
     ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:ENTRY_WIDTH]};
+    beside_q <= (next_pair + 6'd1 == peak_d) || (next_pair == peak_d) || (next_pair == peak_d + 6'd1);
+    two_away_q <= (next_pair + 6'd2 == peak_d) || (next_pair == peak_d + 6'd2);
   end
 
   // The largest of a turn, the lowest on a tie, with its neighbours.
@@ -177,9 +179,11 @@ module candidate_decoder #(
   assign five_least = POOLED_WIDTH'(least_pair_q) + (POOLED_WIDTH'(least_pair_q) << 2);
   assign pooled_excess = (best_pooled_q > five_least) ? best_pooled_q - five_least : '0;
 
+  assign peak_d = (search_i && pair_i == 5'd0) ? (first_label_i ? NOWHERE : {1'b0, best_pair_q}) : peak_q;
+
   always_ff @(posedge clk_i) begin
+    peak_q <= peak_d;
     if (search_i && pair_i == 5'd0) begin
-      peak_q <= first_label_i ? NOWHERE : {1'b0, best_pair_q};
       own_part_q <= own_excess >> 2;
       pooled_part_q <= pooled_excess >> 2;
     end

@@ -6,9 +6,9 @@
 // message from the other side. Near: positions at most REACH apart.
 //
 // Schedule: engine_sequencer. begin_i: T and its largest; spread_i: differences to it; then a label l of the next
-//   pixel a clock with pass_label_i, which also ranks label l of this pixel; advance_i: the next pixel becomes
-//   this one and the prepared one the next. The two best beliefs are valid from the clock after the last label
-//   to the next begin_i.
+//   pixel a clock with pass_label_i, which also computes the belief of this pixel's label l, ranked one clock later;
+//   advance_i: the next pixel becomes this one and the prepared one the next. The two best beliefs are valid from the
+//   second clock after the last label until the next pixel's labels pass.
 // Cost: LABELS comparators of positions and of differences.
 module label_chain #(
     parameter int LABELS = 8,
@@ -23,7 +23,6 @@ module label_chain #(
     input  logic                             begin_i,
     input  logic                             spread_i,
     input  logic                             pass_label_i,
-    input  logic [          LABEL_WIDTH-1:0] label_i,
     input  logic                             advance_i,
     input  logic                             clear_message_i,  // with advance_i: this pixel begins the chain
     // a pixel prepared
@@ -116,21 +115,21 @@ module label_chain #(
     end
   end
 
-  // The message to one label of the next pixel. Which labels are near it is found a clock ahead.
+  // The message to one label of the next pixel. Its position is fetched two clocks ahead, and which labels are near
+  // it found one clock ahead.
 
   logic [LABELS-1:0] near, near_q;
-  logic [LABEL_WIDTH-1:0] near_label;
-  logic signed [POSITION_WIDTH-1:0] target;
+  logic [LABEL_WIDTH-1:0] target_label, target_label_q;
+  logic [POSITION_WIDTH-1:0] target_q;
   logic [PENALTY_WIDTH-1:0] cheapest;
 
-  assign near_label = spread_i ? '0 : label_i + 1'b1;
-  assign target = $signed(next_position_q[near_label*POSITION_WIDTH+:POSITION_WIDTH]);
+  assign target_label = begin_i ? '0 : (spread_i ? LABEL_WIDTH'(1) : target_label_q);
 
   generate
     for (k = 0; k < LABELS; k = k + 1) begin : g_near
       logic signed [POSITION_WIDTH:0] distance;
       assign distance = $signed({position_q[(k+1)*POSITION_WIDTH-1], position_q[k*POSITION_WIDTH+:POSITION_WIDTH]})
-          - $signed({target[POSITION_WIDTH-1], target});
+          - $signed({target_q[POSITION_WIDTH-1], target_q});
       assign near[k] = (distance <= FAR) && (distance >= -FAR);
     end
   endgenerate
@@ -155,6 +154,8 @@ module label_chain #(
   assign cheapest = (nearest < penalty_q) ? nearest : penalty_q;
 
   always_ff @(posedge clk_i) begin
+    target_label_q <= spread_i ? LABEL_WIDTH'(2) : target_label_q + 1'b1;
+    target_q <= next_position_q[target_label*POSITION_WIDTH+:POSITION_WIDTH];
     near_q <= near;
     if (advance_i && clear_message_i) begin
       message_q <= '0;
@@ -167,31 +168,34 @@ module label_chain #(
 
   // The two best beliefs, the lower label on a tie.
 
-  logic signed [BELIEF_WIDTH-1:0] belief, best_q, second_q;
-  logic [LABEL_WIDTH-1:0] best_label_q, second_label_q;
-  logic [POSITION_WIDTH-1:0] position, best_position_q, second_position_q;
-  logic first, better, runner_up;
+  logic signed [BELIEF_WIDTH-1:0] belief_q, best_q, second_q;
+  logic [LABEL_WIDTH-1:0] passing_q, label_q, best_label_q, second_label_q;
+  logic [POSITION_WIDTH-1:0] passed_position_q, best_position_q, second_position_q;
+  logic passed_q, passed_in_use_q, better, runner_up;
 
-  assign belief = $signed(sum_q[label_i*BELIEF_WIDTH+:BELIEF_WIDTH])
-      - $signed(BELIEF_WIDTH'(other_q[label_i*PENALTY_WIDTH+:PENALTY_WIDTH]));
-  assign position = position_q[label_i*POSITION_WIDTH+:POSITION_WIDTH];
-  assign first = (label_i == '0);
-  assign better = first || (in_use_q[label_i] && belief > best_q);
-  assign runner_up = (label_i == LABEL_WIDTH'(1)) || (in_use_q[label_i] && belief > second_q);
+  assign better = (label_q == '0) || (passed_in_use_q && belief_q > best_q);
+  assign runner_up = (label_q == LABEL_WIDTH'(1)) || (passed_in_use_q && belief_q > second_q);
 
   always_ff @(posedge clk_i) begin
-    if (pass_label_i) begin
+    passing_q <= spread_i ? '0 : passing_q + 1'b1;
+    passed_q <= pass_label_i;
+    label_q <= passing_q;
+    passed_in_use_q <= in_use_q[passing_q];
+    passed_position_q <= position_q[passing_q*POSITION_WIDTH+:POSITION_WIDTH];
+    belief_q <= $signed(sum_q[passing_q*BELIEF_WIDTH+:BELIEF_WIDTH])
+        - $signed(BELIEF_WIDTH'(other_q[passing_q*PENALTY_WIDTH+:PENALTY_WIDTH]));
+    if (passed_q) begin
       if (better) begin
-        best_q <= belief;
-        best_label_q <= label_i;
-        best_position_q <= position;
+        best_q <= belief_q;
+        best_label_q <= label_q;
+        best_position_q <= passed_position_q;
         second_q <= best_q;
         second_label_q <= best_label_q;
         second_position_q <= best_position_q;
       end else if (runner_up) begin
-        second_q <= belief;
-        second_label_q <= label_i;
-        second_position_q <= position;
+        second_q <= belief_q;
+        second_label_q <= label_q;
+        second_position_q <= passed_position_q;
       end
     end
   end

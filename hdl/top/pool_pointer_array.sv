@@ -55,7 +55,6 @@ module pool_pointer_array #(
 );
 
   localparam int LABELS = dtof_pkg::max_of(DARK_LABELS, BRIGHT_LABELS);
-  localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
   localparam int PIXEL_WIDTH = dtof_pkg::max_of(
       dtof_pkg::pool_track_width(DARK_LABELS, DARK_SCORE_BITS, BRIGHT_LABELS, BRIGHT_SCORE_BITS, OFFSET_BITS),
       dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES));
@@ -180,7 +179,6 @@ module pool_pointer_array #(
   logic capture_above, capture_own, capture_below, fill, search, first_label, pooled, candidate;
   logic [4:0] pair;
   logic deciding, clear_message, begin_step, spread, pass_label, capture_word, advance, odd_pixel;
-  logic [LABEL_WIDTH-1:0] label_index;
   logic result, result_odd, scratch_read, scratch_write, send, send_last, send_busy;
   logic [ROW_WIDTH-1:0] scratch_address, send_row;
 
@@ -217,7 +215,6 @@ module pool_pointer_array #(
       .begin_o          (begin_step),
       .spread_o         (spread),
       .pass_label_o     (pass_label),
-      .label_o          (label_index),
       .capture_word_o   (capture_word),
       .advance_o        (advance),
       .odd_pixel_o      (odd_pixel),
@@ -356,7 +353,6 @@ module pool_pointer_array #(
           .begin_i          (begin_step),
           .spread_i         (spread),
           .pass_label_i     (pass_label),
-          .label_i          (label_index),
           .capture_word_i   (capture_word),
           .advance_i        (advance),
           .odd_pixel_i      (odd_pixel),
