@@ -16,17 +16,33 @@ sys.path.insert(0, str(ROOT / "synth"))
 
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 
-COLUMNS = 2  # enough to see every connection between columns
-ILLEGAL = {  # parameters and a word of the sentence that must appear
-    "NP=2": "NP must be",
-    "NB=11": "NB must be",
-    "SRAM_NUM=0": "SRAM_NUM must be",
-    "COUNT_WIDTH=17": "COUNT_WIDTH must be",
-    "POINTER_STEP=512": "POINTER_STEP must be",
-    "READOUT=8": "READOUT must be",
-    "CONFIDENCE_WIDTH=9": "CONFIDENCE_WIDTH must be",
-    "FRACTION_BITS=7": "FRACTION_BITS must be",
-    "POINTER_PORTS=3": "POINTER_PORTS must be",
+SIZE = {  # enough to see every connection between columns, and between engines
+    "dtof_array": {"SRAM_NUM": 2},
+    "pool_pointer_array": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
+}
+ILLEGAL = {  # parameters of a top and a word of the sentence that must appear
+    ("dtof_array", "NP=2"): "NP must be",
+    ("dtof_array", "NB=11"): "NB must be",
+    ("dtof_array", "SRAM_NUM=0"): "SRAM_NUM must be",
+    ("dtof_array", "COUNT_WIDTH=17"): "COUNT_WIDTH must be",
+    ("dtof_array", "POINTER_STEP=512"): "POINTER_STEP must be",
+    ("dtof_array", "READOUT=8"): "READOUT must be",
+    ("dtof_array", "CONFIDENCE_WIDTH=9"): "CONFIDENCE_WIDTH must be",
+    ("dtof_array", "FRACTION_BITS=7"): "FRACTION_BITS must be",
+    ("dtof_array", "POINTER_PORTS=3"): "POINTER_PORTS must be",
+    ("pool_pointer_array", "NP=7"): "NP must be",
+    ("pool_pointer_array", "SLOTS=1"): "SLOTS must be",
+    ("pool_pointer_array", "COUNT_WIDTH=9"): "COUNT_WIDTH must be",
+    ("pool_pointer_array", "GROUP_SIZE=12"): "GROUP_SIZE must be",
+    ("pool_pointer_array", "GROUP_SIZE=4"): "32 bins",
+    ("pool_pointer_array", "DARK_LABELS=9"): "DARK_LABELS must be",
+    ("pool_pointer_array", "BRIGHT_SCORE_BITS=5"): "BRIGHT_SCORE_BITS 1 to 4",
+    ("pool_pointer_array", "BRIGHT_FROM=128"): "BRIGHT_FROM must be",
+    ("pool_pointer_array", "OFFSET_BITS=6"): "OFFSET_BITS must be",
+    ("pool_pointer_array", "ADVANTAGE_WIDTH=6"): "ADVANTAGE_WIDTH must be",
+    ("pool_pointer_array", "POINTER_SHIFT=1"): "POINTER_SHIFT",
+    ("pool_pointer_array", "RIVAL_MOVES=2"): "RIVAL_MOVES must be",
+    ("pool_pointer_array", "ENGINE_COLUMNS=0"): "ENGINE_COLUMNS must be",
 }
 
 
@@ -60,20 +76,19 @@ def run(command: list[str]) -> subprocess.CompletedProcess:
 
 
 def check_legal(configuration: Configuration) -> list[str]:
-    parameters = configuration.rtl_parameters() | {"SRAM_NUM": COLUMNS}
     failures = []
     for tool in (verilator, yosys, icarus):
-        result = run(tool(configuration.top, parameters))
+        result = run(tool(configuration.top, configuration.rtl_parameters() | SIZE[configuration.top]))
         if result.returncode != 0:
             failures.append(f"{tool.__name__} refuses configuration {configuration.name}:\n{result.stdout}")
     return failures
 
 
-def check_illegal(setting: str, sentence: str) -> list[str]:
+def check_illegal(top: str, setting: str, sentence: str) -> list[str]:
     name, value = setting.split("=")
-    result = run(verilator("dtof_array", {name: int(value)}))
+    result = run(verilator(top, SIZE[top] | {name: int(value)}))
     if result.returncode == 0 or sentence not in result.stdout:
-        return [f"illegal {setting} does not stop elaboration with '{sentence}':\n{result.stdout}"]
+        return [f"illegal {setting} of {top} does not stop elaboration with '{sentence}':\n{result.stdout}"]
     return []
 
 
@@ -81,7 +96,7 @@ def main() -> int:
     configurations = load(ROOT / "configurations.toml").values()
     with ThreadPoolExecutor(max_workers=2) as pool:
         legal = pool.map(check_legal, configurations)
-        illegal = pool.map(lambda item: check_illegal(*item), ILLEGAL.items())
+        illegal = pool.map(lambda item: check_illegal(*item[0], item[1]), ILLEGAL.items())
         failures = [text for group in (*legal, *illegal) for text in group]
     for text in failures:
         print(text, file=sys.stderr)

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the models of dtof_array to Verilate, one a line: name, then names and values for dtof_verilate() of CMake.
+"""Prints the models of a top module to Verilate, one a line: name, then names and values for dtof_verilate() of CMake.
 
-`list_models.py readouts`: the read-outs of configurations.toml, each with many columns and with one.
-`list_models.py variants`: its variants, with one column.
+`list_models.py readouts dtof_array`: the read-outs of configurations.toml, each with many columns and with one.
+`list_models.py variants dtof_array`: its variants, with one column.
+The same with pool_pointer_array, and
+`list_models.py engines pool_pointer_array`: its read-outs, one engine with all its columns.
 """
 
 import sys
@@ -12,35 +14,40 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
-from dtof_synth.configuration import READOUTS, Configuration, load  # noqa: E402
+from dtof_synth.configuration import Configuration, load  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
-HARNESS_ACQ_WIDTH = 16  # of tb_cpp/rtl/dtof_array_testbench.sv
+HARNESS_ACQ_WIDTH = 16  # of tb_cpp/rtl/*_testbench.sv
 
 
-def line(name: str, configuration: Configuration, columns: int) -> str:
+def line(name: str, configuration: Configuration, **size: int) -> str:
     if configuration["ACQ_WIDTH"] != HARNESS_ACQ_WIDTH:
         raise FlowError(f"{configuration.name}: the simulation harness drives ACQ_WIDTH = {HARNESS_ACQ_WIDTH} only")
-    parameters = {**configuration.parameters, **configuration.simulation, "SRAM_NUM": columns}
+    parameters = {**configuration.parameters, **configuration.simulation, **size}
     del parameters["ACQ_WIDTH"]
     words = [f"{key} {value}" for key, value in parameters.items()]
     return f"{name} READOUT {configuration.readout} {' '.join(words)}"
 
 
 def main() -> int:
-    if len(sys.argv) != 2 or sys.argv[1] not in ("readouts", "variants"):
+    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "variants", "engines"):
         print(__doc__, file=sys.stderr)
         return 2
     try:
         for name, configuration in load(ROOT / "configurations.toml").items():
-            if configuration.readout not in READOUTS:
+            if configuration.top != sys.argv[2]:
                 continue
             if sys.argv[1] == "variants":
                 if configuration.variant_of:
-                    print(line(f"variant_{name}", configuration, 1))
-            elif not configuration.variant_of:
-                print(line(name, configuration, configuration.simulation["SRAM_NUM"]))
-                print(line(f"{name}_single", configuration, 1))
+                    print(line(f"variant_{name}", configuration, SRAM_NUM=1))
+            elif configuration.variant_of:
+                continue
+            elif sys.argv[1] == "engines":
+                columns = configuration["ENGINE_COLUMNS"]
+                print(line(f"{name}_engine", configuration, SRAM_NUM=columns, ENGINE_COLUMNS=columns))
+            else:
+                print(line(name, configuration))
+                print(line(f"{name}_single", configuration, SRAM_NUM=1))
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -77,7 +77,7 @@ std::string models_taken(const AccuracyOptions& options, const StudySettings& se
 
 StudySettings settings_of(const AccuracyOptions& options) {
   StudySettings settings;
-  settings.readouts = options.readout.parameters();
+  settings.readouts = options.readout.parameters(kAllReadouts);
   settings.sensor = options.sensor.model(options.readout.np, settings.readouts.front().slots);
   settings.reflectivity = options.reflectivity.value_or(settings.sensor.default_reflectivity);
   settings.distances_m = options.distances_m;

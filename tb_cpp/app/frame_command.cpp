@@ -241,7 +241,7 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
 
 void run_frame_command(const FrameOptions& options) {
   options.run.validate();
-  const std::vector<ReadoutParameters> readouts = options.readout.parameters();
+  const std::vector<ReadoutParameters> readouts = options.readout.parameters(kModelReadouts);
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }

@@ -129,7 +129,7 @@ class MeasuredStudy {
       : options_(options),
         scene_(std::move(scene)),
         truth_(repeated_truth(scene_, options.frames)),
-        readouts_(options.readout.parameters()) {
+        readouts_(options.readout.parameters(kAllReadouts)) {
     for (const ReadoutParameters& readout : readouts_) {
       titles_.push_back(estimator_title(readout));
     }

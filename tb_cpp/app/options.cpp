@@ -24,7 +24,8 @@ void ReadoutOptions::add_to(CLI::App& command) {
   group
       ->add_option(
           "-r,--readout", readouts,
-          "read-outs to run: all (those of the thesis), or names from `dtof list`, separated by commas")
+          "read-outs to run: all (accuracy: those of the thesis), or names from `dtof list`, separated by\n"
+          "commas")
       ->take_last()
       ->capture_default_str();
   group->add_option("--np", np, "NP, bits of a timestamp")->capture_default_str();
@@ -42,16 +43,16 @@ void ReadoutOptions::add_to(CLI::App& command) {
       ->expected(2);
 }
 
-std::vector<ReadoutParameters> ReadoutOptions::parameters() const {
+std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readout> all) const {
   std::vector<Readout> chosen;
   for (const std::string& name : CLI::detail::split(readouts, ',')) {
     if (name == "all") {
-      chosen.insert(chosen.end(), kAllReadouts.begin(), kAllReadouts.end());
+      chosen.insert(chosen.end(), all.begin(), all.end());
     } else {
       chosen.push_back(parse_readout(name));
     }
   }
-  std::vector<ReadoutParameters> all;
+  std::vector<ReadoutParameters> sets;
   for (const Readout readout : chosen) {
     ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
     const bool pool = is_pool_readout(readout);
@@ -71,11 +72,11 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters() const {
       parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};
     }
     parameters.validate();
-    if (std::find(all.begin(), all.end(), parameters) == all.end()) {
-      all.push_back(parameters);
+    if (std::find(sets.begin(), sets.end(), parameters) == sets.end()) {
+      sets.push_back(parameters);
     }
   }
-  return all;
+  return sets;
 }
 
 void RunOptions::add_to(CLI::App& command) {

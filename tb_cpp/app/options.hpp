@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ struct ReadoutOptions {
   std::vector<int> code_gate;
 
   void add_to(CLI::App& command);
-  /// One set of parameters a read-out asked for; "all" is every read-out. Throws InputError.
-  [[nodiscard]] std::vector<ReadoutParameters> parameters() const;
+  /// One set of parameters a read-out asked for; "all" stands for those of `all`. Throws InputError.
+  [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all) const;
 };
 
 /// Which engine runs, how, and what is random.

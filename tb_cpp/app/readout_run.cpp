@@ -2,7 +2,9 @@
 #include "app/readout_run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <chrono>
 #include <numeric>
 
@@ -17,20 +19,57 @@
 namespace dtof {
 namespace {
 
+/// A source whose columns fill those of an array.
+class ArrayRows final : public StreamSource {
+ public:
+  ArrayRows(const StreamSource& source, const RtlConfiguration& configuration)
+      : source_(source), configuration_(configuration) {}
+  [[nodiscard]] int columns() const override { return source_.columns(); }
+  [[nodiscard]] int rows() const override { return configuration_.pixels_per_sram; }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return source_.acquisitions(); }
+  [[nodiscard]] ColumnStream column(int index) const override {
+    return with_dark_rows(source_.column(index), configuration_);
+  }
+
+ private:
+  const StreamSource& source_;
+  RtlConfiguration configuration_;
+};
+
+/// For --columns: what the array held beside `columns[index]`; just that column where columns know nothing of
+/// each other.
+std::string columns_to_trace(std::span<const int> columns, std::size_t index,
+                             const RtlConfiguration& configuration) {
+  std::size_t first = index;
+  std::size_t count = 1;
+  if (is_pool_readout(configuration.parameters.readout)) {
+    count = static_cast<std::size_t>(configuration.sram_num);
+    first = index / count * count;
+  }
+  return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
+}
+
 void verify(const StreamSource& source, const ReadoutParameters& parameters, const RunOptions& options,
             std::span<const int> columns, const std::string& command, const RtlSourceFrame& actual) {
-  const std::vector<PixelResult> expected = run_frame(source, parameters, options.threads, columns);
+  const RtlConfiguration configuration =
+      find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
+  std::vector<PixelResult> expected =
+      run_frame(ArrayRows(source, configuration), parameters, options.threads, columns);
+  expected.resize(actual.results.size());
   const std::vector<Mismatch> mismatches =
       compare_frames(columns, expected, actual.results, actual.result_cycles);
   if (mismatches.empty()) {
     return;
   }
   FrameContext context;
-  context.configuration = find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
+  context.configuration = configuration;
   context.acquisitions = source.acquisitions();
   context.seed = options.seed;
-  context.reproduce = fmt::format("{} --readout {} --columns {} --trace mismatch.fst", command,
-                                  readout_name(parameters.readout), mismatches.front().column);
+  const auto index =
+      static_cast<std::size_t>(std::ranges::find(columns, mismatches.front().column) - columns.begin());
+  context.reproduce =
+      fmt::format("{} --readout {} --columns {} --trace mismatch.fst", command,
+                  readout_name(parameters.readout), columns_to_trace(columns, index, configuration));
   throw RtlError(describe_mismatches(mismatches, expected.size(), context));
 }
 

@@ -179,7 +179,7 @@ void write_comparison(const std::vector<Comparison>& comparisons, const ReplayOp
 
 void run_replay_command(const ReplayOptions& options) {
   options.run.validate();
-  const std::vector<ReadoutParameters> readouts = options.readout.parameters();
+  const std::vector<ReadoutParameters> readouts = options.readout.parameters(kModelReadouts);
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }

@@ -287,7 +287,7 @@ std::string file_name(std::string text) {
 std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options) {
   ReadoutOptions plain;
   plain.readouts = options.readouts;
-  std::vector<ReadoutParameters> readouts = plain.parameters();
+  std::vector<ReadoutParameters> readouts = plain.parameters(kModelReadouts);
   for (const std::string& text : options.variants) {
     const std::size_t colon = text.find(':');
     const std::size_t equals = text.find('=');
@@ -310,7 +310,7 @@ std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options) {
       throw InputError(
           fmt::format("variant {}: parameters are COUNT_WIDTH, FRACTION_BITS, WINDOW_CENTRED", text));
     }
-    const std::vector<ReadoutParameters> parameters = variant.parameters();
+    const std::vector<ReadoutParameters> parameters = variant.parameters(kModelReadouts);
     readouts.insert(readouts.end(), parameters.begin(), parameters.end());
   }
   return readouts;

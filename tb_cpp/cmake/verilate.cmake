@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 #
-# Verilated models of dtof_array.
+# Verilated models of dtof_array and pool_pointer_array.
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
 #                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [PROBE] TARGET <library>)
+#   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
+#                 [COUNT_WIDTH n] [GROUP_SIZE n] [DARK_LABELS n] [DARK_SCORE_BITS n] [BRIGHT_LABELS n]
+#                 [BRIGHT_SCORE_BITS n] [BRIGHT_FROM n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
+#                 [RIVAL_MOVES 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] TARGET <library>)
 #
 # adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
 # finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
@@ -13,7 +17,7 @@
 #
 #   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
 #
-#   dtof_verilate_named(readouts|variants <library>)
+#   dtof_verilate_named(readouts|variants|engines <top module> <library>)
 #
 # adds configurations of configurations.toml (scripts/list_models.py).
 #
@@ -43,9 +47,14 @@ target_compile_options(verilated_runtime PRIVATE -w
 target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
 
 # -Wno-SYNCASYNCNET: the assertions look at the asynchronous reset in a clocked block.
-set(DTOF_READOUTS ezpointer hispointer1 hispointer sifh fifh threesteps pifh histogram)
-set(DTOF_PARAMETERS NP NB PIXELS_PER_SRAM SRAM_NUM SLOTS COUNT_WIDTH POINTER_STEP FRACTION_BITS CONFIDENCE_WIDTH
-  GUARD WINDOW_CENTRED POINTER_PORTS SIGNALLED_CLEAR TIME_GATE)
+set(DTOF_READOUTS ezpointer hispointer1 hispointer sifh fifh threesteps pifh histogram poolpointer poolpointer-lean)
+set(DTOF_COMMON_PARAMETERS NP PIXELS_PER_SRAM SRAM_NUM SLOTS COUNT_WIDTH)
+set(DTOF_ARRAY_PARAMETERS NB POINTER_STEP FRACTION_BITS CONFIDENCE_WIDTH GUARD WINDOW_CENTRED POINTER_PORTS
+  SIGNALLED_CLEAR TIME_GATE)
+set(DTOF_POOL_PARAMETERS GROUP_SIZE DARK_LABELS DARK_SCORE_BITS BRIGHT_LABELS BRIGHT_SCORE_BITS BRIGHT_FROM OFFSET_BITS
+  ADVANTAGE_WIDTH POINTER_SHIFT RIVAL_MOVES ENGINE_COLUMNS)
+set(DTOF_POOL_SCHEDULE COARSE_SHARE TRACK_SHARE)  # the driver's, not the RTL's
+set(DTOF_PARAMETERS ${DTOF_COMMON_PARAMETERS} ${DTOF_ARRAY_PARAMETERS} ${DTOF_POOL_PARAMETERS} ${DTOF_POOL_SCHEDULE})
 set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 function(dtof_rtl_models library)
@@ -67,6 +76,16 @@ function(dtof_verilate name)
   list(FIND DTOF_READOUTS "${P_READOUT}" P_READOUT_NUMBER)
   if(P_READOUT_NUMBER LESS 0)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown read-out '${P_READOUT}'")
+  endif()
+
+  if(P_READOUT MATCHES "^poolpointer")
+    set(top pool_pointer_testbench)
+    set(top_parameters ${DTOF_COMMON_PARAMETERS} ${DTOF_POOL_PARAMETERS})
+    set(overrides "")
+  else()
+    set(top dtof_array_testbench)
+    set(top_parameters ${DTOF_COMMON_PARAMETERS} ${DTOF_ARRAY_PARAMETERS})
+    set(overrides -GREADOUT=${P_READOUT_NUMBER})
   endif()
 
   set(default_NP 10)
@@ -99,7 +118,36 @@ function(dtof_verilate name)
   set(default_POINTER_PORTS 2)
   set(default_SIGNALLED_CLEAR 0)
   set(default_TIME_GATE 0)
-  set(overrides -GREADOUT=${P_READOUT_NUMBER})
+  set(default_GROUP_SIZE 8)
+  set(default_DARK_LABELS 6)
+  set(default_DARK_SCORE_BITS 4)
+  set(default_BRIGHT_LABELS 6)
+  set(default_BRIGHT_SCORE_BITS 4)
+  set(default_BRIGHT_FROM 12)
+  set(default_OFFSET_BITS 5)
+  set(default_ADVANTAGE_WIDTH 8)
+  set(default_POINTER_SHIFT 0)
+  set(default_RIVAL_MOVES 1)
+  set(default_ENGINE_COLUMNS 34)
+  set(default_COARSE_SHARE 16)
+  set(default_TRACK_SHARE 16)
+  if(P_READOUT MATCHES "^poolpointer")
+    set(default_NB 5)
+    set(default_COUNT_WIDTH 8)
+    math(EXPR default_FRACTION_BITS "16 - ${P_NP}")
+  endif()
+  if(P_READOUT STREQUAL poolpointer-lean)
+    set(default_GROUP_SIZE 16)
+    set(default_DARK_LABELS 4)
+    set(default_DARK_SCORE_BITS 4)
+    set(default_BRIGHT_LABELS 4)
+    set(default_BRIGHT_FROM 0)
+    set(default_OFFSET_BITS 0)
+    set(default_ADVANTAGE_WIDTH 4)
+    set(default_POINTER_SHIFT 4)
+    set(default_RIVAL_MOVES 0)
+    set(default_COARSE_SHARE 12)
+  endif()
   if(P_PROBE)
     list(APPEND overrides -GPROBE=1)
   endif()
@@ -107,18 +155,20 @@ function(dtof_verilate name)
     if(NOT DEFINED P_${parameter})
       set(P_${parameter} ${default_${parameter}})
     endif()
-    list(APPEND overrides -G${parameter}=${P_${parameter}})
+    if(parameter IN_LIST top_parameters)
+      list(APPEND overrides -G${parameter}=${P_${parameter}})
+    endif()
   endforeach()
   set(P_CLASS V${name})
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name})
   set(registration ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_registration.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/rtl/registration.cpp.in ${registration} @ONLY)
-  set(wrapper ${PROJECT_SOURCE_DIR}/rtl/dtof_array_testbench.sv)
+  set(wrapper ${PROJECT_SOURCE_DIR}/rtl/${top}.sv)
   add_custom_command(
     OUTPUT ${directory}/model.cpp
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${directory}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${directory}
-    COMMAND ${VERILATOR} --cc --top-module dtof_array_testbench --prefix ${P_CLASS} --Mdir ${directory}
+    COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
             --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET --trace-fst --timescale 1ns/1ps
             ${overrides} -F ${DTOF_HDL_DIR}/dtof.f ${wrapper}
     COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
@@ -129,10 +179,10 @@ function(dtof_verilate name)
   target_sources(${P_TARGET} PRIVATE ${directory}/model.cpp)
 endfunction()
 
-function(dtof_verilate_named kind library)
+function(dtof_verilate_named kind top library)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_ROOT}/configurations.toml
     ${PROJECT_ROOT}/scripts/list_models.py ${PROJECT_ROOT}/synth/dtof_synth/configuration.py)
-  execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_ROOT}/scripts/list_models.py ${kind}
+  execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_ROOT}/scripts/list_models.py ${kind} ${top}
     OUTPUT_VARIABLE models OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" models "${models}")
   foreach(model ${models})

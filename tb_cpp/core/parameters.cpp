@@ -114,6 +114,16 @@ int PoolPointerParameters::word_bits() const {
   return std::max(track_word, pointer_word);
 }
 
+PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {
+  const auto share = [&](int share_64ths) {
+    return static_cast<std::uint32_t>(
+        (std::uint64_t{acquisitions} * static_cast<std::uint64_t>(share_64ths)) >> 6U);
+  };
+  coarse_end = share(parameters.coarse_share);
+  track_end = share(parameters.coarse_share + parameters.track_share);
+  late_begin = track_end + static_cast<std::uint32_t>((std::uint64_t{acquisitions - track_end} * 5) >> 3U);
+}
+
 ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
   ReadoutParameters parameters;
   parameters.readout = readout;

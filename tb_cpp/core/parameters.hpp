@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,12 +24,12 @@ enum class Readout : int {
   kPoolPointerLean = 9,
 };
 
-/// Those of the thesis, which are compiled as RTL.
+/// Those of the thesis.
 inline constexpr std::array<Readout, 8> kAllReadouts = {
     Readout::kEzPointer, Readout::kHisPointer1, Readout::kHisPointer, Readout::kSifh,
     Readout::kFifh,      Readout::kThreeSteps,  Readout::kPifh,       Readout::kHistogram};
 
-/// Those that the model runs.
+/// All of them.
 inline constexpr std::array<Readout, 10> kModelReadouts = {
     Readout::kEzPointer,   Readout::kHisPointer1,    Readout::kHisPointer, Readout::kSifh,
     Readout::kFifh,        Readout::kThreeSteps,     Readout::kPifh,       Readout::kHistogram,
@@ -70,6 +71,15 @@ struct PoolPointerParameters {
   /// Bits of a pixel word.
   [[nodiscard]] int word_bits() const;
   bool operator==(const PoolPointerParameters&) const = default;
+};
+
+/// Ends of a pool read-out's phases in a frame, the schedule registers that a driver writes.
+struct PoolSchedule {
+  std::uint32_t coarse_end;
+  std::uint32_t track_end;
+  std::uint32_t late_begin;
+
+  PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters);
 };
 
 /// Digital time gate: a timestamp x with begin <= x < end counts, any other is no detection. Codes, 0 ..

@@ -107,16 +107,6 @@ std::int32_t centre_cell(const std::array<int, kPairs>& sums, std::size_t peak) 
 
 }  // namespace
 
-PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {
-  const auto share = [&](int share_64ths) {
-    return static_cast<std::uint32_t>(
-        (std::uint64_t{acquisitions} * static_cast<std::uint64_t>(share_64ths)) >> 6U);
-  };
-  coarse_end = share(parameters.coarse_share);
-  track_end = share(parameters.coarse_share + parameters.track_share);
-  late_begin = track_end + static_cast<std::uint32_t>((std::uint64_t{acquisitions - track_end} * 5) >> 3U);
-}
-
 PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above, const CoarseHistogram& below,
                        const PoolPointerParameters& parameters) {
   PoolGroup group{};

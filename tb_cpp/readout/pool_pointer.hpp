@@ -74,13 +74,4 @@ struct ChainNode {
 /// wherever neighbours are more than a coarse bin apart, but for a constant of the pixel.
 std::vector<std::array<int, kMostLabels>> chain_beliefs(std::span<const ChainNode> chain);
 
-/// Ends of the phases in a frame, the schedule registers.
-struct PoolSchedule {
-  std::uint32_t coarse_end;
-  std::uint32_t track_end;
-  std::uint32_t late_begin;
-
-  PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters);
-};
-
 }  // namespace dtof

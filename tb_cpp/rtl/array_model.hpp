@@ -7,7 +7,8 @@
 
 namespace dtof {
 
-/// One Verilated dtof_array_testbench with its type erased: the ports by address, and eval().
+/// One Verilated dtof_array_testbench or pool_pointer_testbench with its type erased: the ports by address,
+/// and eval().
 class ArrayModel {
  public:
   /// Where the model keeps its ports. Inputs are written before eval(), outputs read after it.
@@ -16,8 +17,11 @@ class ArrayModel {
     std::uint8_t* reset_n;
     std::uint8_t* start;
     std::uint16_t* acquisitions;
-    std::uint16_t* gate_begin;
+    std::uint16_t* gate_begin;  ///< these two are null in pool_pointer_array
     std::uint16_t* gate_end;
+    std::uint16_t* coarse_end;  ///< schedule; these three are null in dtof_array
+    std::uint16_t* track_end;
+    std::uint16_t* late_begin;
     std::uint8_t* tdc_valid;
     std::uint32_t* timestamps;  ///< 16 bits a column, column 0 in the low half of word 0
     std::size_t timestamp_words;

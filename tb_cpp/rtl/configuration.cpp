@@ -7,6 +7,10 @@ namespace dtof {
 
 std::string RtlConfiguration::to_string() const {
   std::string out = parameters.to_string();
+  if (is_pool_readout(parameters.readout)) {
+    return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={} ENGINE_COLUMNS={}", pixels_per_sram, sram_num,
+                             engine_columns);
+  }
   if (is_pointer_readout(parameters.readout)) {
     out += fmt::format(" POINTER_PORTS={}", pointer_ports);
   }
@@ -14,6 +18,20 @@ std::string RtlConfiguration::to_string() const {
     out += fmt::format(" SIGNALLED_CLEAR={}", signalled_clear ? 1 : 0);
   }
   return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={}", pixels_per_sram, sram_num);
+}
+
+std::vector<ResultAddress> RtlConfiguration::result_order() const {
+  // Without engines every column is one of its own.
+  const int turns = is_pool_readout(parameters.readout) ? engine_columns : 1;
+  std::vector<ResultAddress> order;
+  for (int turn = 0; turn < turns; ++turn) {
+    for (int row = 0; row < pixels_per_sram; ++row) {
+      for (int column = turn; column < sram_num; column += turns) {
+        order.push_back({row, column, column == turn});
+      }
+    }
+  }
+  return order;
 }
 
 std::string_view rtl_state_name(RtlState state) {

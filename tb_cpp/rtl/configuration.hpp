@@ -4,21 +4,34 @@
 #include <array>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/parameters.hpp"
 
 namespace dtof {
 
-/// Parameters of one compiled dtof_array.
+/// A pixel's place in an array, and in the result stream.
+struct ResultAddress {
+  int row = 0;
+  int column = 0;
+  bool begins_row = false;  ///< the first result of a row (in an engine's turn)
+};
+
+/// Parameters of one compiled array: pool_pointer_array for the pool read-outs, dtof_array for the others.
 struct RtlConfiguration {
-  ReadoutParameters parameters;
-  int pixels_per_sram = 160;     ///< PIXELS_PER_SRAM, rows of a column
-  int sram_num = 8;              ///< SRAM_NUM, columns
-  int pointer_ports = 2;         ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
+  ReadoutParameters
+      parameters;             ///< a pool read-out's shares are not compiled: the driver writes the schedule
+  int pixels_per_sram = 160;  ///< PIXELS_PER_SRAM, rows of a column
+  int sram_num = 8;           ///< SRAM_NUM, columns
+  int pointer_ports = 2;      ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
   bool signalled_clear = false;  ///< SIGNALLED_CLEAR (histogram read-outs)
+  int engine_columns = 34;       ///< ENGINE_COLUMNS, columns that share an engine (pool read-outs)
 
   /// E.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".
   [[nodiscard]] std::string to_string() const;
+  /// All pixels in the order of the result stream: row by row; with engines their columns in turn, each from
+  /// the first row to the last, the engines interleaved.
+  [[nodiscard]] std::vector<ResultAddress> result_order() const;
 };
 
 /// FSM state as `state_o` codes it (docs/architecture.md, "States").

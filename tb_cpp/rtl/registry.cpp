@@ -22,15 +22,17 @@ struct Entry {
 // What an array simulates besides its columns takes about as long as this many of them.
 constexpr int kControlColumns = 3;
 
-// Keyed by RtlConfiguration::to_string() with an open gate: configurations that differ only in unused
-// parameters are one.
+// By key(): configurations that differ only in unused parameters are one.
 std::map<std::string, Entry>& registry() {
   static std::map<std::string, Entry> entries;
   return entries;
 }
 
-// The gate's ends are set with every frame.
+// The gate's ends and a pool read-out's schedule are set with every frame.
 ReadoutParameters compiled_parameters(ReadoutParameters parameters) {
+  const PoolPointerParameters defaults = PoolPointerParameters::defaults(parameters.readout);
+  parameters.pool.coarse_share = defaults.coarse_share;
+  parameters.pool.track_share = defaults.track_share;
   if (parameters.time_gate) {
     parameters.time_gate = CodeGate{0, parameters.no_detection()};
   }
@@ -75,8 +77,8 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   };
   for (const auto& [text, entry] : registry()) {
     const RtlConfiguration& candidate = entry.configuration;
-    if (candidate.parameters.to_string() == wanted && candidate.pixels_per_sram >= rows &&
-        (!best.has_value() || cost(candidate) < cost(*best))) {
+    if (compiled_parameters(candidate.parameters).to_string() == wanted &&
+        candidate.pixels_per_sram >= rows && (!best.has_value() || cost(candidate) < cost(*best))) {
       best = candidate;
     }
   }
@@ -84,6 +86,7 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
     throw not_compiled(fmt::format("{} with at least {} rows", wanted, rows));
   }
   best->parameters.time_gate = parameters.time_gate;
+  best->parameters.pool = parameters.pool;
   return *best;
 }
 

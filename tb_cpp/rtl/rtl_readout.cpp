@@ -30,6 +30,7 @@ CounterRandom control_random(std::uint64_t seed, ControlStream stream) {
 constexpr std::uint64_t kTracePeriod = 10;  // ns
 constexpr int kResetClocks = 2;
 constexpr std::uint64_t kFirstContentsSeed = 1;
+constexpr std::uint32_t kOtherFrame = 1001;  // acquisitions more than those of the frame that runs
 
 }  // namespace
 
@@ -46,7 +47,9 @@ void RtlStatistics::merge(const RtlStatistics& other) {
 class RtlReadout::Simulation {
  public:
   Simulation(const RtlConfiguration& configuration, std::uint64_t seed, bool sram_report)
-      : configuration_(configuration), context_(std::make_unique<VerilatedContext>()) {
+      : configuration_(configuration),
+        result_order_(configuration.result_order()),
+        context_(std::make_unique<VerilatedContext>()) {
     Verilated::threadContextp(context_.get());
     context_->randReset(2);  // memories and uninitialised registers start random
     context_->randSeed(static_cast<int>(seed % 0x7FFFFFFFU) + 1);
@@ -81,8 +84,7 @@ class RtlReadout::Simulation {
     options_ = &options;
     acquisitions_ = acquisitions;
     gate_ = gate;
-    expected_beats_ = static_cast<std::uint64_t>(configuration_.pixels_per_sram) *
-                      static_cast<std::uint64_t>(configuration_.sram_num);
+    expected_beats_ = result_order_.size();
     total_cycles_ = 0;
     broken_ = true;  // until the frame ends without an exception
     if (!options.trace.empty()) {
@@ -154,8 +156,27 @@ class RtlReadout::Simulation {
     const auto codes = static_cast<std::uint64_t>(configuration_.parameters.code_count());
     const std::uint64_t stream =
         acquisitions_ * pixels * static_cast<std::uint64_t>(configuration_.parameters.slots);
+    // An engine takes its columns one after the other: decoding a group takes longest.
+    const std::uint64_t engine =
+        is_pool_readout(configuration_.parameters.readout)
+            ? 1000 * pixels * static_cast<std::uint64_t>(configuration_.engine_columns)
+            : 0;
     // Every code of every pixel cleared and scanned, and the results, with room for latencies.
-    return 2 * stream + 8 * pixels * codes + 8 * expected_beats_ + 100 * codes + 10000;
+    return 2 * stream + 8 * pixels * codes + 8 * expected_beats_ + 100 * codes + engine + 10000;
+  }
+
+  void drive_registers(std::uint32_t acquisitions, CodeGate gate) {
+    *ports_.acquisitions = static_cast<std::uint16_t>(acquisitions);
+    if (ports_.gate_begin != nullptr) {
+      *ports_.gate_begin = static_cast<std::uint16_t>(gate.begin);
+      *ports_.gate_end = static_cast<std::uint16_t>(gate.end);
+    }
+    if (ports_.coarse_end != nullptr) {
+      const PoolSchedule schedule(acquisitions, configuration_.parameters.pool);
+      *ports_.coarse_end = static_cast<std::uint16_t>(schedule.coarse_end);
+      *ports_.track_end = static_cast<std::uint16_t>(schedule.track_end);
+      *ports_.late_begin = static_cast<std::uint16_t>(schedule.late_begin);
+    }
   }
 
   // False if the frame was cut off by the reset.
@@ -168,7 +189,6 @@ class RtlReadout::Simulation {
     row_stall_left_ = options_->row_stall;
     frame_.statistics = RtlStatistics{};
     const std::uint64_t limit = cycle_limit();
-    const auto width = static_cast<std::uint64_t>(configuration_.sram_num);
     const bool disturb = options_->stall_probability > 0.0 || options_->start_probability > 0.0;
     constexpr std::uint64_t kInterruptionInterval = 1U << 20U;
 
@@ -176,20 +196,18 @@ class RtlReadout::Simulation {
       if (reset_at.has_value() && cycle_ >= *reset_at) {
         return false;
       }
+      // The array reads its registers with start_i; in all other clocks they are another frame's.
       *ports_.start = cycle_ == 0 ? 1 : 0;
-      *ports_.acquisitions = static_cast<std::uint16_t>(acquisitions_);
-      *ports_.gate_begin = static_cast<std::uint16_t>(gate_.begin);
-      *ports_.gate_end = static_cast<std::uint16_t>(gate_.end);
+      drive_registers(cycle_ == 0 ? acquisitions_ : acquisitions_ + kOtherFrame, gate_);
       if (disturb) {
         *ports_.result_ready = random.uniform() < options_->stall_probability ? 0 : 1;
         if (cycle_ > 0 && random.uniform() < options_->start_probability) {
           *ports_.start = 1;
-          *ports_.acquisitions = static_cast<std::uint16_t>(random());
-          *ports_.gate_begin = static_cast<std::uint16_t>(random());
-          *ports_.gate_end = static_cast<std::uint16_t>(random());
+          drive_registers(random() % 65536U,
+                          {static_cast<int>(random() % 65536U), static_cast<int>(random() % 65536U)});
         }
       }
-      if (beats_ % width == 0 && row_stall_left_ > 0) {
+      if (row_stall_left_ > 0 && beats_ < expected_beats_ && result_order_[beats_].begins_row) {
         *ports_.result_ready = 0;
       } else if (!disturb) {
         *ports_.result_ready = 1;
@@ -271,9 +289,9 @@ class RtlReadout::Simulation {
       return;
     }
     row_stall_left_ = options_->row_stall;
-    const auto width = static_cast<std::uint64_t>(configuration_.sram_num);
     require(beats_ < expected_beats_, "more results than pixels");
-    require(beat.row == beats_ / width && beat.column == beats_ % width, "result out of order");
+    const ResultAddress& pixel = result_order_[beats_];
+    require(beat.row == pixel.row && beat.column == pixel.column, "result out of order");
     require(beat.last == (beats_ + 1 == expected_beats_), "result_tlast_o on the wrong result");
     ++beats_;
     const auto columns = static_cast<std::size_t>(frame_.columns);
@@ -293,6 +311,7 @@ class RtlReadout::Simulation {
   };
 
   RtlConfiguration configuration_;
+  std::vector<ResultAddress> result_order_;
   std::unique_ptr<VerilatedContext> context_;  // outlives the model
   std::unique_ptr<ArrayModel> model_;
   ArrayModel::Ports ports_{};

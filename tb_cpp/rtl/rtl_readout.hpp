@@ -33,7 +33,8 @@ struct RtlRunOptions {
   std::uint64_t seed = 1;          ///< of everything random below
   double pause_probability = 0.0;  ///< the source pauses before an acquisition (1 to 8 clocks)
   double stall_probability = 0.0;  ///< per clock: tready is low
-  /// Clocks that tready stays low for each row's first result; 2 c stand for c more columns.
+  /// Clocks that tready stays low for each row's first result; 2 c stand for c more columns. A pool
+  /// read-out's engines have rows in each of their turns; c stand for c more engines.
   std::uint64_t row_stall = 0;
   double start_probability = 0.0;         ///< per clock while busy: start_i with another acq_num_i
   std::optional<std::uint64_t> reset_at;  ///< reset in this clock after start, then a whole frame
@@ -62,7 +63,7 @@ struct RtlFrame {
   RtlStatistics statistics;
 };
 
-/// A Verilated dtof_array with source and sink. Not thread-safe: one instance a thread.
+/// A Verilated array with source and sink. Not thread-safe: one instance a thread.
 class RtlReadout {
  public:
   /// `sram_report` makes every SRAM print its size and organisation on standard output. Throws InputError
@@ -81,7 +82,8 @@ class RtlReadout {
   void set_time_gate(CodeGate gate);
 
   /// Runs one frame of `acquisitions` (0 to 65,535) on up to SRAM_NUM columns of equally many rows, at most
-  /// PIXELS_PER_SRAM; columns and rows beyond the given ones see no detection and are not in the result.
+  /// PIXELS_PER_SRAM; columns and rows beyond the given ones see no detection and are not in the result (the
+  /// rows of a pool read-out see them, too). A pool read-out's schedule is that of PoolSchedule.
   /// Throws InputError for a stream that the configuration cannot take, RtlError for misbehaving RTL.
   RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
                const RtlRunOptions& options = {});

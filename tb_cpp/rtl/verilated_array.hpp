@@ -26,12 +26,23 @@ class VerilatedArray final : public ArrayModel {
   VerilatedArray& operator=(VerilatedArray&&) = delete;
 
   [[nodiscard]] Ports ports() override {
+    Registers registers;
+    if constexpr (requires { model_.coarse_end_i; }) {
+      registers = {.coarse_end = &model_.coarse_end_i,
+                   .track_end = &model_.track_end_i,
+                   .late_begin = &model_.late_begin_i};
+    } else {
+      registers = {.gate_begin = &model_.gate_begin_i, .gate_end = &model_.gate_end_i};
+    }
     return {.clock = &model_.clk_i,
             .reset_n = &model_.rst_ni,
             .start = &model_.start_i,
             .acquisitions = &model_.acq_num_i,
-            .gate_begin = &model_.gate_begin_i,
-            .gate_end = &model_.gate_end_i,
+            .gate_begin = registers.gate_begin,
+            .gate_end = registers.gate_end,
+            .coarse_end = registers.coarse_end,
+            .track_end = registers.track_end,
+            .late_begin = registers.late_begin,
             .tdc_valid = &model_.tdc_valid_i,
             .timestamps = model_.tdc_timestamp_i.data(),
             .timestamp_words = sizeof(model_.tdc_timestamp_i) / sizeof(std::uint32_t),
@@ -72,6 +83,15 @@ class VerilatedArray final : public ArrayModel {
   }
 
  private:
+  // Those that only one of the arrays has.
+  struct Registers {
+    std::uint16_t* gate_begin = nullptr;
+    std::uint16_t* gate_end = nullptr;
+    std::uint16_t* coarse_end = nullptr;
+    std::uint16_t* track_end = nullptr;
+    std::uint16_t* late_begin = nullptr;
+  };
+
   static constexpr int kAllLevels = 99;
   Model model_;
   std::unique_ptr<VerilatedFstC> trace_;

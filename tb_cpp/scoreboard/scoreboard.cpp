@@ -20,13 +20,14 @@ std::string to_text(const PixelResult& result) {
   return fmt::format("code {} fraction {} confidence {}", result.code, result.fraction, result.confidence);
 }
 
-std::vector<PixelResult> run_model(const ReadoutParameters& parameters, std::span<const ColumnStream> columns,
-                                   std::uint32_t acquisitions) {
+std::vector<PixelResult> run_model(const RtlConfiguration& configuration,
+                                   std::span<const ColumnStream> columns, std::uint32_t acquisitions) {
   const std::size_t rows = columns.empty() ? 0 : static_cast<std::size_t>(columns.front().rows());
   std::vector<PixelResult> results(rows * columns.size());
-  const std::unique_ptr<ReadoutModel> model = make_readout_model(parameters);
+  const std::unique_ptr<ReadoutModel> model = make_readout_model(configuration.parameters);
   for (std::size_t column = 0; column < columns.size(); ++column) {
-    const std::vector<PixelResult> expected = model->run_column(columns[column], acquisitions);
+    const std::vector<PixelResult> expected =
+        model->run_column(with_dark_rows(columns[column], configuration), acquisitions);
     for (std::size_t row = 0; row < rows; ++row) {
       results[row * columns.size() + column] = expected[row];
     }
@@ -51,8 +52,8 @@ std::vector<Mismatch> run_both(RtlReadout& rtl, std::span<const ColumnStream> co
   frame = rtl.run(columns, acquisitions, options);
   std::vector<int> numbers(columns.size());
   std::iota(numbers.begin(), numbers.end(), 0);
-  return compare_frames(numbers, run_model(rtl.configuration().parameters, columns, acquisitions),
-                        frame.results, frame.result_cycles);
+  return compare_frames(numbers, run_model(rtl.configuration(), columns, acquisitions), frame.results,
+                        frame.result_cycles);
 }
 
 // Bisection; a fault need not be monotonic in the frame's length, so the answer is short, not proven
@@ -72,6 +73,13 @@ std::uint32_t shortest_failing_frame(RtlReadout& rtl, std::span<const ColumnStre
 }
 
 }  // namespace
+
+ColumnStream with_dark_rows(ColumnStream column, const RtlConfiguration& configuration) {
+  while (column.rows() < configuration.pixels_per_sram) {
+    column.finish_row();
+  }
+  return column;
+}
 
 std::vector<Mismatch> compare_frames(std::span<const int> columns, std::span<const PixelResult> expected,
                                      std::span<const PixelResult> actual,

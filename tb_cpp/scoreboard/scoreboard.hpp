@@ -34,6 +34,10 @@ struct FrameContext {
   std::optional<std::uint32_t> shortest_failing_frame;
 };
 
+/// `column` as the array sees it: rows without a detection are added up to PIXELS_PER_SRAM. A pool read-out's
+/// other rows see them.
+ColumnStream with_dark_rows(ColumnStream column, const RtlConfiguration& configuration);
+
 /// Every differing pixel of two row-major frames over `columns` (their numbers in the array or scene).
 /// Throws InputError if the sizes do not belong together.
 std::vector<Mismatch> compare_frames(std::span<const int> columns, std::span<const PixelResult> expected,

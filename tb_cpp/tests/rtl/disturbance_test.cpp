@@ -12,7 +12,7 @@ class Disturbance : public testing::TestWithParam<Readout> {
   RtlConfiguration configuration_ = find_rtl_configuration(ReadoutParameters::defaults(GetParam()), 160, 200);
 };
 
-INSTANTIATE_TEST_SUITE_P(FullSize, Disturbance, testing::ValuesIn(kAllReadouts), readout_test_name);
+INSTANTIATE_TEST_SUITE_P(FullSize, Disturbance, testing::ValuesIn(full_size_readouts()), readout_test_name);
 
 TEST_P(Disturbance, ResetAtRandomMoments) {
   SCOPED_TRACE(test_seed_message());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The harness itself: what it refuses, what it reports, and that a fault in the RTL becomes an exception.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <verilated.h>
@@ -78,6 +79,22 @@ TEST(Registry, PrefersTheThesisVariantAndTheSizeThatSimulatesLeast) {
       EXPECT_EQ(configuration.sram_num == 1, columns == 1) << readout_name(readout);
     }
   }
+}
+
+TEST(RtlConfiguration, ResultsComeRowByRowOrEngineByEngine) {
+  const auto order = [](Readout readout) {
+    RtlConfiguration configuration{.parameters = ReadoutParameters::defaults(readout)};
+    configuration.pixels_per_sram = 2;
+    configuration.sram_num = 5;
+    configuration.engine_columns = 2;
+    std::string text;
+    for (const ResultAddress& pixel : configuration.result_order()) {
+      text += fmt::format("{}{}{} ", pixel.begins_row ? "|" : "", pixel.row, pixel.column);
+    }
+    return text;
+  };
+  EXPECT_EQ(order(Readout::kSifh), "|00 01 02 03 04 |10 11 12 13 14 ");
+  EXPECT_EQ(order(Readout::kPoolPointer), "|00 02 04 |10 12 14 |01 03 |11 13 ");
 }
 
 TEST(RtlReadout, RefusesStreamsThatDoNotFit) {

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/detection.hpp"
@@ -26,20 +29,33 @@ inline void PrintTo(const RtlConfiguration& configuration, std::ostream* stream)
   *stream << configuration.to_string();
 }
 
-/// Test name: letters and digits of the configuration's text.
-inline std::string configuration_test_name(const testing::TestParamInfo<RtlConfiguration>& configuration) {
-  std::string name = configuration.param.to_string();
+/// Letters and digits of a text, for a test's name.
+inline std::string test_name(std::string_view text) {
+  std::string name(text);
   std::erase_if(name, [](char c) { return c == '='; });
-  for (char& c : name) {
-    if (c == ' ' || c == '-') {
-      c = '_';
-    }
-  }
+  std::ranges::replace_if(
+      name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
   return name;
 }
 
+inline std::string configuration_test_name(const testing::TestParamInfo<RtlConfiguration>& configuration) {
+  return test_name(configuration.param.to_string());
+}
+
 inline std::string readout_test_name(const testing::TestParamInfo<Readout>& readout) {
-  return std::string(readout_name(readout.param));
+  return test_name(readout_name(readout.param));
+}
+
+/// Read-outs compiled into this program at full size.
+inline std::vector<Readout> full_size_readouts() {
+  std::vector<Readout> readouts;
+  for (const RtlConfiguration& configuration : compiled_rtl_configurations()) {
+    const Readout readout = configuration.parameters.readout;
+    if (configuration.pixels_per_sram == 160 && std::ranges::find(readouts, readout) == readouts.end()) {
+      readouts.push_back(readout);
+    }
+  }
+  return readouts;
 }
 
 /// Command that repeats the running test and leaves a waveform of its last frame: a mismatch ends the test.

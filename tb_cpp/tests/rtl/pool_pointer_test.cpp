@@ -1,0 +1,483 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer's RTL against its model where the pixels of a column belong together: surfaces, light, phases,
+// schedules. What every read-out must stand is in every_configuration_test and disturbance_test.
+#include "readout/pool_pointer.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <set>
+#include <string_view>
+
+#include "photon/photon_source.hpp"
+#include "photon/preset.hpp"
+#include "scene/scene.hpp"
+#include "tests/rtl/rtl_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+template <typename Condition>
+std::vector<RtlConfiguration> configurations_with(const Condition& condition) {
+  std::vector<RtlConfiguration> chosen;
+  std::ranges::copy_if(compiled_rtl_configurations(), std::back_inserter(chosen), condition);
+  return chosen;
+}
+
+// What a column looks at.
+enum class View : std::uint8_t {
+  kFlat,         // one depth
+  kSlope,        // up to a coarse bin from pixel to pixel
+  kSteps,        // another depth every few pixels, across the groups' borders
+  kAlternating,  // two depths in turn: every neighbour disagrees
+  kDrift,  // the depth moves while the frame lasts: pointers run, those near a candidate into their limits
+  kRolesChange,  // two depths, one brighter until the pointer phase, then only the other
+  kEnds,         // the first and the last codes
+  kOneCode,      // the same code in every slot of every pixel: bins, scores and advantages saturate
+  kNothing,      // background only
+};
+
+constexpr std::array<View, 9> kViews = {View::kFlat,        View::kSlope,   View::kSteps,
+                                        View::kAlternating, View::kDrift,   View::kRolesChange,
+                                        View::kEnds,        View::kOneCode, View::kNothing};
+
+std::string_view view_name(View view) {
+  constexpr std::array<std::string_view, kViews.size()> kNames = {
+      "flat", "slope", "steps", "alternating", "drift", "roles change", "ends", "one code", "nothing"};
+  return kNames[static_cast<std::size_t>(view)];
+}
+
+// A column of surfaces in light of random strength: photons in the order of their arrival, those beyond SLOTS
+// lost.
+class Surfaces {
+ public:
+  Surfaces(const RtlConfiguration& configuration, std::uint32_t acquisitions, CounterRandom& random)
+      : parameters_(configuration.parameters),
+        rows_(configuration.pixels_per_sram),
+        acquisitions_(acquisitions),
+        track_end_(PoolSchedule(acquisitions, parameters_.pool).track_end),
+        random_(random) {}
+
+  ColumnStream column(View view) {
+    constexpr std::array<double, 5> kBackgrounds = {0.0, 0.05, 0.3, 1.0, 2.5};
+    constexpr std::array<double, 4> kSignals = {0.02, 0.1, 0.5, 0.9};
+    background_ = kBackgrounds[static_cast<std::size_t>(pick(random_, kBackgrounds.size()))];
+    signal_ = kSignals[static_cast<std::size_t>(pick(random_, kSignals.size()))];
+    width_ = 0.02 * codes() * random_.uniform();
+    depth_ = codes() * random_.uniform();
+    other_ = codes() * random_.uniform();
+    slope_ = coarse_bin() * (2.0 * random_.uniform() - 1.0);
+    one_code_ = static_cast<Timestamp>(pick(random_, parameters_.no_detection()));
+    ColumnStream column;
+    for (int row = 0; row < rows_; ++row) {
+      for (std::uint32_t acquisition = 0; acquisition < acquisitions_; ++acquisition) {
+        append(column, view, row, acquisition);
+      }
+      column.finish_row();
+    }
+    return column;
+  }
+
+ private:
+  [[nodiscard]] double codes() const { return parameters_.code_count(); }
+  [[nodiscard]] double coarse_bin() const { return codes() / 32.0; }
+
+  void append(ColumnStream& column, View view, int row, std::uint32_t acquisition) {
+    const auto slots = static_cast<std::size_t>(parameters_.slots);
+    photons_.clear();
+    if (view == View::kOneCode) {
+      photons_.assign(slots, one_code_);
+    } else {
+      if (view != View::kNothing && random_.uniform() < signal_) {
+        add(surface(view, row, acquisition) + width_ * (random_.uniform() + random_.uniform() - 1.0));
+      }
+      for (double left = background_; left > 0.0; left -= 1.0) {
+        if (random_.uniform() < left) {
+          add(codes() * random_.uniform());
+        }
+      }
+      std::ranges::sort(photons_);
+      photons_.resize(std::min(photons_.size(), slots));
+    }
+    for (const Timestamp code : photons_) {
+      column.append({acquisition, code});
+    }
+  }
+
+  void add(double code) {
+    if (code >= 0.0 && code < codes()) {
+      photons_.push_back(static_cast<Timestamp>(code));
+    }
+  }
+
+  double surface(View view, int row, std::uint32_t acquisition) {
+    constexpr int kStep = 5;
+    const bool pointing = acquisition >= track_end_;
+    switch (view) {
+      case View::kSlope:
+        return depth_ + slope_ * row;
+      case View::kSteps:
+        return (row / kStep) % 2 == 0 ? depth_ : other_;
+      case View::kAlternating:
+        return row % 2 == 0 ? depth_ : other_;
+      case View::kDrift:
+        return depth_ + (pointing ? 2.0 * slope_ * (acquisition - track_end_ + 1) / acquisitions_ : 0.0) +
+               (pointing ? slope_ : 0.0);
+      case View::kRolesChange:
+        return pointing || random_.uniform() < 0.4 ? other_ : depth_;
+      case View::kEnds:
+        return row % 2 == 0 ? 0.001 * codes() : 0.998 * codes();
+      default:
+        return depth_;
+    }
+  }
+
+  ReadoutParameters parameters_;
+  int rows_;
+  std::uint32_t acquisitions_;
+  std::uint32_t track_end_;
+  CounterRandom& random_;
+
+  double background_ = 0.0;
+  double signal_ = 0.0;
+  double width_ = 0.0;
+  double depth_ = 0.0;
+  double other_ = 0.0;
+  double slope_ = 0.0;
+  Timestamp one_code_ = 0;
+  std::vector<Timestamp> photons_;
+};
+
+std::vector<ColumnStream> surface_columns(const RtlConfiguration& configuration, std::uint32_t acquisitions,
+                                          View view, CounterRandom& random) {
+  Surfaces surfaces(configuration, acquisitions, random);
+  std::vector<ColumnStream> columns;
+  for (int column = 0; column < configuration.sram_num; ++column) {
+    columns.push_back(surfaces.column(view));
+  }
+  return columns;
+}
+
+class EveryPoolPointer : public testing::TestWithParam<RtlConfiguration> {
+ protected:
+  // Acquisitions so many that no phase is empty and every gear of the smallest array turns.
+  static std::uint32_t frame_length() { return GetParam().pixels_per_sram > 100 ? 70 : 260; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, EveryPoolPointer, testing::ValuesIn(compiled_rtl_configurations()),
+                         configuration_test_name);
+
+class PoolPointerWithDarkGroups : public EveryPoolPointer {};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, PoolPointerWithDarkGroups,
+                         testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
+                           return configuration.parameters.pool.bright_from > 0;
+                         })),
+                         configuration_test_name);
+
+class SmallPoolPointer : public EveryPoolPointer {};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, SmallPoolPointer,
+                         testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
+                           return configuration.pixels_per_sram <= 40;
+                         })),
+                         configuration_test_name);
+
+// First what fails first while the RTL is being written: each step of a frame with as little as possible
+// before it. Without detections the candidates are the lowest pairs, without tracks the chain keeps the first
+// two.
+
+TEST_P(EveryPoolPointer, EndsAFrameWithoutDetections) {
+  RtlReadout rtl(GetParam());
+  for (const std::uint32_t acquisitions : {0U, 1U, 40U}) {
+    SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
+    RtlFrame frame;
+    ColumnStream dark;
+    for (int row = 0; row < GetParam().pixels_per_sram; ++row) {
+      dark.finish_row();
+    }
+    const std::vector<ColumnStream> columns(static_cast<std::size_t>(GetParam().sram_num), dark);
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, default_options(1), &frame));
+    // Candidate 0 is the border of the first two coarse bins; half a bin of the code lies below it.
+    const int position = 2048 - (1 << (16 - GetParam().parameters.np)) / 2;
+    EXPECT_EQ(frame.results.at(0).code, position >> (16 - GetParam().parameters.np));
+    EXPECT_EQ(frame.results.at(0).confidence, 0);
+  }
+}
+
+// Detections of one phase only.
+class PhaseOnly : public testing::TestWithParam<std::tuple<int, RtlConfiguration>> {};
+
+std::string phase_test_name(const testing::TestParamInfo<PhaseOnly::ParamType>& info) {
+  constexpr std::array<std::string_view, 3> kNames = {"PointerPhase", "TrackPhase", "CoarsePhase"};
+  return fmt::format("{}_{}", kNames[static_cast<std::size_t>(std::get<0>(info.param))],
+                     configuration_test_name({std::get<1>(info.param), 0}));
+}
+
+INSTANTIATE_TEST_SUITE_P(Pool, PhaseOnly,
+                         testing::Combine(testing::Range(0, 3),
+                                          testing::ValuesIn(compiled_rtl_configurations())),
+                         phase_test_name);
+
+TEST_P(PhaseOnly, AgreesWithModel) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 30);
+  const auto& [phase, configuration] = GetParam();
+  constexpr std::uint32_t kAcquisitions = 96;
+  const PoolSchedule schedule(kAcquisitions, configuration.parameters.pool);
+  const std::array<std::uint32_t, 4> ends = {kAcquisitions, schedule.track_end, schedule.coarse_end, 0};
+  RtlReadout rtl(configuration);
+  for (const View view : {View::kFlat, View::kSteps, View::kOneCode, View::kNothing}) {
+    SCOPED_TRACE(view_name(view));
+    std::vector<ColumnStream> columns = surface_columns(configuration, kAcquisitions, view, random);
+    for (ColumnStream& column : columns) {
+      ColumnStream part;
+      for (int row = 0; row < column.rows(); ++row) {
+        for (const Detection& detection : column.row(row)) {
+          if (detection.acquisition < ends.at(static_cast<std::size_t>(phase)) &&
+              detection.acquisition >= ends.at(static_cast<std::size_t>(phase) + 1)) {
+            part.append(detection);
+          }
+        }
+        part.finish_row();
+      }
+      column = part;
+    }
+    ASSERT_TRUE(agrees_with_model(rtl, columns, kAcquisitions, default_options(test_seed())));
+  }
+}
+
+// Whole frames.
+
+TEST_P(EveryPoolPointer, AgreesWithModelWhateverItSees) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 31);
+  RtlReadout rtl(GetParam());
+  RtlRunOptions options = default_options(test_seed());
+  for (int round = 0; round < 3; ++round) {
+    for (const View view : kViews) {
+      const std::uint32_t acquisitions = frame_length() + random() % 16;
+      SCOPED_TRACE(testing::Message() << view_name(view) << ", " << acquisitions << " acquisitions");
+      ASSERT_TRUE(agrees_with_model(rtl, surface_columns(GetParam(), acquisitions, view, random),
+                                    acquisitions, options));
+      options.reset_first = false;
+    }
+  }
+}
+
+// Every short frame, and schedules whose ends coincide or leave a phase a single acquisition.
+TEST_P(EveryPoolPointer, AgreesWithModelWhateverTheSchedule) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 32);
+  RtlRunOptions options = default_options(test_seed());
+  const PoolPointerParameters defaults = GetParam().parameters.pool;
+  constexpr std::array<std::array<int, 2>, 6> kShares = {
+      {{0, 0}, {1, 1}, {62, 1}, {1, 62}, {31, 1}, {1, 31}}};  // the first stands for the default's
+  for (const auto& [coarse, track] : kShares) {
+    RtlConfiguration configuration = GetParam();
+    configuration.parameters.pool.coarse_share = coarse == 0 ? defaults.coarse_share : coarse;
+    configuration.parameters.pool.track_share = track == 0 ? defaults.track_share : track;
+    RtlReadout rtl(configuration);
+    for (const std::uint32_t acquisitions : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 10U, 31U, 63U, 64U, 65U}) {
+      const View view = kViews[static_cast<std::size_t>(pick(random, kViews.size()))];
+      SCOPED_TRACE(testing::Message() << view_name(view) << ", " << acquisitions << " acquisitions, shares "
+                                      << coarse << ", " << track);
+      ASSERT_TRUE(agrees_with_model(rtl, surface_columns(configuration, acquisitions, view, random),
+                                    acquisitions, options));
+      options.reset_first = false;
+    }
+  }
+}
+
+// Exactly as much light as makes a group bright, and one count less in each eighth of the range.
+TEST_P(PoolPointerWithDarkGroups, TellsThemFromBrightOnes) {
+  const ReadoutParameters& parameters = GetParam().parameters;
+  const PoolPointerParameters& pool = parameters.pool;
+  const int least = (128 * pool.bright_from + 4) / 5;  // B = 5 least >> 7
+  ASSERT_LE(least, 8 * ((1 << parameters.count_width) - 1)) << "no group can be bright";
+  const int rows = GetParam().pixels_per_sram;
+  const int group = std::min(pool.group_size, rows);
+  const auto coarse = static_cast<std::uint32_t>((4 * least + group - 1) / group);
+  const std::uint32_t acquisitions = 64 * coarse / static_cast<std::uint32_t>(pool.coarse_share) + 64;
+  RtlReadout rtl(GetParam());
+  for (const int counts : {least - 1, least}) {
+    SCOPED_TRACE(testing::Message() << counts << " counts in eight bins");
+    CoarseHistogram histogram{};
+    ColumnStream column;
+    for (int row = 0; row < rows; ++row) {
+      for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
+        const int index = static_cast<int>(acquisition) * group + row % group;
+        if (index < 4 * counts) {  // the four eighths in turn, and the bins of each
+          const int bin = 8 * (index % 4) + index / 4 % 8;
+          column.append({acquisition, static_cast<Timestamp>(bin * parameters.code_count() / 32)});
+          if (row < group) {
+            ++histogram[static_cast<std::size_t>(bin)];
+          }
+        } else if (acquisition >= coarse) {  // something to score and to follow
+          column.append({acquisition, static_cast<Timestamp>(parameters.code_count() / 3)});
+        }
+      }
+      column.finish_row();
+    }
+    const PoolGroup decoded = decode_group(histogram, histogram, histogram, pool);
+    EXPECT_EQ(decoded.background, pool.bright_from - (counts < least ? 1 : 0));
+    const std::vector<ColumnStream> columns(static_cast<std::size_t>(GetParam().sram_num), column);
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, default_options(1)));
+  }
+}
+
+// One code in every slot for so long that the advantage reaches its end, each count of the last quarter
+// taking 16 acquisitions.
+TEST_P(SmallPoolPointer, AdvantageSaturates) {
+  const ReadoutParameters& parameters = GetParam().parameters;
+  const std::uint32_t acquisitions = 20U << static_cast<unsigned>(parameters.pool.count_bits);
+  RtlReadout rtl(GetParam());
+  for (const int code : {0, 1, parameters.code_count() / 2, parameters.no_detection() - 1}) {
+    SCOPED_TRACE(testing::Message() << "code " << code);
+    ColumnStream column;
+    for (int row = 0; row < GetParam().pixels_per_sram; ++row) {
+      for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
+        for (int slot = 0; slot < parameters.slots; ++slot) {
+          column.append({acquisition, static_cast<Timestamp>(code)});
+        }
+      }
+      column.finish_row();
+    }
+    const std::vector<ColumnStream> columns(static_cast<std::size_t>(GetParam().sram_num), column);
+    RtlFrame frame;
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, default_options(1), &frame));
+    EXPECT_GE(frame.results.at(0).confidence, (1 << parameters.pool.count_bits) - 1);
+    EXPECT_NEAR(frame.results.at(0).code, code, std::max(parameters.code_count() >> 10, 1));
+  }
+}
+
+// The sweep in CMakeLists.txt holds every promised value.
+TEST(PoolPointerSweep, EveryValueOccurs) {
+  using C = RtlConfiguration;
+  using testing::IsSupersetOf;
+  const auto values = [](const std::function<int(const C&)>& field) {
+    std::set<int> found;
+    for (const C& configuration : compiled_rtl_configurations()) {
+      found.insert(field(configuration));
+    }
+    return found;
+  };
+  const auto partial_group = [](const C& c) { return c.pixels_per_sram % c.parameters.pool.group_size; };
+  EXPECT_THAT(values([](const C& c) { return c.parameters.np; }), IsSupersetOf({8, 9, 10, 11, 12, 16}));
+  EXPECT_THAT(values([](const C& c) { return c.pixels_per_sram; }), IsSupersetOf({1, 7, 8, 13, 16, 160}));
+  EXPECT_THAT(values(partial_group), IsSupersetOf({0, 1, 4, 5}));
+  EXPECT_THAT(values([](const C& c) { return c.sram_num; }), IsSupersetOf({1, 3, 10}));
+  EXPECT_THAT(values([](const C& c) { return c.engine_columns; }), IsSupersetOf({1, 2, 4, 25}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.slots; }), IsSupersetOf({2, 3, 4}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.count_width; }), IsSupersetOf({4, 5, 6, 7, 8}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.group_size; }),
+              IsSupersetOf({4, 8, 16, 32, 64}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.dark_labels; }),
+              IsSupersetOf({3, 4, 5, 6, 7, 8}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.bright_labels; }), IsSupersetOf({2, 4, 6}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.bright_from; }), IsSupersetOf({0, 1, 12}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.offset_bits; }), IsSupersetOf({0, 2, 4, 5}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.count_bits; }), IsSupersetOf({4, 8}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }), IsSupersetOf({0, 2, 4}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.rival_moves ? 1 : 0; }), IsSupersetOf({0, 1}));
+}
+
+// What the count of clocks at full size rests on: a sink that holds each row back takes the time of more
+// engines.
+TEST(PoolPointerCycles, ASlowSinkTakesTheTimeOfMoreEngines) {
+  const std::vector<RtlConfiguration> sizes = configurations_with([](const RtlConfiguration& configuration) {
+    return configuration.parameters.np == 12 && configuration.pixels_per_sram == 20;
+  });
+  ASSERT_EQ(sizes.size(), 2U);
+  const bool first_is_one = sizes[0].sram_num < sizes[1].sram_num;
+  RtlReadout one(sizes[first_is_one ? 0 : 1]);
+  RtlReadout many(sizes[first_is_one ? 1 : 0]);
+  ASSERT_EQ(one.configuration().sram_num, 4);
+  ASSERT_EQ(many.configuration().sram_num, 10);
+  const std::vector<ColumnStream> dark(1);
+  RtlRunOptions options = default_options(1);
+  const std::uint64_t cycles = many.run(dark, 3, options).statistics.cycles;
+  options.row_stall = 2;
+  EXPECT_EQ(one.run(dark, 3, options).statistics.cycles, cycles);
+}
+
+TEST(PoolPointerRegistry, LeavesTheScheduleToTheDriver) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
+  parameters.pool.coarse_share = 7;
+  const RtlConfiguration configuration = find_rtl_configuration(parameters, 160, 1);
+  EXPECT_EQ(configuration.parameters.pool.coarse_share, 7);
+  EXPECT_NO_THROW(RtlReadout{configuration});
+}
+
+// Full-size arrays.
+class FullSizePoolPointer : public testing::TestWithParam<Readout> {};
+
+INSTANTIATE_TEST_SUITE_P(FullSize, FullSizePoolPointer, testing::ValuesIn(full_size_readouts()),
+                         readout_test_name);
+
+// Clocks of a frame of 200 columns: one engine with all its columns, and a sink that is as slow as the
+// others' results. An acquisition takes as long as it streams, so that short frames tell.
+TEST_P(FullSizePoolPointer, StaysBelowTheCycleLimit) {
+  constexpr int kColumns = 200;
+  constexpr std::uint32_t kAcquisitions = 33'333;
+  constexpr std::uint64_t kCycleLimit = 11'000'000;
+  constexpr std::uint32_t kFew = 16;
+  const std::vector<RtlConfiguration> engines =
+      configurations_with([](const RtlConfiguration& configuration) {
+        return configuration.parameters.to_string() == ReadoutParameters::defaults(GetParam()).to_string() &&
+               configuration.pixels_per_sram == 160 && configuration.engine_columns > 5;
+      });
+  ASSERT_EQ(engines.size(), 1U);
+  const RtlConfiguration& engine = engines.front();
+  ASSERT_EQ(engine.sram_num, engine.engine_columns);
+  const int added_engines = (kColumns - 1) / engine.engine_columns;
+  RtlReadout rtl(engine);
+  RtlRunOptions options = default_options(1);
+  options.row_stall = static_cast<std::uint64_t>(added_engines);
+  const std::vector<ColumnStream> dark(1);
+  const auto cycles_of = [&](std::uint32_t acquisitions) {
+    return rtl.run(dark, acquisitions, options).statistics.cycles;
+  };
+  const auto stream = [&](std::uint32_t acquisitions) {
+    return std::uint64_t{acquisitions} *
+           static_cast<std::uint64_t>(engine.pixels_per_sram * engine.parameters.slots);
+  };
+  const std::uint64_t overhead = cycles_of(kFew) - stream(kFew);
+  EXPECT_EQ(cycles_of(4 * kFew) - stream(4 * kFew), overhead);
+  const std::uint64_t cycles = stream(kAcquisitions) + overhead;
+  fmt::print("{:16} {:.4e} clocks a frame of {} acquisitions, {} of them not streaming, {} engines\n",
+             readout_title(GetParam()), static_cast<double>(cycles), kAcquisitions, overhead,
+             added_engines + 1);
+  EXPECT_LE(cycles, kCycleLimit);
+}
+
+// Photons of the thesis's sensor.
+
+TEST_P(FullSizePoolPointer, AgreesWithModelOnModelledPhotons) {
+  SCOPED_TRACE(test_seed_message());
+  const ReadoutParameters parameters = ReadoutParameters::defaults(GetParam());
+  for (const double klux : {2.0, 14.0, 100.0}) {
+    SCOPED_TRACE(testing::Message() << klux << " klux");
+    SensorModel sensor = parse_preset("thesis");
+    sensor.np = parameters.np;
+    sensor.slots = parameters.slots;
+    sensor.acquisitions = 700;
+    SceneParameters scene;
+    scene.reflectivity = sensor.default_reflectivity;
+    const PhotonSource source(sensor, make_scene(Scene::kRoom, scene), klux, test_seed());
+    const RtlConfiguration configuration = find_rtl_configuration(parameters, source.rows(), 10);
+    std::vector<ColumnStream> columns;
+    for (int column = 0; column < configuration.sram_num; ++column) {
+      columns.push_back(source.column(column * source.columns() / configuration.sram_num));
+    }
+    RtlReadout rtl(configuration);
+    ASSERT_TRUE(agrees_with_model(rtl, columns, sensor.acquisitions, default_options(test_seed())));
+  }
+}
+
+}  // namespace
+}  // namespace dtof
