@@ -279,7 +279,7 @@ module engine_sequencer #(
   assign deciding_o = deciding_q;
   assign clear_message_o = (n_q < N_WIDTH'(LEAD));
   assign begin_o = chaining && (s_q == '0);
-  assign spread_o = chaining && (s_q == S_WIDTH'(1));
+  assign spread_o = chaining && (s_q == S_WIDTH'(1)) && !stall;
   assign pass_label_o = chaining && (s_q >= S_WIDTH'(2)) && (32'(s_q) < (deciding_q ? 4 : LABELS + 2));
   assign capture_word_o = chaining && (s_q == last_s - S_WIDTH'(1));
   assign advance_o = step_end;

@@ -154,7 +154,13 @@ module label_chain #(
   assign cheapest = (nearest < penalty_q) ? nearest : penalty_q;
 
   always_ff @(posedge clk_i) begin
-    target_label_q <= spread_i ? LABEL_WIDTH'(2) : target_label_q + 1'b1;
+    if (begin_i) begin
+      target_label_q <= '0;  // until spread_i, which may have to wait for the results to leave
+    end else if (spread_i) begin
+      target_label_q <= LABEL_WIDTH'(2);
+    end else begin
+      target_label_q <= target_label_q + LABEL_WIDTH'(pass_label_i);
+    end
     target_q <= next_position_q[target_label*POSITION_WIDTH+:POSITION_WIDTH];
     near_q <= near;
     if (advance_i && clear_message_i) begin
