@@ -63,7 +63,7 @@ module pool_pointer_array #(
   localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2);
   localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUPS);
   localparam int BINS_PER_WORD = dtof_pkg::pool_bins_per_word(WORD_WIDTH, COUNT_WIDTH);
-  localparam int STEPS = (SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS;  // columns an engine serves
+  localparam int STEPS = dtof_pkg::max_of((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS, 1);  // of an engine
   localparam int STEP_WIDTH = dtof_pkg::index_width(STEPS);
   localparam int ENGINES = (SRAM_NUM + STEPS - 1) / STEPS;
 
