@@ -77,8 +77,8 @@ module candidate_decoder #(
     if (octet_full_q && (first_octet_q || octet_q < least_octet_q)) begin
       least_octet_q <= octet_q;
     end
+    octet_q <= fill_i ? (octet_full_q ? '0 : octet_q) + OCTET_WIDTH'(own_bin_q) : '0;
     if (fill_i) begin
-      octet_q <= ((pair_i[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin_q);
       if (pair_i == 5'd1 || (pair_i != 5'd0 && own_pair < least_pair_q)) begin
         least_pair_q <= own_pair;
       end
@@ -88,57 +88,72 @@ module candidate_decoder #(
   assign five_octets = (OCTET_WIDTH + 3)'(least_octet_q) + ((OCTET_WIDTH + 3)'(least_octet_q) << 2);
   assign background_o = BACKGROUND_WIDTH'(five_octets >> 7);
 
-  // The ring: {taken, own, pooled}.
+  // The ring: {taken, own, pooled}. What the last candidate takes away leaves an entry on its way to the head.
 
   logic [ENTRIES*ENTRY_WIDTH-1:0] ring_q;
-  logic [ENTRY_WIDTH-1:0] head, entry;
+  logic [ENTRY_WIDTH-1:0] next_head, entry;
   logic head_taken, taken;
-  logic [OWN_WIDTH-1:0] head_own, own;
-  logic [POOLED_WIDTH-1:0] head_pooled, pooled, value;
+  logic [OWN_WIDTH-1:0] head_own, next_own, own, own_part, own_part_q, own_excess, own_excess_q;
+  logic [POOLED_WIDTH-1:0] head_pooled, next_pooled, pooled, pooled_part, pooled_part_q;
+  logic [POOLED_WIDTH-1:0] pooled_excess, pooled_excess_q;
+  logic [5:0] peak_q, from_peak;
+  logic new_peak_q, next_taken, beside, beside_q, two_away, two_away_q;
+  logic [4:0] best_pair_q;
 
-  // What the last candidate takes away.
-  logic [5:0] peak_d, peak_q, next_pair;
-  logic [OWN_WIDTH-1:0] own_part_q;
-  logic [POOLED_WIDTH-1:0] pooled_part_q;
-  logic beside_q, two_away_q;  // of the pair at the head
+  assign head_pooled = ring_q[POOLED_WIDTH-1:0];
+  assign head_own = ring_q[POOLED_WIDTH+:OWN_WIDTH];
+  assign head_taken = ring_q[ENTRY_WIDTH-1];
+  assign next_head = ring_q[2*ENTRY_WIDTH-1:ENTRY_WIDTH];
+  assign next_taken = next_head[ENTRY_WIDTH-1];
+  assign next_pooled = next_head[POOLED_WIDTH-1:0];
+  assign next_own = next_head[POOLED_WIDTH+:OWN_WIDTH];
 
-  assign head = ring_q[ENTRY_WIDTH-1:0];
-  assign head_pooled = head[POOLED_WIDTH-1:0];
-  assign head_own = head[POOLED_WIDTH+:OWN_WIDTH];
-  assign head_taken = head[ENTRY_WIDTH-1];
-  assign next_pair = {1'b0, pair_i} + 6'd1;
+  // With pair 0 at the head the peak is new: what is registered is still of the one before. Its excess was
+  // registered a clock after it was found, in time for pair 1, which only an early peak reaches.
+  assign beside = new_peak_q ? !first_label_i && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
+  assign two_away = new_peak_q ? !first_label_i && (best_pair_q == 5'd3) : two_away_q;
+  assign own_part = new_peak_q ? own_excess_q >> 2 : own_part_q;
+  assign pooled_part = new_peak_q ? pooled_excess_q >> 2 : pooled_part_q;
+  assign from_peak = {1'b0, pair_i} + 6'd2 - peak_q;
 
   always_comb begin
-    taken = head_taken || beside_q;
-    own = head_own;
-    pooled = head_pooled;
-    if (two_away_q) begin
-      own = (head_own > own_part_q) ? head_own - own_part_q : '0;
-      pooled = (head_pooled > pooled_part_q) ? head_pooled - pooled_part_q : '0;
+    taken = next_taken || beside;
+    own = next_own;
+    pooled = next_pooled;
+    if (two_away) begin
+      own = (next_own > own_part) ? next_own - own_part : '0;
+      pooled = (next_pooled > pooled_part) ? next_pooled - pooled_part : '0;
     end
     entry = '0;
     if (fill_i) begin
       entry = (pair_i == 5'd0) ? {1'b1, {(ENTRY_WIDTH - 1) {1'b0}}} : {1'b0, own_pair, pooled_pair};
     end else if (search_i) begin
-      entry = {taken, own, pooled};
+      entry = {head_taken, head_own, head_pooled};
     end
   end
 
   always_ff @(posedge clk_i) begin
-    ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:ENTRY_WIDTH]};
-    beside_q <= (next_pair + 6'd1 == peak_d) || (next_pair == peak_d) || (next_pair == peak_d + 6'd1);
-    two_away_q <= (next_pair + 6'd2 == peak_d) || (next_pair == peak_d + 6'd2);
+    ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:2*ENTRY_WIDTH], taken, own, pooled};
+    new_peak_q <= (pair_i == 5'd31);
+    if (new_peak_q) begin  // for pair 2
+      beside_q <= !first_label_i && (best_pair_q <= 5'd3);
+      two_away_q <= !first_label_i && (best_pair_q == 5'd4);
+    end else begin
+      beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
+      two_away_q <= (from_peak == 6'd2) || (from_peak == 6'd62);
+    end
+    own_excess_q <= own_excess;
+    pooled_excess_q <= pooled_excess;
   end
 
   // The largest of a turn, the lowest on a tie, with its neighbours.
 
   logic found_q, next_pending_q, better;
-  logic [4:0] best_pair_q;
   logic [OWN_WIDTH-1:0] best_own_q;
-  logic [POOLED_WIDTH-1:0] best_pooled_q, best_q, before_q, after_q, last_value_q;
+  logic [POOLED_WIDTH-1:0] value, best_pooled_q, best_q, before_q, after_q, last_value_q;
 
-  assign value = pooled_i ? pooled : POOLED_WIDTH'(own);
-  assign better = !taken && (!found_q || value > best_q);
+  assign value = pooled_i ? head_pooled : POOLED_WIDTH'(head_own);
+  assign better = !head_taken && (!found_q || value > best_q);
 
   always_ff @(posedge clk_i) begin
     last_value_q <= value;
@@ -151,8 +166,8 @@ module candidate_decoder #(
         found_q <= 1'b1;
         best_pair_q <= pair_i;
         best_q <= value;
-        best_own_q <= own;
-        best_pooled_q <= pooled;
+        best_own_q <= head_own;
+        best_pooled_q <= head_pooled;
         before_q <= last_value_q;
         after_q <= '0;  // beyond the last pair
       end else if (next_pending_q) begin
@@ -163,8 +178,7 @@ module candidate_decoder #(
 
   // A turn later (pair_i = 0): the candidate, and what it takes away.
 
-  logic [POOLED_WIDTH-1:0] tilt, height, lower, five_least, pooled_excess;
-  logic [OWN_WIDTH-1:0] own_excess;
+  logic [POOLED_WIDTH-1:0] tilt, height, lower, five_least;
   logic tilted, upwards;
   logic [CELL_WIDTH-1:0] peak_cell;
   logic [LABELS*CELL_WIDTH-1:0] cells_q;
@@ -179,11 +193,9 @@ module candidate_decoder #(
   assign five_least = POOLED_WIDTH'(least_pair_q) + (POOLED_WIDTH'(least_pair_q) << 2);
   assign pooled_excess = (best_pooled_q > five_least) ? best_pooled_q - five_least : '0;
 
-  assign peak_d = (search_i && pair_i == 5'd0) ? (first_label_i ? NOWHERE : {1'b0, best_pair_q}) : peak_q;
-
   always_ff @(posedge clk_i) begin
-    peak_q <= peak_d;
-    if (search_i && pair_i == 5'd0) begin
+    if (search_i && new_peak_q) begin
+      peak_q <= first_label_i ? NOWHERE : {1'b0, best_pair_q};
       own_part_q <= own_excess >> 2;
       pooled_part_q <= pooled_excess >> 2;
     end

@@ -63,7 +63,7 @@ module label_chain #(
     end
   end
 
-  // T, its largest, and how far each stays behind.
+  // T, its largest, and how far each stays behind, the penalty at most.
 
   logic [LABELS*BELIEF_WIDTH-1:0] sum, sum_q;
   logic [BELIEF_WIDTH-1:0] largest_q;
@@ -79,7 +79,7 @@ module label_chain #(
       assign sum[k*BELIEF_WIDTH+:BELIEF_WIDTH] = evidence - received;
       assign difference = largest_q - sum_q[k*BELIEF_WIDTH+:BELIEF_WIDTH];
       assign behind[k*PENALTY_WIDTH+:PENALTY_WIDTH] =
-          (!in_use_q[k] || |difference[BELIEF_WIDTH-1:PENALTY_WIDTH]) ? '1 : difference[PENALTY_WIDTH-1:0];
+          (in_use_q[k] && difference < BELIEF_WIDTH'(penalty_q)) ? difference[PENALTY_WIDTH-1:0] : penalty_q;
     end
   endgenerate
 
@@ -135,11 +135,9 @@ module label_chain #(
   endgenerate
 
   logic [LABELS*PENALTY_WIDTH-1:0] reachable;
-  logic [PENALTY_WIDTH-1:0] nearest;
-
   generate
     for (k = 0; k < LABELS; k = k + 1) begin : g_reachable
-      assign reachable[k*PENALTY_WIDTH+:PENALTY_WIDTH] = near_q[k] ? behind_q[k*PENALTY_WIDTH+:PENALTY_WIDTH] : '1;
+      assign reachable[k*PENALTY_WIDTH+:PENALTY_WIDTH] = near_q[k] ? behind_q[k*PENALTY_WIDTH+:PENALTY_WIDTH] : penalty_q;
     end
   endgenerate
 
@@ -148,10 +146,8 @@ module label_chain #(
       .WIDTH (PENALTY_WIDTH)
   ) u_nearest (
       .values_i  (reachable),
-      .smallest_o(nearest)
+      .smallest_o(cheapest)
   );
-
-  assign cheapest = (nearest < penalty_q) ? nearest : penalty_q;
 
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
