@@ -9,9 +9,9 @@
 //   t = q BINS_PER_WORD + 0, 1, 2   read word q of the group above, the group, the group below
 //   + 3, 4, 5 (end)                 words captured            t = bin + 6   pair sums enter the ring
 //   38 + 32 k + i                   search k sees pair i - 1  38 + 32 K     last candidate, then write
-// A step of a chain, clock s of PERIOD = max(labels + 2, 6); steps begin two pixels early to fetch:
+// A step of a chain, clock s of PERIOD = max(labels + 3, 6); steps begin two pixels early to fetch:
 //   s = 0                           evidence + message; scratch write (first pass)
-//   s = 1                           best sum known            s = 2 ..      one label of the next pixel a clock
+//   s = 1, 2                        largest sum, differences  s = 3 ..      one label of the next pixel a clock
 //   PERIOD - 5, PERIOD - 4          read the word and the group of the pixel two steps on
 //   PERIOD - 2                      word captured; scratch read (second pass)
 //   PERIOD - 1                      the pixel is prepared; the chain moves on
@@ -59,8 +59,8 @@ module engine_sequencer #(
     output logic                      deciding_o,
     output logic                      clear_message_o,
     output logic                      begin_o,             // s = 0
-    output logic                      spread_o,            // s = 1
-    output logic                      pass_label_o,        // s = 2 ..
+    output logic                      spread_o,            // s = 2
+    output logic                      pass_label_o,        // s = 3 ..
     output logic                      capture_word_o,
     output logic                      advance_o,           // s = PERIOD - 1
     output logic                      odd_pixel_o,         // of the captured word, valid with advance_o
@@ -82,7 +82,7 @@ module engine_sequencer #(
   localparam int SEARCH_BEGIN = 38;
   localparam int SEARCH_END = SEARCH_BEGIN + 32 * LABELS;
   localparam int T_WIDTH = $clog2(SEARCH_END + 2);
-  localparam int CHOOSE_PERIOD = dtof_pkg::max_of(LABELS + 2, 6);
+  localparam int CHOOSE_PERIOD = dtof_pkg::max_of(LABELS + 3, 6);
   localparam int DECIDE_PERIOD = 6;
   localparam int S_WIDTH = $clog2(CHOOSE_PERIOD);
   localparam int LEAD = 2;  // steps a pixel is fetched ahead
@@ -276,14 +276,17 @@ module engine_sequencer #(
     end
   end
 
+  always_ff @(posedge clk_i) begin
+    odd_pixel_o <= fetch_row[0];
+  end
+
   assign deciding_o = deciding_q;
   assign clear_message_o = (n_q < N_WIDTH'(LEAD));
   assign begin_o = chaining && (s_q == '0);
-  assign spread_o = chaining && (s_q == S_WIDTH'(1)) && !stall;
-  assign pass_label_o = chaining && (s_q >= S_WIDTH'(2)) && (32'(s_q) < (deciding_q ? 4 : LABELS + 2));
+  assign spread_o = chaining && (s_q == S_WIDTH'(2));
+  assign pass_label_o = chaining && (s_q >= S_WIDTH'(3)) && (32'(s_q) < (deciding_q ? 5 : LABELS + 3));
   assign capture_word_o = chaining && (s_q == last_s - S_WIDTH'(1));
   assign advance_o = step_end;
-  assign odd_pixel_o = fetch_row[0];
   assign result_o = results_step && !stall;
   assign result_odd_o = result_row[0];
   assign scratch_write_o = first_pass && in_pass && (s_q == '0);

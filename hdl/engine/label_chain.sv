@@ -5,7 +5,7 @@
 // label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
 // message from the other side. Near: positions at most REACH apart.
 //
-// Schedule: engine_sequencer. begin_i: T and its largest; spread_i: differences to it; then a label l of the next
+// Schedule: engine_sequencer. begin_i: T; its largest; spread_i: differences to it; then a label l of the next
 //   pixel a clock with pass_label_i, which also computes the belief of this pixel's label l, ranked one clock later;
 //   advance_i: the next pixel becomes this one and the prepared one the next. The two best beliefs are valid from the
 //   second clock after the last label until the next pixel's labels pass.
@@ -91,7 +91,7 @@ module label_chain #(
   generate
     for (k = 0; k < LABELS; k = k + 1) begin : g_complement
       logic [BELIEF_WIDTH-1:0] term;
-      assign term = sum[k*BELIEF_WIDTH+:BELIEF_WIDTH];
+      assign term = sum_q[k*BELIEF_WIDTH+:BELIEF_WIDTH];
       assign complement[k*BELIEF_WIDTH+:BELIEF_WIDTH] =
           in_use_q[k] ? {term[BELIEF_WIDTH-1], ~term[BELIEF_WIDTH-2:0]} : '1;
     end
@@ -108,8 +108,8 @@ module label_chain #(
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
       sum_q <= sum;
-      largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
     end
+    largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
     if (spread_i) begin
       behind_q <= behind;
     end
@@ -123,7 +123,7 @@ module label_chain #(
   logic [POSITION_WIDTH-1:0] target_q;
   logic [PENALTY_WIDTH-1:0] cheapest;
 
-  assign target_label = begin_i ? '0 : (spread_i ? LABEL_WIDTH'(1) : target_label_q);
+  assign target_label = pass_label_i ? target_label_q : LABEL_WIDTH'(spread_i);
 
   generate
     for (k = 0; k < LABELS; k = k + 1) begin : g_near
@@ -150,13 +150,7 @@ module label_chain #(
   );
 
   always_ff @(posedge clk_i) begin
-    if (begin_i) begin
-      target_label_q <= '0;  // until spread_i, which may have to wait for the results to leave
-    end else if (spread_i) begin
-      target_label_q <= LABEL_WIDTH'(2);
-    end else begin
-      target_label_q <= target_label_q + LABEL_WIDTH'(pass_label_i);
-    end
+    target_label_q <= spread_i ? LABEL_WIDTH'(2) : target_label_q + 1'b1;
     target_q <= next_position_q[target_label*POSITION_WIDTH+:POSITION_WIDTH];
     near_q <= near;
     if (advance_i && clear_message_i) begin
