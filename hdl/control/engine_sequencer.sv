@@ -7,8 +7,8 @@
 //
 // Decode of a group, clock t (the bins of the groups above, itself and below leave their word one clock apart):
 //   t = q BINS_PER_WORD + 0, 1, 2   read word q of the group above, the group, the group below
-//   + 3, 4, 5 (end)                 words captured            t = bin + 6   pair sums enter the ring
-//   38 + 32 k + i                   search k sees pair i - 1  38 + 32 K     last candidate, then write
+//   + 3, 4, 5 (end)                 words captured            t = bin + 7   pair sums enter the ring
+//   39 + 32 k + i                   search k sees pair i - 1  39 + 32 K     last candidate, then write
 // A step of a chain, clock s of PERIOD = max(labels + 3, 6); steps begin two pixels early to fetch:
 //   s = 0                           evidence + message; scratch write (first pass)
 //   s = 1, 2                        largest sum, differences  s = 3 ..      one label of the next pixel a clock
@@ -18,7 +18,7 @@
 //   s = 1 of the next step          choose: pointer word, written with PERIOD - 3 if the pair is complete. decide:
 //                                   results handed out, as soon as those of the step before are sent
 // SRAM commands are given one clock early (_d); a word is on the engine's input three clocks after its command.
-// Latency, K labels: a column's groups x (32 K + 40), (pixels + 3) x PERIOD a pass.
+// Latency, K labels: a column's groups x (32 K + 41), (pixels + 3) x PERIOD a pass.
 // Cost: counters, per array.
 module engine_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
@@ -79,7 +79,8 @@ module engine_sequencer #(
   localparam int POOLED_LABELS = 3;
   localparam int BIN_WIDTH = $clog2(BINS_PER_WORD);
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
-  localparam int SEARCH_BEGIN = 38;
+  localparam int FILL_BEGIN = 7;
+  localparam int SEARCH_BEGIN = FILL_BEGIN + dtof_pkg::POOL_COARSE_BINS;
   localparam int SEARCH_END = SEARCH_BEGIN + 32 * LABELS;
   localparam int T_WIDTH = $clog2(SEARCH_END + 2);
   localparam int CHOOSE_PERIOD = dtof_pkg::max_of(LABELS + 3, 6);
@@ -217,9 +218,9 @@ module engine_sequencer #(
     capture_above_o <= decoding && (phase == BIN_WIDTH'(2));
     capture_own_o <= decoding && (phase == BIN_WIDTH'(3));
     capture_below_o <= decoding && (phase == BIN_WIDTH'(4 % BINS_PER_WORD));
-    fill_o <= decoding && (t_q >= T_WIDTH'(5)) && (t_q < T_WIDTH'(SEARCH_BEGIN - 1));
+    fill_o <= decoding && (t_q >= T_WIDTH'(FILL_BEGIN - 1)) && (t_q < T_WIDTH'(SEARCH_BEGIN - 1));
     search_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN - 1));
-    pair_o <= (t_q < T_WIDTH'(SEARCH_BEGIN - 1)) ? 5'(t_q - T_WIDTH'(5)) : since_search[4:0];
+    pair_o <= (t_q < T_WIDTH'(SEARCH_BEGIN - 1)) ? 5'(t_q - T_WIDTH'(FILL_BEGIN - 1)) : since_search[4:0];
     first_label_o <= (since_search < T_WIDTH'(32));
     pooled_o <= (since_search < T_WIDTH'(32 * POOLED_LABELS));
     candidate_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN + 31)) && (since_search[4:0] == 5'd0);

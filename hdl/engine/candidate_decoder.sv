@@ -43,10 +43,8 @@ module candidate_decoder #(
   // Bins: above at one clock, own the next, below the next.
 
   logic [LINE_WIDTH-1:0] above_q, own_q, below_q;
-  logic [COUNT_WIDTH-1:0] above_bin_q, own_bin_q, last_bin_q;
-  logic [BIN_SUM_WIDTH-1:0] partial_q, bin_sum, last_sum_q;
-
-  assign bin_sum = partial_q + BIN_SUM_WIDTH'(below_q[COUNT_WIDTH-1:0]);
+  logic [COUNT_WIDTH-1:0] above_bin_q, own_bin_q, summed_bin_q, last_bin_q;
+  logic [BIN_SUM_WIDTH-1:0] partial_q, bin_sum_q, last_sum_q;
 
   always_ff @(posedge clk_i) begin
     above_q <= capture_above_i ? line_i : above_q >> COUNT_WIDTH;
@@ -56,8 +54,10 @@ module candidate_decoder #(
     own_bin_q <= own_q[COUNT_WIDTH-1:0];
     partial_q <= BIN_SUM_WIDTH'(above_bin_q) + BIN_SUM_WIDTH'(own_q[COUNT_WIDTH-1:0])
         + (BIN_SUM_WIDTH'(own_q[COUNT_WIDTH-1:0]) << 1);
-    last_bin_q <= own_bin_q;
-    last_sum_q <= bin_sum;
+    bin_sum_q <= partial_q + BIN_SUM_WIDTH'(below_q[COUNT_WIDTH-1:0]);
+    summed_bin_q <= own_bin_q;
+    last_bin_q <= summed_bin_q;
+    last_sum_q <= bin_sum_q;
   end
 
   // Background, and the least pair sum.
@@ -68,8 +68,8 @@ module candidate_decoder #(
   logic [POOLED_WIDTH-1:0] pooled_pair;
   logic [OCTET_WIDTH+2:0] five_octets;
 
-  assign own_pair = OWN_WIDTH'(own_bin_q) + OWN_WIDTH'(last_bin_q);
-  assign pooled_pair = POOLED_WIDTH'(bin_sum) + POOLED_WIDTH'(last_sum_q);
+  assign own_pair = OWN_WIDTH'(summed_bin_q) + OWN_WIDTH'(last_bin_q);
+  assign pooled_pair = POOLED_WIDTH'(bin_sum_q) + POOLED_WIDTH'(last_sum_q);
 
   always_ff @(posedge clk_i) begin
     octet_full_q <= fill_i && (pair_i[2:0] == 3'd7);
@@ -77,7 +77,7 @@ module candidate_decoder #(
     if (octet_full_q && (first_octet_q || octet_q < least_octet_q)) begin
       least_octet_q <= octet_q;
     end
-    octet_q <= fill_i ? (octet_full_q ? '0 : octet_q) + OCTET_WIDTH'(own_bin_q) : '0;
+    octet_q <= fill_i ? (octet_full_q ? '0 : octet_q) + OCTET_WIDTH'(summed_bin_q) : '0;
     if (fill_i) begin
       if (pair_i == 5'd1 || (pair_i != 5'd0 && own_pair < least_pair_q)) begin
         least_pair_q <= own_pair;

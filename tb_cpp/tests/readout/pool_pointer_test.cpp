@@ -628,7 +628,7 @@ TEST(PoolPointerCandidates, FollowPulsesInTheGroup) {
   histogram[20] = 60;  // nearly alone
   histogram[21] = 10;
   const PoolGroup group = decode_group(histogram, histogram, histogram, parameters);
-  EXPECT_EQ(group.labels, 8);
+  EXPECT_EQ(group.labels, parameters.dark_labels);
   EXPECT_EQ(group.background, 0);
   EXPECT_EQ(group.centre_cell[0], 20);  // border of bins 4 and 5
   EXPECT_EQ(group.centre_cell[1], 83);  // pair (20, 21), pulled towards 20
