@@ -168,14 +168,15 @@ class EveryPoolPointer : public testing::TestWithParam<RtlConfiguration> {
   static std::uint32_t frame_length() { return GetParam().pixels_per_sram > 100 ? 70 : 260; }
 };
 
-INSTANTIATE_TEST_SUITE_P(Compiled, EveryPoolPointer, testing::ValuesIn(compiled_rtl_configurations()),
+INSTANTIATE_TEST_SUITE_P(Compiled, EveryPoolPointer, testing::ValuesIn(swept_configurations()),
                          configuration_test_name);
 
 class PoolPointerWithDarkGroups : public EveryPoolPointer {};
 
 INSTANTIATE_TEST_SUITE_P(Compiled, PoolPointerWithDarkGroups,
                          testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
-                           return configuration.parameters.pool.bright_from > 0;
+                           return configuration.parameters.pool.bright_from > 0 &&
+                                  configuration.sram_num <= 20;
                          })),
                          configuration_test_name);
 
@@ -219,8 +220,7 @@ std::string phase_test_name(const testing::TestParamInfo<PhaseOnly::ParamType>& 
 }
 
 INSTANTIATE_TEST_SUITE_P(Pool, PhaseOnly,
-                         testing::Combine(testing::Range(0, 3),
-                                          testing::ValuesIn(compiled_rtl_configurations())),
+                         testing::Combine(testing::Range(0, 3), testing::ValuesIn(swept_configurations())),
                          phase_test_name);
 
 TEST_P(PhaseOnly, AgreesWithModel) {
