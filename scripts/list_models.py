@@ -4,8 +4,7 @@
 
 `list_models.py readouts dtof_array`: the read-outs of configurations.toml, each with many columns and with one.
 `list_models.py variants dtof_array`: its variants, with one column.
-The same with pool_pointer_array, and
-`list_models.py engines pool_pointer_array`: its read-outs, one engine with all its columns.
+The same with pool_pointer_array.
 """
 
 import sys
@@ -30,7 +29,7 @@ def line(name: str, configuration: Configuration, **size: int) -> str:
 
 
 def main() -> int:
-    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "variants", "engines"):
+    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "variants"):
         print(__doc__, file=sys.stderr)
         return 2
     try:
@@ -40,12 +39,7 @@ def main() -> int:
             if sys.argv[1] == "variants":
                 if configuration.variant_of:
                     print(line(f"variant_{name}", configuration, SRAM_NUM=1))
-            elif configuration.variant_of:
-                continue
-            elif sys.argv[1] == "engines":
-                columns = configuration["ENGINE_COLUMNS"]
-                print(line(f"{name}_engine", configuration, SRAM_NUM=columns, ENGINE_COLUMNS=columns))
-            else:
+            elif not configuration.variant_of:
                 print(line(name, configuration))
                 print(line(f"{name}_single", configuration, SRAM_NUM=1))
     except FlowError as error:

@@ -17,7 +17,7 @@
 #
 #   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
 #
-#   dtof_verilate_named(readouts|variants|engines <top module> <library>)
+#   dtof_verilate_named(readouts|variants <top module> <library>)
 #
 # adds configurations of configurations.toml (scripts/list_models.py).
 #

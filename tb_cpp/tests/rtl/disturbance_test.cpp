@@ -9,7 +9,7 @@ namespace {
 
 class Disturbance : public testing::TestWithParam<Readout> {
  protected:
-  RtlConfiguration configuration_ = find_rtl_configuration(ReadoutParameters::defaults(GetParam()), 160, 10);
+  RtlConfiguration configuration_ = find_rtl_configuration(ReadoutParameters::defaults(GetParam()), 160, 200);
 };
 
 INSTANTIATE_TEST_SUITE_P(FullSize, Disturbance, testing::ValuesIn(full_size_readouts()), readout_test_name);

@@ -11,7 +11,7 @@ namespace {
 
 class EveryConfiguration : public testing::TestWithParam<RtlConfiguration> {};
 
-INSTANTIATE_TEST_SUITE_P(Compiled, EveryConfiguration, testing::ValuesIn(swept_configurations()),
+INSTANTIATE_TEST_SUITE_P(Compiled, EveryConfiguration, testing::ValuesIn(compiled_rtl_configurations()),
                          configuration_test_name);
 
 // Frames follow each other without a reset: whatever one leaves behind must not show in the next. Odd and

@@ -58,15 +58,6 @@ inline std::vector<Readout> full_size_readouts() {
   return readouts;
 }
 
-/// Compiled configurations but those of a whole engine's many columns, whose clocks have a test of their own.
-inline std::vector<RtlConfiguration> swept_configurations() {
-  constexpr int kMostColumns = 20;
-  std::vector<RtlConfiguration> swept = compiled_rtl_configurations();
-  std::erase_if(swept,
-                [](const RtlConfiguration& configuration) { return configuration.sram_num > kMostColumns; });
-  return swept;
-}
-
 /// Command that repeats the running test and leaves a waveform of its last frame: a mismatch ends the test.
 inline std::string reproduce_command() {
   const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
