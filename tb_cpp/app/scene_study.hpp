@@ -59,7 +59,8 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
 
 /// Precision beside the bound of a single pixel: the median of |error| / bound over a normal variable's, so 1
 /// for an unbiased read-out that reaches each pixel's bound, and deaf to outliers. `relative_bound`: of each
-/// pixel, relative to its distance; pixels without a finite one above 0 are left out. NaN if none is left, or there are no bounds.
+/// pixel, relative to its distance; pixels without a finite one above 0 are left out. NaN if none is left, or
+/// there are no bounds.
 double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
                                const SceneMeasurement& measurement);
 
