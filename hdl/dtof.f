@@ -35,5 +35,6 @@ column/his_pointer_column.sv
 column/interframe_histogram_column.sv
 column/partitioned_histogram_column.sv
 column/pool_pointer_column.sv
+column/pool_pointer_pair.sv
 top/dtof_array.sv
 top/pool_pointer_array.sv

@@ -37,12 +37,13 @@ ILLEGAL = {  # parameters of a top and a word of the sentence that must appear
     ("pool_pointer_array", "GROUP_SIZE=4"): "32 bins",
     ("pool_pointer_array", "DARK_LABELS=9"): "DARK_LABELS must be",
     ("pool_pointer_array", "BRIGHT_SCORE_BITS=5"): "BRIGHT_SCORE_BITS 1 to 4",
-    ("pool_pointer_array", "BRIGHT_FROM=128"): "BRIGHT_FROM must be",
+    ("pool_pointer_array", "BRIGHT_FROM=64"): "BRIGHT_FROM must be",
     ("pool_pointer_array", "OFFSET_BITS=6"): "OFFSET_BITS must be",
     ("pool_pointer_array", "ADVANTAGE_WIDTH=6"): "ADVANTAGE_WIDTH must be",
-    ("pool_pointer_array", "POINTER_SHIFT=1"): "POINTER_SHIFT",
+    ("pool_pointer_array", "POINTER_SHIFT=3"): "POINTER_SHIFT",
     ("pool_pointer_array", "RIVAL_MOVES=2"): "RIVAL_MOVES must be",
     ("pool_pointer_array", "ENGINE_COLUMNS=0"): "ENGINE_COLUMNS must be",
+    ("pool_pointer_array", "ENGINE_COLUMNS=3"): "ENGINE_COLUMNS must be",
 }
 
 

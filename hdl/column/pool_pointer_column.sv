@@ -1,36 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: one column. A single-port SRAM holds, one after the other in the same words, the coarse histogram
-// of each group of pixels, the pixels' track words and their pointer words; behind them the groups' words.
+// poolPointer: what each column has for itself. Its half of the words that pool_pointer_pair keeps in the SRAM
+// passes through here: a group's coarse histogram, the pixels' track words, their pointer words.
 //
-// Equations: docs/poolpointer.md, Coarse, Track, Point. What needs several pixels at once (decode, choose,
-// decide) is done by an engine that several columns share (pool_engine).
+// Equations: docs/poolpointer.md, Timestamps, Coarse, Track, Point. What needs several pixels at once (decode,
+// choose, decide) is done by an engine that several columns share (pool_engine).
 //
 // A pixel uses one timestamp an acquisition, chosen while its slots pass. T2 and later count from its last slot:
-//   clock   coarse                          track and point (an SRAM word holds two pixels)
-//   T2      histogram word read             hits and distances; with the second pixel the next pair is read
-//   T3      registered                      word updated, the other pixel's turn; with the second pixel the pair
-//   T4      counted                         is written and the next one registered
-//   T5      written (T6 for three slots)
-// In the coarse phase a pixel that counts in the word of the pixel before it goes on with the register, whose
-// write may be still to come. A group's word is read one clock before its first pair.
-//
-// Engine: while engine_i the register follows selected reads and is 0 otherwise, so that columns can be ORed.
+//   clock   coarse                          track and point (an SRAM word holds two pixels of each column)
+//   T2      of two pixels one is chosen     hits and distances; with the second pixel the next pair is read
+//   T3                                      word updated, the other pixel's turn; with the second pixel the pair
+//                                           is written and the next one registered
 // Cost at the defaults: see reports/area.md.
-`include "dtof_macros.svh"
-
 module pool_pointer_column #(
     parameter int NP = 10,
-    parameter int PIXELS_PER_SRAM = 160,
-    parameter int COUNT_WIDTH = 8,
-    parameter int GROUP_SIZE = 8,
-    parameter int DARK_LABELS = 6,
+    parameter int COUNT_WIDTH = 7,
+    parameter int DARK_LABELS = 5,
     parameter int DARK_SCORE_BITS = 4,
-    parameter int BRIGHT_LABELS = 6,
+    parameter int BRIGHT_LABELS = 5,
     parameter int BRIGHT_SCORE_BITS = 4,
-    parameter int BRIGHT_FROM = 12,
+    parameter int BRIGHT_FROM = 6,
     parameter int OFFSET_BITS = 5,
-    parameter int ADVANTAGE_WIDTH = 8,
-    parameter int POINTER_SHIFT = 0,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     localparam int LABELS = dtof_pkg::max_of(DARK_LABELS, BRIGHT_LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
@@ -39,65 +30,42 @@ module pool_pointer_column #(
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
     localparam int WORD_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),
-    localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
-    localparam int DEPTH = GROUPS * (GROUP_SIZE / 2 + 1),
-    localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH)
+    localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS),
+    localparam int BINS_PER_WORD = dtof_pkg::pool_bins_per_word(WORD_WIDTH, COUNT_WIDTH)
 ) (
-    input  logic                  clk_i,
-    input  logic                  rst_ni,
-    input  logic [        NP-1:0] timestamp_i,
+    input  logic                     clk_i,
+    input  logic [           NP-1:0] timestamp_i,
     // phase, common to all columns
-    input  logic                  coarse_i,
-    input  logic                  point_i,
+    input  logic                     point_i,
     // timestamps
-    input  logic                  beat_t1_i,         // a timestamp, or none detected
-    input  logic                  first_slot_t1_i,
-    input  logic                  odd_t1_i,          // odd acquisition
-    input  logic                  fresh_t2_i,        // first pixel of a group
-    input  logic                  late_t2_i,
-    input  logic                  update_t3_i,
-    input  logic [           1:0] dither_t3_i,       // acquisition mod 4
-    input  logic                  every_16_t3_i,     // acquisition mod 16 = 0
-    input  logic                  load_t3_i,
-    input  logic                  count_t4_i,
-    // SRAM
-    input  logic                  read_i,
-    input  logic                  write_i,
-    input  logic [ADDR_WIDTH-1:0] address_i,
-    input  logic                  word_load_i,       // the word read last clock
-    input  logic                  group_load_i,
-    // engine
-    input  logic                  engine_i,
-    input  logic                  select_i,
-    input  logic [WORD_WIDTH-1:0] engine_word_i,
-    output logic [WORD_WIDTH-1:0] word_o
+    input  logic                     beat_t1_i,         // a timestamp, or none detected
+    input  logic                     first_slot_t1_i,
+    input  logic                     odd_t1_i,          // odd acquisition
+    input  logic                     odd_t2_i,
+    input  logic                     first_row_t2_i,    // coarse: the pair's first pixel is complete
+    input  logic                     second_row_t2_i,   // coarse: its second one is
+    input  logic                     late_t2_i,
+    input  logic                     update_t3_i,
+    input  logic [              3:0] acquisition_t3_i,  // mod 16
+    // coarse bin of the timestamp that counts: at T2 of the second pixel, and registered
+    output logic                     valid_t2_o,
+    output logic [ COARSE_WIDTH-1:0] bin_t2_o,
+    output logic                     held_valid_o,
+    output logic [ COARSE_WIDTH-1:0] held_bin_o,
+    // word
+    input  logic [   WORD_WIDTH-1:0] read_data_i,
+    input  logic                     word_load_i,
+    input  logic                     group_load_i,
+    input  logic [BINS_PER_WORD-1:0] count_i,           // this bin gets next_count_i
+    input  logic [  COUNT_WIDTH-1:0] next_count_i,
+    output logic [   WORD_WIDTH-1:0] word_o,
+    output logic [   WORD_WIDTH-1:0] updated_o          // after T3
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int SCORES_WIDTH = TRACK_WIDTH - ((OFFSET_BITS > 0) ? dtof_pkg::index_width(LABELS) + OFFSET_BITS : 0);
-  localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
-  localparam int BINS_PER_WORD = dtof_pkg::pool_bins_per_word(WORD_WIDTH, COUNT_WIDTH);
-  localparam int BIN_WIDTH = $clog2(BINS_PER_WORD);
-  localparam int LINE_WIDTH = COARSE_WIDTH - BIN_WIDTH;  // which of a group's histogram words
 
-  logic [WORD_WIDTH-1:0] word_q, word_d, read_data, write_data, updated;
-  logic read, write;
-  logic [ADDR_WIDTH-1:0] address;
-
-  dtof_sram #(
-      .PORTS(1),
-      .DEPTH(DEPTH),
-      .WIDTH(WORD_WIDTH)
-  ) u_sram (
-      .clk_i       (clk_i),
-      .rst_ni      (rst_ni),
-      .read_en_i   (read),
-      .read_addr_i (address),
-      .read_data_o (read_data),
-      .write_en_i  (write),
-      .write_addr_i(address),
-      .write_data_i(write_data)
-  );
+  logic [WORD_WIDTH-1:0] word_q, word_d;
 
   // The timestamp that counts: the first, but the second in odd acquisitions if there is one.
 
@@ -127,36 +95,28 @@ module pool_pointer_column #(
     end
   endgenerate
 
-  // Coarse.
+  // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if
+  // that one has no timestamp.
 
-  logic [COARSE_WIDTH-1:0] bin;
-  logic same_line, fetch, pending_q, load_q, counted_q, write_q;
-  logic [LINE_WIDTH-1:0] line, line_q, write_line_q;
-  logic [BIN_WIDTH-1:0] select_q;
-  logic [COUNT_WIDTH-1:0] count, next_count;
+  logic held_valid_q;
+  logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
   assign bin = timestamp_t2_q[NP-1-:COARSE_WIDTH];
-  assign same_line = counted_q && !fresh_t2_i && (bin[COARSE_WIDTH-1:BIN_WIDTH] == line_q);
-  assign fetch = coarse_i && read_i && valid_t2_q;
+  assign valid_t2_o = valid_t2_q || held_valid_q;
+  assign bin_t2_o = (held_valid_q && !(odd_t2_i && valid_t2_q)) ? held_bin_q : bin;
 
   always_ff @(posedge clk_i) begin
-    if (read_i || engine_i) begin
-      pending_q <= fetch;
-      load_q <= fetch && !same_line;
-      counted_q <= coarse_i && (fetch || (counted_q && !fresh_t2_i));
-    end
-    if (fetch) begin
-      line_q <= bin[COARSE_WIDTH-1:BIN_WIDTH];
-      select_q <= bin[BIN_WIDTH-1:0];
-    end
-    if (count_t4_i) begin
-      write_q <= pending_q;
-      write_line_q <= line_q;
+    if (first_row_t2_i) begin
+      held_valid_q <= valid_t2_q;
+      held_bin_q <= bin;
+    end else if (second_row_t2_i) begin
+      held_valid_q <= valid_t2_o;
+      held_bin_q <= bin_t2_o;
     end
   end
 
-  assign count = word_q[select_q*COUNT_WIDTH+:COUNT_WIDTH];
-  assign next_count = (&count) ? count : count + 1'b1;
+  assign held_valid_o = held_valid_q;
+  assign held_bin_o = held_bin_q;
 
   // Track and point, T2: where the timestamp is. The pixel in work is the word's low half.
 
@@ -229,7 +189,7 @@ module pool_pointer_column #(
     rival_up_t3_q <= rival_up_t2;
     rival_down_t3_q <= rival_down_t2;
     if (group_load_i) begin
-      group_q <= read_data[GROUP_WIDTH-1:0];
+      group_q <= read_data_i[GROUP_WIDTH-1:0];
     end
   end
 
@@ -270,44 +230,17 @@ module pool_pointer_column #(
       .rival_hit_i (rival_hit_t3_q),
       .rival_up_i  (rival_up_t3_q),
       .rival_down_i(rival_down_t3_q),
-      .dither_i    (dither_t3_i),
-      .every_16_i  (every_16_t3_i),
+      .acquisition_i(acquisition_t3_i),
       .word_o      (pointed)
   );
 
   assign moved = point_i ? PIXEL_WIDTH'(pointed) : PIXEL_WIDTH'(tracked);
 
-  // The word in work, and the SRAM.
+  // The word in work. Its halves change places with every pixel.
 
-  logic [WORD_WIDTH-1:0] counted_word;
+  logic [WORD_WIDTH-1:0] updated, counted;
   integer b;
-  always_comb begin
-    counted_word = word_q;
-    for (b = 0; b < BINS_PER_WORD; b = b + 1) begin
-      if (select_q == BIN_WIDTH'(b)) begin
-        counted_word[b*COUNT_WIDTH+:COUNT_WIDTH] = next_count;
-      end
-    end
-  end
 
-  always_comb begin
-    word_d = word_q;
-    if (engine_i) begin
-      word_d = (select_i && word_load_i) ? read_data : '0;
-    end else if (word_load_i || (load_t3_i && load_q)) begin
-      word_d = read_data;
-    end else if (count_t4_i && pending_q) begin
-      word_d = counted_word;
-    end else if (update_t3_i) begin
-      word_d = updated;
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    word_q <= word_d;
-  end
-
-  // The halves change places with every pixel.
   generate
     if (WORD_WIDTH > 2 * PIXEL_WIDTH) begin : g_padding
       assign updated = {word_q[WORD_WIDTH-1:2*PIXEL_WIDTH], moved, word_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH]};
@@ -316,13 +249,22 @@ module pool_pointer_column #(
     end
   endgenerate
 
-  assign write_data = engine_i ? engine_word_i : (coarse_i ? word_q : updated);
+  always_comb begin
+    counted = word_q;
+    for (b = 0; b < BINS_PER_WORD; b = b + 1) begin
+      if (count_i[b]) begin
+        counted[b*COUNT_WIDTH+:COUNT_WIDTH] = next_count_i;
+      end
+    end
+  end
 
-  assign read = read_i && (engine_i ? select_i : (!coarse_i || (valid_t2_q && !same_line)));
-  assign write = write_i && (engine_i ? select_i : (!coarse_i || write_q));
-  // In the coarse phase the common address is a group's first word.
-  assign line = write_i ? write_line_q : bin[COARSE_WIDTH-1:BIN_WIDTH];
-  assign address = address_i | (coarse_i ? ADDR_WIDTH'(line) : '0);
+  assign word_d = word_load_i ? read_data_i : (update_t3_i ? updated : counted);
+
+  always_ff @(posedge clk_i) begin
+    word_q <= word_d;
+  end
+
   assign word_o = word_q;
+  assign updated_o = updated;
 
 endmodule

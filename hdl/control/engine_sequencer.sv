@@ -7,18 +7,20 @@
 //
 // Decode of a group, clock t (the bins of the groups above, itself and below leave their word one clock apart):
 //   t = q BINS_PER_WORD + 0, 1, 2   read word q of the group above, the group, the group below
-//   + 3, 4, 5 (end)                 words captured            t = bin + 7   pair sums enter the ring
-//   39 + 32 k + i                   search k sees pair i - 1  39 + 32 K     last candidate, then write
-// A step of a chain, clock s of PERIOD = max(labels + 3, 6); steps begin two pixels early to fetch:
+//   + 4, 5, 6 (end)                 words captured            t = bin + 8   pair sums enter the ring
+//   40 + 32 k + i                   search k sees pair i - 1  40 + 32 K     last candidate, then write
+//   39 + 32 K                       read the group's word, with which the pair's other column gets its own back
+// A step of a chain, clock s of PERIOD = max(labels + 4, 6); steps begin two pixels early to fetch:
 //   s = 0                           evidence + message; scratch write (first pass)
-//   s = 1, 2                        largest sum, differences  s = 3 ..      one label of the next pixel a clock
-//   PERIOD - 5, PERIOD - 4          read the word and the group of the pixel two steps on
+//   s = 1, 2, 3                     largest sum, differences  s = 4 ..      one label of the next pixel a clock
+//   PERIOD - 6, PERIOD - 5          read the word and the group of the pixel two steps on
+//   PERIOD - 3                      choose, second pass: read what is to be written if a pair is complete
 //   PERIOD - 2                      word captured; scratch read (second pass)
 //   PERIOD - 1                      the pixel is prepared; the chain moves on
-//   s = 1 of the next step          choose: pointer word, written with PERIOD - 3 if the pair is complete. decide:
+//   s = 1 of the next step          choose: pointer word, written with PERIOD - 1 if the pair is complete. decide:
 //                                   results handed out, as soon as those of the step before are sent
-// SRAM commands are given one clock early (_d); a word is on the engine's input three clocks after its command.
-// Latency, K labels: a column's groups x (32 K + 41), (pixels + 3) x PERIOD a pass.
+// SRAM commands are given one clock early (_d); the engine has a word four clocks after its command.
+// Latency, K labels: a column's groups x (32 K + 42), (pixels + 3) x PERIOD a pass.
 // Cost: counters, per array.
 module engine_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
@@ -30,7 +32,8 @@ module engine_sequencer #(
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUPS),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS)
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS),
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
 ) (
     input  logic                      clk_i,
     input  logic                      rst_ni,
@@ -59,8 +62,9 @@ module engine_sequencer #(
     output logic                      deciding_o,
     output logic                      clear_message_o,
     output logic                      begin_o,             // s = 0
-    output logic                      spread_o,            // s = 2
-    output logic                      pass_label_o,        // s = 3 ..
+    output logic                      spread_o,            // s = 3
+    output logic                      pass_label_o,        // s = 4 ..
+    output logic [LABEL_WIDTH-1:0]    target_label_o,      // the label two clocks later
     output logic                      capture_word_o,
     output logic                      advance_o,           // s = PERIOD - 1
     output logic                      odd_pixel_o,         // of the captured word, valid with advance_o
@@ -79,11 +83,11 @@ module engine_sequencer #(
   localparam int POOLED_LABELS = 3;
   localparam int BIN_WIDTH = $clog2(BINS_PER_WORD);
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
-  localparam int FILL_BEGIN = 7;
+  localparam int FILL_BEGIN = 8;
   localparam int SEARCH_BEGIN = FILL_BEGIN + dtof_pkg::POOL_COARSE_BINS;
   localparam int SEARCH_END = SEARCH_BEGIN + 32 * LABELS;
   localparam int T_WIDTH = $clog2(SEARCH_END + 2);
-  localparam int CHOOSE_PERIOD = dtof_pkg::max_of(LABELS + 3, 6);
+  localparam int CHOOSE_PERIOD = dtof_pkg::max_of(LABELS + 4, 6);
   localparam int DECIDE_PERIOD = 6;
   localparam int S_WIDTH = $clog2(CHOOSE_PERIOD);
   localparam int LEAD = 2;  // steps a pixel is fetched ahead
@@ -101,7 +105,7 @@ module engine_sequencer #(
   logic [ENGINE_COLUMNS-1:0] select_q;
   logic [GROUP_WIDTH-1:0] group_q;
   logic [T_WIDTH-1:0] t_q;
-  logic [S_WIDTH-1:0] s_q, last_s;
+  logic [S_WIDTH-1:0] s_d, s_q, last_s;
   logic [N_WIDTH-1:0] n_q;  // pixel of the step + LEAD, counted in the pass's direction
   logic last_column, last_t, last_group, stall, step_end, pass_end;
 
@@ -112,10 +116,13 @@ module engine_sequencer #(
   assign step_end = (state_q == CHAIN) && (s_q == last_s);
   assign pass_end = step_end && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
 
-  // Pixel p of a pass in work has n = p + LEAD; results of pixel p are known at s = 1 of n = p + LEAD + 1.
+  // Pixel p of a pass in work has n = p + LEAD; results of pixel p are known at s = 1 of n = p + LEAD + 1. Before, with
+  // nothing under way, the chain waits for those of the pixel before to be sent.
   logic results_step;
-  assign results_step = (state_q == CHAIN) && back_q && (s_q == S_WIDTH'(1)) && (n_q >= N_WIDTH'(LEAD + 1));
-  assign stall = results_step && deciding_q && send_busy_i;
+  assign results_step = (state_q == CHAIN) && back_q && (n_q >= N_WIDTH'(LEAD + 1));
+  assign stall = results_step && deciding_q && (s_q == '0) && send_busy_i;
+
+  assign s_d = step_end ? '0 : s_q + S_WIDTH'(!stall);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -157,9 +164,7 @@ module engine_sequencer #(
           end
         end
         CHAIN: begin
-          if (!stall) begin
-            s_q <= step_end ? '0 : s_q + 1'b1;
-          end
+          s_q <= s_d;
           if (pass_end) begin
             n_q <= '0;
             back_q <= !back_q;
@@ -196,12 +201,13 @@ module engine_sequencer #(
   logic decoding;
   logic [T_WIDTH-1:0] since_search;
   logic [BIN_WIDTH-1:0] phase;
-  logic read_bins, write_group;
+  logic read_bins, read_back, write_group;
   logic [GROUP_WIDTH-1:0] read_group;
 
   assign decoding = (state_q == DECODE);
   assign phase = t_q[BIN_WIDTH-1:0];
   assign read_bins = decoding && (t_q < T_WIDTH'(dtof_pkg::POOL_COARSE_BINS)) && (32'(phase) < 3);
+  assign read_back = decoding && (t_q == T_WIDTH'(SEARCH_END - 1));
   assign write_group = decoding && last_t;
   assign since_search = t_q - T_WIDTH'(SEARCH_BEGIN - 1);
 
@@ -215,9 +221,9 @@ module engine_sequencer #(
   end
 
   always_ff @(posedge clk_i) begin
-    capture_above_o <= decoding && (phase == BIN_WIDTH'(2));
-    capture_own_o <= decoding && (phase == BIN_WIDTH'(3));
-    capture_below_o <= decoding && (phase == BIN_WIDTH'(4 % BINS_PER_WORD));
+    capture_above_o <= decoding && (phase == BIN_WIDTH'(3));
+    capture_own_o <= decoding && (phase == BIN_WIDTH'(4 % BINS_PER_WORD));
+    capture_below_o <= decoding && (phase == BIN_WIDTH'(5 % BINS_PER_WORD));
     fill_o <= decoding && (t_q >= T_WIDTH'(FILL_BEGIN - 1)) && (t_q < T_WIDTH'(SEARCH_BEGIN - 1));
     search_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN - 1));
     pair_o <= (t_q < T_WIDTH'(SEARCH_BEGIN - 1)) ? 5'(t_q - T_WIDTH'(FILL_BEGIN - 1)) : since_search[4:0];
@@ -229,7 +235,7 @@ module engine_sequencer #(
   // Chains.
 
   logic chaining, first_pass, second_pass, in_pass, to_fetch;
-  logic read_word, read_cells, write_pair;
+  logic read_word, read_cells, pair_complete, read_pair, write_pair;
   logic [ROW_WIDTH-1:0] row, next_row, fetch_row, result_row;
 
   function automatic logic [ROW_WIDTH-1:0] row_of(input logic [N_WIDTH-1:0] position, input logic back);
@@ -246,25 +252,27 @@ module engine_sequencer #(
   assign next_row = row_of(n_q - N_WIDTH'(LEAD - 1), back_q);
   assign result_row = row_of(n_q - N_WIDTH'(LEAD + 1), back_q);
 
-  assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(4));
-  assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(3));
-  assign write_pair = second_pass && !deciding_q && (n_q >= N_WIDTH'(LEAD + 1)) && (s_q == last_s - S_WIDTH'(2))
+  assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(5));
+  assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(4));
+  assign pair_complete = second_pass && !deciding_q && (n_q >= N_WIDTH'(LEAD + 1))
       && (result_row[0] || n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
+  assign read_pair = pair_complete && (s_q == last_s - S_WIDTH'(2));
+  assign write_pair = pair_complete && (s_q == last_s);
 
-  assign read_d_o = read_bins || read_word || read_cells;
+  assign read_d_o = read_bins || read_back || read_word || read_cells || read_pair;
   assign write_d_o = write_group || write_pair;
 
   always_comb begin
     address_d_o = '0;
     if (read_bins) begin
       address_d_o = ADDR_WIDTH'(32'(read_group) * GROUP_PAIRS + (32'(t_q) >> BIN_WIDTH));
-    end else if (write_group) begin
+    end else if (read_back || write_group) begin
       address_d_o = ADDR_WIDTH'(PIXEL_WORDS + 32'(group_q));
     end else if (read_word) begin
       address_d_o = ADDR_WIDTH'(32'(fetch_row) >> 1);
     end else if (read_cells) begin
       address_d_o = ADDR_WIDTH'(PIXEL_WORDS + 32'(fetch_row) / GROUP_SIZE);
-    end else if (write_pair) begin
+    end else if (read_pair || write_pair) begin
       address_d_o = ADDR_WIDTH'(32'(result_row) >> 1);
     end
   end
@@ -279,16 +287,17 @@ module engine_sequencer #(
 
   always_ff @(posedge clk_i) begin
     odd_pixel_o <= fetch_row[0];
+    target_label_o <= (s_d > S_WIDTH'(2)) ? LABEL_WIDTH'(s_d - S_WIDTH'(2)) : '0;
   end
 
   assign deciding_o = deciding_q;
   assign clear_message_o = (n_q < N_WIDTH'(LEAD));
   assign begin_o = chaining && (s_q == '0);
-  assign spread_o = chaining && (s_q == S_WIDTH'(2));
-  assign pass_label_o = chaining && (s_q >= S_WIDTH'(3)) && (32'(s_q) < (deciding_q ? 5 : LABELS + 3));
+  assign spread_o = chaining && (s_q == S_WIDTH'(3));
+  assign pass_label_o = chaining && (s_q >= S_WIDTH'(4)) && (32'(s_q) < (deciding_q ? 6 : LABELS + 4));
   assign capture_word_o = chaining && (s_q == last_s - S_WIDTH'(1));
   assign advance_o = step_end;
-  assign result_o = results_step && !stall;
+  assign result_o = results_step && (s_q == S_WIDTH'(1));
   assign result_odd_o = result_row[0];
   assign scratch_write_o = first_pass && in_pass && (s_q == '0);
   assign scratch_read_o = second_pass && (s_q == last_s - S_WIDTH'(1)) && (n_q >= N_WIDTH'(LEAD - 1))

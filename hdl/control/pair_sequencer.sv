@@ -10,7 +10,8 @@
 //   second pixel of a pair   T1: read the next pair's group word, where it is another one
 //                            T2: read the next pair; the group's word is registered
 //                            T3: write the pair; the next is registered
-//   coarse phase             T2: read, T3: registered, T4: counted, T5 (T6 for SLOTS = 3): write
+//   coarse phase, second pixel of a pair   T2: read, T3: registered, T4: counted, T5: write for a pair's first
+//                            column, two clocks later for its second
 // SRAM commands and loads are given one clock early (_d) for the array to register and spread.
 // Cost: counters and the stage copies of the pixel number, per array.
 `include "dtof_macros.svh"
@@ -38,13 +39,17 @@ module pair_sequencer #(
     output logic                  beat_t1_o,
     output logic                  first_slot_t1_o,
     output logic                  odd_t1_o,
-    output logic                  fresh_t2_o,
+    output logic                  odd_t2_o,
+    output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
+    output logic                  second_row_t2_o,   // coarse: its second one is
     output logic                  late_t2_o,
     output logic                  update_t3_o,
-    output logic [           1:0] dither_t3_o,
-    output logic                  every_16_t3_o,
-    output logic                  load_t3_o,
-    output logic                  count_t4_o,
+    output logic [           3:0] acquisition_t3_o,
+    // coarse, both columns' turns
+    output logic                  second_column_o,   // with a read
+    output logic                  fresh_o,           // with the read of a group's first count
+    output logic                  load_o,            // a clock later
+    output logic                  count_o,           // two clocks later
     // SRAM, a clock early
     output logic                  read_d_o,
     output logic                  write_d_o,
@@ -126,26 +131,23 @@ module pair_sequencer #(
 
   // T1
 
-  logic busy_t1_q, beat_t1_q, first_slot_t1_q, last_slot_t1_q, second_pixel_t1_q, late_t1_q;
+  logic busy_t1_q, beat_t1_q, first_slot_t1_q, second_pixel_t1_q, late_t1_q;
   logic [3:0] acquisition_t1_q;
   logic [STEP_WIDTH-1:0] step_t1_q;
   logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
-  logic first_slot, last_slot, next_group_t1, last_step_t1, fetch_t1;
+  logic first_slot, next_group_t1, last_step_t1, fetch_t1;
 
   assign first_slot = (step_q == '0) || (step_q == STEP_WIDTH'(SLOTS));
-  assign last_slot = (step_q == STEP_WIDTH'(SLOTS - 1)) || (step_q == LAST_STEP);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       busy_t1_q <= 1'b0;
       beat_t1_q <= 1'b0;
       first_slot_t1_q <= 1'b0;
-      last_slot_t1_q <= 1'b0;
     end else begin
       busy_t1_q <= busy;
       beat_t1_q <= busy && !missing && tdc_valid_i;
       first_slot_t1_q <= busy && first_slot;
-      last_slot_t1_q <= busy && !missing && last_slot;
     end
   end
 
@@ -161,15 +163,13 @@ module pair_sequencer #(
   assign next_group_t1 = (GROUPS > 1) && ((32'(next_pair_t1) % GROUP_PAIRS) == 0);
   // Of a pixel, whether or not the last pair has a second one.
   assign last_step_t1 = busy_t1_q && (step_t1_q == STEP_WIDTH'(SLOTS - 1) || step_t1_q == LAST_STEP);
-  assign fetch_t1 = coarse_i && last_slot_t1_q;
+  assign fetch_t1 = coarse_i && last_step_t1 && second_pixel_t1_q;
 
   // T2 and later
 
-  localparam int WRITE_STAGE = (SLOTS == 3) ? 6 : 5;
-
-  logic [WRITE_STAGE-1:2] fetch_tn_q;
-  logic [(WRITE_STAGE-2)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. WRITE_STAGE - 1, T2 lowest
-  logic [PAIR_WIDTH-1:0] pair_t2, write_pair;
+  logic [6:2] fetch_tn_q;
+  logic [5*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. T6, T2 lowest
+  logic [PAIR_WIDTH-1:0] pair_t2;
   logic visit_t2_q, update_t3_q, second_visit_t2_q;
   logic [3:0] acquisition_t2_q;
 
@@ -180,7 +180,7 @@ module pair_sequencer #(
       update_t3_q <= 1'b0;
       second_visit_t2_q <= 1'b0;
     end else begin
-      fetch_tn_q <= {fetch_tn_q[WRITE_STAGE-2:2], fetch_t1};
+      fetch_tn_q <= {fetch_tn_q[5:2], fetch_t1};
       visit_t2_q <= last_step_t1 && !coarse_i;
       update_t3_q <= visit_t2_q;
       second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
@@ -188,22 +188,24 @@ module pair_sequencer #(
   end
 
   always_ff @(posedge clk_i) begin
-    pair_tn_q <= {pair_tn_q[(WRITE_STAGE-3)*PAIR_WIDTH-1:0], pair_t1_q};
+    pair_tn_q <= {pair_tn_q[4*PAIR_WIDTH-1:0], pair_t1_q};
     acquisition_t2_q <= acquisition_t1_q;
     late_t2_o <= late_t1_q;
-    dither_t3_o <= acquisition_t2_q[1:0];
-    every_16_t3_o <= (acquisition_t2_q == '0);
-    fresh_t2_o <= (GROUPS > 1) && !second_pixel_t1_q && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
+    acquisition_t3_o <= acquisition_t2_q;
+    first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
+    fresh_o <= fetch_t1 && (GROUPS > 1) && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
   end
 
   assign beat_t1_o = beat_t1_q;
   assign first_slot_t1_o = first_slot_t1_q;
   assign odd_t1_o = acquisition_t1_q[0];
   assign update_t3_o = update_t3_q;
-  assign load_t3_o = fetch_tn_q[3];
-  assign count_t4_o = fetch_tn_q[4];
+  assign odd_t2_o = acquisition_t2_q[0];
+  assign second_row_t2_o = fetch_tn_q[2];
+  assign second_column_o = fetch_tn_q[4];
+  assign load_o = fetch_tn_q[3] || fetch_tn_q[5];
+  assign count_o = fetch_tn_q[4] || fetch_tn_q[6];
   assign pair_t2 = pair_tn_q[PAIR_WIDTH-1:0];
-  assign write_pair = pair_tn_q[(WRITE_STAGE-3)*PAIR_WIDTH+:PAIR_WIDTH];
 
   logic prime_group, prime_word, read_group, read_word, write_word;
   assign prime_group = stream_i && !coarse_i && (prime_q == 3'd1);
@@ -212,10 +214,16 @@ module pair_sequencer #(
   assign read_word = busy_t1_q && !coarse_i && (PAIRS > 1) && (step_t1_q == LAST_STEP);
   assign write_word = second_visit_t2_q;
 
-  assign read_d_o = prime_group || prime_word || read_group || read_word || fetch_t1;
-  assign write_d_o = write_word || fetch_tn_q[WRITE_STAGE-1];
+  assign read_d_o = prime_group || prime_word || read_group || read_word || fetch_t1 || fetch_tn_q[3];
+  assign write_d_o = write_word || fetch_tn_q[4] || fetch_tn_q[6];
   assign group_load_d_o = prime_word || (busy_t1_q && !coarse_i && next_group_t1 && step_t1_q == LAST_STEP);
   assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || (second_visit_t2_q && (PAIRS > 1));
+
+  // The histogram read or written next.
+  logic [PAIR_WIDTH-1:0] counted_pair;
+  assign counted_pair = fetch_tn_q[3] ? pair_tn_q[PAIR_WIDTH+:PAIR_WIDTH]
+      : fetch_tn_q[4] ? pair_tn_q[2*PAIR_WIDTH+:PAIR_WIDTH]
+      : fetch_tn_q[6] ? pair_tn_q[4*PAIR_WIDTH+:PAIR_WIDTH] : pair_t1_q;
 
   always_comb begin
     address_d_o = '0;
@@ -227,10 +235,8 @@ module pair_sequencer #(
       address_d_o = ADDR_WIDTH'(next_pair_t1);
     end else if (write_word) begin
       address_d_o = ADDR_WIDTH'(pair_t2);
-    end else if (fetch_t1) begin
-      address_d_o = ADDR_WIDTH'((32'(pair_t1_q) >> GROUP_SHIFT) << GROUP_SHIFT);
     end else if (coarse_i) begin
-      address_d_o = ADDR_WIDTH'((32'(write_pair) >> GROUP_SHIFT) << GROUP_SHIFT);
+      address_d_o = ADDR_WIDTH'((32'(counted_pair) >> GROUP_SHIFT) << GROUP_SHIFT);
     end
   end
 

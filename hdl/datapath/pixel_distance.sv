@@ -4,15 +4,15 @@
 // Equations (docs/poolpointer.md, Track and Point), distances floored to cells of 512 positions:
 //   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
 //   point  d = (X - leader's position) >> 9: in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
-//          rival's hit if (X >> 8) - rival is -10 .. 9 (RIVAL_MOVES = 1) or candidate b is hit (0);
-//          weight W[d] = 1 2 3 4 4 3 2 1, gear log2 of the step that n allows
-// Cost: a subtractor of 11 bits for the track phase, one of 17 and one of 9 bits for the pointer phase.
+//          rival's hit if (X >> 9) - rival is -5 .. 4 (RIVAL_MOVES = 1) or candidate b is hit (0);
+//          weight W[d] = 1 2 3 4 4 3 2 1, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
+// Cost: a subtractor of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
 module pixel_distance #(
-    parameter int LABELS = 6,
+    parameter int LABELS = 5,
     parameter int SCORES_WIDTH = 24,
     parameter int OFFSET_BITS = 5,
-    parameter int ADVANTAGE_WIDTH = 8,
-    parameter int POINTER_SHIFT = 0,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int PIXEL_WIDTH = 32
 ) (
@@ -111,22 +111,22 @@ module pixel_distance #(
   end
 
   // 64 units of 2^-11 coarse bin.
-  localparam logic [3:0] LATE_GEAR = 4'(6 - POINTER_SHIFT);
+  localparam logic [3:0] LATE_GEAR = 4'(6 - ((ADVANTAGE_WIDTH == 4) ? POINTER_SHIFT : 0));
   logic [ADVANTAGE_WIDTH-1:0] advantage;
   logic [3:0] gear_of_count;
   assign advantage = word_i[POINT_WIDTH-1-:ADVANTAGE_WIDTH];
 
   generate
-    if (ADVANTAGE_WIDTH == 8) begin : g_gear
+    if (ADVANTAGE_WIDTH == 7) begin : g_gear
       always_comb begin
-        if (advantage >= 8'd216) gear_of_count = 4'd0;
-        else if (advantage >= 8'd200) gear_of_count = 4'd1;
-        else if (advantage >= 8'd160) gear_of_count = 4'd2;
-        else if (advantage >= 8'd128) gear_of_count = 4'd3;
-        else if (advantage >= 8'd64) gear_of_count = 4'd4;
-        else if (advantage >= 8'd32) gear_of_count = 4'd5;
-        else if (advantage >= 8'd16) gear_of_count = 4'd6;
-        else if (advantage >= 8'd8) gear_of_count = 4'd7;
+        if (advantage >= 7'd124) gear_of_count = 4'd0;
+        else if (advantage >= 7'd116) gear_of_count = 4'd1;
+        else if (advantage >= 7'd100) gear_of_count = 4'd2;
+        else if (advantage >= 7'd80) gear_of_count = 4'd3;
+        else if (advantage >= 7'd64) gear_of_count = 4'd4;
+        else if (advantage >= 7'd32) gear_of_count = 4'd5;
+        else if (advantage >= 7'd16) gear_of_count = 4'd6;
+        else if (advantage >= 7'd8) gear_of_count = 4'd7;
         else gear_of_count = 4'd8;
       end
     end else begin : g_short_gear
@@ -149,10 +149,10 @@ module pixel_distance #(
       logic signed [RIVAL_WIDTH:0] rival_distance;
       assign rival = word_i[POINTER_WIDTH+:RIVAL_WIDTH];
       assign distance = $signed({2'b00, position_i[15:POINTER_SHIFT]}) - $signed({2'b00, pointer});
-      assign rival_distance = $signed({1'b0, position_i[15:8]}) - $signed({1'b0, rival});
-      assign rival_hit_o = valid_i && !hit_o && (rival_distance >= -9'sd10) && (rival_distance < 9'sd10);
-      assign rival_up_o = (rival_distance > 9'sd0);
-      assign rival_down_o = (rival_distance < 9'sd0);
+      assign rival_distance = $signed({1'b0, position_i[15:9]}) - $signed({1'b0, rival});
+      assign rival_hit_o = valid_i && !hit_o && (rival_distance >= -8'sd5) && (rival_distance < 8'sd5);
+      assign rival_up_o = (rival_distance > 8'sd0);
+      assign rival_down_o = (rival_distance < 8'sd0);
     end else begin : g_resting_rival
       logic [LABEL_WIDTH-1:0] rival;
       assign rival = word_i[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];

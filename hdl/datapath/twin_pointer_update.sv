@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's pointer word after one timestamp: leader's and rival's pointers, advantage. Combinational.
 //
-// Equation (docs/poolpointer.md, Point): in reach the pointer moves by (2^gear weight + a mod 4) >> 2 units towards
-// the timestamp. Hits raise the advantage n, the rival's hits lower it and at n = 0 change roles.
-// RIVAL_MOVES = 1: both pointers are absolute and the rival follows its hits in eighths of a coarse bin.
+// Equation (docs/poolpointer.md, Point): in reach the pointer moves by (2^gear weight + dither) >> 2 units of 2^-11 coarse
+// bin towards the timestamp, rounded down to the pointer's unit u; dither = (a mod 4) u + (a >> 2) mod u. Hits raise the advantage n, the rival's hits lower it and at n = 0 change roles.
+// RIVAL_MOVES = 1: both pointers are absolute and the rival follows its hits in cells, quarters of a coarse bin.
 // RIVAL_MOVES = 0: the pointer is relative to candidate a, the rival is candidate b.
 // Cost: an adder of the pointer's width, a shifter; about 25 gate delays.
 module twin_pointer_update #(
-    parameter int LABELS = 6,
-    parameter int ADVANTAGE_WIDTH = 8,  // 8, or 4 with the short gears
-    parameter int POINTER_SHIFT = 0,
+    parameter int LABELS = 5,
+    parameter int ADVANTAGE_WIDTH = 7,  // 7, or 4 with the short gears, multiples of u
+    parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES)
@@ -23,12 +23,14 @@ module twin_pointer_update #(
     input  logic                   rival_hit_i,
     input  logic                   rival_up_i,
     input  logic                   rival_down_i,
-    input  logic [            1:0] dither_i,      // acquisition mod 4
-    input  logic                   every_16_i,    // acquisition mod 16 = 0
+    input  logic [            3:0] acquisition_i,  // mod 16
     output logic [POINT_WIDTH-1:0] word_o
 );
 
-  localparam int MOVE_WIDTH = (ADVANTAGE_WIDTH == 8) ? 9 : 10 - POINTER_SHIFT;
+  // Bits of a move below the pointer's unit, which decide with the dither whether it goes one farther.
+  localparam int BELOW_UNIT = (ADVANTAGE_WIDTH == 4) ? 0 : POINTER_SHIFT;
+  localparam int MOVE_WIDTH = ((ADVANTAGE_WIDTH == 4) ? 10 : 9) - POINTER_SHIFT;
+  localparam int PRODUCT_WIDTH = MOVE_WIDTH + BELOW_UNIT + 2;
 
   logic [ADVANTAGE_WIDTH-1:0] advantage, next_advantage;
   logic [POINTER_WIDTH-1:0] pointer, moved, swapped;
@@ -38,9 +40,17 @@ module twin_pointer_update #(
   assign pointer = word_i[POINTER_WIDTH-1:0];
   assign advantage = word_i[POINT_WIDTH-1-:ADVANTAGE_WIDTH];
 
-  logic [MOVE_WIDTH+2:0] product;
-  assign product = ((MOVE_WIDTH + 3)'(weight_i) << gear_i) + (MOVE_WIDTH + 3)'(dither_i);
-  assign move = product[MOVE_WIDTH+1:2];
+  logic [PRODUCT_WIDTH-1:0] product;
+  logic [BELOW_UNIT+1:0] dither;
+  generate
+    if (BELOW_UNIT == 0) begin : g_dither
+      assign dither = acquisition_i[1:0];
+    end else begin : g_long_dither
+      assign dither = {acquisition_i[1:0], acquisition_i[2+:BELOW_UNIT]};
+    end
+  endgenerate
+  assign product = (PRODUCT_WIDTH'(weight_i) << gear_i) + PRODUCT_WIDTH'(dither);
+  assign move = product[BELOW_UNIT+2+:MOVE_WIDTH];
 
   logic unused_bits;
   assign unused_bits = ^product;
@@ -94,7 +104,7 @@ module twin_pointer_update #(
 
   // Counts beyond half of the range are slowed down.
   assign counted = !advantage[ADVANTAGE_WIDTH-1]
-      || ((dither_i == 2'd0) && (!advantage[ADVANTAGE_WIDTH-2] || every_16_i));
+      || ((acquisition_i[1:0] == 2'd0) && (!advantage[ADVANTAGE_WIDTH-2] || acquisition_i[3:2] == 2'd0));
   assign swap = rival_hit_i && (advantage == '0);
 
   always_comb begin

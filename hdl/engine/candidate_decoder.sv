@@ -86,7 +86,7 @@ module candidate_decoder #(
   end
 
   assign five_octets = (OCTET_WIDTH + 3)'(least_octet_q) + ((OCTET_WIDTH + 3)'(least_octet_q) << 2);
-  assign background_o = BACKGROUND_WIDTH'(five_octets >> 7);
+  assign background_o = BACKGROUND_WIDTH'(five_octets >> COUNT_WIDTH);
 
   // The ring: {taken, own, pooled}. What the last candidate takes away leaves an entry on its way to the head.
 

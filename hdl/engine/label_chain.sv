@@ -5,7 +5,7 @@
 // label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
 // message from the other side. Near: positions at most REACH apart.
 //
-// Schedule: engine_sequencer. begin_i: T; its largest; spread_i: differences to it; then a label l of the next
+// Schedule: engine_sequencer. begin_i: T; its largest, in two clocks; spread_i: differences to it; then a label l of the next
 //   pixel a clock with pass_label_i, which also computes the belief of this pixel's label l, ranked one clock later;
 //   advance_i: the next pixel becomes this one and the prepared one the next. The two best beliefs are valid from the
 //   second clock after the last label until the next pixel's labels pass.
@@ -23,6 +23,7 @@ module label_chain #(
     input  logic                             begin_i,
     input  logic                             spread_i,
     input  logic                             pass_label_i,
+    input  logic [          LABEL_WIDTH-1:0] target_label_i,   // the label two clocks later
     input  logic                             advance_i,
     input  logic                             clear_message_i,  // with advance_i: this pixel begins the chain
     // a pixel prepared
@@ -97,18 +98,33 @@ module label_chain #(
     end
   endgenerate
 
+  localparam int LOWER = (LABELS + 1) / 2;
+  logic [BELIEF_WIDTH-1:0] smallest_lower, smallest_upper, smallest_lower_q, smallest_upper_q;
+
   minimum #(
-      .NUMBER(LABELS),
+      .NUMBER(LOWER),
       .WIDTH (BELIEF_WIDTH)
-  ) u_largest_sum (
-      .values_i  (complement),
-      .smallest_o(smallest_complement)
+  ) u_largest_of_lower (
+      .values_i  (complement[LOWER*BELIEF_WIDTH-1:0]),
+      .smallest_o(smallest_lower)
   );
+
+  minimum #(
+      .NUMBER(LABELS - LOWER),
+      .WIDTH (BELIEF_WIDTH)
+  ) u_largest_of_upper (
+      .values_i  (complement[LABELS*BELIEF_WIDTH-1:LOWER*BELIEF_WIDTH]),
+      .smallest_o(smallest_upper)
+  );
+
+  assign smallest_complement = (smallest_lower_q < smallest_upper_q) ? smallest_lower_q : smallest_upper_q;
 
   always_ff @(posedge clk_i) begin
     if (begin_i) begin
       sum_q <= sum;
     end
+    smallest_lower_q <= smallest_lower;
+    smallest_upper_q <= smallest_upper;
     largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
     if (spread_i) begin
       behind_q <= behind;
@@ -119,11 +135,8 @@ module label_chain #(
   // it found one clock ahead.
 
   logic [LABELS-1:0] near, near_q;
-  logic [LABEL_WIDTH-1:0] target_label, target_label_q;
   logic [POSITION_WIDTH-1:0] target_q;
   logic [PENALTY_WIDTH-1:0] cheapest;
-
-  assign target_label = pass_label_i ? target_label_q : LABEL_WIDTH'(spread_i);
 
   generate
     for (k = 0; k < LABELS; k = k + 1) begin : g_near
@@ -150,8 +163,7 @@ module label_chain #(
   );
 
   always_ff @(posedge clk_i) begin
-    target_label_q <= spread_i ? LABEL_WIDTH'(2) : target_label_q + 1'b1;
-    target_q <= next_position_q[target_label*POSITION_WIDTH+:POSITION_WIDTH];
+    target_q <= next_position_q[target_label_i*POSITION_WIDTH+:POSITION_WIDTH];
     near_q <= near;
     if (advance_i && clear_message_i) begin
       message_q <= '0;

@@ -5,21 +5,21 @@
 // decide the results of the pointer words (docs/poolpointer.md). Messages of a chain's first pass wait in a
 // scratch memory, one word a pixel.
 //
-// Schedule: engine_sequencer. line_i is the selected column's word, three clocks after its read command; word_o is
-//   what is written: a group's word or a pair of pointer words.
+// Schedule: engine_sequencer. line_i is the selected column's word, three clocks after its read command, and
+//   registered; word_o is what is written: a group's word or a pair of pointer words.
 // Cost: candidate_decoder, two label_chains, a single-port SRAM of PIXELS_PER_SRAM words, per engine.
 module pool_engine #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
-    parameter int COUNT_WIDTH = 8,
-    parameter int DARK_LABELS = 6,
+    parameter int COUNT_WIDTH = 7,
+    parameter int DARK_LABELS = 5,
     parameter int DARK_SCORE_BITS = 4,
-    parameter int BRIGHT_LABELS = 6,
+    parameter int BRIGHT_LABELS = 5,
     parameter int BRIGHT_SCORE_BITS = 4,
-    parameter int BRIGHT_FROM = 12,
+    parameter int BRIGHT_FROM = 6,
     parameter int OFFSET_BITS = 5,
-    parameter int ADVANTAGE_WIDTH = 8,
-    parameter int POINTER_SHIFT = 0,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     localparam int LABELS = dtof_pkg::max_of(DARK_LABELS, BRIGHT_LABELS),
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
@@ -54,6 +54,7 @@ module pool_engine #(
     input  logic                    begin_i,
     input  logic                    spread_i,
     input  logic                    pass_label_i,
+    input  logic [ LABEL_WIDTH-1:0] target_label_i,
     input  logic                    capture_word_i,
     input  logic                    advance_i,
     input  logic                    odd_pixel_i,
@@ -86,6 +87,11 @@ module pool_engine #(
   localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
   localparam int MESSAGE_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH, DECIDE_MESSAGE_WIDTH);
 
+  logic [WORD_WIDTH-1:0] line_q;
+  always_ff @(posedge clk_i) begin
+    line_q <= line_i;
+  end
+
   // Decode.
 
   logic [LABELS*CELL_WIDTH-1:0] new_cells;
@@ -97,7 +103,7 @@ module pool_engine #(
       .BINS_PER_WORD(BINS_PER_WORD)
   ) u_candidate_decoder (
       .clk_i          (clk_i),
-      .line_i         (line_i[BINS_PER_WORD*COUNT_WIDTH-1:0]),
+      .line_i         (line_q[BINS_PER_WORD*COUNT_WIDTH-1:0]),
       .capture_above_i(capture_above_i),
       .capture_own_i  (capture_own_i),
       .capture_below_i(capture_below_i),
@@ -121,13 +127,13 @@ module pool_engine #(
 
   always_ff @(posedge clk_i) begin
     if (capture_word_i) begin
-      pair_q <= line_i[2*PIXEL_WIDTH-1:0];
+      pair_q <= line_q[2*PIXEL_WIDTH-1:0];
     end
   end
 
   assign pixel = odd_pixel_i ? pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] : pair_q[PIXEL_WIDTH-1:0];
-  assign cells = line_i[LABELS*CELL_WIDTH-1:0];
-  assign background = line_i[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH];
+  assign cells = line_q[LABELS*CELL_WIDTH-1:0];
+  assign background = line_q[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH];
   assign bright = (BRIGHT_FROM == 0) || (background >= BACKGROUND_WIDTH'(BRIGHT_FROM));
 
   logic [LABELS-1:0] in_use;
@@ -161,7 +167,7 @@ module pool_engine #(
   generate
     if (RIVAL_MOVES != 0) begin : g_absolute
       assign leader_position = POSITION_WIDTH'(pixel[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
-      assign rival_position = POSITION_WIDTH'({pixel[POINTER_WIDTH+:RIVAL_WIDTH], 8'h80});
+      assign rival_position = POSITION_WIDTH'({pixel[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
     end else begin : g_relative
       logic [LABEL_WIDTH-1:0] leader, rival;
       logic [POSITION_WIDTH-1:0] pointer;
@@ -211,6 +217,7 @@ module pool_engine #(
       .begin_i          (begin_i && !deciding_i),
       .spread_i         (spread_i && !deciding_i),
       .pass_label_i     (pass_label_i && !deciding_i),
+      .target_label_i   (target_label_i),
       .advance_i        (advance_i && !deciding_i),
       .clear_message_i  (clear_message_i),
       .in_use_i         (in_use),
@@ -241,6 +248,7 @@ module pool_engine #(
       .begin_i          (begin_i && deciding_i),
       .spread_i         (spread_i && deciding_i),
       .pass_label_i     (pass_label_i && deciding_i),
+      .target_label_i   (target_label_i[0]),
       .advance_i        (advance_i && deciding_i),
       .clear_message_i  (clear_message_i),
       .in_use_i         (2'b11),
@@ -291,7 +299,7 @@ module pool_engine #(
 
   generate
     if (RIVAL_MOVES != 0) begin : g_absolute_word
-      assign first_word = PIXEL_WIDTH'({start_advantage, second_start[15:8], best_start[15:POINTER_SHIFT]});
+      assign first_word = PIXEL_WIDTH'({start_advantage, second_start[15:9], best_start[15:POINTER_SHIFT]});
     end else begin : g_relative_word
       logic [15:0] from_candidate;
       logic unused_offset;

@@ -95,10 +95,10 @@ package dtof_pkg;
   // poolPointer (docs/poolpointer.md). Positions have 16 bits for the whole range; a cell is 512 of them.
   localparam int POOL_COARSE_BINS = 32;
   localparam int POOL_CELL_WIDTH = 7;
-  localparam int POOL_BACKGROUND_WIDTH = 7;
-  localparam int POOL_RIVAL_WIDTH = 8;
-  // Largest penalties along a column: 2 + (79 >> 2) in choose, 4 + (79 >> 3) in decide.
-  localparam int POOL_CHOOSE_PENALTY_WIDTH = 5;
+  localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
+  localparam int POOL_RIVAL_WIDTH = 7;  // a cell
+  // Largest penalties along a column: 2 + (39 >> 2) in choose, 4 + (39 >> 3) in decide.
+  localparam int POOL_CHOOSE_PENALTY_WIDTH = 4;
   localparam int POOL_DECIDE_PENALTY_WIDTH = 4;
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
@@ -132,7 +132,7 @@ package dtof_pkg;
 
   // Bits of a result's confidence: the advantage and both neighbours' penalties.
   function automatic int pool_confidence_width(input int advantage_width);
-    pool_confidence_width = $clog2((1 << advantage_width) + 26);
+    pool_confidence_width = $clog2((1 << advantage_width) + 16);
   endfunction
 
 endpackage

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
-// (docs/poolpointer.md). Columns that ENGINE_COLUMNS share an engine decode, choose and decide one by one.
+// (docs/poolpointer.md). Two columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and decides for
+// one after the other.
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= late_begin_i <= acq_num_i;
 //   busy_o until done_o. Recommended: A C >> 6, A (C + T) >> 6 and track_end + (A - track_end) 5 >> 3 with
@@ -16,18 +17,18 @@ module pool_pointer_array #(
     parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
     parameter int SRAM_NUM = 200,         // columns
     parameter int SLOTS = 2,              // timestamps per pixel and acquisition, 2 to 4
-    parameter int COUNT_WIDTH = 8,        // bits of a coarse bin, 4 to 8
+    parameter int COUNT_WIDTH = 7,        // bits of a coarse bin, 4 to 8
     parameter int GROUP_SIZE = 8,         // pixels that share a coarse histogram, a power of two
-    parameter int DARK_LABELS = 6,        // candidates of a group in little light, 2 to 8
+    parameter int DARK_LABELS = 5,        // candidates of a group in little light, 2 to 8
     parameter int DARK_SCORE_BITS = 4,    // bits of their scores, 1 to 4
-    parameter int BRIGHT_LABELS = 6,      // the same in much light
+    parameter int BRIGHT_LABELS = 5,      // the same in much light
     parameter int BRIGHT_SCORE_BITS = 4,
-    parameter int BRIGHT_FROM = 12,       // background from which it is
+    parameter int BRIGHT_FROM = 6,       // background from which it is
     parameter int OFFSET_BITS = 5,        // bits of a leader's offset in the track phase, 2 to 5, 0 for none
-    parameter int ADVANTAGE_WIDTH = 8,    // bits of the leader's advantage, 4 or 8
-    parameter int POINTER_SHIFT = 0,      // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins, 0 to 4
+    parameter int ADVANTAGE_WIDTH = 7,    // bits of the leader's advantage, 4 or 7
+    parameter int POINTER_SHIFT = 1,      // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2 or 4
     parameter int RIVAL_MOVES = 1,        // 1: absolute pointers; 0: relative ones, the rival rests
-    parameter int ENGINE_COLUMNS = 34,    // columns that share an engine
+    parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
@@ -81,20 +82,21 @@ module pool_pointer_array #(
   `DTOF_REQUIRE(g_illegal_bright,
                 BRIGHT_LABELS >= 2 && BRIGHT_LABELS <= 8 && BRIGHT_SCORE_BITS >= 1 && BRIGHT_SCORE_BITS <= 4,
                 "pool_pointer_array: BRIGHT_LABELS must be 2 to 8 and BRIGHT_SCORE_BITS 1 to 4")
-  `DTOF_REQUIRE(g_illegal_from, BRIGHT_FROM >= 0 && BRIGHT_FROM <= 127,
-                "pool_pointer_array: BRIGHT_FROM must be 0 to 127")
+  `DTOF_REQUIRE(g_illegal_from, BRIGHT_FROM >= 0 && BRIGHT_FROM <= 63,
+                "pool_pointer_array: BRIGHT_FROM must be 0 to 63")
   `DTOF_REQUIRE(g_illegal_offset, OFFSET_BITS == 0 || (OFFSET_BITS >= 2 && OFFSET_BITS <= 5),
                 "pool_pointer_array: OFFSET_BITS must be 0 or 2 to 5")
   `DTOF_REQUIRE(g_illegal_advantage,
-                (ADVANTAGE_WIDTH == 8 && POINTER_SHIFT == 0)
+                (ADVANTAGE_WIDTH == 7 && POINTER_SHIFT >= 0 && POINTER_SHIFT <= 2)
                 || (ADVANTAGE_WIDTH == 4 && POINTER_SHIFT >= 0 && POINTER_SHIFT <= 4),
-                "pool_pointer_array: ADVANTAGE_WIDTH must be 8 with POINTER_SHIFT 0, or 4 with POINTER_SHIFT 0 to 4")
+                "pool_pointer_array: ADVANTAGE_WIDTH must be 7 with POINTER_SHIFT 0 to 2, or 4 with POINTER_SHIFT 0 to 4")
   `DTOF_REQUIRE(g_illegal_rival, RIVAL_MOVES == 0 || RIVAL_MOVES == 1,
                 "pool_pointer_array: RIVAL_MOVES must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_histogram,
                 BINS_PER_WORD >= 4 && dtof_pkg::POOL_COARSE_BINS <= BINS_PER_WORD * (GROUP_SIZE / 2),
                 "pool_pointer_array: 32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE pixels")
-  `DTOF_REQUIRE(g_illegal_engine, ENGINE_COLUMNS >= 1, "pool_pointer_array: ENGINE_COLUMNS must be at least 1")
+  `DTOF_REQUIRE(g_illegal_engine, ENGINE_COLUMNS >= 2 && ENGINE_COLUMNS % 2 == 0,
+                "pool_pointer_array: ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 4 && ACQ_WIDTH <= 24,
                 "pool_pointer_array: ACQ_WIDTH must be 4 to 24")
 
@@ -136,9 +138,9 @@ module pool_pointer_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, fresh_t2, update_t3, late_t2, every_16_t3;
-  logic load_t3, count_t4, stream_read, stream_write, stream_word_load, group_load;
-  logic [1:0] dither_t3;
+  logic beat_t1, first_slot_t1, odd_t1, odd_t2, first_row_t2, second_row_t2, late_t2, update_t3;
+  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
+  logic [3:0] acquisition_t3;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -159,13 +161,16 @@ module pool_pointer_array #(
       .beat_t1_o        (beat_t1),
       .first_slot_t1_o  (first_slot_t1),
       .odd_t1_o         (odd_t1),
-      .fresh_t2_o       (fresh_t2),
+      .odd_t2_o         (odd_t2),
+      .first_row_t2_o   (first_row_t2),
+      .second_row_t2_o  (second_row_t2),
       .late_t2_o        (late_t2),
       .update_t3_o      (update_t3),
-      .dither_t3_o      (dither_t3),
-      .every_16_t3_o    (every_16_t3),
-      .load_t3_o        (load_t3),
-      .count_t4_o       (count_t4),
+      .acquisition_t3_o (acquisition_t3),
+      .second_column_o  (second_column),
+      .fresh_o          (fresh),
+      .load_o           (load),
+      .count_o          (count),
       .read_d_o         (stream_read),
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
@@ -178,6 +183,7 @@ module pool_pointer_array #(
   logic engine_read, engine_write, engine_load;
   logic capture_above, capture_own, capture_below, fill, search, first_label, pooled, candidate;
   logic [4:0] pair;
+  logic [dtof_pkg::index_width(LABELS)-1:0] target_label;
   logic deciding, clear_message, begin_step, spread, pass_label, capture_word, advance, odd_pixel;
   logic result, result_odd, scratch_read, scratch_write, send, send_last, send_busy;
   logic [ROW_WIDTH-1:0] scratch_address, send_row;
@@ -215,6 +221,7 @@ module pool_pointer_array #(
       .begin_o          (begin_step),
       .spread_o         (spread),
       .pass_label_o     (pass_label),
+      .target_label_o   (target_label),
       .capture_word_o   (capture_word),
       .advance_o        (advance),
       .odd_pixel_o      (odd_pixel),
@@ -259,26 +266,30 @@ module pool_pointer_array #(
 
   logic [ENGINES*RESULT_WIDTH-1:0] results;
 
-  genvar e, c;
+  genvar e, p;
   generate
     for (e = 0; e < ENGINES; e = e + 1) begin : g_engine
       localparam int FIRST = e * STEPS;
       localparam int COLUMNS = (SRAM_NUM - FIRST < STEPS) ? SRAM_NUM - FIRST : STEPS;
+      localparam int PAIRS = (COLUMNS + 1) / 2;
 
-      logic [WORD_WIDTH-1:0] engine_word, word;
-      logic [COLUMNS*WORD_WIDTH-1:0] column_words;
+      logic [WORD_WIDTH-1:0] word;
+      logic [PAIRS*WORD_WIDTH-1:0] pair_words;
       logic [WORD_WIDTH-1:0] line;
       integer i;
 
       always_comb begin
         line = '0;
-        for (i = 0; i < COLUMNS; i = i + 1) begin
-          line = line | column_words[i*WORD_WIDTH+:WORD_WIDTH];
+        for (i = 0; i < PAIRS; i = i + 1) begin
+          line = line | pair_words[i*WORD_WIDTH+:WORD_WIDTH];
         end
       end
 
-      for (c = 0; c < COLUMNS; c = c + 1) begin : g_column
-        pool_pointer_column #(
+      for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
+        localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
+
+        pool_pointer_pair #(
+            .COLUMNS          (PAIR_COLUMNS),
             .NP               (NP),
             .PIXELS_PER_SRAM  (PIXELS_PER_SRAM),
             .COUNT_WIDTH      (COUNT_WIDTH),
@@ -292,31 +303,35 @@ module pool_pointer_array #(
             .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
             .POINTER_SHIFT    (POINTER_SHIFT),
             .RIVAL_MOVES      (RIVAL_MOVES)
-        ) u_column (
+        ) u_pair (
             .clk_i            (clk_i),
             .rst_ni           (rst_ni),
-            .timestamp_i      (tdc_timestamp_i[(FIRST+c)*NP+:NP]),
+            .timestamp_i      (tdc_timestamp_i[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
             .coarse_i         (coarse_q),
             .point_i          (point_q),
             .beat_t1_i        (beat_t1),
             .first_slot_t1_i  (first_slot_t1),
             .odd_t1_i         (odd_t1),
-            .fresh_t2_i       (fresh_t2),
+            .odd_t2_i         (odd_t2),
+            .first_row_t2_i   (first_row_t2),
+            .second_row_t2_i  (second_row_t2),
             .late_t2_i        (late_t2),
             .update_t3_i      (update_t3),
-            .dither_t3_i      (dither_t3),
-            .every_16_t3_i    (every_16_t3),
-            .load_t3_i        (load_t3),
-            .count_t4_i       (count_t4),
+            .acquisition_t3_i (acquisition_t3),
+            .second_column_i  (second_column),
+            .fresh_i          (fresh),
+            .load_i           (load),
+            .count_i          (count),
             .read_i           (read_q),
             .write_i          (write_q),
             .address_i        (address_q),
             .word_load_i      (word_load_q),
             .group_load_i     (group_load_q),
             .engine_i         (engine_q),
-            .select_i         (clear_q || engine_select[c]),
-            .engine_word_i    (engine_word),
-            .word_o           (column_words[c*WORD_WIDTH+:WORD_WIDTH])
+            .clear_i          (clear_q),
+            .select_i         (engine_select[2*p+:PAIR_COLUMNS]),
+            .engine_word_i    (word),
+            .word_o           (pair_words[p*WORD_WIDTH+:WORD_WIDTH])
         );
       end
 
@@ -353,6 +368,7 @@ module pool_pointer_array #(
           .begin_i          (begin_step),
           .spread_i         (spread),
           .pass_label_i     (pass_label),
+          .target_label_i   (target_label),
           .capture_word_i   (capture_word),
           .advance_i        (advance),
           .odd_pixel_i      (odd_pixel),
@@ -363,8 +379,6 @@ module pool_pointer_array #(
           .scratch_address_i(scratch_address),
           .result_o         (results[e*RESULT_WIDTH+:RESULT_WIDTH])
       );
-
-      assign engine_word = clear_q ? '0 : word;
     end
   endgenerate
 

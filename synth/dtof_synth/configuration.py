@@ -52,6 +52,15 @@ class Configuration:
         return "pool_pointer_array" if self.is_pool else "dtof_array"
 
     @property
+    def module_columns(self) -> int:
+        """Columns of a column module: two of poolPointer's share an SRAM."""
+        return min(2, self["SRAM_NUM"]) if self.is_pool else 1
+
+    @property
+    def column_modules(self) -> int:
+        return -(-self["SRAM_NUM"] // self.module_columns)
+
+    @property
     def engines(self) -> int:
         """Engines that the columns share (pool read-outs)."""
         return -(-self["SRAM_NUM"] // self["ENGINE_COLUMNS"]) if self.is_pool else 0
@@ -74,11 +83,11 @@ def bin_width(configuration: Configuration) -> int:
 
 
 def memories(configuration: Configuration) -> dict[str, Size]:
-    """The SRAMs of one column by what they hold. The RTL asks for the same sizes, or elaboration stops."""
+    """The SRAMs of one column module by what they hold. The RTL asks for the same sizes, or elaboration stops."""
     if configuration.is_pool:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2 + 1)
-        return {"pixels and groups": Size(1, words, pool_word_width(configuration))}
+        return {"pixels and groups": Size(1, words, configuration.module_columns * pool_word_width(configuration))}
     pixels, np, nb = (configuration[name] for name in ("PIXELS_PER_SRAM", "NP", "NB"))
     found: dict[str, Size] = {}
     if configuration.readout != "ezpointer":
@@ -109,19 +118,20 @@ def pool_word_width(configuration: Configuration) -> int:
         track += label_width + configuration["OFFSET_BITS"]
     moves = configuration["RIVAL_MOVES"]
     point = (configuration["ADVANTAGE_WIDTH"] + (16 if moves else 12) - configuration["POINTER_SHIFT"]
-             + (8 if moves else 2 * label_width))
-    return max(2 * max(track, point), 7 * labels + 7)
+             + (7 if moves else 2 * label_width))
+    return max(2 * max(track, point), 7 * labels + 6)
 
 
 def engine_memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one engine."""
     if not configuration.is_pool:
         return {}
-    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(5 * pool_labels(configuration), 8))}
+    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(4 * pool_labels(configuration), 8))}
 
 
 def bits_per_pixel(configuration: Configuration) -> float:
-    return sum(size.capacity for size in memories(configuration).values()) / configuration["PIXELS_PER_SRAM"]
+    pixels = configuration["PIXELS_PER_SRAM"] * configuration.module_columns
+    return sum(size.capacity for size in memories(configuration).values()) / pixels
 
 
 def load(path: Path) -> dict[str, Configuration]:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Mapped netlists as Yosys writes them in JSON: counts, fan-out trees, and the reduced array for timing.
 
-The array is synthesised as it is, SRAM_NUM instances of one column module. A net that drives more than its
+The array is synthesised as it is, instances of one column module (of one column, or two that share an SRAM). A net that drives more than its
 driver can is given a tree of buffers, so that the broadcast from the shared logic to all columns is counted
 and timed. For timing, all but a few columns are replaced by stubs with the same input load.
 """
@@ -17,7 +17,7 @@ from .liberty import THRESHOLDS, Group, bus_type
 from .library import Buffer, Library
 
 Module = dict
-COLUMN_SUFFIX = "_column"
+COLUMN_SUFFIXES = ("_column", "_pair")
 ENGINE_SUFFIX = "_engine"
 STUB = "column_stub"
 TREE_PREFIX = "fanout_"
@@ -38,6 +38,11 @@ class Counts:
     clock_ff: float
     clock_energy_fj: float
 
+    def share(self, columns: int) -> Counts:
+        """What one of a module's columns has of it."""
+        return self if columns == 1 else Counts(
+            *(round(value / columns) if isinstance(value, int) else value / columns for value in astuple(self)))
+
 
 def modules(design: dict) -> dict[str, Module]:
     return design["modules"]
@@ -45,7 +50,7 @@ def modules(design: dict) -> dict[str, Module]:
 
 def column_module(design: dict) -> str:
     """Name of the one column module; FlowError if there is not exactly one kind."""
-    used = _kinds(design, COLUMN_SUFFIX)
+    used = _kinds(design, COLUMN_SUFFIXES)
     if len(used) != 1:
         raise FlowError(f"the array has {len(used)} kinds of columns instead of one: {sorted(used)}")
     return used.pop()
@@ -53,14 +58,14 @@ def column_module(design: dict) -> str:
 
 def engine_module(design: dict) -> str:
     """Name of the module that several columns share, if there is one; FlowError if there are several kinds."""
-    used = _kinds(design, ENGINE_SUFFIX)
+    used = _kinds(design, (ENGINE_SUFFIX,))
     if len(used) > 1:
         raise FlowError(f"the array has {len(used)} kinds of engines instead of one: {sorted(used)}")
     return used.pop() if used else ""
 
 
-def _kinds(design: dict, suffix: str) -> set[str]:
-    return {cell["type"] for cell in top(design)["cells"].values() if cell["type"].endswith(suffix)}
+def _kinds(design: dict, suffixes: tuple[str, ...]) -> set[str]:
+    return {cell["type"] for cell in top(design)["cells"].values() if cell["type"].endswith(suffixes)}
 
 
 def top(design: dict) -> Module:

@@ -63,41 +63,41 @@ def _cell_power(output: str, label: str) -> dict[str, tuple[float, float, float]
             for internal, switching, leakage, name in rows}
 
 
-def _array_sum(cells: dict[str, tuple[float, float, float]], columns: int) -> tuple[float, float, float]:
-    """Sum over the array: one kept column times all columns, plus everything outside columns."""
+def _array_sum(cells: dict[str, tuple[float, float, float]], modules: int) -> tuple[float, float, float]:
+    """Sum over the array: one kept column module times all of them, plus everything outside."""
     groups: dict[str, list[float]] = {}
     for name, values in cells.items():
-        column = name.split("/")[0] if "u_column/" in name else ""
+        column = name.split("/")[0] if re.search("u_(column|pair)/", name) else ""
         group = groups.setdefault(column, [0.0, 0.0, 0.0])
         for index, value in enumerate(values):
             group[index] += value
     shared = groups.pop("", [0.0, 0.0, 0.0])
     one = next(iter(groups.values()), [0.0, 0.0, 0.0])
-    return tuple(outside + columns * inside for outside, inside in zip(shared, one))
+    return tuple(outside + modules * inside for outside, inside in zip(shared, one))
 
 
-def logic_mw(output: str, columns: int) -> float:
+def logic_mw(output: str, modules: int) -> float:
     """Logic without the clock. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
     power is twice the power; test_power.py pins that behaviour."""
-    internal, switching, leakage = _array_sum(_cell_power(output, "ALL"), columns)
-    clock_internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), columns)
+    internal, switching, leakage = _array_sum(_cell_power(output, "ALL"), modules)
+    clock_internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), modules)
     return ((internal - clock_internal) / 2 + switching + leakage) * 1e3
 
 
-def clock_mw(output: str, columns: int, tree: ClockTree, library: Library, mhz: float) -> float:
+def clock_mw(output: str, modules: int, tree: ClockTree, library: Library, mhz: float) -> float:
     """Clock pins inside the flip-flops, and the tree's wires and pins, charged once a clock."""
-    internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), columns)
+    internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), modules)
     return internal / 2 * 1e3 + tree.load_ff * library.voltage**2 * mhz * 1e-6
 
 
 def access_rates(configuration: Configuration) -> dict[str, tuple[float, float]]:
-    """(reads, writes) per clock of each SRAM of a column, averaged over the measurements of a frame."""
+    """(reads, writes) per clock of each SRAM of a column module, averaged over the measurements of a frame."""
     pixel_rate = 1 / configuration["SLOTS"]
     half = 0.5 if configuration.has_pointer else 1.0
     if configuration.is_pool:  # pairs of pixels in three quarters of the frame, chosen timestamps in the first
         pair_rate = pixel_rate / 2
-        return {"pixels and groups": (0.25 * pixel_rate * 2 * DETECTION_RATE + 0.75 * pair_rate,
-                                      0.25 * pixel_rate * 2 * DETECTION_RATE + 0.75 * pair_rate)}
+        coarse_rate = configuration.module_columns * pair_rate * DETECTION_RATE
+        return {"pixels and groups": (0.25 * coarse_rate + 0.75 * pair_rate, 0.25 * coarse_rate + 0.75 * pair_rate)}
     return {"histogram": (half * DETECTION_RATE, half * DETECTION_RATE),
             "pointer": ((pixel_rate, pixel_rate) if configuration.readout == "ezpointer"
                         else (pixel_rate / 2, pixel_rate / 2)),
@@ -114,4 +114,4 @@ def sram_mw(configuration: Configuration, mhz: float) -> float:
         dynamic = (reads * macro.read_energy + writes * macro.write_energy) * mhz * 1e-3
         total += dynamic + macro.leakage * 1e-3
     idle = sum(sram_model.macro(size).leakage for size in engine_memories(configuration).values())
-    return total * configuration["SRAM_NUM"] + configuration.engines * idle * 1e-3
+    return total * configuration.column_modules + configuration.engines * idle * 1e-3

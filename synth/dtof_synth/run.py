@@ -79,7 +79,7 @@ class Result:
     """Figures of one configuration. Areas in um2."""
 
     configuration: Configuration
-    column: Counts
+    column_module: Counts
     shared: Counts
     clock_tree: ClockTree
     nand2_area: float
@@ -89,13 +89,18 @@ class Result:
     engine_sram_area: float = field(init=False)  # of all engines
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "sram_area", _area(memories(self.configuration)))
+        object.__setattr__(self, "sram_area",
+                           _area(memories(self.configuration)) / self.configuration.module_columns)
         object.__setattr__(self, "engine_sram_area",
                            self.configuration.engines * _area(engine_memories(self.configuration)))
 
     @property
     def columns(self) -> int:
         return self.configuration["SRAM_NUM"]
+
+    @property
+    def column(self) -> Counts:
+        return self.column_module.share(self.configuration.module_columns)
 
     @property
     def total_mm2(self) -> float:
@@ -174,7 +179,7 @@ def _write_timing_netlist(design: dict, loads: dict[str, list[float]], technolog
 def _readable(name: str) -> str:
     """A register's or macro's name without generate levels, cell type and copy number."""
     name = re.sub(r"\\+\w+$", "", name)
-    name = re.sub(r"^g_column\[\d+\]\.\S*?u_column/", "column ", name)
+    name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
     return re.sub(r"(\.(g_\w+|genblk\d+|u_macro))+$", "", name)
 
 
@@ -227,7 +232,7 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
 class _Attempt:
     """Mapped with one effort and timed in the slow corner; its files are in a folder of its own."""
 
-    column: Counts
+    column_module: Counts
     shared: Counts
     slow: Timing
     folder: Path
@@ -237,12 +242,12 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
     design = map_to_cells(configuration, technology, folder, EFFORTS[number])
     library = technology.slow
     loads = netlist.finish(design, library, sram_kit.PIN_FF)
-    column = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
+    column_module = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
     shared = netlist.count_shared(design, library)
     own = folder / f"effort{number}"
     own.mkdir(exist_ok=True)
     _write_timing_netlist(design, loads, technology, own, configuration.name)
-    return _Attempt(column, shared, time_corner(configuration, technology, "slow", own)[0], own)
+    return _Attempt(column_module, shared, time_corner(configuration, technology, "slow", own)[0], own)
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
@@ -256,18 +261,18 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         if attempts[-1].slow.slack >= 0:
             break
     best = max(attempts, key=lambda attempt: attempt.slow.slack)
-    columns = configuration["SRAM_NUM"]
-    macros = columns * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))
+    modules = configuration.column_modules
+    macros = modules * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))
     tree = power.clock_tree(
-        columns * best.column.flip_flops + best.shared.flip_flops + macros,
-        columns * best.column.clock_ff + best.shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
+        modules * best.column_module.flip_flops + best.shared.flip_flops + macros,
+        modules * best.column_module.clock_ff + best.shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
     timing = {"slow": best.slow}
     figures: Power | None = None
     if "typical" in corners:
         timing["typical"], output = time_corner(configuration, technology, "typical", best.folder)
-        figures = Power(power.logic_mw(output, columns), power.sram_mw(configuration, TARGET_MHZ),
-                        power.clock_mw(output, columns, tree, technology.typical, TARGET_MHZ))
-    return Result(configuration, best.column, best.shared, tree, technology.slow.nand2_area, timing, figures)
+        figures = Power(power.logic_mw(output, modules), power.sram_mw(configuration, TARGET_MHZ),
+                        power.clock_mw(output, modules, tree, technology.typical, TARGET_MHZ))
+    return Result(configuration, best.column_module, best.shared, tree, technology.slow.nand2_area, timing, figures)
 
 
 def input_digest(technology: Technology) -> str:

@@ -56,6 +56,7 @@ proc report_cell_power {activity} {
   foreach cell [get_cells -hierarchical *] {
     set name [get_full_name $cell]
     if {![string match *u_macro $name] && ![string match *u_column $name]
+        && ![string match *u_pair $name]
         && ![string match *u_engine $name]} { lappend cells $cell }
   }
   foreach {label value} [list CLOCK 1e-9 ALL $activity] {

@@ -20,6 +20,7 @@ struct ReadoutText {
 
 constexpr int kPoolCoarseBits = 5;
 constexpr int kPoolPositionBits = 16;
+constexpr int kPoolRivalBits = 7;
 
 constexpr double kFwhmOverRange = 2.0 / 45.0;  // thesis: FWHM 2 ns, T_int 45 ns
 
@@ -91,15 +92,20 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
 }
 
 void PoolPointerParameters::validate() const {
-  require_range("group size", group_size, 1, 64);
+  require_range("group size", group_size, 2, 64);
+  if (!std::has_single_bit(static_cast<unsigned>(group_size))) {
+    throw InputError(fmt::format("group size is {}, but must be a power of two", group_size));
+  }
   require_range("labels of dark groups", dark_labels, 2, 8);
   require_range("score bits of dark groups", dark_score_bits, 1, 8);
   require_range("labels of bright groups", bright_labels, 2, 8);
   require_range("score bits of bright groups", bright_score_bits, 1, 8);
-  require_range("BRIGHT_FROM", bright_from, 0, 127);
+  require_range("BRIGHT_FROM", bright_from, 0, 63);
   require_range("offset bits", offset_bits, 0, 5);
-  require_range("count bits", count_bits, 3, 8);
-  require_range("pointer shift", pointer_shift, 0, 8);
+  if (count_bits != 4 && count_bits != 7) {
+    throw InputError(fmt::format("count bits is {}, but must be 4 or 7", count_bits));
+  }
+  require_range("pointer shift", pointer_shift, 0, count_bits == 4 ? 4 : 2);
   require_range("coarse share", coarse_share, 1, 62);
   require_range("track share", track_share, 1, 63 - coarse_share);
 }
@@ -109,7 +115,7 @@ int PoolPointerParameters::word_bits() const {
       static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(dark_labels, bright_labels) - 1)));
   const int scores = std::max(dark_labels * dark_score_bits, bright_labels * bright_score_bits);
   const int track_word = scores + (offset_bits > 0 ? label_bits + offset_bits : 0);
-  const int pointer_word = count_bits + (rival_moves ? kPoolPositionBits - pointer_shift + 8
+  const int pointer_word = count_bits + (rival_moves ? kPoolPositionBits - pointer_shift + kPoolRivalBits
                                                      : 12 - pointer_shift + 2 * label_bits);
   return std::max(track_word, pointer_word);
 }
@@ -142,7 +148,7 @@ ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
     case Readout::kPoolPointer:
     case Readout::kPoolPointerLean:
       parameters.nb = kPoolCoarseBits;
-      parameters.count_width = 8;
+      parameters.count_width = readout == Readout::kPoolPointer ? 7 : 8;
       parameters.fraction_bits = kPoolPositionBits - np;
       parameters.pool = PoolPointerParameters::defaults(readout);
       break;

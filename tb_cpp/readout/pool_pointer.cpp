@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -22,13 +23,10 @@ constexpr int kFirstPenalisedLabel = 2;
 constexpr std::int32_t kHitCells = 5;    // a timestamp this near supports a candidate
 constexpr std::int32_t kReachCells = 8;  // farther timestamps move nothing
 constexpr std::int32_t kUnitsPerOffset = kUnitsPerCoarseBin / 32;
-constexpr std::int32_t kUnitsPerRivalStep = kUnitsPerCoarseBin / 8;
 constexpr std::int32_t kLeanReach = kUnitsPerCoarseBin;  // of a pointer whose rival stays
-constexpr std::int32_t kRivalHit = 10;                   // rival's units
 constexpr std::int32_t kPositions = 1 << 16;
 
-/// Distances are floored to whole cells (or rival's units): a window of n of them begins at -n and ends
-/// before n.
+/// Distances are floored to whole cells: a window of n of them begins at -n and ends before n.
 bool within(std::int32_t distance, std::int32_t reach) { return distance >= -reach && distance < reach; }
 
 std::int32_t in_cells(std::int32_t distance) { return distance >> 9; }
@@ -43,7 +41,7 @@ struct Gear {
 };
 // Near the optimal gain 1 / (number of hits); the counts beyond half of the range are slowed down (below).
 constexpr std::array<Gear, 9> kGears = {
-    {{0, 256}, {8, 128}, {16, 64}, {32, 32}, {64, 16}, {128, 8}, {160, 4}, {200, 2}, {216, 1}}};
+    {{0, 256}, {8, 128}, {16, 64}, {32, 32}, {64, 16}, {80, 8}, {100, 4}, {116, 2}, {124, 1}}};
 constexpr std::array<Gear, 6> kShortGears = {{{0, 512}, {4, 256}, {8, 128}, {12, 64}, {14, 32}, {15, 16}}};
 constexpr int kShortCountBits = 4;
 
@@ -58,8 +56,7 @@ std::int32_t gear_step(const std::array<Gear, kCount>& gears, int advantage) {
 
 std::int32_t rival_position(const PoolPointerWord& word, const PoolGroup& group,
                             const PoolPointerParameters& parameters) {
-  return parameters.rival_moves ? word.rival * kUnitsPerRivalStep + kUnitsPerRivalStep / 2
-                                : group.centre(word.rival);
+  return parameters.rival_moves ? word.rival * kUnitsPerCell + kUnitsPerCell / 2 : group.centre(word.rival);
 }
 
 int signed_limit(int value, int bits) {
@@ -108,7 +105,7 @@ std::int32_t centre_cell(const std::array<int, kPairs>& sums, std::size_t peak) 
 }  // namespace
 
 PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above, const CoarseHistogram& below,
-                       const PoolPointerParameters& parameters) {
+                       int count_width, const PoolPointerParameters& parameters) {
   PoolGroup group{};
   int least_eighth = std::numeric_limits<int>::max();
   for (std::size_t eighth = 0; eighth < kCoarseBins; eighth += 8) {
@@ -118,7 +115,7 @@ PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above,
     }
     least_eighth = std::min(least_eighth, sum);
   }
-  group.background = (5 * least_eighth) >> 7;
+  group.background = (5 * least_eighth) >> count_width;
   const bool bright = group.background >= parameters.bright_from;
   group.labels = bright ? parameters.bright_labels : parameters.dark_labels;
   group.score_limit = (1 << (bright ? parameters.bright_score_bits : parameters.dark_score_bits)) - 1;
@@ -193,7 +190,7 @@ PoolPointerWord first_pointer_word(const PoolTracks& tracks, const PoolGroup& gr
   return {.leader = leader,
           .advantage = std::min(margin, (1 << (parameters.count_bits - 1)) - 1),
           .pointer = start(leader),
-          .rival = parameters.rival_moves ? start(rival) / kUnitsPerRivalStep : rival};
+          .rival = parameters.rival_moves ? start(rival) / kUnitsPerCell : rival};
 }
 
 void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,
@@ -201,10 +198,9 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   const PoolPointerWord before = word;
   const std::int32_t distance = in_cells(position - before.pointer);
   const bool hit = within(distance, kHitCells);
-  const std::int32_t rival_distance = position / kUnitsPerRivalStep - before.rival;
-  const bool rival_hit =
-      !hit && (parameters.rival_moves ? within(rival_distance, kRivalHit)
-                                      : within(in_cells(position - group.centre(before.rival)), kHitCells));
+  const std::int32_t rival_distance =
+      in_cells(position) - (parameters.rival_moves ? before.rival : group.centre_cell[static_cast<std::size_t>(before.rival)]);
+  const bool rival_hit = !hit && within(rival_distance, kHitCells);
 
   if (within(distance, kReachCells)) {
     const bool short_count = parameters.count_bits <= kShortCountBits;
@@ -214,7 +210,8 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
     const std::int32_t weight = kWeight[static_cast<std::size_t>(distance >= 0 ? distance : ~distance)];
     // A quarter of the product, whose part below the pointer's unit becomes a probability.
     const std::int32_t unit = std::int32_t{1} << parameters.pointer_shift;
-    const auto dither = static_cast<std::int32_t>(acquisition & 3U) * unit;
+    const auto number = static_cast<std::int32_t>(acquisition & 0xFFU);
+    const std::int32_t dither = (number & 3) * unit + ((number >> 2) & (unit - 1));
     const std::int32_t move = ((step * weight + dither) >> 2) & -unit;
     const std::int32_t lowest = parameters.rival_moves ? 0 : group.centre(before.leader) - kLeanReach;
     const std::int32_t end = parameters.rival_moves ? kPositions : group.centre(before.leader) + kLeanReach;
@@ -232,8 +229,8 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   } else if (rival_hit && before.advantage == 0) {
     word.advantage = 1;
     if (parameters.rival_moves) {
-      word.pointer = before.rival * kUnitsPerRivalStep + kUnitsPerRivalStep / 2;
-      word.rival = before.pointer / kUnitsPerRivalStep;
+      word.pointer = before.rival * kUnitsPerCell + kUnitsPerCell / 2;
+      word.rival = before.pointer / kUnitsPerCell;
     } else {
       word.pointer = group.centre(before.rival);
       std::swap(word.leader, word.rival);
@@ -366,13 +363,32 @@ class PoolPointerModel final : public ReadoutModel {
     return taken;
   }
 
+  /// What two adjacent pixels count: a timestamp an acquisition, the even row's in even ones, the odd row's in odd
+  /// ones, and the other's where that one has none.
+  static std::vector<Timed> one_of_two_rows(std::span<const Timed> even, std::span<const Timed> odd) {
+    std::vector<Timed> counted;
+    std::ranges::merge(even, odd, std::back_inserter(counted), {}, &Timed::acquisition, &Timed::acquisition);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < counted.size(); ++kept) {
+      // Of two of the same acquisition the even row's comes first.
+      const bool both = i + 1 < counted.size() && counted[i].acquisition == counted[i + 1].acquisition;
+      counted[kept] = counted[both && counted[i].acquisition % 2 == 1 ? i + 1 : i];
+      i += both ? 2 : 1;
+    }
+    counted.resize(kept);
+    return counted;
+  }
+
   std::vector<PoolGroup> coarse_phase(std::vector<std::span<const Timed>>& rest,
                                       const PoolSchedule& schedule) const {
     const auto size = static_cast<std::size_t>(pool_.group_size);
     std::vector<CoarseHistogram> histograms((rest.size() + size - 1) / size, CoarseHistogram{});
     const auto limit = static_cast<std::uint16_t>((1U << static_cast<unsigned>(parameters_.count_width)) - 1);
-    for (std::size_t row = 0; row < rest.size(); ++row) {
-      for (const Timed& timed : take_until(rest[row], schedule.coarse_end)) {
+    for (std::size_t row = 0; row < rest.size(); row += 2) {
+      const std::span<const Timed> even = take_until(rest[row], schedule.coarse_end);
+      const std::span<const Timed> odd =
+          row + 1 < rest.size() ? take_until(rest[row + 1], schedule.coarse_end) : std::span<const Timed>();
+      for (const Timed& timed : one_of_two_rows(even, odd)) {
         std::uint16_t& bin =
             histograms[row / size][static_cast<std::size_t>(timed.position / kUnitsPerCoarseBin)];
         bin = static_cast<std::uint16_t>(bin + (bin < limit ? 1 : 0));
@@ -382,7 +398,7 @@ class PoolPointerModel final : public ReadoutModel {
     for (std::size_t g = 0; g < histograms.size(); ++g) {
       const CoarseHistogram& above = histograms[g > 0 ? g - 1 : g];
       const CoarseHistogram& below = histograms[g + 1 < histograms.size() ? g + 1 : g];
-      groups.push_back(decode_group(histograms[g], above, below, pool_));
+      groups.push_back(decode_group(histograms[g], above, below, parameters_.count_width, pool_));
     }
     return groups;
   }

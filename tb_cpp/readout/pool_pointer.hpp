@@ -27,7 +27,7 @@ using CoarseHistogram = std::array<std::uint16_t, kCoarseBins>;
 struct PoolGroup {
   int labels;                                         ///< candidates in use
   int score_limit;                                    ///< 2^score bits - 1
-  int background;                                     ///< B, 0 .. 79
+  int background;                                     ///< B, 0 .. 39
   std::array<std::int32_t, kMostLabels> centre_cell;  ///< 0 .. 127; the candidate's position is its low end
 
   [[nodiscard]] std::int32_t centre(int label) const {
@@ -36,9 +36,9 @@ struct PoolGroup {
 };
 
 /// Candidates of a group from its own histogram and those of the groups above and below (its own where there
-/// is none).
+/// is none); `count_width`: bits of a bin.
 PoolGroup decode_group(const CoarseHistogram& own, const CoarseHistogram& above, const CoarseHistogram& below,
-                       const PoolPointerParameters& parameters);
+                       int count_width, const PoolPointerParameters& parameters);
 
 /// Track word of a pixel.
 struct PoolTracks {
@@ -55,7 +55,7 @@ struct PoolPointerWord {
   int leader;            ///< its label; only kept if the rival does not move
   int advantage;         ///< of the leader over the rival, 0 .. 2^count_bits - 1
   std::int32_t pointer;  ///< of the leader, units
-  int rival;             ///< rival's pointer, eighths of a coarse bin, or its label if it does not move
+  int rival;             ///< rival's pointer, cells, or its label if it does not move
 };
 PoolPointerWord first_pointer_word(const PoolTracks& tracks, const PoolGroup& group,
                                    std::span<const int> beliefs, const PoolPointerParameters& parameters);

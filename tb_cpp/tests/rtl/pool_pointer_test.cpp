@@ -297,11 +297,12 @@ TEST_P(EveryPoolPointer, AgreesWithModelWhateverTheSchedule) {
 TEST_P(PoolPointerWithDarkGroups, TellsThemFromBrightOnes) {
   const ReadoutParameters& parameters = GetParam().parameters;
   const PoolPointerParameters& pool = parameters.pool;
-  const int least = (128 * pool.bright_from + 4) / 5;  // B = 5 least >> 7
+  const int least = ((pool.bright_from << parameters.count_width) + 4) / 5;  // B = 5 least >> COUNT_WIDTH
   ASSERT_LE(least, 8 * ((1 << parameters.count_width) - 1)) << "no group can be bright";
   const int rows = GetParam().pixels_per_sram;
   const int group = std::min(pool.group_size, rows);
-  const auto coarse = static_cast<std::uint32_t>((4 * least + group - 1) / group);
+  const int pairs = (group + 1) / 2;  // of rows, each of which counts once an acquisition
+  const auto coarse = static_cast<std::uint32_t>((4 * least + pairs - 1) / pairs);
   const std::uint32_t acquisitions = 64 * coarse / static_cast<std::uint32_t>(pool.coarse_share) + 64;
   RtlReadout rtl(GetParam());
   for (const int counts : {least - 1, least}) {
@@ -310,11 +311,11 @@ TEST_P(PoolPointerWithDarkGroups, TellsThemFromBrightOnes) {
     ColumnStream column;
     for (int row = 0; row < rows; ++row) {
       for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
-        const int index = static_cast<int>(acquisition) * group + row % group;
+        const int index = static_cast<int>(acquisition) * pairs + row % group / 2;
         if (index < 4 * counts) {  // the four eighths in turn, and the bins of each
           const int bin = 8 * (index % 4) + index / 4 % 8;
           column.append({acquisition, static_cast<Timestamp>(bin * parameters.code_count() / 32)});
-          if (row < group) {
+          if (row < group && row % 2 == 0) {
             ++histogram[static_cast<std::size_t>(bin)];
           }
         } else if (acquisition >= coarse) {  // something to score and to follow
@@ -323,7 +324,7 @@ TEST_P(PoolPointerWithDarkGroups, TellsThemFromBrightOnes) {
       }
       column.finish_row();
     }
-    const PoolGroup decoded = decode_group(histogram, histogram, histogram, pool);
+    const PoolGroup decoded = decode_group(histogram, histogram, histogram, parameters.count_width, pool);
     EXPECT_EQ(decoded.background, pool.bright_from - (counts < least ? 1 : 0));
     const std::vector<ColumnStream> columns(static_cast<std::size_t>(GetParam().sram_num), column);
     ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, default_options(1)));
@@ -371,18 +372,18 @@ TEST(PoolPointerSweep, EveryValueOccurs) {
   EXPECT_THAT(values([](const C& c) { return c.pixels_per_sram; }), IsSupersetOf({1, 7, 8, 13, 16, 160}));
   EXPECT_THAT(values(partial_group), IsSupersetOf({0, 1, 4, 5}));
   EXPECT_THAT(values([](const C& c) { return c.sram_num; }), IsSupersetOf({1, 3, 10}));
-  EXPECT_THAT(values([](const C& c) { return c.engine_columns; }), IsSupersetOf({1, 2, 4, 25}));
+  EXPECT_THAT(values([](const C& c) { return c.engine_columns; }), IsSupersetOf({2, 4, 26}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.slots; }), IsSupersetOf({2, 3, 4}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.count_width; }), IsSupersetOf({4, 5, 6, 7, 8}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.group_size; }),
               IsSupersetOf({4, 8, 16, 32, 64}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.dark_labels; }),
               IsSupersetOf({3, 4, 5, 6, 7, 8}));
-  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.bright_labels; }), IsSupersetOf({2, 4, 6}));
-  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.bright_from; }), IsSupersetOf({0, 1, 12}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.bright_labels; }), IsSupersetOf({2, 3, 4, 5}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.bright_from; }), IsSupersetOf({0, 1, 6}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.offset_bits; }), IsSupersetOf({0, 2, 4, 5}));
-  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.count_bits; }), IsSupersetOf({4, 8}));
-  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }), IsSupersetOf({0, 2, 4}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.count_bits; }), IsSupersetOf({4, 7}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }), IsSupersetOf({0, 1, 2, 4}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.rival_moves ? 1 : 0; }), IsSupersetOf({0, 1}));
 }
 
