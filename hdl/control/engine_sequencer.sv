@@ -8,19 +8,20 @@
 // Decode of a group, clock t (the bins of the groups above, itself and below leave their word one clock apart):
 //   t = q BINS_PER_WORD + 0, 1, 2   read word q of the group above, the group, the group below
 //   + 4, 5, 6 (end)                 words captured            t = bin + 8   pair sums enter the ring
-//   40 + 32 k + i                   search k sees pair i - 1  40 + 32 K     last candidate, then write
-//   39 + 32 K                       read the group's word, with which the pair's other column gets its own back
+//   40 + 32 k + i                   search k sees pair i - 1  41 + 32 K     last candidate, then write
+//   40 + 32 K                       read the group's word, with which the pair's other column gets its own back
 // A step of a chain, clock s of PERIOD = max(labels + 4, 6); steps begin two pixels early to fetch:
 //   s = 0                           evidence + message; scratch write (first pass)
 //   s = 1, 2, 3                     largest sum, differences  s = 4 ..      one label of the next pixel a clock
-//   PERIOD - 6, PERIOD - 5          read the word and the group of the pixel two steps on
+//   PERIOD - 5, PERIOD - 4          read the word and the group of the pixel two steps on
 //   PERIOD - 3                      choose, second pass: read what is to be written if a pair is complete
 //   PERIOD - 2                      word captured; scratch read (second pass)
 //   PERIOD - 1                      the pixel is prepared; the chain moves on
 //   s = 1 of the next step          choose: pointer word, written with PERIOD - 1 if the pair is complete. decide:
 //                                   results handed out, as soon as those of the step before are sent
-// SRAM commands are given one clock early (_d); the engine has a word four clocks after its command.
-// Latency, K labels: a column's groups x (32 K + 42), (pixels + 3) x PERIOD a pass.
+// SRAM commands are given one clock early (_d); the engine has a word four clocks after its command. Its own commands
+// leave a clock after s, results another one later.
+// Latency, K labels: a column's groups x (32 K + 43), (pixels + 3) x PERIOD a pass.
 // Cost: counters, per array.
 module engine_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
@@ -42,7 +43,6 @@ module engine_sequencer #(
     input  logic                      decide_i,
     output logic                      done_o,
     // columns
-    output logic [COLUMN_WIDTH-1:0]   column_o,
     output logic [ENGINE_COLUMNS-1:0] select_o,
     output logic                      read_d_o,
     output logic                      write_d_o,
@@ -67,7 +67,7 @@ module engine_sequencer #(
     output logic [LABEL_WIDTH-1:0]    target_label_o,      // the label two clocks later
     output logic                      capture_word_o,
     output logic                      advance_o,           // s = PERIOD - 1
-    output logic                      odd_pixel_o,         // of the captured word, valid with advance_o
+    output logic                      odd_pixel_o,         // of the word to capture, valid with capture_word_o
     output logic                      result_o,            // results of a pixel are ready (second pass, s = 1)
     output logic                      result_odd_o,        // its place in the pair
     output logic                      scratch_read_o,
@@ -75,8 +75,10 @@ module engine_sequencer #(
     output logic [ROW_WIDTH-1:0]      scratch_address_o,
     // results
     output logic                      send_o,
+    output logic [COLUMN_WIDTH-1:0]   send_column_o,       // held until the next
     output logic [ROW_WIDTH-1:0]      send_row_o,
     output logic                      send_last_o,         // the frame's last pixel
+    input  logic                      send_waits_i,        // the results given last have not been taken
     input  logic                      send_busy_i
 );
 
@@ -86,7 +88,7 @@ module engine_sequencer #(
   localparam int FILL_BEGIN = 8;
   localparam int SEARCH_BEGIN = FILL_BEGIN + dtof_pkg::POOL_COARSE_BINS;
   localparam int SEARCH_END = SEARCH_BEGIN + 32 * LABELS;
-  localparam int T_WIDTH = $clog2(SEARCH_END + 2);
+  localparam int T_WIDTH = $clog2(SEARCH_END + 3);
   localparam int CHOOSE_PERIOD = dtof_pkg::max_of(LABELS + 4, 6);
   localparam int DECIDE_PERIOD = 6;
   localparam int S_WIDTH = $clog2(CHOOSE_PERIOD);
@@ -105,24 +107,22 @@ module engine_sequencer #(
   logic [ENGINE_COLUMNS-1:0] select_q;
   logic [GROUP_WIDTH-1:0] group_q;
   logic [T_WIDTH-1:0] t_q;
-  logic [S_WIDTH-1:0] s_d, s_q, last_s;
+  logic [S_WIDTH-1:0] s_q, last_s;
   logic [N_WIDTH-1:0] n_q;  // pixel of the step + LEAD, counted in the pass's direction
   logic last_column, last_t, last_group, stall, step_end, pass_end;
 
   assign last_column = (column_q == COLUMN_WIDTH'(ENGINE_COLUMNS - 1));
   assign last_group = (group_q == GROUP_WIDTH'(GROUPS - 1));
-  assign last_t = (t_q == T_WIDTH'(SEARCH_END + 1));
+  assign last_t = (t_q == T_WIDTH'(SEARCH_END + 2));
   assign last_s = deciding_q ? S_WIDTH'(DECIDE_PERIOD - 1) : S_WIDTH'(CHOOSE_PERIOD - 1);
   assign step_end = (state_q == CHAIN) && (s_q == last_s);
   assign pass_end = step_end && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
 
   // Pixel p of a pass in work has n = p + LEAD; results of pixel p are known at s = 1 of n = p + LEAD + 1. Before, with
-  // nothing under way, the chain waits for those of the pixel before to be sent.
-  logic results_step;
+  // nothing under way, the chain waits until those of the pixel before have been taken.
+  logic results_step, give_results;
   assign results_step = (state_q == CHAIN) && back_q && (n_q >= N_WIDTH'(LEAD + 1));
-  assign stall = results_step && deciding_q && (s_q == '0) && send_busy_i;
-
-  assign s_d = step_end ? '0 : s_q + S_WIDTH'(!stall);
+  assign stall = results_step && deciding_q && (s_q == '0) && send_waits_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -164,7 +164,9 @@ module engine_sequencer #(
           end
         end
         CHAIN: begin
-          s_q <= s_d;
+          if (!stall) begin
+            s_q <= step_end ? '0 : s_q + 1'b1;
+          end
           if (pass_end) begin
             n_q <= '0;
             back_q <= !back_q;
@@ -187,7 +189,6 @@ module engine_sequencer #(
   end
 
   assign done_o = (state_q == FINISH) && !send_busy_i;
-  assign column_o = column_q;
 
   // A command given in the last clock of a column reaches it one clock later.
   logic [ENGINE_COLUMNS-1:0] select_delayed_q;
@@ -207,7 +208,7 @@ module engine_sequencer #(
   assign decoding = (state_q == DECODE);
   assign phase = t_q[BIN_WIDTH-1:0];
   assign read_bins = decoding && (t_q < T_WIDTH'(dtof_pkg::POOL_COARSE_BINS)) && (32'(phase) < 3);
-  assign read_back = decoding && (t_q == T_WIDTH'(SEARCH_END - 1));
+  assign read_back = decoding && (t_q == T_WIDTH'(SEARCH_END));
   assign write_group = decoding && last_t;
   assign since_search = t_q - T_WIDTH'(SEARCH_BEGIN - 1);
 
@@ -229,7 +230,7 @@ module engine_sequencer #(
     pair_o <= (t_q < T_WIDTH'(SEARCH_BEGIN - 1)) ? 5'(t_q - T_WIDTH'(FILL_BEGIN - 1)) : since_search[4:0];
     first_label_o <= (since_search < T_WIDTH'(32));
     pooled_o <= (since_search < T_WIDTH'(32 * POOLED_LABELS));
-    candidate_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN + 31)) && (since_search[4:0] == 5'd0);
+    candidate_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN + 32)) && (since_search[4:0] == 5'd1);
   end
 
   // Chains.
@@ -252,8 +253,8 @@ module engine_sequencer #(
   assign next_row = row_of(n_q - N_WIDTH'(LEAD - 1), back_q);
   assign result_row = row_of(n_q - N_WIDTH'(LEAD + 1), back_q);
 
-  assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(5));
-  assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(4));
+  assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(4));
+  assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(3));
   assign pair_complete = second_pass && !deciding_q && (n_q >= N_WIDTH'(LEAD + 1))
       && (result_row[0] || n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
   assign read_pair = pair_complete && (s_q == last_s - S_WIDTH'(2));
@@ -285,26 +286,45 @@ module engine_sequencer #(
     end
   end
 
-  always_ff @(posedge clk_i) begin
-    odd_pixel_o <= fetch_row[0];
-    target_label_o <= (s_d > S_WIDTH'(2)) ? LABEL_WIDTH'(s_d - S_WIDTH'(2)) : '0;
+  // What the engines get, a clock later.
+
+  logic send_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      scratch_write_o <= 1'b0;
+      scratch_read_o <= 1'b0;
+      send_q <= 1'b0;
+      send_o <= 1'b0;
+    end else begin
+      scratch_write_o <= first_pass && in_pass && (s_q == '0);
+      scratch_read_o <= second_pass && (s_q == last_s - S_WIDTH'(1)) && (n_q >= N_WIDTH'(LEAD - 1))
+          && (n_q < N_WIDTH'(PIXELS_PER_SRAM + LEAD - 1));
+      send_q <= give_results && deciding_q;
+      send_o <= send_q;
+    end
   end
 
-  assign deciding_o = deciding_q;
-  assign clear_message_o = (n_q < N_WIDTH'(LEAD));
-  assign begin_o = chaining && (s_q == '0);
-  assign spread_o = chaining && (s_q == S_WIDTH'(3));
-  assign pass_label_o = chaining && (s_q >= S_WIDTH'(4)) && (32'(s_q) < (deciding_q ? 6 : LABELS + 4));
-  assign capture_word_o = chaining && (s_q == last_s - S_WIDTH'(1));
-  assign advance_o = step_end;
-  assign result_o = results_step && (s_q == S_WIDTH'(1));
-  assign result_odd_o = result_row[0];
-  assign scratch_write_o = first_pass && in_pass && (s_q == '0);
-  assign scratch_read_o = second_pass && (s_q == last_s - S_WIDTH'(1)) && (n_q >= N_WIDTH'(LEAD - 1))
-      && (n_q < N_WIDTH'(PIXELS_PER_SRAM + LEAD - 1));
-  assign scratch_address_o = scratch_write_o ? row : next_row;
-  assign send_o = result_o && deciding_q;
-  assign send_row_o = result_row;
-  assign send_last_o = last_column && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
+  assign give_results = results_step && (s_q == S_WIDTH'(1));
+
+  always_ff @(posedge clk_i) begin
+    deciding_o <= deciding_q;
+    clear_message_o <= (n_q < N_WIDTH'(LEAD));
+    begin_o <= chaining && (s_q == '0);
+    spread_o <= chaining && (s_q == S_WIDTH'(3));
+    pass_label_o <= chaining && (s_q >= S_WIDTH'(4)) && (32'(s_q) < (deciding_q ? 6 : LABELS + 4));
+    target_label_o <= (s_q > S_WIDTH'(2)) ? LABEL_WIDTH'(s_q - S_WIDTH'(2)) : '0;
+    capture_word_o <= chaining && (s_q == last_s - S_WIDTH'(1));
+    advance_o <= step_end;
+    odd_pixel_o <= fetch_row[0];
+    result_o <= give_results;
+    result_odd_o <= result_row[0];
+    scratch_address_o <= (first_pass && (s_q == '0)) ? row : next_row;
+    if (give_results) begin
+      send_column_o <= column_q;
+      send_row_o <= result_row;
+      send_last_o <= last_column && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
+    end
+  end
 
 endmodule

@@ -176,11 +176,15 @@ module pair_sequencer #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       fetch_tn_q <= '0;
+      load_o <= 1'b0;
+      count_o <= 1'b0;
       visit_t2_q <= 1'b0;
       update_t3_q <= 1'b0;
       second_visit_t2_q <= 1'b0;
     end else begin
       fetch_tn_q <= {fetch_tn_q[5:2], fetch_t1};
+      load_o <= fetch_tn_q[2] || fetch_tn_q[4];
+      count_o <= fetch_tn_q[3] || fetch_tn_q[5];
       visit_t2_q <= last_step_t1 && !coarse_i;
       update_t3_q <= visit_t2_q;
       second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
@@ -203,8 +207,6 @@ module pair_sequencer #(
   assign odd_t2_o = acquisition_t2_q[0];
   assign second_row_t2_o = fetch_tn_q[2];
   assign second_column_o = fetch_tn_q[4];
-  assign load_o = fetch_tn_q[3] || fetch_tn_q[5];
-  assign count_o = fetch_tn_q[4] || fetch_tn_q[6];
   assign pair_t2 = pair_tn_q[PAIR_WIDTH-1:0];
 
   logic prime_group, prime_word, read_group, read_word, write_word;

@@ -46,8 +46,8 @@ module pool_controller #(
   localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(CLEAR_WORDS - 1);
 
   logic [2:0] state_d, state_q;
-  logic start_q, done_q, decoded_q, entered_q, more_q, late_q;
-  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, late_begin_q, acquisition_d, acquisition_q, phase_end;
+  logic start_q, done_q, decoded_q, entered_q, more_q, late_q, more_then_q, late_then_q;
+  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, late_begin_q, acquisition_then, acquisition_q, phase_end;
   logic [ADDR_WIDTH-1:0] address_q;
   logic cleared;
 
@@ -101,7 +101,8 @@ module pool_controller #(
     end
   end
 
-  assign acquisition_d = acquisition_q + ACQ_WIDTH'(acq_done_i);
+  // Compared a clock ahead, for the acquisition's end comes straight from the port.
+  assign acquisition_then = acquisition_q + 1'b1;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -112,6 +113,8 @@ module pool_controller #(
       entered_q <= 1'b0;
       more_q <= 1'b0;
       late_q <= 1'b0;
+      more_then_q <= 1'b0;
+      late_then_q <= 1'b0;
       acq_num_q <= '0;
       coarse_end_q <= '0;
       track_end_q <= '0;
@@ -131,13 +134,17 @@ module pool_controller #(
         acquisition_q <= '0;
         decoded_q <= 1'b0;
       end else begin
-        acquisition_q <= acquisition_d;
+        if (acq_done_i) begin
+          acquisition_q <= acquisition_then;
+        end
         if (state_q == dtof_pkg::STATE_M1) begin
           decoded_q <= 1'b1;
         end
       end
-      more_q <= (acquisition_d < phase_end);
-      late_q <= (acquisition_d >= late_begin_q);
+      more_q <= acq_done_i ? more_then_q : (acquisition_q < phase_end);
+      late_q <= acq_done_i ? late_then_q : (acquisition_q >= late_begin_q);
+      more_then_q <= (acquisition_then < phase_end);
+      late_then_q <= (acquisition_then >= late_begin_q);
       address_q <= (state_q == dtof_pkg::STATE_RESET && !cleared) ? address_q + 1'b1 : '0;
     end
   end

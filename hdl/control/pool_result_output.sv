@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer: AXI4-Stream from the engines, one beat an engine for the pixel that all have just decided.
 //
-// The results are taken side by side and shifted out, engine 0 first; the last engine may have fewer columns.
+// The results are taken side by side and shifted out, engine 0 first; the last engine may have fewer columns. Results
+// given meanwhile wait where they are, and nothing more is to be given until they are taken.
 // tdata = {column, row, code, fraction, confidence}. tvalid never falls before tready.
 // Latency: one clock a beat when tready stays high.
 // Cost: a result register an engine, counters, per array.
+`include "dtof_macros.svh"
+
 module pool_result_output #(
     parameter int ENGINES = 8,
     parameter int ENGINE_COLUMNS = 25,
@@ -16,11 +19,12 @@ module pool_result_output #(
 ) (
     input  logic                                           clk_i,
     input  logic                                           rst_ni,
-    input  logic                                           send_i,     // taken unless busy_o
+    input  logic                                           send_i,     // not while waits_o
     input  logic [                         STEP_WIDTH-1:0] column_i,   // of each engine
     input  logic [                          ROW_WIDTH-1:0] row_i,
     input  logic                                           last_i,     // the frame's last pixels
     input  logic [               ENGINES*RESULT_WIDTH-1:0] results_i,
+    output logic                                           waits_o,
     output logic                                           busy_o,
     output logic                                           tvalid_o,
     input  logic                                           tready_i,
@@ -32,7 +36,7 @@ module pool_result_output #(
   localparam int LAST_ENGINE_COLUMNS = SRAM_NUM - (ENGINES - 1) * ENGINE_COLUMNS;
   localparam int LAST_BUT_ONE = (ENGINES > 1) ? ENGINES - 2 : 0;
 
-  logic valid_q, last_q, short_q, last_beat;
+  logic valid_q, waits_q, last_q, short_q, last_beat;
   logic [ENGINE_WIDTH-1:0] engine_q;
   logic [COLUMN_WIDTH-1:0] column_q;
   logic [ROW_WIDTH-1:0] row_q;
@@ -43,22 +47,27 @@ module pool_result_output #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       valid_q <= 1'b0;
+      waits_q <= 1'b0;
       last_q <= 1'b0;
       short_q <= 1'b0;
       engine_q <= '0;
       column_q <= '0;
       row_q <= '0;
     end else if (!valid_q) begin
-      valid_q <= send_i;
+      valid_q <= send_i || waits_q;
+      waits_q <= 1'b0;
       last_q <= last_i;
       short_q <= (32'(column_i) >= LAST_ENGINE_COLUMNS);
       engine_q <= '0;
       column_q <= COLUMN_WIDTH'(column_i);
       row_q <= row_i;
-    end else if (tready_i) begin
-      valid_q <= !last_beat;
-      engine_q <= engine_q + 1'b1;
-      column_q <= column_q + COLUMN_WIDTH'(ENGINE_COLUMNS);
+    end else begin
+      waits_q <= waits_q || send_i;
+      if (tready_i) begin
+        valid_q <= !last_beat;
+        engine_q <= engine_q + 1'b1;
+        column_q <= column_q + COLUMN_WIDTH'(ENGINE_COLUMNS);
+      end
     end
   end
 
@@ -70,7 +79,10 @@ module pool_result_output #(
     end
   end
 
-  assign busy_o = valid_q;
+  `DTOF_ASSERT(a_one_waits, !(send_i && waits_q), "results were given while others wait")
+
+  assign waits_o = waits_q;
+  assign busy_o = valid_q || waits_q;
   assign tvalid_o = valid_q;
   assign tdata_o = {column_q, row_q, results_q[RESULT_WIDTH-1:0]};
   assign tlast_o = last_q && last_beat;

@@ -6,8 +6,8 @@
 // quarter of its excess over the background is taken from the pairs two away. B from the least of four octets.
 //
 // Schedule: engine_sequencer. The bins leave three shift registers one clock apart; pair sums enter a ring of 32,
-//   pair -1 (nothing, taken) first, and turn once a candidate. A candidate is known in the clock after its turn
-//   (pair_i = 0) and takes its part away during the next.
+//   pair -1 (nothing, taken) first, and turn once a candidate. A candidate is known two clocks after its turn
+//   (pair_i = 1) and takes its part away during the next.
 // Cost at the defaults: 704 flip-flops of ring, 192 of shift registers, per engine.
 module candidate_decoder #(
     parameter int COUNT_WIDTH = 8,
@@ -176,24 +176,25 @@ module candidate_decoder #(
     end
   end
 
-  // A turn later (pair_i = 0): the candidate, and what it takes away.
+  // A turn later (pair_i = 0): what the candidate takes away, and its tilt; then (pair_i = 1) its cell.
 
-  logic [POOLED_WIDTH-1:0] tilt, height, lower, five_least;
-  logic tilted, upwards;
+  logic [POOLED_WIDTH-1:0] tilt_q, height, lower_q, five_least;
+  logic tilted, upwards, upwards_q;
   logic [CELL_WIDTH-1:0] peak_cell;
   logic [LABELS*CELL_WIDTH-1:0] cells_q;
 
   assign upwards = (after_q > before_q);
-  assign tilt = upwards ? after_q - before_q : before_q - after_q;
-  assign lower = upwards ? before_q : after_q;
-  assign height = best_q - lower;
-  assign tilted = (best_q > lower) && ({tilt, 1'b0} > {1'b0, height});
-  assign peak_cell = {best_pair_q, 2'b00} + (tilted ? (upwards ? CELL_WIDTH'(1) : '1) : '0);
+  assign height = best_q - lower_q;
+  assign tilted = (best_q > lower_q) && ({tilt_q, 1'b0} > {1'b0, height});
+  assign peak_cell = {best_pair_q, 2'b00} + (tilted ? (upwards_q ? CELL_WIDTH'(1) : '1) : '0);
   assign own_excess = (best_own_q > least_pair_q) ? best_own_q - least_pair_q : '0;
   assign five_least = POOLED_WIDTH'(least_pair_q) + (POOLED_WIDTH'(least_pair_q) << 2);
   assign pooled_excess = (best_pooled_q > five_least) ? best_pooled_q - five_least : '0;
 
   always_ff @(posedge clk_i) begin
+    upwards_q <= upwards;
+    tilt_q <= upwards ? after_q - before_q : before_q - after_q;
+    lower_q <= upwards ? before_q : after_q;
     if (search_i && new_peak_q) begin
       peak_q <= first_label_i ? NOWHERE : {1'b0, best_pair_q};
       own_part_q <= own_excess >> 2;

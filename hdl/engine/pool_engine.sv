@@ -63,7 +63,7 @@ module pool_engine #(
     input  logic                    scratch_read_i,
     input  logic                    scratch_write_i,
     input  logic [   ROW_WIDTH-1:0] scratch_address_i,
-    // {code, fraction, confidence} of decide, valid with result_i
+    // {code, fraction, confidence} of decide, from a clock after result_i on
     output logic [RESULT_WIDTH-1:0] result_o
 );
 
@@ -119,19 +119,17 @@ module pool_engine #(
 
   // A pixel prepared for the chains: its word was captured, its group's is on the line.
 
-  logic [2*PIXEL_WIDTH-1:0] pair_q;
-  logic [PIXEL_WIDTH-1:0] pixel;
+  logic [PIXEL_WIDTH-1:0] pixel_q;
   logic [LABELS*CELL_WIDTH-1:0] cells;
   logic [BACKGROUND_WIDTH-1:0] background;
   logic bright;
 
   always_ff @(posedge clk_i) begin
     if (capture_word_i) begin
-      pair_q <= line_q[2*PIXEL_WIDTH-1:0];
+      pixel_q <= odd_pixel_i ? line_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
     end
   end
 
-  assign pixel = odd_pixel_i ? pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] : pair_q[PIXEL_WIDTH-1:0];
   assign cells = line_q[LABELS*CELL_WIDTH-1:0];
   assign background = line_q[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH];
   assign bright = (BRIGHT_FROM == 0) || (background >= BACKGROUND_WIDTH'(BRIGHT_FROM));
@@ -146,12 +144,12 @@ module pool_engine #(
       logic [SCORE_WIDTH-1:0] dark_score, bright_score;
       logic [CHOOSE_EVIDENCE_WIDTH-1:0] score, penalty;
       if (k < DARK_LABELS) begin : g_dark
-        assign dark_score = SCORE_WIDTH'(pixel[k*DARK_SCORE_BITS+:DARK_SCORE_BITS]);
+        assign dark_score = SCORE_WIDTH'(pixel_q[k*DARK_SCORE_BITS+:DARK_SCORE_BITS]);
       end else begin : g_no_dark
         assign dark_score = '0;
       end
       if (k < BRIGHT_LABELS) begin : g_bright
-        assign bright_score = SCORE_WIDTH'(pixel[k*BRIGHT_SCORE_BITS+:BRIGHT_SCORE_BITS]);
+        assign bright_score = SCORE_WIDTH'(pixel_q[k*BRIGHT_SCORE_BITS+:BRIGHT_SCORE_BITS]);
       end else begin : g_no_bright
         assign bright_score = '0;
       end
@@ -166,14 +164,14 @@ module pool_engine #(
   logic [POSITION_WIDTH-1:0] leader_position, rival_position;
   generate
     if (RIVAL_MOVES != 0) begin : g_absolute
-      assign leader_position = POSITION_WIDTH'(pixel[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
-      assign rival_position = POSITION_WIDTH'({pixel[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
+      assign leader_position = POSITION_WIDTH'(pixel_q[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
+      assign rival_position = POSITION_WIDTH'({pixel_q[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
     end else begin : g_relative
       logic [LABEL_WIDTH-1:0] leader, rival;
       logic [POSITION_WIDTH-1:0] pointer;
-      assign leader = pixel[POINTER_WIDTH+:LABEL_WIDTH];
-      assign rival = pixel[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
-      assign pointer = {{(POSITION_WIDTH - POINTER_WIDTH) {pixel[POINTER_WIDTH-1]}}, pixel[POINTER_WIDTH-1:0]};
+      assign leader = pixel_q[POINTER_WIDTH+:LABEL_WIDTH];
+      assign rival = pixel_q[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
+      assign pointer = {{(POSITION_WIDTH - POINTER_WIDTH) {pixel_q[POINTER_WIDTH-1]}}, pixel_q[POINTER_WIDTH-1:0]};
       assign leader_position = POSITION_WIDTH'({cells[leader*CELL_WIDTH+:CELL_WIDTH], 9'd0}) + (pointer << POINTER_SHIFT);
       assign rival_position = POSITION_WIDTH'({cells[rival*CELL_WIDTH+:CELL_WIDTH], 9'd0});
     end
@@ -252,7 +250,7 @@ module pool_engine #(
       .advance_i        (advance_i && deciding_i),
       .clear_message_i  (clear_message_i),
       .in_use_i         (2'b11),
-      .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, pixel[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
+      .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, pixel_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
       .position_i       ({rival_position, leader_position}),
       .penalty_i        (DECIDE_PENALTY_WIDTH'(background >> 3) + DECIDE_PENALTY_WIDTH'(4)),
       .message_o        (decide_message),
@@ -278,7 +276,7 @@ module pool_engine #(
       logic [15:0] offset;
       always_ff @(posedge clk_i) begin
         if (advance_i) begin
-          next_lead_q <= pixel[SCORES_WIDTH+:LEAD_WIDTH];
+          next_lead_q <= pixel_q[SCORES_WIDTH+:LEAD_WIDTH];
           lead_q <= next_lead_q;
           last_lead_q <= lead_q;
         end
@@ -330,7 +328,12 @@ module pool_engine #(
 
   assign shifted = $signed(position) - HALF_BIN;
   assign limited = (shifted < 0) ? '0 : (shifted > LAST_POSITION) ? 16'(LAST_POSITION) : shifted[15:0];
-  assign result_o = {limited, decide_margin[CONFIDENCE_WIDTH-1:0]};
+
+  always_ff @(posedge clk_i) begin
+    if (result_i) begin
+      result_o <= {limited, decide_margin[CONFIDENCE_WIDTH-1:0]};
+    end
+  end
 
   logic unused;
   assign unused = ^{decided_rival, unused_loser, unused_position, decide_margin, best_cell[CELL_WIDTH],

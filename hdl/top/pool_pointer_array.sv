@@ -185,7 +185,7 @@ module pool_pointer_array #(
   logic [4:0] pair;
   logic [dtof_pkg::index_width(LABELS)-1:0] target_label;
   logic deciding, clear_message, begin_step, spread, pass_label, capture_word, advance, odd_pixel;
-  logic result, result_odd, scratch_read, scratch_write, send, send_last, send_busy;
+  logic result, result_odd, scratch_read, scratch_write, send, send_last, send_waits, send_busy;
   logic [ROW_WIDTH-1:0] scratch_address, send_row;
 
   engine_sequencer #(
@@ -201,7 +201,6 @@ module pool_pointer_array #(
       .choose_i         (choose),
       .decide_i         (decide),
       .done_o           (engine_done),
-      .column_o         (engine_column),
       .select_o         (engine_select),
       .read_d_o         (engine_read),
       .write_d_o        (engine_write),
@@ -231,8 +230,10 @@ module pool_pointer_array #(
       .scratch_write_o  (scratch_write),
       .scratch_address_o(scratch_address),
       .send_o           (send),
+      .send_column_o    (engine_column),
       .send_row_o       (send_row),
       .send_last_o      (send_last),
+      .send_waits_i     (send_waits),
       .send_busy_i      (send_busy)
   );
 
@@ -396,6 +397,7 @@ module pool_pointer_array #(
       .row_i    (send_row),
       .last_i   (send_last),
       .results_i(results),
+      .waits_o  (send_waits),
       .busy_o   (send_busy),
       .tvalid_o (result_tvalid_o),
       .tready_i (result_tready_i),

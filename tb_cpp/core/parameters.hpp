@@ -57,10 +57,11 @@ struct PoolPointerParameters {
   int dark_score_bits = 4;  ///< width of a candidate's score in a pixel word there, 1 .. 8
   int bright_labels = 5;    ///< the same in the other groups
   int bright_score_bits = 4;
-  int bright_from = 6;    ///< BRIGHT_FROM, in units of a group's background word, 0 .. 63
-  int offset_bits = 5;    ///< leader's offset in the track phase, 32nds of a coarse bin, signed; 0: none
-  int count_bits = 7;     ///< the leader's advantage in the pointer phase, 4 or 7
-  int pointer_shift = 1;  ///< the unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins, 0 .. 2 or 4
+  int bright_from = 6;  ///< BRIGHT_FROM, in units of a group's background word, 0 .. 63
+  int offset_bits = 5;  ///< leader's offset in the track phase, 32nds of a coarse bin, signed; 0: none
+  int count_bits = 7;   ///< the leader's advantage in the pointer phase, 4 or 7
+  int pointer_shift =
+      1;  ///< the unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins, 0 .. 2 or 4
   bool rival_moves = true;  ///< the rival has a pointer of 7 bits; else it stays at its candidate
   int coarse_share = 16;    ///< 64ths of the frame: coarse phase
   int track_share = 16;     ///< 64ths of the frame: track phase

@@ -199,7 +199,8 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   const std::int32_t distance = in_cells(position - before.pointer);
   const bool hit = within(distance, kHitCells);
   const std::int32_t rival_distance =
-      in_cells(position) - (parameters.rival_moves ? before.rival : group.centre_cell[static_cast<std::size_t>(before.rival)]);
+      in_cells(position) -
+      (parameters.rival_moves ? before.rival : group.centre_cell[static_cast<std::size_t>(before.rival)]);
   const bool rival_hit = !hit && within(rival_distance, kHitCells);
 
   if (within(distance, kReachCells)) {
@@ -363,8 +364,8 @@ class PoolPointerModel final : public ReadoutModel {
     return taken;
   }
 
-  /// What two adjacent pixels count: a timestamp an acquisition, the even row's in even ones, the odd row's in odd
-  /// ones, and the other's where that one has none.
+  /// What two adjacent pixels count: a timestamp an acquisition, the even row's in even ones, the odd row's
+  /// in odd ones, and the other's where that one has none.
   static std::vector<Timed> one_of_two_rows(std::span<const Timed> even, std::span<const Timed> odd) {
     std::vector<Timed> counted;
     std::ranges::merge(even, odd, std::back_inserter(counted), {}, &Timed::acquisition, &Timed::acquisition);

@@ -624,7 +624,8 @@ TEST_P(PoolPointer, RefusesMalformedStreamsAndParameters) {
   refused([](ReadoutParameters& p) { p.fraction_bits = 4; }, "FRACTION_BITS is 4");
   refused([](ReadoutParameters& p) { p.count_width = 9; }, "COUNT_WIDTH is 9");
   refused([](ReadoutParameters& p) { p.pool.group_size = 0; }, "group size is 0");
-  refused([](ReadoutParameters& p) { p.pool.group_size = 12; }, "group size is 12, but must be a power of two");
+  refused([](ReadoutParameters& p) { p.pool.group_size = 12; },
+          "group size is 12, but must be a power of two");
   refused([](ReadoutParameters& p) { p.pool.pointer_shift = 5; }, "pointer shift is 5");
   refused([](ReadoutParameters& p) { p.pool.dark_labels = 9; }, "labels of dark groups is 9");
   refused([](ReadoutParameters& p) { p.pool.count_bits = 2; }, "count bits is 2");
