@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# make scenes     read-outs on scenes, those held out from every choice of parameters included (half an hour)
+# make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make real-data  read-outs on measured data
 .PHONY: scenes pareto real-data

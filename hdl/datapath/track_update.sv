@@ -57,19 +57,18 @@ module track_update #(
   endgenerate
 
   integer j;
-  logic [LABELS*SCORE_WIDTH-1:0] next_score;
+  logic [LABELS*SCORE_WIDTH-1:0] next_score, step;
+  logic [LABELS-1:0] gain, loss;
   always_comb begin
     winner_score = '0;
     for (j = 0; j < LABELS; j = j + 1) begin
       winner_score = winner_score | (score[j*SCORE_WIDTH+:SCORE_WIDTH] & {SCORE_WIDTH{winner[j]}});
     end
-    next_score = score;
     for (j = 0; j < LABELS; j = j + 1) begin
-      if (winner[j] && !full) begin
-        next_score[j*SCORE_WIDTH+:SCORE_WIDTH] = score[j*SCORE_WIDTH+:SCORE_WIDTH] + 1'b1;
-      end else if (hit && full && !winner[j] && (score[j*SCORE_WIDTH+:SCORE_WIDTH] != '0)) begin
-        next_score[j*SCORE_WIDTH+:SCORE_WIDTH] = score[j*SCORE_WIDTH+:SCORE_WIDTH] - 1'b1;
-      end
+      gain[j] = winner[j] && !full;
+      loss[j] = hit && full && !winner[j] && (score[j*SCORE_WIDTH+:SCORE_WIDTH] != '0);
+      step[j*SCORE_WIDTH+:SCORE_WIDTH] = {SCORE_WIDTH{loss[j]}} | SCORE_WIDTH'(gain[j]);  // 1, 0, -1
+      next_score[j*SCORE_WIDTH+:SCORE_WIDTH] = score[j*SCORE_WIDTH+:SCORE_WIDTH] + step[j*SCORE_WIDTH+:SCORE_WIDTH];
     end
     scores = '0;
     if (bright_i) begin
@@ -96,14 +95,10 @@ module track_update #(
       assign leader = word_i[SCORES_WIDTH+:LABEL_WIDTH];
       assign offset = $signed(word_i[SCORES_WIDTH+LABEL_WIDTH+:OFFSET_BITS]);
 
-      always_comb begin
-        moved = offset;
-        if (offset_up_i) begin
-          moved = (offset == {1'b0, {(OFFSET_BITS - 1) {1'b1}}}) ? offset : offset + OFFSET_BITS'(1);
-        end else if (offset_down_i) begin
-          moved = (offset == {1'b1, {(OFFSET_BITS - 1) {1'b0}}}) ? offset : offset - OFFSET_BITS'(1);
-        end
-      end
+      logic up, down;
+      assign up = offset_up_i && (offset != {1'b0, {(OFFSET_BITS - 1) {1'b1}}});
+      assign down = offset_down_i && (offset != {1'b1, {(OFFSET_BITS - 1) {1'b0}}});
+      assign moved = offset + $signed({{(OFFSET_BITS - 1) {down}}, up || down});
 
       always_comb begin
         winner_label = '0;

@@ -35,7 +35,7 @@ module twin_pointer_update #(
   logic [ADVANTAGE_WIDTH-1:0] advantage, next_advantage;
   logic [POINTER_WIDTH-1:0] pointer, moved, swapped;
   logic [MOVE_WIDTH-1:0] move;
-  logic counted, swap;
+  logic carry, counted, swap;
 
   assign pointer = word_i[POINTER_WIDTH-1:0];
   assign advantage = word_i[POINT_WIDTH-1-:ADVANTAGE_WIDTH];
@@ -49,33 +49,32 @@ module twin_pointer_update #(
       assign dither = {acquisition_i[1:0], acquisition_i[2+:BELOW_UNIT]};
     end
   endgenerate
-  assign product = (PRODUCT_WIDTH'(weight_i) << gear_i) + PRODUCT_WIDTH'(dither);
+  // The dither only matters by its carry, which the pointer's adder takes along.
+  logic [BELOW_UNIT+2:0] below;
+  assign product = PRODUCT_WIDTH'(weight_i) << gear_i;
+  assign below = {1'b0, product[BELOW_UNIT+1:0]} + {1'b0, dither};
+  assign carry = below[BELOW_UNIT+2];
   assign move = product[BELOW_UNIT+2+:MOVE_WIDTH];
 
   logic unused_bits;
-  assign unused_bits = ^product;
+  assign unused_bits = ^{product, below};
 
   generate
     if (RIVAL_MOVES != 0) begin : g_moving_rival
       logic [dtof_pkg::POOL_RIVAL_WIDTH-1:0] rival, next_rival;
-      logic [POINTER_WIDTH:0] sum;
+      logic [POINTER_WIDTH:0] sum, step;
       logic [dtof_pkg::POOL_RIVAL_WIDTH-1:0] coarse_pointer;
 
       assign coarse_pointer = pointer[POINTER_WIDTH-1-:dtof_pkg::POOL_RIVAL_WIDTH];
       assign rival = word_i[POINTER_WIDTH+:dtof_pkg::POOL_RIVAL_WIDTH];
-      // Saturates at both ends of the range.
-      assign sum = up_i ? {1'b0, pointer} + (POINTER_WIDTH + 1)'(move) : {1'b0, pointer} - (POINTER_WIDTH + 1)'(move);
+      // One adder: down by move + carry is up by its complement. Saturates at both ends of the range.
+      assign step = (POINTER_WIDTH + 1)'(move) ^ {(POINTER_WIDTH + 1) {!up_i}};
+      assign sum = {1'b0, pointer} + step + (POINTER_WIDTH + 1)'(carry == up_i);
       assign moved = sum[POINTER_WIDTH] ? {POINTER_WIDTH{up_i}} : sum[POINTER_WIDTH-1:0];
-      always_comb begin
-        next_rival = rival;
-        if (swap) begin
-          next_rival = coarse_pointer;
-        end else if (rival_hit_i && rival_up_i) begin
-          next_rival = rival + 1'b1;
-        end else if (rival_hit_i && rival_down_i) begin
-          next_rival = rival - 1'b1;
-        end
-      end
+      logic [dtof_pkg::POOL_RIVAL_WIDTH-1:0] rival_step;  // 1, 0, -1
+      assign rival_step = {{(dtof_pkg::POOL_RIVAL_WIDTH - 1) {rival_hit_i && rival_down_i}},
+                           rival_hit_i && (rival_up_i || rival_down_i)};
+      assign next_rival = swap ? coarse_pointer : rival + rival_step;
       assign swapped = {rival, 1'b1, {(POINTER_WIDTH - 1 - dtof_pkg::POOL_RIVAL_WIDTH) {1'b0}}};
       assign word_o[POINTER_WIDTH+:dtof_pkg::POOL_RIVAL_WIDTH] = next_rival;
     end else begin : g_resting_rival
@@ -88,8 +87,8 @@ module twin_pointer_update #(
       assign leader = word_i[POINTER_WIDTH+:LABEL_WIDTH];
       assign rival = word_i[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
       assign start = $signed({{(SUM_WIDTH - POINTER_WIDTH) {pointer[POINTER_WIDTH-1]}}, pointer});
-      assign step = $signed({{(SUM_WIDTH - MOVE_WIDTH) {1'b0}}, move});
-      assign sum = up_i ? start + step : start - step;
+      assign step = $signed({{(SUM_WIDTH - MOVE_WIDTH) {1'b0}}, move} ^ {SUM_WIDTH{!up_i}});
+      assign sum = start + step + $signed(SUM_WIDTH'(carry == up_i));
       assign limited = (sum > HIGHEST) ? HIGHEST : (sum < ~HIGHEST) ? ~HIGHEST : sum;
       assign moved = POINTER_WIDTH'(limited);
       logic unused_limited;
@@ -107,16 +106,11 @@ module twin_pointer_update #(
       || ((acquisition_i[1:0] == 2'd0) && (!advantage[ADVANTAGE_WIDTH-2] || acquisition_i[3:2] == 2'd0));
   assign swap = rival_hit_i && (advantage == '0);
 
-  always_comb begin
-    next_advantage = advantage;
-    if (hit_i && counted && (advantage != '1)) begin
-      next_advantage = advantage + 1'b1;
-    end else if (swap) begin
-      next_advantage = ADVANTAGE_WIDTH'(1);
-    end else if (rival_hit_i && counted) begin
-      next_advantage = advantage - 1'b1;
-    end
-  end
+  // 1, 0, -1: a swap comes with n = 0, after which it is 1. There is no hit of both.
+  logic gain, loss;
+  assign gain = (hit_i && counted && (advantage != '1)) || swap;
+  assign loss = rival_hit_i && counted && !swap;
+  assign next_advantage = advantage + {{(ADVANTAGE_WIDTH - 1) {loss}}, gain || loss};
 
   assign word_o[POINTER_WIDTH-1:0] = swap ? swapped : (reach_i ? moved : pointer);
   assign word_o[POINT_WIDTH-1-:ADVANTAGE_WIDTH] = next_advantage;
