@@ -7,13 +7,14 @@
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-test      the flow's own tests, and the porting example simulated
-.PHONY: synth synth-check synth-budgets synth-sizes synth-test
+# make synth-growth    how cost grows with the parameters
+.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
 	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict)
 
-synth-check synth-budgets synth-sizes: synth-%:
+synth-growth synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
 
 synth-test:

@@ -45,7 +45,8 @@ def _kept(folder: Path, key: str) -> Result | None:
 
 def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: int,
             progress: Callable[[str], None]) -> dict[str, Result]:
-    """Results by configuration name, in the order of the jobs. The first failure stops everything."""
+    """Results by configuration name, in the order of the jobs; the longest, with engines, run first. The first
+    failure stops everything."""
     digest = input_digest(technology)
     jobs = list(jobs)
     results: dict[str, Result] = {}
@@ -57,6 +58,7 @@ def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: i
             results[name] = kept
         else:
             waiting.append(job)
+    waiting.sort(key=lambda job: not job.configuration.is_pool)
     done = len(results)
     with ProcessPoolExecutor(workers) as pool:
         futures = {pool.submit(_work, job, technology, build / job.configuration.name, _key(job, digest)): job

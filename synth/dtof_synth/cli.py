@@ -38,7 +38,7 @@ def _select(named: dict[str, Configuration], names: list[str]) -> dict[str, Conf
 
 
 def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Named configurations; with the generated library and no selection also growth, reports and budgets."""
+    """Named configurations; with the generated library and no selection also reports and budgets."""
     started = time.monotonic()
     chosen = _select(named, arguments.configuration)
     foreign = arguments.liberty is not None
@@ -51,7 +51,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     full = not foreign and not arguments.configuration
     jobs = [batch.Job(item) for item in chosen.values()]
     if full:
-        jobs += signalled_clear.jobs(named) + growth.jobs(named)
+        jobs += signalled_clear.jobs(named)
     runs = build / ("runs" if not foreign else f"runs_{technology.typical.name}")
     results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
     main = {name: results[name] for name in chosen}
@@ -75,12 +75,11 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
     digest = input_digest(technology)
     found = goals.check(main)
     extra = "\n".join([signalled_clear.section(named, results), report.goals_section(found),
-                       "How cost grows: [growth.csv](growth.csv)\n\n![growth](growth.png)\n"])
+                       "How cost grows (`make synth-growth`): [growth.csv](growth.csv)\n\n![growth](growth.png)\n"])
     (reports / "area.md").write_text(report.area(main, extra, technology.typical.name, digest), encoding="utf-8")
     (reports / "timing.md").write_text(report.timing(main, technology.typical.name, digest), encoding="utf-8")
     report.write_area_csv(reports / "area.csv", main)
     report.write_timing_csv(reports / "timing.csv", main)
-    growth.write(growth.sweep(named), results, reports, ROOT / "build" / "synth")
     uses = technologies.needed_sizes(everything)
     (reports / "sram.md").write_text(sram_report.text(uses, set(named), PDK), encoding="utf-8")
     for goal in found:
@@ -91,7 +90,7 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
         _say(f"budget: {line}")
     if not lines:
         _say(f"budgets: nothing moved by more than {budgets.TOLERANCE:.0%}")
-    _say("reports/area.md, reports/timing.md, reports/sram.md, reports/growth.csv written")
+    _say("reports/area.md, reports/timing.md, reports/sram.md written")
     return 1 if arguments.strict and worse else 0
 
 
@@ -99,6 +98,21 @@ def _sizes(_: argparse.Namespace, named: dict[str, Configuration]) -> int:
     uses = technologies.needed_sizes(_all_configurations(named))
     sram_kit.write_sizes(ROOT / technologies.SIZES, sorted(uses))
     _say(f"{technologies.SIZES}: {len(uses)} sizes")
+    return 0
+
+
+def _growth(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Cost over NP, NB, pixels per SRAM and SRAM_NUM."""
+    started = time.monotonic()
+    build = ROOT / "build" / "synth"
+    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    points = growth.sweep(named)
+    bases = {point.name: point for _, _, point in points if point.name in named}
+    jobs = [batch.Job(item) for item in bases.values()] + growth.jobs(named)
+    results = batch.run_all(jobs, technology, build / "runs", arguments.jobs, _say)
+    growth.write(points, results, ROOT / "reports", build)
+    _say(f"reports/growth.csv, reports/growth.png written: {len(jobs)} configurations in "
+         f"{time.monotonic() - started:.0f} s")
     return 0
 
 
@@ -130,6 +144,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--strict", action="store_true", help="fail if a figure is worse than its budget")
     run.set_defaults(action=_run)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
+                               ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),
                                ("check", _check, "compare the generated library with others")):
         commands.add_parser(name, help=text).set_defaults(action=action)

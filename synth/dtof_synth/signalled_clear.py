@@ -12,12 +12,12 @@ from .configuration import Configuration, memories
 from .run import Result
 
 READOUT = "fifh"
-PIXELS = (16, 32)
+PIXELS = (4, 8)
 APPLIES_TO = ("hispointer", "fifh", "sifh")
 
 
 def configurations(named: dict[str, Configuration]) -> list[Configuration]:
-    """FiFH columns of 16 and 32 pixels, with and without status bits."""
+    """FiFH columns of 4 and 8 pixels, with and without status bits."""
     base = named[READOUT]
     return [base.with_parameters(f"{READOUT}_clear{signalled}_pixels{pixels}", PIXELS_PER_SRAM=pixels,
                                  SIGNALLED_CLEAR=signalled)

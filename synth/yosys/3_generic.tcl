@@ -11,5 +11,7 @@ setattr -mod -unset keep_hierarchy *pool_pointer_column
 synth -flatten -noshare -top $top -run coarse:fine
 opt -fast -undriven -fine
 techmap
-opt -fast
+opt_expr
+opt_merge
+opt_dff
 opt_clean
