@@ -229,6 +229,29 @@ TEST_F(CommandLine, RefusesBadImages) {
   expect_refused("frame --depth " + file("cut.pfm", "Pf\n4 4\n-1\nabc") + " --out out", "cut.pfm");
 }
 
+TEST_F(CommandLine, ScenesComparesReadoutsAndVariants) {
+  const Outcome outcome = dtof(
+      "scenes --preset thesis --klux 14 --scene planes --columns 2 -r poolpointer,hispointer "
+      "--variant hispointer:COUNT_WIDTH=8 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string table = read_file(path("out/scenes.csv"));
+  for (const char* estimator : {"poolPointer", "hisPointer", "COUNT_WIDTH=8", "matched filter"}) {
+    EXPECT_THAT(table, HasSubstr(estimator));
+  }
+  EXPECT_GT(std::filesystem::file_size(path("out/planes_14klux_thesis.png")), 0U);
+}
+
+TEST_F(CommandLine, RefusesBadScenesAndMeasurements) {
+  expect_refused("scenes --variant hispointer --out out", "expected READOUT:PARAMETER=NUMBER");
+  expect_refused("scenes --variant hispointer:COUNT_WIDTH=x --out out", "expected READOUT:PARAMETER=NUMBER");
+  expect_refused("scenes --variant hispointer:GUARD=3 --out out", "COUNT_WIDTH, FRACTION_BITS");
+  expect_refused("scenes --scene moon --out out", "moon");
+  expect_refused("scenes --disparity nowhere.png --out out", "nowhere.png");
+  expect_refused("measured nowhere.json.gz --out out", "nowhere.json.gz");
+  expect_refused("measured " + file("broken.mat", "not a MATLAB file") + " --out out", "broken.mat");
+  expect_refused("measured " + file("broken.json", "[{") + " --out out", "broken.json");
+}
+
 TEST_F(CommandLine, RefusesAnUnwritableOutput) {
   const std::string blocked = file("blocked", "a file, not a folder");
   expect_refused(fmt::format("frame -r fifh {} --out blocked/out", kSmallScene), "blocked");
