@@ -26,6 +26,7 @@
 #include "io/colour_png.hpp"
 #include "io/depth_image.hpp"
 #include "metrics/depth.hpp"
+#include "metrics/error_statistics.hpp"
 #include "rtl/registry.hpp"
 
 namespace dtof {
@@ -80,12 +81,6 @@ struct Light {
                        background > 0.0 ? fmt::format(", {:g} background", background) : "");
   }
 };
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
-}
 
 bool is_compiled(const ReadoutParameters& parameters, const MeasuredScene& scene) {
   try {

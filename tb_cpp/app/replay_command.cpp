@@ -38,25 +38,19 @@ struct ReplayOptions {
   std::string command_line;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Distances of one read-out against the recording's truth.
-struct Comparison {
+struct TruthComparison {
   std::string title;
   std::vector<double> true_m;
   std::vector<double> measured_m;  ///< the median difference to truth is removed: the sensor's own offset
   double offset_m = 0.0;
 };
 
-Comparison compare(const Recording& recording, const ReadoutParameters& parameters, const ReadoutRun& run,
-                   std::span<const int> columns, double t_int_s) {
+TruthComparison compare(const Recording& recording, const ReadoutParameters& parameters,
+                        const ReadoutRun& run, std::span<const int> columns, double t_int_s) {
   // No pulse width is subtracted: the recording's zero distance is part of the offset.
   const DepthScale scale(t_int_s, parameters.np, 0.0);
-  Comparison comparison;
+  TruthComparison comparison;
   comparison.title = readout_title(parameters.readout);
   std::vector<double> differences;
   const auto width = static_cast<std::size_t>(recording.source->columns());
@@ -80,7 +74,7 @@ Comparison compare(const Recording& recording, const ReadoutParameters& paramete
   return comparison;
 }
 
-double rms_error(const Comparison& comparison) {
+double rms_error(const TruthComparison& comparison) {
   RunningMoments error;
   for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
     error.add(comparison.measured_m[i] - comparison.true_m[i]);
@@ -88,7 +82,7 @@ double rms_error(const Comparison& comparison) {
   return std::sqrt(error.mean_square());
 }
 
-double median_error(const Comparison& comparison) {
+double median_error(const TruthComparison& comparison) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
     errors.push_back(std::abs(comparison.measured_m[i] - comparison.true_m[i]));
@@ -96,9 +90,9 @@ double median_error(const Comparison& comparison) {
   return median(errors);
 }
 
-Table summarise(const std::vector<Comparison>& comparisons) {
+Table summarise(const std::vector<TruthComparison>& comparisons) {
   Table table({"read-out", "slope", "rms error mm", "median error mm", "offset mm", "measurements"});
-  for (const Comparison& comparison : comparisons) {
+  for (const TruthComparison& comparison : comparisons) {
     const LinearFit fit = fit_line(comparison.true_m, comparison.measured_m);
     table.add({comparison.title, fmt::format("{:.3f}", fit.slope),
                fmt::format("{:.1f}", rms_error(comparison) * 1e3),
@@ -110,10 +104,10 @@ Table summarise(const std::vector<Comparison>& comparisons) {
 }
 
 /// Median measured distance in about ten groups of true distance.
-Table distances_against_truth(const std::vector<Comparison>& comparisons) {
+Table distances_against_truth(const std::vector<TruthComparison>& comparisons) {
   constexpr double kGroups = 10.0;
   std::vector<std::string> header = {"true mm"};
-  for (const Comparison& comparison : comparisons) {
+  for (const TruthComparison& comparison : comparisons) {
     header.push_back(comparison.title);
   }
   Table table(header);
@@ -131,7 +125,7 @@ Table distances_against_truth(const std::vector<Comparison>& comparisons) {
       truths.push_back(comparisons.front().true_m[i]);
     }
     std::vector<std::string> row = {fmt::format("{:.0f}", median(truths) * 1e3)};
-    for (const Comparison& comparison : comparisons) {
+    for (const TruthComparison& comparison : comparisons) {
       std::vector<double> errors;
       for (const std::size_t i : members) {
         errors.push_back(comparison.measured_m[i] - comparison.true_m[i]);
@@ -143,14 +137,14 @@ Table distances_against_truth(const std::vector<Comparison>& comparisons) {
   return table;
 }
 
-void write_comparison(const std::vector<Comparison>& comparisons, const ReplayOptions& options,
+void write_comparison(const std::vector<TruthComparison>& comparisons, const ReplayOptions& options,
                       const std::string& heading) {
   const std::filesystem::path folder(options.out);
   const Table summary = summarise(comparisons);
   const Table distances = distances_against_truth(comparisons);
   Table measurements({"true_mm", "readout", "measured_mm"});
   std::vector<PlotSeries> series;
-  for (const Comparison& comparison : comparisons) {
+  for (const TruthComparison& comparison : comparisons) {
     PlotSeries& line = series.emplace_back(PlotSeries{comparison.title, {}, {}});
     std::map<double, std::vector<double>> by_truth;
     for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
@@ -202,7 +196,7 @@ void run_replay_command(const ReplayOptions& options) {
     std::iota(columns.begin(), columns.end(), 0);
   }
   create_output_folder(options.out);
-  std::vector<Comparison> comparisons;
+  std::vector<TruthComparison> comparisons;
   for (const ReadoutParameters& parameters : readouts) {
     const ReadoutRun run =
         run_readout(*recording.source, parameters, options.run, columns, options.command_line);

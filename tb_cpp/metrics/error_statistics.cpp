@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -90,6 +92,15 @@ ErrorSummary summarise_errors(std::span<const double> true_m, std::span<const do
     statistics.add(true_m[i], measured_m[i]);
   }
   return statistics.summary();
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) {
+    throw InputError("a median needs at least one value");
+  }
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
 }
 
 LinearFit fit_line(std::span<const double> x, std::span<const double> y) {

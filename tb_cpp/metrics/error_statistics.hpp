@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace dtof {
 
@@ -58,6 +59,9 @@ class ErrorStatistics {
 
 /// Summary of equally long, non-empty sets; throws InputError as ErrorStatistics does.
 ErrorSummary summarise_errors(std::span<const double> true_m, std::span<const double> measured_m);
+
+/// Middle value, the upper one of two. Throws InputError if there is none.
+double median(std::vector<double> values);
 
 struct LinearFit {
   double slope;

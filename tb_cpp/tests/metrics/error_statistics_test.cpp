@@ -172,5 +172,12 @@ TEST(FitLine, RefusesAVerticalLine) {
       ThrowsMessage<InputError>(HasSubstr("point 0 of a line fit is not finite")));
 }
 
+TEST(Median, IsTheMiddleValueOrTheUpperOfTwo) {
+  EXPECT_EQ(median({5.0}), 5.0);
+  EXPECT_EQ(median({9.0, -1.0, 4.0}), 4.0);
+  EXPECT_EQ(median({1.0, 4.0, 2.0, 3.0}), 3.0);
+  EXPECT_THROW((void)median({}), InputError);
+}
+
 }  // namespace
 }  // namespace dtof
