@@ -3,7 +3,7 @@
 //
 // Operations: decode (each group's candidates), choose and decide (a chain of pixels, once from the last to the
 // first and once back). ENGINE_COLUMNS columns one after the other; engine e works on column
-// e ENGINE_COLUMNS + column_o.
+// e ENGINE_COLUMNS + send_column_o.
 //
 // Decode of a group, clock t (the bins of the groups above, itself and below leave their word one clock apart):
 //   t = q BINS_PER_WORD + 0, 1, 2   read word q of the group above, the group, the group below

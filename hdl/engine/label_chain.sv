@@ -5,8 +5,8 @@
 // label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
 // message from the other side. Near: positions at most REACH apart.
 //
-// Schedule: engine_sequencer. begin_i: T; its largest, in two clocks; spread_i: differences to it; then a label l of the next
-//   pixel a clock with pass_label_i, which also computes the belief of this pixel's label l, ranked one clock later;
+// Schedule: engine_sequencer. begin_i: T; its largest, in two clocks; spread_i: differences to it; then a label l of
+//   the next pixel a clock with pass_label_i, which also computes the belief of this pixel's label l, ranked one clock later;
 //   advance_i: the next pixel becomes this one and the prepared one the next. The two best beliefs are valid from the
 //   second clock after the last label until the next pixel's labels pass.
 // Cost: LABELS comparators of positions and of differences.
