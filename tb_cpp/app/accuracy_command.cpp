@@ -168,8 +168,8 @@ const std::vector<Picture>& pictures() {
 
 void run_accuracy_command(const AccuracyOptions& options) {
   options.run.validate();
-  if (options.run.columns != "all" || !options.run.trace.empty()) {
-    throw InputError("accuracy: --columns and --trace do not apply, every frame is read out");
+  if (options.run.columns != "all" || options.run.rows != "all" || !options.run.trace.empty()) {
+    throw InputError("accuracy: --columns, --rows and --trace do not apply, every frame is read out");
   }
   StudySettings settings = settings_of(options);
   const std::filesystem::path folder(options.out);

@@ -162,7 +162,8 @@ class Sweep {
 
   void read_rtl(const StreamSource& source, const IndependentPixels& pixels,
                 const ReadoutParameters& parameters, std::vector<Measurement>& measurements) const {
-    const ReadoutRun run = run_readout(source, parameters, settings_.run, {}, settings_.command);
+    const ReadoutRun run = run_readout(source, parameters, settings_.run,
+                                       Region::whole(source.columns(), source.rows()), settings_.command);
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       const int index = static_cast<int>(i);
       const int row = pixels.column(index % pixels.rows);

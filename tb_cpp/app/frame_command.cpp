@@ -7,15 +7,14 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <optional>
 
 #include "analytic/fidelity.hpp"
-#include "app/columns.hpp"
 #include "app/commands.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/readout_run.hpp"
+#include "app/region.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
@@ -50,7 +49,7 @@ struct FrameOptions {
   std::string command_line;
 };
 
-/// What one read-out made of the frame, over the columns read. With --precision of several frames: the maps
+/// What one read-out made of the frame, over the region read. With --precision of several frames: the maps
 /// are those of the first.
 struct MeasuredFrame {
   ReadoutParameters parameters;
@@ -73,10 +72,10 @@ TargetMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
   return make_scene(parse_scene(options.scene), parameters);
 }
 
-DepthImage true_depth(const TargetMap& targets, std::span<const int> columns) {
-  DepthImage image{static_cast<int>(columns.size()), targets.rows(), {}};
-  for (int row = 0; row < targets.rows(); ++row) {
-    for (const int column : columns) {
+DepthImage true_depth(const TargetMap& targets, const Region& region) {
+  DepthImage image{static_cast<int>(region.columns.size()), region.rows.count, {}};
+  for (int row = region.rows.first; row < region.rows.first + region.rows.count; ++row) {
+    for (const int column : region.columns) {
       const PixelTarget& target = targets.at(column, row);
       image.metres.push_back(target.returns_signal() ? static_cast<float>(target.depth_m) : kUnknown);
     }
@@ -98,10 +97,10 @@ double add_errors(const DepthImage& truth, const DepthImage& error, ErrorStatist
 
 MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor,
                            const ReadoutParameters& parameters, const FrameOptions& options,
-                           std::span<const int> columns, const DepthImage& truth) {
+                           const Region& region, const DepthImage& truth) {
   MeasuredFrame frame;
   frame.parameters = parameters;
-  frame.run = run_readout(source, parameters, options.run, columns, options.command_line);
+  frame.run = run_readout(source, parameters, options.run, region, options.command_line);
   const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
   frame.depth = truth;
   frame.error = truth;
@@ -117,9 +116,9 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
 /// With --precision, frames until the rmse's interval is narrow enough. Pixels of a frame differ in distance,
 /// frames are equals: the interval comes from the spread of the frames' mean squares.
 MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const ReadoutParameters& parameters,
-                      const FrameOptions& options, std::span<const int> columns, const DepthImage& truth) {
+                      const FrameOptions& options, const Region& region, const DepthImage& truth) {
   MeasuredFrame frame =
-      measure_once(*make_source(fidelity, scene), scene.model(), parameters, options, columns, truth);
+      measure_once(*make_source(fidelity, scene), scene.model(), parameters, options, region, truth);
   std::vector<double> mean_squares = {add_errors(truth, frame.error, frame.statistics)};
   if (!options.precision_percent) {
     return frame;
@@ -132,7 +131,7 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const Readou
   };
   while (!(frame.precision_reached = reached()) && frame.frames < options.most_frames) {
     const auto next = make_source(fidelity, scene.at_frame(static_cast<std::uint32_t>(frame.frames)));
-    const MeasuredFrame other = measure_once(*next, scene.model(), parameters, options, columns, truth);
+    const MeasuredFrame other = measure_once(*next, scene.model(), parameters, options, region, truth);
     frame.run.seconds += other.run.seconds;
     mean_squares.push_back(add_errors(truth, other.error, frame.statistics));
     ++frame.frames;
@@ -140,15 +139,10 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const Readou
   return frame;
 }
 
-void write_readout_files(const MeasuredFrame& frame, std::span<const int> columns,
-                         const ColourRange& depth_range, const std::filesystem::path& folder) {
+void write_readout_files(const MeasuredFrame& frame, const Region& region, const ColourRange& depth_range,
+                         const std::filesystem::path& folder) {
   const std::string name(readout_name(frame.parameters.readout));
-  std::vector<ResultRecord> records;
-  for (std::size_t i = 0; i < frame.run.results.size(); ++i) {
-    records.push_back(
-        {columns[i % columns.size()], static_cast<int>(i / columns.size()), frame.run.results[i]});
-  }
-  write_result_csv(folder / (name + ".csv"), records);
+  write_result_csv(folder / (name + ".csv"), result_records(frame.run.results, region));
   write_depth_png(folder / (name + "_depth_mm.png"), frame.depth);
   write_ply(folder / (name + ".ply"), frame.depth, depth_range);
   const std::string title(readout_title(frame.parameters.readout));
@@ -251,12 +245,9 @@ void run_frame_command(const FrameOptions& options) {
   const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
   const PhotonSource scene(sensor, make_targets(options, sensor), options.sensor.klux, options.run.seed);
   const Fidelity fidelity = photon_model(options, scene);
-  std::vector<int> columns = parse_columns(options.run.columns, scene.columns());
-  if (columns.empty()) {
-    columns.resize(static_cast<std::size_t>(scene.columns()));
-    std::iota(columns.begin(), columns.end(), 0);
-  }
-  const DepthImage truth = true_depth(scene.targets(), columns);
+  const Region region{.columns = parse_columns(options.run.columns, scene.columns()),
+                      .rows = parse_rows(options.run.rows, scene.rows())};
+  const DepthImage truth = true_depth(scene.targets(), region);
   if (options.precision_percent && std::ranges::all_of(truth.metres, [](float m) { return std::isnan(m); })) {
     throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
   }
@@ -267,8 +258,8 @@ void run_frame_command(const FrameOptions& options) {
   }
   std::vector<MeasuredFrame> frames;
   for (const ReadoutParameters& parameters : readouts) {
-    frames.push_back(measure(scene, fidelity, parameters, options, columns, truth));
-    write_readout_files(frames.back(), columns, range, options.out);
+    frames.push_back(measure(scene, fidelity, parameters, options, region, truth));
+    write_readout_files(frames.back(), region, range, options.out);
   }
   write_overview(frames, truth, range, options);
   double seconds = 0.0;
@@ -328,7 +319,8 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   options->readout.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
-  command->add_option("--record", options->record, "also write the TDC stream as CSV, for `dtof replay`");
+  command->add_option("--record", options->record,
+                      "also write the TDC stream of the whole array as CSV, for `dtof replay`");
   command->callback([options] {
     // A recording must give the same results when it is replayed.
     options->run.streams_only = !options->record.empty();

@@ -9,7 +9,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -172,7 +171,7 @@ class MeasuredStudy {
         missing.push_back(titles_[r]);
         continue;
       }
-      (void)run_readout(*scene_.frame(resampling(light, 0)), readouts_[r], run, all_columns(),
+      (void)run_readout(*scene_.frame(resampling(light, 0)), readouts_[r], run, whole(),
                         options_.command_line);
       equal.push_back(titles_[r]);
     }
@@ -196,11 +195,7 @@ class MeasuredStudy {
     return resampling;
   }
 
-  [[nodiscard]] std::vector<int> all_columns() const {
-    std::vector<int> columns(static_cast<std::size_t>(scene_.columns));
-    std::iota(columns.begin(), columns.end(), 0);
-    return columns;
-  }
+  [[nodiscard]] Region whole() const { return Region::whole(scene_.columns, scene_.rows); }
 
   [[nodiscard]] SceneMeasurement read(const Light& light, const ReadoutParameters& readout) const {
     // No pulse width is subtracted: the recording's zero distance is part of the offset.
@@ -208,7 +203,7 @@ class MeasuredStudy {
     SceneMeasurement measurement;
     for (std::uint32_t frame = 0; frame < options_.frames; ++frame) {
       const ReadoutRun run = run_readout(*scene_.frame(resampling(light, frame)), readout, options_.run,
-                                         all_columns(), options_.command_line);
+                                         whole(), options_.command_line);
       for (const PixelResult& result : run.results) {
         const Measurement pixel = to_measurement(result, readout.fraction_bits);
         measurement.distance_m.push_back(scale.depth(pixel.position));

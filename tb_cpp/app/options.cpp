@@ -93,6 +93,13 @@ void RunOptions::add_to(CLI::App& command) {
   group->add_option("--columns", columns, "columns to read out: all, or e.g. 0-9,20; others cost nothing")
       ->take_last()
       ->capture_default_str();
+  group
+      ->add_option(
+          "--rows", rows,
+          "rows to read out: all, or one range, e.g. 40-79: with --columns a region of interest; others\n"
+          "are off and cost nothing. poolPointer sees the region as a smaller array: no neighbours beyond")
+      ->take_last()
+      ->capture_default_str();
 }
 
 void RunOptions::validate() const {

@@ -41,6 +41,7 @@ struct RunOptions {
   std::uint64_t seed = 1;
   int threads = 0;
   std::string columns = "all";
+  std::string rows = "all";
   bool streams_only = false;  ///< read streams even from a source that could be sampled
 
   void add_to(CLI::App& command);

@@ -6,10 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <numeric>
+#include <memory>
 
 #include "core/pixel_sampler.hpp"
 #include "core/progress.hpp"
+#include "core/row_region.hpp"
 #include "readout/run_frame.hpp"
 #include "rtl/error.hpp"
 #include "rtl/registry.hpp"
@@ -49,17 +50,21 @@ std::string columns_to_trace(std::span<const int> columns, std::size_t index,
   return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
 }
 
+/// `source` has the region's rows only.
 void verify(const StreamSource& source, const ReadoutParameters& parameters, const RunOptions& options,
-            std::span<const int> columns, const std::string& command, const RtlSourceFrame& actual) {
+            const Region& region, const std::string& command, const RtlSourceFrame& actual) {
+  const std::vector<int>& columns = region.columns;
   const RtlConfiguration configuration =
       find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
   std::vector<PixelResult> expected =
       run_frame(ArrayRows(source, configuration), parameters, options.threads, columns);
   expected.resize(actual.results.size());
-  const std::vector<Mismatch> mismatches =
-      compare_frames(columns, expected, actual.results, actual.result_cycles);
+  std::vector<Mismatch> mismatches = compare_frames(columns, expected, actual.results, actual.result_cycles);
   if (mismatches.empty()) {
     return;
+  }
+  for (Mismatch& mismatch : mismatches) {
+    mismatch.row += region.rows.first;
   }
   FrameContext context;
   context.configuration = configuration;
@@ -76,34 +81,31 @@ void verify(const StreamSource& source, const ReadoutParameters& parameters, con
 }  // namespace
 
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
-                       const RunOptions& options, std::span<const int> columns, const std::string& command) {
+                       const RunOptions& options, const Region& region, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
   ReadoutRun run;
-  const std::size_t count = columns.empty() ? static_cast<std::size_t>(source.columns()) : columns.size();
-  Progress progress(fmt::format("{} ({})", readout_title(parameters.readout), options.engine), count);
+  const std::vector<int>& columns = region.columns;
+  const std::unique_ptr<StreamSource> rows = row_region(source, region.rows);
+  Progress progress(fmt::format("{} ({})", readout_title(parameters.readout), options.engine),
+                    columns.size());
   if (options.rtl()) {
     RtlRunOptions rtl_options;
     rtl_options.trace = options.trace;
     const RtlSourceFrame frame =
-        run_frame_rtl(source, parameters, options.threads, columns, rtl_options, &progress);
+        run_frame_rtl(*rows, parameters, options.threads, columns, rtl_options, &progress);
     run.results = frame.results;
     run.cycles = frame.statistics.cycles;
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     if (options.verify) {
-      std::vector<int> numbers(columns.begin(), columns.end());
-      if (numbers.empty()) {
-        numbers.resize(count);
-        std::iota(numbers.begin(), numbers.end(), 0);
-      }
-      verify(source, parameters, options, numbers, command, frame);
+      verify(*rows, parameters, options, region, command, frame);
     }
     return run;
   }
-  const auto* sampled = dynamic_cast<const SampledSource*>(&source);
+  const auto* sampled = dynamic_cast<const SampledSource*>(rows.get());
   // Read-outs that pool pixels need to know which detections share an acquisition.
   const bool sample = sampled != nullptr && !options.streams_only && !is_pool_readout(parameters.readout);
   run.results = sample ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
-                       : run_frame(source, parameters, options.threads, columns, &progress);
+                       : run_frame(*rows, parameters, options.threads, columns, &progress);
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return run;
 }

@@ -6,15 +6,14 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <numeric>
 
-#include "app/columns.hpp"
 #include "app/commands.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/plot.hpp"
 #include "app/readout_run.hpp"
 #include "app/recording.hpp"
+#include "app/region.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
@@ -47,25 +46,24 @@ struct TruthComparison {
 };
 
 TruthComparison compare(const Recording& recording, const ReadoutParameters& parameters,
-                        const ReadoutRun& run, std::span<const int> columns, double t_int_s) {
+                        const ReadoutRun& run, const Region& region, double t_int_s) {
   // No pulse width is subtracted: the recording's zero distance is part of the offset.
   const DepthScale scale(t_int_s, parameters.np, 0.0);
   TruthComparison comparison;
   comparison.title = readout_title(parameters.readout);
   std::vector<double> differences;
   const auto width = static_cast<std::size_t>(recording.source->columns());
-  for (std::size_t i = 0; i < run.results.size(); ++i) {
-    const std::size_t pixel =
-        i / columns.size() * width + static_cast<std::size_t>(columns[i % columns.size()]);
-    const double truth = recording.true_distance[pixel];
+  for (const ResultRecord& pixel : result_records(run.results, region)) {
+    const double truth = recording.true_distance[static_cast<std::size_t>(pixel.row) * width +
+                                                 static_cast<std::size_t>(pixel.column)];
     if (!std::isnan(truth)) {
       comparison.true_m.push_back(truth);
-      comparison.measured_m.push_back(scale.depth(code_position(run.results[i], parameters.fraction_bits)));
+      comparison.measured_m.push_back(scale.depth(code_position(pixel.result, parameters.fraction_bits)));
       differences.push_back(comparison.measured_m.back() - truth);
     }
   }
   if (differences.empty()) {
-    throw InputError("the chosen columns have no true distance");
+    throw InputError("the chosen pixels have no true distance");
   }
   comparison.offset_m = median(differences);
   for (double& measured : comparison.measured_m) {
@@ -190,30 +188,23 @@ void run_replay_command(const ReplayOptions& options) {
   resampling.photon_budget = options.photons;
   resampling.seed = options.run.seed;
   const Recording recording = open_recording(recording_options);
-  std::vector<int> columns = parse_columns(options.run.columns, recording.source->columns());
-  if (columns.empty()) {
-    columns.resize(static_cast<std::size_t>(recording.source->columns()));
-    std::iota(columns.begin(), columns.end(), 0);
-  }
+  const Region region{.columns = parse_columns(options.run.columns, recording.source->columns()),
+                      .rows = parse_rows(options.run.rows, recording.source->rows())};
   create_output_folder(options.out);
   std::vector<TruthComparison> comparisons;
   for (const ReadoutParameters& parameters : readouts) {
     const ReadoutRun run =
-        run_readout(*recording.source, parameters, options.run, columns, options.command_line);
-    std::vector<ResultRecord> records;
-    for (std::size_t i = 0; i < run.results.size(); ++i) {
-      records.push_back({columns[i % columns.size()], static_cast<int>(i / columns.size()), run.results[i]});
-    }
+        run_readout(*recording.source, parameters, options.run, region, options.command_line);
     write_result_csv(
         std::filesystem::path(options.out) / fmt::format("{}.csv", readout_name(parameters.readout)),
-        records);
+        result_records(run.results, region));
     if (!recording.true_distance.empty()) {
-      comparisons.push_back(compare(recording, parameters, run, columns, resampling.integration_time));
+      comparisons.push_back(compare(recording, parameters, run, region, resampling.integration_time));
     }
   }
   const std::string heading = fmt::format(
       "{} ({}): {} columns x {} rows, {} acquisitions{}, engine {}{}, seed {}.\n", options.recording.file,
-      recording.description, columns.size(), recording.source->rows(), recording.source->acquisitions(),
+      recording.description, region.columns.size(), region.rows.count, recording.source->acquisitions(),
       options.photons ? fmt::format(", thinned to {:g} photons a pixel and frame", *options.photons) : "",
       options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
   if (comparisons.empty()) {

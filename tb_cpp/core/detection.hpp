@@ -55,6 +55,14 @@ class ColumnStream {
   std::vector<std::size_t> row_end_;
 };
 
+/// Neighbouring rows of an array: first, first + 1, .. first + count - 1.
+struct RowRange {
+  int first = 0;  ///< >= 0
+  int count = 0;  ///< >= 0
+
+  bool operator==(const RowRange&) const = default;
+};
+
 /// Produces the TDC stream of a frame, any column alone and from any thread.
 class StreamSource {
  public:
@@ -70,6 +78,10 @@ class StreamSource {
   [[nodiscard]] virtual std::uint32_t acquisitions() const = 0;
   /// Stream of column `index` (0 .. columns() - 1); rows() rows. Thread-safe.
   [[nodiscard]] virtual ColumnStream column(int index) const = 0;
+  /// The same detections of these rows alone (within 0 .. rows() - 1): row 0 of the result is row
+  /// `rows.first`. Thread-safe. This one makes the whole column; sources that draw photons draw only those
+  /// needed. Throws InputError if `column` lacks one of the rows.
+  [[nodiscard]] virtual ColumnStream column_rows(int index, RowRange rows) const;
 };
 
 }  // namespace dtof

@@ -44,10 +44,10 @@ ResampledStream::ResampledStream(int columns, int rows, const Resampling& resamp
   resampling_.validate();
 }
 
-ColumnStream ResampledStream::column(int index) const {
+ColumnStream ResampledStream::column_rows(int index, RowRange range) const {
   ColumnStream stream;
   std::vector<double> times;
-  for (int row = 0; row < rows_; ++row) {
+  for (int row = range.first; row < range.first + range.count; ++row) {
     const auto pixel = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns_) +
                        static_cast<std::uint32_t>(index);
     CounterRandom random(resampling_.seed, static_cast<std::uint32_t>(RandomPurpose::kResampling),

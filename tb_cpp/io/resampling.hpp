@@ -43,7 +43,8 @@ class ResampledStream : public StreamSource {
   [[nodiscard]] int columns() const override { return columns_; }
   [[nodiscard]] int rows() const override { return rows_; }
   [[nodiscard]] std::uint32_t acquisitions() const override { return resampling_.acquisitions; }
-  [[nodiscard]] ColumnStream column(int index) const override;
+  [[nodiscard]] ColumnStream column(int index) const override { return column_rows(index, {0, rows_}); }
+  [[nodiscard]] ColumnStream column_rows(int index, RowRange range) const override;
 
  protected:
   ResampledStream(int columns, int rows, const Resampling& resampling);

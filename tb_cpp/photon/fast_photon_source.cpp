@@ -170,11 +170,11 @@ bool FastPhotonSource::supports(const SensorModel& model) {
   return model.dead_time_s == 0.0 && model.binning == 1 && !model.coincidence_window_s;
 }
 
-ColumnStream FastPhotonSource::column(int index) const {
+ColumnStream FastPhotonSource::column_rows(int index, RowRange range) const {
   ArrivalTable table(exact_.model());
   ColumnStream stream;
   std::vector<Detection> detections;
-  for (int row = 0; row < rows(); ++row) {
+  for (int row = range.first; row < range.first + range.count; ++row) {
     table.build(exact_.rates(index, row));
     std::size_t count = 0;
     if (table.total() > 0.0) {

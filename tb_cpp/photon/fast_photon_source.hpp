@@ -29,7 +29,8 @@ class FastPhotonSource final : public SampledSource {
   [[nodiscard]] int columns() const override { return exact_.columns(); }
   [[nodiscard]] int rows() const override { return exact_.rows(); }
   [[nodiscard]] std::uint32_t acquisitions() const override { return exact_.acquisitions(); }
-  [[nodiscard]] ColumnStream column(int index) const override;
+  [[nodiscard]] ColumnStream column(int index) const override { return column_rows(index, {0, rows()}); }
+  [[nodiscard]] ColumnStream column_rows(int index, RowRange range) const override;
   [[nodiscard]] std::unique_ptr<PixelSampler> pixel_sampler() const override;
 
   /// False for what only the exact source models.

@@ -60,13 +60,13 @@ MeanPhotonSource::MeanPhotonSource(PhotonSource exact) : exact_(std::move(exact)
   }
 }
 
-ColumnStream MeanPhotonSource::column(int index) const {
+ColumnStream MeanPhotonSource::column_rows(int index, RowRange range) const {
   MeanPixelSampler sampler(exact_);
   const SensorModel& model = exact_.model();
   const double acquisition_count = model.acquisitions;
   ColumnStream stream;
   std::vector<Detection> row_detections;
-  for (int row = 0; row < rows(); ++row) {
+  for (int row = range.first; row < range.first + range.count; ++row) {
     sampler.start_pixel(index, row);
     const auto codes = sampler.draw(model.acquisitions, 0, 1 << model.np);
     const double spacing = acquisition_count / static_cast<double>(codes.size());

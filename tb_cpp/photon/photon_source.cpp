@@ -122,46 +122,55 @@ PixelRates PhotonSource::rates(int column, int row) const {
   return rates;
 }
 
-ColumnStream PhotonSource::column(int index) const {
-  return model_.binning == 1 && !model_.coincidence_window_s ? plain_column(index) : combined_column(index);
+ColumnStream PhotonSource::column_rows(int index, RowRange range) const {
+  return model_.binning == 1 && !model_.coincidence_window_s ? plain_column(index, range)
+                                                             : combined_column(index, range);
 }
 
-ColumnStream PhotonSource::plain_column(int index) const {
+ColumnStream PhotonSource::plain_column(int index, RowRange range) const {
   EventSampler sampler(model_, static_cast<std::size_t>(model_.slots));
   TdcRow tdc(model_);
   ColumnStream stream;
   double expected = 0.0;
-  for (int row = 0; row < rows(); ++row) {
+  const int end = range.first + range.count;
+  for (int row = range.first; row < end; ++row) {
     const PixelRates mean = rates(index, row);
     expected += std::min(mean.background + mean.signal, static_cast<double>(model_.slots));
   }
   // A twentieth more than the mean is rarely exceeded, and costs a copy then.
   stream.reserve(static_cast<std::size_t>(1.05 * expected * model_.acquisitions));
-  for (int row = 0; row < rows(); ++row) {
+  for (int row = range.first; row < end; ++row) {
     tdc.append(sampler.sample(rates(index, row), random(index, row)), stream);
   }
   return stream;
 }
 
-ColumnStream PhotonSource::combined_column(int index) const {
+ColumnStream PhotonSource::combined_column(int index, RowRange range) const {
   const bool coincidence = model_.coincidence_window_s.has_value();
   const double code_count = std::ldexp(1.0, model_.np);
-  const int block_begin = index / model_.binning * model_.binning;
-  const int block_end = std::min(block_begin + model_.binning, columns());
-  // Coincidence looks one column further on both sides, and needs the events that the TDC would not keep.
-  const int first = coincidence ? std::max(block_begin - 1, 0) : block_begin;
-  const int last = coincidence ? std::min(block_end + 1, columns()) : block_end;
+  const int binning = model_.binning;
+  const int block_begin = index / binning * binning;
+  const int block_end = std::min(block_begin + binning, columns());
+  const int range_end = range.first + range.count;
+  const int blocks_begin = range.first / binning * binning;
+  const int blocks_end = std::min((range_end - 1) / binning * binning + binning, rows());
+  // Coincidence looks one pixel further on all sides, and needs the events that the TDC would not keep.
+  const int border = coincidence ? 1 : 0;
+  const int first = std::max(block_begin - border, 0);
+  const int last = std::min(block_end + border, columns());
+  const int first_row = std::max(blocks_begin - border, 0);
+  const int last_row = std::min(blocks_end + border, rows());
   EventSampler sampler(model_, coincidence ? EventSampler::kAll : static_cast<std::size_t>(model_.slots));
 
   std::vector<std::vector<Events>> events(static_cast<std::size_t>(last - first));
   for (int column = first; column < last; ++column) {
-    for (int row = 0; row < rows(); ++row) {
+    for (int row = first_row; row < last_row; ++row) {
       const auto drawn = sampler.sample(rates(column, row), random(column, row));
       events[static_cast<std::size_t>(column - first)].emplace_back(drawn.begin(), drawn.end());
     }
   }
   const auto pixel = [&](int column, int row) -> const Events& {
-    return events[static_cast<std::size_t>(column - first)][static_cast<std::size_t>(row)];
+    return events[static_cast<std::size_t>(column - first)][static_cast<std::size_t>(row - first_row)];
   };
 
   const auto coincident_events = [&](int column, int row) {
@@ -187,8 +196,8 @@ ColumnStream PhotonSource::combined_column(int index) const {
 
   TdcRow tdc(model_);
   ColumnStream stream;
-  for (int row_begin = 0; row_begin < rows(); row_begin += model_.binning) {
-    const int row_end = std::min(row_begin + model_.binning, rows());
+  for (int row_begin = blocks_begin; row_begin < blocks_end; row_begin += binning) {
+    const int row_end = std::min(row_begin + binning, blocks_end);
     Events block;
     for (int column = block_begin; column < block_end; ++column) {
       for (int row = row_begin; row < row_end; ++row) {
@@ -200,7 +209,7 @@ ColumnStream PhotonSource::combined_column(int index) const {
         block = std::move(both);
       }
     }
-    for (int row = row_begin; row < row_end; ++row) {
+    for (int row = std::max(row_begin, range.first); row < std::min(row_end, range_end); ++row) {
       tdc.append(block, stream);
     }
   }

@@ -26,7 +26,9 @@ namespace dtof {
 ///  5. the TDC keeps the first SLOTS events in time order, code = floor(t / T_res).
 /// An event in the last bin gets the no-detection code: it takes its slot, and read-outs drop it.
 ///
-/// Random numbers depend on seed, frame and pixel alone. Copies are cheap.
+/// Random numbers depend on seed, frame and pixel alone. Copies are cheap. Some rows of a column
+/// (column_rows) draw no other pixel's events, but for coincidence and binning, which need those of
+/// neighbours and of the block.
 class PhotonSource final : public StreamSource {
  public:
   /// Throws InputError for illegal physics (SensorModel::validate, TargetMap::validate; `klux` finite and
@@ -40,7 +42,8 @@ class PhotonSource final : public StreamSource {
   [[nodiscard]] int columns() const override { return targets_->columns(); }
   [[nodiscard]] int rows() const override { return targets_->rows(); }
   [[nodiscard]] std::uint32_t acquisitions() const override { return model_.acquisitions; }
-  [[nodiscard]] ColumnStream column(int index) const override;
+  [[nodiscard]] ColumnStream column(int index) const override { return column_rows(index, {0, rows()}); }
+  [[nodiscard]] ColumnStream column_rows(int index, RowRange range) const override;
 
   [[nodiscard]] const SensorModel& model() const { return model_; }
   [[nodiscard]] const TargetMap& targets() const { return *targets_; }
@@ -52,8 +55,8 @@ class PhotonSource final : public StreamSource {
                                      RandomPurpose purpose = RandomPurpose::kPhotons) const;
 
  private:
-  [[nodiscard]] ColumnStream plain_column(int index) const;
-  [[nodiscard]] ColumnStream combined_column(int index) const;
+  [[nodiscard]] ColumnStream plain_column(int index, RowRange range) const;
+  [[nodiscard]] ColumnStream combined_column(int index, RowRange range) const;
 
   SensorModel model_;
   std::shared_ptr<const TargetMap> targets_;

@@ -6,12 +6,16 @@
 #include <unistd.h>
 
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <sstream>
 #include <string>
 
 #include "io/atomic_file.hpp"
+#include "io/depth_image.hpp"
 #include "io/input_file.hpp"
 
 namespace dtof {
@@ -108,6 +112,78 @@ TEST_F(CommandLine, ThreadsAndChosenColumnsDoNotChangeAResult) {
     EXPECT_THAT(whole, HasSubstr(line + "\n"));
   }
   EXPECT_EQ(lines, 5);
+}
+
+/// A result file without the lines of other rows than first to last.
+std::string rows_of_csv(const std::string& csv, int first, int last) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  std::string chosen = line + "\n";
+  while (std::getline(lines, line)) {
+    const int row = std::stoi(line.substr(line.find(',') + 1));
+    if (row >= first && row <= last) {
+      chosen += line + "\n";
+    }
+  }
+  return chosen;
+}
+
+TEST_F(CommandLine, ARegionOfInterestIsThatPartOfTheWholeFrame) {
+  const std::string frame = fmt::format("frame -r fifh,hispointer {} ", kSmallScene);
+  for (const char* sensor : {"", "--fidelity fast", "--binning 2 --coincidence 2"}) {
+    SCOPED_TRACE(sensor);
+    ASSERT_EQ(dtof(frame + sensor + " --out whole").exit_code, 0);
+    const Outcome outcome = dtof(frame + sensor + " --rows 1-3 --out part");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("6 x 3 pixels"));
+    for (const char* csv : {"fifh.csv", "hispointer.csv"}) {
+      EXPECT_EQ(read_file(path("part/") + csv), rows_of_csv(read_file(path("whole/") + csv), 1, 3)) << csv;
+    }
+    const DepthImage depth = read_depth_image(path("part/fifh_depth_mm.png"));
+    const DepthImage whole = read_depth_image(path("whole/fifh_depth_mm.png"));
+    ASSERT_EQ(depth.width, 6);
+    ASSERT_EQ(depth.height, 3);
+    EXPECT_THAT(depth.metres, ::testing::ElementsAreArray(std::span(whole.metres).subspan(6, 18)));
+  }
+  const Outcome rectangle = dtof(frame + "--columns 2-3 --rows 4 --out rectangle");
+  EXPECT_THAT(rectangle.output, HasSubstr("2 x 1 pixels"));
+  EXPECT_THAT(read_file(path("rectangle/fifh.csv")), HasSubstr("\n3,4,"));
+}
+
+TEST_F(CommandLine, ARegionsErrorsAreAgainstTheTruthOfItsOwnPixels) {
+  // Every row has a distance of its own: with another row's truth the error would be metres.
+  std::string pfm = "Pf\n1 4\n-1\n";
+  for (const float metres : {4.0F, 3.0F, 2.0F, 1.0F}) {
+    const auto bytes = std::bit_cast<std::array<char, sizeof metres>>(metres);
+    pfm.append(bytes.data(), bytes.size());
+  }
+  const Outcome outcome = dtof("frame -r histogram --depth " + file("rows.pfm", pfm) +
+                               " --array-columns 3 --array-rows 4 --fidelity analytic --rows 2-3 --out out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(read_file(path("out/summary.csv")), HasSubstr("0.00 %,0.00 %"));
+}
+
+TEST_F(CommandLine, ARegionThroughTheRtlEqualsTheModelAndTheWholeFrame) {
+  const std::string frame = "frame --scene plane --array-columns 2 --array-rows 40 --acquisitions 200 ";
+  ASSERT_EQ(dtof(frame + "-r sifh,ezpointer --out whole").exit_code, 0);
+  const Outcome outcome =
+      dtof(frame + "-r sifh,ezpointer,poolpointer --rows 17-28 --engine rtl --verify --out part");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("2 x 12 pixels"));
+  EXPECT_THAT(outcome.output, HasSubstr("every pixel equal to the model"));
+  for (const char* csv : {"sifh.csv", "ezpointer.csv"}) {
+    EXPECT_EQ(read_file(path("part/") + csv), rows_of_csv(read_file(path("whole/") + csv), 17, 28)) << csv;
+  }
+}
+
+TEST_F(CommandLine, ARecordingIsReplayedInARegion) {
+  const std::string frame = fmt::format("frame -r sifh {} --rows 2-3 ", kSmallScene);
+  ASSERT_EQ(dtof(frame + "--record stream.csv --out frame").exit_code, 0);
+  const Outcome outcome = dtof("replay stream.csv -r sifh --acquisitions 300 --rows 2-3 --out replay");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("6 columns x 2 rows"));
+  EXPECT_EQ(read_file(path("replay/sifh.csv")), read_file(path("frame/sifh.csv")));
 }
 
 TEST_F(CommandLine, ARecordedFrameReplaysToTheSameResult) {
@@ -209,6 +285,15 @@ TEST_F(CommandLine, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --scene flat --distance nan --out out", "distance");
   expect_refused("frame --reflectivity -0.5 --out out", "reflectivity");
   expect_refused("frame --columns 0-999 --out out", "column");
+  expect_refused("frame --rows 5-2 --out out", "--rows '5-2': range '5-2' runs backwards");
+  expect_refused("frame --rows 0-999 --out out", "row 999 is outside 0 to 159");
+  expect_refused("frame --rows abc --out out", "'abc' is not a row number");
+  expect_refused("frame --rows 0-3,7 --out out", "one range");
+  expect_refused(
+      "replay " + file("one.csv", "acquisition,column,row,timestamp\n0,0,1,1\n") + " --rows 0-2 --out out",
+      "row 2 is outside 0 to 1");
+  expect_refused("accuracy --rows 0-3 --distances 2 --out out", "--rows");
+  expect_refused("scenes --rows 0-3 --out out", "--rows");
   expect_refused("frame --engine rtl --readout ezpointer --np 9 --out out", "compiled");
   expect_refused("frame --verify --out out", "--engine rtl");
   expect_refused("frame --trace x.fst --engine rtl --out out", "one read-out");

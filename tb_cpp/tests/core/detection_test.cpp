@@ -6,11 +6,15 @@
 
 #include <vector>
 
+#include "core/error.hpp"
+
 namespace dtof {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::ThrowsMessage;
 
 TEST(ColumnStream, StartsEmpty) {
   const ColumnStream stream;
@@ -52,6 +56,36 @@ TEST(ColumnStream, ClearForgetsRowsAndDetections) {
   EXPECT_EQ(stream, ColumnStream());
   stream.append_row(std::vector<Detection>{{4, 2}});
   EXPECT_THAT(stream.row(0), ElementsAre(Detection{4, 2}));
+}
+
+/// Says it has more rows than it makes.
+class ThreeRows final : public StreamSource {
+ public:
+  [[nodiscard]] int columns() const override { return 1; }
+  [[nodiscard]] int rows() const override { return 4; }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return 8; }
+  [[nodiscard]] ColumnStream column(int /*index*/) const override {
+    ColumnStream stream;
+    stream.append_row(std::vector<Detection>{{0, 5}});
+    stream.append_row({});
+    stream.append_row(std::vector<Detection>{{1, 6}, {2, 9}});
+    return stream;
+  }
+};
+
+TEST(StreamSource, RowsOfAColumnAreItsOwn) {
+  const ThreeRows source;
+  const ColumnStream rows = source.column_rows(0, {.first = 1, .count = 2});
+  ASSERT_EQ(rows.rows(), 2);
+  EXPECT_THAT(rows.row(0), IsEmpty());
+  EXPECT_THAT(rows.row(1), ElementsAre(Detection{1, 6}, Detection{2, 9}));
+  EXPECT_EQ(source.column_rows(0, {.first = 0, .count = 3}), source.column(0));
+  EXPECT_EQ(source.column_rows(0, {.first = 2, .count = 0}).rows(), 0);
+}
+
+TEST(StreamSource, RefusesAColumnThatLacksRows) {
+  EXPECT_THAT([] { (void)ThreeRows().column_rows(0, {.first = 2, .count = 2}); },
+              ThrowsMessage<InputError>(HasSubstr("column 0 has 3 rows, not 4")));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace dtof {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
 using ::testing::EndsWith;
 using ::testing::IsEmpty;
 
@@ -63,6 +64,19 @@ TEST(AssignToAcquisitions, NotANumberIsLost) {
       assign_to_acquisitions(std::vector<double>{std::nan(""), std::numeric_limits<double>::infinity()},
                              {.acquisitions = 1}, random),
       IsEmpty());
+}
+
+TEST(HistogramStream, RowsAloneAreThoseOfTheColumn) {
+  const HistogramStream stream(
+      cube_of(3, 6, {0, 3, 0, 20, 7, 0, 0, 2}),
+      {.np = 4, .integration_time = 8e-9, .acquisitions = 100, .photon_budget = 30.0});
+  const ColumnStream whole = stream.column(1);
+  const ColumnStream part = stream.column_rows(1, {.first = 2, .count = 3});
+  ASSERT_EQ(part.rows(), 3);
+  for (int row = 0; row < 3; ++row) {
+    EXPECT_THAT(part.row(row), ElementsAreArray(whole.row(row + 2)));
+    EXPECT_GT(part.row(row).size(), 0U);
+  }
 }
 
 TEST(HistogramStream, WithoutBudgetEveryCountIsOnePhoton) {

@@ -9,11 +9,14 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "photon/fast_photon_source.hpp"
+#include "photon/mean_photon_source.hpp"
 #include "photon/physics.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/photon/statistics.hpp"
@@ -382,6 +385,39 @@ TEST_F(PhotonSourceTest, AnyPixelAloneAndAnyThreadCount) {
   const PhotonSource other(model_, targets, 14.0, test_seed(), 3);
   EXPECT_TRUE(std::ranges::equal(other.column(2).row(1), reference[2].row(1)));
   EXPECT_FALSE(std::ranges::equal(other.column(2).row(2), reference[2].row(2)));
+}
+
+TEST_F(PhotonSourceTest, RowsAloneAreThoseOfTheColumn) {
+  const auto check = [](const StreamSource& source) {
+    for (int column = 0; column < source.columns(); ++column) {
+      const ColumnStream whole = source.column(column);
+      for (int first = 0; first < source.rows(); ++first) {
+        for (int count = 0; first + count <= source.rows(); ++count) {
+          const ColumnStream part = source.column_rows(column, {.first = first, .count = count});
+          ASSERT_EQ(part.rows(), count);
+          for (int row = 0; row < count; ++row) {
+            ASSERT_TRUE(std::ranges::equal(part.row(row), whole.row(first + row)))
+                << "column " << column << " row " << row << " of " << count << " from " << first;
+          }
+        }
+      }
+    }
+  };
+  model_.acquisitions = 200;
+  TargetMap targets(3, 7, {.depth_m = 1.0, .reflectivity = 1.0});
+  targets.at(1, 3).depth_m = 0.3;
+  const auto source = [&] { return PhotonSource(model_, targets, 50.0, test_seed(), 2); };
+  check(source());
+  check(FastPhotonSource(source()));
+  check(MeanPhotonSource(source()));
+  for (const int binning : {1, 2, 3, 100}) {
+    for (const bool coincidence : {false, true}) {
+      SCOPED_TRACE(testing::Message() << "binning " << binning << " coincidence " << coincidence);
+      model_.binning = binning;
+      model_.coincidence_window_s = coincidence ? std::optional(1e-9) : std::nullopt;
+      check(source());
+    }
+  }
 }
 
 TEST_F(PhotonSourceTest, SeedFrameAndPixelChangeTheNumbers) {

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/row_region.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/pixel_sampler.hpp"
+
+namespace dtof {
+namespace {
+
+/// `Source` is StreamSource or SampledSource.
+template <typename Source>
+class RowRegion : public Source {
+ public:
+  RowRegion(const Source& source, RowRange rows) : source_(source), rows_(rows) {}
+
+  [[nodiscard]] int columns() const override { return source_.columns(); }
+  [[nodiscard]] int rows() const override { return rows_.count; }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return source_.acquisitions(); }
+  [[nodiscard]] ColumnStream column(int index) const override { return source_.column_rows(index, rows_); }
+  [[nodiscard]] ColumnStream column_rows(int index, RowRange rows) const override {
+    return source_.column_rows(index, {rows_.first + rows.first, rows.count});
+  }
+
+ protected:
+  [[nodiscard]] const Source& source() const { return source_; }
+  [[nodiscard]] int first_row() const { return rows_.first; }
+
+ private:
+  const Source& source_;
+  RowRange rows_;
+};
+
+class RegionSampler final : public PixelSampler {
+ public:
+  RegionSampler(std::unique_ptr<PixelSampler> sampler, int first_row)
+      : sampler_(std::move(sampler)), first_row_(first_row) {}
+
+  void start_pixel(int column, int row) override { sampler_->start_pixel(column, first_row_ + row); }
+  std::span<const Timestamp> draw(std::uint32_t acquisitions, std::int32_t first,
+                                  std::int32_t last) override {
+    return sampler_->draw(acquisitions, first, last);
+  }
+
+ private:
+  std::unique_ptr<PixelSampler> sampler_;
+  int first_row_;
+};
+
+class SampledRowRegion final : public RowRegion<SampledSource> {
+ public:
+  using RowRegion::RowRegion;
+
+  [[nodiscard]] std::unique_ptr<PixelSampler> pixel_sampler() const override {
+    return std::make_unique<RegionSampler>(source().pixel_sampler(), first_row());
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<StreamSource> row_region(const StreamSource& source, RowRange rows) {
+  if (rows.first < 0 || rows.count < 1 || rows.count > source.rows() - rows.first) {
+    throw InputError(fmt::format("{} rows from row {} are not within the source's 0 to {}", rows.count,
+                                 rows.first, source.rows() - 1));
+  }
+  if (const auto* sampled = dynamic_cast<const SampledSource*>(&source)) {
+    return std::make_unique<SampledRowRegion>(*sampled, rows);
+  }
+  return std::make_unique<RowRegion<StreamSource>>(source, rows);
+}
+
+}  // namespace dtof
