@@ -384,8 +384,9 @@ class SpeedErrorReport {
                  p_value(verdict.numbers_p), p_value(verdict.results_p)});
     }
     write_file(folder / "speed_error.csv", points_.csv());
+    const ErrorCurveSettings curve_settings;
     const std::vector<ErrorCurve> curves =
-        speed_error_curves(sensor_, options_.run.seed, options_.run.threads);
+        speed_error_curves(sensor_, curve_settings, options_.run.seed, options_.run.threads);
     std::vector<PlotSeries> series;
     series.reserve(curves.size());
     for (const ErrorCurve& curve : curves) {
@@ -433,7 +434,7 @@ class SpeedErrorReport {
         "independent and its pointers the slots of an acquisition, which shows at pile-up (0.5 m and less): "
         "see the CSV.\n",
         options_.preset, options_.run.seed, options_.frames, points, options_.command_line, table.markdown(),
-        curve_table(curves).markdown(), kCurveReferenceFrames, sensor_.acquisitions,
+        curve_table(curves).markdown(), curve_settings.reference_frames, sensor_.acquisitions,
         static_cast<double>(detections_) * 1e-6,
         options_.run.threads == 0 ? hardware_threads() : options_.run.threads, points, points,
         points * kReadouts.size(), points * kReadouts.size(),

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/speed_error_curves.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,9 +12,9 @@
 #include <limits>
 
 #include "analytic/code_distribution.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "metrics/depth.hpp"
-#include "metrics/error_statistics.hpp"
 #include "photon/fast_photon_source.hpp"
 #include "readout/model.hpp"
 #include "readout/run_frame.hpp"
@@ -21,47 +24,40 @@ namespace {
 
 constexpr std::array kReadouts = {Readout::kEzPointer, Readout::kHisPointer, Readout::kSifh, Readout::kFifh,
                                   Readout::kThreeSteps};
-constexpr std::array kDistances = {0.5, 1.0, 2.0, 3.0};
-constexpr double kKlux = 14.0;
-constexpr std::array kFrames = {100, 200, 500, 1000, 2000, 5000, 10'000, 20'000, 50'000, 100'000};
-constexpr int kBlock = 100;  // rows: every column is a set of this many frames of one pixel
-
-using BlockErrors = std::array<ErrorStatistics, kReadouts.size()>;
-
-struct Answer {
-  double bias;  // relative to the distance
-  double precision;
-};
+/// By read-out, then by block: every column of a frame is a block of one pixel's frames.
+using BlockErrors = std::array<std::vector<ErrorStatistics>, kReadouts.size()>;
 
 /// Exact frames of one pixel at a distance, as the independent pixels of a flat scene.
-PhotonSource frames_at(const SensorModel& sensor, double distance, int frames, std::uint64_t seed) {
-  return {
-      sensor,
-      TargetMap(frames / kBlock, kBlock, {.depth_m = distance, .reflectivity = sensor.default_reflectivity}),
-      kKlux, seed};
+PhotonSource frames_at(const SensorModel& sensor, double distance, double klux, int frames,
+                       std::uint64_t seed) {
+  return {sensor,
+          TargetMap(frames / kCurveBlock, kCurveBlock,
+                    {.depth_m = distance, .reflectivity = sensor.default_reflectivity}),
+          klux, seed};
 }
 
 using ReadColumn = std::function<std::vector<PixelResult>(int column, const ReadoutParameters& parameters)>;
 
 /// Errors of every block, from `columns(column)`, which draws a block's photons.
-std::vector<BlockErrors> block_errors(const SensorModel& sensor, double distance, int blocks, int threads,
-                                      const std::function<ReadColumn(int column)>& columns) {
-  std::vector<BlockErrors> errors(static_cast<std::size_t>(blocks));
-  parallel_for(errors.size(), threads, [&](std::size_t block) {
+BlockErrors block_errors(const SensorModel& sensor, double distance, int blocks, int threads,
+                         const std::function<ReadColumn(int column)>& columns) {
+  BlockErrors errors;
+  errors.fill(std::vector<ErrorStatistics>(static_cast<std::size_t>(blocks)));
+  parallel_for(static_cast<std::size_t>(blocks), threads, [&](std::size_t block) {
     const ReadColumn read = columns(static_cast<int>(block));
     for (std::size_t r = 0; r < kReadouts.size(); ++r) {
       const ReadoutParameters parameters = ReadoutParameters::defaults(kReadouts[r], sensor.np);
       const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
       for (const PixelResult& result : read(static_cast<int>(block), parameters)) {
-        errors[block][r].add(distance, scale.depth(code_position(result, parameters.fraction_bits)));
+        errors[r][block].add(distance, scale.depth(code_position(result, parameters.fraction_bits)));
       }
     }
   });
   return errors;
 }
 
-std::vector<BlockErrors> stream_errors(const StreamSource& source, const SensorModel& sensor, double distance,
-                                       int threads) {
+BlockErrors stream_errors(const StreamSource& source, const SensorModel& sensor, double distance,
+                          int threads) {
   return block_errors(sensor, distance, source.columns(), threads, [&](int column) {
     return [&source, stream = source.column(column)](int, const ReadoutParameters& parameters) {
       return make_readout_model(parameters)->run_column(stream, source.acquisitions());
@@ -69,11 +65,11 @@ std::vector<BlockErrors> stream_errors(const StreamSource& source, const SensorM
   });
 }
 
-std::vector<BlockErrors> sampler_errors(const SampledSource& source, const SensorModel& sensor,
-                                        double distance, int threads) {
+BlockErrors sampler_errors(const SampledSource& source, const SensorModel& sensor, double distance,
+                           int threads) {
   return block_errors(sensor, distance, source.columns(), threads, [&](int) {
     return [&source](int column, const ReadoutParameters& parameters) {
-      std::vector<PixelResult> results(kBlock);
+      std::vector<PixelResult> results(kCurveBlock);
       make_readout_model(parameters)
           ->run_sampled_column(*source.pixel_sampler(), column, source.acquisitions(), results);
       return results;
@@ -81,36 +77,51 @@ std::vector<BlockErrors> sampler_errors(const SampledSource& source, const Senso
   });
 }
 
-/// Of blocks [begin, end) together.
-Answer answer(const std::vector<BlockErrors>& errors, std::size_t readout, std::size_t begin, std::size_t end,
-              double distance) {
+/// Of the timed runs; long ones are steady enough.
+int repeats_of(int frames) { return frames > 10'000 ? 1 : 3; }
+
+bool is_blocks(int frames) { return frames >= kCurveBlock && frames % kCurveBlock == 0; }
+
+}  // namespace
+
+void ErrorCurveSettings::validate() const {
+  if (distances_m.empty() || frames.empty()) {
+    throw InputError("error curves need at least one distance and one number of frames");
+  }
+  const bool ascending = std::ranges::adjacent_find(frames, std::ranges::greater_equal()) == frames.end();
+  if (!ascending || !std::ranges::all_of(frames, is_blocks) || !is_blocks(reference_frames)) {
+    throw InputError(
+        fmt::format("error curves: numbers of frames must be ascending multiples of {}, not {}; {}",
+                    kCurveBlock, fmt::join(frames, ", "), reference_frames));
+  }
+}
+
+ErrorAnswer error_answer(std::span<const ErrorStatistics> blocks, double distance_m) {
   ErrorStatistics all;
-  for (std::size_t block = begin; block < end; ++block) {
-    all.merge(errors[block][readout]);
+  for (const ErrorStatistics& block : blocks) {
+    all.merge(block);
   }
   const ErrorSummary summary = all.summary();
-  return {summary.bias_m / distance, summary.relative_precision};
+  return {.bias = summary.bias_m / distance_m, .precision = summary.relative_precision};
 }
 
-double squared_distance(const Answer& a, const Answer& b) {
-  return (a.bias - b.bias) * (a.bias - b.bias) + (a.precision - b.precision) * (a.precision - b.precision);
+void AnswerError::add(const ErrorAnswer& answer, const ErrorAnswer& truth) {
+  const double bias = answer.bias - truth.bias;
+  const double precision = answer.precision - truth.precision;
+  sum_ += bias * bias + precision * precision;
+  count_ += 2.0;
 }
 
-/// Root of the mean of squared differences, two an answer, in per cent.
-class RmsPercent {
- public:
-  void add(const Answer& a, const Answer& b) {
-    sum_ += squared_distance(a, b);
-    count_ += 2.0;
+void AnswerError::add_sets(std::span<const ErrorStatistics> blocks, std::size_t blocks_a_set,
+                           double distance_m, const ErrorAnswer& truth) {
+  for (std::size_t begin = 0; begin + blocks_a_set <= blocks.size(); begin += blocks_a_set) {
+    add(error_answer(blocks.subspan(begin, blocks_a_set), distance_m), truth);
   }
-  [[nodiscard]] double value() const { return std::sqrt(sum_ / count_) * 100.0; }
+}
 
- private:
-  double sum_ = 0.0;
-  double count_ = 0.0;
-};
+double AnswerError::percent() const { return std::sqrt(sum_ / count_) * 100.0; }
 
-double cpu_ms(const std::function<void()>& run, int repeats) {
+double least_cpu_ms(const std::function<void()>& run, int repeats) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < repeats; ++i) {
     const std::clock_t begin = std::clock();
@@ -120,9 +131,9 @@ double cpu_ms(const std::function<void()>& run, int repeats) {
   return least;
 }
 
-}  // namespace
-
-std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, std::uint64_t seed, int threads) {
+std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, const ErrorCurveSettings& settings,
+                                           std::uint64_t seed, int threads) {
+  settings.validate();
   enum Model : std::uint8_t { kExact, kFastStream, kFastSampler, kAnalytic, kModels };
   std::vector<ErrorCurve> curves(kModels);
   curves[kExact].model = "exact";
@@ -130,57 +141,62 @@ std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, std::uint6
   curves[kFastSampler].model = "fast sampler";
   curves[kAnalytic].model = "analytic";
   const ReadoutParameters timed = ReadoutParameters::defaults(Readout::kHisPointer, sensor.np);
+  const std::vector<int>& frames = settings.frames;
+  const auto pixel_at = [&](double distance, int count) {
+    return frames_at(sensor, distance, settings.klux, count, seed);
+  };
 
-  std::array<std::array<RmsPercent, kFrames.size()>, kModels> errors;
-  for (const double distance : kDistances) {
-    const std::vector<BlockErrors> truth = stream_errors(
-        frames_at(sensor, distance, kCurveReferenceFrames, seed).at_frame(1), sensor, distance, threads);
-    const PhotonSource exact = frames_at(sensor, distance, kFrames.back(), seed);
+  std::array<std::vector<AnswerError>, kAnalytic> errors;
+  errors.fill(std::vector<AnswerError>(frames.size()));
+  AnswerError analytic_error;
+  for (const double distance : settings.distances_m) {
+    const BlockErrors truth =
+        stream_errors(pixel_at(distance, settings.reference_frames).at_frame(1), sensor, distance, threads);
+    const PhotonSource exact = pixel_at(distance, frames.back());
     const FastPhotonSource fast(exact);
     const std::array drawn = {stream_errors(exact, sensor, distance, threads),
                               stream_errors(fast, sensor, distance, threads),
                               sampler_errors(fast, sensor, distance, threads)};
     for (std::size_t r = 0; r < kReadouts.size(); ++r) {
-      const Answer right = answer(truth, r, 0, truth.size(), distance);
+      const ErrorAnswer right = error_answer(truth[r], distance);
       for (std::size_t model = 0; model < drawn.size(); ++model) {
-        for (std::size_t n = 0; n < kFrames.size(); ++n) {
-          const auto blocks = static_cast<std::size_t>(kFrames[n] / kBlock);
-          for (std::size_t begin = 0; begin + blocks <= drawn[model].size(); begin += blocks) {
-            errors[model][n].add(answer(drawn[model], r, begin, begin + blocks, distance), right);
-          }
+        for (std::size_t n = 0; n < frames.size(); ++n) {
+          errors[model][n].add_sets(drawn[model][r], static_cast<std::size_t>(frames[n] / kCurveBlock),
+                                    distance, right);
         }
       }
       const ReadoutParameters parameters = ReadoutParameters::defaults(kReadouts[r], sensor.np);
       const PredictedErrors predicted = predict_errors(
           code_distribution(sensor, exact.rates(0, 0), parameters), sensor, parameters, distance);
-      errors[kAnalytic][0].add({predicted.bias_m / distance, predicted.relative_precision}, right);
+      analytic_error.add({.bias = predicted.bias_m / distance, .precision = predicted.relative_precision},
+                         right);
     }
   }
 
-  for (std::size_t n = 0; n < kFrames.size(); ++n) {
-    // Long runs are steady enough.
-    const int repeats = kFrames[n] > 10'000 ? 1 : 3;
+  const auto distance_count = static_cast<double>(settings.distances_m.size());
+  for (std::size_t n = 0; n < frames.size(); ++n) {
+    const int repeats = repeats_of(frames[n]);
     std::array<double, kAnalytic> time{};
-    for (const double distance : kDistances) {
-      const PhotonSource exact = frames_at(sensor, distance, kFrames[n], seed);
+    for (const double distance : settings.distances_m) {
+      const PhotonSource exact = pixel_at(distance, frames[n]);
       const FastPhotonSource fast(exact);
-      time[kExact] += cpu_ms([&] { (void)run_frame(exact, timed, threads); }, repeats);
-      time[kFastStream] += cpu_ms([&] { (void)run_frame(fast, timed, threads); }, repeats);
-      time[kFastSampler] += cpu_ms([&] { (void)run_sampled_frame(fast, timed, threads); }, repeats);
+      time[kExact] += least_cpu_ms([&] { (void)run_frame(exact, timed, threads); }, repeats);
+      time[kFastStream] += least_cpu_ms([&] { (void)run_frame(fast, timed, threads); }, repeats);
+      time[kFastSampler] += least_cpu_ms([&] { (void)run_sampled_frame(fast, timed, threads); }, repeats);
     }
     for (std::size_t model = 0; model < time.size(); ++model) {
-      curves[model].frames.push_back(kFrames[n]);
-      curves[model].cpu_ms.push_back(time[model] / kDistances.size());
-      curves[model].error_percent.push_back(errors[model][n].value());
+      curves[model].frames.push_back(frames[n]);
+      curves[model].cpu_ms.push_back(time[model] / distance_count);
+      curves[model].error_percent.push_back(errors[model][n].percent());
     }
   }
   double analytic_time = 0.0;
-  for (const double distance : kDistances) {
-    const PixelRates rates = frames_at(sensor, distance, kBlock, seed).rates(0, 0);
-    analytic_time += cpu_ms([&] { (void)code_distribution(sensor, rates, timed); }, 3);
+  for (const double distance : settings.distances_m) {
+    const PixelRates rates = pixel_at(distance, kCurveBlock).rates(0, 0);
+    analytic_time += least_cpu_ms([&] { (void)code_distribution(sensor, rates, timed); }, 3);
   }
-  curves[kAnalytic].cpu_ms.push_back(analytic_time / kDistances.size());
-  curves[kAnalytic].error_percent.push_back(errors[kAnalytic][0].value());
+  curves[kAnalytic].cpu_ms.push_back(analytic_time / distance_count);
+  curves[kAnalytic].error_percent.push_back(analytic_error.percent());
   return curves;
 }
 

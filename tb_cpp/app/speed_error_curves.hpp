@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "metrics/error_statistics.hpp"
 #include "photon/preset.hpp"
 
 namespace dtof {
@@ -17,11 +21,56 @@ struct ErrorCurve {
   std::vector<double> error_percent;  ///< rms error of bias and relative precision, % of the distance
 };
 
-/// Curves from 100 to 100,000 frames of the exact model, the fast one's streams and sampler, and one point of
-/// the analytic model. The error is the rms over the distances 0.5, 1, 2 and 3 m at 14 klux, five read-outs,
-/// both quantities and the disjoint sets of N among 100,000 frames; truth is the exact model's answer from
-/// `kCurveReferenceFrames` other frames. Noise falls with 1/sqrt(N), a model's own error stays.
-inline constexpr int kCurveReferenceFrames = 400'000;
-std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, std::uint64_t seed, int threads);
+/// Frames are drawn and summed up in blocks of this many.
+inline constexpr int kCurveBlock = 100;
+
+/// Numbers of frames are multiples of kCurveBlock, from one block up.
+struct ErrorCurveSettings {
+  std::vector<double> distances_m = {0.5, 1.0, 2.0, 3.0};
+  double klux = 14.0;
+  /// N of the curves, ascending; the last is drawn, and cut into disjoint sets of the others.
+  std::vector<int> frames = {100, 200, 500, 1000, 2000, 5000, 10'000, 20'000, 50'000, 100'000};
+  int reference_frames = 400'000;  ///< other frames of the exact model, whose answer is the truth
+
+  /// Throws InputError for empty lists or numbers of frames as they must not be.
+  void validate() const;
+};
+
+/// Curves of the exact model, the fast one's streams and sampler, and one point of the analytic model. The
+/// error is the rms over the distances, five read-outs, both quantities and the disjoint sets of N frames.
+/// Noise falls with 1/sqrt(N), a model's own error stays. Errors depend on `seed`, not on `threads`.
+/// Throws InputError for illegal settings, or physics as PhotonSource does.
+std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, const ErrorCurveSettings& settings,
+                                           std::uint64_t seed, int threads);
+
+/// What a set of frames of one pixel says.
+struct ErrorAnswer {
+  double bias = 0.0;       ///< relative to the distance
+  double precision = 0.0;  ///< relative precision (Eq. 3.14)
+};
+
+/// Of all blocks together. Throws InputError if they hold no frame.
+ErrorAnswer error_answer(std::span<const ErrorStatistics> blocks, double distance_m);
+
+/// Root of the mean squared difference of answers from the truth, two differences (bias and precision) an
+/// answer.
+class AnswerError {
+ public:
+  void add(const ErrorAnswer& answer, const ErrorAnswer& truth);
+  /// The answer of each disjoint set of `blocks_a_set` (>= 1) neighbouring blocks; a rest that fills no set
+  /// is left out.
+  void add_sets(std::span<const ErrorStatistics> blocks, std::size_t blocks_a_set, double distance_m,
+                const ErrorAnswer& truth);
+  /// NaN if nothing was added.
+  [[nodiscard]] double percent() const;
+
+ private:
+  double sum_ = 0.0;
+  double count_ = 0.0;
+};
+
+/// Processor time of `run` in ms, all threads added up: the least of `repeats` (>= 1) runs, as what caches
+/// and other programs add is not the run's own.
+double least_cpu_ms(const std::function<void()>& run, int repeats);
 
 }  // namespace dtof
