@@ -3,7 +3,7 @@
 # make test       every test and the lint
 # make sim        the main job without the installation step
 # make reproduce  the thesis's accuracy statements, measured (minutes)
-# make scenes     read-outs on scenes (ten minutes); make pareto, make real-data: scripts/study.mk
+# make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
 # make synth      area, timing and power of every configuration
 # make lint       RTL in three tools, C++ format and static analysis
 # make bench      speed of RTL, models and photon model

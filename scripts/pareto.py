@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Area against accuracy of every read-out and variant, and issue D's goals beside what was measured.
+"""Area against accuracy of every read-out and variant, and poolPointer's goals beside what was measured.
 
 Areas, clock and bits are those of `make synth` (reports/area.csv, timing.csv), accuracies those of `dtof scenes`
 (reports/scenes.csv, and scenes_variants.csv for variants that change results). Writes reports/pareto.md, .csv, .svg

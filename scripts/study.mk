@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
+# make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
-.PHONY: scenes pareto real-data
+.PHONY: scenes pareto trade real-data
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -27,6 +28,9 @@ scenes: build
 
 pareto:
 	@/usr/bin/python3 scripts/pareto.py
+
+trade: build
+	@/usr/bin/python3 scripts/trade.py $(DTOF)
 
 real-data: build
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \

@@ -20,6 +20,39 @@ LABELS = {"NP": "bits of a timestamp", "NB": "bits of the coarse index",
           "PIXELS_PER_SRAM": "pixels of a column", "SRAM_NUM": "columns"}
 FWHM_NS, RANGE_NS = 2.0, 45.0
 
+# poolPointer's candidates: labels and bits of a score. Their accuracy: scripts/trade.py.
+CANDIDATES = ((4, 4), (5, 4), (6, 3), (6, 4), (7, 3), (8, 3))
+ENGINE_CLOCKS = 333_440 - 220  # of a frame of 33,333 acquisitions in 11.0e6 clocks, less clears and pauses
+
+
+def engine_columns(configuration: Configuration) -> int:
+    """Columns that one engine of poolPointer has time for, evenly shared among the engines (docs/poolpointer.md,
+    Cycle budget)."""
+    columns, labels = configuration["SRAM_NUM"], configuration["DARK_LABELS"]
+    groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
+    chain = configuration["PIXELS_PER_SRAM"] + 3
+    for engines in range(1, columns + 1):
+        share = -(-columns // engines)
+        share += share % 2  # two columns share an SRAM
+        clocks = groups * (32 * labels + 43) + 2 * chain * max(labels + 4, 6) + chain * (6 + max(6, engines + 1))
+        if share * clocks <= ENGINE_CLOCKS:
+            return share
+    raise FlowError(f"{configuration.name}: no engine has time for even one column")
+
+
+def candidates(base: Configuration) -> list[tuple[str, str, Configuration]]:
+    """(parameter, value, configuration) for each number and width of candidates; the base is one of them."""
+    points = []
+    for labels, bits in CANDIDATES:
+        if (labels, bits) == (base["DARK_LABELS"], base["DARK_SCORE_BITS"]):
+            item = base
+        else:
+            item = base.with_parameters(f"{base.name}_labels{labels}x{bits}", DARK_LABELS=labels, DARK_SCORE_BITS=bits,
+                                        BRIGHT_LABELS=labels, BRIGHT_SCORE_BITS=bits)
+            item = item.with_parameters(item.name, ENGINE_COLUMNS=engine_columns(item))
+        points.append(("LABELS", f"{labels}x{bits}", item))
+    return points
+
 
 def point(base: Configuration, parameter: str, value: int) -> Configuration:
     """The base with one parameter changed, and with NP what follows from it (NB, GUARD)."""
@@ -30,7 +63,7 @@ def point(base: Configuration, parameter: str, value: int) -> Configuration:
     return base.with_parameters(f"{base.name}_{parameter.lower()}{value}", **changes)
 
 
-def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int, Configuration]]:
+def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int | str, Configuration]]:
     """(parameter, value, configuration) of every point; the base itself is a point of every sweep."""
     points = []
     for readout in READOUTS:
@@ -41,7 +74,7 @@ def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int, Conf
             for value in values:
                 at_base = base[parameter] == value
                 points.append((parameter, value, base if at_base else point(base, parameter, value)))
-    return points
+    return points + candidates(configurations["poolpointer"])
 
 
 def jobs(configurations: dict[str, Configuration]) -> list[Job]:
@@ -50,7 +83,7 @@ def jobs(configurations: dict[str, Configuration]) -> list[Job]:
             if configuration.name not in configurations]
 
 
-def write(points: list[tuple[str, int, Configuration]], results: dict[str, Result], reports: Path,
+def write(points: list[tuple[str, int | str, Configuration]], results: dict[str, Result], reports: Path,
           build: Path) -> None:
     """growth.csv and one plot a parameter."""
     rows = []

@@ -131,11 +131,14 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
     folder.mkdir(parents=True, exist_ok=True)
     scripts = technology.root / "synth" / "yosys"
     settings = folder / "generic_settings.tcl"
+    # Only this configuration's macros: Yosys numbers what it reads, and mapping depends on the numbers by a few
+    # per cent, so another configuration's size would change this one's area.
+    black_boxes, *technology_files = sram_kit.write_rtl_views(
+        folder, [*memories(configuration).values(), *engine_memories(configuration).values()])
     tools.write_settings(settings, {
         "scripts": scripts, "top": configuration.top,
         "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "package",
-        "technology_files": [technology.kit / f"{kind.module}.sv" for kind in sram_model.KINDS.values()],
-        "black_boxes": technology.kit / "sram40_blackbox.v", "liberty": technology.slow.path,
+        "technology_files": technology_files, "black_boxes": black_boxes, "liberty": technology.slow.path,
         "parameters": configuration.rtl_parameters(), "generic_netlist": folder / "generic.il"})
     tools.run_yosys(scripts / "generic.tcl", settings, folder / "generic.log", configuration.name)
 

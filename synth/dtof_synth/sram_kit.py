@@ -8,6 +8,7 @@ the sizes of synth/sram_sizes.csv; any other size stops elaboration.
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable
 from pathlib import Path
 
 from . import sram_model
@@ -182,7 +183,7 @@ def technology_module(ports: int, sizes: list[Size]) -> str:
     names = {"addr_i": "A", "raddr_i": "A", "waddr_i": "A", "wdata_i": "W", "rdata_o": "W"}
     reference = pins(Size(ports, 16, 1))
     lines = ["// SPDX-License-Identifier: Apache-2.0",
-             "// Generated from the list of SRAM sizes; an unlisted size stops elaboration.",
+             "// Generated from a list of SRAM sizes; any other size stops elaboration.",
              f"module {module} #(", "    parameter DEPTH = 1,", "    parameter WIDTH = 1", ") ("]
     for index, (name, direction, _) in enumerate(reference):
         span = {"A": "[(DEPTH > 1 ? $clog2(DEPTH) : 1)-1:0] ", "W": "[WIDTH-1:0] "}.get(names.get(name, ""), "")
@@ -195,7 +196,7 @@ def technology_module(ports: int, sizes: list[Size]) -> str:
                   f"      {size.name} u_macro ({connections});"]
         keyword = "end else if"
     # The first argument is the sentence, as Yosys 0.23 takes it.
-    fatal = f'$fatal("{module}: this size is not in synth/sram_sizes.csv; run make synth-sizes");'
+    fatal = f'$fatal("{module}: the RTL asks for a size that is not listed (synth/sram_sizes.csv, dtof_synth/configuration.py)");'
     lines += ["    end else begin : g_unlisted", f"      {fatal}", "    end"] if keyword != "if" \
         else [f"    {fatal}"]
     return "\n".join([*lines, "  endgenerate", "endmodule", ""])
@@ -208,8 +209,16 @@ def write_kit(folder: Path, sizes: list[Size]) -> list[Macro]:
     for corner in (TYPICAL, SLOW):
         (folder / f"sram40_{corner.name}.lib").write_text(liberty(macros, corner), encoding="utf-8")
     (folder / "sram40.lef").write_text(lef(macros), encoding="utf-8")
-    (folder / "sram40_blackbox.v").write_text(black_boxes(macros), encoding="utf-8")
-    for ports, kind in sram_model.KINDS.items():
-        text = technology_module(ports, sorted(sizes))
-        (folder / f"{kind.module}.sv").write_text(text, encoding="utf-8")
+    write_rtl_views(folder, sizes)
     return macros
+
+
+def write_rtl_views(folder: Path, sizes: Iterable[Size]) -> list[Path]:
+    """Black boxes of these sizes and the technology modules that choose among them; returns the files."""
+    sizes = sorted(set(sizes))
+    files = {"sram40_blackbox.v": black_boxes([sram_model.macro(size) for size in sizes])}
+    for ports, kind in sram_model.KINDS.items():
+        files[f"{kind.module}.sv"] = technology_module(ports, sizes)
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return [folder / name for name in files]

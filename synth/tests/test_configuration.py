@@ -33,6 +33,17 @@ class Configurations(unittest.TestCase):
         self.assertEqual(bits_per_pixel(self.named["fifh"]), 320 + 5)
         self.assertEqual(memories(self.named["hispointer"])["pointer"], Size(2, 160, 19))
 
+    def test_engines_have_time(self):
+        for name, columns in (("poolpointer", 34), ("poolpointer_lean", 50)):
+            self.assertEqual(growth.engine_columns(self.named[name]), columns)
+        by_labels = {point["DARK_LABELS"]: point for _, _, point in growth.candidates(self.named["poolpointer"])}
+        shares = [by_labels[labels]["ENGINE_COLUMNS"] for labels in sorted(by_labels)]
+        self.assertEqual(shares, sorted(shares, reverse=True))
+        self.assertTrue(all(share % 2 == 0 for share in shares))
+        crowded = by_labels[8].with_parameters("crowded", PIXELS_PER_SRAM=20_000)
+        with self.assertRaisesRegex(FlowError, "crowded: no engine has time"):
+            growth.engine_columns(crowded)
+
     def test_committed_size_list_is_complete_and_minimal(self):
         everything = [*self.named.values(), *(point for _, _, point in growth.sweep(self.named)),
                       *clear_configurations(self.named)]

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -236,12 +237,20 @@ std::vector<StabilityResult> check_sources(std::uint64_t seed) {
     double depth_m;
     double reflectivity;
   };
-  const Target targets[] = {{0.05, 4.0}, {0.05, 1.0}, {1.0, 0.0}, {1.0, 1e-6}, {1.0, 1.0},
-                            {6.4, 1.0},  {6.75, 1.0}, {9.0, 1.0}, {0.0, 1.0},  {kInfinity, 0.5}};
+  constexpr std::array<Target, 10> kTargets = {{{0.05, 4.0},
+                                                {0.05, 1.0},
+                                                {1.0, 0.0},
+                                                {1.0, 1e-6},
+                                                {1.0, 1.0},
+                                                {6.4, 1.0},
+                                                {6.75, 1.0},
+                                                {9.0, 1.0},
+                                                {0.0, 1.0},
+                                                {kInfinity, 0.5}}};
   for (const int np : {4, 10, 14}) {
     for (const double fwhm_s : {4.4e-12, 2e-9, 45e-9}) {
       for (const double klux : {0.0, 14.0, 200.0}) {
-        for (const Target& target : targets) {
+        for (const Target& target : kTargets) {
           SensorModel sensor = parse_preset("thesis");
           sensor.np = np;
           sensor.pulse_fwhm_s = fwhm_s;
@@ -506,7 +515,7 @@ std::vector<StabilityResult> check_tables() {
   Largest order;
   Largest flat;
   const auto check_order = [&](const std::vector<CalibrationPoint>& points) {
-    const LookupTable table = LookupTable::fit(points);
+    LookupTable table = LookupTable::fit(points);
     double before = -kInfinity;
     for (double position = -50.0; position <= 1100.0; position += 0.25) {
       const double distance = table.distance(position);
@@ -518,8 +527,10 @@ std::vector<StabilityResult> check_tables() {
   check_order({{0.0, 5.0}, {500.0, 3.0}, {1000.0, 1.0}});
   check_order({{0.0, 1.0}, {1.0, 1.0 + 1e-15}, {2.0, 1.0}, {1000.0, 1e9}});
   check_order({{10.0, 0.5}, {10.0, 1.5}, {10.0, 2.5}});
+  constexpr int kZigzagPoints = 200;
   std::vector<CalibrationPoint> zigzag;
-  for (int i = 0; i < 200; ++i) {
+  zigzag.reserve(kZigzagPoints);
+  for (int i = 0; i < kZigzagPoints; ++i) {
     zigzag.push_back({5.0 * i, 0.03 * i + (i % 2 == 0 ? 0.2 : -0.2)});
   }
   check_order(zigzag);

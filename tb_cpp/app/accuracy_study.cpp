@@ -166,10 +166,10 @@ class Sweep {
                                        Region::whole(source.columns(), source.rows()), settings_.command);
     for (std::size_t i = 0; i < measurements.size(); ++i) {
       const int index = static_cast<int>(i);
-      const int row = pixels.column(index % pixels.rows);
-      const int column = pixels.column(index / pixels.rows);
-      measurements[i] = to_measurement(run.results[static_cast<std::size_t>(row * source.columns() + column)],
-                                       parameters.fraction_bits);
+      const auto row = static_cast<std::size_t>(pixels.column(index % pixels.rows));
+      const auto column = static_cast<std::size_t>(pixels.column(index / pixels.rows));
+      const auto width = static_cast<std::size_t>(source.columns());
+      measurements[i] = to_measurement(run.results[row * width + column], parameters.fraction_bits);
     }
   }
 
@@ -356,8 +356,7 @@ std::unique_ptr<StreamSource> make_exact_source(const SensorModel& sensor, const
 }
 
 IndependentPixels::IndependentPixels(const SensorModel& sensor, int frames)
-    : columns(1),
-      rows(std::min(frames, 160)),  // as the thesis's array has, and thus the RTL
+    : rows(std::min(frames, 160)),  // as the thesis's array has, and thus the RTL
       pitch(sensor.coincidence_window_s ? 3 * sensor.binning : sensor.binning),
       // With coincidence, the block in the middle: its neighbours belong to nobody else.
       offset(sensor.coincidence_window_s ? sensor.binning : 0) {

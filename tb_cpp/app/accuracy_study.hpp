@@ -48,18 +48,18 @@ struct StudySettings {
 struct AccuracyPoint {
   std::string estimator;  ///< readout_name, or "matched-filter"
   std::string title;
-  double klux;
-  double distance_m;
-  std::uint64_t frames;
-  bool precision_reached;       ///< true without `precision`
-  Estimate relative_precision;  ///< Eq. 3.14, before the look-up table
-  Estimate bias_m;              ///< before the look-up table
+  double klux = 0.0;
+  double distance_m = 0.0;
+  std::uint64_t frames = 0;
+  bool precision_reached = true;  ///< true without `precision`
+  Estimate relative_precision;    ///< Eq. 3.14, before the look-up table
+  Estimate bias_m;                ///< before the look-up table
   std::optional<Estimate>
       slope;        ///< d(depth)/dR over the neighbouring distances, before the table; 1 = ideal
   Estimate rmse_m;  ///< after the look-up table, as everything below
   Estimate above_3_percent;
   Estimate outlier_rate;  ///< error above 10 %
-  double cramer_rao_m;
+  double cramer_rao_m = 0.0;
   Estimate efficiency;                    ///< Cramer-Rao bound / rmse
   std::optional<Estimate> accepted;       ///< share with enough confidence
   std::optional<Estimate> outliers_kept;  ///< outlier rate of those
@@ -79,8 +79,8 @@ AccuracyStudy run_accuracy_study(const StudySettings& settings);
 /// A flat scene of `frames` independent pixels. Binning and coincidence make neighbours depend on each other:
 /// then only pixels (pitch * i + offset) in both directions count.
 struct IndependentPixels {
-  int columns;  ///< that count
-  int rows;
+  int columns = 1;  ///< that count
+  int rows = 1;
   int pitch = 1;
   int offset = 0;
 

@@ -17,6 +17,7 @@
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/readout_run.hpp"
+#include "app/readout_variant.hpp"
 #include "app/scene_study.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
@@ -125,7 +126,7 @@ class MeasuredStudy {
         truth_(repeated_truth(scene_, options.frames)),
         readouts_(options.readout.parameters(kAllReadouts)) {
     for (const ReadoutParameters& readout : readouts_) {
-      titles_.push_back(estimator_title(readout));
+      titles_.push_back(variant_title(readout));
     }
     if (std::ranges::none_of(scene_.true_m, [](double truth) { return truth > 0.0; })) {
       throw InputError(fmt::format("{}: no pixel has a known distance", options.file));

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/readout_variant.hpp"
 #include "core/parallel.hpp"
 #include "metrics/cramer_rao.hpp"
 #include "metrics/depth.hpp"
@@ -169,20 +170,6 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
   return *middle / kNormalMedian;
 }
 
-std::string estimator_title(const ReadoutParameters& parameters) {
-  const ReadoutParameters defaults = ReadoutParameters::defaults(parameters.readout, parameters.np);
-  std::string title(readout_title(parameters.readout));
-  const auto add = [&](std::string_view name, int value, int usual) {
-    if (value != usual) {
-      title += fmt::format(" {}={}", name, value);
-    }
-  };
-  add("COUNT_WIDTH", parameters.count_width, defaults.count_width);
-  add("FRACTION_BITS", parameters.fraction_bits, defaults.fraction_bits);
-  add("WINDOW_CENTRED", parameters.window_centred ? 1 : 0, defaults.window_centred ? 1 : 0);
-  return title;
-}
-
 SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts,
                        std::uint64_t seed, int threads)
     : sensor_(std::move(sensor)),
@@ -191,7 +178,7 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
       seed_(seed),
       threads_(threads) {
   for (const ReadoutParameters& readout : readouts_) {
-    titles_.push_back(estimator_title(readout));
+    titles_.push_back(variant_title(readout));
   }
   titles_.emplace_back("hisPointer pairs");
   titles_.emplace_back("matched filter");

@@ -64,10 +64,6 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
 double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
                                const SceneMeasurement& measurement);
 
-/// Display name of a read-out with these parameters: those that change results and are not the defaults
-/// follow it, e.g. "hisPointer COUNT_WIDTH=8".
-std::string estimator_title(const ReadoutParameters& parameters);
-
 /// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and the matched
 /// filter on the full histogram that knows each pixel's signal and background. All see the same photons; a
 /// look-up table for each is fitted on flat targets of the preset's reflectivity, from other photons.

@@ -16,6 +16,7 @@
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/plot.hpp"
+#include "app/readout_variant.hpp"
 #include "app/scene_study.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
@@ -289,29 +290,7 @@ std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options) {
   plain.readouts = options.readouts;
   std::vector<ReadoutParameters> readouts = plain.parameters(kModelReadouts);
   for (const std::string& text : options.variants) {
-    const std::size_t colon = text.find(':');
-    const std::size_t equals = text.find('=');
-    int value = -1;
-    const bool number =
-        equals != std::string::npos && CLI::detail::lexical_cast(text.substr(equals + 1), value);
-    if (colon == std::string::npos || !number || equals < colon) {
-      throw InputError(fmt::format("variant {}: expected READOUT:PARAMETER=NUMBER", text));
-    }
-    ReadoutOptions variant;
-    variant.readouts = text.substr(0, colon);
-    const std::string parameter = text.substr(colon + 1, equals - colon - 1);
-    if (parameter == "COUNT_WIDTH") {
-      variant.count_width = value;
-    } else if (parameter == "FRACTION_BITS") {
-      variant.fraction_bits = value;
-    } else if (parameter == "WINDOW_CENTRED") {
-      variant.window_centred = value != 0;
-    } else {
-      throw InputError(
-          fmt::format("variant {}: parameters are COUNT_WIDTH, FRACTION_BITS, WINDOW_CENTRED", text));
-    }
-    const std::vector<ReadoutParameters> parameters = variant.parameters(kModelReadouts);
-    readouts.insert(readouts.end(), parameters.begin(), parameters.end());
+    readouts.push_back(parse_variant(text));
   }
   return readouts;
 }
@@ -461,7 +440,7 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       ->take_last()
       ->capture_default_str();
   command->add_option("--variant", options->variants,
-                      "also READOUT:PARAMETER=NUMBER; COUNT_WIDTH, FRACTION_BITS or WINDOW_CENTRED");
+                      "also READOUT:PARAMETER=NUMBER,...\nparameters: " + variant_parameters_help());
   command->add_option("--scene", options->scenes, "scenes from `dtof list`, one or more")
       ->capture_default_str();
   command->add_option("--disparity", options->disparity_file,

@@ -15,25 +15,25 @@ namespace dtof {
 /// Where many frames are simulated of one pixel, and how.
 struct FigureScene {
   SensorModel sensor;
-  double klux;
-  double distance_m;
-  int frames;
-  std::uint64_t seed;
-  int threads;
+  double klux = 0.0;
+  double distance_m = 1.0;
+  int frames = 1;
+  std::uint64_t seed = 1;
+  int threads = 0;  ///< 0 = all processors
 };
 
 /// Middle 95 % and median of a figure over frames.
 struct Spread {
-  double low;
-  double median;
-  double high;
+  double low = 0.0;
+  double median = 0.0;
+  double high = 0.0;
 };
 
 /// Full histograms of single frames, built from the acquisitions before `acquisitions`.
 struct HistogramPeaks {
   Spread count;                   ///< in the highest bin
   Spread bin;                     ///< its number as the thesis counts: bin k holds (k - 1, k], so code + 1
-  double fake_share;              ///< peaks more than 10 % of the distance off, by Eq. 3.11
+  double fake_share = 0.0;        ///< peaks more than 10 % of the distance off, by Eq. 3.11
   std::vector<double> one_frame;  ///< histogram of the first frame
 };
 HistogramPeaks histogram_peaks(const FigureScene& scene, std::uint32_t acquisitions);
@@ -42,8 +42,8 @@ HistogramPeaks histogram_peaks(const FigureScene& scene, std::uint32_t acquisiti
 struct PileUp {
   std::vector<double> arriving;   ///< mean events a frame and bin, without pile-up
   std::vector<double> delivered;  ///< the same after the TDC
-  double arriving_fwhm_ns;
-  double delivered_fwhm_ns;
+  double arriving_fwhm_ns = 0.0;
+  double delivered_fwhm_ns = 0.0;
 
   [[nodiscard]] double lost_share() const;
 };

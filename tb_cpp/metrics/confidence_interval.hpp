@@ -8,15 +8,15 @@ namespace dtof {
 
 /// Two-sided confidence interval.
 struct Interval {
-  double low;
-  double high;
+  double low = 0.0;
+  double high = 0.0;
 
   bool operator==(const Interval&) const = default;
 };
 
 /// A figure from a random sample with its confidence interval.
 struct Estimate {
-  double value;
+  double value = 0.0;
   Interval interval;
 
   /// Half the interval's width over the value; 0 for a value of 0 with an interval of width 0.

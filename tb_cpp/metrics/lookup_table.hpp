@@ -8,8 +8,8 @@ namespace dtof {
 
 /// Code position (bins) of one calibration measurement, or the mean of a group, and its true distance (m).
 struct CalibrationPoint {
-  double position;
-  double distance_m;
+  double position = 0.0;
+  double distance_m = 0.0;
   double weight = 1.0;  ///< > 0, e.g. the reciprocal of the position's variance
 
   bool operator==(const CalibrationPoint&) const = default;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -39,7 +40,7 @@ struct Preset {
   std::string_view name;
   SensorModel (*make)();
 };
-constexpr Preset kPresets[] = {{"thesis", thesis_preset}, {"phone", phone_preset}};
+constexpr std::array<Preset, 2> kPresets = {{{"thesis", thesis_preset}, {"phone", phone_preset}}};
 
 void require_at_least_zero(double value, std::string_view what) {
   if (!std::isfinite(value) || value < 0.0) {
@@ -97,6 +98,7 @@ void SensorModel::validate() const {
 
 std::vector<std::string_view> preset_names() {
   std::vector<std::string_view> names;
+  names.reserve(kPresets.size());
   for (const Preset& preset : kPresets) {
     names.push_back(preset.name);
   }

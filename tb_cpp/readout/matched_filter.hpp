@@ -12,10 +12,10 @@ namespace dtof {
 
 /// What a matched filter is matched to: a Gaussian pulse on a flat background, per acquisition.
 struct MatchedFilterParameters {
-  int np = 10;               ///< NP, 3 .. 16
-  double sigma_bins;         ///< standard deviation of the pulse in bins, > 0
-  double signal_events;      ///< mean signal events, > 0
-  double background_events;  ///< mean background events over all 2^np bins, > 0
+  int np = 10;                     ///< NP, 3 .. 16
+  double sigma_bins = 1.0;         ///< standard deviation of the pulse in bins, > 0
+  double signal_events = 1.0;      ///< mean signal events, > 0
+  double background_events = 1.0;  ///< mean background events over all 2^np bins, > 0
 };
 
 /// Maximum-likelihood arrival time of one pulse from all detections of a frame: argmax over tau of

@@ -34,15 +34,15 @@ struct Box {
 constexpr Vector kRoomLow = {-2.2, -1.4, -1.0};
 constexpr Vector kRoomHigh = {2.2, 1.4, 4.2};
 // Of the sides x, y, z, each at its low and high end: left, right, ceiling, floor, (behind the sensor), back.
-constexpr double kRoomReflectivity[3][2] = {{0.6, 0.6}, {1.0, 0.3}, {0.0, 0.8}};
+constexpr std::array<std::array<double, 2>, 3> kRoomReflectivity = {{{0.6, 0.6}, {1.0, 0.3}, {0.0, 0.8}}};
 
 constexpr Sphere kSphere = {{-0.45, 0.0, 1.6}, 0.5, 0.7};
-constexpr Box kBoxes[] = {
+constexpr std::array<Box, 4> kBoxes = {{
     {{0.15, 0.15, 0.78}, {0.55, 0.55, 1.1}, 0.2},  // near, dark
     {{0.9, -0.5, 2.3}, {1.5, 1.4, 2.8}, 0.5},      // tall, standing on the floor
     {{-1.9, 0.7, 2.6}, {-1.1, 1.4, 3.3}, 0.9},     // low, bright
     {{-0.2, -1.2, 3.4}, {0.6, -0.7, 3.6}, 0.35},   // hanging before the back wall
-};
+}};
 
 /// Ranges at which the ray enters and leaves the box, with the axis of each; empty if it misses.
 struct Passage {

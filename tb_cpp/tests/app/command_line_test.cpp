@@ -329,7 +329,7 @@ TEST_F(CommandLine, ScenesComparesReadoutsAndVariants) {
 TEST_F(CommandLine, RefusesBadScenesAndMeasurements) {
   expect_refused("scenes --variant hispointer --out out", "expected READOUT:PARAMETER=NUMBER");
   expect_refused("scenes --variant hispointer:COUNT_WIDTH=x --out out", "expected READOUT:PARAMETER=NUMBER");
-  expect_refused("scenes --variant hispointer:GUARD=3 --out out", "COUNT_WIDTH, FRACTION_BITS");
+  expect_refused("scenes --variant hispointer:GUARD=3 --out out", "hispointer has no GUARD to change");
   expect_refused("scenes --scene moon --out out", "moon");
   expect_refused("scenes --disparity nowhere.png --out out", "nowhere.png");
   expect_refused("measured nowhere.json.gz --out out", "nowhere.json.gz");

@@ -23,8 +23,10 @@ TEST(FullWidthAtHalfMaximum, Triangle) {
 }
 
 TEST(FullWidthAtHalfMaximum, Gaussian) {
+  constexpr int kPoints = 200;
   std::vector<double> curve;
-  for (int i = 0; i < 200; ++i) {
+  curve.reserve(kPoints);
+  for (int i = 0; i < kPoints; ++i) {
     curve.push_back(std::exp(-0.5 * std::pow((i - 90.3) / 12.0, 2)));
   }
   EXPECT_NEAR(full_width_at_half_maximum(curve), 12.0 * 2.3548, 0.05);

@@ -132,7 +132,7 @@ TEST(RangeConverter, ChoosesTheLowestThresholdThatKeepsTheShare) {
 
 TEST(RangeConverter, RefusesBadCalibrations) {
   const TargetRun good = run_at(0, 1.0, {10.0});
-  const auto calibrate = [](std::vector<TargetRun> runs) {
+  const auto calibrate = [](const std::vector<TargetRun>& runs) {
     return [runs] { (void)RangeConverter::calibrate(runs); };
   };
   EXPECT_THAT(calibrate({good}), ThrowsMessage<InputError>(HasSubstr("at least 2 runs")));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -70,7 +71,7 @@ TEST(SensorModel, RefusesBadPhysics) {
     std::function<void(SensorModel&, double)> set;
     bool zero_allowed;
   };
-  const Case cases[] = {
+  const std::vector<Case> cases = {
       {"integration time", [](SensorModel& m, double v) { m.integration_time_s = v; }, false},
       {"pulse FWHM", [](SensorModel& m, double v) { m.pulse_fwhm_s = v; }, false},
       {"signal events", [](SensorModel& m, double v) { m.signal_events_1m = v; }, true},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -37,7 +38,7 @@ struct Event {
 
 struct Pixel {
   std::vector<Event> events;
-  int score[8] = {};
+  std::array<int, 8> score{};
   int lead = 0;
   int offset = 0;
   int a = 0, b = 0, count = 0;  // labels only matter where the rival does not move
@@ -205,7 +206,7 @@ class Reference {
       } else {
         ++pixel.score[k];
       }
-      if (p_.offset_bits > 0 && pixel.score[k] > pixel.score[pixel.lead]) {
+      if (p_.offset_bits > 0 && pixel.score[k] > pixel.score[static_cast<std::size_t>(pixel.lead)]) {
         pixel.lead = static_cast<int>(k);
         pixel.offset = 0;
       }
@@ -300,7 +301,7 @@ class Reference {
   }
 
   void point(Pixel& pixel, const Group& g, const Event& event, bool late) const {
-    static const std::vector<int> kWeights = {1, 2, 3, 4, 4, 3, 2, 1};
+    static const std::vector<int> weights = {1, 2, 3, 4, 4, 3, 2, 1};
     const int da = event.x - pixel.pa;
     const int db = event.x / 512 - pixel.pb;
     const bool a_hit = da >= -2560 && da < 2560;
@@ -331,7 +332,7 @@ class Reference {
     const int unit = 1 << p_.pointer_shift;
     int moved = pixel.pa;
     if (da >= -4096 && da < 4096) {
-      const int weight = kWeights[static_cast<std::size_t>(da >= 0 ? da / 512 : (-da - 1) / 512)];
+      const int weight = weights[static_cast<std::size_t>(da >= 0 ? da / 512 : (-da - 1) / 512)];
       const int a = event.acquisition;
       int move = (step * weight + a % 4 * unit + a / 4 % unit) / 4;
       move -= move % unit;
@@ -491,7 +492,7 @@ TEST_P(PoolPointer, EveryKindOfStreamAsReference) {
 
 TEST_P(PoolPointer, ScenesAsReference) {
   CounterRandom random = test_random(2, GetParam());
-  const double backgrounds[] = {0.01, 0.07, 0.3, 0.6};
+  constexpr std::array<double, 4> kBackgrounds = {0.01, 0.07, 0.3, 0.6};
   for (int trial = 0; trial < 24; ++trial) {
     ReadoutParameters parameters = parameters_;
     parameters.slots = 1 + pick(random, 3);
@@ -504,8 +505,8 @@ TEST_P(PoolPointer, ScenesAsReference) {
       surface = std::clamp(surface + pick(random, 41) - 20, 0, 1023);
       code = pick(random, 10) == 0 ? -1 : surface;
     }
-    const ColumnStream column =
-        pulses(parameters, codes, 0.01 + 0.3 * random.uniform(), backgrounds[pick(random, 4)], 800, random);
+    const ColumnStream column = pulses(parameters, codes, 0.01 + 0.3 * random.uniform(),
+                                       kBackgrounds[static_cast<std::size_t>(pick(random, 4))], 800, random);
     expect_as_reference(parameters, column, 800);
   }
 }

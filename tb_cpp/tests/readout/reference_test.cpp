@@ -14,7 +14,7 @@
 namespace dtof {
 
 // GoogleTest finds its printer by this name.
-static void PrintTo(const PixelResult& result, std::ostream* out) {  // NOLINT(readability-identifier-naming)
+static void PrintTo(const PixelResult& result, std::ostream* out) {
   *out << fmt::format("code {} fraction {} confidence {}", result.code, result.fraction, result.confidence);
 }
 

@@ -33,7 +33,7 @@ TEST_P(FrameCycles, StayBelowTheLimit) {
   }
   RtlReadout rtl(configuration);
   RtlRunOptions options = default_options(1);
-  options.row_stall = 2 * (kColumns - 1);
+  options.row_stall = std::uint64_t{2} * (kColumns - 1);
   RtlFrame frame;
   ASSERT_TRUE(agrees_with_model(rtl, columns, kAcquisitions, options, &frame));
 

@@ -1,0 +1,187 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""poolPointer's goals that collide, as curves: how the frame is shared among its phases, and how many candidates a
+group keeps at what area.
+
+`trade.py DTOF`: runs `DTOF scenes` with the variants, takes the areas of `make synth-growth` (reports/growth.csv),
+writes reports/trade.md, trade.csv and trade.svg.
+"""
+
+import csv
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+REPORTS = ROOT / "reports"
+BUILD = ROOT / "build" / "trade"
+sys.path.insert(0, str(ROOT / "synth"))
+
+from dtof_synth import growth  # noqa: E402
+from dtof_synth.configuration import load  # noqa: E402
+from dtof_synth.goals import ARRAY_MM2  # noqa: E402
+
+# 64ths of the frame: coarse, track; the rest is the pointer phase.
+SCHEDULES = ((20, 16), (16, 16), (16, 12), (14, 14), (14, 13), (14, 12), (13, 13), (12, 14), (12, 12), (10, 12))
+SCENES = ("flat", "room", "planes", "clutter", "poles", "isolated")
+COLUMNS = 50
+SINGLE_COLUMNS = 200  # single pixels are few
+SEED = 1
+BOUND_GOAL = 1.5
+FIGURES = {"bound_ratio_1m_14klux": "flat 1 m, 14: rmse / bound", "rmse_4m_50klux": "flat 4 m, 50: rmse, %",
+           "lost_14klux": "single pixels lost, 14, %", "outliers_14klux": "scenes, 14: above 10 %, %",
+           "above_3_50klux": "scenes, 50: above 3 %, %", "outliers_50klux": "scenes, 50: above 10 %, %"}
+
+
+@dataclass
+class Point:
+    label: str
+    variant: str
+    figures: dict[str, float]
+    mm2: float | None = None
+
+
+def run_scenes(dtof: str, scenes: tuple[str, ...], klux: tuple[str, ...], columns: int, variants: list[str],
+               folder: Path) -> list[dict[str, str]]:
+    command = [dtof, "scenes", "--preset", "thesis", "--klux", *klux, "--scene", *scenes, "--readout", "ezpointer",
+               "--columns", str(columns), "--seed", str(SEED), "--out", str(folder)]
+    for variant in variants:
+        command += ["--variant", variant]
+    subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+    with (folder / "scenes.csv").open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def by_variant(rows: list[dict[str, str]], count: int) -> list[dict[tuple[str, str], dict[str, str]]]:
+    """Rows of each variant by scene and light. A scene's rows are in the command line's order, behind ezPointer's."""
+    found: list[dict[tuple[str, str], dict[str, str]]] = [{} for _ in range(count)]
+    places: dict[tuple[str, str], int] = {}
+    for row in rows:
+        key = (row["klux"], row["scene"])
+        place = places[key] = places.get(key, -1) + 1
+        if 1 <= place <= count:
+            found[place - 1][key] = row
+    return found
+
+
+def share(rows: dict[tuple[str, str], dict[str, str]], klux: str, column: str) -> float:
+    """Per cent of the pixels of all scenes but the flats."""
+    chosen = [row for (light, scene), row in rows.items() if light == klux and not scene.startswith("flat")]
+    pixels = sum(int(row["pixels"]) for row in chosen)
+    return 100 * sum(int(row["pixels"]) * float(row[column]) for row in chosen) / pixels
+
+
+def measure(dtof: str, points: list[Point]) -> None:
+    variants = [point.variant for point in points]
+    scenes = by_variant(run_scenes(dtof, SCENES, ("14", "50"), COLUMNS, variants, BUILD / "scenes"), len(points))
+    singles = by_variant(run_scenes(dtof, ("isolated",), ("14",), SINGLE_COLUMNS, variants, BUILD / "singles"),
+                         len(points))
+    for point, rows, single in zip(points, scenes, singles):
+        near, far = rows["14", "flat 1 m"], rows["50", "flat 4 m"]
+        point.figures = {
+            "bound_ratio_1m_14klux": float(near["relative_rmse"]) / float(near["relative_bound"]),
+            "rmse_4m_50klux": 100 * float(far["relative_rmse"]),
+            "lost_14klux": 100 * float(single["14", "isolated"]["single_above_10_percent"]),
+            "outliers_14klux": share(rows, "14", "above_10_percent"),
+            "above_3_50klux": share(rows, "50", "above_3_percent"),
+            "outliers_50klux": share(rows, "50", "above_10_percent")}
+
+
+def areas() -> dict[str, float]:
+    path = REPORTS / "growth.csv"
+    found = {}
+    if path.is_file():
+        with path.open(newline="", encoding="utf-8") as file:
+            found = {row["value"]: float(row["total_mm2"]) for row in csv.DictReader(file)
+                     if row["readout"] == "poolpointer" and row["parameter"] == "LABELS"}
+    if not found:
+        raise SystemExit("error: reports/growth.csv has no areas of poolpointer: run `make synth-growth` first")
+    return found
+
+
+def plot(schedules: list[Point], candidates: list[Point], limit: float, path: Path) -> None:
+    def block(name: str, data: list[tuple[float, float, str]]) -> list[str]:
+        return [f"${name} << EOD", *(f'{x} {y} "{label}"' for x, y, label in data), "EOD"]
+
+    def points(name: str, colour: str, title: str) -> str:
+        return (f"${name} using 1:2 with points pt 7 lc rgb '{colour}' title '{title}', "
+                f"${name} using 1:2:3 with labels offset 0.6,0.7 left font ',10' notitle")
+
+    frame = sorted(schedules, key=lambda point: point.figures["bound_ratio_1m_14klux"])
+    area = sorted(candidates, key=lambda point: point.mm2)
+    script = [
+        *block("outliers", [(p.figures["bound_ratio_1m_14klux"], p.figures["outliers_50klux"], p.label) for p in frame]),
+        *block("lost", [(p.mm2, p.figures["lost_14klux"], p.label) for p in area]),
+        *block("wrong", [(p.mm2, p.figures["outliers_50klux"], "") for p in area]),
+        "set terminal svg size 1240,520 font 'sans,13' background '#ffffff'", "set multiplot layout 1,2",
+        "set grid lc rgb '#dddddd'", "set offsets graph 0.06, graph 0.14, graph 0.1, graph 0.02",
+        "set title 'frame: coarse / track phase, 64ths'", "set xlabel 'flat at 1 m, 14 klux: rmse over the bound'",
+        "set ylabel 'scenes at 50 klux: pixels above 10 %, %'", "unset key",
+        f"set arrow 1 from {BOUND_GOAL},graph 0 to {BOUND_GOAL},graph 1 nohead dt 2 lc rgb '#888888'",
+        f"set label 1 'goal' at {BOUND_GOAL},graph 0.04 right offset -0.4,0",
+        "plot " + points("outliers", "#d62728", ""),
+        "set title 'group: candidates x bits of a score'", "set xlabel 'area of 200 x 160 pixels, mm^2'",
+        "set ylabel 'pixels, %'", "set key top right", "set logscale y", "set yrange [0.02:10]",
+        f"set arrow 1 from {limit},graph 0 to {limit},graph 1 nohead dt 2 lc rgb '#888888'",
+        f"set label 1 'goal' at {limit},graph 0.04 right offset -0.4,0",
+        "plot " + points("lost", "#1f77b4", "single pixels lost, 14 klux") + ", "
+        + points("wrong", "#d62728", "above 10 % in the scenes, 50 klux"), "unset multiplot"]
+    drawn = BUILD / "trade.svg"
+    result = subprocess.run(["gnuplot"], input=f"set output '{drawn}'\n" + "\n".join(script) + "\nset output\n", text=True,
+                            capture_output=True)
+    if result.returncode != 0:
+        raise SystemExit(f"error: gnuplot: {result.stderr.strip()}")
+    drawn.replace(path)
+
+
+def table(title: str, points: list[Point], with_area: bool) -> list[str]:
+    head = [title, *(["mm2"] if with_area else []), *FIGURES.values()]
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
+    for point in points:
+        cells = [point.label, *([f"{point.mm2:.3f}"] if with_area else []),
+                 *(f"{point.figures[name]:.2f}" for name in FIGURES)]
+        lines.append("| " + " | ".join(cells) + " |")
+    return lines
+
+
+def main() -> int:
+    if len(sys.argv) != 2:
+        print(__doc__, file=sys.stderr)
+        return 2
+    base = load(ROOT / "configurations.toml")["poolpointer"]
+    area = areas()
+    schedules = [Point(f"{coarse}/{track}", f"poolpointer:COARSE_SHARE={coarse},TRACK_SHARE={track}", {})
+                 for coarse, track in SCHEDULES]
+    candidates = [Point(f"{labels}x{bits}", f"poolpointer:LABELS={labels},SCORE_BITS={bits}", {}, area[f"{labels}x{bits}"])
+                  for labels, bits in growth.CANDIDATES]
+    try:
+        measure(sys.argv[1], schedules + candidates)
+    except subprocess.CalledProcessError as error:
+        print(f"error: dtof scenes ended with exit code {error.returncode}", file=sys.stderr)
+        return 1
+    limit = ARRAY_MM2["poolpointer"]
+    plot(schedules, candidates, limit, REPORTS / "trade.svg")
+    lines = ["# Goals of poolPointer that collide", "",
+             f"Written by `make trade`: preset `thesis`, seed {SEED}, {COLUMNS} columns of the scenes "
+             f"{', '.join(SCENES[1:])} ({SINGLE_COLUMNS} of isolated for the single pixels), 14 and 50 klux; areas of "
+             "`make synth-growth`.", "", "![trade](trade.svg)", "", "## Shares of the frame", "",
+             "64ths of the acquisitions in the coarse and the track phase; registers, no area. A longer coarse phase finds "
+             "more small objects, a longer pointer phase measures them better.", "",
+             *table("coarse/track", schedules, with_area=False), "", "## Candidates of a group", "",
+             f"Number and bits of a score; {base['DARK_LABELS']}x{base['DARK_SCORE_BITS']} is the product. More candidates "
+             "keep more single pixels, cost matching, words or engines, and scores of 3 bits decide worse in sunlight.", "",
+             *table("candidates", candidates, with_area=True), ""]
+    (REPORTS / "trade.md").write_text("\n".join(lines), encoding="utf-8")
+    with (REPORTS / "trade.csv").open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["variant", "total_mm2", *FIGURES])
+        for point in schedules + candidates:
+            writer.writerow([point.variant, "" if point.mm2 is None else f"{point.mm2:.4f}",
+                             *(f"{point.figures[name]:.4f}" for name in FIGURES)])
+    print("\n".join(lines))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

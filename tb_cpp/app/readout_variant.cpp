@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/readout_variant.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "core/error.hpp"
+
+namespace dtof {
+namespace {
+
+struct Parameter {
+  std::string_view name;
+  bool pool;       ///< of the pool read-outs
+  bool pixelwise;  ///< of the others
+  int (*get)(const ReadoutParameters&);
+  void (*set)(ReadoutParameters&, int);
+};
+
+// LABELS and SCORE_BITS: of dark and bright groups alike.
+constexpr std::array<Parameter, 7> kParameters = {{
+    {"COUNT_WIDTH", true, true, [](const ReadoutParameters& p) { return p.count_width; },
+     [](ReadoutParameters& p, int value) { p.count_width = value; }},
+    {"FRACTION_BITS", false, true, [](const ReadoutParameters& p) { return p.fraction_bits; },
+     [](ReadoutParameters& p, int value) { p.fraction_bits = value; }},
+    {"WINDOW_CENTRED", false, true, [](const ReadoutParameters& p) { return p.window_centred ? 1 : 0; },
+     [](ReadoutParameters& p, int value) { p.window_centred = value != 0; }},
+    {"LABELS", true, false, [](const ReadoutParameters& p) { return p.pool.bright_labels; },
+     [](ReadoutParameters& p, int value) { p.pool.dark_labels = p.pool.bright_labels = value; }},
+    {"SCORE_BITS", true, false, [](const ReadoutParameters& p) { return p.pool.bright_score_bits; },
+     [](ReadoutParameters& p, int value) { p.pool.dark_score_bits = p.pool.bright_score_bits = value; }},
+    {"COARSE_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.coarse_share; },
+     [](ReadoutParameters& p, int value) { p.pool.coarse_share = value; }},
+    {"TRACK_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.track_share; },
+     [](ReadoutParameters& p, int value) { p.pool.track_share = value; }},
+}};
+
+bool has(Readout readout, const Parameter& parameter) {
+  return is_pool_readout(readout) ? parameter.pool : parameter.pixelwise;
+}
+
+std::string names(bool Parameter::*owner) {
+  std::string list;
+  for (const Parameter& parameter : kParameters) {
+    if (parameter.*owner) {
+      list += (list.empty() ? "" : ", ") + std::string(parameter.name);
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string variant_parameters_help() {
+  return fmt::format("{}; poolpointer and poolpointer-lean: {}", names(&Parameter::pixelwise),
+                     names(&Parameter::pool));
+}
+
+ReadoutParameters parse_variant(const std::string& text) {
+  const auto malformed = [&] {
+    return InputError(fmt::format("variant {}: expected READOUT:PARAMETER=NUMBER,...", text));
+  };
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) {
+    throw malformed();
+  }
+  ReadoutParameters parameters = ReadoutParameters::defaults(parse_readout(text.substr(0, colon)));
+  for (const std::string& change : CLI::detail::split(text.substr(colon + 1), ',')) {
+    const std::size_t equals = change.find('=');
+    int value = 0;
+    if (equals == std::string::npos || !CLI::detail::lexical_cast(change.substr(equals + 1), value)) {
+      throw malformed();
+    }
+    const auto parameter = std::ranges::find(kParameters, change.substr(0, equals), &Parameter::name);
+    if (parameter == kParameters.end() || !has(parameters.readout, *parameter)) {
+      throw InputError(fmt::format("variant {}: {} has no {} to change; known are {}", text,
+                                   readout_name(parameters.readout), change.substr(0, equals),
+                                   variant_parameters_help()));
+    }
+    parameter->set(parameters, value);
+  }
+  parameters.validate();
+  return parameters;
+}
+
+std::string variant_title(const ReadoutParameters& parameters) {
+  const ReadoutParameters defaults = ReadoutParameters::defaults(parameters.readout, parameters.np);
+  std::string title(readout_title(parameters.readout));
+  for (const Parameter& parameter : kParameters) {
+    const int value = parameter.get(parameters);
+    if (has(parameters.readout, parameter) && value != parameter.get(defaults)) {
+      title += fmt::format(" {}={}", parameter.name, value);
+    }
+  }
+  return title;
+}
+
+}  // namespace dtof
