@@ -13,18 +13,39 @@
 #include "rtl/registry.hpp"
 
 namespace dtof {
+namespace {
+
+// Groups that remain at least, so that there is work for several threads.
+constexpr std::size_t kLeastGroups = 4;
+
+/// Columns of the source that share a column of the array, one below the other. Pixels of a pool read-out
+/// look at their neighbours and keep their place, as those of a trace do.
+std::size_t columns_to_stack(const RtlConfiguration& configuration, std::size_t rows, std::size_t columns,
+                             const RtlRunOptions& options) {
+  if (rows == 0 || is_pool_readout(configuration.parameters.readout) || !options.trace.empty()) {
+    return 1;
+  }
+  const std::size_t room = static_cast<std::size_t>(configuration.pixels_per_sram) / rows;
+  const std::size_t columns_of_groups = kLeastGroups * static_cast<std::size_t>(configuration.sram_num);
+  const std::size_t wanted = (columns + columns_of_groups - 1) / columns_of_groups;
+  return std::max<std::size_t>(std::min(room, wanted), 1);
+}
+
+}  // namespace
 
 RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration, int threads,
                              std::span<const int> columns, const RtlRunOptions& options, Progress* progress) {
   const std::vector<int> selected = select_columns(source, columns);
-  const auto group_size = static_cast<std::size_t>(configuration.sram_num);
-  if (!options.trace.empty() && selected.size() > group_size) {
-    throw InputError(fmt::format("a trace holds at most SRAM_NUM = {} columns, not {}; choose some",
-                                 group_size, selected.size()));
+  const auto sram_num = static_cast<std::size_t>(configuration.sram_num);
+  if (!options.trace.empty() && selected.size() > sram_num) {
+    throw InputError(fmt::format("a trace holds at most SRAM_NUM = {} columns, not {}; choose some", sram_num,
+                                 selected.size()));
   }
 
   const auto rows = static_cast<std::size_t>(source.rows());
   const std::size_t width = selected.size();
+  const std::size_t stack = columns_to_stack(configuration, rows, width, options);
+  const std::size_t group_size = sram_num * stack;
   RtlSourceFrame frame;
   frame.results.resize(rows * width);
   frame.result_cycles.resize(rows * width);
@@ -32,16 +53,24 @@ RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration&
   parallel_for((width + group_size - 1) / group_size, threads, [&](std::size_t group) {
     const std::size_t first = group * group_size;
     const std::size_t count = std::min(group_size, width - first);
-    std::vector<ColumnStream> streams;
-    for (std::size_t i = 0; i < count; ++i) {
-      streams.push_back(source.column(selected[first + i]));
+    // Column i of the group is in column i % used, i / used columns further down.
+    const std::size_t used = (count + stack - 1) / stack;
+    std::vector<ColumnStream> streams(used);
+    for (std::size_t i = 0; i < used * stack; ++i) {
+      const ColumnStream column = i < count ? source.column(selected[first + i]) : ColumnStream();
+      for (std::size_t row = 0; row < rows; ++row) {
+        streams[i % used].append_row(i < count ? column.row(static_cast<int>(row))
+                                               : std::span<const Detection>());
+      }
     }
     const RtlFrame part = RtlReadout(configuration).run(streams, source.acquisitions(), options);
-    for (std::size_t row = 0; row < rows; ++row) {
-      const auto from = static_cast<std::ptrdiff_t>(row * count);
-      const auto to = static_cast<std::ptrdiff_t>(row * width + first);
-      std::copy_n(part.results.begin() + from, count, frame.results.begin() + to);
-      std::copy_n(part.result_cycles.begin() + from, count, frame.result_cycles.begin() + to);
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t from = (i / used * rows + row) * used + i % used;
+        const std::size_t to = row * width + first + i;
+        frame.results[to] = part.results[from];
+        frame.result_cycles[to] = part.result_cycles[from];
+      }
     }
     const std::scoped_lock lock(statistics_mutex);
     frame.statistics.merge(part.statistics);

@@ -373,6 +373,18 @@ TEST_F(RunFrame, ReadsOnlyTheChosenColumns) {
   EXPECT_LT(few * 4, all) << "3 of 21 columns";
 }
 
+TEST_F(RunFrame, StacksShortColumns) {
+  SCOPED_TRACE(test_seed_message());
+  for (const int columns : {83, 200}) {
+    const RandomSource wide(parameters_, columns, 5, 40);
+    const RtlSourceFrame frame = run_frame_rtl(wide, parameters_);
+    EXPECT_EQ(frame.results, run_frame(wide, parameters_)) << columns;
+    const RtlSourceFrame few = run_frame_rtl(source_, parameters_);
+    EXPECT_LE(frame.statistics.column_cycles, 2 * few.statistics.column_cycles)
+        << "21 columns take three groups";
+  }
+}
+
 TEST_F(RunFrame, RefusesColumnsOutsideTheSourceAndTracesOfManyGroups) {
   const std::vector<int> outside = {21};
   EXPECT_THAT([&] { run_frame_rtl(source_, parameters_, 0, outside); },
