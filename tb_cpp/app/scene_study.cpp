@@ -164,10 +164,8 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
   if (ratios.empty()) {
     return std::nan("");
   }
-  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-  std::ranges::nth_element(ratios, middle);
   constexpr double kNormalMedian = 0.674489750196;  // of |x| for a standard normal x
-  return *middle / kNormalMedian;
+  return median(std::move(ratios)) / kNormalMedian;
 }
 
 SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts,
