@@ -1,0 +1,348 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Proves the properties listed in hdl/formal/proofs.toml with Yosys and ABC (docs/formal.md).
+
+Every proof is run for each of its parameter sets, then with each of its planted bugs, which must make it fail, and,
+where its harness has a goal, once more to reach that. Writes reports/formal.md unless only some proofs are run.
+A proof that fails leaves its counterexample in build/formal/<proof>/.
+"""
+
+import argparse
+import os
+import re
+import subprocess
+import sys
+import time
+import tomllib
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, field
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+HDL = ROOT / "hdl"
+FORMAL = HDL / "formal"
+BUILD = ROOT / "build" / "formal"
+REPORT = ROOT / "reports" / "formal.md"
+ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
+
+SEARCH_FRAMES = 400  # for a planted bug or a goal where the proof itself has no bound
+SIMULATE_SECONDS = 60
+
+YOSYS_SCRIPT = """
+read_verilog -formal -sv {defines} -I{hdl}/package -I{hdl}/formal -defer {sources}
+hierarchy -check -top {harness} {parameters}
+prep -flatten -top {harness}
+expose -evert t:arbitrary_bit
+memory_map
+chformal -early
+async2sync
+dffunmap
+techmap
+opt -full -nodffe -nosdff
+dfflegalize -cell $_DFF_P_ 01
+opt -fast -nodffe -nosdff
+aigmap
+check -assert
+write_rtlil model.il
+write_aiger -I -B -L -zinit -symbols -map model.aim model.aig
+"""
+SIMULATE_SCRIPT = """
+read_rtlil model.il
+sim -q -r counterexample.aiw -map model.aim -vcd counterexample.vcd -clock clk_i
+"""
+
+
+class FormalError(Exception):
+    """Something that is wrong with the proof itself rather than with the design."""
+
+
+@dataclass(frozen=True)
+class Bug:
+    """A fault planted in the RTL by replacing a text that occurs exactly once."""
+
+    file: str
+    find: str
+    replace: str
+    title: str
+    parameters: dict[str, int] | None = None
+
+
+@dataclass(frozen=True)
+class Proof:
+    name: str
+    module: str
+    harness: str
+    title: str
+    parameters: list[dict[str, int]]
+    bugs: list[Bug]
+    assumes: str = ""
+    frames: int | None = None  # None: unbounded
+    why_bounded: str = ""
+    goal: str = ""  # what is reached in a run of its own
+    goal_parameters: dict[str, int] | None = None
+    quick: bool = False
+    timeout: int = 240  # seconds of processor time a tool may take
+
+
+@dataclass
+class Outcome:
+    verdict: str  # proved, failed, unknown
+    seconds: float
+    frame: int | None = None
+    assertion: str = ""
+
+
+@dataclass(frozen=True)
+class Job:
+    proof: Proof
+    kind: str  # prove, bug, goal
+    parameters: dict[str, int]
+    bug: Bug | None = None
+
+    def label(self) -> str:
+        settings = ", ".join(f"{name} {value}" for name, value in self.parameters.items())
+        suffix = {"prove": "", "bug": f" with {self.bug.title if self.bug else ''}", "goal": " goal"}[self.kind]
+        return f"{self.proof.name}{suffix}{f' ({settings})' if settings else ''}"
+
+    def folder(self) -> Path:
+        settings = "_".join(f"{name.lower()}{value}" for name, value in self.parameters.items()) or "defaults"
+        tail = f"bug{self.proof.bugs.index(self.bug)}_{settings}" if self.bug else settings
+        return BUILD / self.proof.name / (f"goal_{settings}" if self.kind == "goal" else tail)
+
+
+@dataclass
+class Row:
+    """What the report says about a proof."""
+
+    proof: Proof
+    seconds: float = 0.0
+    caught: list[str] = field(default_factory=list)
+    reached: int | None = None
+
+
+def load_proofs() -> list[Proof]:
+    with (FORMAL / "proofs.toml").open("rb") as file:
+        entries = tomllib.load(file)["proof"]
+    proofs = []
+    for entry in entries:
+        bugs = [Bug(**bug) for bug in entry.pop("bug", [])]
+        harness = entry.pop("harness", f"{entry['module']}_properties")
+        proof = Proof(
+            harness=harness, parameters=entry.pop("parameters", [{}]), name=entry.pop("name", entry["module"]),
+            bugs=bugs, **entry,
+        )
+        if not bugs:
+            raise FormalError(f"{proof.name}: a proof needs a planted bug that makes it fail")
+        if (proof.frames is None) != (proof.why_bounded == ""):
+            raise FormalError(f"{proof.name}: a bounded proof says why, any other has no bound")
+        proofs.append(proof)
+    names = [proof.name for proof in proofs]
+    if len(set(names)) != len(names):
+        raise FormalError("two proofs have the same name")
+    return proofs
+
+
+def design_files() -> list[Path]:
+    """RTL of the file list. The SRAMs are those for proofs."""
+    lines = (HDL / "dtof.f").read_text().split()
+    files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith("technology/")]
+    return files + [FORMAL / "sram_1r1w.sv", FORMAL / "sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
+
+
+def with_bug(files: list[Path], bug: Bug, folder: Path) -> list[Path]:
+    """The same files, one of them a copy with the bug."""
+    source = HDL / bug.file
+    text = source.read_text()
+    if source not in files or text.count(bug.find) != 1:
+        raise FormalError(f"{bug.file} must contain the text to replace exactly once: {bug.find!r}")
+    copy = folder / source.name
+    copy.write_text(text.replace(bug.find, bug.replace))
+    return [copy if file == source else file for file in files]
+
+
+def run_tool(command: list[str], folder: Path, log: str, cpu_seconds: int) -> tuple[str, float]:
+    """Output and processor time of a command, which is killed when it has used that many seconds."""
+    with (folder / log).open("w") as file:
+        process = subprocess.Popen(
+            ["prlimit", f"--cpu={cpu_seconds}", *command], cwd=folder, stdout=file, stderr=subprocess.STDOUT
+        )
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    seconds = usage.ru_utime + usage.ru_stime
+    text = (folder / log).read_text()
+    if process.returncode < 0 and seconds > 0.9 * cpu_seconds:
+        return "", seconds
+    if process.returncode != 0:
+        last = [line for line in text.splitlines() if "ERROR" in line] or text.splitlines()[-3:]
+        raise FormalError(f"{command[0]} failed in {folder.relative_to(ROOT)}: {' '.join(last)}")
+    return text, seconds
+
+
+def failing_assertion(folder: Path) -> str:
+    """Replays the counterexample in Yosys, which writes the waveforms and names the assertion."""
+    trace = (folder / "trace.aiw").read_text().replace("# DONE", "").split()
+    (folder / "counterexample.aiw").write_text("\n".join(["1", "b0", *trace, "."]) + "\n")
+    log, _ = run_tool(["yosys", "-p", SIMULATE_SCRIPT], folder, "simulate.log", SIMULATE_SECONDS)
+    match = re.search(r"Assert (\S+)(?: \(.*\))? failed", log)
+    if match is None:
+        raise FormalError(f"the counterexample in {folder.relative_to(ROOT)} does not fail when it is replayed")
+    return match[1].split(".", 1)[1]
+
+
+def solve(job: Job) -> Outcome:
+    proof, folder = job.proof, job.folder()
+    folder.mkdir(parents=True, exist_ok=True)
+    files = design_files() + [FORMAL / f"{proof.harness}.sv"]
+    if job.bug is not None:
+        files = with_bug(files, job.bug, folder)
+    script = YOSYS_SCRIPT.format(
+        defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, sources=" ".join(map(str, files)),
+        harness=proof.harness,
+        parameters=" ".join(f"-chparam {name} {value}" for name, value in job.parameters.items()),
+    )
+    (folder / "model.ys").write_text(script)
+    _, seconds = run_tool(["yosys", "-q", "-s", "model.ys"], folder, "yosys.log", proof.timeout)
+    unbounded = job.kind == "prove" and proof.frames is None
+    frames = SEARCH_FRAMES if proof.frames is None else proof.frames
+    engine = "scorr; pdr" if unbounded else f"bmc3 -F {frames}"
+    commands = f"read_aiger model.aig; fold; strash; {engine}; write_cex -a trace.aiw"
+    log, solver_seconds = run_tool(["yosys-abc", "-c", commands], folder, "abc.log", proof.timeout)
+    seconds += solver_seconds
+    failed = re.search(r"was asserted in frame (\d+)", log)
+    if failed:
+        return Outcome("failed", seconds, int(failed[1]), failing_assertion(folder))
+    done = "Property proved" in log if unbounded else f"No output failed in {frames} frames" in log
+    return Outcome("proved" if done else "unknown", seconds)
+
+
+def judge(job: Job, outcome: Outcome, row: Row) -> str:
+    """Notes the outcome for the report. Returns a sentence if it is not what is expected."""
+    proof = job.proof
+    place = job.folder().relative_to(ROOT)
+    if job.kind == "prove":
+        row.seconds += outcome.seconds
+        if outcome.verdict == "failed":
+            return (f"FAIL {job.label()}: {outcome.assertion} fails in clock {outcome.frame}, "
+                    f"counterexample in {place}/counterexample.vcd")
+        return "" if outcome.verdict == "proved" else f"FAIL {job.label()}: undecided after {proof.timeout} s, see {place}"
+    if job.kind == "goal":
+        row.reached = outcome.frame
+        return "" if outcome.verdict == "failed" else f"FAIL {job.label()}: not reached, so the proof may be empty, see {place}"
+    if outcome.verdict != "failed":
+        return f"FAIL {job.label()}: the planted bug passes, see {place}"
+    row.caught.append(f"{job.bug.title}: `{outcome.assertion}`")
+    return ""
+
+
+def jobs_of(proof: Proof) -> list[Job]:
+    jobs = [Job(proof, "prove", parameters) for parameters in proof.parameters]
+    for bug in proof.bugs:
+        jobs.append(Job(proof, "bug", proof.parameters[0] if bug.parameters is None else bug.parameters, bug))
+    if proof.goal:
+        parameters = proof.parameters[0] if proof.goal_parameters is None else proof.goal_parameters
+        jobs.append(Job(proof, "goal", parameters))
+    return jobs
+
+
+def rounded(seconds: float) -> str:
+    for limit in ROUND_SECONDS:
+        if seconds <= limit:
+            return f"{limit} s"
+    return f"{round(seconds / 60)} min"
+
+
+def settings_of(proof: Proof) -> str:
+    sets = [" ".join(f"{name} {value}" for name, value in parameters.items()) for parameters in proof.parameters]
+    return "; ".join(entry or "defaults" for entry in sets)
+
+
+def write_report(rows: list[Row]) -> None:
+    lines = [
+        "# Proofs",
+        "",
+        "From `make formal`; how it works, and what \"bounded\" leaves open, is in [docs/formal.md](../docs/formal.md). "
+        "Every planted bug was seen",
+        "to break its proof in the same run; the assertion that failed is named beside it. Times are of one processor, rounded"
+        " up.",
+        "",
+        "| module | property | method | bounded | time | planted bugs and the assertions that they break |",
+        "|---|---|---|---|---:|---|",
+    ]
+    for row in rows:
+        proof = row.proof
+        method = "`pdr`" if proof.frames is None else "`bmc3`"
+        bounded = "no" if proof.frames is None else f"{proof.frames} clocks: {proof.why_bounded}"
+        lines.append(
+            f"| {proof.module} | {proof.title} | {method} | {bounded} | {rounded(row.seconds)} | {'; '.join(row.caught)} |"
+        )
+    lines += [
+        "",
+        "## Parameters, assumptions, and what was reached",
+        "",
+        "An assumption is the documented contract of an input. A reached situation shows that the assumptions allow it.",
+        "",
+        "| module | parameters | assumed of the inputs | reached |",
+        "|---|---|---|---|",
+    ]
+    for row in rows:
+        proof = row.proof
+        reached = f"{proof.goal}, in clock {row.reached}" if proof.goal else "-"
+        lines.append(f"| {proof.name} | {settings_of(proof)} | {proof.assumes or 'nothing'} | {reached} |")
+    REPORT.write_text("\n".join(lines) + "\n")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("proofs", nargs="*", help="names of proofs; all if none is given")
+    parser.add_argument("--quick", action="store_true", help="only those marked quick")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="proofs at a time")
+    arguments = parser.parse_args()
+
+    proofs = load_proofs()
+    unknown = set(arguments.proofs) - {proof.name for proof in proofs}
+    if unknown:
+        raise FormalError(f"no proof is called {', '.join(sorted(unknown))}")
+    chosen = [
+        proof for proof in proofs
+        if (not arguments.proofs or proof.name in arguments.proofs) and (proof.quick or not arguments.quick)
+    ]
+    begin = time.monotonic()
+    rows = {proof.name: Row(proof) for proof in chosen}
+    jobs = [job for proof in chosen for job in jobs_of(proof)]
+    failures = []
+    with ThreadPoolExecutor(max_workers=arguments.jobs) as pool:
+        pending = {pool.submit(solve, job): job for job in jobs}
+        for number, future in enumerate(as_completed(pending), 1):
+            job = pending[future]
+            try:
+                outcome = future.result()
+                sentence = judge(job, outcome, rows[job.proof.name])
+            except FormalError as error:
+                sentence = f"FAIL {job.label()}: {error}"
+            if sentence:
+                failures.append(sentence)
+                print(sentence, file=sys.stderr, flush=True)
+            if sys.stdout.isatty():
+                print(f"\r{number} of {len(jobs)}", end="", flush=True)
+    if sys.stdout.isatty():
+        print("\r", end="")
+    if failures:
+        print(f"formal: {len(failures)} of {len(jobs)} runs failed", file=sys.stderr)
+        return 1
+    bugs = sum(len(proof.bugs) for proof in chosen)
+    goals = sum(proof.goal != "" for proof in chosen)
+    runs = sum(len(proof.parameters) for proof in chosen)
+    print(f"formal: {len(chosen)} proofs over {runs} parameter sets hold, {bugs} planted bugs break them, "
+          f"{goals} goals are reached, {time.monotonic() - begin:.0f} s")
+    if len(chosen) == len(proofs):
+        write_report(list(rows.values()))
+        print(f"wrote {REPORT.relative_to(ROOT)}")
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except FormalError as error:
+        print(f"formal: {error}", file=sys.stderr)
+        sys.exit(1)
