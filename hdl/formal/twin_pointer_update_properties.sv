@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pixel's pointer word after one timestamp: docs/poolpointer.md, Point, on integers, from timestamp and word to the
+// next word. Distances come from pixel_distance and label_match, so that the three are proved together.
+`include "properties.svh"
+
+module twin_pointer_update_properties #(
+    parameter int LABELS = 5,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
+    localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES),
+    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES)
+) (
+    input logic                   clk_i,
+    input logic                   valid_i,
+    input logic [           15:0] position_i,
+    input logic                   late_i,
+    input logic [            3:0] acquisition_i,
+    input logic [POINT_WIDTH-1:0] word_i,
+    input logic [   LABELS*7-1:0] cells_i
+);
+
+  logic checking;
+  assign checking = 1'b1;
+
+  logic [LABELS-1:0] hits;
+  logic reach, up, hit, rival_hit, rival_up, rival_down;
+  logic [2:0] weight;
+  logic [3:0] gear;
+  logic [1:0] unused_offset;
+  logic [POINT_WIDTH-1:0] word;
+
+  label_match #(
+      .LABELS       (LABELS),
+      .DARK_LABELS  (LABELS),
+      .BRIGHT_LABELS(LABELS)
+  ) u_label_match (
+      .valid_i (valid_i),
+      .cell_i  (position_i[15:9]),
+      .bright_i(1'b0),
+      .cells_i (cells_i),
+      .hits_o  (hits)
+  );
+
+  pixel_distance #(
+      .LABELS         (LABELS),
+      .SCORES_WIDTH   (4 * LABELS),
+      .OFFSET_BITS    (0),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .PIXEL_WIDTH    (POINT_WIDTH)
+  ) u_pixel_distance (
+      .valid_i      (valid_i),
+      .position_i   (position_i),
+      .point_i      (1'b1),
+      .late_i       (late_i),
+      .word_i       (word_i),
+      .cells_i      (cells_i),
+      .hits_i       (hits),
+      .offset_up_o  (unused_offset[0]),
+      .offset_down_o(unused_offset[1]),
+      .reach_o      (reach),
+      .up_o         (up),
+      .weight_o     (weight),
+      .gear_o       (gear),
+      .hit_o        (hit),
+      .rival_hit_o  (rival_hit),
+      .rival_up_o   (rival_up),
+      .rival_down_o (rival_down)
+  );
+
+  twin_pointer_update #(
+      .LABELS         (LABELS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES)
+  ) u_dut (
+      .word_i       (word_i),
+      .reach_i      (reach),
+      .up_i         (up),
+      .weight_i     (weight),
+      .gear_i       (gear),
+      .hit_i        (hit),
+      .rival_hit_i  (rival_hit),
+      .rival_up_i   (rival_up),
+      .rival_down_i (rival_down),
+      .acquisition_i(acquisition_i),
+      .word_o       (word)
+  );
+
+  localparam int U = 1 << POINTER_SHIFT;
+  localparam int HALF = 1 << (ADVANTAGE_WIDTH - 1);
+  localparam int FULL = (1 << ADVANTAGE_WIDTH) - 1;
+
+  function automatic integer cell_of(input integer label);
+    cell_of = 32'((cells_i >> (7 * label)) & (LABELS * 7)'(127));
+  endfunction
+
+  integer n, x, pointer, a, b, pa, pb, origin, lowest, highest, e, f, away, w, step, dither, move, period;
+  integer next_n, next_pa, next_pb, next_a, next_b;
+  logic expected_hit, rival, counted, roles_change;
+  logic [POINT_WIDTH-1:0] expected;
+
+  always_comb begin
+    x = 32'(position_i);
+    pointer = 32'(word_i) & ((1 << POINTER_WIDTH) - 1);
+    n = 32'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH)) & FULL;
+    a = 0;
+    b = 0;
+    pb = 0;
+    if (RIVAL_MOVES != 0) begin
+      origin = 0;
+      pb = 32'(word_i >> POINTER_WIDTH) & 127;
+      lowest = 0;
+      highest = 65536 - U;
+      f = (x >>> 9) - pb;
+    end else begin
+      a = 32'(word_i >> POINTER_WIDTH) & ((1 << LABEL_WIDTH) - 1);
+      b = 32'(word_i >> (POINTER_WIDTH + LABEL_WIDTH)) & ((1 << LABEL_WIDTH) - 1);
+      if (pointer >= (1 << POINTER_WIDTH) / 2) pointer = pointer - (1 << POINTER_WIDTH);
+      origin = 512 * cell_of(a);
+      lowest = origin - 2048;
+      highest = origin + 2048 - U;
+      f = (x >>> 9) - cell_of(b);
+    end
+    pa = origin + pointer * U;
+    e = (x - pa) >>> 9;
+    expected_hit = valid_i && e >= -5 && e <= 4;
+    rival = valid_i && !expected_hit && f >= -5 && f <= 4;
+
+    // The move.
+    away = (e >= 0) ? e : -1 - e;
+    w = (away == 0 || away == 7) ? 1 : (away == 1 || away == 6) ? 2 : (away == 2 || away == 5) ? 3 : 4;
+    if (ADVANTAGE_WIDTH == 7) begin
+      step = (n >= 124) ? 1 : (n >= 116) ? 2 : (n >= 100) ? 4 : (n >= 80) ? 8 : (n >= 64) ? 16 : (n >= 32) ? 32
+          : (n >= 16) ? 64 : (n >= 8) ? 128 : 256;
+    end else begin
+      step = (n >= 15) ? 16 : (n >= 14) ? 32 : (n >= 12) ? 64 : (n >= 8) ? 128 : (n >= 4) ? 256 : 512;
+    end
+    if (late_i && step > 64) step = 64;
+    dither = 32'(acquisition_i[1:0]) * U + (32'(acquisition_i[3:2]) & (U - 1));
+    move = ((step * w + dither) >>> 2) & ~(U - 1);
+    next_pa = pa;
+    if (valid_i && e >= -8 && e <= 7) begin
+      next_pa = (e >= 0) ? pa + move : pa - move;
+      if (next_pa < lowest) next_pa = lowest;
+      if (next_pa > highest) next_pa = highest;
+    end
+
+    // Rival, advantage, roles.
+    next_pb = pb + ((rival && f > 0) ? 1 : (rival && f < 0) ? -1 : 0);
+    next_a = a;
+    next_b = b;
+    period = (n < HALF) ? 1 : (n < HALF + HALF / 2) ? 4 : 16;
+    counted = (32'(acquisition_i) & (period - 1)) == 0;
+    roles_change = rival && n == 0;
+    next_n = n;
+    if (expected_hit && counted && n < FULL) next_n = n + 1;
+    if (rival && counted && n > 0) next_n = n - 1;
+    if (roles_change) begin
+      next_n = 1;
+      next_pa = 512 * pb + 256;
+      next_pb = pa >>> 9;
+      next_a = b;
+      next_b = a;
+    end
+    if (RIVAL_MOVES != 0) begin
+      expected = (POINT_WIDTH'(next_n) << (POINTER_WIDTH + 7)) | (POINT_WIDTH'(next_pb) << POINTER_WIDTH)
+          | POINT_WIDTH'(next_pa >>> POINTER_SHIFT);
+    end else begin
+      // The new leader's pointer is its candidate.
+      expected = (POINT_WIDTH'(next_n) << (POINTER_WIDTH + 2 * LABEL_WIDTH))
+          | (POINT_WIDTH'(next_b) << (POINTER_WIDTH + LABEL_WIDTH)) | (POINT_WIDTH'(next_a) << POINTER_WIDTH)
+          | POINT_WIDTH'(roles_change ? 0 : ((next_pa - origin) >>> POINTER_SHIFT) & ((1 << POINTER_WIDTH) - 1));
+    end
+  end
+
+  `ASSUME(m_candidates_in_use, a < LABELS && b < LABELS)
+  `PROVE(a_word, word == expected)
+  `GOAL(roles_change && reach)
+
+endmodule
