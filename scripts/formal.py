@@ -25,12 +25,13 @@ BUILD = ROOT / "build" / "formal"
 REPORT = ROOT / "reports" / "formal.md"
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
 
-SEARCH_FRAMES = 400  # for a planted bug or a goal where the proof itself has no bound
+SEARCH_FRAMES = 60  # for a planted bug or a goal where the proof itself has no bound
 SIMULATE_SECONDS = 60
 
 YOSYS_SCRIPT = """
 read_verilog -formal -sv {defines} -I{hdl}/package -I{hdl}/formal -defer {sources}
-hierarchy -check -top {harness} {parameters}
+{parameters}
+hierarchy -check -top {harness}
 prep -flatten -top {harness}
 expose -evert t:arbitrary_bit
 memory_map
@@ -198,7 +199,7 @@ def solve(job: Job) -> Outcome:
     script = YOSYS_SCRIPT.format(
         defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, sources=" ".join(map(str, files)),
         harness=proof.harness,
-        parameters=" ".join(f"-chparam {name} {value}" for name, value in job.parameters.items()),
+        parameters="".join(f"chparam -set {name} {value} {proof.harness}; " for name, value in job.parameters.items()),
     )
     (folder / "model.ys").write_text(script)
     _, seconds = run_tool(["yosys", "-q", "-s", "model.ys"], folder, "yosys.log", proof.timeout)
@@ -209,6 +210,9 @@ def solve(job: Job) -> Outcome:
     log, solver_seconds = run_tool(["yosys-abc", "-c", commands], folder, "abc.log", proof.timeout)
     seconds += solver_seconds
     failed = re.search(r"was asserted in frame (\d+)", log)
+    if failed and unbounded:  # the trace of a swept model lacks inputs
+        commands = f"read_aiger model.aig; fold; strash; bmc3 -F {int(failed[1]) + 1}; write_cex -a trace.aiw"
+        run_tool(["yosys-abc", "-c", commands], folder, "trace.log", proof.timeout)
     if failed:
         return Outcome("failed", seconds, int(failed[1]), failing_assertion(folder))
     done = "Property proved" in log if unbounded else f"No output failed in {frames} frames" in log

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// engine_sequencer with pool_result_output: one column selected, one access a clock, addresses, labels and scratch rows in
+// range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
+`include "properties.svh"
+
+module engine_sequencer_properties #(
+    parameter int PIXELS = 3,
+    parameter int GROUP_SIZE = 8,
+    parameter int LABELS = 2,
+    parameter int BINS_PER_WORD = 8,
+    parameter int ENGINE_COLUMNS = 2,
+    localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
+    localparam int WORDS = GROUPS * (GROUP_SIZE / 2) + GROUPS,
+    localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS),
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS),
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
+) (
+    input logic clk_i,
+    input logic decode_i,
+    input logic choose_i,
+    input logic decide_i,
+    input logic tready_i
+);
+
+  logic checking = 1'b0;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic done, read, write, load, pass_label, deciding, scratch_read, scratch_write, send, send_last, waits, busy;
+  logic [ENGINE_COLUMNS-1:0] select;
+  logic [ADDR_WIDTH-1:0] address;
+  logic [LABEL_WIDTH-1:0] target_label;
+  logic [ROW_WIDTH-1:0] scratch_address, send_row;
+  logic [COLUMN_WIDTH-1:0] send_column;
+  logic [18:0] unused;
+  logic tvalid, tlast;
+  logic [COLUMN_WIDTH+ROW_WIDTH:0] tdata;
+
+  engine_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS),
+      .GROUP_SIZE     (GROUP_SIZE),
+      .LABELS         (LABELS),
+      .BINS_PER_WORD  (BINS_PER_WORD),
+      .ENGINE_COLUMNS (ENGINE_COLUMNS)
+  ) u_dut (
+      .clk_i            (clk_i),
+      .rst_ni           (checking),
+      .decode_i         (decode_i),
+      .choose_i         (choose_i),
+      .decide_i         (decide_i),
+      .done_o           (done),
+      .select_o         (select),
+      .read_d_o         (read),
+      .write_d_o        (write),
+      .address_d_o      (address),
+      .load_d_o         (load),
+      .capture_above_o  (unused[0]),
+      .capture_own_o    (unused[1]),
+      .capture_below_o  (unused[2]),
+      .fill_o           (unused[3]),
+      .search_o         (unused[4]),
+      .pair_o           (unused[9:5]),
+      .first_label_o    (unused[10]),
+      .pooled_o         (unused[11]),
+      .candidate_o      (unused[12]),
+      .deciding_o       (deciding),
+      .clear_message_o  (unused[13]),
+      .begin_o          (unused[14]),
+      .spread_o         (unused[15]),
+      .pass_label_o     (pass_label),
+      .target_label_o   (target_label),
+      .capture_word_o   (unused[16]),
+      .advance_o        (unused[17]),
+      .odd_pixel_o      (unused[18]),
+      .result_o         (),
+      .result_odd_o     (),
+      .scratch_read_o   (scratch_read),
+      .scratch_write_o  (scratch_write),
+      .scratch_address_o(scratch_address),
+      .send_o           (send),
+      .send_column_o    (send_column),
+      .send_row_o       (send_row),
+      .send_last_o      (send_last),
+      .send_waits_i     (waits),
+      .send_busy_i      (busy)
+  );
+
+  pool_result_output #(
+      .ENGINES       (1),
+      .ENGINE_COLUMNS(ENGINE_COLUMNS),
+      .SRAM_NUM      (ENGINE_COLUMNS),
+      .ROW_WIDTH     (ROW_WIDTH),
+      .RESULT_WIDTH  (1)
+  ) u_result_output (
+      .clk_i    (clk_i),
+      .rst_ni   (checking),
+      .send_i   (send),
+      .column_i (send_column),
+      .row_i    (send_row),
+      .last_i   (send_last),
+      .results_i(1'b0),
+      .waits_o  (waits),
+      .busy_o   (busy),
+      .tvalid_o (tvalid),
+      .tready_i (tready_i),
+      .tdata_o  (tdata),
+      .tlast_o  (tlast)
+  );
+
+  localparam int PERIOD = (LABELS + 4 > 6) ? LABELS + 4 : 6;
+  localparam int DECODE_CLOCKS = ENGINE_COLUMNS * GROUPS * (32 * LABELS + 43);
+  localparam int CHAIN_CLOCKS = ENGINE_COLUMNS * 2 * (PIXELS + 3) * PERIOD + 6;
+  localparam int CLOCKS = (DECODE_CLOCKS > CHAIN_CLOCKS) ? DECODE_CLOCKS : CHAIN_CLOCKS;
+
+  logic working_q, sending_q;
+  logic [15:0] clocks_q, sent_q, passed_q;
+  logic [LABEL_WIDTH-1:0] target_q, target_before_q;
+  logic start;
+  assign start = decode_i || choose_i || decide_i;
+
+  always_ff @(posedge clk_i) begin
+    if (!checking) begin
+      working_q <= 1'b0;
+      sending_q <= 1'b0;
+      clocks_q <= '0;
+      sent_q <= '0;
+      passed_q <= '0;
+    end else begin
+      working_q <= start || (working_q && !done);
+      clocks_q <= working_q ? clocks_q + 16'(!(tvalid && !tready_i)) : '0;
+      if (start) begin
+        sending_q <= decide_i && !decode_i && !choose_i;
+        sent_q <= '0;
+      end else if (send) begin
+        sent_q <= sent_q + 1'b1;
+      end
+      passed_q <= pass_label ? passed_q + 1'b1 : '0;
+    end
+    target_q <= target_label;
+    target_before_q <= target_q;
+  end
+
+  `ASSUME(m_start_when_idle, !start || (!working_q && !busy))
+  `ASSUME(m_one_start, 32'(decode_i) + 32'(choose_i) + 32'(decide_i) <= 1)
+  `PROVE(a_one_column_at_most, (select & (select - 1'b1)) == '0)
+  `PROVE(a_one_access, !(read && write))
+  `PROVE(a_address, !(read || write) || 32'(address) < WORDS)
+  `PROVE(a_scratch_one_access, !(scratch_read && scratch_write))
+  `PROVE(a_scratch_row, !(scratch_read || scratch_write) || 32'(scratch_address) < PIXELS)
+  `PROVE(a_label, !pass_label || 16'(target_before_q) == passed_q)
+  `PROVE(a_labels, 32'(passed_q) <= LABELS)
+  `PROVE(a_send_when_free, !(send && waits))
+  `PROVE(a_results_in_order, !send || (32'(sent_q) == 32'(send_column) * PIXELS + 32'(send_row)))
+  `PROVE(a_last_result, !send || send_last == (32'(sent_q) == PIXELS * ENGINE_COLUMNS - 1))
+  `PROVE(a_all_results, !(done && sending_q) || 32'(sent_q) == PIXELS * ENGINE_COLUMNS)
+  `PROVE(a_done_in_time, 32'(clocks_q) <= CLOCKS)
+  `PROVE(a_done_once, !done || working_q)
+  `GOAL(done && sending_q)
+
+endmodule

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Two labels, three pixels, driven by engine_sequencer and with the messages in an SRAM, as in pool_engine: label and
+// margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty of
+// the one that is farther from the pixel in question (docs/poolpointer.md, Chain: lambda of the message's sender).
+`include "properties.svh"
+
+module label_chain_properties #(
+    parameter int EVIDENCE_WIDTH = 4,
+    parameter int POSITION_WIDTH = 4,
+    parameter int PENALTY_WIDTH = 3,
+    parameter int REACH = 2,
+    localparam int PIXELS = 3,
+    localparam int LABELS = 2,
+    localparam int BELIEF_WIDTH = EVIDENCE_WIDTH + 2
+) (
+    input logic clk_i
+);
+
+  logic checking = 1'b0;
+  logic begun_q;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+    begun_q <= checking;
+  end
+
+  (* anyconst *) logic [PIXELS*LABELS*EVIDENCE_WIDTH-1:0] evidence;
+  (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
+  (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
+
+  logic done, clear_message, begin_step, spread, pass_label, target_label, advance, result;
+  logic scratch_read, scratch_write, send, send_last;
+  logic [1:0] scratch_address, send_row;
+  logic unused_select, unused_read, unused_write, unused_load, unused_column;
+  logic [2:0] unused_address;
+  logic [15:0] unused;
+
+  engine_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS),
+      .GROUP_SIZE     (8),
+      .LABELS         (LABELS),
+      .BINS_PER_WORD  (8),
+      .ENGINE_COLUMNS (1)
+  ) u_engine_sequencer (
+      .clk_i            (clk_i),
+      .rst_ni           (checking),
+      .decode_i         (1'b0),
+      .choose_i         (1'b0),
+      .decide_i         (checking && !begun_q),
+      .done_o           (done),
+      .select_o         (unused_select),
+      .read_d_o         (unused_read),
+      .write_d_o        (unused_write),
+      .address_d_o      (unused_address),
+      .load_d_o         (unused_load),
+      .capture_above_o  (unused[0]),
+      .capture_own_o    (unused[1]),
+      .capture_below_o  (unused[2]),
+      .fill_o           (unused[3]),
+      .search_o         (unused[4]),
+      .pair_o           (unused[9:5]),
+      .first_label_o    (unused[10]),
+      .pooled_o         (unused[11]),
+      .candidate_o      (unused[12]),
+      .deciding_o       (unused[13]),
+      .clear_message_o  (clear_message),
+      .begin_o          (begin_step),
+      .spread_o         (spread),
+      .pass_label_o     (pass_label),
+      .target_label_o   (target_label),
+      .capture_word_o   (unused[14]),
+      .advance_o        (advance),
+      .odd_pixel_o      (unused[15]),
+      .result_o         (result),
+      .result_odd_o     (),
+      .scratch_read_o   (scratch_read),
+      .scratch_write_o  (scratch_write),
+      .scratch_address_o(scratch_address),
+      .send_o           (send),
+      .send_column_o    (unused_column),
+      .send_row_o       (send_row),
+      .send_last_o      (send_last),
+      .send_waits_i     (1'b0),
+      .send_busy_i      (1'b0)
+  );
+
+  // The pixel prepared: from the last to the first, then back.
+  localparam int STEPS = PIXELS + 3;  // of a pass
+  logic [3:0] steps_q;
+  logic [1:0] results_q;
+  logic [1:0] prepared;
+  logic [LABELS*PENALTY_WIDTH-1:0] message, other_message;
+  logic best_label, second_label;
+  logic [POSITION_WIDTH-1:0] best_position, second_position;
+  logic [BELIEF_WIDTH-1:0] margin;
+
+  assign prepared = (32'(steps_q) < STEPS) ? 2'(PIXELS - 1 - 32'(steps_q)) : 2'(32'(steps_q) - STEPS);
+
+  always_ff @(posedge clk_i) begin
+    if (!checking) begin
+      steps_q <= '0;
+      results_q <= '0;
+    end else begin
+      if (advance) steps_q <= steps_q + 1'b1;
+      if (result) results_q <= results_q + 1'b1;
+    end
+  end
+
+  dtof_sram #(
+      .PORTS(1),
+      .DEPTH(PIXELS),
+      .WIDTH(LABELS * PENALTY_WIDTH)
+  ) u_scratch_sram (
+      .clk_i       (clk_i),
+      .rst_ni      (checking),
+      .read_en_i   (scratch_read),
+      .read_addr_i (scratch_address),
+      .read_data_o (other_message),
+      .write_en_i  (scratch_write),
+      .write_addr_i(scratch_address),
+      .write_data_i(message)
+  );
+
+  label_chain #(
+      .LABELS        (LABELS),
+      .POSITION_WIDTH(POSITION_WIDTH),
+      .REACH         (REACH),
+      .EVIDENCE_WIDTH(EVIDENCE_WIDTH),
+      .PENALTY_WIDTH (PENALTY_WIDTH)
+  ) u_dut (
+      .clk_i            (clk_i),
+      .begin_i          (begin_step),
+      .spread_i         (spread),
+      .pass_label_i     (pass_label),
+      .target_label_i   (target_label),
+      .advance_i        (advance),
+      .clear_message_i  (clear_message),
+      .in_use_i         (2'b11),
+      .evidence_i       ((LABELS*EVIDENCE_WIDTH)'(evidence >> (prepared * LABELS * EVIDENCE_WIDTH))),
+      .position_i       ((LABELS*POSITION_WIDTH)'(position >> (prepared * LABELS * POSITION_WIDTH))),
+      .penalty_i        (PENALTY_WIDTH'(penalty >> (prepared * PENALTY_WIDTH))),
+      .message_o        (message),
+      .other_message_i  (other_message),
+      .best_label_o     (best_label),
+      .second_label_o   (second_label),
+      .best_position_o  (best_position),
+      .second_position_o(second_position),
+      .margin_o         (margin)
+  );
+
+  // The sum of an assignment, seen from a pixel.
+  integer assignment, sum, best0, best1;
+  integer e0, e1, e2, q0, q1, q2, cost01, cost12;
+  always_comb begin
+    best0 = -1000;
+    best1 = -1000;
+    e0 = 0;
+    e1 = 0;
+    e2 = 0;
+    q0 = 0;
+    q1 = 0;
+    q2 = 0;
+    cost01 = 0;
+    cost12 = 0;
+    sum = 0;
+    for (assignment = 0; assignment < 8; assignment = assignment + 1) begin
+      e0 = $signed(evidence[(0+(assignment&1))*EVIDENCE_WIDTH+:EVIDENCE_WIDTH]);
+      e1 = $signed(evidence[(2+((assignment>>1)&1))*EVIDENCE_WIDTH+:EVIDENCE_WIDTH]);
+      e2 = $signed(evidence[(4+((assignment>>2)&1))*EVIDENCE_WIDTH+:EVIDENCE_WIDTH]);
+      q0 = $signed(position[(0+(assignment&1))*POSITION_WIDTH+:POSITION_WIDTH]);
+      q1 = $signed(position[(2+((assignment>>1)&1))*POSITION_WIDTH+:POSITION_WIDTH]);
+      q2 = $signed(position[(4+((assignment>>2)&1))*POSITION_WIDTH+:POSITION_WIDTH]);
+      // Between pixels 0 and 1 the sender is 0 for pixels 1 and 2, between 1 and 2 it is 2 for pixels 0 and 1.
+      cost01 = (results_q == 2'd0) ? 32'(penalty[PENALTY_WIDTH+:PENALTY_WIDTH]) : 32'(penalty[0+:PENALTY_WIDTH]);
+      cost12 = (results_q == 2'd2) ? 32'(penalty[PENALTY_WIDTH+:PENALTY_WIDTH]) : 32'(penalty[2*PENALTY_WIDTH+:PENALTY_WIDTH]);
+      if (q0 - q1 <= REACH && q1 - q0 <= REACH) cost01 = 0;
+      if (q1 - q2 <= REACH && q2 - q1 <= REACH) cost12 = 0;
+      sum = e0 + e1 + e2 - cost01 - cost12;
+      if (((assignment >> results_q) & 1) == 0) begin
+        if (sum > best0) best0 = sum;
+      end else begin
+        if (sum > best1) best1 = sum;
+      end
+    end
+  end
+
+  logic expected_label;
+  assign expected_label = (best1 > best0);
+
+  `PROVE(a_label, !result || best_label == expected_label)
+  `PROVE(a_other_label, !result || second_label == !expected_label)
+  `PROVE(a_margin, !result || 32'(margin) == (expected_label ? best1 - best0 : best0 - best1))
+  `PROVE(a_position, !result || best_position
+         == POSITION_WIDTH'(position >> ((32'(results_q) * LABELS + 32'(best_label)) * POSITION_WIDTH)))
+  `GOAL(result && results_q == 2'd2 && margin != '0 && best_label)
+
+endmodule

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// The control of pool_pointer_array with one pair of columns: pool_controller, pair_sequencer, the registers between them
+// and the columns, pool_pointer_pair. The engine is replaced by anything that keeps to what engine_sequencer_properties
+// proves of engine_sequencer. That the single-port SRAM has one access a clock, in range, are dtof_sram's assertions.
+//
+// Every frame ends, as in control_properties; clocks in which the engine works are left out here, for engine_sequencer's
+// operations end in time.
+`include "properties.svh"
+
+module pool_control_properties #(
+    parameter int COLUMNS = 2,
+    parameter int PIXELS = 3,
+    parameter int SLOTS = 2,
+    parameter int GROUP_SIZE = 8,
+    parameter int ACQ_WIDTH = 4,
+    parameter int LONGEST_STAY = 24,
+    localparam int NP = 8,
+    localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
+    localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
+    localparam int WORDS = PIXEL_WORDS + GROUPS,
+    localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
+    localparam int WORD_WIDTH = 2 * dtof_pkg::pool_point_width(2, 4, 0, 1)
+) (
+    input logic                  clk_i,
+    input logic                  start_i,
+    input logic [ ACQ_WIDTH-1:0] acq_num_i,
+    input logic [ ACQ_WIDTH-1:0] coarse_end_i,
+    input logic [ ACQ_WIDTH-1:0] track_end_i,
+    input logic [ ACQ_WIDTH-1:0] late_begin_i,
+    input logic                  tdc_valid_i,
+    input logic [COLUMNS*NP-1:0] timestamp_i,
+    // what an engine may do
+    input logic                  engine_read_i,
+    input logic                  engine_write_i,
+    input logic [ADDR_WIDTH-1:0] engine_address_i,
+    input logic [   COLUMNS-1:0] engine_select_i,
+    input logic                  engine_done_i
+);
+
+  logic checking = 1'b0;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic busy, done, stream, coarse, point, more, late, acq_done, stream_idle, clear, decoding, decode, choose, decide;
+  logic [2:0] state;
+  logic [3:0] acquisition;
+  logic [ADDR_WIDTH-1:0] clear_address, stream_address;
+
+  pool_controller #(
+      .CLEAR_WORDS(PIXEL_WORDS),
+      .ADDR_WIDTH (ADDR_WIDTH),
+      .ACQ_WIDTH  (ACQ_WIDTH)
+  ) u_controller (
+      .clk_i          (clk_i),
+      .rst_ni         (checking),
+      .start_i        (start_i),
+      .acq_num_i      (acq_num_i),
+      .coarse_end_i   (coarse_end_i),
+      .track_end_i    (track_end_i),
+      .late_begin_i   (late_begin_i),
+      .busy_o         (busy),
+      .done_o         (done),
+      .state_o        (state),
+      .stream_o       (stream),
+      .coarse_o       (coarse),
+      .point_o        (point),
+      .more_o         (more),
+      .acquisition_o  (acquisition),
+      .late_o         (late),
+      .acq_done_i     (acq_done),
+      .stream_idle_i  (stream_idle),
+      .clear_o        (clear),
+      .clear_address_o(clear_address),
+      .decoding_o     (decoding),
+      .decode_o       (decode),
+      .choose_o       (choose),
+      .decide_o       (decide),
+      .engine_done_i  (engine_done_i)
+  );
+
+  logic beat_t1, first_slot_t1, odd_t1, odd_t2, first_row_t2, second_row_t2, late_t2, update_t3, ready;
+  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
+  logic [3:0] acquisition_t3;
+
+  pair_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS),
+      .SLOTS          (SLOTS),
+      .GROUP_SIZE     (GROUP_SIZE)
+  ) u_pair_sequencer (
+      .clk_i            (clk_i),
+      .rst_ni           (checking),
+      .stream_i         (stream),
+      .coarse_i         (coarse),
+      .more_i           (more),
+      .acquisition_i    (acquisition),
+      .late_i           (late),
+      .tdc_valid_i      (tdc_valid_i),
+      .tdc_ready_o      (ready),
+      .acq_done_o       (acq_done),
+      .idle_o           (stream_idle),
+      .beat_t1_o        (beat_t1),
+      .first_slot_t1_o  (first_slot_t1),
+      .odd_t1_o         (odd_t1),
+      .odd_t2_o         (odd_t2),
+      .first_row_t2_o   (first_row_t2),
+      .second_row_t2_o  (second_row_t2),
+      .late_t2_o        (late_t2),
+      .update_t3_o      (update_t3),
+      .acquisition_t3_o (acquisition_t3),
+      .second_column_o  (second_column),
+      .fresh_o          (fresh),
+      .load_o           (load),
+      .count_o          (count),
+      .read_d_o         (stream_read),
+      .write_d_o        (stream_write),
+      .address_d_o      (stream_address),
+      .word_load_d_o    (stream_word_load),
+      .group_load_d_o   (group_load)
+  );
+
+  // As in pool_pointer_array.
+  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, word_load_q, group_load_q;
+  logic [ADDR_WIDTH-1:0] address_q;
+
+  always_ff @(posedge clk_i or negedge checking) begin
+    if (!checking) begin
+      read_q <= 1'b0;
+      write_q <= 1'b0;
+    end else begin
+      read_q <= stream_read || engine_read_i;
+      write_q <= stream_write || engine_write_i || clear;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    coarse_q <= coarse;
+    point_q <= point;
+    engine_q <= !stream;
+    clear_q <= clear;
+    address_q <= clear ? clear_address : (stream ? stream_address : engine_address_i);
+    word_load_q <= stream_word_load;
+    group_load_q <= group_load;
+  end
+
+  logic [WORD_WIDTH-1:0] unused_word;
+
+  pool_pointer_pair #(
+      .COLUMNS          (COLUMNS),
+      .NP               (NP),
+      .PIXELS_PER_SRAM  (PIXELS),
+      .COUNT_WIDTH      (4),
+      .GROUP_SIZE       (GROUP_SIZE),
+      .DARK_LABELS      (2),
+      .DARK_SCORE_BITS  (1),
+      .BRIGHT_LABELS    (2),
+      .BRIGHT_SCORE_BITS(1),
+      .BRIGHT_FROM      (6),
+      .OFFSET_BITS      (0),
+      .ADVANTAGE_WIDTH  (4),
+      .POINTER_SHIFT    (0),
+      .RIVAL_MOVES      (1)
+  ) u_pair (
+      .clk_i           (clk_i),
+      .rst_ni          (checking),
+      .timestamp_i     (timestamp_i),
+      .coarse_i        (coarse_q),
+      .point_i         (point_q),
+      .beat_t1_i       (beat_t1),
+      .first_slot_t1_i (first_slot_t1),
+      .odd_t1_i        (odd_t1),
+      .odd_t2_i        (odd_t2),
+      .first_row_t2_i  (first_row_t2),
+      .second_row_t2_i (second_row_t2),
+      .late_t2_i       (late_t2),
+      .update_t3_i     (update_t3),
+      .acquisition_t3_i(acquisition_t3),
+      .second_column_i (second_column),
+      .fresh_i         (fresh),
+      .load_i          (load),
+      .count_i         (count),
+      .read_i          (read_q),
+      .write_i         (write_q),
+      .address_i       (address_q),
+      .word_load_i     (word_load_q),
+      .group_load_i    (group_load_q),
+      .engine_i        (engine_q),
+      .clear_i         (clear_q),
+      .select_i        (engine_select_i),
+      .engine_word_i   ('0),
+      .word_o          (unused_word)
+  );
+
+  // A frame, its clears followed at one arbitrary address.
+  (* anyconst *) logic [ADDR_WIDTH-1:0] watched;
+  logic frame_q, accepted_q, accepted_before_q, working_q, decoded_q;
+  logic [2:0] state_q;
+  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, late_begin_q, acquisitions_q;
+  logic [1:0] clears_q;
+  logic [5:0] stay_q;
+  logic [7:0] place_q;
+  logic accepted, acquisition_begins, stay_ends;
+
+  // Of an odd number of pixels the last pair's second is missing; the array then takes nothing.
+  assign accepted = checking && ready && tdc_valid_i;
+  assign acquisition_begins = accepted && (place_q == '0);
+  assign stay_ends = (state != state_q);
+
+  always_ff @(posedge clk_i) begin
+    if (!checking) begin
+      frame_q <= 1'b0;
+      accepted_q <= 1'b0;
+      accepted_before_q <= 1'b0;
+      working_q <= 1'b0;
+      decoded_q <= 1'b0;
+      state_q <= dtof_pkg::STATE_IDLE;
+      acquisitions_q <= '0;
+      clears_q <= '0;
+      stay_q <= '0;
+      place_q <= '0;
+      acq_num_q <= '0;
+    end else begin
+      frame_q <= (start_i && !frame_q) || (frame_q && !done);
+      accepted_q <= start_i && !frame_q;
+      accepted_before_q <= accepted_q;
+      working_q <= decode || choose || decide || (working_q && !engine_done_i);
+      state_q <= state;
+      if (start_i && !frame_q) begin
+        {acq_num_q, coarse_end_q, track_end_q, late_begin_q} <= {acq_num_i, coarse_end_i, track_end_i, late_begin_i};
+        acquisitions_q <= '0;
+        decoded_q <= 1'b0;
+      end else begin
+        if (acquisition_begins) acquisitions_q <= acquisitions_q + 1'b1;
+        if (decode) decoded_q <= 1'b1;
+      end
+      clears_q <= (stay_ends ? 2'd0 : clears_q) + 2'(clear && clear_address == watched);
+      stay_q <= (stay_ends || acq_done || ready || working_q || state == dtof_pkg::STATE_IDLE) ? '0 : stay_q + 1'b1;
+      if (accepted) place_q <= (32'(place_q) == PIXELS * SLOTS - 1) ? '0 : place_q + 1'b1;
+    end
+  end
+
+  logic legal;
+  logic [ACQ_WIDTH-1:0] begun;
+  assign begun = acquisitions_q;
+  always_comb begin
+    case (state_q)
+      dtof_pkg::STATE_IDLE: legal = (state == dtof_pkg::STATE_RESET);
+      dtof_pkg::STATE_RESET: legal = (state == (decoded_q ? dtof_pkg::POOL_STATE_TRACK : dtof_pkg::POOL_STATE_COARSE));
+      dtof_pkg::POOL_STATE_COARSE: legal = (state == dtof_pkg::POOL_STATE_DECODE) && begun == coarse_end_q;
+      dtof_pkg::POOL_STATE_DECODE: legal = (state == dtof_pkg::STATE_RESET);
+      dtof_pkg::POOL_STATE_TRACK: legal = (state == dtof_pkg::POOL_STATE_CHOOSE) && begun == track_end_q;
+      dtof_pkg::POOL_STATE_CHOOSE: legal = (state == dtof_pkg::POOL_STATE_POINT);
+      dtof_pkg::POOL_STATE_POINT: legal = (state == dtof_pkg::POOL_STATE_DECIDE) && begun == acq_num_q;
+      default: legal = (state == dtof_pkg::STATE_IDLE);
+    endcase
+  end
+
+  `ASSUME(m_contiguous, place_q == '0 || tdc_valid_i)
+  `ASSUME(m_schedule, coarse_end_i <= track_end_i && track_end_i <= late_begin_i && late_begin_i <= acq_num_i)
+  `ASSUME(m_engine_works_when_asked, working_q || (!engine_read_i && !engine_write_i && !engine_done_i))
+  `ASSUME(m_engine_one_access, !(engine_read_i && engine_write_i))
+  `ASSUME(m_engine_done_last, !engine_done_i || (!engine_read_i && !engine_write_i))
+  `ASSUME(m_engine_address, 32'(engine_address_i) < WORDS)
+  `ASSUME(m_engine_select, (engine_select_i & (engine_select_i - 1'b1)) == '0)
+  `ASSUME(m_watched, 32'(watched) < PIXEL_WORDS)
+  `PROVE(a_busy, busy == frame_q)
+  `PROVE(a_start_is_not_lost, !accepted_before_q || state == dtof_pkg::STATE_RESET)
+  `PROVE(a_done_ends_a_frame, !done || (frame_q && acquisitions_q == acq_num_q))
+  `PROVE(a_states, !stay_ends || legal)
+  `PROVE(a_no_state_lasts, 32'(stay_q) < LONGEST_STAY)
+  `PROVE(a_reset_clears_once, !(stay_ends && state_q == dtof_pkg::STATE_RESET) || clears_q == 2'd1)
+  `PROVE(a_stream_alone, !(accepted && (clear || working_q)))
+  `PROVE(a_late, !(acquisition_begins && point) || late == (acquisitions_q >= late_begin_q))
+  `PROVE(a_acquisition_number, !acquisition_begins || acquisition == 4'(acquisitions_q))
+  `GOAL(done && acq_num_q == ACQ_WIDTH'(3) && coarse_end_q == ACQ_WIDTH'(1) && track_end_q == ACQ_WIDTH'(2))
+
+endmodule
