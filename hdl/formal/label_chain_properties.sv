@@ -5,10 +5,10 @@
 `include "properties.svh"
 
 module label_chain_properties #(
-    parameter int EVIDENCE_WIDTH = 4,
-    parameter int POSITION_WIDTH = 4,
-    parameter int PENALTY_WIDTH = 3,
-    parameter int REACH = 2,
+    parameter int EVIDENCE_WIDTH = 3,
+    parameter int POSITION_WIDTH = 3,
+    parameter int PENALTY_WIDTH = 2,
+    parameter int REACH = 1,
     localparam int PIXELS = 3,
     localparam int LABELS = 2,
     localparam int BELIEF_WIDTH = EVIDENCE_WIDTH + 2

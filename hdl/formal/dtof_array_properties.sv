@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The assertions of the RTL in the composition in which they must hold: dtof_array with everything free at its ports but
+// the contract of the TDC stream.
+`include "properties.svh"
+
+module dtof_array_properties #(
+    parameter int READOUT = 3,
+    parameter int NP = 3,
+    parameter int NB = 2,
+    parameter int PIXELS = 1,
+    parameter int SRAM_NUM = 1,
+    parameter int SLOTS = 1,
+    parameter int COUNT_WIDTH = 1,
+    parameter int CONFIDENCE_WIDTH = 1,
+    parameter int POINTER_PORTS = 2,
+    parameter int SIGNALLED_CLEAR = 0,
+    parameter int ACQ_WIDTH = 2,
+    localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS)
+        + dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, 0, CONFIDENCE_WIDTH)
+) (
+    input logic                   clk_i,
+    input logic                   start_i,
+    input logic [  ACQ_WIDTH-1:0] acq_num_i,
+    input logic                   tdc_valid_i,
+    input logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
+    input logic                   tready_i
+);
+
+  logic checking = 1'b0;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic busy, done, ready, tvalid, tlast;
+  logic [2:0] state;
+  logic [TDATA_WIDTH-1:0] tdata;
+
+  dtof_array #(
+      .READOUT         (READOUT),
+      .NP              (NP),
+      .NB              (NB),
+      .PIXELS_PER_SRAM (PIXELS),
+      .SRAM_NUM        (SRAM_NUM),
+      .SLOTS           (SLOTS),
+      .COUNT_WIDTH     (COUNT_WIDTH),
+      .POINTER_STEP    (1),
+      .FRACTION_BITS   (0),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .GUARD           (1),
+      .WINDOW_CENTRED  (0),
+      .POINTER_PORTS   (POINTER_PORTS),
+      .SIGNALLED_CLEAR (SIGNALLED_CLEAR),
+      .TIME_GATE       (0),
+      .ACQ_WIDTH       (ACQ_WIDTH)
+  ) u_dut (
+      .clk_i          (clk_i),
+      .rst_ni         (checking),
+      .start_i        (start_i),
+      .acq_num_i      (acq_num_i),
+      .gate_begin_i   ('0),
+      .gate_end_i     ('0),
+      .busy_o         (busy),
+      .done_o         (done),
+      .state_o        (state),
+      .tdc_valid_i    (tdc_valid_i),
+      .tdc_ready_o    (ready),
+      .tdc_timestamp_i(tdc_timestamp_i),
+      .result_tvalid_o(tvalid),
+      .result_tready_i(tready_i),
+      .result_tdata_o (tdata),
+      .result_tlast_o (tlast)
+  );
+
+  logic [7:0] place_q;
+  always_ff @(posedge clk_i) begin
+    if (!checking) begin
+      place_q <= '0;
+    end else if (ready && tdc_valid_i) begin
+      place_q <= (32'(place_q) == PIXELS * SLOTS - 1) ? '0 : place_q + 1'b1;
+    end
+  end
+
+  `ASSUME(m_contiguous, place_q == '0 || tdc_valid_i)
+  `PROVE(a_idle_or_busy, busy || state == dtof_pkg::STATE_IDLE)
+  `GOAL(done)
+
+endmodule
