@@ -543,6 +543,24 @@ TEST_P(PoolPointer, ParameterSweepAsReference) {
   }
 }
 
+// Steps of a few units and less, whose parts below a unit are dithered by four bits of the acquisition.
+TEST_P(PoolPointer, FineGearsAsReference) {
+  CounterRandom random = test_random(5, GetParam());
+  const std::vector<int> codes = {300, 301, 302, 309, 640, 640, 640, 640};
+  for (const bool rival_moves : {false, true}) {
+    for (int shift = 0; shift <= 2; ++shift) {
+      ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
+      parameters.pool.pointer_shift = shift;
+      parameters.pool.rival_moves = rival_moves;
+      const ColumnStream column = pulses(parameters, codes, 0.8, 0.1, 3333, random);
+      expect_as_reference(parameters, column, 3333);
+      for (const PixelResult& result : make_readout_model(parameters)->run_column(column, 3333)) {
+        EXPECT_GE(result.confidence, 116) << "the finest gears were not reached";
+      }
+    }
+  }
+}
+
 TEST_P(PoolPointer, ShortFrames) {
   CounterRandom random = test_random(4, GetParam());
   for (const std::uint32_t acquisitions : {1U, 2U, 3U, 4U, 5U, 8U, 9U}) {
