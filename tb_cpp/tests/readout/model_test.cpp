@@ -173,6 +173,48 @@ TEST(EmptyFrame, EveryReadoutHasItsDefinedResult) {
   }
 }
 
+// Whatever was measured, the code is one that can be measured, 0 to M - 2, without a limit at the upper end:
+// all coarse peaks and all fine peaks, empty ones included.
+void expect_every_code_in_the_range(const ReadoutParameters& parameters) {
+  SCOPED_TRACE(parameters.to_string());
+  const int no_detection = parameters.no_detection();
+  const auto model = make_readout_model(parameters);
+  // Three acquisitions in measurement 1, one for each of the three steps.
+  std::vector<Timestamp> codes(6, static_cast<Timestamp>(no_detection));
+  const bool three_steps = parameters.readout == Readout::kThreeSteps;
+  for (int first = 0; first <= no_detection; ++first) {
+    for (int second = 0; second <= (three_steps ? no_detection : 0); ++second) {
+      for (int third = 0; third <= (three_steps ? no_detection : 0); ++third) {
+        for (int fine = 0; fine <= no_detection; ++fine) {
+          codes[0] = static_cast<Timestamp>(first);
+          codes[1] = static_cast<Timestamp>(three_steps ? second : first);
+          codes[2] = static_cast<Timestamp>(three_steps ? third : first);
+          codes[3] = static_cast<Timestamp>(fine);
+          const PixelResult result = model->run_column(stream_of(codes), 6).front();
+          ASSERT_LT(result.code, no_detection) << first << " " << second << " " << third << " " << fine;
+          ASSERT_TRUE(result.confidence == 0 || result.code == fine);
+        }
+      }
+    }
+  }
+}
+
+TEST(WindowReadouts, NoCodeBeyondTheRange) {
+  for (int np = 3; np <= 7; ++np) {
+    for (int nb = 1; nb <= np; ++nb) {
+      for (const bool centred : {false, true}) {
+        ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh, np);
+        parameters.nb = nb;
+        parameters.window_centred = centred;
+        expect_every_code_in_the_range(parameters);
+      }
+    }
+  }
+  for (int np = 3; np <= 4; ++np) {
+    expect_every_code_in_the_range(ReadoutParameters::defaults(Readout::kThreeSteps, np));
+  }
+}
+
 TEST(IllegalParameters, RefusedWithASentence) {
   struct Case {
     void (*spoil)(ReadoutParameters&);
