@@ -9,7 +9,8 @@ import sys
 import time
 from pathlib import Path
 
-from . import batch, budgets, check, configuration, goals, growth, report, signalled_clear, sram_kit, sram_report
+from . import batch, budgets, check, configuration, goals, growth, report, signalled_clear, simulation, \
+    sram_kit, sram_report
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
@@ -133,6 +134,29 @@ def _check(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
     return check.run(ROOT, PDK, named, _all_configurations(named), arguments.jobs, _say)
 
 
+def _simulate_rtl(case: simulation.Case) -> simulation.Outcome:
+    return simulation.simulate(case, ROOT, ROOT / "build" / "simulation" / "rtl" / case.name)
+
+
+def _sim_icarus(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """RTL of small arrays against the model."""
+    return _simulate_all(arguments, named, simulation.rtl_case, _simulate_rtl, "sim-icarus")
+
+
+def _simulate_all(arguments: argparse.Namespace, named: dict[str, Configuration], make_case, work,
+                  command: str) -> int:
+    started = time.monotonic()
+    chosen = sorted(_select(named, arguments.configuration).values(), key=lambda item: not item.is_pool)
+    if arguments.trace and len(chosen) != 1:
+        raise FlowError("--trace needs the name of one configuration")
+    trace = arguments.trace and arguments.trace.resolve()
+    cases = [make_case(item, arguments.seed, trace) for item in chosen]
+    failed = simulation.run_all(cases, work, f"synth/synth.py {command}", arguments.jobs, _say)
+    _say(f"{command}: {len(cases) - failed} of {len(cases)} configurations pass, seed {arguments.seed}, "
+         f"{time.monotonic() - started:.0f} s")
+    return 1 if failed else 0
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description="Area, timing and power of the named configurations.")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at the same time")
@@ -143,6 +167,12 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("--liberty-slow", type=Path, help="the same cells in the slow corner")
     run.add_argument("--strict", action="store_true", help="fail if a figure is worse than its budget")
     run.set_defaults(action=_run)
+    for name, action, text in (("sim-icarus", _sim_icarus, "RTL against the model, four-state"),):
+        simulate = commands.add_parser(name, help=text)
+        simulate.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all")
+        simulate.add_argument("--seed", type=int, default=1, help="of the random frames")
+        simulate.add_argument("--trace", type=Path, help="waveform to write (FST), with one configuration")
+        simulate.set_defaults(action=action)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),
