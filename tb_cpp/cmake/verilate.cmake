@@ -171,7 +171,7 @@ function(dtof_verilate name)
     COMMAND ${CMAKE_COMMAND} -E make_directory ${directory}
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
             --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET --trace-fst --timescale 1ns/1ps
-            ${overrides} -F ${DTOF_HDL_DIR}/dtof.f ${wrapper}
+            ${overrides} -F ${DTOF_HDL_DIR}/dtof_lint.f -F ${DTOF_HDL_DIR}/dtof.f ${wrapper}
     COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
             -P ${DTOF_VERILATE_DIR}/unity.cmake
     DEPENDS ${DTOF_HDL_FILES} ${wrapper} ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
