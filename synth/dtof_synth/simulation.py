@@ -3,23 +3,27 @@
 
 from __future__ import annotations
 
+import json
 import random
 import re
 import subprocess
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from .configuration import Configuration
+from . import cell_models, liberty, netlist, sram_kit, tools
+from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
-from .run import rtl_files
+from .run import EFFORTS, Technology, elaborate, map_to_cells, rtl_files
 
 VECTORS = Path("build/cpp/vectors/dtof-vectors")
 BENCHES = Path("synth/simulation")
 BEHAVIOURAL = Path("hdl/technology/behavioural")
 SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
+LONG_FRAME = 3333
+NETLIST_SUFFIX = "_netlist"
 
 
 @dataclass(frozen=True)
@@ -58,8 +62,47 @@ def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None)
     if configuration.is_pool:
         small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": 3 * configuration["GROUP_SIZE"] // 2}
     else:
-        small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 2 if configuration.readout == "histogram" else 5}
+        small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 3 if configuration.readout == "histogram" else 5}
     return Case(configuration.with_parameters(configuration.name, **small), short_frames(seed, 4), seed, trace)
+
+
+def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = None) -> list[Case]:
+    """The netlist beside the RTL. Three pixels are the fewest for which the histograms forward counts as they do in a
+    full array. poolPointer's long frame has an array of its own, of two pixels and one engine, to save time."""
+    if not configuration.is_pool:
+        small = configuration.with_parameters(configuration.name, SRAM_NUM=2, PIXELS_PER_SRAM=3)
+        return [Case(small, (*short_frames(seed, 2), LONG_FRAME), seed, trace)]
+    one_pair = {"SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": 2}
+    return [replace(rtl_case(configuration, seed, trace), frames=short_frames(seed, 2)),
+            Case(configuration.with_parameters(f"{configuration.name}", **one_pair), (LONG_FRAME,), seed, trace)]
+
+
+def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
+    """The configuration through the flow's own steps, its cells and macros as models; the Verilog files."""
+    elaborate(configuration, technology, folder)
+    design = map_to_cells(configuration, technology, folder, EFFORTS[0])
+    netlist.finish(design, technology.slow, sram_kit.PIN_FF)
+    return write_simulation_netlist(design, configuration, technology, folder, seed)
+
+
+def write_simulation_netlist(design: dict, configuration: Configuration, technology: Technology, folder: Path,
+                             seed: int) -> tuple[Path, ...]:
+    """Verilog of a mapped design, of the cells that it uses and of its macros."""
+    drawn = random.Random(seed)
+    kinds = netlist.cell_kinds(design, technology.slow)
+    netlist.prepare_simulation(design, technology.slow, NETLIST_SUFFIX, cell_models.POWER_UP,
+                               lambda: drawn.random() < 0.5)
+    source, written = folder / "simulation.json", folder / "netlist.v"
+    source.write_text(json.dumps(design), encoding="utf-8")
+    settings = folder / "write_settings.tcl"
+    tools.write_settings(settings, {"netlist_json": source, "netlist": written})
+    tools.run_yosys(technology.root / "synth" / "yosys" / "write_verilog.tcl", settings, folder / "write.log",
+                    configuration.name)
+    cells, macros = folder / "cells.v", folder / "macros.v"
+    cells.write_text(cell_models.verilog(liberty.read(technology.slow.path), kinds), encoding="utf-8")
+    macros.write_text(sram_kit.behavioural_models([*memories(configuration).values(),
+                                                   *engine_memories(configuration).values()]), encoding="utf-8")
+    return written, cells, macros
 
 
 def _run(command: list[str], folder: Path, name: str) -> str:
