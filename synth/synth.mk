@@ -8,9 +8,10 @@
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-test      the flow's own tests, and the porting example simulated
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
+# make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
 #                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
 # make synth-growth    how cost grows with the parameters
-.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus vectors
+.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -29,3 +30,7 @@ vectors: | build_folder
 
 sim-icarus: vectors
 	@synth/synth.py sim-icarus --seed $(SEED) $(CONFIGURATIONS)
+
+sim-netlist: vectors
+	@synth/synth.py sim-netlist --seed $(SEED) $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
+	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW))

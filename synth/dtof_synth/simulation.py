@@ -34,10 +34,15 @@ class Case:
     frames: tuple[int, ...]  # acquisitions of each
     seed: int
     trace: Path | None = None  # waveform to write
+    part: str = ""  # of a configuration's frames, if there are several cases
 
     @property
     def name(self) -> str:
         return self.configuration.name
+
+    @property
+    def title(self) -> str:
+        return f"{self.name}, {self.part}" if self.part else self.name
 
 
 @dataclass(frozen=True)
@@ -74,7 +79,8 @@ def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = 
         return [Case(small, (*short_frames(seed, 2), LONG_FRAME), seed, trace)]
     one_pair = {"SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": 2}
     return [replace(rtl_case(configuration, seed, trace), frames=short_frames(seed, 2)),
-            Case(configuration.with_parameters(f"{configuration.name}", **one_pair), (LONG_FRAME,), seed, trace)]
+            Case(configuration.with_parameters(configuration.name, **one_pair), (LONG_FRAME,), seed,
+                 trace and trace.with_stem(f"{trace.stem}_long"), "long")]
 
 
 def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
@@ -147,7 +153,12 @@ def outcome(output: str, case: Case, seconds: float) -> Outcome:
         return Outcome(*map(int, passed.groups()), seconds)
     lines = [line for line in output.splitlines() if line.strip()]
     first = next((index for index, line in enumerate(lines) if line.startswith("ERROR")), 0)
-    raise FlowError(f"{case.name}: {'; '.join(lines[first:first + 4]) or 'the simulation printed nothing'}")
+    raise FlowError(f"{case.title}: {'; '.join(lines[first:first + 4]) or 'the simulation printed nothing'}")
+
+
+def simulate_netlist(case: Case, technology: Technology, folder: Path) -> Outcome:
+    """From the RTL to the comparison of its netlist, in `folder`."""
+    return simulate(case, technology.root, folder, write_netlist(case.configuration, technology, folder, case.seed))
 
 
 def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ...] = ()) -> Outcome:
@@ -170,8 +181,8 @@ def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ..
 
 def run_all(cases: list[Case], work: Callable[[Case], Outcome], again: str, jobs: int,
             say: Callable[[str], None]) -> int:
-    """All cases, so many at a time, in the order given; the number that failed. `again`: the command that repeats
-    one of them with a waveform, without its name and seed."""
+    """All cases, `jobs` at a time, in the order given; the number that failed. `again`: the command that repeats
+    a configuration with a waveform, without its name and seed."""
     failed = 0
     with ProcessPoolExecutor(jobs) as pool:
         futures = {pool.submit(work, case): case for case in cases}
@@ -179,7 +190,7 @@ def run_all(cases: list[Case], work: Callable[[Case], Outcome], again: str, jobs
             case = futures[future]
             try:
                 found = future.result()
-                say(f"[{number}/{len(cases)}] {case.name}: {found.frames} frames, {found.results} results, "
+                say(f"[{number}/{len(cases)}] {case.title}: {found.frames} frames, {found.results} results, "
                     f"{found.clocks} clocks in {found.seconds:.0f} s")
             except FlowError as error:
                 failed += 1
