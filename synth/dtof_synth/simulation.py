@@ -23,6 +23,7 @@ BENCHES = Path("synth/simulation")
 BEHAVIOURAL = Path("hdl/technology/behavioural")
 SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
 LONG_FRAME = 3333
+LONGEST_RUN_S = 1200
 NETLIST_SUFFIX = "_netlist"
 
 
@@ -63,9 +64,9 @@ def short_frames(seed: int, count: int) -> tuple[int, ...]:
 
 
 def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
-    """The RTL alone, of three columns, or of two engines with two columns each and a group and a half of pixels."""
+    """The RTL alone, of three columns, or of two engines with two columns each and two groups of pixels."""
     if configuration.is_pool:
-        small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": 3 * configuration["GROUP_SIZE"] // 2}
+        small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
     else:
         small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 3 if configuration.readout == "histogram" else 5}
     return Case(configuration.with_parameters(configuration.name, **small), short_frames(seed, 4), seed, trace)
@@ -114,7 +115,9 @@ def write_simulation_netlist(design: dict, configuration: Configuration, technol
 def _run(command: list[str], folder: Path, name: str) -> str:
     try:
         finished = subprocess.run(command, cwd=folder, check=False, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True)
+                                  stderr=subprocess.STDOUT, text=True, timeout=LONGEST_RUN_S)
+    except subprocess.TimeoutExpired:
+        raise FlowError(f"{name}: {Path(command[0]).name} does not end: stopped after {LONGEST_RUN_S} s") from None
     except FileNotFoundError:
         hint = "make builds it" if Path(command[0]).name == VECTORS.name else "scripts/install_packages.sh installs it"
         raise FlowError(f"{command[0]} is missing; {hint}") from None
