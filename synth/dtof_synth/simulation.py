@@ -23,6 +23,8 @@ BENCHES = Path("synth/simulation")
 BEHAVIOURAL = Path("hdl/technology/behavioural")
 SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
 LONG_FRAME = 3333
+FULL_FRAME = 96
+FULL_WIDTH = ("ezpointer", "hispointer", "poolpointer")
 LONGEST_RUN_S = 1200
 NETLIST_SUFFIX = "_netlist"
 
@@ -56,6 +58,11 @@ class Outcome:
     seconds: float
 
 
+def expected_rank(configuration: Configuration) -> int:
+    """Configurations whose simulation takes longest come first."""
+    return 0 if configuration.is_pool else 1 if configuration.readout in ("histogram", "pifh") else 2
+
+
 def short_frames(seed: int, count: int) -> tuple[int, ...]:
     """0, 1 and 2 acquisitions, and some random frames; none of them first, so that each follows another."""
     numbers = random.Random(seed)
@@ -82,6 +89,13 @@ def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = 
     return [replace(rtl_case(configuration, seed, trace), frames=short_frames(seed, 2)),
             Case(configuration.with_parameters(configuration.name, **one_pair), (LONG_FRAME,), seed,
                  trace and trace.with_stem(f"{trace.stem}_long"), "long")]
+
+
+def full_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
+    """The netlist of the array in its full width, with few pixels in a column: one frame, begun, reset and run again."""
+    pixels = configuration["GROUP_SIZE"] + 2 if configuration.is_pool else 3
+    return Case(configuration.with_parameters(configuration.name, PIXELS_PER_SRAM=pixels), (FULL_FRAME,), seed,
+                trace, "full width")
 
 
 def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
@@ -178,6 +192,23 @@ def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ..
         raise FlowError(f"{case.name}: Icarus Verilog warns: {said.strip().splitlines()[0]}")
     waveform = ["-fst", f"+trace={case.trace}"] if case.trace else []
     output = _run(["vvp", "-n", "bench.vvp", *waveform], folder, case.name)
+    (folder / "bench.log").write_text(output, encoding="utf-8")
+    return outcome(output, case, time.monotonic() - started)
+
+
+def simulate_full(case: Case, technology: Technology, folder: Path) -> Outcome:
+    """The netlist alone, two-state, in Verilator: for arrays that are too large for Icarus."""
+    started = time.monotonic()
+    root = technology.root
+    netlist_files = write_netlist(case.configuration, technology, folder, case.seed)
+    write_vectors(case, root, folder)
+    overrides = [f"-G{name}={value}" for name, value in bench_parameters(case, folder).items()]
+    _run(["verilator", "--binary", "-Wno-lint", "-Wno-style", "-DNETLIST", "-DNETLIST_ALONE",
+          f"-I{root / 'hdl' / 'package'}", "--top-module", f"{case.configuration.top}_bench", *overrides,
+          *(["--trace-fst"] if case.trace else []), "-o", "bench", *map(str, bench_files(case, root)),
+          *map(str, netlist_files)], folder, case.name)
+    output = _run([str(folder / "obj_dir" / "bench"), *([f"+trace={case.trace}"] if case.trace else [])], folder,
+                  case.name)
     (folder / "bench.log").write_text(output, encoding="utf-8")
     return outcome(output, case, time.monotonic() - started)
 
