@@ -11,7 +11,9 @@
 #include "vectors/rtl_parameters.hpp"
 #include "vectors/stimulus.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   CLI::App app{"dtof-vectors: random frames for an RTL test bench, and the results that the model expects."};
   std::string readout;
   std::string folder;
@@ -24,12 +26,18 @@ int main(int argc, char** argv) {
   app.add_option("--acquisitions", frames, "acquisitions of each frame")->required();
   app.add_option("--parameters", settings, "RTL parameters of the top, NAME=value")->required();
   CLI11_PARSE(app, argc, argv);
+  dtof::write_vectors(dtof::parse_rtl_parameters(dtof::parse_readout(readout), settings), frames, seed,
+                      folder);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    dtof::write_vectors(dtof::parse_rtl_parameters(dtof::parse_readout(readout), settings), frames, seed,
-                        folder);
+    return run(argc, argv);
   } catch (const std::exception& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return 1;
   }
-  return 0;
 }
