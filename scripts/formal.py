@@ -31,6 +31,9 @@ ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in th
 SEARCH_FRAMES = 120  # for a planted bug or a goal where the proof itself has no bound
 SIMULATE_SECONDS = 60
 
+# An instance of a module, or something of a package.
+USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::", re.MULTILINE)
+
 YOSYS_SCRIPT = """
 read_verilog -formal -sv {defines} -I{hdl}/package -I{hdl}/formal -defer {sources}
 {parameters}
@@ -153,11 +156,25 @@ def design_files() -> list[Path]:
     return files + [FORMAL / "sram_1r1w.sv", FORMAL / "sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
 
 
+def needed_files(harness: Path) -> list[Path]:
+    """The harness and the files of what it instantiates, directly or through others; file and module share a name."""
+    design = design_files()
+    needed = {harness}
+    found = {harness}
+    while found:
+        names = {name for file in found for match in USED_NAME.findall(file.read_text()) for name in match}
+        found = {file for file in design if file.stem in names} - needed
+        needed |= found
+    return [file for file in design if file in needed] + [harness]
+
+
 def with_bug(files: list[Path], bug: Bug, folder: Path) -> list[Path]:
     """The same files, one of them a copy with the bug."""
     source = HDL / bug.file
     text = source.read_text()
-    if source not in files or text.count(bug.find) != 1:
+    if source not in files:
+        raise FormalError(f"{bug.file} is no part of the proof")
+    if text.count(bug.find) != 1:
         raise FormalError(f"{bug.file} must contain the text to replace exactly once: {bug.find!r}")
     copy = folder / source.name
     copy.write_text(text.replace(bug.find, bug.replace))
@@ -201,7 +218,7 @@ def solve(job: Job) -> Outcome:
     """The outcome of a run, taken over from an earlier one with the same sources and commands."""
     proof, folder = job.proof, job.folder()
     folder.mkdir(parents=True, exist_ok=True)
-    files = design_files() + [FORMAL / f"{proof.harness}.sv"]
+    files = needed_files(FORMAL / f"{proof.harness}.sv")
     if job.bug is not None:
         files = with_bug(files, job.bug, folder)
     script = YOSYS_SCRIPT.format(
@@ -285,8 +302,8 @@ def write_report(rows: list[Row]) -> None:
         "",
         "From `make formal`; how it works, and what \"bounded\" leaves open, is in [docs/formal.md](../docs/formal.md). "
         "Every planted bug was seen",
-        "to break its proof in the same run; the assertion that failed is named beside it. Times are of one processor, rounded"
-        " up.",
+        "to break its proof; the assertion that failed is named beside it. Times are processor time of all parameter sets,"
+        " rounded up.",
         "",
         "| module | property | method | bounded | time | planted bugs and the assertions that they break |",
         "|---|---|---|---|---:|---|",

@@ -10,7 +10,7 @@ module histogram_builder_properties #(
     parameter int BIN_WIDTH = 1,
     parameter int COUNT_WIDTH = 2,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS),
-    localparam int PLACE_WIDTH = $clog2(PIXELS * SLOTS + 1)
+    localparam int SLOT_WIDTH = dtof_pkg::index_width(SLOTS)
 ) (
     input logic                 clk_i,
     input logic                 begin_i,       // a pass begins
@@ -105,7 +105,8 @@ module histogram_builder_properties #(
   // The reference: one counter.
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
   (* anyconst *) logic [BIN_WIDTH-1:0] watched_bin;
-  logic [PLACE_WIDTH-1:0] place_q;  // timestamps of the acquisition so far
+  logic [ROW_WIDTH-1:0] pixel_q;  // of the next timestamp
+  logic [SLOT_WIDTH-1:0] slot_q;
   logic accepted_q, watched_t1_q, known_q, scanned_q, scanned_known_q, check_q;
   logic [COUNT_WIDTH-1:0] count_q, scanned_count_q, expected_q;
   logic cleared, scans_watched;
@@ -117,7 +118,8 @@ module histogram_builder_properties #(
 
   always_ff @(posedge clk_i) begin
     if (!checking) begin
-      place_q <= '0;
+      pixel_q <= '0;
+      slot_q <= '0;
       accepted_q <= 1'b0;
       watched_t1_q <= 1'b0;
       known_q <= 1'b0;
@@ -125,10 +127,13 @@ module histogram_builder_properties #(
       check_q <= 1'b0;
     end else begin
       if (accepted) begin
-        place_q <= (32'(place_q) == PIXELS * SLOTS - 1) ? '0 : place_q + 1'b1;
+        slot_q <= (slot_q == SLOT_WIDTH'(SLOTS - 1)) ? '0 : slot_q + 1'b1;
+        if (slot_q == SLOT_WIDTH'(SLOTS - 1)) begin
+          pixel_q <= (pixel_q == ROW_WIDTH'(PIXELS - 1)) ? '0 : pixel_q + 1'b1;
+        end
       end
       accepted_q <= accepted;
-      watched_t1_q <= accepted && (32'(place_q) / SLOTS == 32'(watched_pixel));
+      watched_t1_q <= accepted && (pixel_q == watched_pixel);
       if (cleared) begin
         known_q <= 1'b1;
         count_q <= '0;
@@ -142,7 +147,7 @@ module histogram_builder_properties #(
     end
   end
 
-  `ASSUME(m_contiguous, place_q == '0 || tdc_valid_i)
+  `ASSUME(m_contiguous, (pixel_q == '0 && slot_q == '0) || tdc_valid_i)
   `ASSUME(m_scan_between_passes, !stream_q || (!scan_i && !clear_i && !clear_all_i))
   `ASSUME(m_in_range, 32'(scan_pixel_i) < PIXELS && 32'(clear_pixel_i) < PIXELS && 32'(watched_pixel) < PIXELS)
   `ASSUME(m_scan_then_clear, !(scan_i && clear_i && scan_pixel_i == clear_pixel_i && scan_bin_i == clear_bin_i))

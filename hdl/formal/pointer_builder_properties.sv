@@ -15,7 +15,7 @@ module pointer_builder_properties #(
     localparam int POINTER_WIDTH = NP + FRACTION_BITS,
     localparam int TAG_BITS = dtof_pkg::max_of(TAG_WIDTH, 1),
     localparam int STEP_WIDTH = dtof_pkg::step_width(1, FRACTION_BITS),
-    localparam int PLACE_WIDTH = $clog2(PIXELS * SLOTS + 1)
+    localparam int SLOT_WIDTH = dtof_pkg::index_width(SLOTS)
 ) (
     input logic                     clk_i,
     input logic                     begin_i,
@@ -129,7 +129,8 @@ module pointer_builder_properties #(
 
   // The reference: one word.
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
-  logic [PLACE_WIDTH-1:0] place_q;
+  logic [ROW_WIDTH-1:0] pixel_q;  // of the next timestamp
+  logic [SLOT_WIDTH-1:0] slot_q;
   logic watched_t1_q, known_q, check_s1_q, check_s2_q, started;
   logic [POINTER_WIDTH-1:0] pointer_q, moved_pointer;
   logic [CONFIDENCE_WIDTH-1:0] confidence_q, moved_confidence;
@@ -155,16 +156,20 @@ module pointer_builder_properties #(
 
   always_ff @(posedge clk_i) begin
     if (!checking) begin
-      place_q <= '0;
+      pixel_q <= '0;
+      slot_q <= '0;
       watched_t1_q <= 1'b0;
       known_q <= 1'b0;
       check_s1_q <= 1'b0;
       check_s2_q <= 1'b0;
     end else begin
       if (accepted) begin
-        place_q <= (32'(place_q) == PIXELS * SLOTS - 1) ? '0 : place_q + 1'b1;
+        slot_q <= (slot_q == SLOT_WIDTH'(SLOTS - 1)) ? '0 : slot_q + 1'b1;
+        if (slot_q == SLOT_WIDTH'(SLOTS - 1)) begin
+          pixel_q <= (pixel_q == ROW_WIDTH'(PIXELS - 1)) ? '0 : pixel_q + 1'b1;
+        end
       end
-      watched_t1_q <= accepted && (32'(place_q) / SLOTS == 32'(watched_pixel));
+      watched_t1_q <= accepted && (pixel_q == watched_pixel);
       known_q <= known_q || started;
       check_s1_q <= read_i && read_pixel_i == watched_pixel && known_q;
       check_s2_q <= check_s1_q && !started;
@@ -179,7 +184,7 @@ module pointer_builder_properties #(
     end
   end
 
-  `ASSUME(m_contiguous, place_q == '0 || tdc_valid_i)
+  `ASSUME(m_contiguous, (pixel_q == '0 && slot_q == '0) || tdc_valid_i)
   `ASSUME(m_read_and_start_between_passes, !stream_q || (!read_i && !start_i))
   `ASSUME(m_one_access, !(read_i && start_i))
   `ASSUME(m_in_range, 32'(read_pixel_i) < PIXELS && 32'(start_pixel_i) < PIXELS && 32'(watched_pixel) < PIXELS)
