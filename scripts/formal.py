@@ -123,7 +123,7 @@ class Row:
 
     proof: Proof
     seconds: float = 0.0
-    caught: list[str] = field(default_factory=list)
+    caught: dict[str, str] = field(default_factory=dict)  # title of a planted bug: the assertion it breaks
     reached: int | None = None
 
 
@@ -151,8 +151,8 @@ def load_proofs() -> list[Proof]:
 
 def design_files() -> list[Path]:
     """RTL of the file list. The SRAMs are those for proofs."""
-    lines = (HDL / "dtof.f").read_text().split()
-    files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith("technology/")]
+    lines = (HDL / "dtof.f").read_text().splitlines()
+    files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
     return files + [FORMAL / "sram_1r1w.sv", FORMAL / "sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
 
 
@@ -214,6 +214,10 @@ def failing_assertion(folder: Path) -> str:
     return match[1].split(".", 1)[1]
 
 
+def without_comments(text: str) -> str:
+    return " ".join(re.sub(r"//.*", "", text).split())
+
+
 def solve(job: Job) -> Outcome:
     """The outcome of a run, taken over from an earlier one with the same sources and commands."""
     proof, folder = job.proof, job.folder()
@@ -230,7 +234,8 @@ def solve(job: Job) -> Outcome:
     frames = SEARCH_FRAMES if proof.frames is None else proof.frames
     engine = "scorr; pdr" if unbounded else f"bmc3 -F {frames}"
 
-    texts = [script, engine] + [file.read_text() for file in (*files, *HDL.glob("package/*.svh"), *FORMAL.glob("*.svh"))]
+    headers = (*HDL.glob("package/*.svh"), *FORMAL.glob("*.svh"))
+    texts = [script, engine, *(without_comments(file.read_text()) for file in (*files, *headers))]
     key = hashlib.sha256("\0".join(texts).encode()).hexdigest()
     kept = folder / "outcome.json"
     if kept.exists():
@@ -264,13 +269,15 @@ def judge(job: Job, outcome: Outcome, row: Row) -> str:
         if outcome.verdict == "failed":
             return (f"FAIL {job.label()}: {outcome.assertion} fails in clock {outcome.frame}, "
                     f"counterexample in {place}/counterexample.vcd")
-        return "" if outcome.verdict == "proved" else f"FAIL {job.label()}: undecided after {proof.timeout} s, see {place}"
-    if job.kind == "goal":
+        decided = outcome.verdict == "proved"
+        return "" if decided else f"FAIL {job.label()}: undecided after {proof.timeout} s, see {place}"
+    if job.bug is None:
         row.reached = outcome.frame
-        return "" if outcome.verdict == "failed" else f"FAIL {job.label()}: not reached, so the proof may be empty, see {place}"
+        reached = outcome.verdict == "failed"
+        return "" if reached else f"FAIL {job.label()}: not reached, so the proof may be empty, see {place}"
     if outcome.verdict != "failed":
         return f"FAIL {job.label()}: the planted bug passes, see {place}"
-    row.caught.append(f"{job.bug.title}: `{outcome.assertion}`")
+    row.caught[job.bug.title] = outcome.assertion
     return ""
 
 
@@ -300,10 +307,9 @@ def write_report(rows: list[Row]) -> None:
     lines = [
         "# Proofs",
         "",
-        "From `make formal`; how it works, and what \"bounded\" leaves open, is in [docs/formal.md](../docs/formal.md). "
-        "Every planted bug was seen",
-        "to break its proof; the assertion that failed is named beside it. Times are processor time of all parameter sets,"
-        " rounded up.",
+        "From `make formal`; how it works, and what a bound leaves open, is in [docs/formal.md](../docs/formal.md).",
+        "Every planted bug was seen to break its proof; the assertion that failed is named beside it.",
+        "Times are processor time of all parameter sets together, rounded up.",
         "",
         "| module | property | method | bounded | time | planted bugs and the assertions that they break |",
         "|---|---|---|---|---:|---|",
@@ -312,14 +318,14 @@ def write_report(rows: list[Row]) -> None:
         proof = row.proof
         method = "`pdr`" if proof.frames is None else "`bmc3`"
         bounded = "no" if proof.frames is None else f"{proof.frames} clocks: {proof.why_bounded}"
-        lines.append(
-            f"| {proof.module} | {proof.title} | {method} | {bounded} | {rounded(row.seconds)} | {'; '.join(row.caught)} |"
-        )
+        bugs = "; ".join(f"{bug.title}: `{row.caught[bug.title]}`" for bug in proof.bugs)
+        lines.append(f"| {proof.module} | {proof.title} | {method} | {bounded} | {rounded(row.seconds)} | {bugs} |")
     lines += [
         "",
         "## Parameters, assumptions, and what was reached",
         "",
-        "An assumption is the documented contract of an input. A reached situation shows that the assumptions allow it.",
+        "An assumption is the documented contract of an input.",
+        "A reached situation shows that the assumptions allow it.",
         "",
         "| module | parameters | assumed of the inputs | reached |",
         "|---|---|---|---|",

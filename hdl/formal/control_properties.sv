@@ -4,7 +4,8 @@
 //
 // Every frame ends if source and sink take what is offered, because the clocks of a stay in a state in which the array
 // neither offers anything (ready to the source, a beat to the sink) nor finishes an acquisition are bounded
-// (a_no_state_lasts), states follow each other as the diagram says, and a frame's passes, rows and acquisitions are counted.
+// (a_no_state_lasts), states follow each other as the diagram says, and a frame's passes, rows and acquisitions are
+// counted.
 `include "properties.svh"
 
 module control_properties #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// engine_sequencer with pool_result_output: one column selected, one access a clock, addresses, labels and scratch rows in
-// range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
+// engine_sequencer with pool_result_output: one column selected, one access a clock, addresses, labels and scratch rows
+// in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
 `include "properties.svh"
 
 module engine_sequencer_properties #(

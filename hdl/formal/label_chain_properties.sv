@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two labels, three pixels, driven by engine_sequencer and with the messages in an SRAM, as in pool_engine: label and
-// margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty of
-// the one that is farther from the pixel in question (docs/poolpointer.md, Chain: lambda of the message's sender).
+// margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
+// of the one that is farther from the pixel in question (docs/poolpointer.md, Chain: lambda of the message's sender).
 `include "properties.svh"
 
 module label_chain_properties #(
@@ -171,7 +171,8 @@ module label_chain_properties #(
       q2 = $signed(position[(4+((assignment>>2)&1))*POSITION_WIDTH+:POSITION_WIDTH]);
       // Between pixels 0 and 1 the sender is 0 for pixels 1 and 2, between 1 and 2 it is 2 for pixels 0 and 1.
       cost01 = (results_q == 2'd0) ? 32'(penalty[PENALTY_WIDTH+:PENALTY_WIDTH]) : 32'(penalty[0+:PENALTY_WIDTH]);
-      cost12 = (results_q == 2'd2) ? 32'(penalty[PENALTY_WIDTH+:PENALTY_WIDTH]) : 32'(penalty[2*PENALTY_WIDTH+:PENALTY_WIDTH]);
+      cost12 = (results_q == 2'd2) ? 32'(penalty[PENALTY_WIDTH+:PENALTY_WIDTH])
+          : 32'(penalty[2*PENALTY_WIDTH+:PENALTY_WIDTH]);
       if (q0 - q1 <= REACH && q1 - q0 <= REACH) cost01 = 0;
       if (q1 - q2 <= REACH && q2 - q1 <= REACH) cost12 = 0;
       sum = e0 + e1 + e2 - cost01 - cost12;

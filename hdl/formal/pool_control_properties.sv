@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of pool_pointer_array with one pair of columns: pool_controller, pair_sequencer, the registers between them
-// and the columns, pool_pointer_pair. The engine is replaced by anything that keeps to what engine_sequencer_properties
-// proves of engine_sequencer. That the single-port SRAM has one access a clock, in range, are dtof_sram's assertions.
+// The control of pool_pointer_array with one pair of columns: pool_controller, pair_sequencer, the registers between
+// them and the columns, pool_pointer_pair. The engine is replaced by anything that keeps to what
+// engine_sequencer_properties proves of engine_sequencer. That the single-port SRAM has one access a clock, and in
+// range, are assertions of dtof_sram.
 //
-// Every frame ends, as in control_properties; clocks in which the engine works are left out here, for engine_sequencer's
-// operations end in time.
+// Every frame ends, as in control_properties; clocks in which the engine works are left out here, for the operations of
+// engine_sequencer end in time.
 `include "properties.svh"
 
 module pool_control_properties #(

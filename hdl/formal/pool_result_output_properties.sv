@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pool_result_output: AXI4-Stream rules, every engine's result once and in order, whatever the back-pressure and from reset
-// at any time. The harness keeps what was given in a queue of two entries and watches one arbitrary engine.
+// pool_result_output: AXI4-Stream rules, every engine's result once and in order, whatever the back-pressure and from
+// reset at any time. The harness keeps what was given in a queue of two entries and watches one arbitrary engine.
 `include "properties.svh"
 
 module pool_result_output_properties #(
@@ -73,7 +73,8 @@ module pool_result_output_properties #(
   assign given = {last_i, row_i, column_i, RESULT_WIDTH'(results_i >> (watched * RESULT_WIDTH))};
   assign {front_last, front_row, front_column, front_result} = front_q;
   // The last engine may have no such column.
-  assign beats_of_front = ((ENGINES - 1) * ENGINE_COLUMNS + 32'(front_column) < SRAM_NUM) ? 8'(ENGINES) : 8'(ENGINES - 1);
+  assign beats_of_front = ((ENGINES - 1) * ENGINE_COLUMNS + 32'(front_column) < SRAM_NUM) ? 8'(ENGINES)
+      : 8'(ENGINES - 1);
   assign accepted = tvalid && tready_i;
   assign last_beat = accepted && (beats_q == beats_of_front - 8'd1);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// result_output with the columns' result registers: AXI4-Stream rules, every column's result once and in order, whatever
-// the back-pressure and from reset at any time. One arbitrary column is watched.
+// result_output with the columns' result registers: AXI4-Stream rules, every column's result once and in order,
+// whatever the back-pressure and from reset at any time. One arbitrary column is watched.
 `include "properties.svh"
 
 module result_output_properties #(
