@@ -155,7 +155,7 @@ module engine_sequencer_properties #(
   `PROVE(a_results_in_order, !send || (32'(sent_q) == 32'(send_column) * PIXELS + 32'(send_row)))
   `PROVE(a_last_result, !send || send_last == (32'(sent_q) == PIXELS * ENGINE_COLUMNS - 1))
   `PROVE(a_all_results, !(done && sending_q) || 32'(sent_q) == PIXELS * ENGINE_COLUMNS)
-  `PROVE(a_done_in_time, 32'(clocks_q) <= CLOCKS)
+  `PROVE(a_done_in_time, !working_q || 32'(clocks_q) <= CLOCKS)
   `PROVE(a_done_once, !done || working_q)
   `GOAL(done && sending_q)
 
