@@ -36,11 +36,11 @@ constexpr std::array<KindNames, 8> kKinds = {{
     {FaultKind::kReset, "reset", "reset"},
 }};
 
-const KindNames& names(FaultKind kind) {
-  return *std::ranges::find(kKinds, kind, &KindNames::kind);
-}
+const KindNames& names(FaultKind kind) { return *std::ranges::find(kKinds, kind, &KindNames::kind); }
 
-bool is_flip(FaultKind kind) { return kind == FaultKind::kFlippedBit || kind == FaultKind::kFlippedBitAtWork; }
+bool is_flip(FaultKind kind) {
+  return kind == FaultKind::kFlippedBit || kind == FaultKind::kFlippedBitAtWork;
+}
 bool is_column_fault(FaultKind kind) {
   return kind == FaultKind::kStuckBit || kind == FaultKind::kStuckTimestamps;
 }
@@ -106,9 +106,25 @@ std::string percent(std::uint64_t count, std::uint64_t of) {
                      kPercent * share.interval.high);
 }
 
-std::string mean(std::uint64_t sum, std::uint64_t faults) {
-  return faults == 0 ? "-" : fmt::format("{:.2f}", static_cast<double>(sum) / static_cast<double>(faults));
+/// Mean over the faults of what `of_fault` says of each, with its interval; no share or number is below 0.
+template <typename OfFault>
+std::string mean(const std::vector<FaultEffect>& effects, const OfFault& of_fault, int decimals) {
+  std::vector<double> values;
+  for (const FaultEffect& effect : effects) {
+    values.push_back(of_fault(effect));
+  }
+  if (values.size() < 2) {
+    return values.empty() ? "-" : fmt::format("{:.{}f}", values.front(), decimals);
+  }
+  const Estimate estimate = estimate_mean(values);
+  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", estimate.value, decimals,
+                     std::max(estimate.interval.low, 0.0), decimals, estimate.interval.high, decimals);
 }
+
+double moved_percent(const FaultEffect& effect) { return kPercent * effect.moved / effect.pixels; }
+double beyond_percent(const FaultEffect& effect) { return kPercent * effect.beyond / effect.pixels; }
+double changed_pixels(const FaultEffect& effect) { return effect.changed; }
+double beyond_pixels(const FaultEffect& effect) { return effect.beyond; }
 
 std::string title(Readout readout) { return std::string(readout_title(readout)); }
 
@@ -124,15 +140,15 @@ std::string flip_table(std::span<const FaultCaseResult> results) {
     table.add({title(result.fault.readout), std::string(sram_title(*result.fault.sram)),
                std::string(names(result.fault.kind).title), fmt::format("{}", sum.faults),
                percent(sum.changing, sum.faults), percent(sum.moving, sum.faults),
-               percent(sum.moving_beyond, sum.faults), quantile(sum.moves_mm, 0.5), quantile(sum.moves_mm, 0.95),
-               quantile(sum.moves_mm, 1.0), fmt::format("{}", sum.most_moved),
+               percent(sum.moving_beyond, sum.faults), quantile(sum.moves_mm, 0.5),
+               quantile(sum.moves_mm, 0.95), quantile(sum.moves_mm, 1.0), fmt::format("{}", sum.most_moved),
                fmt::format("{}", result.changed_elsewhere)});
   }
   return table.markdown();
 }
 
 std::string column_table(std::span<const FaultCaseResult> results) {
-  Table table({"read-out", "fault", "faults", "pixels within reach", "of them moved, %", "beyond 3 %, %",
+  Table table({"read-out", "fault", "faults", "pixels within reach", "of them moved, %", "spoilt, %",
                "other columns"},
               2);
   for (const FaultCaseResult& result : results) {
@@ -144,15 +160,16 @@ std::string column_table(std::span<const FaultCaseResult> results) {
     if (result.fault.sram) {
       fault += fmt::format(", {}", sram_title(*result.fault.sram));
     }
-    table.add({title(result.fault.readout), fault, fmt::format("{}", sum.faults), fmt::format("{}", sum.pixels),
-               percent(sum.pixels_moved, sum.pixels), percent(sum.pixels_beyond, sum.pixels),
+    table.add({title(result.fault.readout), fault, fmt::format("{}", sum.faults),
+               fmt::format("{}", result.effects.empty() ? 0 : result.effects.front().pixels),
+               mean(result.effects, moved_percent, 1), mean(result.effects, beyond_percent, 1),
                fmt::format("{}", result.changed_elsewhere)});
   }
   return table.markdown();
 }
 
 std::string pixel_table(std::span<const FaultCaseResult> results) {
-  Table table({"read-out", "pixel", "pixels tried", "others changed, mean", "most", "others beyond 3 %, mean",
+  Table table({"read-out", "pixel", "pixels tried", "others changed, mean", "most", "others spoilt, mean",
                "most", "spoils any, %", "other columns"},
               2);
   for (const FaultCaseResult& result : results) {
@@ -161,8 +178,8 @@ std::string pixel_table(std::span<const FaultCaseResult> results) {
     }
     const Summary sum = summarise(result.effects);
     table.add({title(result.fault.readout), std::string(names(result.fault.kind).title),
-               fmt::format("{}", sum.faults), mean(sum.pixels_changed, sum.faults),
-               fmt::format("{}", sum.most_changed), mean(sum.pixels_beyond, sum.faults),
+               fmt::format("{}", sum.faults), mean(result.effects, changed_pixels, 2),
+               fmt::format("{}", sum.most_changed), mean(result.effects, beyond_pixels, 2),
                fmt::format("{}", sum.most_beyond), percent(sum.moving_beyond, sum.faults),
                fmt::format("{}", result.changed_elsewhere)});
   }
@@ -216,18 +233,37 @@ std::string next_frame_table(std::span<const FaultCaseResult> results) {
 }
 
 std::string csv_of(std::span<const FaultCaseResult> results) {
-  Table table({"readout", "fault", "sram", "state", "frames", "broken_frames", "model_mismatches", "faults",
-               "pixels_within_reach", "faults_changing_a_result", "faults_moving_a_depth", "faults_beyond_3_percent",
-               "median_mm", "percentile_95_mm", "largest_mm", "pixels_changed", "pixels_moved",
-               "pixels_beyond_3_percent", "most_pixels_changed", "most_pixels_moved", "most_pixels_beyond_3_percent",
-               "pixels_changed_in_other_columns", "next_frames", "wrong_next_frames"});
+  Table table({"readout",
+               "fault",
+               "sram",
+               "state",
+               "frames",
+               "broken_frames",
+               "model_mismatches",
+               "faults",
+               "pixels_within_reach",
+               "faults_changing_a_result",
+               "faults_moving_a_depth",
+               "faults_beyond_3_percent",
+               "median_mm",
+               "percentile_95_mm",
+               "largest_mm",
+               "pixels_changed",
+               "pixels_moved",
+               "pixels_beyond_3_percent",
+               "most_pixels_changed",
+               "most_pixels_moved",
+               "most_pixels_beyond_3_percent",
+               "pixels_changed_in_other_columns",
+               "next_frames",
+               "wrong_next_frames"});
   for (const FaultCaseResult& result : results) {
     const FaultCase& fault = result.fault;
     const Summary sum = summarise(result.effects);
-    std::vector<std::string> cells = {
-        std::string(readout_name(fault.readout)), std::string(names(fault.kind).name),
-        std::string(fault.sram ? sram_title(*fault.sram) : "-"),
-        std::string(fault.state ? rtl_state_name(*fault.state) : "-")};
+    std::vector<std::string> cells = {std::string(readout_name(fault.readout)),
+                                      std::string(names(fault.kind).name),
+                                      std::string(fault.sram ? sram_title(*fault.sram) : "-"),
+                                      std::string(fault.state ? rtl_state_name(*fault.state) : "-")};
     const auto add_count = [&](auto count) { cells.push_back(fmt::format("{}", count)); };
     add_count(result.frames);
     add_count(result.broken_frames);
@@ -273,26 +309,29 @@ std::string conclude(std::span<const FaultCaseResult> results) {
       all.changed_elsewhere == 0
           ? std::string("No fault changed a pixel of a column that it does not touch.")
           : fmt::format("{} pixels changed in columns that no fault touches.", all.changed_elsewhere));
-  sentences.push_back(all.model_mismatches == 0
-                          ? std::string("With faulty timestamps the array read what its model reads from them.")
-                          : fmt::format("In {} frames with faulty timestamps the array differed from its model.",
-                                        all.model_mismatches));
+  sentences.push_back(
+      all.model_mismatches == 0
+          ? std::string("With faulty timestamps the array read what its model reads from them.")
+          : fmt::format("In {} frames with faulty timestamps the array differed from its model.",
+                        all.model_mismatches));
   for (const Readout readout : readouts_of(results)) {
     const auto flips = total(results, [&](const FaultCase& fault) {
       return fault.readout == readout && fault.kind == FaultKind::kFlippedBit;
     });
     const Summary flip = summarise(flips.effects);
-    const auto hot = total(
-        results, [&](const FaultCase& fault) { return fault.readout == readout && is_hot_pixel(fault.kind); });
+    const auto hot = total(results, [&](const FaultCase& fault) {
+      return fault.readout == readout && is_hot_pixel(fault.kind);
+    });
     const Summary spoilt = summarise(hot.effects);
     if (flip.faults == 0 || spoilt.faults == 0) {
       continue;
     }
     sentences.push_back(fmt::format(
-        "{}: {} of {} flipped bits moved a depth, {} beyond 3 %, of {} pixels at most. One hot pixel changed {} other "
-        "pixels on average and moved {} beyond 3 % ({} at most).",
+        "{}: {} of {} flipped bits moved a depth, {} beyond 3 %; the most pixels that one moved: {}. One hot "
+        "pixel "
+        "changed {} others on average and spoilt {}, at most {}.",
         readout_title(readout), flip.moving, flip.faults, flip.moving_beyond, flip.most_moved,
-        mean(spoilt.pixels_changed, spoilt.faults), mean(spoilt.pixels_beyond, spoilt.faults), spoilt.most_beyond));
+        mean(hot.effects, changed_pixels, 2), mean(hot.effects, beyond_pixels, 2), spoilt.most_beyond));
   }
   std::string text;
   for (const std::string& sentence : sentences) {
@@ -310,29 +349,41 @@ FaultReport report_faults(std::span<const FaultCaseResult> results, const FaultS
   report.csv = csv_of(results);
   report.markdown = fmt::format(
       "# Faults\n\n"
-      "What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels (poolPointer: "
-      "six columns an engine) that see a part of the scene `room`, preset `thesis`, 14 klux, {} acquisitions a frame. "
+      "What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels "
+      "(poolPointer: "
+      "six columns an engine) that see a part of the scene `room`, preset `thesis`, 14 klux, {} acquisitions "
+      "a frame. "
       "Command: `{}`, seed {}.\n\n{}\n"
-      "A fault is compared with the frame without it. A frame holds several faults, one in a column at most, and a "
-      "third of the columns (or SRAMs) has none; \"other columns\" counts the pixels that changed there, or in the "
-      "other column of a pair. Shares are in per cent with their 95 % intervals (Wilson).\n\n"
+      "A fault is compared with the frame without it. A frame holds several faults, one in a column at most, "
+      "and a "
+      "third of the columns (or SRAMs) has none; \"other columns\" counts the pixels that changed there, or "
+      "in the "
+      "other column of a pair. A pixel is spoilt if its depth moved by more than 3 % of its distance. In "
+      "brackets: 95 % "
+      "intervals (shares of faults: Wilson's; means over faults: Student's).\n\n"
       "## One flipped bit\n\n"
-      "A random bit of a random word flips in a random clock of the frame. Many flips change nothing: the word is "
-      "written before it is read again. Moves are those of the flips that move a depth, the farthest pixel of each; "
-      "beyond 3 % means of the pixel's distance. Engine scratch memories are few and hold something only while the "
+      "A random bit of a random word flips in a random clock of the frame. Many flips change nothing: the "
+      "word is "
+      "written before it is read again. Moves are those of the flips that move a depth, the farthest pixel "
+      "of each. Engine scratch memories are few and hold something only while the "
       "engines work, which is a small part of a frame: the second row has flips in those clocks only.\n\n{}\n"
       "## A stuck column\n\n"
-      "Stuck timestamps: every slot of every acquisition of the column carries one random code. Stuck bit: one random "
-      "bit of every word of an SRAM reads the same for the whole frame. Within reach: the column's pixels; for the "
+      "Stuck timestamps: every slot of every acquisition of the column carries one random code. Stuck bit: "
+      "one random "
+      "bit of every word of an SRAM reads the same for the whole frame. Within reach: the column's pixels; "
+      "for the "
       "engine's scratch those of all the engine's columns.\n\n{}\n"
       "## A hot or dead pixel\n\n"
-      "A hot pixel fires once more in every acquisition, at one random code or at random ones; its TDC keeps the first "
+      "A hot pixel fires once more in every acquisition, at one random code or at random ones; its TDC keeps "
+      "the first "
       "two events of an acquisition. Others: the {} other pixels of its column.\n\n{}\n"
       "## The frame after\n\n"
-      "Right in every pixel, of all that followed a frame with faults, without a reset between; and of whole frames "
+      "Right in every pixel, of all that followed a frame with faults, without a reset between; and of whole "
+      "frames "
       "after a reset at random clocks of every state.\n\n{}",
       kFaultColumns, kFaultRows, options.acquisitions, command_line, options.seed, report.conclusions,
-      flip_table(results), column_table(results), kFaultRows - 1, pixel_table(results), next_frame_table(results));
+      flip_table(results), column_table(results), kFaultRows - 1, pixel_table(results),
+      next_frame_table(results));
   return report;
 }
 

@@ -17,8 +17,8 @@ struct FaultReport {
 FaultReport report_faults(std::span<const FaultCaseResult> results, const FaultStudyOptions& options,
                           const std::string& command_line);
 
-/// True if every frame ended, no fault reached another column, faulty timestamps gave what the model gives, and
-/// every frame after a fault was right.
+/// True if every frame ended, no fault reached another column, faulty timestamps gave what the model gives,
+/// and every frame after a fault was right.
 bool faults_stay_where_they_are(std::span<const FaultCaseResult> results);
 
 }  // namespace dtof

@@ -29,8 +29,8 @@ enum class FaultKind {
 struct FaultCase {
   Readout readout = Readout::kEzPointer;
   FaultKind kind = FaultKind::kFlippedBit;
-  std::optional<SramKind> sram;    ///< flipped and stuck bits
-  std::optional<RtlState> state;   ///< reset
+  std::optional<SramKind> sram;   ///< flipped and stuck bits
+  std::optional<RtlState> state;  ///< reset
 };
 
 struct FaultCaseResult {

@@ -56,8 +56,7 @@ FaultScene make_fault_scene(std::uint32_t acquisitions, std::uint64_t seed) {
                    .distances_m = {}};
   for (int row = 0; row < kFaultRows; ++row) {
     for (int column = 0; column < kFaultColumns; ++column) {
-      scene.distances_m.push_back(
-          source.targets().at(scene_column(column), kSceneRange.first + row).depth_m);
+      scene.distances_m.push_back(source.targets().at(scene_column(column), kSceneRange.first + row).depth_m);
     }
   }
   return scene;

@@ -14,13 +14,13 @@
 
 namespace dtof {
 
-/// What the array of a fault study sees: a part of the scene `room`, every pixel of a column beside the next one
-/// as in the full array, preset `thesis` at 14 klux.
+/// What the array of a fault study sees: a part of the scene `room`, every pixel of a column beside the next
+/// one as in the full array, preset `thesis` at 14 klux.
 struct FaultScene {
   std::uint32_t acquisitions;
-  std::vector<ColumnStream> frame;   ///< the frame that faults disturb
-  std::vector<ColumnStream> next;    ///< the frame after it: the same targets, other photons
-  std::vector<double> distances_m;   ///< index = row * columns + column
+  std::vector<ColumnStream> frame;  ///< the frame that faults disturb
+  std::vector<ColumnStream> next;   ///< the frame after it: the same targets, other photons
+  std::vector<double> distances_m;  ///< index = row * columns + column
 };
 
 inline constexpr int kFaultRows = 64;
@@ -29,12 +29,12 @@ inline constexpr int kFaultColumns = 12;
 /// Throws InputError unless there are 1 to 65,535 acquisitions.
 FaultScene make_fault_scene(std::uint32_t acquisitions, std::uint64_t seed);
 
-/// A read-out on the array that is compiled for fault studies, and what its frames give without a fault. Shared by
-/// threads. Results: index = row * columns + column.
+/// A read-out on the array that is compiled for fault studies, and what its frames give without a fault.
+/// Shared by threads. Results: index = row * columns + column.
 class FaultSubject {
  public:
-  /// `scene` must outlive the subject. Throws InputError if no array is compiled for the read-out, RtlError if the
-  /// array differs from the model though nothing is wrong with it.
+  /// `scene` must outlive the subject. Throws InputError if no array is compiled for the read-out, RtlError
+  /// if the array differs from the model though nothing is wrong with it.
   FaultSubject(Readout readout, const FaultScene& scene);
 
   [[nodiscard]] const RtlConfiguration& configuration() const { return configuration_; }

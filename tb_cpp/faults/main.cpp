@@ -24,7 +24,9 @@ constexpr int kExitFailure = 4;
 constexpr int kExitInterrupted = 130;
 
 void run(int argc, char** argv) {
-  CLI::App app{"dtof-faults: what flipped bits, stuck columns, hot and dead pixels and resets do to a frame of the RTL."};
+  CLI::App app{
+      "dtof-faults: what flipped bits, stuck columns, hot and dead pixels and resets do to a frame of the "
+      "RTL."};
   dtof::FaultStudyOptions options;
   std::vector<std::string> readouts = {"all"};
   std::string out = "build/faults";
@@ -37,7 +39,8 @@ void run(int argc, char** argv) {
   app.add_option("-s,--seed", options.seed, "seed of photons and faults")->capture_default_str();
   app.add_option("-t,--threads", options.threads, "threads; 0: all processors")->capture_default_str();
   app.add_option("-o,--out", out, "output folder")->capture_default_str();
-  app.footer("Exit codes: 0 done, 1 bad input, 3 a fault went farther than it should, 4 failure, 130 interrupted.");
+  app.footer(
+      "Exit codes: 0 done, 1 bad input, 3 a fault went farther than it should, 4 failure, 130 interrupted.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -12,8 +12,8 @@ namespace dtof {
 ColumnStream with_stuck_timestamps(const ColumnStream& column, std::uint32_t acquisitions, int slots,
                                    Timestamp code);
 
-/// The column when its pixel `row` fires once more in every acquisition, at what `code` returns for it. The TDC
-/// keeps the first `slots` events of an acquisition.
+/// The column when its pixel `row` fires once more in every acquisition, at what `code` returns for it. The
+/// TDC keeps the first `slots` events of an acquisition.
 ColumnStream with_hot_pixel(const ColumnStream& column, int row, std::uint32_t acquisitions, int slots,
                             const std::function<Timestamp()>& code);
 

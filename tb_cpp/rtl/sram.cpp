@@ -34,14 +34,14 @@ RtlSram::RtlSram(std::string path, std::uint8_t* contents, int words, int width,
       address_bytes_(address_bytes) {}
 
 bool RtlSram::bit(int word, int bit) const {
-  const std::uint8_t byte = contents_[static_cast<std::size_t>(word) * word_bytes_ +
-                                      static_cast<std::size_t>(bit / CHAR_BIT)];
+  const std::uint8_t byte =
+      contents_[static_cast<std::size_t>(word) * word_bytes_ + static_cast<std::size_t>(bit / CHAR_BIT)];
   return (byte >> (bit % CHAR_BIT) & 1) != 0;
 }
 
 void RtlSram::set_bit(int word, int bit, bool value) {
-  std::uint8_t& byte = contents_[static_cast<std::size_t>(word) * word_bytes_ +
-                                 static_cast<std::size_t>(bit / CHAR_BIT)];
+  std::uint8_t& byte =
+      contents_[static_cast<std::size_t>(word) * word_bytes_ + static_cast<std::size_t>(bit / CHAR_BIT)];
   const auto mask = static_cast<std::uint8_t>(1U << static_cast<unsigned>(bit % CHAR_BIT));
   byte = static_cast<std::uint8_t>(value ? byte | mask : byte & ~mask);
 }

@@ -101,7 +101,8 @@ TEST_P(PlantedPointerFlip, AStuckBitIsStuckInEveryResultOfItsColumn) {
   for (int row = 0; row < kFaultRows; ++row) {
     EXPECT_NE(actual[index_of({kPixel.column, row})].code & 1 << kBit, 0) << "row " << row;
   }
-  EXPECT_EQ(changed_elsewhere(subject_, actual, std::vector<FaultReach>{{{kPixel.column, 1}, std::nullopt}}), 0);
+  EXPECT_EQ(changed_elsewhere(subject_, actual, std::vector<FaultReach>{{{kPixel.column, 1}, std::nullopt}}),
+            0);
   EXPECT_EQ(run(scene_.next), subject_.expected_next());
 }
 
@@ -126,9 +127,11 @@ TEST_P(PlantedHistogramFlip, MovesThePeakOfItsPixel) {
 
 class PlantedPoolFlip : public PlantedFlip {};
 INSTANTIATE_TEST_SUITE_P(Pools, PlantedPoolFlip,
-                         testing::Values(Readout::kPoolPointer, Readout::kPoolPointerLean), readout_test_name);
+                         testing::Values(Readout::kPoolPointer, Readout::kPoolPointerLean),
+                         readout_test_name);
 
-// Each bit of a word with two pixels' pointers, one after the other: some change their column, none the other one.
+// Each bit of a word with two pixels' pointers, one after the other: some change their column, none the other
+// one.
 TEST_P(PlantedPoolFlip, StaysInItsColumn) {
   RtlSram pair = sram(SramKind::kPoolPair, kPixel.column);
   int flips_that_change = 0;

@@ -43,8 +43,7 @@ TEST(StreamFaults, AHotPixelTakesASlotInTheOrderOfTime) {
 TEST(StreamFaults, AHotPixelAsksForACodeInEveryAcquisition) {
   Timestamp code = 0;
   const ColumnStream hot = with_hot_pixel(ColumnStream(two_pixels()), 1, 3, 2, [&] { return code++; });
-  EXPECT_THAT(row(hot, 1),
-              ElementsAre(Detection{0, 0}, Detection{1, 1}, Detection{1, 90}, Detection{2, 2}));
+  EXPECT_THAT(row(hot, 1), ElementsAre(Detection{0, 0}, Detection{1, 1}, Detection{1, 90}, Detection{2, 2}));
 }
 
 TEST(StreamFaults, ADeadPixelSeesNothing) {
