@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kPercent = 100.0;
 constexpr double kMillimetres = 1000.0;
+constexpr double kOthers = kFaultRows - 1;  // pixels of a column besides the faulty one
 
 struct KindNames {
   FaultKind kind;
@@ -106,19 +107,22 @@ std::string percent(std::uint64_t count, std::uint64_t of) {
                      kPercent * share.interval.high);
 }
 
-/// Mean over the faults of what `of_fault` says of each, with its interval; no share or number is below 0.
+/// Mean over the faults of what `of_fault` says of each, 0 to `most`, with its interval where they differ.
 template <typename OfFault>
-std::string mean(const std::vector<FaultEffect>& effects, const OfFault& of_fault, int decimals) {
+std::string mean(const std::vector<FaultEffect>& effects, const OfFault& of_fault, double most) {
   std::vector<double> values;
   for (const FaultEffect& effect : effects) {
     values.push_back(of_fault(effect));
   }
-  if (values.size() < 2) {
-    return values.empty() ? "-" : fmt::format("{:.{}f}", values.front(), decimals);
+  if (values.empty()) {
+    return "-";
+  }
+  if (std::ranges::all_of(values, [&](double value) { return value == values.front(); })) {
+    return fmt::format("{}", values.front());
   }
   const Estimate estimate = estimate_mean(values);
-  return fmt::format("{:.{}f} ({:.{}f} to {:.{}f})", estimate.value, decimals,
-                     std::max(estimate.interval.low, 0.0), decimals, estimate.interval.high, decimals);
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", estimate.value, std::max(estimate.interval.low, 0.0),
+                     std::min(estimate.interval.high, most));
 }
 
 double moved_percent(const FaultEffect& effect) { return kPercent * effect.moved / effect.pixels; }
@@ -162,7 +166,7 @@ std::string column_table(std::span<const FaultCaseResult> results) {
     }
     table.add({title(result.fault.readout), fault, fmt::format("{}", sum.faults),
                fmt::format("{}", result.effects.empty() ? 0 : result.effects.front().pixels),
-               mean(result.effects, moved_percent, 1), mean(result.effects, beyond_percent, 1),
+               mean(result.effects, moved_percent, kPercent), mean(result.effects, beyond_percent, kPercent),
                fmt::format("{}", result.changed_elsewhere)});
   }
   return table.markdown();
@@ -178,8 +182,8 @@ std::string pixel_table(std::span<const FaultCaseResult> results) {
     }
     const Summary sum = summarise(result.effects);
     table.add({title(result.fault.readout), std::string(names(result.fault.kind).title),
-               fmt::format("{}", sum.faults), mean(result.effects, changed_pixels, 2),
-               fmt::format("{}", sum.most_changed), mean(result.effects, beyond_pixels, 2),
+               fmt::format("{}", sum.faults), mean(result.effects, changed_pixels, kOthers),
+               fmt::format("{}", sum.most_changed), mean(result.effects, beyond_pixels, kOthers),
                fmt::format("{}", sum.most_beyond), percent(sum.moving_beyond, sum.faults),
                fmt::format("{}", result.changed_elsewhere)});
   }
@@ -326,12 +330,15 @@ std::string conclude(std::span<const FaultCaseResult> results) {
     if (flip.faults == 0 || spoilt.faults == 0) {
       continue;
     }
-    sentences.push_back(fmt::format(
-        "{}: {} of {} flipped bits moved a depth, {} beyond 3 %; the most pixels that one moved: {}. One hot "
-        "pixel "
-        "changed {} others on average and spoilt {}, at most {}.",
-        readout_title(readout), flip.moving, flip.faults, flip.moving_beyond, flip.most_moved,
-        mean(hot.effects, changed_pixels, 2), mean(hot.effects, beyond_pixels, 2), spoilt.most_beyond));
+    std::string sentence = fmt::format(
+        "{}: {} of {} flipped bits moved a depth, {} beyond 3 %; the most pixels that one moved: {}. ",
+        readout_title(readout), flip.moving, flip.faults, flip.moving_beyond, flip.most_moved);
+    sentence += spoilt.changing == 0
+                    ? std::string("No hot pixel changed another one.")
+                    : fmt::format("One hot pixel changed {} others on average and spoilt {}, at most {}.",
+                                  mean(hot.effects, changed_pixels, kOthers),
+                                  mean(hot.effects, beyond_pixels, kOthers), spoilt.most_beyond);
+    sentences.push_back(sentence);
   }
   std::string text;
   for (const std::string& sentence : sentences) {

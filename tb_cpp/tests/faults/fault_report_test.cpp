@@ -31,7 +31,7 @@ TEST(FaultReport, StatesWhatTheFiguresSay) {
   EXPECT_THAT(
       report.conclusions,
       HasSubstr("1 of 2 flipped bits moved a depth, 1 beyond 3 %; the most pixels that one moved: 3"));
-  EXPECT_THAT(report.conclusions, HasSubstr("changed 9.00 others on average and spoilt 5.00, at most 5"));
+  EXPECT_THAT(report.conclusions, HasSubstr("changed 9 others on average and spoilt 5, at most 5"));
   EXPECT_THAT(report.csv,
               HasSubstr("poolpointer,flipped_bit,pair of columns,-,3,0,0,2,128,1,1,1,500,500,500"));
 }

@@ -12,8 +12,8 @@ namespace {
 FaultStudyOptions small_study(std::vector<Readout> readouts) {
   FaultStudyOptions options;
   options.readouts = std::move(readouts);
-  options.acquisitions = 64;
-  options.flips = 24;
+  options.acquisitions = 24;
+  options.flips = 12;
   return options;
 }
 

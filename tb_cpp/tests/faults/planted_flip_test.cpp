@@ -135,7 +135,7 @@ INSTANTIATE_TEST_SUITE_P(Pools, PlantedPoolFlip,
 TEST_P(PlantedPoolFlip, StaysInItsColumn) {
   RtlSram pair = sram(SramKind::kPoolPair, kPixel.column);
   int flips_that_change = 0;
-  for (int bit = 0; bit < pair.width(); bit += 5) {
+  for (int bit = 0; bit < pair.width(); bit += 13) {
     const std::vector<PixelPlace> pixels = changed(run_flipped(pair, kPixel.row / 2, bit, RtlState::kM4));
     flips_that_change += pixels.empty() ? 0 : 1;
     const int column = kPixel.column - 1 + 2 * bit / pair.width();
