@@ -21,6 +21,47 @@ constexpr double kPercent = 100.0;
 constexpr double kMillimetres = 1000.0;
 constexpr double kOthers = kFaultRows - 1;  // pixels of a column besides the faulty one
 
+// Columns, rows, acquisitions, command, seed, conclusions, and the tables.
+constexpr std::string_view kReport = R"(# Faults
+
+What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels (poolPointer: six
+columns per engine) that see a part of the scene `room`, preset `thesis`, 14 klux, {} acquisitions per frame.
+Command: `{}`, seed {}.
+
+{}
+A fault is compared with the frame without it. A frame holds several faults, at most one per column, and a third of
+the columns (or SRAMs) has none; "other columns" counts the pixels that changed there, or in the other column of a
+pair. A pixel is spoilt if its depth moved by more than 3 % of its distance. In brackets: 95 % intervals (shares of
+faults: Wilson's; means over faults: Student's).
+
+## One flipped bit
+
+A random bit of a random word flips in a random clock of the frame. Many flips change nothing: the word is written
+before it is read again. Moves are those of the flips that move a depth, the farthest pixel of each. The engines'
+scratch memories hold something only while the engines work, which is a small part of a frame: "engines at work" are
+flips in those clocks only.
+
+{}
+## A stuck column
+
+Stuck timestamps: every slot of every acquisition of the column carries one random code. Stuck bit: one random bit of
+every word of an SRAM reads the same for the whole frame. Within reach: the column's pixels; for an engine's scratch
+memory those of all its columns.
+
+{}
+## A hot or dead pixel
+
+A hot pixel fires once more in every acquisition, at one random code or at random ones; its TDC keeps the first two
+events of an acquisition. Others: the {} other pixels of its column.
+
+{}
+## The frame after
+
+Right in every pixel: frames after one with faults, without a reset between, of a third of the acquisitions; and
+whole frames after a reset in random clocks of every state.
+
+{})";
+
 struct KindNames {
   FaultKind kind;
   std::string_view title;  ///< in tables
@@ -354,43 +395,9 @@ FaultReport report_faults(std::span<const FaultCaseResult> results, const FaultS
   FaultReport report;
   report.conclusions = conclude(results);
   report.csv = csv_of(results);
-  report.markdown = fmt::format(
-      "# Faults\n\n"
-      "What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels "
-      "(poolPointer: "
-      "six columns an engine) that see a part of the scene `room`, preset `thesis`, 14 klux, {} acquisitions "
-      "a frame. "
-      "Command: `{}`, seed {}.\n\n{}\n"
-      "A fault is compared with the frame without it. A frame holds several faults, one in a column at most, "
-      "and a "
-      "third of the columns (or SRAMs) has none; \"other columns\" counts the pixels that changed there, or "
-      "in the "
-      "other column of a pair. A pixel is spoilt if its depth moved by more than 3 % of its distance. In "
-      "brackets: 95 % "
-      "intervals (shares of faults: Wilson's; means over faults: Student's).\n\n"
-      "## One flipped bit\n\n"
-      "A random bit of a random word flips in a random clock of the frame. Many flips change nothing: the "
-      "word is "
-      "written before it is read again. Moves are those of the flips that move a depth, the farthest pixel "
-      "of each. Engine scratch memories are few and hold something only while the "
-      "engines work, which is a small part of a frame: the second row has flips in those clocks only.\n\n{}\n"
-      "## A stuck column\n\n"
-      "Stuck timestamps: every slot of every acquisition of the column carries one random code. Stuck bit: "
-      "one random "
-      "bit of every word of an SRAM reads the same for the whole frame. Within reach: the column's pixels; "
-      "for the "
-      "engine's scratch those of all the engine's columns.\n\n{}\n"
-      "## A hot or dead pixel\n\n"
-      "A hot pixel fires once more in every acquisition, at one random code or at random ones; its TDC keeps "
-      "the first "
-      "two events of an acquisition. Others: the {} other pixels of its column.\n\n{}\n"
-      "## The frame after\n\n"
-      "Right in every pixel, of all that followed a frame with faults, without a reset between; and of whole "
-      "frames "
-      "after a reset at random clocks of every state.\n\n{}",
-      kFaultColumns, kFaultRows, options.acquisitions, command_line, options.seed, report.conclusions,
-      flip_table(results), column_table(results), kFaultRows - 1, pixel_table(results),
-      next_frame_table(results));
+  report.markdown = fmt::format(kReport, kFaultColumns, kFaultRows, options.acquisitions, command_line,
+                                options.seed, report.conclusions, flip_table(results), column_table(results),
+                                kFaultRows - 1, pixel_table(results), next_frame_table(results));
   return report;
 }
 

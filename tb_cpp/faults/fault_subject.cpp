@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 
@@ -48,15 +49,17 @@ FaultScene make_fault_scene(std::uint32_t acquisitions, std::uint64_t seed) {
   }
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = acquisitions;
-  const PhotonSource source(sensor, make_scene(Scene::kRoom, {.columns = kSceneColumns, .rows = kSceneRows}),
-                            kKlux, seed);
-  FaultScene scene{.acquisitions = acquisitions,
-                   .frame = streams(source),
-                   .next = streams(source.at_frame(1)),
+  SensorModel next_sensor = sensor;
+  next_sensor.acquisitions = std::max(acquisitions / 3, 1U);
+  const TargetMap targets = make_scene(Scene::kRoom, {.columns = kSceneColumns, .rows = kSceneRows});
+  FaultScene scene{.acquisitions = sensor.acquisitions,
+                   .next_acquisitions = next_sensor.acquisitions,
+                   .frame = streams(PhotonSource(sensor, targets, kKlux, seed)),
+                   .next = streams(PhotonSource(next_sensor, targets, kKlux, seed, 1)),
                    .distances_m = {}};
   for (int row = 0; row < kFaultRows; ++row) {
     for (int column = 0; column < kFaultColumns; ++column) {
-      scene.distances_m.push_back(source.targets().at(scene_column(column), kSceneRange.first + row).depth_m);
+      scene.distances_m.push_back(targets.at(scene_column(column), kSceneRange.first + row).depth_m);
     }
   }
   return scene;
@@ -66,8 +69,8 @@ FaultSubject::FaultSubject(Readout readout, const FaultScene& scene)
     : scene_(scene),
       configuration_(find_rtl_configuration(ReadoutParameters::defaults(readout), kFaultRows, kFaultColumns)),
       scale_(depth_scale(configuration_.parameters.np)),
-      expected_(model(scene.frame)),
-      expected_next_(model(scene.next)) {
+      expected_(model(scene.frame, scene.acquisitions)),
+      expected_next_(model(scene.next, scene.next_acquisitions)) {
   RtlReadout rtl(configuration_);
   RtlRunOptions options;
   options.observer = [&](const RtlCycle& clock) {
@@ -78,11 +81,12 @@ FaultSubject::FaultSubject(Readout readout, const FaultScene& scene)
   }
 }
 
-std::vector<PixelResult> FaultSubject::model(std::span<const ColumnStream> columns) const {
+std::vector<PixelResult> FaultSubject::model(std::span<const ColumnStream> columns,
+                                             std::uint32_t acquisitions) const {
   std::vector<PixelResult> results(columns.size() * static_cast<std::size_t>(kFaultRows));
   const std::unique_ptr<ReadoutModel> model = make_readout_model(parameters());
   for (std::size_t column = 0; column < columns.size(); ++column) {
-    const std::vector<PixelResult> read = model->run_column(columns[column], scene_.acquisitions);
+    const std::vector<PixelResult> read = model->run_column(columns[column], acquisitions);
     for (std::size_t row = 0; row < read.size(); ++row) {
       results[row * columns.size() + column] = read[row];
     }

@@ -18,8 +18,9 @@ namespace dtof {
 /// one as in the full array, preset `thesis` at 14 klux.
 struct FaultScene {
   std::uint32_t acquisitions;
+  std::uint32_t next_acquisitions;
   std::vector<ColumnStream> frame;  ///< the frame that faults disturb
-  std::vector<ColumnStream> next;   ///< the frame after it: the same targets, other photons
+  std::vector<ColumnStream> next;   ///< the frame after it: the same targets, other photons, a third as long
   std::vector<double> distances_m;  ///< index = row * columns + column
 };
 
@@ -46,8 +47,9 @@ class FaultSubject {
   [[nodiscard]] const std::vector<std::uint64_t>& clocks(RtlState state) const {
     return clocks_[static_cast<std::size_t>(state)];
   }
-  /// What the model reads from these columns.
-  [[nodiscard]] std::vector<PixelResult> model(std::span<const ColumnStream> columns) const;
+  /// What the model reads from these columns in a frame of so many acquisitions.
+  [[nodiscard]] std::vector<PixelResult> model(std::span<const ColumnStream> columns,
+                                               std::uint32_t acquisitions) const;
   /// Depth of a result in m.
   [[nodiscard]] double depth(const PixelResult& result) const;
 
