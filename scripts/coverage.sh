@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # What the tests reach: a build of its own that counts, every C++ test, and reports/coverage.md from the counts.
-# Annotated sources: build/coverage/hdl (RTL), build/coverage/tb_cpp.html (C++).
+# Annotated sources: build/coverage/hdl (RTL), build/coverage/html (C++).
 set -euo pipefail
 folder=build/coverage
 build=$folder/cpp
@@ -11,8 +11,8 @@ mkdir -p "$folder"
 cmake -S tb_cpp -B "$build" -G Ninja -DDTOF_COVERAGE=ON > "$folder/cmake.log" 2>&1 || { cat "$folder/cmake.log"; exit 1; }
 ninja -C "$build"
 find "$build" -name '*.gcda' -delete
-rm -rf "$counts" "$folder/hdl"
-mkdir "$counts"
+rm -rf "$counts" "$folder/hdl" "$folder/html"
+mkdir "$counts" "$folder/html"
 
 # Frames of 33,333 acquisitions take long and run no line that shorter ones do not.
 DTOF_RTL_COVERAGE=$PWD/$counts GTEST_FILTER='-*FrameCycles.StayBelowTheLimit*:*StaysBelowTheCycleLimit*' \
@@ -29,5 +29,5 @@ xargs verilator_coverage --write "$folder/rtl.dat" < "$folder/counts.txt" > "$fo
 verilator_coverage --annotate "$folder/hdl" --annotate-min 1 "$folder/rtl.dat" > "$folder/annotate.log"
 
 gcovr --root . --object-directory "$build" --filter 'tb_cpp/' --exclude-throw-branches --exclude-unreachable-branches \
-  --json-summary "$folder/cpp.json" --html-details "$folder/tb_cpp.html" -j "$(nproc)" 2> "$folder/gcovr.log"
+  --json-summary "$folder/cpp.json" --html-details "$folder/html/index.html" -j "$(nproc)" 2> "$folder/gcovr.log"
 /usr/bin/python3 scripts/coverage.py "$folder/rtl.dat" "$folder/cpp.json" reports/coverage.md
