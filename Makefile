@@ -6,6 +6,7 @@
 # make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
 # make synth      area, timing and power of every configuration
 # make lint       RTL in three tools, C++ format and static analysis
+# make coverage, make faults: scripts/faults.mk
 # make bench      speed of RTL, models and photon model
 # make clean      remove build/
 BUILD := build/cpp
@@ -60,3 +61,4 @@ clean:
 -include scripts/reproduce.mk
 -include scripts/photon_report.mk
 -include scripts/study.mk
+-include scripts/faults.mk
