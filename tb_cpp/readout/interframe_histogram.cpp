@@ -9,15 +9,18 @@
 namespace dtof {
 namespace {
 
-std::uint16_t clamp_code(std::int32_t code, const ReadoutParameters& parameters) {
-  return static_cast<std::uint16_t>(std::clamp(code, 0, parameters.no_detection() - 1));
+/// A window may begin below code 0, where an empty fine histogram has its peak. No window's peak lies beyond
+/// the last code: only codes that were measured are counted, and an empty window's first code is in the
+/// range.
+std::uint16_t window_code(std::int32_t first, const HistogramPeak& fine) {
+  return static_cast<std::uint16_t>(std::max(first + static_cast<std::int32_t>(fine.bin), 0));
 }
 
 /// Eq. 2.3 to 2.8.
 class SifhPixel {
  public:
   explicit SifhPixel(const ReadoutParameters& parameters)
-      : parameters_(parameters),
+      : fine_bits_(parameters.nb),
         coarse_{0, parameters.np, parameters.np - parameters.nb},
         histogram_(parameters.nb, parameters.count_width) {
     const int coarse_bin = 1 << (parameters.np - parameters.nb);
@@ -36,13 +39,12 @@ class SifhPixel {
     const std::uint32_t peak = prefix_peak(coarse_, 0, row, histogram_).bin;
     const auto first =
         static_cast<std::int32_t>(peak << static_cast<unsigned>(coarse_.bin_shift)) + window_offset_;
-    const HistogramPeak fine = window_peak(end_, first, parameters_.nb, row, histogram_);
-    return {clamp_code(first + static_cast<std::int32_t>(fine.bin), parameters_), 0,
-            histogram_confidence(fine, parameters_.nb)};
+    const HistogramPeak fine = window_peak(end_, first, fine_bits_, row, histogram_);
+    return {window_code(first, fine), 0, histogram_confidence(fine, fine_bits_)};
   }
 
  private:
-  ReadoutParameters parameters_;
+  int fine_bits_;
   PrefixPass coarse_;
   std::int32_t window_offset_ = 0;  // TH- + 1 of coarse peak 0
   std::uint32_t end_ = 0;
@@ -82,7 +84,7 @@ class FifhPixel {
 class ThreeStepsPixel {
  public:
   explicit ThreeStepsPixel(const ReadoutParameters& parameters)
-      : parameters_(parameters), histogram_(kFineBits, parameters.count_width) {
+      : histogram_(kFineBits, parameters.count_width) {
     int shift = parameters.np;
     for (PrefixPass& step : steps_) {
       step.prefix_shift = shift;
@@ -110,8 +112,7 @@ class ThreeStepsPixel {
     const auto section_begin = static_cast<std::int32_t>(section << static_cast<unsigned>(section_shift_));
     const std::int32_t first = section_begin + section_width / 2 - (1 << kFineBits) / 2;
     const HistogramPeak fine = window_peak(end_, first, kFineBits, row, histogram_);
-    return {clamp_code(first + static_cast<std::int32_t>(fine.bin), parameters_), 0,
-            histogram_confidence(fine, kFineBits)};
+    return {window_code(first, fine), 0, histogram_confidence(fine, kFineBits)};
   }
 
  private:
@@ -119,7 +120,6 @@ class ThreeStepsPixel {
   static constexpr int kStepBits = 3;
   static constexpr int kFineBits = 4;
 
-  ReadoutParameters parameters_;
   std::array<PrefixPass, kSteps> steps_{};
   int section_shift_ = 0;
   std::uint32_t end_ = 0;

@@ -173,32 +173,74 @@ TEST(EmptyFrame, EveryReadoutHasItsDefinedResult) {
   }
 }
 
+// Whatever was measured, the code is one that can be measured, 0 to M - 2, without a limit at the upper end:
+// all coarse peaks and all fine peaks, empty ones included.
+void expect_every_code_in_the_range(const ReadoutParameters& parameters) {
+  SCOPED_TRACE(parameters.to_string());
+  const int no_detection = parameters.no_detection();
+  const auto model = make_readout_model(parameters);
+  // Three acquisitions in measurement 1, one for each of the three steps.
+  std::vector<Timestamp> codes(6, static_cast<Timestamp>(no_detection));
+  const bool three_steps = parameters.readout == Readout::kThreeSteps;
+  for (int first = 0; first <= no_detection; ++first) {
+    for (int second = 0; second <= (three_steps ? no_detection : 0); ++second) {
+      for (int third = 0; third <= (three_steps ? no_detection : 0); ++third) {
+        for (int fine = 0; fine <= no_detection; ++fine) {
+          codes[0] = static_cast<Timestamp>(first);
+          codes[1] = static_cast<Timestamp>(three_steps ? second : first);
+          codes[2] = static_cast<Timestamp>(three_steps ? third : first);
+          codes[3] = static_cast<Timestamp>(fine);
+          const PixelResult result = model->run_column(stream_of(codes), 6).front();
+          ASSERT_LT(result.code, no_detection) << first << " " << second << " " << third << " " << fine;
+          ASSERT_TRUE(result.confidence == 0 || result.code == fine);
+        }
+      }
+    }
+  }
+}
+
+TEST(WindowReadouts, NoCodeBeyondTheRange) {
+  for (int np = 3; np <= 7; ++np) {
+    for (int nb = 1; nb <= np; ++nb) {
+      for (const bool centred : {false, true}) {
+        ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh, np);
+        parameters.nb = nb;
+        parameters.window_centred = centred;
+        expect_every_code_in_the_range(parameters);
+      }
+    }
+  }
+  for (int np = 3; np <= 4; ++np) {
+    expect_every_code_in_the_range(ReadoutParameters::defaults(Readout::kThreeSteps, np));
+  }
+}
+
 TEST(IllegalParameters, RefusedWithASentence) {
   struct Case {
     void (*spoil)(ReadoutParameters&);
     std::string message;
   };
   const std::vector<Case> cases = {
-      {[](ReadoutParameters& p) { p.np = 2; }, "parameter NP is 2, but must be 3 to 16"},
-      {[](ReadoutParameters& p) { p.np = 17; }, "NP is 17"},
-      {[](ReadoutParameters& p) { p.nb = 0; }, "parameter NB is 0, but must be 1 to 10"},
-      {[](ReadoutParameters& p) { p.nb = 11; }, "NB is 11"},
-      {[](ReadoutParameters& p) { p.slots = 0; }, "SLOTS is 0"},
-      {[](ReadoutParameters& p) { p.count_width = 0; }, "COUNT_WIDTH is 0"},
-      {[](ReadoutParameters& p) { p.count_width = 17; }, "COUNT_WIDTH is 17"},
-      {[](ReadoutParameters& p) { p.pointer_step = 0; }, "POINTER_STEP is 0"},
-      {[](ReadoutParameters& p) { p.pointer_step = 512; }, "POINTER_STEP is 512, but must be 1 to 511"},
-      {[](ReadoutParameters& p) { p.fraction_bits = 7; }, "FRACTION_BITS is 7, but must be 0 to 6"},
-      {[](ReadoutParameters& p) { p.confidence_width = 9; }, "CONFIDENCE_WIDTH is 9"},
-      {[](ReadoutParameters& p) { p.guard = -1; }, "GUARD is -1"},
+      {[](ReadoutParameters& p) { p.np = 2; }, "NP must be 3 to 16, not 2"},
+      {[](ReadoutParameters& p) { p.np = 17; }, "NP must be 3 to 16, not 17"},
+      {[](ReadoutParameters& p) { p.nb = 0; }, "NB must be 1 to NP, not 0"},
+      {[](ReadoutParameters& p) { p.nb = 11; }, "NB must be 1 to NP, not 11"},
+      {[](ReadoutParameters& p) { p.slots = 0; }, "SLOTS must be 1 to 16, not 0"},
+      {[](ReadoutParameters& p) { p.count_width = 0; }, "COUNT_WIDTH must be 1 to 16, not 0"},
+      {[](ReadoutParameters& p) { p.count_width = 17; }, "COUNT_WIDTH must be 1 to 16, not 17"},
+      {[](ReadoutParameters& p) { p.pointer_step = 0; }, "POINTER_STEP must be 1 to 2^(NP-1) - 1, not 0"},
+      {[](ReadoutParameters& p) { p.pointer_step = 512; }, "POINTER_STEP must be 1 to 2^(NP-1) - 1, not 512"},
+      {[](ReadoutParameters& p) { p.fraction_bits = 7; },
+       "FRACTION_BITS must be 0 to 8 and NP + FRACTION_BITS at most 16, not 7"},
+      {[](ReadoutParameters& p) { p.confidence_width = 9; }, "CONFIDENCE_WIDTH must be 0 to 8, not 9"},
       {[](ReadoutParameters& p) {
          p.time_gate = CodeGate{0, 1024};
        },
-       "gate end is 1024, but must be 0 to 1023"},
+       "gate end must be 0 to 1023, not 1024"},
       {[](ReadoutParameters& p) {
          p.time_gate = CodeGate{-1, 7};
        },
-       "gate begin is -1"},
+       "gate begin must be 0 to 1023, not -1"},
   };
   for (const Readout readout : kAllReadouts) {
     for (const Case& bad : cases) {
