@@ -92,7 +92,7 @@ def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = 
 
 
 def full_case(configuration: Configuration, seed: int) -> Case:
-    """The netlist of the array in its full width, with few pixels in a column: one frame, begun, reset and run again."""
+    """The netlist of the array in its full width, with few pixels in a column: a frame, and its start up to a reset."""
     pixels = configuration["GROUP_SIZE"] + 2 if configuration.is_pool else 3
     return Case(configuration.with_parameters(configuration.name, PIXELS_PER_SRAM=pixels), (FULL_FRAME,), seed,
                 part="full width")
