@@ -7,6 +7,7 @@
 # make synth      area, timing and power of every configuration
 # make lint       RTL in three tools, C++ format and static analysis
 # make formal     proofs of the RTL (scripts/formal.mk)
+# make coverage, make faults: scripts/faults.mk
 # make bench      speed of RTL, models and photon model
 # make clean      remove build/
 BUILD := build/cpp
@@ -62,3 +63,4 @@ clean:
 -include scripts/photon_report.mk
 -include scripts/study.mk
 -include scripts/formal.mk
+-include scripts/faults.mk

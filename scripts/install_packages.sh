@@ -12,7 +12,7 @@ packages=(
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta qflow-tech-osu018
   # scripts, plots, checks
-  python3 python3-numpy gnuplot-nox clang-format clang-tidy
+  python3 python3-numpy gnuplot-nox clang-format clang-tidy gcovr
 )
 
 missing=()

@@ -4,11 +4,13 @@
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
-#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [PROBE] TARGET <library>)
+#                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [PROBE] [WRITABLE_SRAMS]
+#                 TARGET <library>)
 #   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [GROUP_SIZE n] [DARK_LABELS n] [DARK_SCORE_BITS n] [BRIGHT_LABELS n]
 #                 [BRIGHT_SCORE_BITS n] [BRIGHT_FROM n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
-#                 [RIVAL_MOVES 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] TARGET <library>)
+#                 [RIVAL_MOVES 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
+#                 TARGET <library>)
 #
 # adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
 # finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
@@ -21,6 +23,8 @@
 #
 # adds configurations of configurations.toml (scripts/list_models.py).
 #
+# WRITABLE_SRAMS makes the SRAMs' contents writable from C++ (rtl/sram.hpp).
+#
 # BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers.
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
@@ -32,15 +36,23 @@ find_package(Threads REQUIRED)
 
 set(DTOF_HDL_DIR ${PROJECT_ROOT}/hdl CACHE PATH "Folder that holds dtof.f and the SystemVerilog sources")
 file(GLOB_RECURSE DTOF_HDL_FILES CONFIGURE_DEPENDS ${DTOF_HDL_DIR}/*.sv ${DTOF_HDL_DIR}/*.svh ${DTOF_HDL_DIR}/*.f)
+list(FILTER DTOF_HDL_FILES EXCLUDE REGEX "/formal/")
+
+# Coverage (make coverage): each simulation writes the counts of its RTL (rtl/write_coverage.cpp).
+set(DTOF_COVERAGE_FLAGS "")
+if(DTOF_COVERAGE)
+  set(DTOF_COVERAGE_FLAGS --coverage-line --coverage-toggle)
+endif()
 
 # Verilator's runtime, compiled once. Stop, finish, fatal and printing are ours (rtl/verilated_hooks.cpp).
 add_library(verilated_runtime STATIC
   ${VERILATOR_INCLUDE}/verilated.cpp
+  ${VERILATOR_INCLUDE}/verilated_cov.cpp
   ${VERILATOR_INCLUDE}/verilated_threads.cpp
   ${VERILATOR_INCLUDE}/verilated_fst_c.cpp)
 target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_INCLUDE} ${VERILATOR_INCLUDE}/vltstd)
 target_compile_definitions(verilated_runtime
-  PUBLIC VM_COVERAGE=0 VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1
+  PUBLIC VM_COVERAGE=$<BOOL:${DTOF_COVERAGE}> VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1
   PRIVATE VL_USER_STOP VL_USER_FINISH VL_USER_FATAL VL_PRINTF=dtof_verilated_printf)
 target_compile_options(verilated_runtime PRIVATE -w
   -include ${CMAKE_CURRENT_LIST_DIR}/../rtl/verilated_printf.h)
@@ -69,7 +81,7 @@ function(dtof_rtl_models library)
 endfunction()
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE" "READOUT;TARGET;${DTOF_PARAMETERS}" "" ${ARGN})
+  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS" "READOUT;TARGET;${DTOF_PARAMETERS}" "" ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
   endif()
@@ -152,6 +164,10 @@ function(dtof_verilate name)
   if(P_PROBE)
     list(APPEND overrides -GPROBE=1)
   endif()
+  set(access "")
+  if(P_WRITABLE_SRAMS)
+    set(access ${PROJECT_SOURCE_DIR}/rtl/writable_srams.vlt)
+  endif()
   foreach(parameter ${DTOF_PARAMETERS})
     if(NOT DEFINED P_${parameter})
       set(P_${parameter} ${default_${parameter}})
@@ -174,10 +190,11 @@ function(dtof_verilate name)
     COMMAND ${CMAKE_COMMAND} -E make_directory ${directory}
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
             --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET --trace-fst --timescale 1ns/1ps
-            ${overrides} -F ${hdl}/dtof_lint.f -F ${hdl}/dtof.f ${relative_wrapper}
+            ${DTOF_COVERAGE_FLAGS}
+            ${overrides} -F ${hdl}/dtof_lint.f -F ${hdl}/dtof.f ${access} ${relative_wrapper}
     COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
             -P ${DTOF_VERILATE_DIR}/unity.cmake
-    DEPENDS ${DTOF_HDL_FILES} ${wrapper} ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
+    DEPENDS ${DTOF_HDL_FILES} ${access} ${wrapper} ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
     COMMENT "Verilating ${name}"
     VERBATIM)
   target_sources(${P_TARGET} PRIVATE ${directory}/model.cpp)
@@ -190,6 +207,9 @@ function(dtof_verilate_named kind top library)
     OUTPUT_VARIABLE models OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
   string(REPLACE "\n" ";" models "${models}")
   foreach(model ${models})
+    if(DTOF_COVERAGE)  # arrays of few columns: the others run the same lines
+      string(REGEX REPLACE "SRAM_NUM [0-9][0-9]+" "SRAM_NUM 4" model "${model}")
+    endif()
     separate_arguments(arguments UNIX_COMMAND "${model}")
     list(POP_FRONT arguments name)
     dtof_verilate(${name} ${arguments} TARGET ${library})

@@ -80,7 +80,8 @@ enum class RandomPurpose : std::uint32_t {
   kTestStream = 3,
   kTestControl = 4,
   kFastPhotons = 5,
-  kScene = 6
+  kScene = 6,
+  kFaults = 7
 };
 
 }  // namespace dtof

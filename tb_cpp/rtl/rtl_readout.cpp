@@ -15,6 +15,7 @@
 #include "rtl/error.hpp"
 #include "rtl/registry.hpp"
 #include "rtl/tdc_driver.hpp"
+#include "rtl/write_coverage.hpp"
 
 namespace dtof {
 namespace {
@@ -67,13 +68,17 @@ class RtlReadout::Simulation {
   }
 
   // The model takes itself out of the thread's context, which may be another instance's.
-  ~Simulation() { Verilated::threadContextp(context_.get()); }
+  ~Simulation() {
+    Verilated::threadContextp(context_.get());
+    write_coverage(*context_);
+  }
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
   Simulation(Simulation&&) = delete;
   Simulation& operator=(Simulation&&) = delete;
 
   [[nodiscard]] bool broken() const { return broken_; }
+  [[nodiscard]] std::vector<RtlSram> srams() const { return find_srams(*context_); }
 
   RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions, CodeGate gate,
                const RtlRunOptions& options) {
@@ -352,6 +357,8 @@ RtlFrame RtlReadout::run(std::span<const ColumnStream> columns, std::uint32_t ac
   return simulation_->run(columns, acquisitions, configuration_.parameters.time_gate.value_or(CodeGate{}),
                           options);
 }
+
+std::vector<RtlSram> RtlReadout::srams() const { return simulation_->srams(); }
 
 void RtlReadout::set_time_gate(CodeGate gate) {
   ReadoutParameters parameters = configuration_.parameters;

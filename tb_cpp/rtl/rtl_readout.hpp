@@ -13,6 +13,7 @@
 #include "core/detection.hpp"
 #include "core/result.hpp"
 #include "rtl/configuration.hpp"
+#include "rtl/sram.hpp"
 
 namespace dtof {
 
@@ -87,6 +88,10 @@ class RtlReadout {
   /// Throws InputError for a stream that the configuration cannot take, RtlError for misbehaving RTL.
   RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
                const RtlRunOptions& options = {});
+
+  /// Its SRAMs, which an observer may change in any clock before its edge; none unless built with
+  /// WRITABLE_SRAMS. Valid until `run` throws.
+  [[nodiscard]] std::vector<RtlSram> srams() const;
 
  private:
   class Simulation;

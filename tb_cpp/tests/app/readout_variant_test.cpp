@@ -52,7 +52,8 @@ TEST(ReadoutVariant, RefusesWhatItDoesNotKnow) {
               ThrowsMessage<InputError>(HasSubstr("has no COARSE_SHARE")));
   EXPECT_THAT(parse("poolpointer:FRACTION_BITS=4"),
               ThrowsMessage<InputError>(HasSubstr("has no FRACTION_BITS")));
-  EXPECT_THAT(parse("poolpointer:LABELS=9"), ThrowsMessage<InputError>(HasSubstr("labels")));
+  EXPECT_THAT(parse("poolpointer:LABELS=9"),
+              ThrowsMessage<InputError>(HasSubstr("DARK_LABELS must be 2 to 8, not 9")));
   EXPECT_THAT(parse("hispointer:COUNT_WIDTH=99"), ThrowsMessage<InputError>(HasSubstr("COUNT_WIDTH")));
 }
 

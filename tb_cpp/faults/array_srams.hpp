@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "rtl/rtl_readout.hpp"
+
+namespace dtof {
+
+/// What an SRAM of an array holds.
+enum class SramKind { kHistogram, kPointer, kCoarsePeak, kBestPeak, kPoolPair, kEngineScratch };
+
+/// E.g. "coarse peak".
+std::string_view sram_title(SramKind kind);
+
+/// Columns of an array, neighbours: first, first + 1, .. first + count - 1.
+struct ColumnRange {
+  int first = 0;
+  int count = 0;
+
+  [[nodiscard]] bool contains(int column) const { return column >= first && column < first + count; }
+  bool operator==(const ColumnRange&) const = default;
+};
+
+/// An SRAM and the columns that use it.
+struct ArraySram {
+  SramKind kind;
+  ColumnRange columns;
+  RtlSram sram;
+
+  /// The columns that use this bit of a word: a pair of columns has a half each.
+  [[nodiscard]] ColumnRange columns_of_bit(int bit) const;
+};
+
+/// All SRAMs of the array in the order of their columns. Throws std::logic_error for one that has no kind.
+std::vector<ArraySram> array_srams(const RtlReadout& rtl);
+
+/// The kinds among them, each once.
+std::vector<SramKind> sram_kinds(const std::vector<ArraySram>& srams);
+
+}  // namespace dtof

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "faults/fault_study.hpp"
+
+namespace dtof {
+
+struct FaultReport {
+  std::string conclusions;  ///< sentences, a Markdown list
+  std::string markdown;     ///< the whole report
+  std::string csv;          ///< a line per case
+};
+
+FaultReport report_faults(std::span<const FaultCaseResult> results, const FaultStudyOptions& options,
+                          const std::string& command_line);
+
+/// True if every frame ended, no fault reached another column, faulty timestamps gave what the model gives,
+/// and every frame after a fault was right.
+bool faults_stay_where_they_are(std::span<const FaultCaseResult> results);
+
+}  // namespace dtof
