@@ -45,7 +45,8 @@ def verilator(top: str, parameters: dict[str, int]) -> list[str]:
 
 
 def yosys(top: str, parameters: dict[str, int]) -> list[str]:
-    settings = " ".join(f"-set {name} {value}" for name, value in parameters.items())
+    numbers = {name: value if value >= 0 else f"32'h{value & 0xFFFFFFFF:x}" for name, value in parameters.items()}
+    settings = " ".join(f"-set {name} {number}" for name, number in numbers.items())
     script = (
         f"read_verilog -sv -Ipackage {' '.join(source_files())}; chparam {settings} {top}; "
         f"hierarchy -check -top {top}; proc; check -assert"
@@ -62,15 +63,21 @@ def run(command: list[str]) -> subprocess.CompletedProcess:
     return subprocess.run(command, cwd=HDL, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
-def check_legal(configuration: Configuration) -> list[str]:
+def check_read(what: str, top: str, parameters: dict[str, int]) -> list[str]:
+    """Every tool reads an array with these parameters, and Icarus Verilog leaves nothing out."""
     failures = []
     for tool in (verilator, yosys, icarus):
-        result = run(tool(configuration.top, configuration.rtl_parameters() | SIZE[configuration.top]))
+        result = run(tool(top, parameters))
         if result.returncode != 0:
-            failures.append(f"{tool.__name__} refuses configuration {configuration.name}:\n{result.stdout}")
+            failures.append(f"{tool.__name__} refuses {what}:\n{result.stdout}")
         elif tool is icarus:
             failures += [f"Icarus Verilog does not support this, and goes on: {line}" for line in sorry(result.stdout)]
     return failures
+
+
+def check_configuration(configuration: Configuration) -> list[str]:
+    return check_read(f"configuration {configuration.name}", configuration.top,
+                      configuration.rtl_parameters() | SIZE[configuration.top])
 
 
 def sorry(output: str) -> list[str]:
@@ -131,9 +138,9 @@ def parameter_limits() -> list[tuple[str, dict[str, int], str]]:
 
 
 def check_limit(top: str, settings: dict[str, int], sentence: str) -> list[str]:
-    result = run(verilator(top, SIZE[top] | settings))
     if not sentence:
-        return [f"legal {settings} of {top} are refused:\n{result.stdout}"] if result.returncode != 0 else []
+        return check_read(f"the legal {settings} of {top}", top, SIZE[top] | settings)
+    result = run(verilator(top, SIZE[top] | settings))
     if result.returncode == 0 or f"{top}: {sentence}\n" not in result.stdout:
         return [f"illegal {settings} of {top} do not stop elaboration with '{sentence}':\n{result.stdout}"]
     return []
@@ -157,7 +164,7 @@ def main() -> int:
     failures = [*check_misread(sources), *check_file_list(), *check_sentences(limits)]
     with ThreadPoolExecutor(max_workers=2) as pool:
         block_ram = pool.submit(check_block_rams)
-        legal = pool.map(check_legal, configurations)
+        legal = pool.map(check_configuration, configurations)
         limit = pool.map(lambda row: check_limit(*row), limits)
         failures += [text for group in (*legal, *limit, block_ram.result()) for text in group]
     for text in failures:

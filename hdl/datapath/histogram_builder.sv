@@ -142,17 +142,9 @@ module histogram_builder #(
         forward_t4_q[2] <= same_pixel_t3_i[2] && hit_t5_q && (bin_t5_q == bin_t3_q);
         forward_t4_q[3] <= same_pixel_t3_i[3] && hit_t6_q && (bin_t6_q == bin_t3_q);
       end
-      always_comb begin
-        if (forward_t4_q[1]) begin
-          operand = written_q;
-        end else if (forward_t4_q[2]) begin
-          operand = written_t6_q;
-        end else if (forward_t4_q[3]) begin
-          operand = written_t7_q;
-        end else begin
-          operand = count_q;
-        end
-      end
+      assign operand = forward_t4_q[1] ? written_q
+          : forward_t4_q[2] ? written_t6_q
+          : forward_t4_q[3] ? written_t7_q : count_q;
     end
   endgenerate
 

@@ -140,10 +140,6 @@ def _simulation_folder(kind: str, case: simulation.Case) -> Path:
     return SIMULATION / kind / "_".join([case.name, *case.part.split()])
 
 
-def _simulation_folder(kind: str, case: simulation.Case) -> Path:
-    return SIMULATION / kind / "_".join([case.name, *case.part.split()])
-
-
 def _simulate_rtl(case: simulation.Case) -> simulation.Outcome:
     return simulation.simulate(case, ROOT, _simulation_folder("rtl", case))
 
