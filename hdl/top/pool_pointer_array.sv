@@ -26,7 +26,7 @@ module pool_pointer_array #(
     parameter int BRIGHT_FROM = 6,        // background from which it is, 0 to 63
     parameter int OFFSET_BITS = 5,        // bits of a leader's offset in the track phase, 2 to 5, 0 for none
     parameter int ADVANTAGE_WIDTH = 7,    // bits of the leader's advantage, 4 or 7
-    parameter int POINTER_SHIFT = 1,      // 2^(POINTER_SHIFT - 11) coarse bins is a pointer's unit; 0 to 2, ADVANTAGE_WIDTH 4: to 4
+    parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2 or 4 (below)
     parameter int RIVAL_MOVES = 1,        // 1: absolute pointers; 0: relative ones, the rival rests
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions

@@ -177,7 +177,7 @@ def _sim_netlist(arguments: argparse.Namespace, named: dict[str, Configuration])
 def _sim_netlist_full(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     """Netlists of arrays in their full width against the model."""
     chosen = list(_select(named, arguments.configuration or list(simulation.FULL_WIDTH)).values())
-    return _simulate(arguments, chosen, lambda *case: [simulation.full_case(*case)],
+    return _simulate(arguments, chosen, lambda item, seed, _: [simulation.full_case(item, seed)],
                      functools.partial(_simulate_full, _prepared(arguments)))
 
 
@@ -189,7 +189,13 @@ def _simulate(arguments: argparse.Namespace, chosen: list[Configuration], make_c
     trace = arguments.trace and arguments.trace.resolve()
     chosen = sorted(chosen, key=simulation.expected_rank)
     cases = [case for item in chosen for case in make_cases(item, arguments.seed, trace)]
-    failed = simulation.run_all(cases, work, f"synth/synth.py {arguments.command}", arguments.jobs, _say)
+    again = f"synth/synth.py {arguments.command} {{name}} --seed {{seed}}"
+    if arguments.command != "sim-icarus" and arguments.liberty:
+        again += f" --liberty {arguments.liberty}"
+        again += f" --liberty-slow {arguments.liberty_slow}" if arguments.liberty_slow else ""
+    if arguments.action is not _sim_netlist_full:
+        again += " --trace {name}.fst"
+    failed = simulation.run_all(cases, work, again, arguments.jobs, _say)
     _say(f"{arguments.command}: {len(cases) - failed} of {len(cases)} simulations of {len(chosen)} configurations "
          f"pass, seed {arguments.seed}, {time.monotonic() - started:.0f} s")
     return 1 if failed else 0
@@ -216,10 +222,11 @@ def _parser() -> argparse.ArgumentParser:
         simulate.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, or "
                               f"{', '.join(simulation.FULL_WIDTH)} in their full width")
         simulate.add_argument("--seed", type=int, default=1, help="of the random frames")
-        simulate.add_argument("--trace", type=Path, help="waveform to write (FST), with one configuration")
+        if action is not _sim_netlist_full:
+            simulate.add_argument("--trace", type=Path, help="waveform to write (FST), with one configuration")
         if action is not _sim_icarus:
             _add_liberty(simulate)
-        simulate.set_defaults(action=action)
+        simulate.set_defaults(action=action, trace=None)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),

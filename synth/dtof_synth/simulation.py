@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import random
 import re
+import shutil
 import subprocess
 import time
 from collections.abc import Callable
@@ -91,11 +92,11 @@ def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = 
                  trace and trace.with_stem(f"{trace.stem}_long"), "long")]
 
 
-def full_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
-    """The netlist of the array in its full width, with few pixels in a column: one frame, begun, reset and run again."""
+def full_case(configuration: Configuration, seed: int) -> Case:
+    """The netlist of the array in its full width, with few pixels in a column: a frame, and its start up to a reset."""
     pixels = configuration["GROUP_SIZE"] + 2 if configuration.is_pool else 3
     return Case(configuration.with_parameters(configuration.name, PIXELS_PER_SRAM=pixels), (FULL_FRAME,), seed,
-                trace, "full width")
+                part="full width")
 
 
 def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
@@ -136,7 +137,12 @@ def _run(command: list[str], folder: Path, name: str) -> str:
         hint = "make builds it" if Path(command[0]).name == VECTORS.name else "scripts/install_packages.sh installs it"
         raise FlowError(f"{command[0]} is missing; {hint}") from None
     if finished.returncode != 0:
-        raise FlowError(f"{name}: {Path(command[0]).name}: {finished.stdout.strip()}")
+        tool = Path(command[0]).name
+        log = folder / f"{tool}.log"
+        log.write_text(finished.stdout, encoding="utf-8")
+        lines = [line for line in finished.stdout.splitlines() if line.strip()] or ["failed silently"]
+        told = next((line for line in lines if re.search("error|fatal", line, re.IGNORECASE)), lines[-1])
+        raise FlowError(f"{name}: {tool}: {told.strip()} (see {log})")
     return finished.stdout
 
 
@@ -196,19 +202,37 @@ def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ..
     return outcome(output, case, time.monotonic() - started)
 
 
+def _separate_blocks(source: Path, blocks: list[str], written: Path) -> None:
+    """Marks modules of a netlist as hierarchy blocks, which Verilator compiles once for all their instances."""
+    text = source.read_text(encoding="utf-8")
+    for block in blocks:
+        text = re.sub(rf"^(module {block}\([^;]*;)", r"\1 /*verilator hier_block*/", text, flags=re.MULTILINE)
+    written.write_text(text, encoding="utf-8")
+
+
 def simulate_full(case: Case, technology: Technology, folder: Path) -> Outcome:
     """The netlist alone, two-state, in Verilator: for arrays that are too large for Icarus."""
     started = time.monotonic()
     root = technology.root
-    netlist_files = write_netlist(case.configuration, technology, folder, case.seed)
+    source, *models = write_netlist(case.configuration, technology, folder, case.seed)
+    written = folder / "blocks.v"
+    _separate_blocks(source, re.findall(rf"^module (\w+(?:column|pair|engine){NETLIST_SUFFIX})\(",
+                                        source.read_text(encoding="utf-8"), re.MULTILINE), written)
     write_vectors(case, root, folder)
-    overrides = [f"-G{name}={value}" for name, value in bench_parameters(case, folder).items()]
-    _run(["verilator", "--binary", "-Wno-lint", "-Wno-style", "-DNETLIST", "-DNETLIST_ALONE",
-          f"-I{root / 'hdl' / 'package'}", "--top-module", f"{case.configuration.top}_bench", *overrides,
-          *(["--trace-fst"] if case.trace else []), "-o", "bench", *map(str, bench_files(case, root)),
-          *map(str, netlist_files)], folder, case.name)
-    output = _run([str(folder / "obj_dir" / "bench"), *([f"+trace={case.trace}"] if case.trace else [])], folder,
-                  case.name)
+    # Verilator 5.006 hands parameters of the command line to hierarchy blocks, too, so a module sets them.
+    settings = ", ".join(f".{name}({value})" for name, value in bench_parameters(case, folder).items())
+    (folder / "full_bench.sv").write_text(
+        f"module full_bench;\n  {case.configuration.top}_bench #({settings}) u_bench ();\nendmodule\n",
+        encoding="utf-8")
+    shutil.rmtree(folder / "obj_dir", ignore_errors=True)
+    # A few thousand clocks: compiling takes longer than running. Between hierarchy blocks every input seems to lead
+    # to every combinational output, which looks like loops (UNOPTFLAT); Verilator evaluates them until they settle.
+    _run(["verilator", "--cc", "--exe", "--build", "--timing", "--hierarchical", "-Wno-lint", "-Wno-style",
+          "-Wno-UNOPTFLAT", "-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0", "-DNETLIST",
+          "-DNETLIST_ALONE", f"-I{root / 'hdl' / 'package'}", "--top-module", "full_bench", "-o", "bench",
+          *map(str, [*bench_files(case, root), written, *models, folder / "full_bench.sv",
+                     root / BENCHES / "full_bench_main.cpp"])], folder, case.name)
+    output = _run([str(folder / "obj_dir" / "bench")], folder, case.name)
     (folder / "bench.log").write_text(output, encoding="utf-8")
     return outcome(output, case, time.monotonic() - started)
 
@@ -216,7 +240,7 @@ def simulate_full(case: Case, technology: Technology, folder: Path) -> Outcome:
 def run_all(cases: list[Case], work: Callable[[Case], Outcome], again: str, jobs: int,
             say: Callable[[str], None]) -> int:
     """All cases, `jobs` at a time, in the order given; the number that failed. `again`: the command that repeats
-    a configuration with a waveform, without its name and seed."""
+    one, with {name} and {seed}."""
     failed = 0
     with ProcessPoolExecutor(jobs) as pool:
         futures = {pool.submit(work, case): case for case in cases}
@@ -229,5 +253,5 @@ def run_all(cases: list[Case], work: Callable[[Case], Outcome], again: str, jobs
             except FlowError as error:
                 failed += 1
                 say(f"[{number}/{len(cases)}] FAILED {error}")
-                say(f"    again, with a waveform: {again} {case.name} --seed {case.seed} --trace {case.name}.fst")
+                say(f"    again: {again.format(name=case.name, seed=case.seed)}")
     return failed

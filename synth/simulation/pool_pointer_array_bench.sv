@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pool_pointer_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the netlist only.
+// pool_pointer_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
+// netlist only.
 module pool_pointer_array_bench #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 12,

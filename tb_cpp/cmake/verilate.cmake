@@ -36,6 +36,7 @@ find_package(Threads REQUIRED)
 
 set(DTOF_HDL_DIR ${PROJECT_ROOT}/hdl CACHE PATH "Folder that holds dtof.f and the SystemVerilog sources")
 file(GLOB_RECURSE DTOF_HDL_FILES CONFIGURE_DEPENDS ${DTOF_HDL_DIR}/*.sv ${DTOF_HDL_DIR}/*.svh ${DTOF_HDL_DIR}/*.f)
+list(FILTER DTOF_HDL_FILES EXCLUDE REGEX "/formal/")
 
 # Coverage (make coverage): each simulation writes the counts of its RTL (rtl/write_coverage.cpp).
 set(DTOF_COVERAGE_FLAGS "")
