@@ -24,8 +24,7 @@ find "$counts" -name '*.dat' -print0 | xargs -0 -P "$(nproc)" -n 20 sed -i \
   -e $'s#\001f\002[^\001]*/\\(hdl\\|tb_cpp\\)/#\001f\002\\1/#' \
   -e $'s#\001page\002\\(v_[a-z]*\\)/[^\001\']*#\001page\002\\1#' \
   -e $'s#\001h\002[^\001\']*##'
-find "$counts" -name '*.dat' > "$folder/counts.txt"
-xargs verilator_coverage --write "$folder/rtl.dat" < "$folder/counts.txt" > "$folder/merge.log"
+verilator_coverage --write "$folder/rtl.dat" "$counts"/*.dat > "$folder/merge.log"
 verilator_coverage --annotate "$folder/hdl" --annotate-min 1 "$folder/rtl.dat" > "$folder/annotate.log"
 
 gcovr --root . --object-directory "$build" --filter 'tb_cpp/' --exclude-throw-branches --exclude-unreachable-branches \

@@ -25,7 +25,7 @@ struct ColumnRange {
 
 /// An SRAM and the columns that use it.
 struct ArraySram {
-  SramKind kind;
+  SramKind kind = SramKind::kHistogram;
   ColumnRange columns;
   RtlSram sram;
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <string_view>
@@ -135,7 +136,7 @@ std::string quantile(const std::vector<double>& values, double share) {
   if (values.empty()) {
     return "-";
   }
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size() - 1) + 0.5);
+  const auto rank = static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)));
   return fmt::format("{:.0f}", values[rank]);
 }
 
@@ -152,6 +153,7 @@ std::string percent(std::uint64_t count, std::uint64_t of) {
 template <typename OfFault>
 std::string mean(const std::vector<FaultEffect>& effects, const OfFault& of_fault, double most) {
   std::vector<double> values;
+  values.reserve(effects.size());
   for (const FaultEffect& effect : effects) {
     values.push_back(of_fault(effect));
   }

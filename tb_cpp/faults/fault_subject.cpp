@@ -30,6 +30,7 @@ constexpr RowRange kSceneRange = {(kSceneRows - kFaultRows) / 2, kFaultRows};
 
 std::vector<ColumnStream> streams(const PhotonSource& source) {
   std::vector<ColumnStream> columns;
+  columns.reserve(kFaultColumns);
   for (int column = 0; column < kFaultColumns; ++column) {
     columns.push_back(source.column_rows(scene_column(column), kSceneRange));
   }
