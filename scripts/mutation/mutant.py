@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a mutant is, and how mutants are drawn."""
+
+import random
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Mutant:
+    """One change of one source file: text[begin:end] becomes `mutated`."""
+
+    file: str  # path below the project
+    line: int
+    begin: int
+    end: int
+    original: str
+    mutated: str
+    operator: str
+    place: int  # where its statement begins: one mutant per statement is drawn
+    statement: bool = False  # the whole statement changes, not an expression
+    constant: tuple[int, int] | None = None  # C++: the `constexpr` of the variable whose value changes
+
+    @property
+    def change(self) -> str:
+        return f"{_one_line(self.original)} -> {_one_line(self.mutated)}"
+
+    def overlaps(self, other: "Mutant") -> bool:
+        return self.file == other.file and self.begin < other.end and other.begin < self.end
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split()) or "(removed)"
+
+
+def draw(mutants: Iterable[Mutant], generator: random.Random) -> Iterator[Mutant]:
+    """One mutant per statement, in random order; the kind of change is drawn first, then the change."""
+    places: dict[tuple[str, int], list[Mutant]] = {}
+    for mutant in mutants:
+        places.setdefault((mutant.file, mutant.place), []).append(mutant)
+    order = list(places.values())
+    generator.shuffle(order)
+    for choices in order:
+        operator = generator.choice(sorted({mutant.operator for mutant in choices}))
+        yield generator.choice([mutant for mutant in choices if mutant.operator == operator])
+
+
+class Selection:
+    """Mutants of several groups of files in given numbers; refused ones are replaced by the next drawn."""
+
+    def __init__(self, groups: Sequence[tuple[Iterable[Mutant], int]], generator: random.Random) -> None:
+        self._queues = [draw(mutants, generator) for mutants, _ in groups]
+        self._wanted = [count for _, count in groups]
+        self._kept: list[list[Mutant]] = [[] for _ in groups]
+        self.fill()
+
+    def fill(self) -> None:
+        for kept, queue, wanted in zip(self._kept, self._queues, self._wanted):
+            while len(kept) < wanted:
+                mutant = next(queue, None)
+                if mutant is None:
+                    break
+                if not any(mutant.overlaps(other) for other in kept):
+                    kept.append(mutant)
+
+    def refuse(self, refused: set[Mutant]) -> None:
+        """Replaces mutants that do not compile."""
+        self._kept = [[mutant for mutant in kept if mutant not in refused] for kept in self._kept]
+        self.fill()
+
+    @property
+    def mutants(self) -> list[Mutant]:
+        return sorted((mutant for kept in self._kept for mutant in kept), key=lambda mutant: (mutant.file, mutant.begin))
