@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-lint/verilator.vlt
+// All RTL, leaf first, relative to this folder; in it these read the list (dtof_lint.f: waivers for Verilator's -Wall):
+//   verilator --lint-only -Wall -f dtof_lint.f -f dtof.f --top-module dtof_array
+//   iverilog -g2012 -t null -f dtof.f -s dtof_array
+//   yosys -q -p "read_verilog -sv -Ipackage $(grep '[.]sv$' dtof.f | xargs); hierarchy -check -top dtof_array"
 +incdir+package
 package/dtof_pkg.sv
 technology/behavioural/sram_1r1w.sv
@@ -9,6 +12,7 @@ control/pass_sequencer.sv
 control/pixel_sequencer.sv
 control/scan_sequencer.sv
 control/controller.sv
+control/stream_rules.sv
 control/result_output.sv
 control/pair_sequencer.sv
 control/pool_controller.sv
@@ -24,12 +28,12 @@ datapath/status_bits.sv
 datapath/label_match.sv
 datapath/minimum.sv
 datapath/pixel_distance.sv
+datapath/time_gate.sv
 datapath/track_update.sv
 datapath/twin_pointer_update.sv
 engine/candidate_decoder.sv
 engine/label_chain.sv
 engine/pool_engine.sv
-datapath/time_gate.sv
 column/ez_pointer_column.sv
 column/his_pointer_column.sv
 column/interframe_histogram_column.sv

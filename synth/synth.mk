@@ -7,8 +7,11 @@
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-test      the flow's own tests, and the porting example simulated
+# make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
+# make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
+#                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
 # make synth-growth    how cost grows with the parameters
-.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test
+.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -17,5 +20,17 @@ synth:
 synth-growth synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
 
-synth-test:
+synth-test: vectors
 	@cd synth && /usr/bin/python3 -m unittest discover -q -s tests -t .
+
+# The program that writes what the benches in synth/simulation drive and expect.
+vectors: | build_folder
+	@$(MAKE) --no-print-directory configure
+	@ninja -C $(BUILD) dtof-vectors > $(BUILD).log || { cat $(BUILD).log; exit 1; }
+
+sim-icarus: vectors
+	@synth/synth.py sim-icarus --seed $(SEED) $(CONFIGURATIONS)
+
+sim-netlist: vectors
+	@synth/synth.py sim-netlist --seed $(SEED) $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
+	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW))

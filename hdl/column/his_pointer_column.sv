@@ -210,6 +210,7 @@ module his_pointer_column #(
       .WIDTH(RESULT_WIDTH)
   ) u_result_register (
       .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
       .load_i       (result_load_i),
       .shift_i      (result_shift_i),
       .result_i     (RESULT_WIDTH'({pointer, confidence} >> (CONFIDENCE_BITS - CONFIDENCE_WIDTH))),

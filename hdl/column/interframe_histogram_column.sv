@@ -59,13 +59,12 @@ module interframe_histogram_column #(
 
   localparam int PEAK_WIDTH = dtof_pkg::peak_width(READOUT, NP, NB);
   localparam int FINE_WIDTH = (READOUT == dtof_pkg::READOUT_FIFH) ? NP - NB : BIN_WIDTH;
-  localparam logic signed [NP+1:0] HIGHEST_CODE = $signed((NP + 2)'((1 << NP) - 2));
 
   logic [NP-1:0] timestamp_t1;
   logic [PEAK_WIDTH-1:0] peak_data, peak_q, new_peak;
   logic keep;
   logic [BIN_WIDTH-1:0] bin_t1, scan_peak;
-  logic signed [NP+1:0] start, unclamped;
+  logic signed [NP+1:0] start, peak_code;
   logic [NP-1:0] code;
   logic [COUNT_WIDTH-1:0] count, unused_peak_count, confidence;
 
@@ -170,20 +169,18 @@ module interframe_histogram_column #(
     end
   endgenerate
 
-  assign unclamped = start + $signed((NP + 2)'(scan_peak));
-  always_comb begin
-    code = unclamped[NP-1:0];
-    if (unclamped[NP+1]) begin
-      code = '0;
-    end else if (unclamped > HIGHEST_CODE) begin
-      code = HIGHEST_CODE[NP-1:0];
-    end
-  end
+  // A window may begin below code 0, where an empty fine histogram has its peak. No window's peak lies beyond the
+  // last code: only codes that were measured are counted, and an empty window's first code is in the range.
+  logic unused_peak_code;
+  assign peak_code = start + $signed((NP + 2)'(scan_peak));
+  assign code = peak_code[NP+1] ? '0 : peak_code[NP-1:0];
+  assign unused_peak_code = peak_code[NP];
 
   result_register #(
       .WIDTH(RESULT_WIDTH)
   ) u_result_register (
       .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
       .load_i       (result_load_i),
       .shift_i      (result_shift_i),
       .result_i     ({code, confidence}),

@@ -185,6 +185,7 @@ module partitioned_histogram_column #(
       .WIDTH(RESULT_WIDTH)
   ) u_result_register (
       .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
       .load_i       (load_result),
       .shift_i      (result_shift_i),
       .result_i     (loaded_result),

@@ -7,6 +7,8 @@
 // start_i is taken in IDLE only; start_i while busy does nothing. done_o is high for the frame's last clock.
 // Both are registered, so that no port drives the state's logic.
 // Cost: 3 state bits, a pass counter and the run-time acquisition number, per array.
+`include "dtof_macros.svh"
+
 module controller #(
     parameter int COARSE_PASSES = 1,
     parameter int ACQ_WIDTH = 16,
@@ -14,11 +16,12 @@ module controller #(
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
-    input  logic                  start_i,
+    input  logic                  start_i,         // ignored while busy_o, also in the clock of done_o
     input  logic [ ACQ_WIDTH-1:0] acq_num_i,
     output logic                  busy_o,
     output logic                  done_o,
     output logic [           2:0] state_o,
+    output logic                  accept_o,        // a frame is accepted: its registers are sampled
     // pass_sequencer
     output logic                  load_o,          // acq_num_o is new
     output logic [ ACQ_WIDTH-1:0] acq_num_o,
@@ -30,6 +33,10 @@ module controller #(
     // pixel_sequencer
     output logic                  stream_o,
     input  logic                  stream_idle_i,
+    // columns
+    output logic                  clear_all_o,     // signalled clear
+    output logic                  coarse_scan_o,   // the scan finds the peaks of a coarse pass
+    output logic                  final_scan_o,    // the scan finds a pixel's result
     // scan_sequencer
     output logic                  scan_start_o,
     output logic                  scan_reset_o,
@@ -105,9 +112,9 @@ module controller #(
       done_q <= 1'b0;
     end else begin
       state_q <= state_d;
-      start_q <= start_i && !busy_o;
+      start_q <= accept_o;
       done_q <= (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);
-      if (start_i && !busy_o) begin
+      if (accept_o) begin
         acq_num_q <= acq_num_i;
         pass_q <= '0;
         first_pass_q <= 1'b1;
@@ -120,12 +127,18 @@ module controller #(
     end
   end
 
+  `DTOF_ASSERT(a_scan_or_stream, !(stream_o && scan_busy_i), "a pass began before the scan ended")
+
   logic entering;
   assign entering = (state_d != state_q);
 
   assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
   assign done_o = done_q;
   assign state_o = state_q;
+  assign accept_o = start_i && !busy_o;
+  assign clear_all_o = (state_q == dtof_pkg::STATE_RESET) || (state_q == dtof_pkg::STATE_M2);
+  assign coarse_scan_o = (state_q == dtof_pkg::STATE_M1);
+  assign final_scan_o = (state_q == dtof_pkg::STATE_M4);
   assign load_o = (state_q == dtof_pkg::STATE_RESET);
   assign acq_num_o = acq_num_q;
   assign next_pass_o = (state_q == dtof_pkg::STATE_M2);

@@ -23,6 +23,8 @@
 // leave a clock after s, results another one later.
 // Latency, K labels: a column's groups x (32 K + 43), (pixels + 3) x PERIOD a pass.
 // Cost: counters, per array.
+`include "dtof_macros.svh"
+
 module engine_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int GROUP_SIZE = 8,
@@ -85,13 +87,18 @@ module engine_sequencer #(
   localparam int POOLED_LABELS = 3;
   localparam int BIN_WIDTH = $clog2(BINS_PER_WORD);
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
-  localparam int FILL_BEGIN = 8;
+  localparam int LINE_CLOCKS = dtof_pkg::POOL_LINE_CLOCKS;
+  localparam int FILL_BEGIN = LINE_CLOCKS + dtof_pkg::POOL_FILL_CLOCKS;
   localparam int SEARCH_BEGIN = FILL_BEGIN + dtof_pkg::POOL_COARSE_BINS;
   localparam int SEARCH_END = SEARCH_BEGIN + 32 * LABELS;
-  localparam int T_WIDTH = $clog2(SEARCH_END + 3);
-  localparam int CHOOSE_PERIOD = dtof_pkg::max_of(LABELS + 4, 6);
-  localparam int DECIDE_PERIOD = 6;
+  localparam int LAST_T = SEARCH_END + dtof_pkg::POOL_CANDIDATE_CLOCKS;
+  localparam int T_WIDTH = $clog2(LAST_T + 1);
+  localparam int SPREAD = dtof_pkg::POOL_SPREAD_CLOCKS;
+  localparam int DECIDE_LABELS = 2;
+  localparam int DECIDE_PERIOD = SPREAD + 1 + DECIDE_LABELS;
+  localparam int CHOOSE_PERIOD = dtof_pkg::max_of(SPREAD + 1 + LABELS, DECIDE_PERIOD);
   localparam int S_WIDTH = $clog2(CHOOSE_PERIOD);
+  localparam int FIRST_TARGET = SPREAD + 1 - dtof_pkg::POOL_TARGET_CLOCKS;  // clock of label 0
   localparam int LEAD = 2;  // steps a pixel is fetched ahead
   localparam int N_WIDTH = $clog2(PIXELS_PER_SRAM + LEAD + 1);
   localparam int GROUP_WIDTH = dtof_pkg::index_width(GROUPS);
@@ -113,7 +120,7 @@ module engine_sequencer #(
 
   assign last_column = (column_q == COLUMN_WIDTH'(ENGINE_COLUMNS - 1));
   assign last_group = (group_q == GROUP_WIDTH'(GROUPS - 1));
-  assign last_t = (t_q == T_WIDTH'(SEARCH_END + 2));
+  assign last_t = (t_q == T_WIDTH'(LAST_T));
   assign last_s = deciding_q ? S_WIDTH'(DECIDE_PERIOD - 1) : S_WIDTH'(CHOOSE_PERIOD - 1);
   assign step_end = (state_q == CHAIN) && (s_q == last_s);
   assign pass_end = step_end && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
@@ -197,6 +204,9 @@ module engine_sequencer #(
   end
   assign select_o = select_delayed_q;
 
+  // The columns' words are combined by OR.
+  `DTOF_ASSERT(a_one_column, (select_delayed_q & (select_delayed_q - 1'b1)) == '0, "several columns are selected")
+
   // Decode.
 
   logic decoding;
@@ -222,9 +232,9 @@ module engine_sequencer #(
   end
 
   always_ff @(posedge clk_i) begin
-    capture_above_o <= decoding && (phase == BIN_WIDTH'(3));
-    capture_own_o <= decoding && (phase == BIN_WIDTH'(4 % BINS_PER_WORD));
-    capture_below_o <= decoding && (phase == BIN_WIDTH'(5 % BINS_PER_WORD));
+    capture_above_o <= decoding && (phase == BIN_WIDTH'(LINE_CLOCKS - 1));
+    capture_own_o <= decoding && (phase == BIN_WIDTH'(LINE_CLOCKS % BINS_PER_WORD));
+    capture_below_o <= decoding && (phase == BIN_WIDTH'((LINE_CLOCKS + 1) % BINS_PER_WORD));
     fill_o <= decoding && (t_q >= T_WIDTH'(FILL_BEGIN - 1)) && (t_q < T_WIDTH'(SEARCH_BEGIN - 1));
     search_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN - 1));
     pair_o <= (t_q < T_WIDTH'(SEARCH_BEGIN - 1)) ? 5'(t_q - T_WIDTH'(FILL_BEGIN - 1)) : since_search[4:0];
@@ -253,11 +263,13 @@ module engine_sequencer #(
   assign next_row = row_of(n_q - N_WIDTH'(LEAD - 1), back_q);
   assign result_row = row_of(n_q - N_WIDTH'(LEAD + 1), back_q);
 
-  assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(4));
-  assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(3));
+  // The word is captured in the step's last clock, the group's word is there a clock later, when the chain moves on. A
+  // pair's word reaches its column in the clock in which what is written with it reaches the SRAM.
+  assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(LINE_CLOCKS));
+  assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(LINE_CLOCKS - 1));
   assign pair_complete = second_pass && !deciding_q && (n_q >= N_WIDTH'(LEAD + 1))
       && (result_row[0] || n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
-  assign read_pair = pair_complete && (s_q == last_s - S_WIDTH'(2));
+  assign read_pair = pair_complete && (s_q == last_s - S_WIDTH'(dtof_pkg::POOL_WORD_CLOCKS - 1));
   assign write_pair = pair_complete && (s_q == last_s);
 
   assign read_d_o = read_bins || read_back || read_word || read_cells || read_pair;
@@ -305,15 +317,16 @@ module engine_sequencer #(
     end
   end
 
-  assign give_results = results_step && (s_q == S_WIDTH'(1));
+  assign give_results = results_step && (s_q == S_WIDTH'(dtof_pkg::POOL_BELIEF_CLOCKS - 1));
 
   always_ff @(posedge clk_i) begin
     deciding_o <= deciding_q;
     clear_message_o <= (n_q < N_WIDTH'(LEAD));
     begin_o <= chaining && (s_q == '0);
-    spread_o <= chaining && (s_q == S_WIDTH'(3));
-    pass_label_o <= chaining && (s_q >= S_WIDTH'(4)) && (32'(s_q) < (deciding_q ? 6 : LABELS + 4));
-    target_label_o <= (s_q > S_WIDTH'(2)) ? LABEL_WIDTH'(s_q - S_WIDTH'(2)) : '0;
+    spread_o <= chaining && (s_q == S_WIDTH'(SPREAD));
+    pass_label_o <= chaining && (s_q > S_WIDTH'(SPREAD))
+        && (32'(s_q) <= SPREAD + (deciding_q ? DECIDE_LABELS : LABELS));
+    target_label_o <= (s_q > S_WIDTH'(FIRST_TARGET)) ? LABEL_WIDTH'(s_q - S_WIDTH'(FIRST_TARGET)) : '0;
     capture_word_o <= chaining && (s_q == last_s - S_WIDTH'(1));
     advance_o <= step_end;
     odd_pixel_o <= fetch_row[0];

@@ -69,14 +69,16 @@ module pair_sequencer #(
   localparam logic [PAIR_WIDTH-1:0] LAST_PAIR = PAIR_WIDTH'(PAIRS - 1);
   localparam logic [STEP_WIDTH-1:0] LAST_STEP = STEP_WIDTH'(STEPS - 1);
   localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
-  localparam logic [3:0] DRAIN_CLOCKS = 4'd10;
+  // A phase ends when its last count was commanded: a clock after drain_q = 0 stream_i falls.
+  localparam int LAST_STAGE = dtof_pkg::POOL_LAST_COMMAND_STAGE;
+  localparam logic [2:0] DRAIN_CLOCKS = 3'(LAST_STAGE - 1);
   localparam logic [2:0] PRIMED = 3'd6;
 
   // T0
 
   logic active_q;
   logic [2:0] prime_q;
-  logic [3:0] drain_q;
+  logic [2:0] drain_q;
   logic [SLOT_WIDTH-1:0] raster_q;
   logic [STEP_WIDTH-1:0] step_q;
   logic [PAIR_WIDTH-1:0] pair_q;
@@ -167,7 +169,7 @@ module pair_sequencer #(
 
   // T2 and later
 
-  logic [6:2] fetch_tn_q;
+  logic [LAST_STAGE:2] fetch_tn_q;
   logic [5*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. T6, T2 lowest
   logic [PAIR_WIDTH-1:0] pair_t2;
   logic visit_t2_q, update_t3_q, second_visit_t2_q;
@@ -199,6 +201,9 @@ module pair_sequencer #(
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
     fresh_o <= fetch_t1 && (GROUPS > 1) && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
   end
+
+  `DTOF_ASSERT(a_phase_complete, stream_i || (!busy_t1_q && !visit_t2_q && fetch_tn_q == '0),
+               "a phase ended with timestamps in the pipeline")
 
   assign beat_t1_o = beat_t1_q;
   assign first_slot_t1_o = first_slot_t1_q;

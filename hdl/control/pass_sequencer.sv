@@ -35,7 +35,7 @@ module pass_sequencer #(
   logic signed [LEFT_WIDTH-1:0] left_d, left_q, base;
   logic final_pass_q;  // used where the final pass differs: three steps, gears
 
-  assign base = (THREE_STEPS != 0) ? LEFT_WIDTH'(acq_num_i[ACQ_WIDTH-1:1]) : LEFT_WIDTH'(acq_num_i);
+  assign base = (THREE_STEPS != 0) ? LEFT_WIDTH'(acq_num_i) >> 1 : LEFT_WIDTH'(acq_num_i);
 
   always_comb begin
     left_d = left_q;
@@ -100,7 +100,7 @@ module pass_sequencer #(
           gear_q <= '0;
           threshold_q <= final_length >> 1;
         end else if (final_pass_q && acq_done_i && gear_q != GEAR_WIDTH'(GEARS)
-                     && left_after <= $signed({2'b00, threshold_q})) begin
+                     && left_after <= $signed(LEFT_WIDTH'(threshold_q))) begin
           gear_q <= gear_q + 1'b1;
           threshold_q <= threshold_q >> 1;
         end

@@ -46,9 +46,11 @@ module pixel_sequencer #(
 
   localparam logic [ROW_WIDTH-1:0] LAST_PIXEL = ROW_WIDTH'(PIXELS_PER_SRAM - 1);
   localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
-  localparam int DRAIN_CLOCKS = 7;
+  // A pass ends when its last timestamp was written: a clock after drain_q = 0 stream_i falls.
+  localparam int DRAIN_CLOCKS = dtof_pkg::HISTOGRAM_WRITE_STAGE - 1;
 
   logic primed_q, active_q, first_acq_q;
+  logic [dtof_pkg::HISTOGRAM_WRITE_STAGE:1] beat_tn_q;  // a timestamp is in stage Tn
   logic [SLOT_WIDTH-1:0] slot_q;
   logic [ROW_WIDTH-1:0] pixel_q;
   logic [2:0] drain_q;
@@ -108,8 +110,9 @@ module pixel_sequencer #(
   `DTOF_ASSERT(a_contiguous_acquisition, !active_q || tdc_valid_i,
                "tdc_valid_i fell inside an acquisition")
 
+  `DTOF_ASSERT(a_pass_complete, stream_i || (beat_tn_q == '0), "a pass ended with timestamps in the pipeline")
+
   // Copies of valid flag, pixel and slot for the stages T1 to T5.
-  logic [5:1] beat_tn_q;
   logic [2:1] last_slot_tn_q;
   logic visit_t1_q, first_acq_t1_q;
   logic [ROW_WIDTH-1:0] pixel_t1_q, pixel_t2_q, pixel_t3_q, pixel_t4_q, pixel_t5_q;

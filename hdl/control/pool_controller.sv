@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer: the state machine of a frame and its acquisition counter, once per array.
 //
-// IDLE -> RESET -> M0 -> M1 -> RESET -> M2 -> M3 -> M4 -> M5 -> IDLE
-//   RESET  clear the pixels' words, one address a clock      M0  coarse phase      M1  decode
-//   M2     track phase      M3  choose      M4  pointer phase      M5  decide and send the results
+// IDLE -> RESET -> COARSE -> DECODE -> RESET -> TRACK -> CHOOSE -> POINT -> DECIDE -> IDLE
+//   RESET clears the pixels' words, one address a clock. COARSE, TRACK and POINT take timestamps. DECODE, CHOOSE and
+//   DECIDE are the engines' work; DECIDE also sends the results.
 // A phase takes acquisitions until its end of the schedule: coarse_end_i, track_end_i, acq_num_i, all sampled
 // with start_i in IDLE; start_i while busy does nothing. done_o is high for the frame's last clock.
 // Cost: an acquisition counter, four registers of ACQ_WIDTH bits, three comparators, per array.
@@ -16,7 +16,7 @@ module pool_controller #(
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
-    input  logic                  start_i,
+    input  logic                  start_i,       // ignored while busy_o, also in the clock of done_o
     input  logic [ ACQ_WIDTH-1:0] acq_num_i,
     input  logic [ ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [ ACQ_WIDTH-1:0] track_end_i,
@@ -37,6 +37,7 @@ module pool_controller #(
     output logic                  clear_o,
     output logic [ADDR_WIDTH-1:0] clear_address_o,
     // engines
+    output logic                  decoding_o,    // the engines work for decode, from its start to its end
     output logic                  decode_o,
     output logic                  choose_o,
     output logic                  decide_o,
@@ -49,8 +50,9 @@ module pool_controller #(
   logic start_q, done_q, decoded_q, entered_q, more_q, late_q, more_then_q, late_then_q;
   logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, late_begin_q, acquisition_then, acquisition_q, phase_end;
   logic [ADDR_WIDTH-1:0] address_q;
-  logic cleared;
+  logic accept, cleared;
 
+  assign accept = start_i && !busy_o;
   assign cleared = (address_q == LAST_ADDRESS);
 
   always_comb begin
@@ -62,29 +64,29 @@ module pool_controller #(
       end
       dtof_pkg::STATE_RESET:
       if (cleared) begin
-        state_d = decoded_q ? dtof_pkg::STATE_M2 : dtof_pkg::STATE_M0;
+        state_d = decoded_q ? dtof_pkg::POOL_STATE_TRACK : dtof_pkg::POOL_STATE_COARSE;
       end
-      dtof_pkg::STATE_M0:
+      dtof_pkg::POOL_STATE_COARSE:
       if (stream_idle_i) begin
-        state_d = dtof_pkg::STATE_M1;
+        state_d = dtof_pkg::POOL_STATE_DECODE;
       end
-      dtof_pkg::STATE_M1:
+      dtof_pkg::POOL_STATE_DECODE:
       if (engine_done_i) begin
         state_d = dtof_pkg::STATE_RESET;
       end
-      dtof_pkg::STATE_M2:
+      dtof_pkg::POOL_STATE_TRACK:
       if (stream_idle_i) begin
-        state_d = dtof_pkg::STATE_M3;
+        state_d = dtof_pkg::POOL_STATE_CHOOSE;
       end
-      dtof_pkg::STATE_M3:
+      dtof_pkg::POOL_STATE_CHOOSE:
       if (engine_done_i) begin
-        state_d = dtof_pkg::STATE_M4;
+        state_d = dtof_pkg::POOL_STATE_POINT;
       end
-      dtof_pkg::STATE_M4:
+      dtof_pkg::POOL_STATE_POINT:
       if (stream_idle_i) begin
-        state_d = dtof_pkg::STATE_M5;
+        state_d = dtof_pkg::POOL_STATE_DECIDE;
       end
-      dtof_pkg::STATE_M5:
+      dtof_pkg::POOL_STATE_DECIDE:
       if (engine_done_i) begin
         state_d = dtof_pkg::STATE_IDLE;
       end
@@ -94,9 +96,9 @@ module pool_controller #(
 
   always_comb begin
     phase_end = acq_num_q;
-    if (state_d == dtof_pkg::STATE_M0) begin
+    if (state_d == dtof_pkg::POOL_STATE_COARSE) begin
       phase_end = coarse_end_q;
-    end else if (state_d == dtof_pkg::STATE_M2) begin
+    end else if (state_d == dtof_pkg::POOL_STATE_TRACK) begin
       phase_end = track_end_q;
     end
   end
@@ -124,9 +126,9 @@ module pool_controller #(
     end else begin
       state_q <= state_d;
       entered_q <= (state_d != state_q);
-      start_q <= start_i && !busy_o;
-      done_q <= (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);
-      if (start_i && !busy_o) begin
+      start_q <= accept;
+      done_q <= (state_q == dtof_pkg::POOL_STATE_DECIDE) && (state_d == dtof_pkg::STATE_IDLE);
+      if (accept) begin
         acq_num_q <= acq_num_i;
         coarse_end_q <= coarse_end_i;
         track_end_q <= track_end_i;
@@ -137,7 +139,7 @@ module pool_controller #(
         if (acq_done_i) begin
           acquisition_q <= acquisition_then;
         end
-        if (state_q == dtof_pkg::STATE_M1) begin
+        if (state_q == dtof_pkg::POOL_STATE_DECODE) begin
           decoded_q <= 1'b1;
         end
       end
@@ -156,16 +158,17 @@ module pool_controller #(
   assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
   assign done_o = done_q;
   assign state_o = state_q;
-  assign stream_o = coarse_o || (state_q == dtof_pkg::STATE_M2) || point_o;
-  assign coarse_o = (state_q == dtof_pkg::STATE_M0);
-  assign point_o = (state_q == dtof_pkg::STATE_M4);
+  assign stream_o = coarse_o || (state_q == dtof_pkg::POOL_STATE_TRACK) || point_o;
+  assign coarse_o = (state_q == dtof_pkg::POOL_STATE_COARSE);
+  assign point_o = (state_q == dtof_pkg::POOL_STATE_POINT);
   assign more_o = more_q;
   assign acquisition_o = acquisition_q[3:0];
   assign late_o = late_q;
   assign clear_o = (state_q == dtof_pkg::STATE_RESET);
   assign clear_address_o = address_q;
-  assign decode_o = entered_q && (state_q == dtof_pkg::STATE_M1);
-  assign choose_o = entered_q && (state_q == dtof_pkg::STATE_M3);
-  assign decide_o = entered_q && (state_q == dtof_pkg::STATE_M5);
+  assign decoding_o = (state_q == dtof_pkg::POOL_STATE_DECODE);
+  assign decode_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECODE);
+  assign choose_o = entered_q && (state_q == dtof_pkg::POOL_STATE_CHOOSE);
+  assign decide_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECIDE);
 
 endmodule

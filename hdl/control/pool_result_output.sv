@@ -87,4 +87,17 @@ module pool_result_output #(
   assign tdata_o = {column_q, row_q, results_q[RESULT_WIDTH-1:0]};
   assign tlast_o = last_q && last_beat;
 
+`ifndef SYNTHESIS
+  stream_rules #(
+      .WIDTH(COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH)
+  ) u_stream_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_ni),
+      .tvalid_i(tvalid_o),
+      .tready_i(tready_i),
+      .tdata_i (tdata_o),
+      .tlast_i (tlast_o)
+  );
+`endif
+
 endmodule

@@ -7,6 +7,8 @@
 // Latency: 2 SRAM_NUM + 1 clocks a row when tready stays high; the next row is scanned meanwhile. tvalid never
 // falls before tready.
 // Cost: a column counter, four flip-flops.
+`include "dtof_macros.svh"
+
 module result_output #(
     parameter int SRAM_NUM = 200,
     parameter int ROW_WIDTH = 8,
@@ -58,11 +60,26 @@ module result_output #(
     end
   end
 
+  `DTOF_ASSERT(a_one_row, !(start_i && (valid_q || shift_q)), "a row of results is started while another is sent")
+
   assign shift_o = shift_q;
   assign done_o = done_q;
   assign busy_o = valid_q || shift_q;
   assign tvalid_o = valid_q;
   assign tdata_o = {column_q, row_i, head_i};
   assign tlast_o = last_row_i && last_column;
+
+`ifndef SYNTHESIS
+  stream_rules #(
+      .WIDTH(COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH)
+  ) u_stream_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_ni),
+      .tvalid_i(tvalid_o),
+      .tready_i(tready_i),
+      .tdata_i (tdata_o),
+      .tlast_i (tlast_o)
+  );
+`endif
 
 endmodule

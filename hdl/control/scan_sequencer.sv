@@ -40,7 +40,7 @@ module scan_sequencer #(
 );
 
   localparam logic [ROW_WIDTH-1:0] LAST_PIXEL = ROW_WIDTH'(PIXELS_PER_SRAM - 1);
-  localparam logic [BIN_WIDTH-1:0] LAST_BIN_ALL = '1;
+  localparam logic [BIN_WIDTH-1:0] LAST_BIN_ALL = {BIN_WIDTH{1'b1}};
   localparam logic [BIN_WIDTH-1:0] LAST_BIN_RESET = BIN_WIDTH'(RESET_BINS - 1);
   localparam logic [BIN_WIDTH-1:0] LAST_BIN_FINAL = BIN_WIDTH'(FINAL_BINS - 1);
 

@@ -40,25 +40,13 @@ module data_filter #(
       logic signed [NP+1:0] offset;
       assign start_o = $signed((NP + 2)'(peak_i) << COARSE_SHIFT) + $signed((NP + 2)'(CENTRE + 1 - SIDE_BAND));
       assign offset = $signed({2'b00, timestamp_i}) - start_o;
-      always_comb begin
-        if (final_pass_i) begin
-          keep_o = detected && (offset[NP+1:NB] == '0);
-          bin_o = offset[NB-1:0];
-        end else begin
-          keep_o = detected;
-          bin_o = timestamp_i[NP-1-:NB];
-        end
-      end
+      assign keep_o = detected && (!final_pass_i || (offset[NP+1:NB] == '0));
+      assign bin_o = final_pass_i ? offset[NB-1:0] : timestamp_i[NP-1-:NB];
     end else if (READOUT == dtof_pkg::READOUT_FIFH) begin : g_fifh
       assign start_o = $signed((NP + 2)'(peak_i) << COARSE_SHIFT);
-      always_comb begin
-        keep_o = detected;
-        bin_o = BIN_WIDTH'(timestamp_i >> COARSE_SHIFT);
-        if (final_pass_i) begin
-          keep_o = detected && (timestamp_i[NP-1-:NB] == peak_i);
-          bin_o = BIN_WIDTH'(timestamp_i & NP'((1 << COARSE_SHIFT) - 1));
-        end
-      end
+      assign keep_o = detected && (!final_pass_i || (timestamp_i[NP-1-:NB] == peak_i));
+      assign bin_o = final_pass_i ? BIN_WIDTH'(timestamp_i & NP'((1 << COARSE_SHIFT) - 1))
+          : BIN_WIDTH'(timestamp_i >> COARSE_SHIFT);
     end else if (READOUT == dtof_pkg::READOUT_THREESTEPS) begin : g_threesteps
       localparam int S0 = dtof_pkg::step_shift(NP, 0);
       localparam int S1 = dtof_pkg::step_shift(NP, 1);

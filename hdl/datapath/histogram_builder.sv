@@ -156,6 +156,8 @@ module histogram_builder #(
     end
   endgenerate
 
+  `DTOF_ASSERT(a_no_scan_while_building, !(scan_s0_i && hit_t2_q),
+               "histogram scanned while a timestamp is being counted")
   `DTOF_ASSERT(a_no_clear_while_building, !(clear_s1_i && build_write),
                "histogram cleared while a count is being written")
 

@@ -142,6 +142,8 @@ module pointer_builder #(
       .confidence_o(moved_confidence)
   );
 
+  `DTOF_ASSERT(a_one_write, !(write_i && start_write_i), "a pointer is started while another one is written")
+
   assign pointer_o = read_q[POINTER_WIDTH-1:0];
   assign moved[POINTER_WIDTH-1:0] = moved_pointer;
   assign start_word[POINTER_WIDTH-1:0] = start_pointer_i;

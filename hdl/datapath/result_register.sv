@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // One link of the result chain: loads the column's result, or takes the next column's when the chain shifts.
+`include "dtof_macros.svh"
+
 module result_register #(
     parameter int WIDTH = 14
 ) (
     input  logic             clk_i,
+    input  logic             rst_ni,         // of the assertion alone
     input  logic             load_i,
     input  logic             shift_i,
     input  logic [WIDTH-1:0] result_i,
@@ -20,6 +23,8 @@ module result_register #(
       result_q <= next_column_i;
     end
   end
+
+  `DTOF_ASSERT(a_load_or_shift, !(load_i && shift_i), "a result is loaded while the chain shifts")
 
   assign result_o = result_q;
 

@@ -3,24 +3,44 @@
 `ifndef DTOF_MACROS_SVH
 `define DTOF_MACROS_SVH
 
-// Illegal parameters stop elaboration with a sentence. Icarus 11 knows no elaboration $error and stops at
-// time 0 instead.
-`ifdef __ICARUS__
+// Illegal parameters stop elaboration with a sentence. Yosys 0.23 takes the sentence as the first argument.
+// Icarus 11 knows no elaboration task, and Verilator can be told to go on (-Wno-fatal): both stop at time 0.
+`ifdef YOSYS
+`define DTOF_REQUIRE(LABEL, CONDITION, SENTENCE) \
+  generate if (!(CONDITION)) begin : LABEL \
+    $fatal(SENTENCE); \
+  end endgenerate
+`elsif __ICARUS__
 `define DTOF_REQUIRE(LABEL, CONDITION, SENTENCE) \
   initial if (!(CONDITION)) begin \
-    $display("%m: %s", SENTENCE); \
-    $finish; \
+    $fatal(1, "%m: %s", SENTENCE); \
   end
 `else
 `define DTOF_REQUIRE(LABEL, CONDITION, SENTENCE) \
   generate if (!(CONDITION)) begin : LABEL \
-    $error(SENTENCE); \
+    $fatal(1, SENTENCE); \
+    initial $fatal(1, "%m: %s", SENTENCE); \
   end endgenerate
 `endif
 
-// A property that holds in every clock outside reset; alive in simulation, not in synthesis.
-`ifdef SYNTHESIS
+// A property that holds in every clock outside reset: alive in simulation, proved by make formal, absent in
+// synthesis. A violation ends an Icarus simulation; under Verilator --assert it calls the stop hook.
+`ifdef FORMAL
+`define DTOF_ASSERT(LABEL, CONDITION, SENTENCE) \
+  always @(posedge clk_i) begin \
+    if (rst_ni) begin \
+      LABEL: assert (CONDITION); \
+    end \
+  end
+`elsif SYNTHESIS
 `define DTOF_ASSERT(LABEL, CONDITION, SENTENCE)
+`elsif __ICARUS__
+`define DTOF_ASSERT(LABEL, CONDITION, SENTENCE) \
+  always @(posedge clk_i) begin : LABEL \
+    if (rst_ni === 1'b1 && (CONDITION) !== 1'b1) begin \
+      $fatal(1, "%m: %s", SENTENCE); \
+    end \
+  end
 `else
 `define DTOF_ASSERT(LABEL, CONDITION, SENTENCE) \
   always @(posedge clk_i) begin \

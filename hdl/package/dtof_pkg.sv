@@ -12,7 +12,7 @@ package dtof_pkg;
   localparam int READOUT_PIFH = 6;
   localparam int READOUT_HISTOGRAM = 7;
 
-  // Values of state_o: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
+  // Values of state_o of dtof_array: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
   localparam logic [2:0] STATE_IDLE = 3'd0;
   localparam logic [2:0] STATE_RESET = 3'd1;
   localparam logic [2:0] STATE_M0 = 3'd2;
@@ -21,6 +21,25 @@ package dtof_pkg;
   localparam logic [2:0] STATE_M3 = 3'd5;
   localparam logic [2:0] STATE_M4 = 3'd6;
   localparam logic [2:0] STATE_M5 = 3'd7;
+
+  // Values of state_o of pool_pointer_array beside IDLE and RESET.
+  localparam logic [2:0] POOL_STATE_COARSE = STATE_M0;
+  localparam logic [2:0] POOL_STATE_DECODE = STATE_M1;
+  localparam logic [2:0] POOL_STATE_TRACK = STATE_M2;
+  localparam logic [2:0] POOL_STATE_CHOOSE = STATE_M3;
+  localparam logic [2:0] POOL_STATE_POINT = STATE_M4;
+  localparam logic [2:0] POOL_STATE_DECIDE = STATE_M5;
+
+  // Clocks that a module takes, for the sequencer that drives it.
+  localparam int HISTOGRAM_WRITE_STAGE = 5;    // histogram_builder: a timestamp of T0 is written at T5
+  localparam int POOL_LAST_COMMAND_STAGE = 6;  // pair_sequencer: the write of a second column's count, given at T6
+  localparam int POOL_WORD_CLOCKS = 3;         // pool_pointer_pair: from a read command (_d) to the column's word
+  localparam int POOL_LINE_CLOCKS = POOL_WORD_CLOCKS + 1;  // pool_engine: ... to the engine's register
+  localparam int POOL_FILL_CLOCKS = 4;         // candidate_decoder: from capture_above_i to the first pair sum
+  localparam int POOL_CANDIDATE_CLOCKS = 2;    // candidate_decoder: from a search's last pair to its candidate
+  localparam int POOL_SPREAD_CLOCKS = 3;       // label_chain: from begin_i to spread_i; the first label passes next
+  localparam int POOL_TARGET_CLOCKS = 2;       // label_chain: from target_label_i to its pass_label_i
+  localparam int POOL_BELIEF_CLOCKS = 2;       // label_chain: from the last pass_label_i to the two best beliefs
 
   function automatic int max_of(input int a, input int b);
     max_of = (a > b) ? a : b;

@@ -37,7 +37,7 @@ module dtof_array #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic                   start_i,
+    input  logic                   start_i,  // ignored while busy_o, also in the clock of done_o
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,
     input  logic [         NP-1:0] gate_begin_i,
     input  logic [         NP-1:0] gate_end_i,
@@ -87,6 +87,7 @@ module dtof_array #(
 
   // Control, once per array.
 
+  logic accept, clear_all, coarse_scan, final_scan;
   logic load, next_pass, next_is_final, first_pass, final_pass, more, acq_done;
   logic [ACQ_WIDTH-1:0] acq_num;
   logic [PASS_WIDTH-1:0] pass;
@@ -107,6 +108,10 @@ module dtof_array #(
       .busy_o         (busy_o),
       .done_o         (done_o),
       .state_o        (state_o),
+      .accept_o       (accept),
+      .clear_all_o    (clear_all),
+      .coarse_scan_o  (coarse_scan),
+      .final_scan_o   (final_scan),
       .load_o         (load),
       .acq_num_o      (acq_num),
       .next_pass_o    (next_pass),
@@ -149,7 +154,7 @@ module dtof_array #(
     if (TIME_GATE != 0) begin : g_time_gate
       logic [NP-1:0] gate_begin_q, gate_end_q;
       always_ff @(posedge clk_i) begin
-        if (start_i && !busy_o) begin
+        if (accept) begin
           gate_begin_q <= gate_begin_i;
           gate_end_q <= gate_end_i;
         end
@@ -229,18 +234,17 @@ module dtof_array #(
 
   // Schedule of the columns' SRAMs.
 
-  logic clear_all, peak_write, result_load;
+  logic peak_write, result_load;
   logic [ROW_WIDTH-1:0] histogram_read_pixel, histogram_write_pixel;
   logic word_read, word_read_done_q;  // the pointer word, coarse peak or best peak of a pixel
   logic [ROW_WIDTH-1:0] word_read_pixel;
   logic pointer_write;
   logic [STEP_WIDTH-1:0] step_t0;
 
-  assign clear_all = (state_o == dtof_pkg::STATE_RESET) || (state_o == dtof_pkg::STATE_M2);
   assign histogram_read_pixel = scan_s0 ? pixel_s0 : pixel_t2;
   assign histogram_write_pixel = clear_s1 ? pixel_s1 : pixel_t5;
-  assign peak_write = last_s3 && (state_o == dtof_pkg::STATE_M1);
-  assign result_load = last_s3 && (state_o == dtof_pkg::STATE_M4);
+  assign peak_write = last_s3 && coarse_scan;
+  assign result_load = last_s3 && final_scan;
   assign pointer_write = last_slot_t2 && final_pass;
   assign step_t0 = STEP_WIDTH'(POINTER_STEP << GEARS) >> gear;
   assign word_read_pixel = scan_s0 ? pixel_s0 : fetch_pixel;

@@ -38,7 +38,7 @@ module pool_pointer_array #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic                   start_i,
+    input  logic                   start_i,  // ignored while busy_o, also in the clock of done_o
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,
     input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [  ACQ_WIDTH-1:0] track_end_i,
@@ -104,7 +104,7 @@ module pool_pointer_array #(
 
   logic stream, coarse, point, more, late, acq_done, stream_idle, clear;
   logic [3:0] acquisition;
-  logic decode, choose, decide, engine_done;
+  logic decoding, decode, choose, decide, engine_done;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
 
   pool_controller #(
@@ -132,6 +132,7 @@ module pool_pointer_array #(
       .stream_idle_i  (stream_idle),
       .clear_o        (clear),
       .clear_address_o(clear_address),
+      .decoding_o     (decoding),
       .decode_o       (decode),
       .choose_o       (choose),
       .decide_o       (decide),
@@ -257,7 +258,7 @@ module pool_pointer_array #(
     point_q <= point;
     engine_q <= !stream;
     clear_q <= clear;
-    decoding_q <= (state_o == dtof_pkg::STATE_M1);
+    decoding_q <= decoding;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
     word_load_q <= stream_word_load || engine_load;
     group_load_q <= group_load;

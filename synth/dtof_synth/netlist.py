@@ -301,6 +301,27 @@ def finish(design: dict, library: Library, macro_pin_ff: float) -> dict[str, lis
     return loads
 
 
+def cell_kinds(design: dict, library: Library) -> set[str]:
+    """Library cells that the design uses."""
+    used = {cell["type"] for module in modules(design).values() for cell in module["cells"].values()}
+    return used & set(library.area)
+
+
+def prepare_simulation(design: dict, library: Library, suffix: str, power_up: str,
+                       draw: Callable[[], bool]) -> None:
+    """Gives the design's own modules a suffix, so that the RTL's can stand beside them, and every register a state
+    at time 0 in its parameter `power_up`. Registers of one module power up alike in all its instances."""
+    own = {name for name, module in modules(design).items() if module["cells"]}
+    for name in own:
+        module = modules(design).pop(name)
+        modules(design)[name + suffix] = module
+        for cell in module["cells"].values():
+            if cell["type"] in own:
+                cell["type"] += suffix
+            elif cell["type"] in library.sequential:
+                cell["parameters"] = {power_up: "1" if draw() else "0"}
+
+
 def keep_columns(design: dict, kept: int) -> None:
     """Replaces all columns but the first `kept - 1` and the last by stubs of the same load."""
     name = column_module(design)

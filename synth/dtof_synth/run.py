@@ -119,11 +119,11 @@ def rtl_files(root: Path) -> list[Path]:
     """hdl/dtof.f without the behavioural technology; leaf first."""
     listing = root / "hdl" / "dtof.f"
     try:
-        lines = listing.read_text(encoding="utf-8").split()
+        lines = listing.read_text(encoding="utf-8").splitlines()
     except OSError as error:
         raise FlowError(f"{listing}: cannot read the file list ({error.strerror})") from None
     return [root / "hdl" / line for line in lines
-            if line.endswith((".sv", ".v")) and not line.startswith("technology/")]
+            if line.endswith((".sv", ".v")) and not line.startswith(("//", "technology/"))]
 
 
 def elaborate(configuration: Configuration, technology: Technology, folder: Path) -> None:

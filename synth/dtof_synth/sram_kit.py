@@ -177,6 +177,18 @@ def black_boxes(macros: list[Macro]) -> str:
     return "\n".join([*lines, ""])
 
 
+def behavioural_models(sizes: Iterable[Size]) -> str:
+    """The macros for simulation: each is the technology folder's stand-in of its size."""
+    lines = ["// SPDX-License-Identifier: Apache-2.0", "// Generated: every macro is a behavioural SRAM of its size."]
+    for size in sorted(set(sizes)):
+        connections = ", ".join(f".{name}({name})" for name, _, _ in pins(size))
+        lines += ["", f"module {size.name} (",
+                  ",\n".join(f"    {port}" for port in _ports(size, lambda bits: f"[{bits - 1}:0] " if bits else "")),
+                  ");", f"  {sram_model.KINDS[size.ports].module} #(.DEPTH({size.words}), .WIDTH({size.bits})) "
+                  f"u_memory ({connections});", "endmodule"]
+    return "\n".join([*lines, ""])
+
+
 def technology_module(ports: int, sizes: list[Size]) -> str:
     """The technology module of a port kind: a choice among the listed sizes."""
     module = sram_model.KINDS[ports].module

@@ -165,13 +165,16 @@ function(dtof_verilate name)
   set(registration ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_registration.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/rtl/registration.cpp.in ${registration} @ONLY)
   set(wrapper ${PROJECT_SOURCE_DIR}/rtl/${top}.sv)
+  # Relative paths: the model's messages name its sources, and its C++ is to be the same in every checkout.
+  file(RELATIVE_PATH hdl ${CMAKE_CURRENT_BINARY_DIR} ${DTOF_HDL_DIR})
+  file(RELATIVE_PATH relative_wrapper ${CMAKE_CURRENT_BINARY_DIR} ${wrapper})
   add_custom_command(
     OUTPUT ${directory}/model.cpp
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${directory}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${directory}
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
             --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET --trace-fst --timescale 1ns/1ps
-            ${overrides} -F ${DTOF_HDL_DIR}/dtof.f ${wrapper}
+            ${overrides} -F ${hdl}/dtof_lint.f -F ${hdl}/dtof.f ${relative_wrapper}
     COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
             -P ${DTOF_VERILATE_DIR}/unity.cmake
     DEPENDS ${DTOF_HDL_FILES} ${wrapper} ${registration} ${DTOF_VERILATE_DIR}/unity.cmake

@@ -3,9 +3,9 @@
 //
 // Read:   rdata_o shows the word one clock after re_i and keeps it until the next read.
 // Write:  wdata_i is stored at the clock edge that ends a clock with we_i.
-// Read and write of one address in one clock: the word is written, the read data is undefined (shown
-//         inverted here, so that a user that relies on it fails at once).
-// Contents are random until written.
+// Read and write of one address in one clock: the word is written, the read data is undefined.
+// What is undefined is X, so that a user that relies on it fails at once and synthesis is free to infer a bare
+// block RAM. Verilator has no X: there contents are random until written and undefined read data is inverted.
 module sram_1r1w #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -22,25 +22,35 @@ module sram_1r1w #(
 
   logic [WIDTH-1:0] memory[DEPTH];
 
-`ifndef SYNTHESIS
-  integer address;
-  initial begin
-    for (address = 0; address < DEPTH; address = address + 1) begin
-      memory[address] = WIDTH'($urandom);
+  always_ff @(posedge clk_i) begin
+    if (we_i) begin
+      memory[waddr_i] <= wdata_i;
     end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (re_i) begin
+`ifdef VERILATOR
+      rdata_o <= (we_i && (waddr_i == raddr_i)) ? ~memory[raddr_i] : memory[raddr_i];
+`else
+      rdata_o <= (we_i && (waddr_i == raddr_i)) ? {WIDTH{1'bx}} : memory[raddr_i];
+`endif
+    end
+  end
+
+`ifndef SYNTHESIS
+  initial begin
+`ifdef VERILATOR
+    for (int address = 0; address < DEPTH; address = address + 1) begin
+      for (int filled = 0; filled < WIDTH; filled = filled + 32) begin
+        memory[address] = WIDTH'({memory[address], $urandom});
+      end
+    end
+`endif
     if ($test$plusargs("sram_report") != 0) begin
       $display("%m: two-port SRAM, %0d words x %0d bits", DEPTH, WIDTH);
     end
   end
 `endif
-
-  always_ff @(posedge clk_i) begin
-    if (we_i) begin
-      memory[waddr_i] <= wdata_i;
-    end
-    if (re_i) begin
-      rdata_o <= (we_i && (waddr_i == raddr_i)) ? ~memory[raddr_i] : memory[raddr_i];
-    end
-  end
 
 endmodule

@@ -2,9 +2,10 @@
 // Stand-in for a single-port SRAM macro: one port that reads or writes, one clock. Swap for silicon.
 //
 // Read:   with en_i and not we_i, rdata_o shows the word one clock later and keeps it until the next access.
-// Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards (shown
-//         inverted here, so that a user that relies on it fails at once).
-// Contents are random until written.
+// Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards.
+// What is undefined is X, so that a user that relies on it fails at once and synthesis is free to infer a bare
+// block RAM. Verilator has no X: there contents are random until written and undefined read data is the inverted
+// write data.
 module sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -20,27 +21,35 @@ module sram_1rw #(
 
   logic [WIDTH-1:0] memory[DEPTH];
 
-`ifndef SYNTHESIS
-  integer address;
-  initial begin
-    for (address = 0; address < DEPTH; address = address + 1) begin
-      memory[address] = WIDTH'($urandom);
+  always_ff @(posedge clk_i) begin
+    if (en_i && we_i) begin
+      memory[addr_i] <= wdata_i;
     end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+`ifdef VERILATOR
+      rdata_o <= we_i ? ~wdata_i : memory[addr_i];
+`else
+      rdata_o <= we_i ? {WIDTH{1'bx}} : memory[addr_i];
+`endif
+    end
+  end
+
+`ifndef SYNTHESIS
+  initial begin
+`ifdef VERILATOR
+    for (int address = 0; address < DEPTH; address = address + 1) begin
+      for (int filled = 0; filled < WIDTH; filled = filled + 32) begin
+        memory[address] = WIDTH'({memory[address], $urandom});
+      end
+    end
+`endif
     if ($test$plusargs("sram_report") != 0) begin
       $display("%m: single-port SRAM, %0d words x %0d bits", DEPTH, WIDTH);
     end
   end
 `endif
-
-  always_ff @(posedge clk_i) begin
-    if (en_i) begin
-      if (we_i) begin
-        memory[addr_i] <= wdata_i;
-        rdata_o <= ~wdata_i;
-      end else begin
-        rdata_o <= memory[addr_i];
-      end
-    end
-  end
 
 endmodule

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Small arrays simulated four-state in Icarus Verilog: RTL against model, and netlist against RTL and model."""
+
+from __future__ import annotations
+
+import json
+import random
+import re
+import subprocess
+import time
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from . import cell_models, liberty, netlist, sram_kit, tools
+from .configuration import Configuration, engine_memories, memories
+from .errors import FlowError
+from .run import EFFORTS, Technology, elaborate, map_to_cells, rtl_files
+
+VECTORS = Path("build/cpp/vectors/dtof-vectors")
+BENCHES = Path("synth/simulation")
+BEHAVIOURAL = Path("hdl/technology/behavioural")
+SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
+LONG_FRAME = 3333
+NETLIST_SUFFIX = "_netlist"
+
+
+@dataclass(frozen=True)
+class Case:
+    """Frames of one small array in one simulation."""
+
+    configuration: Configuration
+    frames: tuple[int, ...]  # acquisitions of each
+    seed: int
+    trace: Path | None = None  # waveform to write
+    part: str = ""  # of a configuration's frames, if there are several cases
+
+    @property
+    def name(self) -> str:
+        return self.configuration.name
+
+    @property
+    def title(self) -> str:
+        return f"{self.name}, {self.part}" if self.part else self.name
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a simulation that found no failure did."""
+
+    frames: int
+    results: int
+    clocks: int
+    seconds: float
+
+
+def short_frames(seed: int, count: int) -> tuple[int, ...]:
+    """0, 1 and 2 acquisitions, and some random frames; none of them first, so that each follows another."""
+    numbers = random.Random(seed)
+    longer = [numbers.randint(*SHORT_FRAMES) for _ in range(count)]
+    return (longer[0], 0, 1, 2, *longer[1:])
+
+
+def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
+    """The RTL alone, of three columns, or of two engines with two columns each and a group and a half of pixels."""
+    if configuration.is_pool:
+        small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": 3 * configuration["GROUP_SIZE"] // 2}
+    else:
+        small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 3 if configuration.readout == "histogram" else 5}
+    return Case(configuration.with_parameters(configuration.name, **small), short_frames(seed, 4), seed, trace)
+
+
+def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = None) -> list[Case]:
+    """The netlist beside the RTL. Three pixels are the fewest for which the histograms forward counts as they do in a
+    full array. poolPointer's long frame has an array of its own, of two pixels and one engine, to save time."""
+    if not configuration.is_pool:
+        small = configuration.with_parameters(configuration.name, SRAM_NUM=2, PIXELS_PER_SRAM=3)
+        return [Case(small, (*short_frames(seed, 2), LONG_FRAME), seed, trace)]
+    one_pair = {"SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": 2}
+    return [replace(rtl_case(configuration, seed, trace), frames=short_frames(seed, 2)),
+            Case(configuration.with_parameters(configuration.name, **one_pair), (LONG_FRAME,), seed,
+                 trace and trace.with_stem(f"{trace.stem}_long"), "long")]
+
+
+def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
+    """The configuration through the flow's own steps, its cells and macros as models; the Verilog files."""
+    elaborate(configuration, technology, folder)
+    design = map_to_cells(configuration, technology, folder, EFFORTS[0])
+    netlist.finish(design, technology.slow, sram_kit.PIN_FF)
+    return write_simulation_netlist(design, configuration, technology, folder, seed)
+
+
+def write_simulation_netlist(design: dict, configuration: Configuration, technology: Technology, folder: Path,
+                             seed: int) -> tuple[Path, ...]:
+    """Verilog of a mapped design, of the cells that it uses and of its macros."""
+    drawn = random.Random(seed)
+    kinds = netlist.cell_kinds(design, technology.slow)
+    netlist.prepare_simulation(design, technology.slow, NETLIST_SUFFIX, cell_models.POWER_UP,
+                               lambda: drawn.random() < 0.5)
+    source, written = folder / "simulation.json", folder / "netlist.v"
+    source.write_text(json.dumps(design), encoding="utf-8")
+    settings = folder / "write_settings.tcl"
+    tools.write_settings(settings, {"netlist_json": source, "netlist": written})
+    tools.run_yosys(technology.root / "synth" / "yosys" / "write_verilog.tcl", settings, folder / "write.log",
+                    configuration.name)
+    cells, macros = folder / "cells.v", folder / "macros.v"
+    cells.write_text(cell_models.verilog(liberty.read(technology.slow.path), kinds), encoding="utf-8")
+    macros.write_text(sram_kit.behavioural_models([*memories(configuration).values(),
+                                                   *engine_memories(configuration).values()]), encoding="utf-8")
+    return written, cells, macros
+
+
+def _run(command: list[str], folder: Path, name: str) -> str:
+    try:
+        finished = subprocess.run(command, cwd=folder, check=False, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
+    except FileNotFoundError:
+        hint = "make builds it" if Path(command[0]).name == VECTORS.name else "scripts/install_packages.sh installs it"
+        raise FlowError(f"{command[0]} is missing; {hint}") from None
+    if finished.returncode != 0:
+        raise FlowError(f"{name}: {Path(command[0]).name}: {finished.stdout.strip()}")
+    return finished.stdout
+
+
+def _lines(path: Path) -> int:
+    return path.read_text(encoding="ascii").count("\n")
+
+
+def write_vectors(case: Case, root: Path, folder: Path) -> None:
+    """Stimulus and the model's results, by the program dtof-vectors."""
+    settings = [f"{name}={value}" for name, value in case.configuration.parameters.items()]
+    _run([str(root / VECTORS), "--readout", case.configuration.readout, "--out", str(folder), "--seed",
+          str(case.seed), "--acquisitions", *map(str, case.frames), "--parameters", *settings], folder, case.name)
+
+
+def bench_parameters(case: Case, folder: Path) -> dict[str, int]:
+    """Of the bench: those of the array, and how much dtof-vectors wrote."""
+    return {**case.configuration.rtl_parameters(), "FRAMES": len(case.frames),
+            "BEATS": max(1, _lines(folder / "timestamps.hex")), "SEED": case.seed}
+
+
+def bench_files(case: Case, root: Path) -> list[Path]:
+    """RTL, behavioural SRAMs and bench."""
+    return [*rtl_files(root)[:1], *sorted((root / BEHAVIOURAL).glob("*.sv")), *rtl_files(root)[1:],
+            root / BENCHES / "stream_bench.sv", root / BENCHES / f"{case.configuration.top}_bench.sv"]
+
+
+def outcome(output: str, case: Case, seconds: float) -> Outcome:
+    """FlowError with what the bench or an assertion of the RTL reported, unless all frames passed."""
+    passed = re.search(r"^DTOF_PASS frames (\d+) results (\d+) clocks (\d+)$", output, re.MULTILINE)
+    if passed and "ERROR" not in output and int(passed.group(1)) == len(case.frames):
+        return Outcome(*map(int, passed.groups()), seconds)
+    lines = [line for line in output.splitlines() if line.strip()]
+    first = next((index for index, line in enumerate(lines) if line.startswith("ERROR")), 0)
+    raise FlowError(f"{case.title}: {'; '.join(lines[first:first + 4]) or 'the simulation printed nothing'}")
+
+
+def simulate_netlist(case: Case, technology: Technology, folder: Path) -> Outcome:
+    """From the RTL to the comparison of its netlist, in `folder`."""
+    return simulate(case, technology.root, folder, write_netlist(case.configuration, technology, folder, case.seed))
+
+
+def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ...] = ()) -> Outcome:
+    """Runs a case in `folder`; with `netlist_files` the netlist beside the RTL. FlowError at the first failure."""
+    started = time.monotonic()
+    folder.mkdir(parents=True, exist_ok=True)
+    write_vectors(case, root, folder)
+    bench = f"{case.configuration.top}_bench"
+    overrides = [f"-P{bench}.{name}={value}" for name, value in bench_parameters(case, folder).items()]
+    said = _run(["iverilog", "-g2012", f"-I{root / 'hdl' / 'package'}", "-s", bench, *overrides,
+                 *(["-DNETLIST"] if netlist_files else []), "-o", "bench.vvp",
+                 *map(str, bench_files(case, root)), *map(str, netlist_files)], folder, case.name)
+    if said.strip():
+        raise FlowError(f"{case.name}: Icarus Verilog warns: {said.strip().splitlines()[0]}")
+    waveform = ["-fst", f"+trace={case.trace}"] if case.trace else []
+    output = _run(["vvp", "-n", "bench.vvp", *waveform], folder, case.name)
+    (folder / "bench.log").write_text(output, encoding="utf-8")
+    return outcome(output, case, time.monotonic() - started)
+
+
+def run_all(cases: list[Case], work: Callable[[Case], Outcome], again: str, jobs: int,
+            say: Callable[[str], None]) -> int:
+    """All cases, `jobs` at a time, in the order given; the number that failed. `again`: the command that repeats
+    a configuration with a waveform, without its name and seed."""
+    failed = 0
+    with ProcessPoolExecutor(jobs) as pool:
+        futures = {pool.submit(work, case): case for case in cases}
+        for number, future in enumerate(as_completed(futures), 1):
+            case = futures[future]
+            try:
+                found = future.result()
+                say(f"[{number}/{len(cases)}] {case.title}: {found.frames} frames, {found.results} results, "
+                    f"{found.clocks} clocks in {found.seconds:.0f} s")
+            except FlowError as error:
+                failed += 1
+                say(f"[{number}/{len(cases)}] FAILED {error}")
+                say(f"    again, with a waveform: {again} {case.name} --seed {case.seed} --trace {case.name}.fst")
+    return failed

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rules of scripts/lint_rtl.py find what they are there for."""
+
+import importlib.util
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+_spec = importlib.util.spec_from_file_location("lint_rtl", ROOT / "scripts" / "lint_rtl.py")
+lint_rtl = importlib.util.module_from_spec(_spec)
+_spec.loader.exec_module(lint_rtl)
+
+
+class MisreadTest(unittest.TestCase):
+    def test_parameters_set_to_unsized_ones_are_refused(self) -> None:
+        for text in ("  localparam logic [BIN_WIDTH-1:0] LAST = '1;", "module m #(\n  parameter bit [3:0] P = '1,\n",
+                     "localparam L\n    = '1;"):
+            self.assertEqual(len(lint_rtl.check_misread({"hdl/m.sv": text})), 1, text)
+
+    def test_the_place_is_named(self) -> None:
+        self.assertIn("hdl/m.sv:3:", lint_rtl.check_misread({"hdl/m.sv": "\n\nlocalparam L = '1;"})[0])
+
+    def test_unsized_ones_elsewhere_are_fine(self) -> None:
+        text = "localparam logic [3:0] L = {4{1'b1}};\nassign a = '1;\nif (b != '1) begin\n  localparam M = 1'b1;\n"
+        self.assertEqual(lint_rtl.check_misread({"hdl/m.sv": text}), [])
+
+
+class IcarusTest(unittest.TestCase):
+    def test_sorry_lines_are_failures(self) -> None:
+        self.assertEqual(len(lint_rtl.sorry("a.sv:3: sorry: constant selects are not supported\nother line")), 1)
+
+
+class BlockRamTest(unittest.TestCase):
+    def test_a_memory_that_cannot_be_a_block_ram_is_seen(self) -> None:
+        """The same count on a register file of two words finds no block RAM."""
+        found, cells = lint_rtl.block_rams("ecp5", "sram_1r1w", 2, 4)
+        self.assertEqual(found, 0)
+        self.assertTrue(cells)
+
+
+if __name__ == "__main__":
+    unittest.main()

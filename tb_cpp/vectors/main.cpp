@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "vectors/rtl_parameters.hpp"
+#include "vectors/stimulus.hpp"
+
+int main(int argc, char** argv) {
+  CLI::App app{"dtof-vectors: random frames for an RTL test bench, and the results that the model expects."};
+  std::string readout;
+  std::string folder;
+  std::uint64_t seed = 1;
+  std::vector<std::uint32_t> frames;
+  std::vector<std::string> settings;
+  app.add_option("--readout", readout, "read-out, as `dtof list` names it")->required();
+  app.add_option("--out", folder, "folder to write to")->required();
+  app.add_option("--seed", seed, "seed of the random frames");
+  app.add_option("--acquisitions", frames, "acquisitions of each frame")->required();
+  app.add_option("--parameters", settings, "RTL parameters of the top, NAME=value")->required();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    dtof::write_vectors(dtof::parse_rtl_parameters(dtof::parse_readout(readout), settings), frames, seed,
+                        folder);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

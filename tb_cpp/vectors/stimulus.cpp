@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "vectors/stimulus.hpp"
+
+#include <fmt/format.h>
+#include <fmt/os.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "readout/model.hpp"
+#include "tests/readout/test_streams.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr std::uint32_t kLongFrame = 1000;
+constexpr std::uint32_t kShortestFrameToReset = 2;
+constexpr int kBitsPerDigit = 4;
+
+/// One depth for the whole column in strong light: what lets poolPointer's advantages grow to their end.
+ColumnStream surface_column(const ArrayParameters& array, std::uint32_t acquisitions, CounterRandom& random) {
+  const int codes = array.readout.code_count();
+  const int depth = pick(random, codes);
+  const int width = 1 + codes / 256;
+  ColumnStream column;
+  for (int row = 0; row < array.rows; ++row) {
+    for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
+      for (int slot = 0; slot < array.readout.slots; ++slot) {
+        const bool background = pick(random, 16) == 0;
+        const int code = background ? pick(random, codes) : depth + pick(random, width) - width / 2;
+        column.append({acquisition, static_cast<Timestamp>(std::clamp(code, 0, codes - 1))});
+      }
+    }
+    column.finish_row();
+  }
+  return column;
+}
+
+ColumnStream adversarial_column(const ArrayParameters& array, std::uint32_t acquisitions, std::size_t& kind,
+                                CounterRandom& random) {
+  ColumnStream column;
+  for (int row = 0; row < array.rows; ++row) {
+    column.append_row(
+        make_stream(kStreamKinds[kind % kStreamKinds.size()], array.readout, acquisitions, random));
+    ++kind;
+  }
+  return column;
+}
+
+std::vector<ColumnStream> make_columns(const ArrayParameters& array, std::uint32_t acquisitions,
+                                       std::size_t& kind, CounterRandom& random) {
+  if (acquisitions >= kLongFrame) {
+    kind = static_cast<std::size_t>(StreamKind::kConstant);  // counters saturate
+  }
+  const bool pool = is_pool_readout(array.readout.readout);
+  std::vector<ColumnStream> columns;
+  columns.reserve(static_cast<std::size_t>(array.columns));
+  for (int column = 0; column < array.columns; ++column) {
+    columns.push_back(pool && column % 2 == 0 ? surface_column(array, acquisitions, random)
+                                              : adversarial_column(array, acquisitions, kind, random));
+  }
+  return columns;
+}
+
+/// The bus as hexadecimal digits, column 0 in the lowest bits.
+std::string bus_digits(std::span<const Timestamp> timestamps, int np) {
+  const std::size_t bits = timestamps.size() * static_cast<std::size_t>(np);
+  std::string digits((bits + kBitsPerDigit - 1) / kBitsPerDigit, '0');
+  for (std::size_t digit = 0; digit < digits.size(); ++digit) {
+    unsigned value = 0;
+    for (std::size_t bit = 0; bit < kBitsPerDigit; ++bit) {
+      const std::size_t position = digit * kBitsPerDigit + bit;
+      if (position < bits) {
+        const auto timestamp = static_cast<unsigned>(timestamps[position / static_cast<std::size_t>(np)]);
+        value |= (timestamp >> (position % static_cast<std::size_t>(np)) & 1U) << bit;
+      }
+    }
+    digits[digits.size() - 1 - digit] = "0123456789abcdef"[value];
+  }
+  return digits;
+}
+
+void write_timestamps(fmt::ostream& file, const ArrayParameters& array, std::span<const ColumnStream> columns,
+                      std::uint32_t acquisitions) {
+  const auto slots = static_cast<std::size_t>(array.readout.slots);
+  std::vector<std::size_t> next(columns.size() * static_cast<std::size_t>(array.rows), 0);
+  std::vector<Timestamp> lines(slots * columns.size());  // of a pixel, slot by slot
+  for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
+    for (int row = 0; row < array.rows; ++row) {
+      std::ranges::fill(lines, static_cast<Timestamp>(array.readout.no_detection()));
+      for (std::size_t column = 0; column < columns.size(); ++column) {
+        const std::span<const Detection> detections = columns[column].row(row);
+        std::size_t& cursor = next[static_cast<std::size_t>(row) * columns.size() + column];
+        for (std::size_t slot = 0;
+             cursor < detections.size() && detections[cursor].acquisition == acquisition; ++slot) {
+          lines[slot * columns.size() + column] = detections[cursor].timestamp;
+          ++cursor;
+        }
+      }
+      for (std::size_t slot = 0; slot < slots; ++slot) {
+        file.print("{}\n", bus_digits(std::span(lines).subspan(slot * columns.size(), columns.size()),
+                                      array.readout.np));
+      }
+    }
+  }
+}
+
+void write_results(fmt::ostream& file, const ArrayParameters& array, std::span<const ColumnStream> columns,
+                   std::uint32_t acquisitions) {
+  std::vector<std::vector<PixelResult>> results;
+  results.reserve(columns.size());
+  for (const ColumnStream& column : columns) {
+    results.push_back(make_readout_model(array.readout)->run_column(column, acquisitions));
+  }
+  for (int row = 0; row < array.rows; ++row) {
+    for (const std::vector<PixelResult>& column : results) {
+      const PixelResult& result = column[static_cast<std::size_t>(row)];
+      file.print("{:04x}{:04x}{:04x}\n", result.code, result.fraction, result.confidence);
+    }
+  }
+}
+
+}  // namespace
+
+void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> frames, std::uint64_t seed,
+                   const std::filesystem::path& folder) {
+  constexpr std::array<int, 4> kPauses = {0, 10, 40, 75};
+  constexpr std::array<int, 4> kStalls = {0, 20, 60, 90};
+  CounterRandom random(seed, static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0, 0);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("{}: cannot make the folder ({})", folder.string(), error.message()));
+  }
+  fmt::ostream frame_file = fmt::output_file((folder / "frames.txt").string());
+  fmt::ostream timestamp_file = fmt::output_file((folder / "timestamps.hex").string());
+  fmt::ostream result_file = fmt::output_file((folder / "results.hex").string());
+  ArrayParameters frame_array = array;
+  std::size_t kind = 0;
+  for (const std::uint32_t acquisitions : frames) {
+    std::array<std::uint32_t, 3> settings{};
+    if (is_pool_readout(array.readout.readout)) {
+      const PoolSchedule schedule(acquisitions, array.readout.pool);
+      settings = {schedule.coarse_end, schedule.track_end, schedule.late_begin};
+    } else if (array.readout.time_gate) {
+      const int codes = array.readout.code_count();
+      const CodeGate gate{.begin = pick(random, codes), .end = pick(random, codes)};
+      frame_array.readout.time_gate = gate;
+      settings = {static_cast<std::uint32_t>(gate.begin), static_cast<std::uint32_t>(gate.end), 0};
+    }
+    const int pause = acquisitions < kLongFrame
+                          ? kPauses[static_cast<std::size_t>(pick(random, kPauses.size()))]
+                          : kPauses[1];
+    const int stall = kStalls[static_cast<std::size_t>(pick(random, kStalls.size()))];
+    const bool reset = acquisitions >= kShortestFrameToReset && acquisitions < kLongFrame;
+    frame_file.print("{} {} {} {} {} {} {}\n", acquisitions, settings[0], settings[1], settings[2], pause,
+                     stall, reset ? 1 : 0);
+    const std::vector<ColumnStream> columns = make_columns(frame_array, acquisitions, kind, random);
+    write_timestamps(timestamp_file, frame_array, columns, acquisitions);
+    write_results(result_file, frame_array, columns, acquisitions);
+  }
+}
+
+}  // namespace dtof
