@@ -30,7 +30,7 @@ OTHERS = [
     "io/tmf8829_json.*",
 ]  # fmt: skip
 # Test programs from quick to slow; a library's own one runs first.
-LIBRARIES = ["host", "core", "scene", "readout", "metrics", "io", "photon", "analytic"]
+LIBRARIES = ["host", "core", "readout", "metrics", "io", "photon", "analytic"]
 TIMEOUT_S = 60.0  # several times the slowest program; a mutant that hangs is killed
 MEMORY_BYTES = 8 << 30  # a mutant that asks for more is killed
 
@@ -39,14 +39,14 @@ def sources(folder: Path, patterns: Sequence[str]) -> list[Path]:
     return sorted(path for pattern in patterns for path in folder.glob(pattern) if path.suffix in (".cpp", ".hpp"))
 
 
-def select(count: int, seed: int) -> Selection:
-    """`count` mutants, most of them in the read-out models."""
+def select(tree: Path, count: int, seed: int) -> Selection:
+    """`count` mutants of the sources in `tree`, most of them in the read-out models."""
     groups = []
     readout = round(READOUT_SHARE * count)
     for patterns, share in ((["readout/*"], readout), (OTHERS, count - readout)):
         found: list[Mutant] = []
-        for path in sources(ROOT / "tb_cpp", patterns):
-            found += cpp_operators.mutants(str(path.relative_to(ROOT)), path.read_text())
+        for path in sources(tree / "tb_cpp", patterns):
+            found += cpp_operators.mutants(str(path.relative_to(tree)), path.read_text())
         groups.append((found, share))
     return Selection(groups, random.Random(seed))
 
@@ -67,8 +67,10 @@ class Build:
                 shutil.copytree(source, self.tree / name, ignore=shutil.ignore_patterns("__pycache__"))
             else:
                 shutil.copy(source, self.tree / name)
-        flags = f"-include {HERE / 'live_mutant.hpp'} -w -Wno-error -Wno-narrowing"
-        command = ["cmake", "-S", self.tree / "tb_cpp", "-B", self.binary, "-G", "Ninja", f"-DCMAKE_CXX_FLAGS={flags}"]
+        flags = f"-O1 -include {HERE / 'live_mutant.hpp'} -w -Wno-error -Wno-narrowing"
+        command = ["cmake", "-S", self.tree / "tb_cpp", "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+                   f"-DCMAKE_CXX_FLAGS={flags}"]  # fmt: skip
+        self.originals: dict[str, str] = {}  # of the sources with mutants
         self._run(command, "CMake refuses the copy with mutants")
 
     def _run(self, command: Sequence[str | Path], failure: str) -> None:
@@ -109,7 +111,9 @@ class Build:
         by_file: dict[str, dict[Mutant, int]] = {file: {} for file in more}
         for mutant, number in numbered.items():
             by_file.setdefault(mutant.file, {})[mutant] = number
-        return {file: with_mutants((ROOT / file).read_text(), own) for file, own in by_file.items()}
+        for file in by_file:
+            self.originals.setdefault(file, (self.tree / file).read_text())
+        return {file: with_mutants(self.originals[file], own) for file, own in by_file.items()}
 
     def _refused(self, output: str, schemata: Mapping[str, Schemata]) -> set[Mutant]:
         """The mutants that the compiler's errors name; those in its notes if no error names one."""
@@ -167,11 +171,11 @@ def judge(build: Build, mutant: Mutant, number: int) -> Verdict:
     return Verdict(mutant, "survived", "")
 
 
-def same_object(mutant: Mutant) -> bool:
+def same_object(build: Build, mutant: Mutant) -> bool:
     """Whether the compiler makes the same code of the source with the mutant: then it is equivalent."""
     if not mutant.file.endswith(".cpp"):
         return False
-    text = (ROOT / mutant.file).read_text()
+    text = build.originals[mutant.file]
     changed = text[: mutant.begin] + mutant.mutated + text[mutant.end :]
     objects = []
     with tempfile.TemporaryDirectory() as scratch:
@@ -187,8 +191,8 @@ def same_object(mutant: Mutant) -> bool:
 
 def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
     """Compiles and judges `count` mutants. Stops if the tests fail without any."""
-    selection = select(count, seed)
     build = Build(folder, jobs)
+    selection = select(build.tree, count, seed)
     numbered = build.compile(selection)
     with ThreadPoolExecutor(jobs) as pool:
         for by in pool.map(lambda library: killer(build, library, 0), LIBRARIES):
@@ -201,7 +205,7 @@ def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
     progress.done()
     return [
         Verdict(verdict.mutant, "equivalent", "same object code")
-        if verdict.state == "survived" and same_object(verdict.mutant)
+        if verdict.state == "survived" and same_object(build, verdict.mutant)
         else verdict
         for verdict in verdicts
     ]

@@ -37,7 +37,7 @@ def _all(build: Builder, untouched: list[tuple[int, int]]) -> Iterator[Mutant]:
     for index, token in enumerate(source.tokens):
         if any(begin <= token.begin < end for begin, end in untouched):
             continue
-        if token.kind == "number":
+        if token.kind == "number" and not _fixed(source, index):
             for step in ("+ 1", "- 1"):
                 yield build.change("constant", index, index, f"{token.text} {step}")
         elif token.text in ("true", "false"):
@@ -52,6 +52,22 @@ def _all(build: Builder, untouched: list[tuple[int, int]]) -> Iterator[Mutant]:
             yield from _negated(build, *condition)
         if _begins_statement(source, index):
             yield from _changed_statement(build, index)
+
+
+def _fixed(source: Source, index: int) -> bool:
+    """Whether a number is a template's argument or marks a pure virtual function."""
+    before, after = source.at(index - 1), source.at(index + 1)
+    pure = before == "=" and after == ";" and source.at(index - 2) in (")", "const", "noexcept")
+    argument = after in (">", ",") and before in ("<", ",") and not source.is_binary(index - 1)
+    return pure or (argument and _in_template_arguments(source, index))
+
+
+def _in_template_arguments(source: Source, index: int) -> bool:
+    while index > 0 and source.at(index) not in (";", "{", "(", "}", ")"):
+        index -= 1
+        if source.at(index) == "<" and not source.is_binary(index):
+            return True
+    return False
 
 
 def _negated(build: Builder, first: int, last: int) -> Iterator[Mutant]:
@@ -138,11 +154,14 @@ def _places(source: Source) -> list[int]:
 
 
 def _untouched(source: Source) -> list[tuple[int, int]]:
-    """Arguments that are texts or types, and lists of template arguments."""
+    """Arguments that are texts or types, enumerators and template parameters."""
     found = []
     for index, token in enumerate(source.tokens):
         if token.text in _UNTOUCHED_CALLS and source.at(index + 1) == "(":
             found.append((token.begin, source.tokens[source.partner[index + 1]].end))
+        if token.text == "enum":
+            opening = next(place for place in range(index, len(source.tokens)) if source.at(place) == "{")
+            found.append((token.begin, source.tokens[source.partner[opening]].end))
     found += [match.span() for match in re.finditer(r"template <[^\n]*>$", source.text, re.MULTILINE)]
     return found
 
