@@ -60,3 +60,4 @@ clean:
 -include scripts/reproduce.mk
 -include scripts/photon_report.mk
 -include scripts/study.mk
+-include scripts/mutate.mk

@@ -191,7 +191,7 @@ def same_object(build: Build, mutant: Mutant) -> bool:
 
 def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
     """Compiles and judges `count` mutants. Stops if the tests fail without any."""
-    build = Build(folder, jobs)
+    build = Build(folder.resolve(), jobs)
     selection = select(build.tree, count, seed)
     numbered = build.compile(selection)
     with ThreadPoolExecutor(jobs) as pool:
@@ -204,7 +204,7 @@ def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
             progress.show(f"C++ mutants: {len(verdicts)} of {len(numbered)} judged")
     progress.done()
     return [
-        Verdict(verdict.mutant, "equivalent", "same object code")
+        Verdict(verdict.mutant, "proved equivalent", "the same object code")
         if verdict.state == "survived" and same_object(build, verdict.mutant)
         else verdict
         for verdict in verdicts

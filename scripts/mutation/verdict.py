@@ -3,6 +3,8 @@ from dataclasses import dataclass
 
 from mutation.mutant import Mutant
 
+STATES = ("killed", "proved equivalent", "argued equivalent", "survived")
+
 
 class MutationError(Exception):
     """A reason why mutants cannot be judged, in one line."""
@@ -11,5 +13,5 @@ class MutationError(Exception):
 @dataclass(frozen=True)
 class Verdict:
     mutant: Mutant
-    state: str  # killed, equivalent or survived
-    by: str  # the test that kills it, the proof of equivalence, or nothing
+    state: str  # one of STATES
+    by: str  # the test that kills it, the proof or the explanation; nothing if there is none

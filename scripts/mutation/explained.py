@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known about mutants that survive: explained.toml."""
+
+import tomllib
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from mutation.mutant import Mutant
+from mutation.verdict import MutationError, Verdict
+
+EXPLAINED = Path(__file__).resolve().parent / "explained.toml"
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Of every change of a text in one file to another."""
+
+    file: str
+    change: str
+    line: str  # the source line on which the change begins, without blanks at its ends
+    reason: str
+    equivalent: bool  # argued: no input can tell the mutant from the original
+
+    def fits(self, mutant: Mutant, line: str) -> bool:
+        return (self.file, self.change, self.line) == (mutant.file, mutant.change, line)
+
+
+def load(path: Path = EXPLAINED) -> list[Explanation]:
+    try:
+        entries = tomllib.loads(path.read_text(encoding="utf-8")).get("mutant", [])
+        return [Explanation(**{"equivalent": False, **entry}) for entry in entries]
+    except (OSError, TypeError, tomllib.TOMLDecodeError) as error:
+        raise MutationError(f"{path}: {error}") from None
+
+
+def explain(verdict: Verdict, line: str, known: list[Explanation]) -> Verdict:
+    """A survivor with its explanation; one that is argued to be equivalent becomes so. Others stay as they are."""
+    if verdict.state != "survived":
+        return verdict
+    for explanation in known:
+        if explanation.fits(verdict.mutant, line):
+            state = "argued equivalent" if explanation.equivalent else "survived"
+            return replace(verdict, state=state, by=explanation.reason)
+    return verdict

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes what became of the mutants: a table for people and one for programs."""
+
+import csv
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from mutation.verdict import STATES, Verdict
+
+LEAST_KILLED = 0.95  # of the mutants that are not equivalent
+
+
+def killed_share(verdicts: Sequence[Verdict]) -> float:
+    """Of the mutants that are not equivalent; 1 if there are none."""
+    states = Counter(verdict.state for verdict in verdicts)
+    judged = states["killed"] + states["survived"]
+    return states["killed"] / judged if judged else 1.0
+
+
+def unexplained(verdicts: Sequence[Verdict]) -> list[Verdict]:
+    return [verdict for verdict in verdicts if verdict.state == "survived" and not verdict.by]
+
+
+def summary(parts: Mapping[str, Sequence[Verdict]]) -> str:
+    """One row per language, then one per folder."""
+    lines = [f"| | mutants | {' | '.join(STATES)} | killed of the others |", f"|---|{'---:|' * (len(STATES) + 2)}"]
+    for title, verdicts in parts.items():
+        lines.append(_row(f"**{title}**", verdicts))
+        folders: dict[str, list[Verdict]] = {}
+        for verdict in verdicts:
+            folders.setdefault(str(Path(verdict.mutant.file).parent), []).append(verdict)
+        lines += [_row(folder, of_folder) for folder, of_folder in sorted(folders.items())]
+    return "\n".join(lines)
+
+
+def _row(title: str, verdicts: Sequence[Verdict]) -> str:
+    states = Counter(verdict.state for verdict in verdicts)
+    counts = " | ".join(str(states[state]) for state in STATES)
+    return f"| {title} | {len(verdicts)} | {counts} | {100 * killed_share(verdicts):.1f} % |"
+
+
+def markdown(parts: Mapping[str, Sequence[Verdict]], seed: int, command: str) -> str:
+    sections = [
+        "# Mutants",
+        f"What `{command}` found, seed {seed}. A mutant is one small change of the code: another operator or constant, "
+        "a condition negated, a statement removed. A killed mutant makes a test fail, crash or hang; the test is named "
+        "in [mutants.csv](mutants.csv). A proved equivalent one compiles to the same machine code or circuit, or Yosys "
+        "proves that no input tells it from the original; an argued equivalent one has its argument below.",
+        summary(parts),
+    ]
+    for state in ("survived", "argued equivalent", "proved equivalent"):
+        sections.append(f"## {state.capitalize()}")
+        named = [verdict for verdicts in parts.values() for verdict in verdicts if verdict.state == state]
+        sections.append("\n".join(_item(verdict) for verdict in named) or "None.")
+    return "\n\n".join(sections) + "\n"
+
+
+def _item(verdict: Verdict) -> str:
+    mutant = verdict.mutant
+    return f"- {mutant.file}:{mutant.line} `{mutant.change}`: {verdict.by or 'NOT EXPLAINED'}"
+
+
+def write(parts: Mapping[str, Sequence[Verdict]], seed: int, command: str, folder: Path) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "mutants.md").write_text(markdown(parts, seed, command), encoding="utf-8")
+    with (folder / "mutants.csv").open("w", encoding="utf-8", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["language", "file", "line", "operator", "change", "verdict", "by"])
+        for title, verdicts in parts.items():
+            for verdict in verdicts:
+                mutant = verdict.mutant
+                table.writerow([title, mutant.file, mutant.line, mutant.operator, mutant.change, verdict.state, verdict.by])
