@@ -7,6 +7,7 @@
 # make synth      area, timing and power of every configuration
 # make lint       RTL in three tools, C++ format and static analysis
 # make bench      speed of RTL, models and photon model
+# make mutate     small changes of RTL and models: which of them the tests notice (40 minutes)
 # make clean      remove build/
 BUILD := build/cpp
 SEED ?= 1

@@ -70,4 +70,5 @@ class Selection:
 
     @property
     def mutants(self) -> list[Mutant]:
-        return sorted((mutant for kept in self._kept for mutant in kept), key=lambda mutant: (mutant.file, mutant.begin))
+        chosen = (mutant for kept in self._kept for mutant in kept)
+        return sorted(chosen, key=lambda mutant: (mutant.file, mutant.begin))

@@ -70,4 +70,5 @@ def write(parts: Mapping[str, Sequence[Verdict]], seed: int, command: str, folde
         for title, verdicts in parts.items():
             for verdict in verdicts:
                 mutant = verdict.mutant
-                table.writerow([title, mutant.file, mutant.line, mutant.operator, mutant.change, verdict.state, verdict.by])
+                place = [title, mutant.file, mutant.line, mutant.operator, mutant.change]
+                table.writerow([*place, verdict.state, verdict.by])

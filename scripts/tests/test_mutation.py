@@ -6,7 +6,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-from mutation import cpp, cpp_operators, report, rtl, rtl_operators
+from mutation import cpp, cpp_operators, equivalence, report, rtl, rtl_operators
 from mutation.explained import Explanation, explain
 from mutation.mutant import Mutant, Selection, draw
 from mutation.schemata import with_mutants
@@ -191,7 +191,7 @@ class ReportOfRtl(unittest.TestCase):
             case = mock.Mock(frames=(1,), title="toy")
             bench = rtl.Bench(case, tree, ("iverilog", "-g2012", "-s", "toy_bench", "bench.sv", file))
             bench = rtl.measured(bench, tree)
-            self.assertEqual(bench.modules, {"toy", "toy_bench"})
+            self.assertEqual(bench.parameters["toy"], {frozenset({("MODE", 0)})})
             mutants = rtl_operators.mutants(file, TOY)
             wanted = {"in_i == 4'd3 -> in_i != 4'd3": "killed", "in_i != 4'd5 -> in_i == 4'd5": "survived",
                       "in_i > 4'd9 -> in_i <= 4'd9": "proved equivalent"}  # fmt: skip
@@ -199,6 +199,17 @@ class ReportOfRtl(unittest.TestCase):
                 mutant = next(mutant for mutant in mutants if mutant.change == change)
                 self.assertEqual(rtl.judge(mutant, TOY, [bench], tree).state, state, change)
             self.assertEqual((tree / file).read_text(), TOY)
+
+    def test_proof_of_equivalence(self):
+        with tempfile.TemporaryDirectory() as name:
+            tree = Path(name)
+            file = "hdl/control/toy.sv"
+            (tree / file).parent.mkdir(parents=True)
+            (tree / file).write_text(TOY)
+            for mutated, same in ((TOY.replace("in_i == 4'd3", "!(in_i != 4'd3)"), True),
+                                  (TOY.replace("in_i == 4'd3", "in_i == 4'd2"), False)):  # fmt: skip
+                proved = equivalence.proved(tree, [file], file, mutated, frozenset({("MODE", 0)}))
+                self.assertEqual(proved, same)
 
 
 if __name__ == "__main__":
