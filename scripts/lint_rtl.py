@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the RTL of every named configuration with Verilator -Wall, Yosys and Icarus Verilog.
 
-Also checks that illegal parameters stop elaboration with a sentence, that no construct is used which a tool is known
+Also checks that illegal parameters stop elaboration with their sentence and the last legal ones do not
+(hdl/lint/parameter_limits.csv), that no construct is used which a tool is known
 to read wrongly, that hdl/dtof.f reads in all three tools as its head says, and that the SRAM stand-ins become
 block RAM. Exits non-zero with the tool's message.
 """
@@ -23,33 +24,7 @@ SIZE = {  # enough to see every connection between columns, and between engines
     "dtof_array": {"SRAM_NUM": 2},
     "pool_pointer_array": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
 }
-ILLEGAL = {  # parameters of a top and a word of the sentence that must appear
-    ("dtof_array", "NP=2"): "NP must be",
-    ("dtof_array", "NB=11"): "NB must be",
-    ("dtof_array", "SRAM_NUM=0"): "SRAM_NUM must be",
-    ("dtof_array", "COUNT_WIDTH=17"): "COUNT_WIDTH must be",
-    ("dtof_array", "POINTER_STEP=512"): "POINTER_STEP must be",
-    ("dtof_array", "READOUT=8"): "READOUT must be",
-    ("dtof_array", "CONFIDENCE_WIDTH=9"): "CONFIDENCE_WIDTH must be",
-    ("dtof_array", "FRACTION_BITS=7"): "FRACTION_BITS must be",
-    ("dtof_array", "POINTER_PORTS=3"): "POINTER_PORTS must be",
-    ("pool_pointer_array", "NP=7"): "NP must be",
-    ("pool_pointer_array", "SLOTS=1"): "SLOTS must be",
-    ("pool_pointer_array", "COUNT_WIDTH=9"): "COUNT_WIDTH must be",
-    ("pool_pointer_array", "GROUP_SIZE=12"): "GROUP_SIZE must be",
-    ("pool_pointer_array", "GROUP_SIZE=4"): "32 bins",
-    ("pool_pointer_array", "DARK_LABELS=9"): "DARK_LABELS must be",
-    ("pool_pointer_array", "BRIGHT_SCORE_BITS=5"): "BRIGHT_SCORE_BITS 1 to 4",
-    ("pool_pointer_array", "BRIGHT_FROM=64"): "BRIGHT_FROM must be",
-    ("pool_pointer_array", "OFFSET_BITS=6"): "OFFSET_BITS must be",
-    ("pool_pointer_array", "ADVANTAGE_WIDTH=6"): "ADVANTAGE_WIDTH must be",
-    ("pool_pointer_array", "POINTER_SHIFT=3"): "POINTER_SHIFT",
-    ("pool_pointer_array", "RIVAL_MOVES=2"): "RIVAL_MOVES must be",
-    ("pool_pointer_array", "ENGINE_COLUMNS=0"): "ENGINE_COLUMNS must be",
-    ("pool_pointer_array", "ENGINE_COLUMNS=3"): "ENGINE_COLUMNS must be",
-}
-
-
+PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
      "a parameter is set to '1, which Yosys 0.23 folds to the value 1 where it has a type: write {WIDTH{1'b1}}"),
@@ -147,29 +122,51 @@ def check_block_rams() -> list[str]:
     return failures
 
 
-def check_illegal(top: str, setting: str, sentence: str) -> list[str]:
-    name, value = setting.split("=")
-    result = run(verilator(top, SIZE[top] | {name: int(value)}))
-    if result.returncode == 0 or sentence not in result.stdout:
-        return [f"illegal {setting} of {top} does not stop elaboration with '{sentence}':\n{result.stdout}"]
+def parameter_limits() -> list[tuple[str, dict[str, int], str]]:
+    """(top, settings, sentence; empty if they are legal) of every line of the table."""
+    lines = [line for line in PARAMETER_LIMITS.read_text().splitlines() if not line.startswith("#")]
+    rows = [line.split(",", 2) for line in lines[1:]]
+    return [(top, {name: int(value) for name, value in re.findall(r"(\w+)=(-?\d+)", settings)}, sentence)
+            for top, settings, sentence in rows]
+
+
+def check_limit(top: str, settings: dict[str, int], sentence: str) -> list[str]:
+    result = run(verilator(top, SIZE[top] | settings))
+    if not sentence:
+        return [f"legal {settings} of {top} are refused:\n{result.stdout}"] if result.returncode != 0 else []
+    if result.returncode == 0 or f"{top}: {sentence}\n" not in result.stdout:
+        return [f"illegal {settings} of {top} do not stop elaboration with '{sentence}':\n{result.stdout}"]
     return []
+
+
+def check_sentences(limits: list[tuple[str, dict[str, int], str]]) -> list[str]:
+    """Every requirement of the tops is in the table of limits."""
+    failures = []
+    for top in SIZE:
+        required = set(re.findall(rf'"{top}: ([^"]+)"', (HDL / "top" / f"{top}.sv").read_text()))
+        tried = {sentence for name, _, sentence in limits if name == top}
+        failures += [f"{PARAMETER_LIMITS.name} has no settings against '{text}' of {top}" for text in required - tried]
+    return failures
 
 
 def main() -> int:
     configurations = load(ROOT / "configurations.toml").values()
     sources = {str(path.relative_to(ROOT)): path.read_text() for path in sorted(HDL.rglob("*.sv"))}
-    failures = [*check_misread(sources), *check_file_list()]
+    limits = parameter_limits()
+    illegal = [sentence for _, _, sentence in limits if sentence]
+    failures = [*check_misread(sources), *check_file_list(), *check_sentences(limits)]
     with ThreadPoolExecutor(max_workers=2) as pool:
         block_ram = pool.submit(check_block_rams)
         legal = pool.map(check_legal, configurations)
-        illegal = pool.map(lambda item: check_illegal(*item[0], item[1]), ILLEGAL.items())
-        failures += [text for group in (*legal, *illegal, block_ram.result()) for text in group]
+        limit = pool.map(lambda row: check_limit(*row), limits)
+        failures += [text for group in (*legal, *limit, block_ram.result()) for text in group]
     for text in failures:
         print(text, file=sys.stderr)
     if not failures:
         print(
             f"RTL lint: {len(configurations)} configurations clean in Verilator, Yosys and Icarus Verilog; "
-            f"{len(ILLEGAL)} illegal parameters refused; stand-ins become block RAM ({', '.join(BLOCK_RAM)})"
+            f"{len(illegal)} illegal parameters refused, {len(limits) - len(illegal)} legal extremes taken; "
+            f"stand-ins become block RAM ({', '.join(BLOCK_RAM)})"
         )
     return 1 if failures else 0
 

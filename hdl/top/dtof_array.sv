@@ -19,12 +19,12 @@ module dtof_array #(
     parameter int NB = 5,                // bits of the coarse index, 1 to NP
     parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
     parameter int SRAM_NUM = 200,        // columns
-    parameter int SLOTS = 2,             // timestamps per pixel and acquisition
-    parameter int COUNT_WIDTH = 10,      // bits of a histogram bin
-    parameter int POINTER_STEP = 1,      // bins a pointer moves
-    parameter int FRACTION_BITS = 0,     // fractional bits of a pointer
-    parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none
-    parameter int GUARD = 46,            // hisPointer v2: ceil(FWHM / T_res)
+    parameter int SLOTS = 2,             // timestamps per pixel and acquisition, 1 to 16
+    parameter int COUNT_WIDTH = 10,      // bits of a histogram bin, 1 to 16
+    parameter int POINTER_STEP = 1,      // bins a pointer moves, 1 to 2^(NP-1) - 1
+    parameter int FRACTION_BITS = 0,     // fractional bits of a pointer, 0 to 8, with NP at most 16
+    parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none, at most 8
+    parameter int GUARD = 46,            // hisPointer v2: ceil(FWHM / T_res), at most 2^NP
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int POINTER_PORTS = 2,     // ports of the pointer SRAM; 1 needs SLOTS >= 2
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing

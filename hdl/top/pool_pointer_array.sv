@@ -16,17 +16,17 @@ module pool_pointer_array #(
     parameter int NP = 10,                // bits of a timestamp, 8 to 16
     parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
     parameter int SRAM_NUM = 200,         // columns
-    parameter int SLOTS = 2,              // timestamps per pixel and acquisition, 2 to 4
+    parameter int SLOTS = 2,              // timestamps per pixel and acquisition, 2 to 4: the SRAM has one port
     parameter int COUNT_WIDTH = 7,        // bits of a coarse bin, 4 to 8
-    parameter int GROUP_SIZE = 8,         // pixels that share a coarse histogram, a power of two
+    parameter int GROUP_SIZE = 8,         // pixels that share a coarse histogram, a power of two, 4 to 64
     parameter int DARK_LABELS = 5,        // candidates of a group in little light, 2 to 8
     parameter int DARK_SCORE_BITS = 4,    // bits of their scores, 1 to 4
     parameter int BRIGHT_LABELS = 5,      // the same in much light
     parameter int BRIGHT_SCORE_BITS = 4,
-    parameter int BRIGHT_FROM = 6,       // background from which it is
+    parameter int BRIGHT_FROM = 6,        // background from which it is, 0 to 63
     parameter int OFFSET_BITS = 5,        // bits of a leader's offset in the track phase, 2 to 5, 0 for none
     parameter int ADVANTAGE_WIDTH = 7,    // bits of the leader's advantage, 4 or 7
-    parameter int POINTER_SHIFT = 1,      // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2 or 4
+    parameter int POINTER_SHIFT = 1,      // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2, or 4
     parameter int RIVAL_MOVES = 1,        // 1: absolute pointers; 0: relative ones, the rival rests
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
@@ -71,25 +71,27 @@ module pool_pointer_array #(
   `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "pool_pointer_array: NP must be 8 to 16")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "pool_pointer_array: PIXELS_PER_SRAM must be at least 1")
   `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1, "pool_pointer_array: SRAM_NUM must be at least 1")
-  `DTOF_REQUIRE(g_illegal_slots, SLOTS >= 2 && SLOTS <= 4,
-                "pool_pointer_array: SLOTS must be 2 to 4, for its SRAM has one port")
+  `DTOF_REQUIRE(g_illegal_slots, SLOTS >= 2 && SLOTS <= 4, "pool_pointer_array: SLOTS must be 2 to 4")
   `DTOF_REQUIRE(g_illegal_count, COUNT_WIDTH >= 4 && COUNT_WIDTH <= 8,
                 "pool_pointer_array: COUNT_WIDTH must be 4 to 8")
-  `DTOF_REQUIRE(g_illegal_group, GROUP_SIZE >= 2 && GROUP_SIZE <= 64 && (1 << $clog2(GROUP_SIZE)) == GROUP_SIZE,
-                "pool_pointer_array: GROUP_SIZE must be a power of two from 2 to 64")
-  `DTOF_REQUIRE(g_illegal_dark, DARK_LABELS >= 2 && DARK_LABELS <= 8 && DARK_SCORE_BITS >= 1 && DARK_SCORE_BITS <= 4,
-                "pool_pointer_array: DARK_LABELS must be 2 to 8 and DARK_SCORE_BITS 1 to 4")
-  `DTOF_REQUIRE(g_illegal_bright,
-                BRIGHT_LABELS >= 2 && BRIGHT_LABELS <= 8 && BRIGHT_SCORE_BITS >= 1 && BRIGHT_SCORE_BITS <= 4,
-                "pool_pointer_array: BRIGHT_LABELS must be 2 to 8 and BRIGHT_SCORE_BITS 1 to 4")
+  `DTOF_REQUIRE(g_illegal_group, GROUP_SIZE >= 4 && GROUP_SIZE <= 64 && (1 << $clog2(GROUP_SIZE)) == GROUP_SIZE,
+                "pool_pointer_array: GROUP_SIZE must be a power of two from 4 to 64")
+  `DTOF_REQUIRE(g_illegal_dark_labels, DARK_LABELS >= 2 && DARK_LABELS <= 8,
+                "pool_pointer_array: DARK_LABELS must be 2 to 8")
+  `DTOF_REQUIRE(g_illegal_dark_score, DARK_SCORE_BITS >= 1 && DARK_SCORE_BITS <= 4,
+                "pool_pointer_array: DARK_SCORE_BITS must be 1 to 4")
+  `DTOF_REQUIRE(g_illegal_bright_labels, BRIGHT_LABELS >= 2 && BRIGHT_LABELS <= 8,
+                "pool_pointer_array: BRIGHT_LABELS must be 2 to 8")
+  `DTOF_REQUIRE(g_illegal_bright_score, BRIGHT_SCORE_BITS >= 1 && BRIGHT_SCORE_BITS <= 4,
+                "pool_pointer_array: BRIGHT_SCORE_BITS must be 1 to 4")
   `DTOF_REQUIRE(g_illegal_from, BRIGHT_FROM >= 0 && BRIGHT_FROM <= 63,
                 "pool_pointer_array: BRIGHT_FROM must be 0 to 63")
   `DTOF_REQUIRE(g_illegal_offset, OFFSET_BITS == 0 || (OFFSET_BITS >= 2 && OFFSET_BITS <= 5),
                 "pool_pointer_array: OFFSET_BITS must be 0 or 2 to 5")
-  `DTOF_REQUIRE(g_illegal_advantage,
-                (ADVANTAGE_WIDTH == 7 && POINTER_SHIFT >= 0 && POINTER_SHIFT <= 2)
-                || (ADVANTAGE_WIDTH == 4 && POINTER_SHIFT >= 0 && POINTER_SHIFT <= 4),
-                "pool_pointer_array: ADVANTAGE_WIDTH must be 7 with POINTER_SHIFT 0 to 2, or 4 with POINTER_SHIFT 0 to 4")
+  `DTOF_REQUIRE(g_illegal_advantage, ADVANTAGE_WIDTH == 4 || ADVANTAGE_WIDTH == 7,
+                "pool_pointer_array: ADVANTAGE_WIDTH must be 4 or 7")
+  `DTOF_REQUIRE(g_illegal_shift, POINTER_SHIFT >= 0 && POINTER_SHIFT <= ((ADVANTAGE_WIDTH == 4) ? 4 : 2),
+                "pool_pointer_array: POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4")
   `DTOF_REQUIRE(g_illegal_rival, RIVAL_MOVES == 0 || RIVAL_MOVES == 1,
                 "pool_pointer_array: RIVAL_MOVES must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_histogram,

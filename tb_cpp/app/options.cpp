@@ -97,7 +97,8 @@ void RunOptions::add_to(CLI::App& command) {
       ->add_option(
           "--rows", rows,
           "rows to read out: all, or one range, e.g. 40-79: with --columns a region of interest; others\n"
-          "are off and cost nothing. poolPointer sees the region as a smaller array: no neighbours beyond")
+          "are off and cost nothing. poolPointer's array always has at least 160 rows; those that are off,\n"
+          "and those beyond the sensor's, are dark neighbours")
       ->take_last()
       ->capture_default_str();
 }

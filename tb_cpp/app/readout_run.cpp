@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <memory>
+#include <utility>
 
 #include "core/pixel_sampler.hpp"
 #include "core/progress.hpp"
@@ -20,22 +22,23 @@
 namespace dtof {
 namespace {
 
-/// A source whose columns fill those of an array.
-class ArrayRows final : public StreamSource {
- public:
-  ArrayRows(const StreamSource& source, const RtlConfiguration& configuration)
-      : source_(source), configuration_(configuration) {}
-  [[nodiscard]] int columns() const override { return source_.columns(); }
-  [[nodiscard]] int rows() const override { return configuration_.pixels_per_sram; }
-  [[nodiscard]] std::uint32_t acquisitions() const override { return source_.acquisitions(); }
-  [[nodiscard]] ColumnStream column(int index) const override {
-    return with_dark_rows(source_.column(index), configuration_);
-  }
-
- private:
-  const StreamSource& source_;
-  RtlConfiguration configuration_;
+/// What a read-out's array sees of a region, the same for either engine.
+struct ArrayRows {
+  std::unique_ptr<StreamSource> source;
+  int first;        ///< sensor row of the source's row 0
+  RowRange region;  ///< the region's rows in the source
 };
+
+/// Pixels of a pool read-out look at their neighbours, so its arrays are whole: of as many rows as the
+/// compiled ones, those outside the region dark. All other pixels are independent, and the region's rows are
+/// enough.
+ArrayRows array_rows(const StreamSource& source, RowRange region, Readout readout) {
+  if (!is_pool_readout(readout)) {
+    return {row_region(source, region), region.first, {.first = 0, .count = region.count}};
+  }
+  const int rows = std::max(source.rows(), RtlConfiguration().pixels_per_sram);
+  return {dark_except(source, region, rows), 0, region};
+}
 
 /// For --columns: what the array held beside `columns[index]`; just that column where columns know nothing of
 /// each other.
@@ -50,31 +53,27 @@ std::string columns_to_trace(std::span<const int> columns, std::size_t index,
   return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
 }
 
-/// `source` has the region's rows only.
-void verify(const StreamSource& source, const ReadoutParameters& parameters, const RunOptions& options,
-            const Region& region, const std::string& command, const RtlSourceFrame& actual) {
-  const std::vector<int>& columns = region.columns;
-  const RtlConfiguration configuration =
-      find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
-  std::vector<PixelResult> expected =
-      run_frame(ArrayRows(source, configuration), parameters, options.threads, columns);
-  expected.resize(actual.results.size());
+/// Compares every row of the array.
+void verify(const ArrayRows& array, const ReadoutParameters& parameters, const RunOptions& options,
+            const std::vector<int>& columns, const std::string& command, const RtlSourceFrame& actual) {
+  const StreamSource& source = *array.source;
+  const std::vector<PixelResult> expected = run_frame(source, parameters, options.threads, columns);
   std::vector<Mismatch> mismatches = compare_frames(columns, expected, actual.results, actual.result_cycles);
   if (mismatches.empty()) {
     return;
   }
   for (Mismatch& mismatch : mismatches) {
-    mismatch.row += region.rows.first;
+    mismatch.row += array.first;
   }
   FrameContext context;
-  context.configuration = configuration;
+  context.configuration = find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
   context.acquisitions = source.acquisitions();
   context.seed = options.seed;
   const auto index =
       static_cast<std::size_t>(std::ranges::find(columns, mismatches.front().column) - columns.begin());
   context.reproduce =
       fmt::format("{} --readout {} --columns {} --trace mismatch.fst", command,
-                  readout_name(parameters.readout), columns_to_trace(columns, index, configuration));
+                  readout_name(parameters.readout), columns_to_trace(columns, index, context.configuration));
   throw RtlError(describe_mismatches(mismatches, expected.size(), context));
 }
 
@@ -85,28 +84,33 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
   const auto start = std::chrono::steady_clock::now();
   ReadoutRun run;
   const std::vector<int>& columns = region.columns;
-  const std::unique_ptr<StreamSource> rows = row_region(source, region.rows);
+  const ArrayRows array = array_rows(source, region.rows, parameters.readout);
   Progress progress(fmt::format("{} ({})", readout_title(parameters.readout), options.engine),
                     columns.size());
+  const auto finish = [&](std::vector<PixelResult> results) {
+    const auto first = static_cast<std::ptrdiff_t>(columns.size()) * array.region.first;
+    const auto last = first + static_cast<std::ptrdiff_t>(columns.size()) * array.region.count;
+    results.erase(results.begin() + last, results.end());
+    results.erase(results.begin(), results.begin() + first);
+    run.results = std::move(results);
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   if (options.rtl()) {
     RtlRunOptions rtl_options;
     rtl_options.trace = options.trace;
     const RtlSourceFrame frame =
-        run_frame_rtl(*rows, parameters, options.threads, columns, rtl_options, &progress);
-    run.results = frame.results;
+        run_frame_rtl(*array.source, parameters, options.threads, columns, rtl_options, &progress);
     run.cycles = frame.statistics.cycles;
-    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    finish(frame.results);
     if (options.verify) {
-      verify(*rows, parameters, options, region, command, frame);
+      verify(array, parameters, options, columns, command, frame);
     }
     return run;
   }
-  const auto* sampled = dynamic_cast<const SampledSource*>(rows.get());
-  // Read-outs that pool pixels need to know which detections share an acquisition.
-  const bool sample = sampled != nullptr && !options.streams_only && !is_pool_readout(parameters.readout);
-  run.results = sample ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
-                       : run_frame(*rows, parameters, options.threads, columns, &progress);
-  run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto* sampled = dynamic_cast<const SampledSource*>(array.source.get());
+  const bool sample = sampled != nullptr && !options.streams_only;
+  finish(sample ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
+                : run_frame(*array.source, parameters, options.threads, columns, &progress));
   return run;
 }
 

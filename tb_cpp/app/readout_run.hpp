@@ -20,10 +20,11 @@ struct ReadoutRun {
   double seconds = 0.0;              ///< wall time, photon generation included
 };
 
-/// Reads a region of `source` out with the engine of `options`; the region's rows are all that the array has
-/// (the RTL adds dark ones up to PIXELS_PER_SRAM). With --verify the RTL's pixels are compared with the
-/// model's, and a difference is thrown as RtlError that describes it. `command` is the command line to
-/// reproduce the run, without --columns and --trace. Throws InputError for a region outside the source.
+/// Reads a region of `source` out with the engine of `options`, which does not change a result. A pool
+/// read-out's array has the sensor's rows, at least the 160 of the compiled arrays, and those outside the
+/// region are dark. With --verify the RTL's pixels are compared with the model's, and a difference is thrown
+/// as RtlError that describes it. `command` is the command line to reproduce the run, without --columns and
+/// --trace. Throws InputError for a region outside the source.
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunOptions& options, const Region& region, const std::string& command);
 

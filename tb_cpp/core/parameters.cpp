@@ -21,6 +21,8 @@ struct ReadoutText {
 constexpr int kPoolCoarseBits = 5;
 constexpr int kPoolPositionBits = 16;
 constexpr int kPoolRivalBits = 7;
+constexpr int kPoolCellBits = 7;
+constexpr int kPoolBackgroundBits = 6;
 
 constexpr double kFwhmOverRange = 2.0 / 45.0;  // thesis: FWHM 2 ns, T_int 45 ns
 
@@ -40,10 +42,16 @@ constexpr std::array<ReadoutText, kModelReadouts.size()> kTexts = {{
 
 const ReadoutText& text(Readout readout) { return kTexts[static_cast<std::size_t>(readout)]; }
 
-void require_range(std::string_view name, int value, int lowest, int highest) {
-  if (value < lowest || value > highest) {
-    throw InputError(fmt::format("parameter {} is {}, but must be {} to {}", name, value, lowest, highest));
+// Sentences are word for word those with which the RTL stops elaboration (hdl/lint/parameter_limits.csv).
+void require(bool legal, std::string_view sentence, int value) {
+  if (!legal) {
+    throw InputError(fmt::format("{}, not {}", sentence, value));
   }
+}
+
+void require_range(std::string_view name, int value, int lowest, int highest) {
+  require(value >= lowest && value <= highest, fmt::format("{} must be {} to {}", name, lowest, highest),
+          value);
 }
 
 }  // namespace
@@ -92,22 +100,20 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
 }
 
 void PoolPointerParameters::validate() const {
-  require_range("group size", group_size, 2, 64);
-  if (!std::has_single_bit(static_cast<unsigned>(group_size))) {
-    throw InputError(fmt::format("group size is {}, but must be a power of two", group_size));
-  }
-  require_range("labels of dark groups", dark_labels, 2, 8);
-  require_range("score bits of dark groups", dark_score_bits, 1, 8);
-  require_range("labels of bright groups", bright_labels, 2, 8);
-  require_range("score bits of bright groups", bright_score_bits, 1, 8);
+  require(group_size >= 4 && group_size <= 64 && std::has_single_bit(static_cast<unsigned>(group_size)),
+          "GROUP_SIZE must be a power of two from 4 to 64", group_size);
+  require_range("DARK_LABELS", dark_labels, 2, 8);
+  require_range("DARK_SCORE_BITS", dark_score_bits, 1, 4);
+  require_range("BRIGHT_LABELS", bright_labels, 2, 8);
+  require_range("BRIGHT_SCORE_BITS", bright_score_bits, 1, 4);
   require_range("BRIGHT_FROM", bright_from, 0, 63);
-  require_range("offset bits", offset_bits, 0, 5);
-  if (count_bits != 4 && count_bits != 7) {
-    throw InputError(fmt::format("count bits is {}, but must be 4 or 7", count_bits));
-  }
-  require_range("pointer shift", pointer_shift, 0, count_bits == 4 ? 4 : 2);
-  require_range("coarse share", coarse_share, 1, 62);
-  require_range("track share", track_share, 1, 63 - coarse_share);
+  require(offset_bits == 0 || (offset_bits >= 2 && offset_bits <= 5), "OFFSET_BITS must be 0 or 2 to 5",
+          offset_bits);
+  require(count_bits == 4 || count_bits == 7, "ADVANTAGE_WIDTH must be 4 or 7", count_bits);
+  require(pointer_shift >= 0 && pointer_shift <= (count_bits == 4 ? 4 : 2),
+          "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4", pointer_shift);
+  require_range("COARSE_SHARE", coarse_share, 1, 62);
+  require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
 }
 
 int PoolPointerParameters::word_bits() const {
@@ -118,6 +124,13 @@ int PoolPointerParameters::word_bits() const {
   const int pointer_word = count_bits + (rival_moves ? kPoolPositionBits - pointer_shift + kPoolRivalBits
                                                      : 12 - pointer_shift + 2 * label_bits);
   return std::max(track_word, pointer_word);
+}
+
+bool PoolPointerParameters::histogram_fits(int count_width) const {
+  const int group_bits = kPoolCellBits * std::max(dark_labels, bright_labels) + kPoolBackgroundBits;
+  const int bins = std::max(2 * word_bits(), group_bits) / count_width;
+  const auto bins_of_a_word = static_cast<int>(std::bit_floor(static_cast<unsigned>(bins)));
+  return bins_of_a_word >= 4 && bins_of_a_word * (group_size / 2) >= 1 << kPoolCoarseBits;
 }
 
 PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {
@@ -162,20 +175,28 @@ ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
 void ReadoutParameters::validate() const {
   if (is_pool_readout(readout)) {
     require_range("NP", np, 8, kPoolPositionBits);
-    require_range("NB", nb, kPoolCoarseBits, kPoolCoarseBits);
-    require_range("SLOTS", slots, 1, 16);
+    require(nb == kPoolCoarseBits, "NB must be 5", nb);
+    require_range("SLOTS", slots, 2, 4);
     require_range("COUNT_WIDTH", count_width, 4, 8);
-    require_range("FRACTION_BITS", fraction_bits, kPoolPositionBits - np, kPoolPositionBits - np);
+    require(fraction_bits == kPoolPositionBits - np, "FRACTION_BITS must be 16 - NP", fraction_bits);
     pool.validate();
+    if (!pool.histogram_fits(count_width)) {
+      throw InputError(
+          fmt::format("32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE pixels: {} bits do not fit {}",
+                      count_width, pool.group_size));
+    }
   } else {
     require_range("NP", np, 3, 16);
-    require_range("NB", nb, 1, np);
+    require(nb >= 1 && nb <= np, "NB must be 1 to NP", nb);
     require_range("SLOTS", slots, 1, 16);
     require_range("COUNT_WIDTH", count_width, 1, 16);
-    require_range("POINTER_STEP", pointer_step, 1, (1 << (np - 1)) - 1);
-    require_range("FRACTION_BITS", fraction_bits, 0, std::min(8, 16 - np));
+    require(pointer_step >= 1 && pointer_step < 1 << (np - 1), "POINTER_STEP must be 1 to 2^(NP-1) - 1",
+            pointer_step);
+    require(fraction_bits >= 0 && fraction_bits <= 8 && np + fraction_bits <= 16,
+            "FRACTION_BITS must be 0 to 8 and NP + FRACTION_BITS at most 16", fraction_bits);
     require_range("CONFIDENCE_WIDTH", confidence_width, 0, 8);
-    require_range("GUARD", guard, 0, 1 << np);
+    require(readout != Readout::kHisPointer || (guard >= 0 && guard <= 1 << np), "GUARD must be 0 to 2^NP",
+            guard);
   }
   if (time_gate) {
     require_range("gate begin", time_gate->begin, 0, no_detection());

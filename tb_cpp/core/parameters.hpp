@@ -52,16 +52,18 @@ bool is_pool_readout(Readout readout);
 /// Parameters of the pool read-outs beyond those they share with the others (docs/poolpointer.md). Lengths
 /// are fractions of a coarse bin, a 32nd of the range.
 struct PoolPointerParameters {
-  int group_size = 8;       ///< G, pixels of a column that share a coarse histogram, a power of two, 2 .. 64
+  int group_size = 8;       ///< G, pixels of a column that share a coarse histogram, a power of two, 4 .. 64
   int dark_labels = 5;      ///< candidate depths of a group with background below BRIGHT_FROM, 2 .. 8
-  int dark_score_bits = 4;  ///< width of a candidate's score in a pixel word there, 1 .. 8
+  int dark_score_bits = 4;  ///< width of a candidate's score in a pixel word there, 1 .. 4
   int bright_labels = 5;    ///< the same in the other groups
   int bright_score_bits = 4;
   int bright_from = 6;  ///< BRIGHT_FROM, in units of a group's background word, 0 .. 63
-  int offset_bits = 5;  ///< leader's offset in the track phase, 32nds of a coarse bin, signed; 0: none
-  int count_bits = 7;   ///< the leader's advantage in the pointer phase, 4 or 7
-  int pointer_shift =
-      1;  ///< the unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins, 0 .. 2 or 4
+  int offset_bits =
+      5;               ///< leader's offset in the track phase, 32nds of a coarse bin, signed, 2 .. 5; 0: none
+  int count_bits = 7;  ///< ADVANTAGE_WIDTH: the leader's advantage in the pointer phase, 4 or 7
+  /// The unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4 if count_bits
+  /// is 4.
+  int pointer_shift = 1;
   bool rival_moves = true;  ///< the rival has a pointer of 7 bits; else it stays at its candidate
   int coarse_share = 16;    ///< 64ths of the frame: coarse phase
   int track_share = 16;     ///< 64ths of the frame: track phase
@@ -71,6 +73,8 @@ struct PoolPointerParameters {
   void validate() const;
   /// Bits of a pixel word.
   [[nodiscard]] int word_bits() const;
+  /// Whether a group's coarse histogram fits the words of its pixels, bins in powers of two, at least 4.
+  [[nodiscard]] bool histogram_fits(int count_width) const;
   bool operator==(const PoolPointerParameters&) const = default;
 };
 
@@ -114,7 +118,7 @@ struct ReadoutParameters {
   /// have NB = 5, COUNT_WIDTH = 8 and FRACTION_BITS = 16 - NP, which is no free choice there.
   static ReadoutParameters defaults(Readout readout, int np = 10);
 
-  /// Throws InputError with one sentence if a parameter is outside its range.
+  /// Throws InputError with the RTL's own sentence and the value if a parameter is outside its range.
   void validate() const;
 
   /// 2^NP.

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -34,6 +36,36 @@ class RowRegion : public Source {
   RowRange rows_;
 };
 
+class DarkExcept final : public StreamSource {
+ public:
+  DarkExcept(const StreamSource& source, RowRange lit, int rows) : source_(source), lit_(lit), rows_(rows) {}
+
+  [[nodiscard]] int columns() const override { return source_.columns(); }
+  [[nodiscard]] int rows() const override { return rows_; }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return source_.acquisitions(); }
+  [[nodiscard]] ColumnStream column(int index) const override {
+    const ColumnStream lit = source_.column_rows(index, lit_);
+    ColumnStream column;
+    for (int row = 0; row < rows_; ++row) {
+      const bool on = row >= lit_.first && row < lit_.first + lit_.count;
+      column.append_row(on ? lit.row(row - lit_.first) : std::span<const Detection>());
+    }
+    return column;
+  }
+
+ private:
+  const StreamSource& source_;
+  RowRange lit_;
+  int rows_;
+};
+
+void require_rows(RowRange rows, int available) {
+  if (rows.first < 0 || rows.count < 1 || rows.count > available - rows.first) {
+    throw InputError(fmt::format("{} rows from row {} are not within the source's 0 to {}", rows.count,
+                                 rows.first, available - 1));
+  }
+}
+
 class RegionSampler final : public PixelSampler {
  public:
   RegionSampler(std::unique_ptr<PixelSampler> sampler, int first_row)
@@ -62,14 +94,16 @@ class SampledRowRegion final : public RowRegion<SampledSource> {
 }  // namespace
 
 std::unique_ptr<StreamSource> row_region(const StreamSource& source, RowRange rows) {
-  if (rows.first < 0 || rows.count < 1 || rows.count > source.rows() - rows.first) {
-    throw InputError(fmt::format("{} rows from row {} are not within the source's 0 to {}", rows.count,
-                                 rows.first, source.rows() - 1));
-  }
+  require_rows(rows, source.rows());
   if (const auto* sampled = dynamic_cast<const SampledSource*>(&source)) {
     return std::make_unique<SampledRowRegion>(*sampled, rows);
   }
   return std::make_unique<RowRegion<StreamSource>>(source, rows);
+}
+
+std::unique_ptr<StreamSource> dark_except(const StreamSource& source, RowRange lit, int rows) {
+  require_rows(lit, std::min(source.rows(), rows));
+  return std::make_unique<DarkExcept>(source, lit, rows);
 }
 
 }  // namespace dtof

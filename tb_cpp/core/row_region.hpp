@@ -14,4 +14,10 @@ namespace dtof {
 /// `source` must outlive the result. Throws InputError unless there is a row and all are the source's.
 std::unique_ptr<StreamSource> row_region(const StreamSource& source, RowRange rows);
 
+/// A source of `rows` rows of which only `lit` are switched on: these are the rows of `source` with the same
+/// numbers, all others are dark and cost nothing.
+///
+/// `source` must outlive the result. Throws InputError unless `lit` is as for row_region and within `rows`.
+std::unique_ptr<StreamSource> dark_except(const StreamSource& source, RowRange lit, int rows);
+
 }  // namespace dtof

@@ -5,12 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <memory>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "analytic/fidelity.hpp"
 #include "core/error.hpp"
 #include "photon/photon_source.hpp"
+#include "readout/model.hpp"
 
 namespace dtof {
 namespace {
@@ -62,24 +63,21 @@ TEST(ReadoutRun, APixelsResultDoesNotDependOnTheRegion) {
   }
 }
 
-TEST(ReadoutRun, APoolReadoutTakesTheRegionForASmallerArray) {
-  class Alone final : public StreamSource {
-   public:
-    explicit Alone(ColumnStream stream) : stream_(std::move(stream)) {}
-    [[nodiscard]] int columns() const override { return 1; }
-    [[nodiscard]] int rows() const override { return stream_.rows(); }
-    [[nodiscard]] std::uint32_t acquisitions() const override { return 500; }
-    [[nodiscard]] ColumnStream column(int /*index*/) const override { return stream_; }
-
-   private:
-    ColumnStream stream_;
-  };
+TEST(ReadoutRun, APoolReadoutsArrayIsWholeAndDarkOutsideTheRegion) {
+  constexpr int kArrayRows = 160;
   const PhotonSource source = scene();
-  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer, 10);
   const Region region{.columns = {2}, .rows = {.first = 3, .count = 6}};
-  const Alone alone(source.column_rows(2, region.rows));
-  EXPECT_EQ(run_readout(source, parameters, {}, region, "dtof").results,
-            run_readout(alone, parameters, {}, Region::whole(1, 6), "dtof").results);
+  const ColumnStream lit = source.column_rows(2, region.rows);
+  ColumnStream array;
+  for (int row = 0; row < kArrayRows; ++row) {
+    array.append_row(row >= 3 && row < 9 ? lit.row(row - 3) : std::span<const Detection>());
+  }
+  for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
+    const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
+    const std::vector<PixelResult> whole = make_readout_model(parameters)->run_column(array, 500);
+    const std::vector<PixelResult> expected(whole.begin() + 3, whole.begin() + 9);
+    EXPECT_EQ(run_readout(source, parameters, {}, region, "dtof").results, expected);
+  }
 }
 
 TEST(ReadoutRun, RefusesARegionOutsideTheSource) {

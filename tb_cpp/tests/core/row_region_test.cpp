@@ -120,5 +120,30 @@ TEST(RowRegion, RefusesRowsThatTheSourceDoesNotHave) {
   }
 }
 
+TEST(DarkExcept, LitRowsKeepTheirPlaceAndTheOthersAreDark) {
+  const RowsOnlySource source;
+  const auto array = dark_except(source, {.first = 4, .count = 3}, 12);
+  EXPECT_EQ(array->columns(), 3);
+  EXPECT_EQ(array->rows(), 12);
+  EXPECT_EQ(array->acquisitions(), 8U);
+  const ColumnStream stream = array->column(2);
+  ASSERT_EQ(stream.rows(), 12);
+  for (int row = 0; row < 12; ++row) {
+    if (row < 4 || row > 6) {
+      EXPECT_TRUE(stream.row(row).empty()) << row;
+    } else {
+      EXPECT_THAT(stream.row(row), ElementsAre(Detection{7, static_cast<Timestamp>(200 + row)}));
+    }
+  }
+}
+
+TEST(DarkExcept, RefusesRowsThatSourceOrArrayDoNotHave) {
+  const NumberedSource source;
+  EXPECT_EQ(dark_except(source, {.first = 0, .count = 10}, 10)->column(0), source.column(0));
+  EXPECT_THROW((void)dark_except(source, {.first = 9, .count = 2}, 20), InputError);
+  EXPECT_THROW((void)dark_except(source, {.first = 4, .count = 3}, 6), InputError);
+  EXPECT_THROW((void)dark_except(source, {.first = 4, .count = 0}, 20), InputError);
+}
+
 }  // namespace
 }  // namespace dtof

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -70,6 +71,30 @@ TEST(RangeConverter, MedianIsFinerThanACode) {
   EXPECT_NEAR(RangeConverter::calibrate(runs).table().knots().front().position, 10.0 + 2.0 / 3.0 - 0.5,
               1e-12);
   EXPECT_NEAR(RangeConverter::calibrate(runs, 0.0).table().knots().front().position, 10.0, 1e-12);
+}
+
+TEST(RangeConverter, WeightIsTheReciprocalVarianceOfAMedian) {
+  // Of a normal distribution with the same quartiles, here 3 and 63.
+  const std::vector<TargetRun> spread = {run_at(0, 1.0, {0, 1, 3, 7, 15, 31, 63, 127, 255}),
+                                         run_at(1, 2.0, {1000, 1000, 1000, 1000})};
+  const RangeConverter converter = RangeConverter::calibrate(spread);
+  const std::vector<CalibrationPoint>& knots = converter.table().knots();
+  ASSERT_EQ(knots.size(), 2U);
+  const double sigma = 60.0 / 1.349;
+  EXPECT_NEAR(knots[0].weight, 9.0 / (0.5 * std::numbers::pi * sigma * sigma), 1e-9);
+  EXPECT_NEAR(knots[1].weight, 4.0 / (0.5 * std::numbers::pi), 1e-9);  // no finer than a code
+}
+
+TEST(RangeConverter, ARunCountsOnlyIfItGrowsByMoreThanTwoStandardErrors) {
+  // A median of n equal codes has the standard error sqrt(pi / 2 / n): 0.04 for 1000, 0.63 for 4, 0.51 for 6.
+  TargetRun sure{{1, 1}, 2.0, std::vector<Measurement>(1000, Measurement{20.0, 1.0})};
+  const auto reach_with = [&](std::initializer_list<double> codes) {
+    return RangeConverter::calibrate(
+               std::vector<TargetRun>{run_at(0, 1.0, {10.0}), sure, run_at(2, 3.0, codes)})
+        .reach_m();
+  };
+  EXPECT_EQ(reach_with({21, 21, 21, 21}), 2.0);
+  EXPECT_EQ(reach_with({21, 21, 21, 21, 21, 21}), 3.0);
 }
 
 TEST(RangeConverter, BentCodesWithOutliers) {

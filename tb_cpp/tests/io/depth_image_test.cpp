@@ -50,6 +50,12 @@ TEST_F(DepthImageTest, PngRoundTrip) {
   EXPECT_EQ(back.at(0, 1), back.metres[3]);
 }
 
+TEST_F(DepthImageTest, PngRoundsToMillimetres) {
+  write_depth_png(path("a.png"), {.width = 3, .height = 1, .metres = {1.2344F, 1.2346F, 0.0006F}});
+  EXPECT_THAT(read_depth_image(path("a.png")).metres,
+              ElementsAre(FloatEq(1.234F), FloatEq(1.235F), FloatEq(0.001F)));
+}
+
 TEST_F(DepthImageTest, PngRefusesWhatMillimetresCannotHold) {
   test::expect_input_error(
       [&] {

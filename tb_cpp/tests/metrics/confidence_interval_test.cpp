@@ -59,6 +59,22 @@ TEST(ConfidenceInterval, ShareByHand) {
   EXPECT_EQ(estimate_share(10, 10).interval.high, 1.0);
 }
 
+TEST(ConfidenceInterval, StandardDeviationByHand) {
+  // Relative variance of the variance: (kurtosis - (n - 3) / (n - 1)) / n, with the powers over n and the
+  // unbiased variance.
+  const std::vector<double> outlier = {0, 0, 0, 0, 0, 0, 0, 0, 0, 10};  // variance 10, kurtosis 6.57
+  const double factor = std::exp(0.5 * 1.959964 * std::sqrt((6.57 - 7.0 / 9.0) / 10.0));
+  const Estimate wide = estimate_standard_deviation(outlier);
+  EXPECT_NEAR(wide.value, std::sqrt(10.0), 1e-12);
+  EXPECT_NEAR(wide.interval.high, std::sqrt(10.0) * factor, 1e-5);
+  EXPECT_NEAR(wide.interval.low, std::sqrt(10.0) / factor, 1e-5);
+  const std::vector<double> two_points = {-1, -1, -1, -1, -1,
+                                          1,  1,  1,  1,  1};  // variance 10 / 9, kurtosis 0.81
+  const Estimate narrow = estimate_standard_deviation(two_points);
+  EXPECT_NEAR(narrow.interval.high / narrow.value,
+              std::exp(0.5 * 1.959964 * std::sqrt((0.81 - 7.0 / 9.0) / 10.0)), 1e-5);
+}
+
 TEST(ConfidenceInterval, CoverageOfMeanOfFewValues) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = make_random(1);

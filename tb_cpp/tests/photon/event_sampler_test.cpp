@@ -278,6 +278,27 @@ TEST(EventSampler, PulseAcrossTheRangesEndsLosesItsOutside) {
   }
 }
 
+TEST(EventSampler, APulsesTailReachesIntoTheRange) {
+  SCOPED_TRACE(test_seed_message());
+  const SensorModel model = test_model(50000);
+  // A centre so many sigma outside, and a pulse so bright that some per cent of the acquisitions see its
+  // tail.
+  for (const auto& [sigmas, signal] : {std::pair(2.5, 10.0), std::pair(3.5, 200.0), std::pair(5.0, 1e5)}) {
+    for (const double centre : {-sigmas * sigma_bins(model), 1024.0 + sigmas * sigma_bins(model)}) {
+      SCOPED_TRACE(testing::Message() << centre);
+      const CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kPhotons), 0, 4);
+      EventSampler sampler(model, 1);
+      double hit = 0.0;
+      for (const auto& events : split(
+               sampler.sample({.background = 0.0, .signal = signal, .centre_bins = centre}, random), model)) {
+        hit += events.empty() ? 0.0 : 1.0;
+      }
+      const double tail = 0.5 * std::erfc(sigmas / std::sqrt(2.0));
+      EXPECT_GT(binomial_p(hit, 50000.0, -std::expm1(-signal * tail)), kErrorRate);
+    }
+  }
+}
+
 TEST(EventSampler, SurvivesExtremeRates) {
   const CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kPhotons), 0, 3);
   for (const double fwhm : {4.4e-12, 2e-9, 45e-9}) {

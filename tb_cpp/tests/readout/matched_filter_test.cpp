@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -27,11 +28,12 @@ std::vector<Detection> detections_of(std::initializer_list<Timestamp> timestamps
   return detections;
 }
 
-// Straight from the formula, over every whole bin and without a cut template.
-std::pair<int, double> brute_force(const MatchedFilterParameters& p, std::span<const Detection> detections) {
+// Straight from the formula, from `first` to `last` in steps of `step` and without a cut template.
+std::pair<double, double> brute_force(const MatchedFilterParameters& p, std::span<const Detection> detections,
+                                      double first, double last, double step) {
   const double codes = std::ldexp(1.0, p.np);
-  std::pair<int, double> best{0, -1.0};
-  for (int tau = 0; tau < codes - 1; ++tau) {
+  std::pair<double, double> best{first, -1.0};
+  for (double tau = first; tau <= last; tau += step) {
     double sum = 0.0;
     for (const Detection& detection : detections) {
       if (detection.timestamp < codes - 1) {
@@ -63,6 +65,7 @@ TEST(MatchedFilter, OneDetectionIsItsOwnCentre) {
   MatchedFilter filter(kPulse);
   EXPECT_NEAR(filter.estimate(detections_of({300})).position, 300.0, 1e-9);
   EXPECT_NEAR(filter.estimate(detections_of({300, 302})).position, 301.0, 1e-9);
+  EXPECT_NEAR(filter.estimate(detections_of({300, 301})).position, 300.5, 1e-9);
   EXPECT_NEAR(filter.estimate(detections_of({0})).position, 0.0, 1e-9);
   EXPECT_NEAR(filter.estimate(detections_of({1022})).position, 1022.0, 1e-9);
 }
@@ -86,9 +89,12 @@ TEST(MatchedFilter, MaximumOfTheFormula) {
   for (int frame = 0; frame < 40; ++frame) {
     const std::vector<Detection> detections = random_frame(random, 1024.0 * random.uniform(), 20, 60);
     const MatchedFilter::Result result = filter.estimate(detections);
-    const auto [tau, score] = brute_force(kPulse, detections);
-    EXPECT_NEAR(result.position, tau, 0.5 + 1e-9) << "frame " << frame;
+    const auto [bin, score] = brute_force(kPulse, detections, 0.0, 1022.0, 1.0);
     EXPECT_NEAR(result.score, score, 1e-3 * score) << "frame " << frame;
+    const double first = std::max(bin - 1.0, 0.0);
+    const double last = std::min(bin + 1.0, 1022.0);
+    const double position = brute_force(kPulse, detections, first, last, 1.0 / 128.0).first;
+    EXPECT_NEAR(result.position, position, 0.05) << "frame " << frame;
   }
 }
 

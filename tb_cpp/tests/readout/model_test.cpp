@@ -179,26 +179,26 @@ TEST(IllegalParameters, RefusedWithASentence) {
     std::string message;
   };
   const std::vector<Case> cases = {
-      {[](ReadoutParameters& p) { p.np = 2; }, "parameter NP is 2, but must be 3 to 16"},
-      {[](ReadoutParameters& p) { p.np = 17; }, "NP is 17"},
-      {[](ReadoutParameters& p) { p.nb = 0; }, "parameter NB is 0, but must be 1 to 10"},
-      {[](ReadoutParameters& p) { p.nb = 11; }, "NB is 11"},
-      {[](ReadoutParameters& p) { p.slots = 0; }, "SLOTS is 0"},
-      {[](ReadoutParameters& p) { p.count_width = 0; }, "COUNT_WIDTH is 0"},
-      {[](ReadoutParameters& p) { p.count_width = 17; }, "COUNT_WIDTH is 17"},
-      {[](ReadoutParameters& p) { p.pointer_step = 0; }, "POINTER_STEP is 0"},
-      {[](ReadoutParameters& p) { p.pointer_step = 512; }, "POINTER_STEP is 512, but must be 1 to 511"},
-      {[](ReadoutParameters& p) { p.fraction_bits = 7; }, "FRACTION_BITS is 7, but must be 0 to 6"},
-      {[](ReadoutParameters& p) { p.confidence_width = 9; }, "CONFIDENCE_WIDTH is 9"},
-      {[](ReadoutParameters& p) { p.guard = -1; }, "GUARD is -1"},
+      {[](ReadoutParameters& p) { p.np = 2; }, "NP must be 3 to 16, not 2"},
+      {[](ReadoutParameters& p) { p.np = 17; }, "NP must be 3 to 16, not 17"},
+      {[](ReadoutParameters& p) { p.nb = 0; }, "NB must be 1 to NP, not 0"},
+      {[](ReadoutParameters& p) { p.nb = 11; }, "NB must be 1 to NP, not 11"},
+      {[](ReadoutParameters& p) { p.slots = 0; }, "SLOTS must be 1 to 16, not 0"},
+      {[](ReadoutParameters& p) { p.count_width = 0; }, "COUNT_WIDTH must be 1 to 16, not 0"},
+      {[](ReadoutParameters& p) { p.count_width = 17; }, "COUNT_WIDTH must be 1 to 16, not 17"},
+      {[](ReadoutParameters& p) { p.pointer_step = 0; }, "POINTER_STEP must be 1 to 2^(NP-1) - 1, not 0"},
+      {[](ReadoutParameters& p) { p.pointer_step = 512; }, "POINTER_STEP must be 1 to 2^(NP-1) - 1, not 512"},
+      {[](ReadoutParameters& p) { p.fraction_bits = 7; },
+       "FRACTION_BITS must be 0 to 8 and NP + FRACTION_BITS at most 16, not 7"},
+      {[](ReadoutParameters& p) { p.confidence_width = 9; }, "CONFIDENCE_WIDTH must be 0 to 8, not 9"},
       {[](ReadoutParameters& p) {
          p.time_gate = CodeGate{0, 1024};
        },
-       "gate end is 1024, but must be 0 to 1023"},
+       "gate end must be 0 to 1023, not 1024"},
       {[](ReadoutParameters& p) {
          p.time_gate = CodeGate{-1, 7};
        },
-       "gate begin is -1"},
+       "gate begin must be 0 to 1023, not -1"},
   };
   for (const Readout readout : kAllReadouts) {
     for (const Case& bad : cases) {

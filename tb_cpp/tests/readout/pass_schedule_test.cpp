@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <span>
 #include <vector>
+
+#include "core/pixel_sampler.hpp"
 
 namespace dtof {
 namespace {
@@ -56,6 +59,34 @@ TEST(PassCursor, EmptyRow) {
   PassCursor cursor({}, 15);
   cursor.advance_to(100, 0, 16,
                     [](std::uint32_t /*timestamp*/) { FAIL() << "an empty row has no timestamp"; });
+}
+
+// Draws what it was asked for and the no-detection code of 4 bits.
+class EchoSampler final : public PixelSampler {
+ public:
+  void start_pixel(int /*column*/, int /*row*/) override {}
+  std::span<const Timestamp> draw(std::uint32_t acquisitions, std::int32_t first,
+                                  std::int32_t last) override {
+    codes_ = {static_cast<Timestamp>(acquisitions), 15, static_cast<Timestamp>(first),
+              static_cast<Timestamp>(last)};
+    return codes_;
+  }
+
+ private:
+  std::vector<Timestamp> codes_;
+};
+
+TEST(SampledCursor, DrawsEachPassOnceAndDropsNoDetection) {
+  EchoSampler sampler;
+  SampledCursor cursor(sampler, 15);
+  const auto take = [&cursor](std::uint32_t end) {
+    std::vector<std::uint32_t> taken;
+    cursor.advance_to(end, 7, 9, [&taken](std::uint32_t timestamp) { taken.push_back(timestamp); });
+    return taken;
+  };
+  EXPECT_THAT(take(3), ElementsAre(3, 7, 9));
+  EXPECT_THAT(take(3), IsEmpty());
+  EXPECT_THAT(take(5), ElementsAre(2, 7, 9));
 }
 
 }  // namespace

@@ -133,5 +133,32 @@ TEST(PairedHisPointer, APulseOnABorderBeatsALoneBin) {
   EXPECT_EQ(make_readout_model(parameters)->run_column(column, 26).front().code, 656);
 }
 
+// Counts of coarse bins of 32 codes in measurement 1 and nothing in measurement 2: the code is the border in
+// the middle of the best pair.
+int best_pair_border(int count_width, const std::vector<std::pair<int, int>>& bins_and_counts) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHisPointer);
+  parameters.count_width = count_width;
+  ColumnStream column;
+  std::uint32_t acquisition = 0;
+  for (const auto& [bin, count] : bins_and_counts) {
+    for (int i = 0; i < count; ++i) {
+      column.append({acquisition++, static_cast<Timestamp>(32 * bin + 7)});
+    }
+  }
+  column.finish_row();
+  return make_paired_his_pointer(parameters)->run_column(column, 2 * acquisition).front().code / 32;
+}
+
+TEST(PairedHisPointer, TheLowestOfEqualPairsWins) {
+  EXPECT_EQ(best_pair_border(10, {{3, 2}, {15, 2}}), 3);
+  EXPECT_EQ(best_pair_border(10, {{3, 2}, {15, 3}}), 15);
+}
+
+TEST(PairedHisPointer, CountsSaturate) {
+  // Bin 20 stops at 3: less than the 4 of bins 25 and 26, and one count more would be a tie that it wins.
+  EXPECT_EQ(best_pair_border(2, {{20, 7}, {25, 3}, {26, 1}}), 26);
+  EXPECT_EQ(best_pair_border(3, {{20, 7}, {25, 3}, {26, 1}}), 20);
+}
+
 }  // namespace
 }  // namespace dtof

@@ -495,7 +495,7 @@ TEST_P(PoolPointer, ScenesAsReference) {
   constexpr std::array<double, 4> kBackgrounds = {0.01, 0.07, 0.3, 0.6};
   for (int trial = 0; trial < 24; ++trial) {
     ReadoutParameters parameters = parameters_;
-    parameters.slots = 1 + pick(random, 3);
+    parameters.slots = 2 + pick(random, 3);
     std::vector<int> codes(static_cast<std::size_t>(1 + pick(random, 40)));
     int surface = pick(random, 1024);
     for (int& code : codes) {
@@ -513,29 +513,51 @@ TEST_P(PoolPointer, ScenesAsReference) {
 
 TEST_P(PoolPointer, ParameterSweepAsReference) {
   CounterRandom random = test_random(3, GetParam());
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 60;) {
     const int np = 8 + pick(random, 5);
     ReadoutParameters parameters = ReadoutParameters::defaults(GetParam(), np);
     PoolPointerParameters& pool = parameters.pool;
     parameters.count_width = 4 + pick(random, 5);
-    pool.group_size = 2 << pick(random, 4);
+    pool.group_size = 4 << pick(random, 4);
     pool.dark_labels = 2 + pick(random, 7);
     pool.bright_labels = 2 + pick(random, 7);
-    pool.dark_score_bits = 1 + pick(random, 5);
-    pool.bright_score_bits = 1 + pick(random, 5);
+    pool.dark_score_bits = 1 + pick(random, 4);
+    pool.bright_score_bits = 1 + pick(random, 4);
     pool.bright_from = pick(random, 20);
-    pool.offset_bits = pick(random, 6);
+    pool.offset_bits = pick(random, 2) == 1 ? 2 + pick(random, 4) : 0;
     pool.count_bits = pick(random, 2) == 1 ? 4 : 7;
     pool.pointer_shift = pick(random, pool.count_bits == 4 ? 5 : 3);
     pool.rival_moves = pick(random, 2) == 1;
     pool.coarse_share = 4 + pick(random, 24);
     pool.track_share = 4 + pick(random, 24);
+    if (!pool.histogram_fits(parameters.count_width)) {
+      continue;
+    }
+    ++trial;
     std::vector<int> codes;
     for (int row = 1 + pick(random, 30); row > 0; --row) {
       codes.push_back(pick(random, parameters.code_count()));
     }
     const ColumnStream column = pulses(parameters, codes, 0.2, 0.5 * random.uniform(), 300, random);
     expect_as_reference(parameters, column, 300);
+  }
+}
+
+// Steps of a few units and less, whose parts below a unit are dithered by four bits of the acquisition.
+TEST_P(PoolPointer, FineGearsAsReference) {
+  CounterRandom random = test_random(5, GetParam());
+  const std::vector<int> codes = {300, 301, 302, 309, 640, 640, 640, 640};
+  for (const bool rival_moves : {false, true}) {
+    for (int shift = 0; shift <= 2; ++shift) {
+      ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
+      parameters.pool.pointer_shift = shift;
+      parameters.pool.rival_moves = rival_moves;
+      const ColumnStream column = pulses(parameters, codes, 0.8, 0.1, 3333, random);
+      expect_as_reference(parameters, column, 3333);
+      for (const PixelResult& result : make_readout_model(parameters)->run_column(column, 3333)) {
+        EXPECT_GE(result.confidence, 116) << "the finest gears were not reached";
+      }
+    }
   }
 }
 
@@ -589,11 +611,9 @@ TEST_P(PoolPointer, FindsOneSurfaceInStrongLight) {
 
 TEST_P(PoolPointer, OnePixelIsReadAlone) {
   CounterRandom random = test_random(7, GetParam());
-  ReadoutParameters parameters = parameters_;
-  parameters.pool.group_size = 2;
-  const ColumnStream alone = pulses(parameters, {300}, 0.3, 0.05, 1000, random);
-  const PixelResult result = make_readout_model(parameters)->run_column(alone, 1000).front();
-  EXPECT_NEAR(position(parameters, result), 300.0, 10.0);
+  const ColumnStream alone = pulses(parameters_, {300}, 0.3, 0.05, 1000, random);
+  const PixelResult result = make_readout_model(parameters_)->run_column(alone, 1000).front();
+  EXPECT_NEAR(position(parameters_, result), 300.0, 10.0);
 }
 
 TEST_P(PoolPointer, IsDeterministicAndKeepsNoState) {
@@ -620,17 +640,22 @@ TEST_P(PoolPointer, RefusesMalformedStreamsAndParameters) {
     spoil(parameters);
     EXPECT_THAT([&] { (void)make_readout_model(parameters); }, ThrowsMessage<InputError>(HasSubstr(message)));
   };
-  refused([](ReadoutParameters& p) { p.nb = 6; }, "NB is 6");
-  refused([](ReadoutParameters& p) { p.np = 7; }, "NP is 7");
-  refused([](ReadoutParameters& p) { p.fraction_bits = 4; }, "FRACTION_BITS is 4");
-  refused([](ReadoutParameters& p) { p.count_width = 9; }, "COUNT_WIDTH is 9");
-  refused([](ReadoutParameters& p) { p.pool.group_size = 0; }, "group size is 0");
+  refused([](ReadoutParameters& p) { p.nb = 6; }, "NB must be 5, not 6");
+  refused([](ReadoutParameters& p) { p.np = 7; }, "NP must be 8 to 16, not 7");
+  refused([](ReadoutParameters& p) { p.fraction_bits = 4; }, "FRACTION_BITS must be 16 - NP, not 4");
+  refused([](ReadoutParameters& p) { p.count_width = 9; }, "COUNT_WIDTH must be 4 to 8, not 9");
+  refused([](ReadoutParameters& p) { p.pool.group_size = 0; },
+          "GROUP_SIZE must be a power of two from 4 to 64, not 0");
   refused([](ReadoutParameters& p) { p.pool.group_size = 12; },
-          "group size is 12, but must be a power of two");
-  refused([](ReadoutParameters& p) { p.pool.pointer_shift = 5; }, "pointer shift is 5");
-  refused([](ReadoutParameters& p) { p.pool.dark_labels = 9; }, "labels of dark groups is 9");
-  refused([](ReadoutParameters& p) { p.pool.count_bits = 2; }, "count bits is 2");
-  refused([](ReadoutParameters& p) { p.pool.track_share = 60; }, "track share is 60");
+          "GROUP_SIZE must be a power of two from 4 to 64, not 12");
+  refused([](ReadoutParameters& p) { p.pool.pointer_shift = 5; },
+          "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4, not 5");
+  refused([](ReadoutParameters& p) { p.pool.dark_labels = 9; }, "DARK_LABELS must be 2 to 8, not 9");
+  refused([](ReadoutParameters& p) { p.pool.dark_score_bits = 0; }, "DARK_SCORE_BITS must be 1 to 4, not 0");
+  refused([](ReadoutParameters& p) { p.pool.bright_score_bits = 0; },
+          "BRIGHT_SCORE_BITS must be 1 to 4, not 0");
+  refused([](ReadoutParameters& p) { p.pool.count_bits = 2; }, "ADVANTAGE_WIDTH must be 4 or 7, not 2");
+  refused([](ReadoutParameters& p) { p.pool.track_share = 60; }, "TRACK_SHARE must be 1 to");
 }
 
 INSTANTIATE_TEST_SUITE_P(Products, PoolPointer,

@@ -85,7 +85,8 @@ TEST(RunFrame, RefusesWhatItCannotRead) {
   EXPECT_THAT([&] { run_frame(RandomSource(parameters, 4), parameters, 1); },
               ThrowsMessage<InputError>(HasSubstr("has 4 rows, its source says 5")));
   parameters.nb = 11;
-  EXPECT_THAT([&] { run_frame(source, parameters); }, ThrowsMessage<InputError>(HasSubstr("NB is 11")));
+  EXPECT_THAT([&] { run_frame(source, parameters); },
+              ThrowsMessage<InputError>(HasSubstr("NB must be 1 to NP, not 11")));
 }
 
 }  // namespace

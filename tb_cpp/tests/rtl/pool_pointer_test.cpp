@@ -357,6 +357,34 @@ TEST_P(SmallPoolPointer, AdvantageSaturates) {
   }
 }
 
+// Frames as long as a sensor's in strong light, so that pointers settle and move by the fine gears' dithered
+// steps.
+TEST_P(SmallPoolPointer, AgreesWithModelInTheFineGears) {
+  SCOPED_TRACE(test_seed_message());
+  constexpr std::uint32_t kAcquisitions = 3333;
+  const ReadoutParameters& parameters = GetParam().parameters;
+  CounterRandom random = test_random(test_seed(), 6);
+  const int width = parameters.code_count() / 16;  // of a pulse
+  std::vector<ColumnStream> columns(static_cast<std::size_t>(std::min(GetParam().sram_num, 2)));
+  for (ColumnStream& column : columns) {
+    const int begin = pick(random, parameters.code_count() - width);
+    for (int row = 0; row < GetParam().pixels_per_sram; ++row) {
+      for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+        const int code = pick(random, 10) == 0 ? pick(random, parameters.no_detection())
+                                               : begin + (pick(random, width) + pick(random, width)) / 2;
+        column.append({acquisition, static_cast<Timestamp>(code)});
+      }
+      column.finish_row();
+    }
+  }
+  RtlReadout rtl(GetParam());
+  RtlFrame frame;
+  ASSERT_TRUE(agrees_with_model(rtl, columns, kAcquisitions, default_options(test_seed()), &frame));
+  for (const PixelResult& result : frame.results) {
+    EXPECT_GE(result.confidence, parameters.pool.count_bits == 7 ? 116 : 15);
+  }
+}
+
 // The sweep in CMakeLists.txt holds every promised value.
 TEST(PoolPointerSweep, EveryValueOccurs) {
   using C = RtlConfiguration;
