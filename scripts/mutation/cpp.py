@@ -8,6 +8,7 @@ import resource
 import shutil
 import subprocess
 import tempfile
+import time
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -31,7 +32,7 @@ OTHERS = [
 ]  # fmt: skip
 # Test programs from quick to slow; a library's own one runs first.
 LIBRARIES = ["host", "core", "readout", "metrics", "io", "photon", "analytic"]
-TIMEOUT_S = 60.0  # several times the slowest program; a mutant that hangs is killed
+TIMEOUT_FACTOR = 5  # of a program's time without a mutant, and ten seconds more; a mutant that hangs is killed
 MEMORY_BYTES = 8 << 30  # a mutant that asks for more is killed
 
 
@@ -56,21 +57,21 @@ class Build:
 
     def __init__(self, folder: Path, jobs: int) -> None:
         self.jobs = jobs
+        self.original = folder / "original"  # whatever happens to the project meanwhile
         self.tree = folder / "tree"
         self.binary = folder / "build"
         self.log = folder / "build.log"
         shutil.rmtree(folder, ignore_errors=True)
-        self.tree.mkdir(parents=True)
         for name in TREE:
             source = ROOT / name
             if source.is_dir():
-                shutil.copytree(source, self.tree / name, ignore=shutil.ignore_patterns("__pycache__"))
+                shutil.copytree(source, self.original / name, ignore=shutil.ignore_patterns("__pycache__"))
             else:
-                shutil.copy(source, self.tree / name)
+                shutil.copy(source, self.original / name)
+        shutil.copytree(self.original, self.tree)
         flags = f"-O1 -include {HERE / 'live_mutant.hpp'} -w -Wno-error -Wno-narrowing"
         command = ["cmake", "-S", self.tree / "tb_cpp", "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
                    f"-DCMAKE_CXX_FLAGS={flags}"]  # fmt: skip
-        self.originals: dict[str, str] = {}  # of the sources with mutants
         self._run(command, "CMake refuses the copy with mutants")
 
     def _run(self, command: Sequence[str | Path], failure: str) -> None:
@@ -111,9 +112,7 @@ class Build:
         by_file: dict[str, dict[Mutant, int]] = {file: {} for file in more}
         for mutant, number in numbered.items():
             by_file.setdefault(mutant.file, {})[mutant] = number
-        for file in by_file:
-            self.originals.setdefault(file, (self.tree / file).read_text())
-        return {file: with_mutants(self.originals[file], own) for file, own in by_file.items()}
+        return {file: with_mutants((self.original / file).read_text(), own) for file, own in by_file.items()}
 
     def _refused(self, output: str, schemata: Mapping[str, Schemata]) -> set[Mutant]:
         """The mutants that the compiler's errors name; those in its notes if no error names one."""
@@ -134,7 +133,7 @@ def _limit_memory() -> None:
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
-def killer(build: Build, library: str, number: int) -> str | None:
+def killer(build: Build, library: str, number: int, timeout_s: float | None) -> str | None:
     """The test of a program that notices the mutant, or how the program ended; None if all tests pass."""
     with tempfile.TemporaryDirectory() as scratch:
         environment = {**os.environ, "DTOF_LIVE_MUTANT": str(number), "TMPDIR": scratch, "TEST_TMPDIR": scratch}
@@ -147,7 +146,7 @@ def killer(build: Build, library: str, number: int) -> str | None:
                 errors="replace",
                 env=environment,
                 cwd=scratch,
-                timeout=TIMEOUT_S,
+                timeout=timeout_s,
                 preexec_fn=_limit_memory,
             )
         except subprocess.TimeoutExpired:
@@ -163,9 +162,19 @@ def programs(mutant: Mutant) -> list[str]:
     return sorted(LIBRARIES, key=lambda library: library != own)
 
 
-def judge(build: Build, mutant: Mutant, number: int) -> Verdict:
+def unharmed(build: Build, library: str) -> float:
+    """Seconds that a program takes without a mutant. MutationError if it fails."""
+    started = time.monotonic()
+    by = killer(build, library, 0, None)
+    if by is not None:
+        raise MutationError(f"the tests fail without a mutant: {by}")
+    return time.monotonic() - started
+
+
+def judge(build: Build, mutant: Mutant, number: int, seconds: Mapping[str, float]) -> Verdict:
+    """`seconds`: what each program takes without a mutant."""
     for library in programs(mutant):
-        by = killer(build, library, number)
+        by = killer(build, library, number, TIMEOUT_FACTOR * seconds[library] + 10)
         if by is not None:
             return Verdict(mutant, "killed", by)
     return Verdict(mutant, "survived", "")
@@ -175,14 +184,15 @@ def same_object(build: Build, mutant: Mutant) -> bool:
     """Whether the compiler makes the same code of the source with the mutant: then it is equivalent."""
     if not mutant.file.endswith(".cpp"):
         return False
-    text = build.originals[mutant.file]
+    text = (build.original / mutant.file).read_text()
     changed = text[: mutant.begin] + mutant.mutated + text[mutant.end :]
+    includes = build.original / "tb_cpp"
     objects = []
     with tempfile.TemporaryDirectory() as scratch:
         for variant in (text, changed):
             source = Path(scratch) / "source.cpp"
             source.write_text(variant)
-            command = ["g++", "-std=c++20", "-O2", "-w", "-I", ROOT / "tb_cpp", "-c", source, "-o", f"{scratch}/object"]
+            command = ["g++", "-std=c++20", "-O2", "-w", "-I", includes, "-c", source, "-o", f"{scratch}/object"]
             if subprocess.run(command, stderr=subprocess.DEVNULL).returncode != 0:
                 return False
             objects.append(Path(scratch, "object").read_bytes())
@@ -192,14 +202,12 @@ def same_object(build: Build, mutant: Mutant) -> bool:
 def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
     """Compiles and judges `count` mutants. Stops if the tests fail without any."""
     build = Build(folder.resolve(), jobs)
-    selection = select(build.tree, count, seed)
+    selection = select(build.original, count, seed)
     numbered = build.compile(selection)
     with ThreadPoolExecutor(jobs) as pool:
-        for by in pool.map(lambda library: killer(build, library, 0), LIBRARIES):
-            if by is not None:
-                raise MutationError(f"the tests fail without a mutant: {by}")
+        seconds = dict(zip(LIBRARIES, pool.map(lambda library: unharmed(build, library), LIBRARIES)))
         verdicts = []
-        for verdict in pool.map(lambda item: judge(build, *item), numbered.items()):
+        for verdict in pool.map(lambda item: judge(build, *item, seconds), numbered.items()):
             verdicts.append(verdict)
             progress.show(f"C++ mutants: {len(verdicts)} of {len(numbered)} judged")
     progress.done()

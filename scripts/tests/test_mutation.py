@@ -125,8 +125,8 @@ class ReportOfCpp(unittest.TestCase):
             subprocess.run(["g++", "-std=c++20", "-include", header, source, "-o", program], check=True)
             build = mock.Mock(test_program=lambda library: program)
             with mock.patch.object(cpp, "LIBRARIES", ["core"]):
-                self.assertIsNone(cpp.killer(build, "core", 0))
-                verdicts = [cpp.judge(build, mutant, number) for number, mutant in enumerate(chosen, 1)]
+                seconds = {"core": cpp.unharmed(build, "core")}
+                verdicts = [cpp.judge(build, mutant, number, seconds) for number, mutant in enumerate(chosen, 1)]
             self.assertEqual([verdict.state for verdict in verdicts], ["killed", "killed", "survived"])
             report.write({"C++": verdicts}, 1, "make mutate", folder)
             text = (folder / "mutants.md").read_text()
