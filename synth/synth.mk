@@ -10,8 +10,9 @@
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
 # make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
 #                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
+# make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make synth-growth    how cost grows with the parameters
-.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist vectors
+.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -31,6 +32,6 @@ vectors: | build_folder
 sim-icarus: vectors
 	@synth/synth.py sim-icarus --seed $(SEED) $(CONFIGURATIONS)
 
-sim-netlist: vectors
-	@synth/synth.py sim-netlist --seed $(SEED) $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
+sim-netlist sim-netlist-full: vectors
+	@synth/synth.py $@ --seed $(SEED) $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
 	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW))

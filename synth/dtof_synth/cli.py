@@ -20,6 +20,7 @@ from .run import Technology, input_digest
 ROOT = Path(__file__).resolve().parents[2]
 BUDGETS = ROOT / "synth" / "budgets.csv"
 PDK = ROOT.parent / "shared" / "pdk"
+SIMULATION = ROOT / "build" / "simulation"
 
 
 def _say(text: str) -> None:
@@ -135,11 +136,12 @@ def _check(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
     return check.run(ROOT, PDK, named, _all_configurations(named), arguments.jobs, _say)
 
 
-SIMULATION = ROOT / "build" / "simulation"
+def _simulation_folder(kind: str, case: simulation.Case) -> Path:
+    return SIMULATION / kind / "_".join([case.name, *case.part.split()])
 
 
 def _simulation_folder(kind: str, case: simulation.Case) -> Path:
-    return SIMULATION / kind / "_".join(filter(None, (case.name, case.part)))
+    return SIMULATION / kind / "_".join([case.name, *case.part.split()])
 
 
 def _simulate_rtl(case: simulation.Case) -> simulation.Outcome:
@@ -150,31 +152,52 @@ def _simulate_netlist(technology: Technology, case: simulation.Case) -> simulati
     return simulation.simulate_netlist(case, technology, _simulation_folder("netlist", case))
 
 
+def _simulate_full(technology: Technology, case: simulation.Case) -> simulation.Outcome:
+    return simulation.simulate_full(case, technology, _simulation_folder("full", case))
+
+
+def _prepared(arguments: argparse.Namespace) -> Technology:
+    """The libraries of a netlist simulation; its SRAM sizes are its own."""
+    folder = SIMULATION / (arguments.liberty.name if arguments.liberty else "generic40")
+    return technologies.prepare(ROOT, folder, [], arguments.liberty, arguments.liberty_slow)
+
+
 def _sim_icarus(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     """RTL of small arrays against the model."""
-    return _simulate_all(arguments, named, lambda *case: [simulation.rtl_case(*case)], _simulate_rtl, "sim-icarus")
+    return _simulate(arguments, list(_select(named, arguments.configuration).values()),
+                     lambda *case: [simulation.rtl_case(*case)], _simulate_rtl)
 
 
 def _sim_netlist(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     """Netlists of small arrays against their RTL and the model."""
-    library = arguments.liberty.name if arguments.liberty else "generic40"
-    technology = technologies.prepare(ROOT, SIMULATION / library, [], arguments.liberty, arguments.liberty_slow)
-    return _simulate_all(arguments, named, simulation.netlist_cases,
-                         functools.partial(_simulate_netlist, technology), "sim-netlist")
+    return _simulate(arguments, list(_select(named, arguments.configuration).values()), simulation.netlist_cases,
+                     functools.partial(_simulate_netlist, _prepared(arguments)))
 
 
-def _simulate_all(arguments: argparse.Namespace, named: dict[str, Configuration], make_cases, work,
-                  command: str) -> int:
+def _sim_netlist_full(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Netlists of arrays in their full width against the model."""
+    chosen = list(_select(named, arguments.configuration or list(simulation.FULL_WIDTH)).values())
+    return _simulate(arguments, chosen, lambda *case: [simulation.full_case(*case)],
+                     functools.partial(_simulate_full, _prepared(arguments)))
+
+
+def _simulate(arguments: argparse.Namespace, chosen: list[Configuration], make_cases, work) -> int:
+    """The cases of some configurations, those that take longest first."""
     started = time.monotonic()
-    chosen = sorted(_select(named, arguments.configuration).values(), key=lambda item: not item.is_pool)
-    if arguments.trace and len(chosen) != 1:
+    if arguments.trace and len(arguments.configuration) != 1:
         raise FlowError("--trace needs the name of one configuration")
     trace = arguments.trace and arguments.trace.resolve()
+    chosen = sorted(chosen, key=simulation.expected_rank)
     cases = [case for item in chosen for case in make_cases(item, arguments.seed, trace)]
-    failed = simulation.run_all(cases, work, f"synth/synth.py {command}", arguments.jobs, _say)
-    _say(f"{command}: {len(cases) - failed} of {len(cases)} simulations of {len(chosen)} configurations pass, "
-         f"seed {arguments.seed}, {time.monotonic() - started:.0f} s")
+    failed = simulation.run_all(cases, work, f"synth/synth.py {arguments.command}", arguments.jobs, _say)
+    _say(f"{arguments.command}: {len(cases) - failed} of {len(cases)} simulations of {len(chosen)} configurations "
+         f"pass, seed {arguments.seed}, {time.monotonic() - started:.0f} s")
     return 1 if failed else 0
+
+
+def _add_liberty(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--liberty", type=Path, help="standard cells instead of the generated library")
+    parser.add_argument("--liberty-slow", type=Path, help="the same cells in the slow corner")
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -183,19 +206,19 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(dest="command", required=True)
     run = commands.add_parser("run", help="synthesise, time, report")
     run.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, with reports")
-    run.add_argument("--liberty", type=Path, help="standard cells instead of the generated library")
-    run.add_argument("--liberty-slow", type=Path, help="the same cells in the slow corner")
+    _add_liberty(run)
     run.add_argument("--strict", action="store_true", help="fail if a figure is worse than its budget")
     run.set_defaults(action=_run)
     for name, action, text in (("sim-icarus", _sim_icarus, "RTL against the model, four-state"),
-                               ("sim-netlist", _sim_netlist, "netlist against RTL and model, four-state")):
+                               ("sim-netlist", _sim_netlist, "netlist against RTL and model, four-state"),
+                               ("sim-netlist-full", _sim_netlist_full, "netlist of 200 columns against the model")):
         simulate = commands.add_parser(name, help=text)
-        simulate.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all")
+        simulate.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, or "
+                              f"{', '.join(simulation.FULL_WIDTH)} in their full width")
         simulate.add_argument("--seed", type=int, default=1, help="of the random frames")
         simulate.add_argument("--trace", type=Path, help="waveform to write (FST), with one configuration")
-        if action is _sim_netlist:
-            simulate.add_argument("--liberty", type=Path, help="standard cells instead of the generated library")
-            simulate.add_argument("--liberty-slow", type=Path, help="the same cells in the slow corner")
+        if action is not _sim_icarus:
+            _add_liberty(simulate)
         simulate.set_defaults(action=action)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),

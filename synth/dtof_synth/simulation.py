@@ -23,6 +23,9 @@ BENCHES = Path("synth/simulation")
 BEHAVIOURAL = Path("hdl/technology/behavioural")
 SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
 LONG_FRAME = 3333
+FULL_FRAME = 96
+FULL_WIDTH = ("ezpointer", "hispointer", "poolpointer")
+LONGEST_RUN_S = 1200
 NETLIST_SUFFIX = "_netlist"
 
 
@@ -55,6 +58,11 @@ class Outcome:
     seconds: float
 
 
+def expected_rank(configuration: Configuration) -> int:
+    """Configurations whose simulation takes longest come first."""
+    return 0 if configuration.is_pool else 1 if configuration.readout in ("histogram", "pifh") else 2
+
+
 def short_frames(seed: int, count: int) -> tuple[int, ...]:
     """0, 1 and 2 acquisitions, and some random frames; none of them first, so that each follows another."""
     numbers = random.Random(seed)
@@ -63,9 +71,9 @@ def short_frames(seed: int, count: int) -> tuple[int, ...]:
 
 
 def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
-    """The RTL alone, of three columns, or of two engines with two columns each and a group and a half of pixels."""
+    """The RTL alone, of three columns, or of two engines with two columns each and two groups of pixels."""
     if configuration.is_pool:
-        small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": 3 * configuration["GROUP_SIZE"] // 2}
+        small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
     else:
         small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 3 if configuration.readout == "histogram" else 5}
     return Case(configuration.with_parameters(configuration.name, **small), short_frames(seed, 4), seed, trace)
@@ -81,6 +89,13 @@ def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = 
     return [replace(rtl_case(configuration, seed, trace), frames=short_frames(seed, 2)),
             Case(configuration.with_parameters(configuration.name, **one_pair), (LONG_FRAME,), seed,
                  trace and trace.with_stem(f"{trace.stem}_long"), "long")]
+
+
+def full_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
+    """The netlist of the array in its full width, with few pixels in a column: one frame, begun, reset and run again."""
+    pixels = configuration["GROUP_SIZE"] + 2 if configuration.is_pool else 3
+    return Case(configuration.with_parameters(configuration.name, PIXELS_PER_SRAM=pixels), (FULL_FRAME,), seed,
+                trace, "full width")
 
 
 def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
@@ -114,7 +129,9 @@ def write_simulation_netlist(design: dict, configuration: Configuration, technol
 def _run(command: list[str], folder: Path, name: str) -> str:
     try:
         finished = subprocess.run(command, cwd=folder, check=False, stdout=subprocess.PIPE,
-                                  stderr=subprocess.STDOUT, text=True)
+                                  stderr=subprocess.STDOUT, text=True, timeout=LONGEST_RUN_S)
+    except subprocess.TimeoutExpired:
+        raise FlowError(f"{name}: {Path(command[0]).name} does not end: stopped after {LONGEST_RUN_S} s") from None
     except FileNotFoundError:
         hint = "make builds it" if Path(command[0]).name == VECTORS.name else "scripts/install_packages.sh installs it"
         raise FlowError(f"{command[0]} is missing; {hint}") from None
@@ -175,6 +192,23 @@ def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ..
         raise FlowError(f"{case.name}: Icarus Verilog warns: {said.strip().splitlines()[0]}")
     waveform = ["-fst", f"+trace={case.trace}"] if case.trace else []
     output = _run(["vvp", "-n", "bench.vvp", *waveform], folder, case.name)
+    (folder / "bench.log").write_text(output, encoding="utf-8")
+    return outcome(output, case, time.monotonic() - started)
+
+
+def simulate_full(case: Case, technology: Technology, folder: Path) -> Outcome:
+    """The netlist alone, two-state, in Verilator: for arrays that are too large for Icarus."""
+    started = time.monotonic()
+    root = technology.root
+    netlist_files = write_netlist(case.configuration, technology, folder, case.seed)
+    write_vectors(case, root, folder)
+    overrides = [f"-G{name}={value}" for name, value in bench_parameters(case, folder).items()]
+    _run(["verilator", "--binary", "-Wno-lint", "-Wno-style", "-DNETLIST", "-DNETLIST_ALONE",
+          f"-I{root / 'hdl' / 'package'}", "--top-module", f"{case.configuration.top}_bench", *overrides,
+          *(["--trace-fst"] if case.trace else []), "-o", "bench", *map(str, bench_files(case, root)),
+          *map(str, netlist_files)], folder, case.name)
+    output = _run([str(folder / "obj_dir" / "bench"), *([f"+trace={case.trace}"] if case.trace else [])], folder,
+                  case.name)
     (folder / "bench.log").write_text(output, encoding="utf-8")
     return outcome(output, case, time.monotonic() - started)
 

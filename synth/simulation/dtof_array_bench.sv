@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_array under stream_bench; with the macro NETLIST beside its netlist.
+// dtof_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the netlist only.
 module dtof_array_bench #(
     parameter int READOUT = 0,
     parameter int NP = 10,
@@ -36,6 +36,7 @@ module dtof_array_bench #(
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
   logic [TDATA_WIDTH+7:0] rtl, netlist;
 
+`ifndef NETLIST_ALONE
   dtof_array #(
       .READOUT         (READOUT),
       .NP              (NP),
@@ -71,6 +72,7 @@ module dtof_array_bench #(
       .result_tdata_o (rtl[TDATA_WIDTH-1:0]),
       .result_tlast_o (rtl[TDATA_WIDTH])
   );
+`endif
 
 `ifdef NETLIST
   dtof_array_netlist u_netlist (
@@ -91,6 +93,9 @@ module dtof_array_bench #(
       .result_tdata_o (netlist[TDATA_WIDTH-1:0]),
       .result_tlast_o (netlist[TDATA_WIDTH])
   );
+`ifdef NETLIST_ALONE
+  assign rtl = netlist;
+`endif
 `else
   assign netlist = rtl;
 `endif

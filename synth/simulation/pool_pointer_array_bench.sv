@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pool_pointer_array under stream_bench; with the macro NETLIST beside its netlist.
+// pool_pointer_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the netlist only.
 module pool_pointer_array_bench #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 12,
@@ -38,6 +38,7 @@ module pool_pointer_array_bench #(
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
   logic [TDATA_WIDTH+7:0] rtl, netlist;
 
+`ifndef NETLIST_ALONE
   pool_pointer_array #(
       .NP               (NP),
       .PIXELS_PER_SRAM  (PIXELS_PER_SRAM),
@@ -75,6 +76,7 @@ module pool_pointer_array_bench #(
       .result_tdata_o (rtl[TDATA_WIDTH-1:0]),
       .result_tlast_o (rtl[TDATA_WIDTH])
   );
+`endif
 
 `ifdef NETLIST
   pool_pointer_array_netlist u_netlist (
@@ -96,6 +98,9 @@ module pool_pointer_array_bench #(
       .result_tdata_o (netlist[TDATA_WIDTH-1:0]),
       .result_tlast_o (netlist[TDATA_WIDTH])
   );
+`ifdef NETLIST_ALONE
+  assign rtl = netlist;
+`endif
 `else
   assign netlist = rtl;
 `endif

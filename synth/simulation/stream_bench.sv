@@ -212,9 +212,9 @@ module stream_bench #(
     end
   endtask
 
-  // One clock: the inputs are set, the outputs settle and are checked, then comes the edge.
+  // A clock: the inputs are set, the outputs settle and are checked, then comes the edge.
 
-  task clock;
+  task settle;
     begin
       #1;
       if (checking) begin
@@ -222,6 +222,11 @@ module stream_bench #(
         check_netlist;
         check_stream;
       end
+    end
+  endtask
+
+  task step;
+    begin
       #1 clk_o = 1'b1;
       #2 clk_o = 1'b0;
       clocks = clocks + 1;
@@ -239,9 +244,9 @@ module stream_bench #(
 
   task drive;
     begin
-      // A start while busy, with the settings of another frame, changes nothing.
+      // A start while busy, with the settings of another frame, changes nothing, nor does one with done_o.
       draw(8, drawn);
-      start_o = (frame_clocks == 0) || (drawn == 0);
+      start_o = (frame_clocks == 0) || (drawn == 0) || done;
       set_settings(frame_clocks == 0);
       if (frame_clocks != 0 && start_o) begin
         draw(1 << 15, drawn);
@@ -310,8 +315,8 @@ module stream_bench #(
       ended = 1'b0;
       while (!ended && !failed) begin
         drive;
-        #1;
-        follow;
+        settle;
+        if (!failed) follow;
         ended = done || (frame_clocks == reset_at && reset_at != 0);
         if (done && (acquisition != frame_acquisitions[frame] || result != RESULTS)) begin
           $display("done_o after %0d acquisitions and %0d of %0d results", acquisition, result, RESULTS);
@@ -320,7 +325,7 @@ module stream_bench #(
         if (!failed && ended && !done) begin
           reset_array;
         end else if (!failed) begin
-          clock;
+          step;
           frame_clocks = frame_clocks + 1;
         end
       end
@@ -337,13 +342,15 @@ module stream_bench #(
       tdc_timestamp_o = {SRAM_NUM * NP{1'bx}};
       stalled = 1'b0;
       checking = 1'b1;
-      #1;
-      if (rtl_i[OUTPUT_WIDTH-1] !== 1'b0 || tvalid !== 1'b0) begin
-        $display("busy_o %b or result_tvalid_o %b in reset", busy, tvalid);
-        fail;
-      end
       draw(3, drawn);
-      repeat (drawn + 1) clock;
+      repeat (drawn + 1) begin
+        settle;
+        if (busy || tvalid) begin
+          $display("busy_o %b or result_tvalid_o %b in reset", busy, tvalid);
+          fail;
+        end
+        step;
+      end
       rst_no = 1'b1;
     end
   endtask
@@ -359,13 +366,13 @@ module stream_bench #(
           draw(2, drawn);
           tdc_valid_o = (drawn != 0);
           tdc_timestamp_o = {SRAM_NUM * NP{1'bx}};
-          #1;
+          settle;
           if (busy || done || tdc_ready || tvalid) begin
             $display("busy_o %b, done_o %b, tdc_ready_o %b or result_tvalid_o %b between frames", busy, done,
                      tdc_ready, tvalid);
             fail;
           end
-          if (!failed) clock;
+          step;
         end
       end
     end
@@ -410,7 +417,7 @@ module stream_bench #(
     tdc_timestamp_o = {SRAM_NUM * NP{1'bx}};
     result_tready_o = 1'b0;
     set_settings(1'b0);
-    repeat (2) clock;
+    repeat (2) step;
     reset_array;
     for (frame = 0; frame < FRAMES && !failed; frame = frame + 1) begin
       run_frame(0, length);
