@@ -2,7 +2,6 @@
 """Mutants of the C++ models: all are compiled into one build of the tests, which then run once for each."""
 
 import os
-import random
 import re
 import resource
 import shutil
@@ -30,8 +29,16 @@ OTHERS = [
     "io/photon_times_mat.cpp", "io/resampling.*", "io/result_csv.cpp", "io/stream_csv.cpp", "io/tmf8820_json.*",
     "io/tmf8829_json.*",
 ]  # fmt: skip
-# Test programs from quick to slow; a library's own one runs first.
-LIBRARIES = ["host", "core", "readout", "metrics", "io", "photon", "analytic"]
+# The test programs that link a library, its own first.
+PROGRAMS = {
+    "core": ["core", "readout", "metrics", "host", "io", "photon", "analytic"],
+    "readout": ["readout", "analytic"],
+    "metrics": ["metrics", "host", "analytic"],
+    "host": ["host"],
+    "photon": ["photon", "analytic"],
+    "io": ["io"],
+}
+LIBRARIES = sorted({program for programs in PROGRAMS.values() for program in programs})
 TIMEOUT_FACTOR = 5  # of a program's time without a mutant, and ten seconds more; a mutant that hangs is killed
 MEMORY_BYTES = 8 << 30  # a mutant that asks for more is killed
 
@@ -49,7 +56,7 @@ def select(tree: Path, count: int, seed: int) -> Selection:
         for path in sources(tree / "tb_cpp", patterns):
             found += cpp_operators.mutants(str(path.relative_to(tree)), path.read_text())
         groups.append((found, share))
-    return Selection(groups, random.Random(seed))
+    return Selection(groups, seed)
 
 
 class Build:
@@ -157,11 +164,6 @@ def killer(build: Build, library: str, number: int, timeout_s: float | None) -> 
     return f"{library}: {failed.group(1)}" if failed else f"{library}: crash"
 
 
-def programs(mutant: Mutant) -> list[str]:
-    own = mutant.file.split("/")[1]
-    return sorted(LIBRARIES, key=lambda library: library != own)
-
-
 def unharmed(build: Build, library: str) -> float:
     """Seconds that a program takes without a mutant. MutationError if it fails."""
     started = time.monotonic()
@@ -173,7 +175,7 @@ def unharmed(build: Build, library: str) -> float:
 
 def judge(build: Build, mutant: Mutant, number: int, seconds: Mapping[str, float]) -> Verdict:
     """`seconds`: what each program takes without a mutant."""
-    for library in programs(mutant):
+    for library in PROGRAMS[mutant.file.split("/")[1]]:
         by = killer(build, library, number, TIMEOUT_FACTOR * seconds[library] + 10)
         if by is not None:
             return Verdict(mutant, "killed", by)

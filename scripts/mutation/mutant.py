@@ -2,6 +2,7 @@
 """What a mutant is, and how mutants are drawn."""
 
 import random
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -33,23 +34,33 @@ def _one_line(text: str) -> str:
     return " ".join(text.split()) or "(removed)"
 
 
-def draw(mutants: Iterable[Mutant], generator: random.Random) -> Iterator[Mutant]:
-    """One mutant per statement, in random order; the kind of change is drawn first, then the change."""
+def draw(mutants: Iterable[Mutant], seed: int) -> Iterator[Mutant]:
+    """One mutant per statement, in random order; the kind of change is drawn first, then the change.
+
+    A statement's place in the order and its mutant depend on the seed and its own text alone, so that other code can
+    change without drawing new mutants.
+    """
     places: dict[tuple[str, int], list[Mutant]] = {}
     for mutant in mutants:
         places.setdefault((mutant.file, mutant.place), []).append(mutant)
-    order = list(places.values())
-    generator.shuffle(order)
-    for choices in order:
+    seen: Counter[str] = Counter()
+    ranked: list[tuple[float, Mutant]] = []
+    for (file, _), choices in places.items():
+        text = f"{file} {[mutant.change for mutant in choices]}"
+        seen[text] += 1
+        generator = random.Random(f"{seed} {seen[text]} {text}")
+        rank = generator.random()
         operator = generator.choice(sorted({mutant.operator for mutant in choices}))
-        yield generator.choice([mutant for mutant in choices if mutant.operator == operator])
+        ranked.append((rank, generator.choice([mutant for mutant in choices if mutant.operator == operator])))
+    for _, mutant in sorted(ranked, key=lambda item: (item[0], item[1].file, item[1].begin)):
+        yield mutant
 
 
 class Selection:
     """Mutants of several groups of files in given numbers; refused ones are replaced by the next drawn."""
 
-    def __init__(self, groups: Sequence[tuple[Iterable[Mutant], int]], generator: random.Random) -> None:
-        self._queues = [draw(mutants, generator) for mutants, _ in groups]
+    def __init__(self, groups: Sequence[tuple[Iterable[Mutant], int]], seed: int) -> None:
+        self._queues = [draw(mutants, seed) for mutants, _ in groups]
         self._wanted = [count for _, count in groups]
         self._kept: list[list[Mutant]] = [[] for _ in groups]
         self.fill()

@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-import random
 import subprocess
 import tempfile
 import unittest
@@ -90,12 +89,20 @@ class Operators(unittest.TestCase):
 class Drawing(unittest.TestCase):
     def test_one_mutant_per_statement_and_the_same_for_a_seed(self):
         mutants = cpp_operators.mutants("sample.cpp", CPP_SAMPLE)
-        first, again = (list(draw(mutants, random.Random(7))) for _ in range(2))
+        first, again = (list(draw(mutants, 7)) for _ in range(2))
         self.assertEqual(first, again)
         self.assertEqual(len({mutant.place for mutant in first}), len(first))
 
+    def test_other_statements_may_change(self):
+        changed = CPP_SAMPLE.replace("++a;", "++a; b = 0;")
+        first, second = (
+            {mutant.change for mutant in draw(cpp_operators.mutants("sample.cpp", text), 7)}
+            for text in (CPP_SAMPLE, changed)
+        )
+        self.assertLess(first, second)
+
     def test_refused_mutants_are_replaced(self):
-        selection = Selection([(cpp_operators.mutants("sample.cpp", CPP_SAMPLE), 3)], random.Random(7))
+        selection = Selection([(cpp_operators.mutants("sample.cpp", CPP_SAMPLE), 3)], 7)
         before = selection.mutants
         selection.refuse({before[0]})
         self.assertEqual(len(selection.mutants), 3)
@@ -124,7 +131,7 @@ class ReportOfCpp(unittest.TestCase):
             header = Path(cpp.__file__).parent / "live_mutant.hpp"
             subprocess.run(["g++", "-std=c++20", "-include", header, source, "-o", program], check=True)
             build = mock.Mock(test_program=lambda library: program)
-            with mock.patch.object(cpp, "LIBRARIES", ["core"]):
+            with mock.patch.dict(cpp.PROGRAMS, {"core": ["core"]}):
                 seconds = {"core": cpp.unharmed(build, "core")}
                 verdicts = [cpp.judge(build, mutant, number, seconds) for number, mutant in enumerate(chosen, 1)]
             self.assertEqual([verdict.state for verdict in verdicts], ["killed", "killed", "survived"])
