@@ -17,12 +17,12 @@ class Explanation:
 
     file: str
     change: str
-    line: str  # the source line on which the change begins, without blanks at its ends
+    source: str  # the line of the source on which the change begins, without blanks at its ends
     reason: str
     equivalent: bool  # argued: no input can tell the mutant from the original
 
-    def fits(self, mutant: Mutant, line: str) -> bool:
-        return (self.file, self.change, self.line) == (mutant.file, mutant.change, line)
+    def fits(self, mutant: Mutant) -> bool:
+        return (self.file, self.change, self.source) == (mutant.file, mutant.change, mutant.source)
 
 
 def load(path: Path = EXPLAINED) -> list[Explanation]:
@@ -33,12 +33,12 @@ def load(path: Path = EXPLAINED) -> list[Explanation]:
         raise MutationError(f"{path}: {error}") from None
 
 
-def explain(verdict: Verdict, line: str, known: list[Explanation]) -> Verdict:
+def explain(verdict: Verdict, known: list[Explanation]) -> Verdict:
     """A survivor with its explanation; one that is argued to be equivalent becomes so. Others stay as they are."""
     if verdict.state != "survived":
         return verdict
     for explanation in known:
-        if explanation.fits(verdict.mutant, line):
+        if explanation.fits(verdict.mutant):
             state = "argued equivalent" if explanation.equivalent else "survived"
             return replace(verdict, state=state, by=explanation.reason)
     return verdict

@@ -18,19 +18,20 @@ class Mutant:
     original: str
     mutated: str
     operator: str
+    source: str  # the line of the source on which it begins, without blanks at its ends
     place: int  # where its statement begins: one mutant per statement is drawn
     statement: bool = False  # the whole statement changes, not an expression
     constant: tuple[int, int] | None = None  # C++: the `constexpr` of the variable whose value changes
 
     @property
     def change(self) -> str:
-        return f"{_one_line(self.original)} -> {_one_line(self.mutated)}"
+        return f"{one_line(self.original)} -> {one_line(self.mutated)}"
 
     def overlaps(self, other: "Mutant") -> bool:
         return self.file == other.file and self.begin < other.end and other.begin < self.end
 
 
-def _one_line(text: str) -> str:
+def one_line(text: str) -> str:
     return " ".join(text.split()) or "(removed)"
 
 

@@ -32,14 +32,16 @@ class Builder:
         """A mutant that replaces the tokens first to last."""
         tokens = self.source.tokens
         begin = tokens[first].begin
+        line = self.source.line(begin)
         return Mutant(
             file=self.source.name,
-            line=self.source.line(begin),
+            line=line,
             begin=begin,
             end=tokens[last].end,
             original=self.source.span(first, last),
             mutated=mutated,
             operator=operator,
+            source=self.source.text.splitlines()[line - 1].strip(),
             place=self._places[first],
             **more,
         )

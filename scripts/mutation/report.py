@@ -6,7 +6,8 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from mutation.verdict import STATES, Verdict
+from mutation.mutant import Mutant, one_line
+from mutation.verdict import STATES, MutationError, Verdict
 
 LEAST_KILLED = 0.95  # of the mutants that are not equivalent
 
@@ -40,13 +41,15 @@ def _row(title: str, verdicts: Sequence[Verdict]) -> str:
     return f"| {title} | {len(verdicts)} | {counts} | {100 * killed_share(verdicts):.1f} % |"
 
 
-def markdown(parts: Mapping[str, Sequence[Verdict]], seed: int, command: str) -> str:
+def markdown(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int]) -> str:
+    drawn = ", ".join(f"{language} seed {seeds[language]}" for language in parts)
     sections = [
         "# Mutants",
-        f"What `{command}` found, seed {seed}. A mutant is one small change of the code: another operator or constant, "
-        "a condition negated, a statement removed. A killed mutant makes a test fail, crash or hang; the test is named "
-        "in [mutants.csv](mutants.csv). A proved equivalent one compiles to the same machine code or circuit, or Yosys "
-        "proves that no input tells it from the original; an argued equivalent one has its argument below.",
+        f"What `make mutate` found ({drawn}). A mutant is one small change of the code: another operator or constant, "
+        "a condition negated, a statement removed. A killed mutant makes a test fail, crash or hang; "
+        "[mutants.csv](mutants.csv) names it. A proved equivalent one compiles to the same machine code or circuit, or "
+        "Yosys and ABC prove that no input tells it from the original; an argued equivalent one has its argument "
+        "below.",
         summary(parts),
     ]
     for state in ("survived", "argued equivalent", "proved equivalent"):
@@ -61,14 +64,34 @@ def _item(verdict: Verdict) -> str:
     return f"- {mutant.file}:{mutant.line} `{mutant.change}`: {verdict.by or 'NOT EXPLAINED'}"
 
 
-def write(parts: Mapping[str, Sequence[Verdict]], seed: int, command: str, folder: Path) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "mutants.md").write_text(markdown(parts, seed, command), encoding="utf-8")
-    with (folder / "mutants.csv").open("w", encoding="utf-8", newline="") as file:
+COLUMNS = ["language", "seed", "file", "line", "operator", "original", "mutated", "verdict", "by", "source"]
+
+
+def write_table(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int], path: Path) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["language", "file", "line", "operator", "change", "verdict", "by"])
-        for title, verdicts in parts.items():
+        table.writerow(COLUMNS)
+        for language, verdicts in parts.items():
             for verdict in verdicts:
                 mutant = verdict.mutant
-                place = [title, mutant.file, mutant.line, mutant.operator, mutant.change]
-                table.writerow([*place, verdict.state, verdict.by])
+                change = [mutant.operator, one_line(mutant.original), one_line(mutant.mutated)]
+                found = [verdict.state, verdict.by, mutant.source]
+                table.writerow([language, seeds[language], mutant.file, mutant.line, *change, *found])
+
+
+def read_table(path: Path) -> tuple[dict[str, list[Verdict]], dict[str, int]]:
+    """The verdicts and seeds that a run has written; survivors without their explanations."""
+    parts: dict[str, list[Verdict]] = {}
+    seeds: dict[str, int] = {}
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            for row in csv.DictReader(file):
+                change = {name: row[name] for name in ("file", "original", "mutated", "operator", "source")}
+                mutant = Mutant(line=int(row["line"]), begin=0, end=0, place=0, **change)
+                survived = row["verdict"] in ("survived", "argued equivalent")
+                verdict = Verdict(mutant, "survived", "") if survived else Verdict(mutant, row["verdict"], row["by"])
+                parts.setdefault(row["language"], []).append(verdict)
+                seeds[row["language"]] = int(row["seed"])
+    except (OSError, KeyError, ValueError) as error:
+        raise MutationError(f"{path}: {error!r}: make mutate writes it") from None
+    return parts, seeds

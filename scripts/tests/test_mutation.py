@@ -5,6 +5,7 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
+import mutate
 from mutation import cpp, cpp_operators, equivalence, report, rtl, rtl_operators
 from mutation.explained import Explanation, explain
 from mutation.mutant import Mutant, Selection, draw
@@ -135,11 +136,14 @@ class ReportOfCpp(unittest.TestCase):
                 seconds = {"core": cpp.unharmed(build, "core")}
                 verdicts = [cpp.judge(build, mutant, number, seconds) for number, mutant in enumerate(chosen, 1)]
             self.assertEqual([verdict.state for verdict in verdicts], ["killed", "killed", "survived"])
-            report.write({"C++": verdicts}, 1, "make mutate", folder)
-            text = (folder / "mutants.md").read_text()
+            table = folder / "mutants.csv"
+            report.write_table({"C++": verdicts}, {"C++": 1}, table)
+            parts, seeds = report.read_table(table)
+            text = report.markdown(parts, seeds)
             self.assertIn("- tb_cpp/core/tested.cpp:4 `value + 1 -> value - 1`: NOT EXPLAINED", text)
             self.assertIn("| **C++** | 3 | 2 | 0 | 0 | 1 | 66.7 % |", text)
-            self.assertIn("value + 1 -> value - 1,survived", (folder / "mutants.csv").read_text())
+            self.assertEqual([verdict.state for verdict in parts["C++"]], ["killed", "killed", "survived"])
+            self.assertEqual(len(mutate.failures(parts)), 2)
 
     @staticmethod
     def find(mutants: list[Mutant], change: str) -> Mutant:
@@ -147,11 +151,11 @@ class ReportOfCpp(unittest.TestCase):
 
     def test_explanation_needs_the_same_line_and_changes_no_killed_mutant(self):
         mutant = cpp_operators.mutants("tested.cpp", TESTED)[0]
-        known = [Explanation("tested.cpp", mutant.change, "the line", "because", equivalent=True)]
         survived, killed = (Verdict(mutant, state, "") for state in ("survived", "killed"))
-        self.assertEqual(explain(survived, "the line", known).state, "argued equivalent")
-        self.assertEqual(explain(survived, "another line", known), survived)
-        self.assertEqual(explain(killed, "the line", known), killed)
+        for source, state in ((mutant.source, "argued equivalent"), ("another line", "survived")):
+            known = [Explanation("tested.cpp", mutant.change, source, "because", equivalent=True)]
+            self.assertEqual(explain(survived, known).state, state)
+            self.assertEqual(explain(killed, known), killed)
 
 
 TOY = """// SPDX-License-Identifier: Apache-2.0
