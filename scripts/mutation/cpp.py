@@ -8,11 +8,12 @@ import shutil
 import subprocess
 import tempfile
 import time
+import zlib
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from mutation import cpp_operators, progress
+from mutation import cpp_operators, progress, remembered
 from mutation.mutant import Mutant, Selection
 from mutation.schemata import Schemata, with_mutants
 from mutation.verdict import MutationError, Verdict
@@ -48,7 +49,7 @@ def sources(folder: Path, patterns: Sequence[str]) -> list[Path]:
 
 
 def select(tree: Path, count: int, seed: int) -> Selection:
-    """`count` mutants of the sources in `tree`, most of them in the read-out models."""
+    """The remembered mutants, and `count` others of the sources in `tree`, most of them in the read-out models."""
     groups = []
     readout = round(READOUT_SHARE * count)
     for patterns, share in ((["readout/*"], readout), (OTHERS, count - readout)):
@@ -56,7 +57,12 @@ def select(tree: Path, count: int, seed: int) -> Selection:
         for path in sources(tree / "tb_cpp", patterns):
             found += cpp_operators.mutants(str(path.relative_to(tree)), path.read_text())
         groups.append((found, share))
-    return Selection(groups, seed)
+    return Selection(groups, seed, remembered.load(tree, "tb_cpp"))
+
+
+def stable_number(mutant: Mutant) -> int:
+    """Depends on the mutant alone, so that a compiler cache knows a source whose mutants are the same."""
+    return zlib.crc32(f"{mutant.file} {mutant.begin} {mutant.mutated}".encode()) & 0x7FFFFFFF
 
 
 class Build:
@@ -91,7 +97,8 @@ class Build:
         """Compiles all mutants, replacing those that the compiler refuses; their numbers."""
         written: dict[str, str] = {}
         while True:
-            numbered = {mutant: number for number, mutant in enumerate(selection.mutants, 1)}
+            numbered = {mutant: stable_number(mutant) for mutant in selection.mutants}
+            assert len(set(numbered.values())) == len(numbered)
             schemata = self._schemata(numbered, set(written))
             for file, new in schemata.items():
                 if written.get(file) != new.text:

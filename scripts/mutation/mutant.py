@@ -58,9 +58,13 @@ def draw(mutants: Iterable[Mutant], seed: int) -> Iterator[Mutant]:
 
 
 class Selection:
-    """Mutants of several groups of files in given numbers; refused ones are replaced by the next drawn."""
+    """Mutants of several groups of files in given numbers, and those of which all are wanted.
 
-    def __init__(self, groups: Sequence[tuple[Iterable[Mutant], int]], seed: int) -> None:
+    Refused ones are replaced by the next drawn.
+    """
+
+    def __init__(self, groups: Sequence[tuple[Iterable[Mutant], int]], seed: int, always: Iterable[Mutant] = ()) -> None:
+        self._always = list(always)
         self._queues = [draw(mutants, seed) for mutants, _ in groups]
         self._wanted = [count for _, count in groups]
         self._kept: list[list[Mutant]] = [[] for _ in groups]
@@ -72,15 +76,16 @@ class Selection:
                 mutant = next(queue, None)
                 if mutant is None:
                     break
-                if not any(mutant.overlaps(other) for other in kept):
+                if not any(mutant.overlaps(other) for other in [*kept, *self._always]):
                     kept.append(mutant)
 
     def refuse(self, refused: set[Mutant]) -> None:
         """Replaces mutants that do not compile."""
+        self._always = [mutant for mutant in self._always if mutant not in refused]
         self._kept = [[mutant for mutant in kept if mutant not in refused] for kept in self._kept]
         self.fill()
 
     @property
     def mutants(self) -> list[Mutant]:
-        chosen = (mutant for kept in self._kept for mutant in kept)
+        chosen = [*self._always, *(mutant for kept in self._kept for mutant in kept)]
         return sorted(chosen, key=lambda mutant: (mutant.file, mutant.begin))

@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from mutation import equivalence, progress, rtl_operators
+from mutation import equivalence, progress, remembered, rtl_operators
 from mutation.mutant import Mutant, Selection
 from mutation.verdict import MutationError, Verdict
 
@@ -204,7 +204,7 @@ def select(tree: Path, count: int, seed: int) -> Selection:
     for pattern in PATTERNS:
         for path in sorted((tree / "hdl" / pattern).glob("*.sv")):
             found += rtl_operators.mutants(str(path.relative_to(tree)), path.read_text())
-    return Selection([(found, count)], seed)
+    return Selection([(found, count)], seed, remembered.load(tree, "hdl"))
 
 
 def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
@@ -252,7 +252,7 @@ def run(count: int, seed: int, folder: Path, jobs: int) -> list[Verdict]:
                     refused.add(mutant)
                 else:
                     verdicts[mutant] = verdict
-                progress.show(f"RTL mutants: {len(verdicts)} of {count} judged")
+                progress.show(f"RTL mutants: {len(verdicts)} of {len(selection.mutants)} judged")
             selection.refuse(refused)
     progress.done()
     return [verdicts[mutant] for mutant in selection.mutants]
