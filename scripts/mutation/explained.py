@@ -19,16 +19,18 @@ class Explanation:
     change: str
     source: str  # the line of the source on which the change begins, without blanks at its ends
     reason: str
+    above: str | None  # the line above that one, if the line alone stands in several places
     equivalent: bool  # argued: no input can tell the mutant from the original
 
     def fits(self, mutant: Mutant) -> bool:
-        return (self.file, self.change, self.source) == (mutant.file, mutant.change, mutant.source)
+        here = (self.file, self.change, self.source) == (mutant.file, mutant.change, mutant.source)
+        return here and self.above in (None, mutant.above)
 
 
 def load(path: Path = EXPLAINED) -> list[Explanation]:
     try:
         entries = tomllib.loads(path.read_text(encoding="utf-8")).get("mutant", [])
-        return [Explanation(**{"equivalent": False, **entry}) for entry in entries]
+        return [Explanation(**{"equivalent": False, "above": None, **entry}) for entry in entries]
     except (OSError, TypeError, tomllib.TOMLDecodeError) as error:
         raise MutationError(f"{path}: {error}") from None
 

@@ -19,6 +19,7 @@ class Mutant:
     mutated: str
     operator: str
     source: str  # the line of the source on which it begins, without blanks at its ends
+    above: str  # the line above it
     place: int  # where its statement begins: one mutant per statement is drawn
     statement: bool = False  # the whole statement changes, not an expression
     constant: tuple[int, int] | None = None  # C++: the `constexpr` of the variable whose value changes

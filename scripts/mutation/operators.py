@@ -33,6 +33,7 @@ class Builder:
         tokens = self.source.tokens
         begin = tokens[first].begin
         line = self.source.line(begin)
+        lines = self.source.lines
         return Mutant(
             file=self.source.name,
             line=line,
@@ -41,7 +42,8 @@ class Builder:
             original=self.source.span(first, last),
             mutated=mutated,
             operator=operator,
-            source=self.source.text.splitlines()[line - 1].strip(),
+            source=lines[line - 1].strip(),
+            above=lines[line - 2].strip() if line > 1 else "",
             place=self._places[first],
             **more,
         )

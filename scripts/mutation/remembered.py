@@ -31,6 +31,7 @@ def load(tree: Path, folder: str, path: Path = REMEMBERED) -> list[Mutant]:
                 mutated=entry["mutated"],
                 operator="remembered",
                 source=text.splitlines()[line - 1].strip(),
+                above=text.splitlines()[line - 2].strip(),
                 place=begin,
             )
         )

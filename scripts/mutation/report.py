@@ -64,7 +64,7 @@ def _item(verdict: Verdict) -> str:
     return f"- {mutant.file}:{mutant.line} `{mutant.change}`: {verdict.by or 'NOT EXPLAINED'}"
 
 
-COLUMNS = ["language", "seed", "file", "line", "operator", "original", "mutated", "verdict", "by", "source"]
+COLUMNS = ["language", "seed", "file", "line", "operator", "original", "mutated", "verdict", "by", "source", "above"]
 
 
 def write_table(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int], path: Path) -> None:
@@ -75,7 +75,7 @@ def write_table(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int]
             for verdict in verdicts:
                 mutant = verdict.mutant
                 change = [mutant.operator, one_line(mutant.original), one_line(mutant.mutated)]
-                found = [verdict.state, verdict.by, mutant.source]
+                found = [verdict.state, verdict.by, mutant.source, mutant.above]
                 table.writerow([language, seeds[language], mutant.file, mutant.line, *change, *found])
 
 
@@ -86,7 +86,7 @@ def read_table(path: Path) -> tuple[dict[str, list[Verdict]], dict[str, int]]:
     try:
         with path.open(encoding="utf-8", newline="") as file:
             for row in csv.DictReader(file):
-                change = {name: row[name] for name in ("file", "original", "mutated", "operator", "source")}
+                change = {name: row[name] for name in ("file", "original", "mutated", "operator", "source", "above")}
                 mutant = Mutant(line=int(row["line"]), begin=0, end=0, place=0, **change)
                 survived = row["verdict"] in ("survived", "argued equivalent")
                 verdict = Verdict(mutant, "survived", "") if survived else Verdict(mutant, row["verdict"], row["by"])

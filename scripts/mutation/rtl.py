@@ -58,6 +58,7 @@ MORE_PARAMETERS = {
         {"PIXELS_PER_SRAM": 11, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "SLOTS": 3, "DARK_LABELS": 6,
          "DARK_SCORE_BITS": 3, "BRIGHT_LABELS": 5, "BRIGHT_SCORE_BITS": 2, "BRIGHT_FROM": 1, "OFFSET_BITS": 0,
          "POINTER_SHIFT": 2},
+        {"PIXELS_PER_SRAM": 3, "SRAM_NUM": 6, "ENGINE_COLUMNS": 4},  # the last engine has fewer columns
         {"NP": 12, "PIXELS_PER_SRAM": 10, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "COUNT_WIDTH": 6, "OFFSET_BITS": 4},
     ],
 }  # fmt: skip

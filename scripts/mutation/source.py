@@ -18,6 +18,7 @@ class Source:
     def __init__(self, name: str, text: str, language: str) -> None:
         self.name = name
         self.text = text
+        self.lines = text.splitlines()
         self.language = language
         self.tokens = tokenise(text, language)
         self.partner = partners(self.tokens)

@@ -152,8 +152,11 @@ class ReportOfCpp(unittest.TestCase):
     def test_explanation_needs_the_same_line_and_changes_no_killed_mutant(self):
         mutant = cpp_operators.mutants("tested.cpp", TESTED)[0]
         survived, killed = (Verdict(mutant, state, "") for state in ("survived", "killed"))
-        for source, state in ((mutant.source, "argued equivalent"), ("another line", "survived")):
-            known = [Explanation("tested.cpp", mutant.change, source, "because", equivalent=True)]
+        for source, above, state in ((mutant.source, None, "argued equivalent"),
+                                     (mutant.source, mutant.above, "argued equivalent"),
+                                     (mutant.source, "another line", "survived"),
+                                     ("another line", None, "survived")):  # fmt: skip
+            known = [Explanation("tested.cpp", mutant.change, source, "because", above, equivalent=True)]
             self.assertEqual(explain(survived, known).state, state)
             self.assertEqual(explain(killed, known), killed)
 
