@@ -23,12 +23,13 @@ from mutation.verdict import MutationError, Verdict  # noqa: E402
 BUILD = ROOT / "build" / "mutate"
 TABLE = ROOT / "reports" / "mutants.csv"
 RUNS = {"C++": cpp.run, "RTL": rtl.run}
+COUNTS = {"C++": 200, "RTL": 160}
 
 
 def judged(language: str, arguments: argparse.Namespace) -> list[Verdict]:
     started = time.monotonic()
     folder = BUILD / RUNS[language].__module__.rpartition(".")[2]
-    verdicts = RUNS[language](arguments.count, arguments.seed, folder, arguments.jobs)
+    verdicts = RUNS[language](arguments.count or COUNTS[language], arguments.seed, folder, arguments.jobs)
     print(f"{language}: {len(verdicts)} mutants in {time.monotonic() - started:.0f} s", flush=True)
     return verdicts
 
@@ -47,32 +48,35 @@ def failures(parts: Mapping[str, Sequence[Verdict]]) -> list[str]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    known = load()
-    parts, seeds = report.read_table(TABLE) if arguments.only or arguments.explain else ({}, {})
-    if not arguments.explain:
+    chosen = [] if arguments.explain else [arguments.only] if arguments.only else list(RUNS)
+    if chosen:
         print(f"seed {arguments.seed}", flush=True)
-        for language in [arguments.only] if arguments.only else RUNS:
-            parts[language] = judged(language, arguments)
-            seeds[language] = arguments.seed
+    load()  # refuses damage before the long work
+    found = {language: judged(language, arguments) for language in chosen}
+    others = len(chosen) < len(RUNS) and (TABLE.exists() or arguments.explain)
+    parts, seeds = report.read_table(TABLE) if others else ({}, {})
+    parts |= found
+    seeds |= {language: arguments.seed for language in chosen}
+    known = load()
     explained = {name: [explain(verdict, known) for verdict in parts[name]] for name in RUNS if name in parts}
     report.write_table(explained, seeds, TABLE)
     TABLE.with_suffix(".md").write_text(report.markdown(explained, seeds), encoding="utf-8")
     print(report.summary(explained))
-    found = failures(explained)
-    for failure in found:
-        print(f"FAILED {failure}", file=sys.stderr)
-    return 1 if found else 0
+    reasons = failures(explained)
+    for reason in reasons:
+        print(f"FAILED {reason}", file=sys.stderr)
+    return 1 if reasons else 0
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--seed", type=int, default=1, help="draws the mutants")
-    parser.add_argument("--count", type=int, default=200, help="mutants of each language")
+    parser.add_argument("--count", type=int, help=f"mutants of each language, instead of {COUNTS}")
     parser.add_argument("--only", choices=RUNS, help="judges one language, and leaves the other as the table has it")
     parser.add_argument("--explain", action="store_true", help="judges nothing: writes the report anew from the table")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes at a time")
     arguments = parser.parse_args()
-    if arguments.count < 1 or arguments.jobs < 1:
+    if (arguments.count is not None and arguments.count < 1) or arguments.jobs < 1:
         parser.error("--count and --jobs must be at least 1")
     try:
         return run(arguments)
