@@ -4,11 +4,12 @@
 # make sim        the main job without the installation step
 # make reproduce  the thesis's accuracy statements, measured (minutes)
 # make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
-# make synth      area, timing and power of every configuration
+# make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
 # make lint       RTL in three tools, C++ format and static analysis
-# make formal     proofs of the RTL (scripts/formal.mk)
-# make coverage, make faults: scripts/faults.mk
+# make formal     proofs of the RTL (ten minutes)
+# make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
 # make bench      speed of RTL, models and photon model
+# make mutate     small changes of RTL and models: which of them the tests notice (40 minutes)
 # make clean      remove build/
 BUILD := build/cpp
 SEED ?= 1
@@ -64,3 +65,4 @@ clean:
 -include scripts/study.mk
 -include scripts/formal.mk
 -include scripts/faults.mk
+-include scripts/mutate.mk

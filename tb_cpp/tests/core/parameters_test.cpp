@@ -17,6 +17,34 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+TEST(ParameterDefaults, AreThoseOfTheRtl) {
+  const ReadoutParameters readout;
+  EXPECT_EQ(readout.np, 10);
+  EXPECT_EQ(readout.nb, 5);
+  EXPECT_EQ(readout.slots, 2);
+  EXPECT_EQ(readout.count_width, 10);
+  EXPECT_EQ(readout.pointer_step, 1);
+  EXPECT_EQ(readout.fraction_bits, 0);
+  EXPECT_EQ(readout.confidence_width, 4);
+  EXPECT_EQ(readout.guard, 46);
+  EXPECT_FALSE(readout.window_centred);
+  EXPECT_FALSE(readout.time_gate);
+  const PoolPointerParameters pool;
+  EXPECT_EQ(pool, PoolPointerParameters::defaults(Readout::kPoolPointer));
+  EXPECT_EQ(pool.group_size, 8);
+  EXPECT_EQ(pool.dark_labels, 5);
+  EXPECT_EQ(pool.dark_score_bits, 4);
+  EXPECT_EQ(pool.bright_labels, 5);
+  EXPECT_EQ(pool.bright_score_bits, 4);
+  EXPECT_EQ(pool.bright_from, 6);
+  EXPECT_EQ(pool.offset_bits, 5);
+  EXPECT_EQ(pool.count_bits, 7);
+  EXPECT_EQ(pool.pointer_shift, 1);
+  EXPECT_TRUE(pool.rival_moves);
+  EXPECT_EQ(pool.coarse_share, 16);
+  EXPECT_EQ(pool.track_share, 16);
+}
+
 TEST(ReadoutNames, RoundTripAndUnique) {
   std::set<std::string_view> titles;
   for (const Readout readout : kAllReadouts) {

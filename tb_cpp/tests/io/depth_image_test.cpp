@@ -129,11 +129,20 @@ TEST_F(DepthImageTest, PfmRefusals) {
           "PFM scale -0.0039 is not 1 or -1: the values are not metres");
   refused(write("a.pfm", "Pf\n1 x\n-1.0\n" + one), "PFM height \"x\" is not a number");
   refused(write("a.pfm", "Pf\n0 1\n-1.0\n"), "0 x 1 pixels: each must be 1..65535");
+  refused(write("a.pfm", "Pf\n65536 1\n-1.0\n"), "65536 x 1 pixels: each must be 1..65535");
+  refused(write("a.pfm", "Pf\n65535 1\n-1.0\n" + one), "65535 x 1 pixels need 262140 bytes, the file has 4");
   refused(write("a.pfm", "Pf\n1"), "the PFM header is damaged");
   refused(write("a.pfm", "Pf\n2 1\n-1.0\n" + one), "2 x 1 pixels need 8 bytes, the file has 4");
   refused(write("a.pfm", "Pf\n1 1\n-1.0\n" + one + "x"), "1 x 1 pixels need 4 bytes, the file has 5");
   write_pfm(path("n.pfm"), {.width = 2, .height = 1, .metres = {1.0F, -2.0F}});
   refused(path("n.pfm"), "column 1, row 0: negative depth -2 m");
+}
+
+TEST_F(DepthImageTest, WritersRefuseSizesThatDoNotFit) {
+  const DepthImage image{.width = 2, .height = 1, .metres = {1.0F}};
+  for (const auto writer : {write_pfm, write_depth_png}) {
+    test::expect_input_error([&] { writer(path("a"), image); }, EndsWith("image: 1 values for 2 x 1 pixels"));
+  }
 }
 
 TEST_F(DepthImageTest, Disparity) {

@@ -214,6 +214,10 @@ TEST(HistogramStream, Refusals) {
   refused({.slots = 0}, "SLOTS is 0, must be 1 or more");
   refused({.background = -0.1},
           "background is -0.1, must be 0 or more events an acquisition, at most 1e8 a frame");
+  Resampling bright{.acquisitions = 5000, .background = 2e4};  // 1e8 photons
+  bright.validate();
+  bright.acquisitions = 5001;
+  refused(bright, "background is 20000, must be 0 or more events an acquisition, at most 1e8 a frame");
   HistogramCube bad = cube;
   bad.true_distance = {1.0, 2.0};
   test::expect_input_error([&] { HistogramStream(bad, {.photon_budget = 1.0}); },

@@ -33,6 +33,7 @@ class Tmf8820Test : public test::IoTest {
 TEST_F(Tmf8820Test, ReadsCapturesIntoACube) {
   nlohmann::json json = {capture(0.1), capture(0.2)};
   json[1]["hists"][3][5] = 1000000;
+  json[0]["hists"][0][1] = 55;
   const auto captures = read_tmf8820_json(write("a.json", json.dump()));
   ASSERT_EQ(captures.size(), 2U);
   EXPECT_EQ(captures[1].histograms[3][5], 1000000U);
@@ -41,6 +42,7 @@ TEST_F(Tmf8820Test, ReadsCapturesIntoACube) {
   EXPECT_EQ(cube.columns, 2);
   EXPECT_EQ(cube.rows, 9);
   EXPECT_EQ(cube.pixel(1, 3)[5], 1e6);
+  EXPECT_EQ(cube.pixel(0, 0)[1], 55.0);
   EXPECT_EQ(cube.true_distance[3 * 2 + 1], 0.2);
 }
 

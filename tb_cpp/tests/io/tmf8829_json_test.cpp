@@ -17,15 +17,15 @@ namespace {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-/// Frame of 2 x 2 pixels; `first_bin(list, entry)` tells the histograms apart.
+/// Frame of two rows; `first_bin(list, entry)` tells the histograms apart.
 template <typename FirstBin>
-nlohmann::json frame(const FirstBin& first_bin) {
+nlohmann::json frame(const FirstBin& first_bin, int columns = 2) {
   nlohmann::json results;
   nlohmann::json histograms;
   for (int row = 0; row < 2; ++row) {
     nlohmann::json result_row;
     nlohmann::json histogram_row;
-    for (int column = 0; column < 2; ++column) {
+    for (int column = 0; column < columns; ++column) {
       result_row.push_back({{"noise", 1},
                             {"xtalk", 2},
                             {"peaks",
@@ -70,6 +70,14 @@ TEST_F(Tmf8829Test, ReadsResultsAndHistograms) {
   EXPECT_EQ(cube.rows, 2);
   EXPECT_EQ(cube.pixel(1, 0)[0], 1.0);
   EXPECT_NEAR(cube.true_distance[1], 1.001, 1e-12);
+}
+
+TEST_F(Tmf8829Test, MoreColumnsThanRows) {
+  const HistogramCube cube =
+      tmf8829_cube(read_tmf8829_json(write_log({frame([](int i, int j) { return 10 * i + j; }, 3)})));
+  EXPECT_EQ(cube.columns, 3);
+  EXPECT_EQ(cube.rows, 2);
+  EXPECT_EQ(cube.pixel(2, 1)[0], 12.0);
 }
 
 TEST_F(Tmf8829Test, RepeatedHistogramsBelongToRowZero) {

@@ -35,6 +35,20 @@ TEST(ArrivalTable, IsTheCumulativeMeanAtEveryBin) {
   }
 }
 
+TEST(AtLeast, IsTheUpperTailOfPoisson) {
+  for (const double mean : {1e-6, 0.3, 2.0, 30.0}) {
+    EXPECT_EQ(at_least(0, mean), 1.0);
+    EXPECT_NEAR(at_least(1, mean), -std::expm1(-mean), 1e-14);
+    EXPECT_NEAR(at_least(2, mean), -std::expm1(-mean) - mean * std::exp(-mean), 1e-14);
+  }
+}
+
+TEST(PixelRates, AreDarkUnlessSaidOtherwise) {
+  const PixelRates dark;
+  EXPECT_EQ(dark.background, 0.0);
+  EXPECT_EQ(dark.signal, 0.0);
+}
+
 TEST(ArrivalTable, KeptEventsAreTheExpectedDetections) {
   SensorModel sensor;
   for (const int slots : {1, 2, 4}) {

@@ -119,6 +119,8 @@ TEST(MatchedFilter, ReachesTheSpreadOfTheMeanWithoutBackground) {
   EXPECT_NEAR(sum / kFrames, 0.0, 4.0 * bound / std::sqrt(kFrames));
 }
 
+TEST(MatchedFilter, HasTenBitsUnlessSaidOtherwise) { EXPECT_EQ(MatchedFilterParameters{}.np, 10); }
+
 TEST(MatchedFilter, Refusals) {
   const auto changed = [](auto change) {
     MatchedFilterParameters parameters = kPulse;

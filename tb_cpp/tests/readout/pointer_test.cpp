@@ -154,6 +154,12 @@ TEST(PairedHisPointer, TheLowestOfEqualPairsWins) {
   EXPECT_EQ(best_pair_border(10, {{3, 2}, {15, 3}}), 15);
 }
 
+TEST(PairedHisPointer, EveryPairMayWin) {
+  for (int pair = 0; pair < 31; ++pair) {
+    EXPECT_EQ(best_pair_border(10, {{pair, 2}, {pair + 1, 2}, {(pair + 16) % 32, 3}}), pair + 1);
+  }
+}
+
 TEST(PairedHisPointer, CountsSaturate) {
   // Bin 20 stops at 3: less than the 4 of bins 25 and 26, and one count more would be a tie that it wins.
   EXPECT_EQ(best_pair_border(2, {{20, 7}, {25, 3}, {26, 1}}), 26);

@@ -479,7 +479,7 @@ TEST_P(PoolPointer, EveryKindOfStreamAsReference) {
   CounterRandom random = test_random(1, GetParam());
   for (const StreamKind kind : kStreamKinds) {
     SCOPED_TRACE(std::string(stream_name(kind)));
-    for (const int rows : {1, 7, 19}) {
+    for (const int rows : {1, 7, 19, 32}) {
       const auto acquisitions = static_cast<std::uint32_t>(1 + pick(random, 500));
       ColumnStream column;
       for (int row = 0; row < rows; ++row) {

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: Apache-2.0
+# make mutate     small changes of RTL and C++ models, and which of them the tests notice (40 minutes): reports/mutants.md
+#                 SEED=2 other mutants; COUNT=50 so many of each language
+.PHONY: mutate
+mutate: vectors
+	@scripts/mutate.py --seed $(SEED) $(if $(COUNT),--count $(COUNT))

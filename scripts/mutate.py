@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Changes RTL and C++ models in many small ways, one at a time, and counts the changes that the tests notice.
+
+Writes reports/mutants.csv and reports/mutants.md. Ends with status 1 if fewer than 95 % of the mutants that are not
+equivalent are killed, or if a survivor is not explained in scripts/mutation/explained.toml.
+"""
+
+import argparse
+import os
+import sys
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts"))
+
+from mutation import cpp, report, rtl  # noqa: E402
+from mutation.explained import explain, load  # noqa: E402
+from mutation.verdict import MutationError, Verdict  # noqa: E402
+
+BUILD = ROOT / "build" / "mutate"
+TABLE = ROOT / "reports" / "mutants.csv"
+RUNS = {"C++": cpp.run, "RTL": rtl.run}
+COUNTS = {"C++": 200, "RTL": 160}
+
+
+def judged(language: str, arguments: argparse.Namespace) -> list[Verdict]:
+    started = time.monotonic()
+    folder = BUILD / RUNS[language].__module__.rpartition(".")[2]
+    verdicts = RUNS[language](arguments.count or COUNTS[language], arguments.seed, folder, arguments.jobs)
+    print(f"{language}: {len(verdicts)} mutants in {time.monotonic() - started:.0f} s", flush=True)
+    return verdicts
+
+
+def failures(parts: Mapping[str, Sequence[Verdict]]) -> list[str]:
+    """Why the run is not good enough."""
+    found = []
+    for language, verdicts in parts.items():
+        share = report.killed_share(verdicts)
+        if share < report.LEAST_KILLED:
+            found.append(f"{language}: {100 * share:.1f} % killed, less than {100 * report.LEAST_KILLED:.0f} %")
+        for verdict in report.unexplained(verdicts):
+            mutant = verdict.mutant
+            found.append(f"{mutant.file}:{mutant.line}: {mutant.change} survives and is not explained")
+    return found
+
+
+def run(arguments: argparse.Namespace) -> int:
+    chosen = [] if arguments.explain else [arguments.only] if arguments.only else list(RUNS)
+    if chosen:
+        print(f"seed {arguments.seed}", flush=True)
+    load()  # refuses damage before the long work
+    found = {language: judged(language, arguments) for language in chosen}
+    others = len(chosen) < len(RUNS) and (TABLE.exists() or arguments.explain)
+    parts, seeds = report.read_table(TABLE) if others else ({}, {})
+    parts |= found
+    seeds |= {language: arguments.seed for language in chosen}
+    known = load()
+    explained = {name: [explain(verdict, known) for verdict in parts[name]] for name in RUNS if name in parts}
+    report.write_table(explained, seeds, TABLE)
+    TABLE.with_suffix(".md").write_text(report.markdown(explained, seeds), encoding="utf-8")
+    print(report.summary(explained))
+    reasons = failures(explained)
+    for reason in reasons:
+        print(f"FAILED {reason}", file=sys.stderr)
+    return 1 if reasons else 0
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--seed", type=int, default=1, help="draws the mutants")
+    parser.add_argument("--count", type=int, help=f"mutants of each language, instead of {COUNTS}")
+    parser.add_argument("--only", choices=RUNS, help="judges one language, and leaves the other as the table has it")
+    parser.add_argument("--explain", action="store_true", help="judges nothing: writes the report anew from the table")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes at a time")
+    arguments = parser.parse_args()
+    if (arguments.count is not None and arguments.count < 1) or arguments.jobs < 1:
+        parser.error("--count and --jobs must be at least 1")
+    try:
+        return run(arguments)
+    except (MutationError, rtl.FlowError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted: nothing is written", file=sys.stderr)
+        return 130
+
+
+if __name__ == "__main__":
+    sys.exit(main())

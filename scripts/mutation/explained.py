@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What is known about mutants that survive: explained.toml."""
+
+import tomllib
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from mutation.mutant import Mutant
+from mutation.verdict import MutationError, Verdict
+
+EXPLAINED = Path(__file__).resolve().parent / "explained.toml"
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Of every change of a text in one file to another."""
+
+    file: str
+    change: str
+    source: str  # the line of the source on which the change begins, without blanks at its ends
+    reason: str
+    above: str | None  # the line above that one, if the line alone stands in several places
+    equivalent: bool  # argued: no input can tell the mutant from the original
+
+    def fits(self, mutant: Mutant) -> bool:
+        here = (self.file, self.change, self.source) == (mutant.file, mutant.change, mutant.source)
+        return here and self.above in (None, mutant.above)
+
+
+def load(path: Path = EXPLAINED) -> list[Explanation]:
+    try:
+        entries = tomllib.loads(path.read_text(encoding="utf-8")).get("mutant", [])
+        return [Explanation(**{"equivalent": False, "above": None, **entry}) for entry in entries]
+    except (OSError, TypeError, tomllib.TOMLDecodeError) as error:
+        raise MutationError(f"{path}: {error}") from None
+
+
+def explain(verdict: Verdict, known: list[Explanation]) -> Verdict:
+    """A survivor with its explanation; one that is argued to be equivalent becomes so. Others stay as they are."""
+    if verdict.state != "survived":
+        return verdict
+    for explanation in known:
+        if explanation.fits(verdict.mutant):
+            state = "argued equivalent" if explanation.equivalent else "survived"
+            return replace(verdict, state=state, by=explanation.reason)
+    return verdict

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Writes many mutants into one C++ source: each place asks at run time whether its mutant is alive."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from mutation.mutant import Mutant
+
+
+@dataclass(frozen=True)
+class Schemata:
+    """A source with mutants, and the lines of the new text that each of them has a part in."""
+
+    text: str
+    lines: Mapping[Mutant, frozenset[int]]
+
+    def mutants_at(self, line: int) -> set[Mutant]:
+        return {mutant for mutant, lines in self.lines.items() if line in lines}
+
+
+def with_mutants(text: str, numbered: Mapping[Mutant, int]) -> Schemata:
+    """`numbered` are mutants of this text that do not overlap, and the numbers that wake them."""
+    edits: dict[tuple[int, int], tuple[str, list[Mutant]]] = {}
+    for mutant, number in numbered.items():
+        edits[mutant.begin, mutant.end] = (_alternatives(mutant, number), [mutant])
+        if mutant.constant is not None:
+            # What changes at run time is no constant expression.
+            inside = text[: mutant.constant[0]].rstrip().endswith("static")
+            _, others = edits.setdefault(mutant.constant, ("inline const" if inside else "const", []))
+            others.append(mutant)
+    parts: list[str] = []
+    lines: dict[Mutant, set[int]] = {mutant: set() for mutant in numbered}
+    line, position = 1, 0
+    for (begin, end), (replacement, mutants) in sorted(edits.items()):
+        kept = text[position:begin]
+        line += kept.count("\n")
+        after = line + replacement.count("\n")
+        for mutant in mutants:
+            lines[mutant].update(range(line, after + 1))
+        parts += [kept, replacement]
+        line, position = after, end
+    parts.append(text[position:])
+    return Schemata("".join(parts), {mutant: frozenset(found) for mutant, found in lines.items()})
+
+
+def _alternatives(mutant: Mutant, number: int) -> str:
+    lives = f"mutant_lives<{number}>()"
+    if mutant.statement:
+        return f"if ({lives}) {{ {mutant.mutated} }} else {{ {mutant.original} }}"
+    return f"({lives} ? ({mutant.mutated}) : ({mutant.original}))"
