@@ -245,7 +245,7 @@ TEST(TimeGate, IsRefusedWhereThereIsNoneOrOutOfRange) {
       [&] {
         with.set_time_gate({0, 1024});
       },
-      ThrowsMessage<InputError>(HasSubstr("gate end is 1024")));
+      ThrowsMessage<InputError>(HasSubstr("gate end must be 0 to 1023, not 1024")));
 }
 
 // An array with a fault in its result stream.
