@@ -9,7 +9,7 @@
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
 # make bench      speed of RTL, models and photon model
-# make mutate     small changes of RTL and models: which of them the tests notice (40 minutes)
+# make mutate     small changes of RTL and models: which of them the tests notice (long)
 # make clean      remove build/
 BUILD := build/cpp
 SEED ?= 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# make mutate     small changes of RTL and C++ models, and which of them the tests notice (40 minutes): reports/mutants.md
+# make mutate     small changes of RTL and C++ models, and which of them the tests notice (long): reports/mutants.md
 #                 SEED=2 other mutants; COUNT=50 so many of each language
 .PHONY: mutate
 mutate: vectors

@@ -33,11 +33,11 @@ module time_gate_properties #(
     gate_end_q <= gate_end_i;
   end
 
-  logic inside;
-  assign inside = (TIME_GATE == 0) || (gate_begin_q <= timestamp_q && timestamp_q < gate_end_q);
+  logic in_gate;
+  assign in_gate = (TIME_GATE == 0) || (gate_begin_q <= timestamp_q && timestamp_q < gate_end_q);
 
-  `PROVE(a_inside_passes, !inside || timestamp_t1 == timestamp_q)
-  `PROVE(a_outside_is_no_detection, inside || timestamp_t1 == '1)
+  `PROVE(a_in_gate_passes, !in_gate || timestamp_t1 == timestamp_q)
+  `PROVE(a_outside_is_no_detection, in_gate || timestamp_t1 == '1)
   `GOAL(timestamp_t1 != '1)
 
 endmodule
