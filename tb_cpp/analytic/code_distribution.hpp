@@ -5,7 +5,7 @@
 
 #include "core/parameters.hpp"
 #include "photon/event_sampler.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 
 namespace dtof {
 

@@ -87,7 +87,7 @@ struct ExtremePixel {
 };
 
 SensorModel sensor_of(int np, double fwhm_bins) {
-  SensorModel sensor = parse_preset("thesis");
+  SensorModel sensor;
   sensor.np = np;
   sensor.pulse_fwhm_s = fwhm_bins * sensor.time_resolution_s();
   return sensor;
@@ -251,7 +251,7 @@ std::vector<StabilityResult> check_sources(std::uint64_t seed) {
     for (const double fwhm_s : {4.4e-12, 2e-9, 45e-9}) {
       for (const double klux : {0.0, 14.0, 200.0}) {
         for (const Target& target : kTargets) {
-          SensorModel sensor = parse_preset("thesis");
+          SensorModel sensor;
           sensor.np = np;
           sensor.pulse_fwhm_s = fwhm_s;
           sensor.acquisitions = 1000;
@@ -303,7 +303,7 @@ std::vector<StabilityResult> check_dense_pulses(std::uint64_t seed) {
   Largest deviation;
   Largest dead;
   for (const double signal : {30.0, 480.0, 1e4, 1e6}) {
-    SensorModel sensor = parse_preset("thesis");
+    SensorModel sensor;
     sensor.acquisitions = 20000;
     const ExtremePixel pixel{sensor, {0.15, signal, 300.0}};
     long double mean = 0.0L;
@@ -449,7 +449,7 @@ StabilityResult check_distributions() {
       const ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
       for (const double signal : {0.0, 1e-9, 0.03, 480.0}) {
         for (const double background : {0.0, 1e-12, 2.1}) {
-          SensorModel sensor = parse_preset("thesis");
+          SensorModel sensor;
           sensor.np = np;
           sensor.acquisitions = 101;
           const double centre = std::ldexp(0.31, np);
@@ -566,7 +566,7 @@ StabilityResult check_refusals() {
   for (const double bad : {kNan, kInfinity, -1.0}) {
     const auto with = [&](double SensorModel::*field) {
       refused([&] {
-        SensorModel sensor = parse_preset("thesis");
+        SensorModel sensor;
         sensor.*field = bad;
         sensor.validate();
       });
@@ -577,12 +577,12 @@ StabilityResult check_refusals() {
     with(&SensorModel::background_events_per_klux);
     with(&SensorModel::dark_count_rate_hz);
     with(&SensorModel::dead_time_s);
-    refused([&] { PhotonSource(parse_preset("thesis"), TargetMap(1, 1, {.depth_m = 1.0}), bad, 1); });
+    refused([&] { PhotonSource(SensorModel(), TargetMap(1, 1, {.depth_m = 1.0}), bad, 1); });
     refused([&] {
-      PhotonSource(parse_preset("thesis"), TargetMap(1, 1, {.depth_m = 1.0, .reflectivity = bad}), 14.0, 1);
+      PhotonSource(SensorModel(), TargetMap(1, 1, {.depth_m = 1.0, .reflectivity = bad}), 14.0, 1);
     });
     refused([&] {
-      choose_fidelity(PhotonSource(parse_preset("thesis"), TargetMap(1, 1, {.depth_m = 1.0}), 14.0, 1), bad);
+      choose_fidelity(PhotonSource(SensorModel(), TargetMap(1, 1, {.depth_m = 1.0}), 14.0, 1), bad);
     });
     refused([&] {
       (void)LookupTable::fit(std::vector<CalibrationPoint>{{0.0, 1.0}, {bad == -1.0 ? kNan : bad, 2.0}});
@@ -590,8 +590,8 @@ StabilityResult check_refusals() {
     refused([&] { ErrorStatistics().add(1.0, bad == -1.0 ? kNan : bad); });
   }
   // The mean number of events overflows.
-  refused([] { PhotonSource(parse_preset("thesis"), TargetMap(1, 1, {.depth_m = 1e-200}), 14.0, 1); });
-  SensorModel dead = parse_preset("thesis");
+  refused([] { PhotonSource(SensorModel(), TargetMap(1, 1, {.depth_m = 1e-200}), 14.0, 1); });
+  SensorModel dead = SensorModel();
   dead.dead_time_s = 1e-9;
   refused([&] { (void)expected_detections(dead, {}); });
   const PhotonSource exact(dead, TargetMap(1, 1, {.depth_m = 1.0}), 14.0, 1);

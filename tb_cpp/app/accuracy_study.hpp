@@ -12,7 +12,7 @@
 #include "core/detection.hpp"
 #include "core/parameters.hpp"
 #include "metrics/confidence_interval.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 #include "photon/target_map.hpp"
 
 namespace dtof {

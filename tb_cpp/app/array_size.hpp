@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/accuracy_study.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 
 namespace dtof {
 

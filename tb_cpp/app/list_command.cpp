@@ -3,9 +3,10 @@
 
 #include "app/commands.hpp"
 #include "core/parameters.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 #include "rtl/registry.hpp"
 #include "scene/scene.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

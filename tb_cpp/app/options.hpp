@@ -10,7 +10,7 @@
 
 #include "analytic/fidelity.hpp"
 #include "core/parameters.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 
 namespace dtof {
 

@@ -20,6 +20,7 @@
 #include "app/thesis_figures.hpp"
 #include "app/thesis_statements.hpp"
 #include "io/atomic_file.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "core/parameters.hpp"
 #include "host/range_converter.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 #include "photon/target_map.hpp"
 
 namespace dtof {

@@ -27,6 +27,7 @@
 #include "io/depth_image.hpp"
 #include "io/photon_times_mat.hpp"
 #include "scene/scene.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

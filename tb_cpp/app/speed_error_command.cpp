@@ -31,6 +31,7 @@
 #include "readout/model.hpp"
 #include "readout/run_frame.hpp"
 #include "scene/scene.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

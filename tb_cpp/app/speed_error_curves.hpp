@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "metrics/error_statistics.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 
 namespace dtof {
 

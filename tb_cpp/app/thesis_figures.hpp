@@ -8,7 +8,7 @@
 
 #include "app/accuracy_study.hpp"
 #include "app/thesis_statements.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 
 namespace dtof {
 

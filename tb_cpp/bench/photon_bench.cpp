@@ -17,6 +17,7 @@
 #include "photon/photon_source.hpp"
 #include "readout/run_frame.hpp"
 #include "scene/scene.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

@@ -14,6 +14,7 @@
 #include "rtl/registry.hpp"
 #include "rtl/rtl_readout.hpp"
 #include "scene/scene.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

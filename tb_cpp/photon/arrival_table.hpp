@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "photon/event_sampler.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 
 namespace dtof {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 
 namespace dtof {
 

@@ -7,7 +7,7 @@
 #include "core/detection.hpp"
 #include "core/random.hpp"
 #include "photon/event_sampler.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 #include "photon/target_map.hpp"
 
 namespace dtof {

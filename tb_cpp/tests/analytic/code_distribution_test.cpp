@@ -16,6 +16,7 @@
 #include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
 #include "readout/run_frame.hpp"
+#include "sensor/preset.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/photon/statistics.hpp"
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

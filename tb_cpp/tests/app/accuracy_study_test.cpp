@@ -12,6 +12,7 @@
 
 #include "app/array_size.hpp"
 #include "core/error.hpp"
+#include "sensor/preset.hpp"
 #include "tests/core/test_seed.hpp"
 
 namespace dtof {

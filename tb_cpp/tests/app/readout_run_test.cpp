@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "photon/photon_source.hpp"
 #include "readout/model.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <vector>
 
+#include "sensor/preset.hpp"
+
 namespace dtof {
 namespace {
 

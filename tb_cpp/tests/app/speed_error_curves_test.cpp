@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "sensor/preset.hpp"
 #include "tests/core/test_seed.hpp"
 
 namespace dtof {

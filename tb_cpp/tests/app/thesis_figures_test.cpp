@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "sensor/preset.hpp"
 #include "tests/core/test_seed.hpp"
 
 namespace dtof {

@@ -21,6 +21,7 @@
 #include "photon/fast_photon_source.hpp"
 #include "photon/mean_photon_source.hpp"
 #include "photon/physics.hpp"
+#include "sensor/preset.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/photon/statistics.hpp"
 

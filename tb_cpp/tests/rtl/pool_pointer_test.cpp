@@ -14,8 +14,9 @@
 #include <string_view>
 
 #include "photon/photon_source.hpp"
-#include "photon/preset.hpp"
+#include "photon/sensor_model.hpp"
 #include "scene/scene.hpp"
+#include "sensor/preset.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 
 namespace dtof {

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace dtof {
 
@@ -46,11 +44,5 @@ struct SensorModel {
   /// Throws InputError with one sentence if a value is NaN, infinite, negative or outside its range.
   void validate() const;
 };
-
-/// "thesis": calibrated to the thesis's accuracy figures (0.30 / R^2 signal events, 0.15 background events
-/// at 14 klux). "phone": 940 nm and a 20 nm filter, everything derived from OpticalInputs, reflectivity 0.5.
-std::vector<std::string_view> preset_names();
-/// Throws InputError that names the known presets.
-SensorModel parse_preset(std::string_view name);
 
 }  // namespace dtof
