@@ -11,12 +11,14 @@
 
 #include "analytic/fidelity.hpp"
 #include "app/commands.hpp"
+#include "app/flat_calibration.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/readout_run.hpp"
 #include "app/region.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
+#include "host/range_converter.hpp"
 #include "io/atomic_file.hpp"
 #include "io/colour_png.hpp"
 #include "io/depth_image.hpp"
@@ -42,6 +44,7 @@ struct FrameOptions {
   std::string depth_file;
   SceneParameters scene_parameters;
   std::optional<double> reflectivity;
+  std::string table = "flat";
   std::optional<double> precision_percent;
   int most_frames = 1000;
   std::string out = "build/frame";
@@ -57,6 +60,7 @@ struct MeasuredFrame {
   DepthImage depth;
   DepthImage error;
   ErrorStatistics statistics;  ///< of all frames' pixels that have a target
+  RunningMoments before;       ///< their errors by Eq. 3.11, before the look-up table
   int frames = 1;
   bool precision_reached = true;
 };
@@ -95,18 +99,48 @@ double add_errors(const DepthImage& truth, const DepthImage& error, ErrorStatist
   return errors.mean_square();
 }
 
+/// A read-out and the look-up table that `--table` gives it.
+struct TabledReadout {
+  ReadoutParameters parameters;
+  std::optional<RangeConverter> table;
+};
+
+std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& readouts, TableRule rule,
+                                       const PhotonSource& scene, Fidelity fidelity, const RunOptions& run) {
+  std::vector<TabledReadout> tabled;
+  for (const ReadoutParameters& parameters : readouts) {
+    tabled.push_back({parameters, std::nullopt});
+  }
+  if (rule == TableRule::kFlat) {
+    const FlatCalibration calibration(scene.model());
+    const PhotonSource photons(scene.model(), calibration.targets(), scene.klux(), run.seed,
+                               FlatCalibration::kFrame);
+    std::vector<RangeConverter> tables =
+        calibration.fit(*make_source(fidelity, photons), readouts, run.seed, run.threads);
+    for (std::size_t r = 0; r < tabled.size(); ++r) {
+      tabled[r].table = std::move(tables[r]);
+    }
+  }
+  return tabled;
+}
+
 MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor,
-                           const ReadoutParameters& parameters, const FrameOptions& options,
-                           const Region& region, const DepthImage& truth) {
+                           const TabledReadout& readout, const FrameOptions& options, const Region& region,
+                           const DepthImage& truth) {
   MeasuredFrame frame;
+  const ReadoutParameters& parameters = readout.parameters;
   frame.parameters = parameters;
   frame.run = run_readout(source, parameters, options.run, region, options.command_line);
   const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
   frame.depth = truth;
   frame.error = truth;
   for (std::size_t i = 0; i < truth.metres.size(); ++i) {
-    const auto depth =
-        static_cast<float>(scale.depth(code_position(frame.run.results[i], parameters.fraction_bits)));
+    const double position = code_position(frame.run.results[i], parameters.fraction_bits);
+    const double before = scale.depth(position);
+    const auto depth = static_cast<float>(readout.table ? readout.table->distance(position) : before);
+    if (!std::isnan(truth.metres[i])) {
+      frame.before.add(before - truth.metres[i]);
+    }
     frame.depth.metres[i] = std::max(depth, 0.0F);
     frame.error.metres[i] = depth - truth.metres[i];
   }
@@ -115,10 +149,10 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
 
 /// With --precision, frames until the rmse's interval is narrow enough. Pixels of a frame differ in distance,
 /// frames are equals: the interval comes from the spread of the frames' mean squares.
-MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const ReadoutParameters& parameters,
+MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const TabledReadout& readout,
                       const FrameOptions& options, const Region& region, const DepthImage& truth) {
   MeasuredFrame frame =
-      measure_once(*make_source(fidelity, scene), scene.model(), parameters, options, region, truth);
+      measure_once(*make_source(fidelity, scene), scene.model(), readout, options, region, truth);
   std::vector<double> mean_squares = {add_errors(truth, frame.error, frame.statistics)};
   if (!options.precision_percent) {
     return frame;
@@ -130,9 +164,11 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const Readou
            0.5 * estimate_mean(mean_squares).relative_half_width() <= *options.precision_percent / 100.0;
   };
   while (!(frame.precision_reached = reached()) && frame.frames < options.most_frames) {
-    const auto next = make_source(fidelity, scene.at_frame(static_cast<std::uint32_t>(frame.frames)));
-    const MeasuredFrame other = measure_once(*next, scene.model(), parameters, options, region, truth);
+    const auto next =
+        make_source(fidelity, scene.at_frame(scene_frame(static_cast<std::uint32_t>(frame.frames))));
+    const MeasuredFrame other = measure_once(*next, scene.model(), readout, options, region, truth);
     frame.run.seconds += other.run.seconds;
+    frame.before.merge(other.before);
     mean_squares.push_back(add_errors(truth, other.error, frame.statistics));
     ++frame.frames;
   }
@@ -153,7 +189,12 @@ void write_readout_files(const MeasuredFrame& frame, const Region& region, const
 }
 
 Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
-  std::vector<std::string> head = {"read-out", "rmse mm", "bias mm", "above 3 %", "above 10 %", "cycles"};
+  const bool tables = options.table != table_rule_name(TableRule::kNone);
+  std::vector<std::string> head = {"read-out", "rmse mm", "bias mm"};
+  if (tables) {
+    head.emplace_back("bias before table mm");
+  }
+  head.insert(head.end(), {"above 3 %", "above 10 %", "cycles"});
   if (options.precision_percent) {
     head.emplace_back("frames");
   }
@@ -161,13 +202,16 @@ Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& op
   for (const MeasuredFrame& frame : frames) {
     std::vector<std::string> row = {std::string(readout_title(frame.parameters.readout))};
     if (frame.statistics.count() == 0) {
-      row.insert(row.end(), {"-", "-", "-", "-"});
+      row.insert(row.end(), tables ? 5 : 4, "-");
     } else {
       const ErrorSummary summary = frame.statistics.summary();
       row.insert(row.end(),
-                 {fmt::format("{:.0f}", summary.rmse_m * 1e3), fmt::format("{:.0f}", summary.bias_m * 1e3),
-                  fmt::format("{:.2f} %", summary.share_above_3_percent * 100.0),
-                  fmt::format("{:.2f} %", summary.share_above_10_percent * 100.0)});
+                 {fmt::format("{:.0f}", summary.rmse_m * 1e3), fmt::format("{:.0f}", summary.bias_m * 1e3)});
+      if (tables) {
+        row.push_back(fmt::format("{:.0f}", frame.before.mean() * 1e3));
+      }
+      row.insert(row.end(), {fmt::format("{:.2f} %", summary.share_above_3_percent * 100.0),
+                             fmt::format("{:.2f} %", summary.share_above_10_percent * 100.0)});
     }
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
     if (options.precision_percent) {
@@ -251,14 +295,16 @@ void run_frame_command(const FrameOptions& options) {
   if (options.precision_percent && std::ranges::all_of(truth.metres, [](float m) { return std::isnan(m); })) {
     throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
   }
+  const TableRule rule = parse_table_rule(options.table);
+  const std::vector<TabledReadout> tabled = with_tables(readouts, rule, scene, fidelity, options.run);
   create_output_folder(options.out);
   const ColourRange range = depth_range(std::vector<MapPanel>{{truth, "", MapKind::kDepth}});
   if (!options.record.empty()) {
     write_stream_csv(options.record, *make_source(fidelity, scene));
   }
   std::vector<MeasuredFrame> frames;
-  for (const ReadoutParameters& parameters : readouts) {
-    frames.push_back(measure(scene, fidelity, parameters, options, region, truth));
+  for (const TabledReadout& readout : tabled) {
+    frames.push_back(measure(scene, fidelity, readout, options, region, truth));
     write_readout_files(frames.back(), region, range, options.out);
   }
   write_overview(frames, truth, range, options);
@@ -273,13 +319,14 @@ void run_frame_command(const FrameOptions& options) {
       options.depth_file.empty() ? options.scene : options.depth_file, truth.width, truth.height,
       options.sensor.klux, options.sensor.preset, sensor.acquisitions, fidelity_name(fidelity),
       options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
+  const std::string body = fmt::format("{}\n{}\n{}\n\n{}", heading, table.markdown(),
+                                       table_sentence(rule, sensor, options.run.seed), precision);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
-  write_file(
-      std::filesystem::path(options.out) / "summary.md",
-      fmt::format("{}\n{}\n{}Command: `{}`\n", heading, table.markdown(), precision, options.command_line));
+  write_file(std::filesystem::path(options.out) / "summary.md",
+             fmt::format("{}Command: `{}`\n", body, options.command_line));
   // Times change from run to run and stay out of the files.
-  fmt::print("{}\n{}\n{}Read out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n",
-             heading, table.markdown(), precision, seconds, options.out);
+  fmt::print("{}Read out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n", body,
+             seconds, options.out);
 }
 
 }  // namespace
@@ -307,6 +354,12 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   scene->add_option("--steps", options->scene_parameters.steps, "staircase: steps")->capture_default_str();
   scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the preset's)");
+  command
+      ->add_option("--table", options->table,
+                   "host look-up table: flat (each read-out's own, fitted on flat targets of the preset's\n"
+                   "reflectivity from other photons, as `dtof scenes` does) or none (Eq. 3.11 alone)")
+      ->check(CLI::IsMember({"none", "flat"}))
+      ->capture_default_str();
   command
       ->add_option("--precision", options->precision_percent,
                    "more frames of the scene, until the 95 % interval of the rmse is within this many per "

@@ -28,25 +28,11 @@ namespace {
 
 constexpr double kOutlier = 0.10;
 constexpr double kEdge = 0.10;
-constexpr std::uint32_t kSceneFrame = 0;
-constexpr std::uint32_t kCalibrationFrame = 1;
-constexpr int kCalibrationPixels = 160;
+constexpr std::uint32_t kSceneFrame = scene_frame(0);
 
 int picked_column(const StudyScene& scene, int index) {
   return static_cast<int>((2 * std::int64_t{index} + 1) * scene.targets.columns() /
                           (2 * std::int64_t{scene.columns}));
-}
-
-/// Fine where pile-up bends the scale.
-std::vector<double> calibration_distances() {
-  std::vector<double> distances;
-  for (int i = 2; i < 20; ++i) {
-    distances.push_back(0.05 * i);
-  }
-  for (int i = 5; i <= 31; ++i) {
-    distances.push_back(0.2 * i);
-  }
-  return distances;
 }
 
 ErrorShares shares(const ErrorStatistics& statistics, double mean_square) {
@@ -169,40 +155,35 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
 }
 
 SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts,
-                       std::uint64_t seed, int threads)
+                       std::uint64_t seed, int threads, TableRule table)
     : sensor_(std::move(sensor)),
       klux_(klux),
       readouts_(readouts.begin(), readouts.end()),
       seed_(seed),
-      threads_(threads) {
+      threads_(threads),
+      scale_(sensor_.integration_time_s, sensor_.np, sensor_.pulse_fwhm_s) {
   for (const ReadoutParameters& readout : readouts_) {
     titles_.push_back(variant_title(readout));
   }
   titles_.emplace_back("hisPointer pairs");
   titles_.emplace_back("matched filter");
 
-  const std::vector<double> distances = calibration_distances();
-  TargetMap targets(static_cast<int>(distances.size()), kCalibrationPixels);
-  for (std::size_t d = 0; d < distances.size(); ++d) {
-    for (int row = 0; row < kCalibrationPixels; ++row) {
-      targets.at(static_cast<int>(d), row) = {distances[d], sensor_.default_reflectivity};
-    }
+  if (table == TableRule::kNone) {
+    return;
   }
-  const StudyScene scene{"calibration", std::move(targets), static_cast<int>(distances.size())};
-  const Positions positions = read(scene, kCalibrationFrame);
+  const FlatCalibration calibration(sensor_);
+  const StudyScene scene{"calibration", calibration.targets(),
+                         static_cast<int>(calibration.distances_m().size())};
+  const Positions positions = read(scene, FlatCalibration::kFrame);
   for (std::size_t e = 0; e < titles_.size(); ++e) {
-    std::vector<TargetRun> runs;
-    for (std::size_t d = 0; d < distances.size(); ++d) {
-      TargetRun run{{seed_, kCalibrationFrame}, distances[d], {}};
-      for (std::size_t row = 0; row < kCalibrationPixels; ++row) {
-        run.measurements.push_back(positions[e][row * distances.size() + d]);
-      }
-      runs.push_back(std::move(run));
-    }
     const double step = e < readouts_.size() ? std::ldexp(1.0, -readouts_[e].fraction_bits)
                                              : (e == readouts_.size() ? 1.0 : 0.0);
-    converters_.push_back(RangeConverter::calibrate(runs, step));
+    converters_.push_back(calibration.fit(positions[e], step, seed_));
   }
+}
+
+double SceneStudy::distance(std::size_t estimator, double position) const {
+  return converters_.empty() ? scale_.depth(position) : converters_[estimator].distance(position);
 }
 
 SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t frame) const {
@@ -255,7 +236,7 @@ std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene) const
   for (std::size_t e = 0; e < titles_.size(); ++e) {
     SceneMeasurement measurement;
     for (const Measurement& pixel : positions[e]) {
-      measurement.distance_m.push_back(converters_[e].distance(pixel.position));
+      measurement.distance_m.push_back(distance(e, pixel.position));
       measurement.confidence.push_back(pixel.confidence);
     }
     measurements.push_back(std::move(measurement));
@@ -267,7 +248,6 @@ std::vector<double> SceneStudy::relative_bounds(const StudyScene& scene) const {
   const PhotonSource source(sensor_, scene.targets, klux_, seed_, kSceneFrame);
   const auto width = static_cast<std::size_t>(scene.columns);
   const auto rows = static_cast<std::size_t>(scene.targets.rows());
-  const DepthScale scale(sensor_.integration_time_s, sensor_.np, sensor_.pulse_fwhm_s);
   std::vector<double> bounds(width * rows, 0.0);
   parallel_for(width, threads_, [&](std::size_t index) {
     const int column = picked_column(scene, static_cast<int>(index));
@@ -283,7 +263,7 @@ std::vector<double> SceneStudy::relative_bounds(const StudyScene& scene) const {
              .np = sensor_.np,
              .acquisitions = static_cast<double>(sensor_.acquisitions),
              .kept_events = sensor_.slots});
-        bounds[row * width + index] = bins * scale.bin_depth() / distance;
+        bounds[row * width + index] = bins * scale_.bin_depth() / distance;
       }
     }
   });

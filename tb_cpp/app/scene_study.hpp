@@ -7,8 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "app/flat_calibration.hpp"
 #include "core/parameters.hpp"
 #include "host/range_converter.hpp"
+#include "app/flat_calibration.hpp"
+#include "core/parameters.hpp"
+#include "host/range_converter.hpp"
+#include "metrics/depth.hpp"
 #include "photon/sensor_model.hpp"
 #include "photon/target_map.hpp"
 
@@ -23,7 +28,7 @@ struct StudyScene {
 
 /// What one estimator made of a scene.
 struct SceneMeasurement {
-  std::vector<double> distance_m;  ///< after the look-up table; index = row * columns + column read
+  std::vector<double> distance_m;  ///< index = row * columns + column read
   std::vector<double> confidence;
 };
 
@@ -65,12 +70,12 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
                                const SceneMeasurement& measurement);
 
 /// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and the matched
-/// filter on the full histogram that knows each pixel's signal and background. All see the same photons; a
-/// look-up table for each is fitted on flat targets of the preset's reflectivity, from other photons.
+/// filter on the full histogram that knows each pixel's signal and background. All see the same photons. With
+/// TableRule::kFlat each has a look-up table by FlatCalibration, else distances are those of Eq. 3.11.
 class SceneStudy {
  public:
   SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts, std::uint64_t seed,
-             int threads);
+             int threads, TableRule table = TableRule::kFlat);
 
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
   /// One measurement an estimator.
@@ -82,6 +87,7 @@ class SceneStudy {
  private:
   using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
   [[nodiscard]] Positions read(const StudyScene& scene, std::uint32_t frame) const;
+  [[nodiscard]] double distance(std::size_t estimator, double position) const;
 
   SensorModel sensor_;
   double klux_;
@@ -89,7 +95,8 @@ class SceneStudy {
   std::vector<std::string> titles_;
   std::uint64_t seed_;
   int threads_;
-  std::vector<RangeConverter> converters_;
+  DepthScale scale_;
+  std::vector<RangeConverter> converters_;  // of each estimator; empty without look-up tables
 };
 
 }  // namespace dtof

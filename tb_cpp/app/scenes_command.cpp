@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/flat_calibration.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/plot.hpp"
@@ -44,6 +45,7 @@ struct ScenesOptions {
   std::string surface_file;
   std::string surface_variable = "T_second";
   bool held_out = false;
+  std::string table = "flat";
   int columns = 200;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -298,6 +300,7 @@ std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options) {
 
 void run_scenes_command(const ScenesOptions& options) {
   const std::vector<ReadoutParameters> readouts = parse_readouts(options);
+  const TableRule rule = parse_table_rule(options.table);
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   std::vector<std::string> header = {"preset",
@@ -322,9 +325,9 @@ void run_scenes_command(const ScenesOptions& options) {
   }
   Table csv(header);
   std::string report = fmt::format(
-      "# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / above 10 %, after a "
-      "look-up "
-      "table fitted on flat targets. Seed {}, at most {} columns of a scene.\n\"hisPointer pairs\" takes its "
+      "# Read-outs on scenes\n\nPer cent of pixels with a relative error above 3 % / above 10 %. Seed {}, at "
+      "most "
+      "{} columns of a scene.\n\"hisPointer pairs\" takes its "
       "coarse "
       "peak over pairs of adjacent bins; the matched filter has the full histogram and knows signal and "
       "background. Edges: pixels with a "
@@ -338,7 +341,7 @@ void run_scenes_command(const ScenesOptions& options) {
     const std::vector<StudyScene> scenes = make_scenes(options, sensor.default_reflectivity);
     for (const double klux : options.klux) {
       Progress progress(fmt::format("{} {:g} klux", preset, klux), scenes.size() + 1);
-      const SceneStudy study(sensor, klux, readouts, options.seed, options.threads);
+      const SceneStudy study(sensor, klux, readouts, options.seed, options.threads, rule);
       progress.advance();
       const std::vector<std::string>& estimators = study.estimators();
       std::vector<SceneResult> results;
@@ -390,7 +393,8 @@ void run_scenes_command(const ScenesOptions& options) {
       const std::string overview = part("All pixels: above 3 % / 10 %",
                                         [](const EstimatorResult& r) { return share_pair(r.score.all); });
       fmt::print("\n## {:g} klux, preset {}\n{}", klux, preset, overview);
-      report += fmt::format("\n## {:g} klux, preset {}\n{}", klux, preset, overview);
+      report += fmt::format("\n## {:g} klux, preset {}\n\n{}\n{}", klux, preset,
+                            table_sentence(rule, sensor, options.seed), overview);
       report +=
           part("Pixels at depth edges", [](const EstimatorResult& r) { return share_pair(r.score.edges); });
       report += part("Other pixels", [](const EstimatorResult& r) { return share_pair(r.score.rest); });
@@ -458,6 +462,12 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       "--held-out", options->held_out,
       "also scenes that no parameter was chosen on: planes, clutter and poles of other shapes, a\n"
       "staircase, the disparity map turned and nearer");
+  command
+      ->add_option("--table", options->table,
+                   "host look-up table: flat (each read-out's own, fitted on flat targets of the preset's\n"
+                   "reflectivity from other photons) or none (Eq. 3.11 alone)")
+      ->check(CLI::IsMember({"none", "flat"}))
+      ->capture_default_str();
   command->add_option("--columns", options->columns, "columns read of a scene, evenly spread")
       ->check(CLI::Range(1, kArrayColumns))
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/parameters.hpp"
 #include "io/atomic_file.hpp"
@@ -364,6 +366,52 @@ TEST_F(CommandLine, ScenesComparesReadoutsAndVariants) {
     EXPECT_THAT(table, HasSubstr(estimator));
   }
   EXPECT_GT(std::filesystem::file_size(path("out/planes_14klux_thesis.png")), 0U);
+}
+
+/// Cell of a CSV whose lines begin with the row's name: column `column` of the row that begins with `row`.
+std::string csv_cell(const std::string& csv, const std::string& row, const std::string& column) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const auto cells = [](const std::string& text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, ',');) {
+      parts.push_back(part);
+    }
+    return parts;
+  };
+  const std::vector<std::string> head = cells(line);
+  const auto index = static_cast<std::size_t>(std::find(head.begin(), head.end(), column) - head.begin());
+  while (std::getline(lines, line)) {
+    if (line.starts_with(row + ",")) {
+      return cells(line).at(index);
+    }
+  }
+  return "no such row";
+}
+
+TEST_F(CommandLine, FrameAndScenesGiveTheSameFiguresAndNameTheirTable) {
+  for (const char* table : {"flat", "none"}) {
+    SCOPED_TRACE(table);
+    const Outcome frame =
+        dtof(fmt::format("frame --scene poles -r hispointer,fifh --table {} --out frame", table));
+    ASSERT_EQ(frame.exit_code, 0) << frame.output;
+    const Outcome scenes = dtof(fmt::format(
+        "scenes --preset thesis --klux 14 --scene poles -r hispointer,fifh --table {} --out scenes", table));
+    ASSERT_EQ(scenes.exit_code, 0) << scenes.output;
+    for (const char* title : {"hisPointer", "FiFH"}) {
+      const std::string one = csv_cell(read_file(path("frame/summary.csv")), title, "above 3 %");
+      const std::string other = csv_cell(read_file(path("scenes/scenes.csv")),
+                                         fmt::format("thesis,14,poles,{}", title), "above_3_percent");
+      EXPECT_EQ(one, fmt::format("{:.2f} %", std::stod(other) * 100.0)) << title;
+    }
+    const std::string named = fmt::format("(--table {})", table);
+    EXPECT_THAT(read_file(path("frame/summary.md")), HasSubstr(named));
+    EXPECT_THAT(read_file(path("scenes/scenes.md")), HasSubstr(named));
+  }
+  expect_refused("frame --table round --out out", "--table");
+  expect_refused("scenes --table round --out out", "--table");
 }
 
 TEST_F(CommandLine, RefusesBadScenesAndMeasurements) {

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/parameters.hpp"
+#include "host/range_converter.hpp"
+#include "photon/photon_source.hpp"
+#include "photon/sensor_model.hpp"
+#include "photon/target_map.hpp"
+
+namespace dtof {
+
+/// How codes become metres.
+enum class TableRule {
+  kNone,  ///< Eq. 3.11 alone
+  kFlat,  ///< the host's look-up table of each read-out, fitted by FlatCalibration
+};
+
+/// Command-line names: none, flat.
+std::string_view table_rule_name(TableRule rule);
+/// Throws InputError for another name.
+TableRule parse_table_rule(std::string_view name);
+
+/// The calibration run behind `--table flat`, the same for every command: flat targets of the sensor's
+/// default reflectivity at 45 distances, 0.05 m apart up to 1 m and 0.2 m beyond, for T_int = 45 ns, and in
+/// proportion for another. Left out are those whose pulse has the middle of its falling edge beyond T_int, or
+/// its centre outside the time gate. Each has 160 pixels. The photons are those of a frame of its own
+/// (kFrame), so that no scene shares them.
+class FlatCalibration {
+ public:
+  static constexpr int kPixels = 160;         ///< of each distance
+  static constexpr std::uint32_t kFrame = 1;  ///< of the seed
+
+  /// Throws InputError if fewer than two distances are left.
+  explicit FlatCalibration(const SensorModel& sensor);
+
+  [[nodiscard]] const std::vector<double>& distances_m() const { return distances_m_; }
+  /// Each distance has as many columns as binning and coincidence need to keep the distances apart; the one
+  /// in the middle is read.
+  [[nodiscard]] const TargetMap& targets() const { return targets_; }
+  [[nodiscard]] int column(std::size_t distance) const;
+
+  /// The table of measurements of the targets, index = row * distances_m().size() + distance.
+  [[nodiscard]] RangeConverter fit(std::span<const Measurement> measurements, double code_step,
+                                   std::uint64_t seed) const;
+  /// The table of each read-out's model, from photons of the targets.
+  [[nodiscard]] std::vector<RangeConverter> fit(const StreamSource& photons,
+                                                std::span<const ReadoutParameters> readouts,
+                                                std::uint64_t seed, int threads) const;
+
+  /// For reports: "flat targets of reflectivity 1 at 45 distances from 0.1 to 6.2 m, 160 pixels each".
+  [[nodiscard]] std::string description() const;
+
+ private:
+  double reflectivity_;
+  int pitch_;  ///< columns of a distance
+  std::vector<double> distances_m_;
+  TargetMap targets_;
+};
+
+/// Sentences for a summary: how distances and figures came from codes.
+std::string table_sentence(TableRule rule, const SensorModel& sensor, std::uint64_t seed);
+
+/// Number of the n-th frame of a scene: FlatCalibration::kFrame is left out.
+constexpr std::uint32_t scene_frame(std::uint32_t n) { return n < FlatCalibration::kFrame ? n : n + 1; }
+
+}  // namespace dtof
