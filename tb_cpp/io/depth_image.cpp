@@ -2,6 +2,7 @@
 #include "io/depth_image.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <png.h>
 
 #include <algorithm>
@@ -16,10 +17,12 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
+#include "io/npy.hpp"
 
 namespace dtof {
 namespace {
@@ -86,8 +89,19 @@ void on_png_read(png_structp png, png_bytep data, std::size_t length) {
   reader.rest.remove_prefix(length);
 }
 
+/// Bits of a pixel that a purpose can take.
+enum class GreyBits { k8, k16, kEither };
+
+bool takes(GreyBits bits, int bit_depth) {
+  return (bit_depth == 8 && bits != GreyBits::k16) || (bit_depth == 16 && bits != GreyBits::k8);
+}
+
+const char* describe(GreyBits bits) {
+  return bits == GreyBits::k8 ? "an 8-bit" : bits == GreyBits::k16 ? "a 16-bit" : "an 8-bit or 16-bit";
+}
+
 /// Returns false after a libpng error; decodes the pixels only when the format is the wanted one.
-bool decode_png(PngReader& reader, int wanted_bit_depth) {
+bool decode_png(PngReader& reader, GreyBits wanted) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) {  // NOLINT(cert-err52-cpp): libpng's error interface
     return false;
   }
@@ -96,7 +110,7 @@ bool decode_png(PngReader& reader, int wanted_bit_depth) {
   reader.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   reader.bit_depth = png_get_bit_depth(reader.png, reader.info);
   reader.colour_type = png_get_color_type(reader.png, reader.info);
-  if (reader.colour_type != PNG_COLOR_TYPE_GRAY || reader.bit_depth != wanted_bit_depth) {
+  if (reader.colour_type != PNG_COLOR_TYPE_GRAY || !takes(wanted, reader.bit_depth)) {
     return true;
   }
   png_set_interlace_handling(reader.png);
@@ -112,14 +126,14 @@ bool decode_png(PngReader& reader, int wanted_bit_depth) {
   return true;
 }
 
-/// Pixels of a greyscale PNG of `wanted_bit_depth` 8 or 16.
 struct GreyImage {
   int width = 0;
   int height = 0;
+  int bit_depth = 0;  ///< 8 or 16
   std::vector<std::uint16_t> values;
 };
 
-GreyImage read_grey_png(const std::filesystem::path& path, int wanted_bit_depth, const char* purpose) {
+GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, const char* purpose) {
   const std::string file = read_file(path);
   if (!std::string_view(file).starts_with(kPngSignature)) {
     fail(path, "not a PNG file");
@@ -129,24 +143,33 @@ GreyImage read_grey_png(const std::filesystem::path& path, int wanted_bit_depth,
   reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_png_error, on_png_warning);
   reader.info = png_create_info_struct(reader.png);
   png_set_read_fn(reader.png, &reader, on_png_read);
-  if (!decode_png(reader, wanted_bit_depth)) {
+  if (!decode_png(reader, wanted)) {
     fail(path, fmt::format("damaged PNG: {}", reader.error));
   }
   if (reader.rows.empty()) {
-    fail(path, fmt::format("{}-bit {} PNG: {} must be a {}-bit greyscale PNG", reader.bit_depth,
-                           colour_type_name(reader.colour_type), purpose, wanted_bit_depth));
+    fail(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale PNG", reader.bit_depth,
+                           colour_type_name(reader.colour_type), purpose, describe(wanted)));
   }
-  GreyImage image{.width = reader.width, .height = reader.height, .values = {}};
+  GreyImage image{
+      .width = reader.width, .height = reader.height, .bit_depth = reader.bit_depth, .values = {}};
   image.values.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   const auto width = static_cast<std::size_t>(image.width);
   for (const png_byte* const row : reader.rows) {
     for (std::size_t x = 0; x < width; ++x) {
       image.values.push_back(
-          wanted_bit_depth == 8 ? row[x] : static_cast<std::uint16_t>(row[2 * x] << 8U | row[2 * x + 1]));
+          image.bit_depth == 8 ? row[x] : static_cast<std::uint16_t>(row[2 * x] << 8U | row[2 * x + 1]));
     }
   }
   return image;
 }
+
+/// Numbers of a file, row 0 on top.
+struct NumberMap {
+  int width = 0;
+  int height = 0;
+  int png_bits = 0;  ///< 8 or 16; 0: no PNG
+  std::vector<double> values = {};
+};
 
 float read_float(const char* bytes, bool little_endian) {
   std::array<char, sizeof(float)> raw{};
@@ -178,6 +201,80 @@ T parse_token(const std::filesystem::path& path, std::string_view token, const c
   return value;
 }
 
+NumberMap read_pfm(const std::filesystem::path& path, std::string_view file) {
+  std::string_view rest = file;
+  const std::string_view magic = next_token(path, rest);
+  if (magic == "PF") {
+    fail(path, "colour PFM: a map must be a greyscale PFM (\"Pf\")");
+  }
+  NumberMap image;
+  image.width = parse_token<int>(path, next_token(path, rest), "width");
+  image.height = parse_token<int>(path, next_token(path, rest), "height");
+  const auto scale = parse_token<double>(path, next_token(path, rest), "scale");
+  if (image.width < 1 || image.height < 1 || image.width > kLargestExtent || image.height > kLargestExtent) {
+    fail(path, fmt::format("{} x {} pixels: each must be 1..{}", image.width, image.height, kLargestExtent));
+  }
+  if (std::abs(scale) != 1.0) {
+    fail(path, fmt::format("PFM scale {} is not 1 or -1: the values are scaled", scale));
+  }
+  const auto width = static_cast<std::size_t>(image.width);
+  const auto height = static_cast<std::size_t>(image.height);
+  if (rest.size() != width * height * sizeof(float)) {
+    fail(path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height,
+                           width * height * sizeof(float), rest.size()));
+  }
+  image.values.resize(width * height);
+  for (std::size_t y = 0; y < height; ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      // PFM stores the bottom row first.
+      image.values[y * width + x] =
+          read_float(&rest[((height - 1 - y) * width + x) * sizeof(float)], scale < 0.0);
+    }
+  }
+  return image;
+}
+
+NumberMap read_npy_map(const std::filesystem::path& path) {
+  NpyArray array = read_npy(path);
+  if (array.shape.size() != 2 || array.shape[0] > kLargestExtent || array.shape[1] > kLargestExtent) {
+    fail(path, fmt::format("NPY shape ({}): a map has rows and columns, each 1..{}",
+                           fmt::join(array.shape, ", "), kLargestExtent));
+  }
+  return {.width = static_cast<int>(array.shape[1]),
+          .height = static_cast<int>(array.shape[0]),
+          .png_bits = 0,
+          .values = std::move(array.values)};
+}
+
+/// Tells the kinds of file apart by content.
+NumberMap read_number_map(const std::filesystem::path& path, const char* purpose,
+                          std::optional<double> scale) {
+  if (scale && (!std::isfinite(*scale) || *scale <= 0.0)) {
+    fail(path, fmt::format("the scale of {} is {}, must be a positive number", purpose, *scale));
+  }
+  const std::string file = read_file(path);
+  const std::string_view start(file);
+  if (start.starts_with(kPngSignature)) {
+    const GreyImage grey = read_grey_png(path, GreyBits::kEither, purpose);
+    return {.width = grey.width,
+            .height = grey.height,
+            .png_bits = grey.bit_depth,
+            .values = {grey.values.begin(), grey.values.end()}};
+  }
+  if (start.starts_with("Pf") || start.starts_with("PF")) {
+    return read_pfm(path, file);
+  }
+  if (start.starts_with("\x93NUMPY")) {
+    return read_npy_map(path);
+  }
+  fail(path, "neither a PNG, a PFM nor an NPY file");
+}
+
+std::string pixel_name(const NumberMap& map, std::size_t index) {
+  const auto width = static_cast<std::size_t>(map.width);
+  return fmt::format("column {}, row {}", index % width, index / width);
+}
+
 void check_extent(const DepthImage& image) {
   if (image.width < 1 || image.height < 1 ||
       image.metres.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
@@ -194,23 +291,39 @@ void no_flush(png_structp /*png*/) {}
 
 }  // namespace
 
-DepthImage read_depth_image(const std::filesystem::path& path) {
-  const std::string file = read_file(path);
-  if (std::string_view(file).starts_with(kPngSignature)) {
-    return read_depth_png(path);
+DepthImage read_depth_image(const std::filesystem::path& path, std::optional<double> metres_per_unit) {
+  const NumberMap map = read_number_map(path, "a depth map", metres_per_unit);
+  if (map.png_bits == 8 && !metres_per_unit) {
+    fail(path, "8-bit PNG: a depth map of 8 bits needs its scale, the metres that one unit stands for");
   }
-  if (std::string_view(file).starts_with("Pf") || std::string_view(file).starts_with("PF")) {
-    return read_depth_pfm(path);
+  constexpr double kMillimetre = 1e-3;
+  const double scale = metres_per_unit.value_or(map.png_bits == 16 ? kMillimetre : 1.0);
+  DepthImage image{.width = map.width, .height = map.height};
+  image.metres.reserve(map.values.size());
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    const double metres = map.values[i] * scale;
+    if (metres < 0.0) {
+      fail(path, fmt::format("{}: negative depth {} m", pixel_name(map, i), metres));
+    }
+    image.metres.push_back(std::isfinite(metres) ? static_cast<float>(metres) : 0.0F);
   }
-  fail(path, "neither a PNG nor a PFM file");
+  return image;
 }
 
-DepthImage read_depth_png(const std::filesystem::path& path) {
-  const GreyImage grey = read_grey_png(path, 16, "a depth image");
-  DepthImage image{.width = grey.width, .height = grey.height};
-  image.metres.reserve(grey.values.size());
-  for (const std::uint16_t millimetres : grey.values) {
-    image.metres.push_back(static_cast<float>(millimetres) / 1000.0F);
+ReflectivityImage read_reflectivity_image(const std::filesystem::path& path, std::optional<double> per_unit) {
+  const NumberMap map = read_number_map(path, "a reflectivity map", per_unit);
+  const double full_range =
+      map.png_bits == 0 ? 1.0 : static_cast<double>((1U << static_cast<unsigned>(map.png_bits)) - 1);
+  const double scale = per_unit.value_or(1.0 / full_range);
+  ReflectivityImage image{.width = map.width, .height = map.height};
+  image.values.reserve(map.values.size());
+  for (std::size_t i = 0; i < map.values.size(); ++i) {
+    const double reflectivity = map.values[i] * scale;
+    if (!std::isfinite(reflectivity) || reflectivity < 0.0) {
+      fail(path, fmt::format("{}: a reflectivity of {} is not a finite number of at least 0",
+                             pixel_name(map, i), reflectivity));
+    }
+    image.values.push_back(static_cast<float>(reflectivity));
   }
   return image;
 }
@@ -219,51 +332,11 @@ DepthImage read_disparity_png(const std::filesystem::path& path, double metres_a
   if (!std::isfinite(metres_at_one) || metres_at_one <= 0.0) {
     fail(path, fmt::format("depth at disparity 1 is {}, must be a positive number of metres", metres_at_one));
   }
-  const GreyImage grey = read_grey_png(path, 8, "a disparity map");
+  const GreyImage grey = read_grey_png(path, GreyBits::k8, "a disparity map");
   DepthImage image{.width = grey.width, .height = grey.height};
   image.metres.reserve(grey.values.size());
   for (const std::uint16_t disparity : grey.values) {
     image.metres.push_back(disparity == 0 ? 0.0F : static_cast<float>(metres_at_one / disparity));
-  }
-  return image;
-}
-
-DepthImage read_depth_pfm(const std::filesystem::path& path) {
-  const std::string file = read_file(path);
-  std::string_view rest = file;
-  const std::string_view magic = next_token(path, rest);
-  if (magic == "PF") {
-    fail(path, "colour PFM: a depth image must be a greyscale PFM (\"Pf\")");
-  }
-  if (magic != "Pf") {
-    fail(path, "not a PFM file");
-  }
-  DepthImage image;
-  image.width = parse_token<int>(path, next_token(path, rest), "width");
-  image.height = parse_token<int>(path, next_token(path, rest), "height");
-  const auto scale = parse_token<double>(path, next_token(path, rest), "scale");
-  if (image.width < 1 || image.height < 1 || image.width > kLargestExtent || image.height > kLargestExtent) {
-    fail(path, fmt::format("{} x {} pixels: each must be 1..{}", image.width, image.height, kLargestExtent));
-  }
-  if (std::abs(scale) != 1.0) {
-    fail(path, fmt::format("PFM scale {} is not 1 or -1: the values are not metres", scale));
-  }
-  const auto width = static_cast<std::size_t>(image.width);
-  const auto height = static_cast<std::size_t>(image.height);
-  if (rest.size() != width * height * sizeof(float)) {
-    fail(path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height,
-                           width * height * sizeof(float), rest.size()));
-  }
-  image.metres.resize(width * height);
-  for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; x < width; ++x) {
-      // PFM stores the bottom row first.
-      const float value = read_float(&rest[((height - 1 - y) * width + x) * sizeof(float)], scale < 0.0);
-      if (value < 0.0F && std::isfinite(value)) {
-        fail(path, fmt::format("column {}, row {}: negative depth {} m", x, y, value));
-      }
-      image.metres[y * width + x] = std::isfinite(value) ? value : 0.0F;
-    }
   }
   return image;
 }

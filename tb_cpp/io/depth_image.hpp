@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace dtof {
@@ -19,17 +20,27 @@ struct DepthImage {
   }
 };
 
-/// Reads a 16-bit greyscale PNG in millimetres (0 = unknown) or a greyscale PFM in metres, told apart by
-/// content. Throws InputError "<path>: <reason>".
-DepthImage read_depth_image(const std::filesystem::path& path);
+/// Share of the light that a surface sends back, for each pixel; 0 or more.
+struct ReflectivityImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> values = {};  ///< [row][column], row 0 on top
+};
 
-/// 16-bit greyscale PNG, millimetres, 0 = unknown. Throws InputError for another bit depth or colour type, or
-/// a damaged file.
-DepthImage read_depth_png(const std::filesystem::path& path);
+// Maps are greyscale PNGs of 8 or 16 bits, greyscale PFMs ("Pf", scale 1 or -1: big- or little-endian), or
+// NPY arrays of shape (rows, columns), told apart by content. Readers throw InputError "<path>: <reason>" for
+// anything else, a damaged file, a scale that is not above 0, or a value that the map cannot hold.
 
-/// PFM ("Pf", scale 1 or -1: big- or little-endian), metres. Values that are 0, NaN or infinite are unknown.
-/// Throws InputError for a colour PFM, another scale, a negative depth or a wrong number of bytes.
-DepthImage read_depth_pfm(const std::filesystem::path& path);
+/// Distances in m: the file's numbers times `metres_per_unit`, by default 0.001 for a PNG of 16 bits and 1
+/// for PFM and NPY; a PNG of 8 bits has no default. Numbers that are 0, NaN or infinite are unknown and
+/// become 0; negative ones are refused.
+DepthImage read_depth_image(const std::filesystem::path& path,
+                            std::optional<double> metres_per_unit = std::nullopt);
+
+/// The file's numbers times `per_unit`; by default a PNG's full range becomes 0 to 1, and PFM and NPY are
+/// taken as they are. Negative numbers, NaN and infinity are refused.
+ReflectivityImage read_reflectivity_image(const std::filesystem::path& path,
+                                          std::optional<double> per_unit = std::nullopt);
 
 /// Disparity map as an 8-bit greyscale PNG (e.g. Middlebury stereo, 0 = unknown); depth = `metres_at_one` /
 /// disparity.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "io/npy.hpp"
 #include "io_test_support.hpp"
 
 namespace dtof {
@@ -73,14 +74,14 @@ TEST_F(DepthImageTest, PngRefusesWhatMillimetresCannotHold) {
 
 TEST_F(DepthImageTest, PngRefusesOtherDepthsAndColours) {
   refused(write_png("8.png", PNG_FORMAT_GRAY),
-          "8-bit greyscale PNG: a depth image must be a 16-bit greyscale PNG");
+          "8-bit PNG: a depth map of 8 bits needs its scale, the metres that one unit stands for");
   refused(write_png("rgb.png", PNG_FORMAT_RGB),
-          "8-bit RGB PNG: a depth image must be a 16-bit greyscale PNG");
+          "8-bit RGB PNG: a depth map must be an 8-bit or 16-bit greyscale PNG");
   refused(write_png("rgba.png", PNG_FORMAT_RGBA),
-          "8-bit RGB with alpha PNG: a depth image must be a 16-bit greyscale PNG");
+          "8-bit RGB with alpha PNG: a depth map must be an 8-bit or 16-bit greyscale PNG");
   refused(write_png("ga16.png", PNG_FORMAT_LINEAR_Y_ALPHA),
-          "16-bit greyscale with alpha PNG: a depth image must be a 16-bit greyscale PNG");
-  refused(write("text.png", "hello"), "neither a PNG nor a PFM file");
+          "16-bit greyscale with alpha PNG: a depth map must be an 8-bit or 16-bit greyscale PNG");
+  refused(write("text.png", "hello"), "neither a PNG, a PFM nor an NPY file");
   refused(path("none.png"), "cannot read: No such file or directory");
 }
 
@@ -117,16 +118,18 @@ TEST_F(DepthImageTest, PfmRoundTripAndBothByteOrders) {
 
 TEST_F(DepthImageTest, PfmUnknownValuesBecomeZero) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  write_pfm(path("a.pfm"), {.width = 3, .height = 1, .metres = {std::nanf(""), kInfinity, -kInfinity}});
-  EXPECT_THAT(read_depth_pfm(path("a.pfm")).metres, ElementsAre(0.0F, 0.0F, 0.0F));
+  write_pfm(path("a.pfm"), {.width = 3, .height = 1, .metres = {std::nanf(""), kInfinity, 0.0F}});
+  EXPECT_THAT(read_depth_image(path("a.pfm")).metres, ElementsAre(0.0F, 0.0F, 0.0F));
+  write_pfm(path("a.pfm"), {.width = 1, .height = 1, .metres = {-kInfinity}});
+  refused(path("a.pfm"), "column 0, row 0: negative depth -inf m");
 }
 
 TEST_F(DepthImageTest, PfmRefusals) {
   const std::string one(4, '\0');
   refused(write("a.pfm", "PF\n1 1\n-1.0\n" + one + one + one),
-          "colour PFM: a depth image must be a greyscale PFM (\"Pf\")");
+          "colour PFM: a map must be a greyscale PFM (\"Pf\")");
   refused(write("a.pfm", "Pf\n1 1\n-0.0039\n" + one),
-          "PFM scale -0.0039 is not 1 or -1: the values are not metres");
+          "PFM scale -0.0039 is not 1 or -1: the values are scaled");
   refused(write("a.pfm", "Pf\n1 x\n-1.0\n" + one), "PFM height \"x\" is not a number");
   refused(write("a.pfm", "Pf\n0 1\n-1.0\n"), "0 x 1 pixels: each must be 1..65535");
   refused(write("a.pfm", "Pf\n65536 1\n-1.0\n"), "65536 x 1 pixels: each must be 1..65535");
@@ -136,6 +139,65 @@ TEST_F(DepthImageTest, PfmRefusals) {
   refused(write("a.pfm", "Pf\n1 1\n-1.0\n" + one + "x"), "1 x 1 pixels need 4 bytes, the file has 5");
   write_pfm(path("n.pfm"), {.width = 2, .height = 1, .metres = {1.0F, -2.0F}});
   refused(path("n.pfm"), "column 1, row 0: negative depth -2 m");
+}
+
+TEST_F(DepthImageTest, TheSameMapInEveryFormat) {
+  // 2 rows, 3 columns; the third pixel of row 1 is unknown.
+  const std::vector<double> metres = {0.5, 1.0, 1.5, 2.0, 2.5, 0.0};
+  const std::vector<float> expected(metres.begin(), metres.end());
+  const std::vector<std::size_t> shape = {2, 3};
+  write_depth_png(path("a.png"), {.width = 3, .height = 2, .metres = expected});
+  write_pfm(path("a.pfm"), {.width = 3, .height = 2, .metres = expected});
+  write_npy(path("a.npy"), shape, metres);
+  for (const char* name : {"a.png", "a.pfm", "a.npy"}) {
+    const DepthImage image = read_depth_image(path(name));
+    EXPECT_EQ(image.width, 3) << name;
+    EXPECT_EQ(image.height, 2) << name;
+    EXPECT_THAT(image.metres, ::testing::Pointwise(::testing::FloatEq(), expected)) << name;
+    // A scale replaces the default: a PNG's unit, else a factor.
+    const double unit = std::string(name) == "a.png" ? 0.002 : 2.0;
+    EXPECT_THAT(read_depth_image(path(name), unit).metres[3], FloatEq(4.0F)) << name;
+  }
+}
+
+TEST_F(DepthImageTest, EightBitsOfDepthNeedAScale) {
+  EXPECT_THAT(read_depth_image(write_png("8.png", PNG_FORMAT_GRAY), 0.02).metres,
+              ::testing::Each(FloatEq(2.0F)));
+  for (const double scale : {0.0, -1.0, static_cast<double>(std::nanf(""))}) {
+    test::expect_input_error([&] { (void)read_depth_image(path("8.png"), scale); },
+                             EndsWith("must be a positive number"));
+  }
+}
+
+TEST_F(DepthImageTest, NpyUnknownNegativeAndOddShapes) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  write_npy(path("u.npy"), std::vector<std::size_t>{1, 3}, std::vector<double>{std::nan(""), kInfinity, 0.0});
+  EXPECT_THAT(read_depth_image(path("u.npy")).metres, ElementsAre(0.0F, 0.0F, 0.0F));
+  write_npy(path("n.npy"), std::vector<std::size_t>{2, 2}, std::vector<double>{1.0, 1.0, -2.0, 1.0});
+  refused(path("n.npy"), "column 0, row 1: negative depth -2 m");
+  write_npy(path("d.npy"), std::vector<std::size_t>{1, 2, 2}, std::vector<double>{1.0, 1.0, 2.0, 1.0});
+  refused(path("d.npy"), "NPY shape (1, 2, 2): a map has rows and columns, each 1..65535");
+}
+
+TEST_F(DepthImageTest, ReflectivityOfEveryFormat) {
+  EXPECT_THAT(read_reflectivity_image(write_png("8.png", PNG_FORMAT_GRAY)).values,
+              ::testing::Each(FloatEq(100.0F / 255.0F)));
+  EXPECT_THAT(read_reflectivity_image(path("8.png"), 0.005).values, ::testing::Each(FloatEq(0.5F)));
+  // write_depth_png writes millimetres: 65.535 m is the full range of 16 bits.
+  write_depth_png(path("16.png"), {.width = 2, .height = 1, .metres = {65.535F, 13.107F}});
+  EXPECT_THAT(read_reflectivity_image(path("16.png")).values, ElementsAre(FloatEq(1.0F), FloatEq(0.2F)));
+  write_pfm(path("r.pfm"), {.width = 2, .height = 1, .metres = {0.0F, 0.25F}});
+  EXPECT_THAT(read_reflectivity_image(path("r.pfm")).values, ElementsAre(0.0F, 0.25F));
+  write_npy(path("r.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{0.75, 1.0});
+  const ReflectivityImage image = read_reflectivity_image(path("r.npy"));
+  EXPECT_EQ(image.width, 2);
+  EXPECT_EQ(image.height, 1);
+  EXPECT_THAT(image.values, ElementsAre(0.75F, 1.0F));
+  for (const double bad : {-0.1, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    write_npy(path("b.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{0.5, bad});
+    test::expect_input_error([&] { (void)read_reflectivity_image(path("b.npy")); },
+                             HasSubstr("b.npy: column 1, row 0: a reflectivity of "));
+  }
 }
 
 TEST_F(DepthImageTest, WritersRefuseSizesThatDoNotFit) {
@@ -151,7 +213,7 @@ TEST_F(DepthImageTest, Disparity) {
   test::expect_input_error([&] { (void)read_disparity_png(path("8.png"), -1.0); },
                            EndsWith("depth at disparity 1 is -1, must be a positive number of metres"));
   test::expect_input_error([&] { (void)read_disparity_png(write_png("rgb.png", PNG_FORMAT_RGB), 1.0); },
-                           EndsWith("8-bit RGB PNG: a disparity map must be a 8-bit greyscale PNG"));
+                           EndsWith("8-bit RGB PNG: a disparity map must be an 8-bit greyscale PNG"));
 }
 
 TEST_F(DepthImageTest, ReadsTheMiddleburyScene) {
@@ -163,7 +225,7 @@ TEST_F(DepthImageTest, ReadsTheMiddleburyScene) {
   const auto unknown = std::ranges::count(image.metres, 0.0F);
   EXPECT_GT(unknown, 0);
   EXPECT_LT(unknown, std::ssize(image.metres) / 5);
-  refused(file, "8-bit greyscale PNG: a depth image must be a 16-bit greyscale PNG");
+  refused(file, "8-bit PNG: a depth map of 8 bits needs its scale, the metres that one unit stands for");
 }
 
 }  // namespace
