@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "metrics/depth.hpp"
 #include "readout/model.hpp"
+#include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {
