@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 #include "core/error.hpp"
+#include "core/suggestion.hpp"
 
 namespace dtof {
 namespace {
@@ -18,6 +20,8 @@ struct ReadoutText {
   std::string_view summary;
 };
 
+constexpr int kFewestBits = 3;  // of a timestamp
+constexpr int kMostBits = 16;
 constexpr int kPoolCoarseBits = 5;
 constexpr int kPoolPositionBits = 16;
 constexpr int kPoolRivalBits = 7;
@@ -61,14 +65,14 @@ std::string_view readout_title(Readout readout) { return text(readout).title; }
 std::string_view readout_summary(Readout readout) { return text(readout).summary; }
 
 Readout parse_readout(std::string_view name) {
-  std::string legal;
+  std::vector<std::string_view> known;
   for (const Readout readout : kModelReadouts) {
     if (readout_name(readout) == name) {
       return readout;
     }
-    legal += fmt::format("{}{}", legal.empty() ? "" : ", ", readout_name(readout));
+    known.push_back(readout_name(readout));
   }
-  throw InputError(fmt::format("unknown read-out '{}'; known are {}", name, legal));
+  throw InputError(unknown_name("read-out", name, known));
 }
 
 bool is_pointer_readout(Readout readout) {
@@ -78,6 +82,23 @@ bool is_pointer_readout(Readout readout) {
 
 bool is_pool_readout(Readout readout) {
   return readout == Readout::kPoolPointer || readout == Readout::kPoolPointerLean;
+}
+
+bool has_parameter(Readout readout, std::string_view parameter) {
+  if (parameter == "NB") {
+    return readout != Readout::kEzPointer && readout != Readout::kThreeSteps &&
+           readout != Readout::kHistogram && !is_pool_readout(readout);
+  }
+  if (parameter == "COUNT_WIDTH") {
+    return readout != Readout::kEzPointer;
+  }
+  if (parameter == "POINTER_STEP" || parameter == "FRACTION_BITS" || parameter == "CONFIDENCE_WIDTH") {
+    return is_pointer_readout(readout);
+  }
+  if (parameter == "GUARD") {
+    return readout == Readout::kHisPointer;
+  }
+  return parameter == "WINDOW_CENTRED" && readout == Readout::kSifh;
 }
 
 PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
@@ -144,6 +165,7 @@ PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParamete
 }
 
 ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
+  require_range("NP", np, kFewestBits, kMostBits);
   ReadoutParameters parameters;
   parameters.readout = readout;
   parameters.np = np;
@@ -186,7 +208,7 @@ void ReadoutParameters::validate() const {
                       count_width, pool.group_size));
     }
   } else {
-    require_range("NP", np, 3, 16);
+    require_range("NP", np, kFewestBits, kMostBits);
     require(nb >= 1 && nb <= np, "NB must be 1 to NP", nb);
     require_range("SLOTS", slots, 1, 16);
     require_range("COUNT_WIDTH", count_width, 1, 16);
@@ -218,20 +240,20 @@ std::string ReadoutParameters::to_string() const {
         pool.rival_moves ? "moves" : "stays", pool.coarse_share, pool.track_share);
     return out;
   }
-  if (readout != Readout::kEzPointer && readout != Readout::kThreeSteps && readout != Readout::kHistogram) {
+  if (has_parameter(readout, "NB")) {
     out += fmt::format(" NB={}", nb);
   }
-  if (readout != Readout::kEzPointer) {
+  if (has_parameter(readout, "COUNT_WIDTH")) {
     out += fmt::format(" COUNT_WIDTH={}", count_width);
   }
   if (is_pointer_readout(readout)) {
     out += fmt::format(" POINTER_STEP={} FRACTION_BITS={} CONFIDENCE_WIDTH={}", pointer_step, fraction_bits,
                        confidence_width);
   }
-  if (readout == Readout::kHisPointer) {
+  if (has_parameter(readout, "GUARD")) {
     out += fmt::format(" GUARD={}", guard);
   }
-  if (readout == Readout::kSifh) {
+  if (has_parameter(readout, "WINDOW_CENTRED")) {
     out += fmt::format(" WINDOW_CENTRED={}", window_centred ? 1 : 0);
   }
   return out;

@@ -48,6 +48,9 @@ Readout parse_readout(std::string_view name);
 bool is_pointer_readout(Readout readout);
 /// poolpointer and poolpointer-lean: the pixels of a column help each other.
 bool is_pool_readout(Readout readout);
+/// Whether NB, COUNT_WIDTH, POINTER_STEP, FRACTION_BITS, CONFIDENCE_WIDTH, GUARD or WINDOW_CENTRED can be
+/// chosen for the read-out and changes its result; false for any other name.
+bool has_parameter(Readout readout, std::string_view parameter);
 
 /// Parameters of the pool read-outs beyond those they share with the others (docs/poolpointer.md). Lengths
 /// are fractions of a coarse bin, a 32nd of the range.
@@ -115,7 +118,8 @@ struct ReadoutParameters {
 
   /// Spec defaults: NB = floor(NP/2) + 1 for SiFH (Eq. 2.3), floor(NP/2) for FiFH and hisPointer,
   /// min(NP, 6) for PiFH, NP for the histogram; GUARD = ceil(FWHM / T_res) scaled to NP. The pool read-outs
-  /// have NB = 5, COUNT_WIDTH = 8 and FRACTION_BITS = 16 - NP, which is no free choice there.
+  /// have NB = 5, COUNT_WIDTH = 7 (lean: 8) and FRACTION_BITS = 16 - NP, which is no free choice there.
+  /// Throws InputError for an NP outside 3 to 16.
   static ReadoutParameters defaults(Readout readout, int np = 10);
 
   /// Throws InputError with the RTL's own sentence and the value if a parameter is outside its range.

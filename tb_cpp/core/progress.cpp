@@ -4,6 +4,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <utility>
 
@@ -15,6 +17,18 @@ namespace {
 volatile std::sig_atomic_t interruption_requested = 0;
 
 void request_interruption(int /*signal*/) { interruption_requested = 1; }
+
+/// True once every `interval`, for whichever work asks first.
+bool is_time_to_log(std::chrono::steady_clock::time_point now, std::chrono::steady_clock::duration interval) {
+  static std::mutex mutex;
+  static std::chrono::steady_clock::time_point last = now;  // the first work's first step
+  const std::scoped_lock lock(mutex);
+  if (now - last < interval) {
+    return false;
+  }
+  last = now;
+  return true;
+}
 
 }  // namespace
 
@@ -29,8 +43,32 @@ void check_interruption() {
   }
 }
 
-Progress::Progress(std::string title, std::size_t total)
-    : title_(std::move(title)), total_(total), terminal_(isatty(STDERR_FILENO) == 1) {}
+std::string progress_text(std::string_view title, std::size_t done, std::size_t total,
+                          std::chrono::duration<double> elapsed) {
+  const double share = static_cast<double>(done) / static_cast<double>(total);
+  std::string text = fmt::format("{} {} %", title, done * 100 / total);
+  if (done == 0 || elapsed < std::chrono::seconds(1)) {
+    return text;
+  }
+  const auto seconds = std::llround(elapsed.count() * (1.0 - share) / share);
+  constexpr long long kMinute = 60;
+  constexpr long long kHour = 60 * kMinute;
+  if (seconds < kMinute) {
+    return text + fmt::format(", {} s left", seconds);
+  }
+  if (seconds < kHour) {
+    return text + fmt::format(", {} min left", (seconds + kMinute / 2) / kMinute);
+  }
+  return text + fmt::format(", {} h {} min left", seconds / kHour, seconds % kHour / kMinute);
+}
+
+Progress::Progress(std::string title, std::size_t total, std::chrono::steady_clock::duration log_interval)
+    : title_(std::move(title)),
+      total_(total),
+      log_interval_(log_interval),
+      start_(Clock::now()),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      drawn_at_(start_) {}
 
 Progress::~Progress() {
   if (terminal_ && drawn_percent_ >= 0) {
@@ -39,15 +77,25 @@ Progress::~Progress() {
 }
 
 void Progress::advance(std::size_t steps) {
-  const std::size_t done = done_.fetch_add(steps) + steps;
-  if (!terminal_ || total_ == 0) {
+  const std::size_t done = std::min(done_.fetch_add(steps) + steps, total_);
+  if (total_ == 0) {
     return;
   }
+  const Clock::time_point now = Clock::now();
+  if (terminal_) {
+    draw(done, now);
+  } else if (is_time_to_log(now, log_interval_)) {
+    fmt::print(stderr, "{}\n", progress_text(title_, done, total_, now - start_));
+  }
+}
+
+void Progress::draw(std::size_t done, Clock::time_point now) {
   const std::scoped_lock lock(mutex_);
   const int percent = static_cast<int>(done * 100 / total_);
-  if (percent > drawn_percent_) {
+  if (percent > drawn_percent_ || now - drawn_at_ >= std::chrono::seconds(1)) {
     drawn_percent_ = percent;
-    fmt::print(stderr, "\r\033[K{} {}%", title_, percent);
+    drawn_at_ = now;
+    fmt::print(stderr, "\r\033[K{}", progress_text(title_, done, total_, now - start_));
   }
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 namespace dtof {
 
@@ -13,25 +15,39 @@ void install_interruption_handler();
 /// Throws Interrupted after SIGINT or SIGTERM.
 void check_interruption();
 
-/// One progress line on standard error, drawn only on a terminal. Thread-safe.
+/// E.g. "columns 40 %, 3 min left"; the time left assumes that the rest goes as fast as what is done, and is
+/// left out in the first second. `done` is at most `total`, which is above 0.
+std::string progress_text(std::string_view title, std::size_t done, std::size_t total,
+                          std::chrono::duration<double> elapsed);
+
+/// How far a work is, on standard error: one line that is drawn anew on a terminal, else, so that a log shows
+/// that the program is alive, a line at most every `log_interval` of the whole program. Thread-safe.
 class Progress {
  public:
-  Progress(std::string title, std::size_t total);
+  Progress(std::string title, std::size_t total,
+           std::chrono::steady_clock::duration log_interval = std::chrono::minutes(1));
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   Progress(Progress&&) = delete;
   Progress& operator=(Progress&&) = delete;
-  /// Erases the line.
+  /// Erases the line on a terminal.
   ~Progress();
   void advance(std::size_t steps = 1);
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw(std::size_t done, Clock::time_point now);
+
   std::string title_;
   std::size_t total_;
+  Clock::duration log_interval_;
+  Clock::time_point start_;
   bool terminal_;
   std::atomic<std::size_t> done_{0};
   std::mutex mutex_;
   int drawn_percent_ = -1;
+  Clock::time_point drawn_at_;
 };
 
 }  // namespace dtof

@@ -2,7 +2,6 @@
 #include "scene/scene.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 #include <cstddef>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/suggestion.hpp"
 #include "scene/outdoor.hpp"
 #include "scene/room.hpp"
 
@@ -107,7 +107,7 @@ Scene parse_scene(std::string_view name) {
     }
     known.push_back(scene_name(scene));
   }
-  throw InputError(fmt::format("unknown scene '{}': known are {}", name, fmt::join(known, ", ")));
+  throw InputError(unknown_name("scene", name, known));
 }
 
 TargetMap make_scene(Scene scene, const SceneParameters& parameters) {

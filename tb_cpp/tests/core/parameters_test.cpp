@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/parameters.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -112,6 +113,26 @@ TEST(ReadoutParameters, DefaultsAreLegalForEveryWidth) {
           << readout_name(readout) << ' ' << np;
     }
   }
+}
+
+TEST(ReadoutParameters, RefusesTimestampsOfOtherWidthsBeforeAnyArithmetic) {
+  for (const int np : {-1, 0, 2, 17, 100, 1 << 30}) {
+    EXPECT_THROW((void)ReadoutParameters::defaults(Readout::kSifh, np), InputError) << np;
+  }
+}
+
+TEST(ReadoutParameters, AReadoutHasTheParametersThatItsTextNames) {
+  for (const Readout readout : kModelReadouts) {
+    const std::string text = ReadoutParameters::defaults(readout).to_string();
+    for (const char* name : {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH",
+                             "GUARD", "WINDOW_CENTRED"}) {
+      EXPECT_EQ(has_parameter(readout, name), text.find(fmt::format(" {}=", name)) != std::string::npos)
+          << text << ' ' << name;
+    }
+    EXPECT_FALSE(has_parameter(readout, "NP_"));
+  }
+  EXPECT_TRUE(has_parameter(Readout::kHisPointer, "GUARD"));
+  EXPECT_FALSE(has_parameter(Readout::kHisPointer1, "GUARD"));
 }
 
 TEST(ReadoutParameters, RangesAreInclusive) {

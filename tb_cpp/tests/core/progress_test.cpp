@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <string>
@@ -20,6 +22,43 @@ TEST(Progress, SilentWhereStandardErrorIsNoTerminal) {
     parallel_for(2, 2, [&progress](std::size_t /*index*/) { progress.advance(); });
   }
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Progress, WritesALineAnIntervalWhereStandardErrorIsNoTerminal) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress("columns", 4, std::chrono::seconds(0));
+    progress.advance();
+    progress.advance(3);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "columns 25 %\ncolumns 100 %\n");
+}
+
+TEST(Progress, TheIntervalIsTheWholeProgramsNotEachWorks) {
+  constexpr auto kInterval = std::chrono::milliseconds(200);
+  testing::internal::CaptureStderr();
+  const auto start = std::chrono::steady_clock::now();
+  int works = 0;
+  while (std::chrono::steady_clock::now() - start < 2 * kInterval) {
+    Progress progress("short work", 1, kInterval);
+    progress.advance();
+    ++works;
+  }
+  const std::string log = testing::internal::GetCapturedStderr();
+  const auto lines = std::count(log.begin(), log.end(), '\n');
+  EXPECT_GE(lines, 1);
+  EXPECT_LE(lines, 3);
+  EXPECT_GT(works, 3);
+}
+
+TEST(Progress, TheTimeLeftIsThatOfTheRestAtTheSameSpeed) {
+  using std::chrono::seconds;
+  EXPECT_EQ(progress_text("rows", 0, 10, seconds(9)), "rows 0 %");
+  EXPECT_EQ(progress_text("rows", 1, 10, std::chrono::milliseconds(999)), "rows 10 %");
+  EXPECT_EQ(progress_text("rows", 2, 10, seconds(10)), "rows 20 %, 40 s left");
+  EXPECT_EQ(progress_text("rows", 1, 3, seconds(60)), "rows 33 %, 2 min left");
+  EXPECT_EQ(progress_text("rows", 1, 100, seconds(100)), "rows 1 %, 2 h 45 min left");
+  EXPECT_EQ(progress_text("rows", 10, 10, seconds(60)), "rows 100 %, 0 s left");
 }
 
 // The flag stays set for the rest of the process, so the signal is raised in a child.
