@@ -28,6 +28,10 @@ namespace dtof {
 namespace {
 
 constexpr int kLargestExtent = 65535;
+// Far more than any depth camera has; a pixel takes 8 bytes while it is read.
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;
+// Deflate packs no better than this: a header that asks for more has too little data behind it.
+constexpr std::uint64_t kBestPacking = 1032;
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
 [[noreturn]] void fail(const std::filesystem::path& path, std::string_view reason) {
@@ -55,6 +59,7 @@ const char* colour_type_name(int type) {
 /// everything that owns memory lives here, outside the function that sets the jump.
 struct PngReader {
   std::string_view rest;
+  std::size_t file_size = 0;
   std::string error;
   png_structp png = nullptr;
   png_infop info = nullptr;
@@ -113,6 +118,14 @@ bool decode_png(PngReader& reader, GreyBits wanted) {
   if (reader.colour_type != PNG_COLOR_TYPE_GRAY || !takes(wanted, reader.bit_depth)) {
     return true;
   }
+  const std::uint64_t pixels =
+      static_cast<std::uint64_t>(reader.width) * static_cast<std::uint64_t>(reader.height);
+  if (pixels > kMostPixels) {
+    png_error(reader.png, "more than 2^26 pixels");
+  }
+  if (pixels * static_cast<unsigned>(reader.bit_depth / 8) > kBestPacking * reader.file_size) {
+    png_error(reader.png, "the file ends early");
+  }
   png_set_interlace_handling(reader.png);
   png_read_update_info(reader.png, reader.info);
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
@@ -140,9 +153,11 @@ GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, cons
   }
   PngReader reader;
   reader.rest = file;
+  reader.file_size = file.size();
   reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_png_error, on_png_warning);
   reader.info = png_create_info_struct(reader.png);
   png_set_read_fn(reader.png, &reader, on_png_read);
+  png_set_user_limits(reader.png, kLargestExtent, kLargestExtent);
   if (!decode_png(reader, wanted)) {
     fail(path, fmt::format("damaged PNG: {}", reader.error));
   }

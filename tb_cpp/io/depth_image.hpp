@@ -28,8 +28,9 @@ struct ReflectivityImage {
 };
 
 // Maps are greyscale PNGs of 8 or 16 bits, greyscale PFMs ("Pf", scale 1 or -1: big- or little-endian), or
-// NPY arrays of shape (rows, columns), told apart by content. Readers throw InputError "<path>: <reason>" for
-// anything else, a damaged file, a scale that is not above 0, or a value that the map cannot hold.
+// NPY arrays of shape (rows, columns), told apart by content; at most 65535 pixels in a row or column and, as
+// a PNG, 2^26 in all. Readers throw InputError "<path>: <reason>" for anything else, a damaged file, a scale
+// that is not above 0, or a value that the map cannot hold.
 
 /// Distances in m: the file's numbers times `metres_per_unit`, by default 0.001 for a PNG of 16 bits and 1
 /// for PFM and NPY; a PNG of 8 bits has no default. Numbers that are 0, NaN or infinite are unknown and

@@ -13,6 +13,25 @@
 #include "core/error.hpp"
 
 namespace dtof {
+namespace {
+
+/// Without a budget every count becomes a photon in memory.
+void check_photon_numbers(const HistogramCube& cube) {
+  for (int row = 0; row < cube.rows; ++row) {
+    for (int column = 0; column < cube.columns; ++column) {
+      const std::span<const double> counts = cube.pixel(column, row);
+      const double photons = std::accumulate(counts.begin(), counts.end(), 0.0);
+      if (photons > kLargestPhotonNumber) {
+        throw InputError(fmt::format(
+            "histograms: column {}, row {}: {:.0f} photons are more than the {:g} that a pixel can "
+            "have in a frame; give a photon budget (--photons)",
+            column, row, photons, kLargestPhotonNumber));
+      }
+    }
+  }
+}
+
+}  // namespace
 
 void HistogramCube::validate() const {
   if (columns < 1 || rows < 1 || bins < 1) {
@@ -51,11 +70,12 @@ HistogramStream::HistogramStream(HistogramCube cube, const Resampling& resamplin
     : ResampledStream(cube.columns, cube.rows, resampling), cube_(std::move(cube)) {
   cube_.validate();
   if (!resampling.photon_budget) {
+    check_photon_numbers(cube_);
     const auto fraction = std::find_if(cube_.counts.begin(), cube_.counts.end(),
                                        [](double count) { return count != std::floor(count); });
     if (fraction != cube_.counts.end()) {
       throw InputError(
-          fmt::format("histograms: count {} is not an integer; give a photon budget", *fraction));
+          fmt::format("histograms: count {} is not an integer; give a photon budget (--photons)", *fraction));
     }
   }
 }

@@ -24,9 +24,15 @@ struct GzipCloser {
   void operator()(gzFile file) const { gzclose(file); }
 };
 
+void check_length(const std::filesystem::path& path, std::size_t bytes, std::size_t longest) {
+  if (bytes > longest) {
+    throw InputError(fmt::format("{}: more than {} MiB to read", path.string(), longest >> 20U));
+  }
+}
+
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path) {
+std::string read_file(const std::filesystem::path& path, std::size_t longest) {
   if (std::error_code error; std::filesystem::is_directory(path, error)) {
     throw InputError(fmt::format("{}: cannot read: it is a directory", path.string()));
   }
@@ -38,12 +44,14 @@ std::string read_file(const std::filesystem::path& path) {
   std::string contents;
   if (std::error_code error; const auto size = std::filesystem::file_size(path, error)) {
     if (!error) {
+      check_length(path, size, longest);
       contents.reserve(size);
     }
   }
   std::array<char, std::size_t{1} << 16U> chunk{};
   while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), file.get())) {
     contents.append(chunk.data(), count);
+    check_length(path, contents.size(), longest);
   }
   if (std::ferror(file.get()) != 0) {
     throw InputError(
@@ -55,8 +63,8 @@ std::string read_file(const std::filesystem::path& path) {
   return contents;
 }
 
-std::string read_file_or_gzip(const std::filesystem::path& path) {
-  std::string contents = read_file(path);
+std::string read_file_or_gzip(const std::filesystem::path& path, std::size_t longest) {
+  std::string contents = read_file(path, longest);
   if (!std::string_view(contents).starts_with("\x1f\x8b")) {
     return contents;
   }
@@ -69,6 +77,7 @@ std::string read_file_or_gzip(const std::filesystem::path& path) {
   int count = 0;
   while ((count = gzread(file.get(), chunk.data(), chunk.size())) > 0) {
     contents.append(chunk.data(), static_cast<std::size_t>(count));
+    check_length(path, contents.size(), longest);
   }
   // A stream that ends early is no error for gzread (it may still grow), only for gzerror.
   int code = Z_OK;

@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
 namespace dtof {
 
-/// Whole contents of a file. Throws InputError "<path>: <reason>" when it is missing, unreadable, a directory
-/// or empty.
-std::string read_file(const std::filesystem::path& path);
+/// Longest file that is read, and most that gzip data may unpack to: a few kilobytes of it can hold
+/// terabytes.
+inline constexpr std::size_t kLongestFile = std::size_t{1} << 32U;
+inline constexpr std::size_t kLongestUnpacked = std::size_t{1} << 28U;
+
+/// Whole contents of a file. Throws InputError "<path>: <reason>" when it is missing, unreadable, a
+/// directory, empty or longer than `longest` bytes.
+std::string read_file(const std::filesystem::path& path, std::size_t longest = kLongestFile);
 
 /// As `read_file`, and unpacks gzip (recognised by its first two bytes). Throws also when the gzip data is
-/// damaged or ends early.
-std::string read_file_or_gzip(const std::filesystem::path& path);
+/// damaged or ends early, or when file or unpacked data are longer than `longest` bytes.
+std::string read_file_or_gzip(const std::filesystem::path& path, std::size_t longest = kLongestUnpacked);
 
 }  // namespace dtof

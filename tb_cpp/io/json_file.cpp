@@ -67,7 +67,9 @@ std::vector<std::uint32_t> JsonNode::counts(std::size_t size) const {
     const nlohmann::json& element = (*value_)[i];
     if (!element.is_number_unsigned() ||
         element.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
-      at(i).fail(fmt::format("{} is not a photon count (0..2^32-1)", element.dump()));
+      // An array or object may be nested deeper than the stack.
+      at(i).fail(fmt::format("{} is not a photon count (0..2^32-1)",
+                             element.is_structured() ? element.type_name() : element.dump()));
     }
     result.push_back(element.get<std::uint32_t>());
   }

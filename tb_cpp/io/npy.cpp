@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -11,7 +12,6 @@
 #include <cstring>
 #include <functional>
 #include <numeric>
-#include <regex>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -26,6 +26,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "elements are copied as they stand in the file");
 
+// Four histogram cubes of 200 x 160 pixels and 1024 bins; as doubles 1 GiB.
+constexpr std::size_t kMostElements = std::size_t{1} << 27U;
 constexpr std::string_view kMagic = "\x93NUMPY";
 
 template <typename T>
@@ -52,31 +54,70 @@ constexpr std::array<Dtype, 7> kDtypes = {{{"u1", 1, element<std::uint8_t>},
   throw InputError(fmt::format("{}: {}", path.string(), reason));
 }
 
-/// Value of one key of the header, a Python dict that numpy writes with these three keys.
-std::string header_value(const std::filesystem::path& path, const std::string& header, const char* key,
-                         const char* pattern) {
-  std::smatch match;
-  if (!std::regex_search(header, match, std::regex(fmt::format("'{}'\\s*:\\s*{}", key, pattern)))) {
-    fail(path, fmt::format("the NPY header has no readable '{}'", key));
-  }
-  return match[1];
+[[noreturn]] void fail_header(const std::filesystem::path& path, std::string_view key) {
+  fail(path, fmt::format("the NPY header has no readable '{}'", key));
 }
 
-std::vector<std::size_t> parse_shape(const std::filesystem::path& path, const std::string& text) {
+/// Text behind "'key':" in the header, a Python dict that numpy writes with its three keys.
+std::string_view behind_key(const std::filesystem::path& path, std::string_view header,
+                            std::string_view key) {
+  const std::string quoted = fmt::format("'{}'", key);
+  if (const std::size_t found = header.find(quoted); found != std::string_view::npos) {
+    header.remove_prefix(found + quoted.size());
+    const std::size_t colon = header.find_first_not_of(' ');
+    if (colon != std::string_view::npos && header[colon] == ':') {
+      header.remove_prefix(colon + 1);
+      header.remove_prefix(std::min(header.find_first_not_of(' '), header.size()));
+      return header;
+    }
+  }
+  fail_header(path, key);
+}
+
+/// What stands between `open`, with which `text` must begin, and the next `close`.
+std::string_view enclosed(const std::filesystem::path& path, std::string_view text, char open, char close,
+                          std::string_view key) {
+  const std::size_t end = text.find(close, 1);
+  if (!text.starts_with(open) || end == std::string_view::npos) {
+    fail_header(path, key);
+  }
+  return text.substr(1, end - 1);
+}
+
+bool parse_fortran_order(const std::filesystem::path& path, std::string_view header) {
+  constexpr std::string_view kKey = "fortran_order";
+  const std::string_view text = behind_key(path, header, kKey);
+  if (!text.starts_with("True") && !text.starts_with("False")) {
+    fail_header(path, kKey);
+  }
+  return text.starts_with("True");
+}
+
+std::vector<std::size_t> parse_shape(const std::filesystem::path& path, std::string_view header) {
+  constexpr std::string_view kKey = "shape";
+  const std::string_view text = enclosed(path, behind_key(path, header, kKey), '(', ')', kKey);
+  if (text.find_first_not_of("0123456789, ") != std::string_view::npos) {
+    fail_header(path, kKey);
+  }
   std::vector<std::size_t> shape;
-  const std::regex number("[0-9]+");
-  for (auto it = std::sregex_iterator(text.begin(), text.end(), number); it != std::sregex_iterator(); ++it) {
-    const std::string digits = it->str();
+  for (std::size_t begin = text.find_first_not_of(", "); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find_first_of(", ", begin), text.size());
     std::size_t value = 0;
-    if (std::from_chars(digits.data(), digits.data() + digits.size(), value).ec != std::errc()) {
+    if (std::from_chars(text.data() + begin, text.data() + end, value).ec != std::errc()) {
       fail(path, fmt::format("the NPY shape ({}) is too large", text));
     }
     shape.push_back(value);
+    begin = text.find_first_not_of(", ", end);
   }
   return shape;
 }
 
-const Dtype& find_dtype(const std::filesystem::path& path, const std::string& descr) {
+const Dtype& find_dtype(const std::filesystem::path& path, std::string_view header) {
+  constexpr std::string_view kKey = "descr";
+  const std::string_view descr = enclosed(path, behind_key(path, header, kKey), '\'', '\'', kKey);
+  if (descr.empty()) {
+    fail_header(path, kKey);
+  }
   for (const Dtype& dtype : kDtypes) {
     if (descr.substr(1) == dtype.name && (descr[0] == '<' || (descr[0] == '|' && dtype.size == 1))) {
       return dtype;
@@ -109,15 +150,11 @@ NpyArray read_npy(const std::filesystem::path& path) {
   if (file.size() - header_begin < header_length) {
     fail(path, "the NPY header ends early");
   }
-  // No real header is near this size, and std::regex recurses on its input.
-  if (header_length > 4096) {
-    fail(path, fmt::format("the NPY header has {} bytes, more than 4096", header_length));
-  }
-  const std::string header = file.substr(header_begin, header_length);
-  const Dtype& dtype = find_dtype(path, header_value(path, header, "descr", "'([^']+)'"));
-  const bool fortran = header_value(path, header, "fortran_order", "(True|False)") == "True";
+  const std::string_view header = std::string_view(file).substr(header_begin, header_length);
+  const Dtype& dtype = find_dtype(path, header);
+  const bool fortran = parse_fortran_order(path, header);
   NpyArray array;
-  array.shape = parse_shape(path, header_value(path, header, "shape", "\\(([0-9, ]*)\\)"));
+  array.shape = parse_shape(path, header);
 
   const std::size_t available = (file.size() - header_begin - header_length) / dtype.size;
   std::size_t count = 1;
@@ -132,6 +169,9 @@ NpyArray read_npy(const std::filesystem::path& path) {
   if (file.size() - data_begin != count * dtype.size) {
     fail(path, fmt::format("shape ({}) of {} needs {} bytes, the file has {}", fmt::join(array.shape, ", "),
                            dtype.name, count * dtype.size, file.size() - data_begin));
+  }
+  if (count > kMostElements) {
+    fail(path, fmt::format("shape ({}) holds more than 2^27 elements", fmt::join(array.shape, ", ")));
   }
   if (count == 0) {
     fail(path, fmt::format("shape ({}) holds nothing", fmt::join(array.shape, ", ")));

@@ -15,8 +15,8 @@ struct NpyArray {
 };
 
 /// Reads NPY format 1.0 and 2.0 (numpy.lib.format) of dtype u1, u2, u4, i4, i8, f4 or f8, little-endian, C or
-/// Fortran order. Throws InputError "<path>: <reason>" for anything else, a truncated file or bytes left
-/// over.
+/// Fortran order, at most 2^27 elements. Throws InputError "<path>: <reason>" for anything else, a truncated
+/// file or bytes left over.
 NpyArray read_npy(const std::filesystem::path& path);
 
 /// Writes f8 in C order, format 1.0; the product of `shape` must be values.size() (std::logic_error).

@@ -13,6 +13,7 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +22,9 @@
 
 namespace dtof {
 namespace {
+
+constexpr std::size_t kLongestUnpackedMat = std::size_t{1} << 30U;
+constexpr std::size_t kLargestExtent = std::numeric_limits<std::uint16_t>::max();
 
 struct MatCloser {
   void operator()(mat_t* file) const { Mat_Close(file); }
@@ -40,28 +44,31 @@ std::uint32_t word_at(std::string_view file, std::size_t offset) {
   return word;
 }
 
-/// zlib data that decompresses to its end with the right checksum.
-bool is_sound_zlib(std::string_view data) {
+/// Bytes that zlib data unpacks to; none if it does not decompress to its end with the right checksum, or to
+/// more than `longest`.
+std::optional<std::size_t> unpacked_size(std::string_view data, std::size_t longest) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) {
-    return false;
+    return std::nullopt;
   }
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
   stream.avail_in = static_cast<uInt>(data.size());
   std::array<Bytef, std::size_t{1} << 16U> discarded{};
   int status = Z_OK;
-  while (status == Z_OK) {
+  while (status == Z_OK && stream.total_out <= longest) {
     stream.next_out = discarded.data();
     stream.avail_out = static_cast<uInt>(discarded.size());
     status = inflate(&stream, Z_NO_FLUSH);
   }
   inflateEnd(&stream);
-  return status == Z_STREAM_END;
+  return status == Z_STREAM_END && stream.total_out <= longest ? std::optional(stream.total_out)
+                                                               : std::nullopt;
 }
 
 /// matio hands out what it could read of a truncated file and ignores zlib's checksum, so the container is
 /// checked here: after the header of 128 bytes the elements (type, size, data) must fill the file exactly.
-void check_mat_file(const std::filesystem::path& path) {
+/// Returns the bytes of all elements, unpacked.
+std::size_t check_mat_file(const std::filesystem::path& path) {
   constexpr std::size_t kHeaderSize = 128;
   constexpr std::size_t kTagSize = 8;
   constexpr std::uint32_t kCompressed = 15;
@@ -78,33 +85,62 @@ void check_mat_file(const std::filesystem::path& path) {
       kLittleEndianLevel5) {
     fail(path, "not a little-endian MATLAB 5 file (save with -v7 or -v6)");
   }
+  std::size_t unpacked = 0;
   std::size_t offset = kHeaderSize;
   while (offset < file.size()) {
     if (file.size() - offset < kTagSize || file.size() - offset - kTagSize < word_at(file, offset + 4)) {
       fail(path, fmt::format("damaged: the variable at byte {} ends beyond the file", offset));
     }
     const std::size_t size = word_at(file, offset + 4);
-    if (word_at(file, offset) == kCompressed && !is_sound_zlib(file.substr(offset + kTagSize, size))) {
-      fail(path, fmt::format("damaged: the variable at byte {} does not decompress", offset));
+    if (word_at(file, offset) == kCompressed) {
+      const auto bytes = unpacked_size(file.substr(offset + kTagSize, size), kLongestUnpackedMat - unpacked);
+      if (!bytes) {
+        fail(path,
+             fmt::format("damaged: the variable at byte {} does not decompress, or not to 1 GiB at most",
+                         offset));
+      }
+      unpacked += *bytes;
+    } else {
+      unpacked += size;
     }
     offset += kTagSize + size;
   }
+  return unpacked;
+}
+
+[[noreturn]] void fail_sparse(const std::filesystem::path& path, const std::string& name,
+                              const std::string& conversion) {
+  fail(path,
+       fmt::format("\"{0}\" is sparse, which is not supported; convert it in MATLAB or Octave: {0} = {1}; "
+                   "save('-v7', 'full.mat', '{0}')",
+                   name, conversion));
 }
 
 Variable read_variable(const std::filesystem::path& path, const std::string& name) {
-  check_mat_file(path);
+  const std::size_t unpacked_bytes = check_mat_file(path);
   const std::unique_ptr<mat_t, MatCloser> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
   if (!file) {
     fail(path, "not a MATLAB file");
   }
+  const Variable info(Mat_VarReadInfo(file.get(), name.c_str()));
+  if (!info) {
+    fail(path, fmt::format("the variable \"{}\" is missing or damaged", name));
+  }
+  if (info->class_type == MAT_C_SPARSE) {
+    fail_sparse(path, name, fmt::format("full({})", name));
+  }
+  if (info->rank != 2 || info->dims[0] == 0 || info->dims[1] == 0 || info->dims[0] > kLargestExtent ||
+      info->dims[1] > kLargestExtent) {
+    fail(path, fmt::format("\"{}\" is not a two-dimensional array of at most 65535 x 65535", name));
+  }
+  // Every element takes at least a byte of the file: a header that asks for more is damaged.
+  if (info->dims[0] * info->dims[1] > unpacked_bytes) {
+    fail(path, fmt::format("damaged: \"{}\" has {} x {} elements, the whole file {} bytes", name,
+                           info->dims[0], info->dims[1], unpacked_bytes));
+  }
   Variable variable(Mat_VarRead(file.get(), name.c_str()));
   if (!variable) {
     fail(path, fmt::format("the variable \"{}\" is missing or damaged", name));
-  }
-  if (variable->rank != 2 || variable->dims[0] == 0 || variable->dims[1] == 0 ||
-      variable->dims[0] > std::numeric_limits<std::uint16_t>::max() ||
-      variable->dims[1] > std::numeric_limits<std::uint16_t>::max()) {
-    fail(path, fmt::format("\"{}\" is not a two-dimensional array of at most 65535 x 65535", name));
   }
   return variable;
 }
@@ -168,6 +204,9 @@ PhotonTimes read_photon_times_mat(const std::filesystem::path& path, const std::
     for (int column = 0; column < photons.columns; ++column) {
       const matvar_t* const cell = Mat_VarGetCell(cells.get(), row + column * photons.rows);
       const bool empty = cell == nullptr || cell->class_type == MAT_C_EMPTY;
+      if (!empty && cell->class_type == MAT_C_SPARSE) {
+        fail_sparse(path, variable, fmt::format("cellfun(@full, {}, 'UniformOutput', false)", variable));
+      }
       if (!empty && !append_numbers(*cell, photons.ticks)) {
         fail(path, fmt::format("\"{}\": the cell of column {}, row {} is damaged or holds no real numbers",
                                variable, column, row));

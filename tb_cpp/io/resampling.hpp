@@ -17,6 +17,10 @@ enum class PhotonNumber {
   kFixed,    ///< the budget rounded to an integer, every time
 };
 
+/// Most photons, and most background events, of a pixel and frame; each takes 16 bytes while the pixel's
+/// stream is made. A TDC keeps acquisitions * SLOTS of them, for 3333 acquisitions 6666.
+inline constexpr double kLargestPhotonNumber = 1e7;
+
 /// How measured photons become the TDC stream of a frame.
 struct Resampling {
   int np = 10;                        ///< bits of a timestamp, 1..16

@@ -2,6 +2,7 @@
 #include "io/depth_image.hpp"
 
 #include <png.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -100,6 +101,32 @@ TEST_F(DepthImageTest, PngTruncatedAnywhereIsRefused) {
   damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 0x55);
   test::expect_input_error([&] { (void)read_depth_image(write("t.png", damaged)); },
                            HasSubstr("damaged PNG"));
+}
+
+/// PNG of a 16-bit greyscale header and no pixels.
+std::string png_header(std::uint32_t width, std::uint32_t height) {
+  const auto word = [](std::uint32_t value) {
+    std::string bytes;
+    for (const unsigned shift : {24U, 16U, 8U, 0U}) {
+      bytes += static_cast<char>(value >> shift & 0xFFU);
+    }
+    return bytes;
+  };
+  const auto chunk = [&](const std::string& name, const std::string& data) {
+    const std::string body = name + data;
+    const auto checksum =
+        crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
+    return word(static_cast<std::uint32_t>(data.size())) + body + word(static_cast<std::uint32_t>(checksum));
+  };
+  return "\x89PNG\r\n\x1a\n" + chunk("IHDR", word(width) + word(height) + std::string("\x10\0\0\0\0", 5)) +
+         chunk("IDAT", "") + chunk("IEND", "");
+}
+
+TEST_F(DepthImageTest, PngHeadersThatAskForMuchMemoryAreRefusedBeforeItIsSpent) {
+  test::expect_input_error([&] { (void)read_depth_image(write("a.png", png_header(900000, 900000))); },
+                           HasSubstr("a.png: damaged PNG: "));
+  refused(write("a.png", png_header(65535, 65535)), "damaged PNG: more than 2^26 pixels");
+  refused(write("a.png", png_header(8192, 8192)), "damaged PNG: the file ends early");
 }
 
 TEST_F(DepthImageTest, PfmRoundTripAndBothByteOrders) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -81,6 +82,51 @@ TEST_F(PhotonTimesTest, Refusals) {
                            "photon times: tick duration is 0, must be a positive number of seconds");
 }
 
+TEST_F(PhotonTimesTest, SparseMatricesAreRefusedWithTheWayOut) {
+  mat_t* const file = Mat_CreateVer(path("s.mat").c_str(), nullptr, MAT_FT_MAT5);
+  std::array<std::size_t, 2> dims = {4, 3};
+  std::array<mat_uint32_t, 1> rows = {2};
+  std::array<mat_uint32_t, 4> ends = {0, 0, 1, 1};
+  std::array<double, 1> values = {7.0};
+  mat_sparse_t sparse{};
+  sparse.nzmax = 1;
+  sparse.ir = rows.data();
+  sparse.nir = 1;
+  sparse.jc = ends.data();
+  sparse.njc = ends.size();
+  sparse.ndata = 1;
+  sparse.data = values.data();
+  matvar_t* const spad =
+      Mat_VarCreate("spad", MAT_C_SPARSE, MAT_T_DOUBLE, 2, dims.data(), &sparse, MAT_F_DONT_COPY_DATA);
+  Mat_VarWrite(file, spad, MAT_COMPRESSION_NONE);
+  std::array<std::size_t, 2> one = {1, 1};
+  matvar_t* const cells = Mat_VarCreate("cells", MAT_C_CELL, MAT_T_CELL, 2, one.data(), nullptr, 0);
+  Mat_VarSetCell(cells, 0, spad);
+  Mat_VarWrite(file, cells, MAT_COMPRESSION_NONE);
+  Mat_VarFree(cells);
+  Mat_Close(file);
+  for (const auto& read : {std::function([&] { (void)read_mat_matrix(path("s.mat"), "spad"); }),
+                           std::function([&] { (void)read_photon_times_mat(path("s.mat"), "spad"); })}) {
+    test::expect_input_error(
+        read, EndsWith("s.mat: \"spad\" is sparse, which is not supported; convert it in MATLAB "
+                       "or Octave: spad = full(spad); save('-v7', 'full.mat', 'spad')"));
+  }
+  test::expect_input_error([&] { (void)read_photon_times_mat(path("s.mat"), "cells"); },
+                           HasSubstr("cells = cellfun(@full, cells, 'UniformOutput', false); save"));
+}
+
+TEST_F(PhotonTimesTest, AHeaderThatAsksForMoreThanTheFileHoldsIsRefusedBeforeItIsRead) {
+  std::string whole = contents(write_cells("a.mat", MAT_COMPRESSION_NONE));
+  // The dimensions of "photon_times", 2 x 3, stand behind the flags: 128 + 8 + 16 + 8 bytes into the file.
+  ASSERT_EQ(whole[160], 2);
+  whole[162] = 0;
+  whole[161] = static_cast<char>(0xE0);
+  whole[165] = static_cast<char>(0xE0);
+  test::expect_input_error(
+      [&] { (void)read_photon_times_mat(write("t.mat", whole)); },
+      HasSubstr("damaged: \"photon_times\" has 57346 x 57347 elements, the whole file "));
+}
+
 TEST_F(PhotonTimesTest, TruncationAnywhereIsRefused) {
   for (const auto compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
     const std::string whole = contents(write_cells("a.mat", compression));
@@ -101,8 +147,9 @@ TEST_F(PhotonTimesTest, TruncationAnywhereIsRefused) {
 TEST_F(PhotonTimesTest, DamagedCompressionIsRefused) {
   std::string whole = contents(write_cells("a.mat", MAT_COMPRESSION_ZLIB));
   whole[160] = static_cast<char>(whole[160] ^ 1);
-  test::expect_input_error([&] { (void)read_photon_times_mat(write("t.mat", whole)); },
-                           EndsWith("t.mat: damaged: the variable at byte 128 does not decompress"));
+  test::expect_input_error(
+      [&] { (void)read_photon_times_mat(write("t.mat", whole)); },
+      EndsWith("t.mat: damaged: the variable at byte 128 does not decompress, or not to 1 GiB at most"));
 }
 
 TEST_F(PhotonTimesTest, OtherMatlabVersionsAreRefused) {

@@ -46,7 +46,7 @@ TEST_F(PlyTest, Refusals) {
   const DepthImage image{.width = 400, .height = 1, .metres = std::vector<float>(400, 1.0F)};
   test::expect_input_error(
       [&] { write_ply(path("a.ply"), image, {}); },
-      EndsWith("400 x 1 pixels of 0.48 degrees: each side must be above 0 and below 180"));
+      EndsWith("400 x 1 pixels of 0.48 degrees each: its sides must be above 0 and below 180 degrees"));
   test::expect_input_error([&] { write_ply(path("none/a.ply"), image, {}, 0.1); },
                            EndsWith("cannot write: No such file or directory"));
   EXPECT_EQ(file_count(), 0U);
