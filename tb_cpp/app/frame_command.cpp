@@ -14,6 +14,7 @@
 #include "app/flat_calibration.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
+#include "app/own_map.hpp"
 #include "app/readout_run.hpp"
 #include "app/region.hpp"
 #include "app/table.hpp"
@@ -41,7 +42,8 @@ struct FrameOptions {
   RunOptions run;
   SensorOptions sensor;
   std::string scene = "room";
-  std::string depth_file;
+  MapFiles maps;
+  MapScales map_scales;
   SceneParameters scene_parameters;
   std::optional<double> reflectivity;
   std::string table = "flat";
@@ -65,15 +67,30 @@ struct MeasuredFrame {
   bool precision_reached = true;
 };
 
-TargetMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
+OwnMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
   SceneParameters parameters = options.scene_parameters;
   parameters.reflectivity = options.reflectivity.value_or(sensor.default_reflectivity);
-  if (!options.depth_file.empty()) {
-    const DepthImage image = read_depth_image(options.depth_file);
-    return scene_from_depth_image(image.width, image.height, image.metres, parameters.columns,
-                                  parameters.rows, parameters.reflectivity);
+  if (!options.maps.depth.empty()) {
+    return read_own_map(options.maps, options.map_scales, parameters.columns, parameters.rows,
+                        parameters.reflectivity);
   }
-  return make_scene(parse_scene(options.scene), parameters);
+  OwnMap scene{make_scene(parse_scene(options.scene), parameters), {}};
+  if (!options.maps.reflectivity.empty()) {
+    scene.description = apply_reflectivity_map(scene.targets, options.maps.reflectivity, options.map_scales);
+  }
+  return scene;
+}
+
+void validate_maps(const FrameOptions& options) {
+  if (options.maps.depth.empty() && options.map_scales.metres_per_unit) {
+    throw InputError("--depth-scale needs --depth");
+  }
+  if (options.maps.reflectivity.empty() && options.map_scales.reflectivity_per_unit) {
+    throw InputError("--reflectivity-scale needs --reflectivity-map");
+  }
+  if (!options.maps.reflectivity.empty() && options.reflectivity) {
+    throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
+  }
 }
 
 DepthImage true_depth(const TargetMap& targets, const Region& region) {
@@ -260,7 +277,7 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
   }
   const std::filesystem::path folder(options.out);
   const std::string title = fmt::format("{}, {} klux, preset {}, engine {}",
-                                        options.depth_file.empty() ? options.scene : options.depth_file,
+                                        options.maps.depth.empty() ? options.scene : options.maps.depth,
                                         options.sensor.klux, options.sensor.preset, options.run.engine);
   const int pixel_size = truth.width >= 100 ? 2 : 0;
   write_map_picture(folder / "overview.png", depths,
@@ -287,7 +304,9 @@ void run_frame_command(const FrameOptions& options) {
     throw InputError("--trace shows one frame, --precision takes many: choose one");
   }
   const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
-  const PhotonSource scene(sensor, make_targets(options, sensor), options.sensor.klux, options.run.seed);
+  validate_maps(options);
+  OwnMap made = make_targets(options, sensor);
+  const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
   const Fidelity fidelity = photon_model(options, scene);
   const Region region{.columns = parse_columns(options.run.columns, scene.columns()),
                       .rows = parse_rows(options.run.rows, scene.rows())};
@@ -315,10 +334,12 @@ void run_frame_command(const FrameOptions& options) {
   const Table table = summarise(frames, options);
   const std::string precision = precision_sentence(frames, options);
   const std::string heading = fmt::format(
-      "Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, {} photons, engine {}{}, seed {}.\n",
-      options.depth_file.empty() ? options.scene : options.depth_file, truth.width, truth.height,
+      "Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, {} photons, engine {}{}, seed "
+      "{}.{}{}\n",
+      options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
       options.sensor.klux, options.sensor.preset, sensor.acquisitions, fidelity_name(fidelity),
-      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
+      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      made.description.empty() ? "" : "\n", made.description);
   const std::string body = fmt::format("{}\n{}\n{}\n\n{}", heading, table.markdown(),
                                        table_sentence(rule, sensor, options.run.seed), precision);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
@@ -338,8 +359,13 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       "frame", "One frame of a scene: photons, TDC stream, read-out, depth map with errors");
   auto* scene = command->add_option_group("scene");
   scene->add_option("--scene", options->scene, "flat, staircase, plane or room")->capture_default_str();
-  scene->add_option("--depth", options->depth_file,
-                    "depth image instead of a scene: 16-bit PNG in millimetres, or PFM in metres");
+  scene->add_option(
+      "--depth", options->maps.depth,
+      "depth map instead of a scene: PNG of 8 or 16 bits, PFM or NPY (rows, columns), resampled\n"
+      "to the array by nearest neighbour");
+  scene->add_option("--reflectivity-map", options->maps.reflectivity,
+                    "reflectivity of each pixel, for a scene or a depth map: PNG, PFM or NPY of any size");
+  options->map_scales.add_to(*scene);
   scene->add_option("--array-columns", options->scene_parameters.columns, "columns of the array")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();

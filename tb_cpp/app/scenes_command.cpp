@@ -16,6 +16,7 @@
 #include "app/flat_calibration.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
+#include "app/own_map.hpp"
 #include "app/plot.hpp"
 #include "app/readout_variant.hpp"
 #include "app/scene_study.hpp"
@@ -40,6 +41,8 @@ struct ScenesOptions {
       "ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,poolpointer,poolpointer-lean";
   std::vector<std::string> variants;
   std::vector<std::string> scenes = {"flat", "room", "planes", "clutter", "poles", "isolated"};
+  std::vector<std::string> maps;
+  MapScales map_scales;
   std::string disparity_file;
   double nearest_m = 1.0;
   std::string surface_file;
@@ -70,9 +73,20 @@ void vary_reflectivity(TargetMap& targets, double reflectivity, std::uint64_t se
   }
 }
 
+/// Scenes of the study, and how maps among them were resampled.
+struct SceneList {
+  std::vector<StudyScene> scenes;
+  std::vector<std::string> notes;
+
+  void add_map(const std::string& name, const std::string& note, TargetMap targets, int columns) {
+    scenes.push_back({name, std::move(targets), columns});
+    notes.push_back(fmt::format("Scene {}: {}", name, note));
+  }
+};
+
 /// The map scaled to its nearest point's distance.
-StudyScene depth_map_scene(const std::string& name, DepthImage image, double nearest_m, double reflectivity,
-                           const ScenesOptions& options) {
+void add_depth_map(SceneList& list, const std::string& name, DepthImage image, double nearest_m,
+                   double reflectivity, const ScenesOptions& options) {
   float nearest = std::numeric_limits<float>::infinity();
   for (const float metres : image.metres) {
     nearest = metres > 0.0F ? std::min(nearest, metres) : nearest;
@@ -86,7 +100,9 @@ StudyScene depth_map_scene(const std::string& name, DepthImage image, double nea
   TargetMap targets =
       scene_from_depth_image(image.width, image.height, image.metres, kArrayColumns, kArrayRows);
   vary_reflectivity(targets, reflectivity, options.seed);
-  return {name, std::move(targets), std::min(options.columns, kArrayColumns)};
+  const std::string note = resampling_sentence(fmt::format("nearest point put at {:g} m", nearest_m),
+                                               image.width, image.height, targets);
+  list.add_map(name, note, std::move(targets), std::min(options.columns, kArrayColumns));
 }
 
 /// Rows become columns.
@@ -110,29 +126,29 @@ DepthImage read_surface(const ScenesOptions& options) {
 }
 
 /// Scenes that poolPointer's parameters were not chosen on.
-void add_held_out(const ScenesOptions& options, double reflectivity, std::vector<StudyScene>& scenes) {
+void add_held_out(const ScenesOptions& options, double reflectivity, SceneList& list) {
   constexpr std::uint64_t kOtherShapes = 1000;
   SceneParameters parameters;
   parameters.reflectivity = reflectivity;
   parameters.seed = options.seed + kOtherShapes;
   const int columns = std::min(options.columns, kArrayColumns);
   for (const Scene scene : {Scene::kPlanes, Scene::kClutter, Scene::kPoles, Scene::kStaircase}) {
-    scenes.push_back({fmt::format("held {}", scene_name(scene)), make_scene(scene, parameters), columns});
+    list.scenes.push_back(
+        {fmt::format("held {}", scene_name(scene)), make_scene(scene, parameters), columns});
   }
   if (!options.disparity_file.empty()) {
     constexpr double kNearer = 0.6;
-    scenes.push_back(depth_map_scene("held disparity map",
-                                     turned(read_disparity_png(options.disparity_file, 1.0)),
-                                     kNearer * options.nearest_m, reflectivity, options));
+    add_depth_map(list, "held disparity map", turned(read_disparity_png(options.disparity_file, 1.0)),
+                  kNearer * options.nearest_m, reflectivity, options);
   }
   if (!options.surface_file.empty()) {
-    scenes.push_back(
-        depth_map_scene("held surface", read_surface(options), options.nearest_m, reflectivity, options));
+    add_depth_map(list, "held surface", read_surface(options), options.nearest_m, reflectivity, options);
   }
 }
 
-std::vector<StudyScene> make_scenes(const ScenesOptions& options, double reflectivity) {
-  std::vector<StudyScene> scenes;
+SceneList make_scenes(const ScenesOptions& options, double reflectivity) {
+  SceneList list;
+  std::vector<StudyScene>& scenes = list.scenes;
   for (const std::string& name : options.scenes) {
     const Scene scene = parse_scene(name);
     SceneParameters parameters;
@@ -149,13 +165,22 @@ std::vector<StudyScene> make_scenes(const ScenesOptions& options, double reflect
     }
   }
   if (!options.disparity_file.empty()) {
-    scenes.push_back(depth_map_scene("disparity map", read_disparity_png(options.disparity_file, 1.0),
-                                     options.nearest_m, reflectivity, options));
+    add_depth_map(list, "disparity map", read_disparity_png(options.disparity_file, 1.0), options.nearest_m,
+                  reflectivity, options);
+  }
+  for (const std::string& text : options.maps) {
+    const NamedMap named = parse_named_map(text);
+    if (std::ranges::find(scenes, named.name, &StudyScene::name) != scenes.end()) {
+      throw InputError(fmt::format("--map '{}': another map has this name", text));
+    }
+    OwnMap map = read_own_map(named.files, options.map_scales, kArrayColumns, kArrayRows, reflectivity);
+    list.add_map(named.name, map.description, std::move(map.targets),
+                 std::min(options.columns, kArrayColumns));
   }
   if (options.held_out) {
-    add_held_out(options, reflectivity, scenes);
+    add_held_out(options, reflectivity, list);
   }
-  return scenes;
+  return list;
 }
 
 struct EstimatorResult {
@@ -236,8 +261,10 @@ PlotSeries confidence_curve(const std::vector<SceneResult>& results, std::size_t
   return series;
 }
 
+bool is_flat(const std::string& scene) { return scene.starts_with("flat "); }
+
 bool shows_pooled_gain(const std::string& scene) {
-  return scene.starts_with("flat") || scene.ends_with("planes");
+  return is_flat(scene) || scene == "planes" || scene == "held planes";
 }
 
 double root_mean_square(const std::vector<double>& values) {
@@ -301,6 +328,10 @@ std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options) {
 void run_scenes_command(const ScenesOptions& options) {
   const std::vector<ReadoutParameters> readouts = parse_readouts(options);
   const TableRule rule = parse_table_rule(options.table);
+  std::vector<SceneList> lists;  // of each preset
+  for (const std::string& preset : options.presets) {
+    lists.push_back(make_scenes(options, parse_preset(preset).default_reflectivity));
+  }
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   std::vector<std::string> header = {"preset",
@@ -336,9 +367,14 @@ void run_scenes_command(const ScenesOptions& options) {
       "on "
       "them.\n\nCommand: `{}`\n",
       options.seed, options.columns, options.command_line);
-  for (const std::string& preset : options.presets) {
+  for (const std::string& note : lists.front().notes) {
+    report += fmt::format("\n{}\n", note);
+    fmt::print("{}\n", note);
+  }
+  for (std::size_t p = 0; p < options.presets.size(); ++p) {
+    const std::string& preset = options.presets[p];
     const SensorModel sensor = parse_preset(preset);
-    const std::vector<StudyScene> scenes = make_scenes(options, sensor.default_reflectivity);
+    const std::vector<StudyScene>& scenes = lists[p].scenes;
     for (const double klux : options.klux) {
       Progress progress(fmt::format("{} {:g} klux", preset, klux), scenes.size() + 1);
       const SceneStudy study(sensor, klux, readouts, options.seed, options.threads, rule);
@@ -378,7 +414,7 @@ void run_scenes_command(const ScenesOptions& options) {
           }
           csv.add(std::move(row));
         }
-        if (!scene.name.starts_with("flat")) {
+        if (!is_flat(scene.name)) {
           const std::string title = fmt::format("{}, {:g} klux, preset {}: error", scene.name, klux, preset);
           write_error_maps(folder / fmt::format("{}_{:g}klux_{}.png", file_name(scene.name), klux, preset),
                            title, truth, estimators, measurements, options.command_line);
@@ -446,8 +482,14 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("--variant", options->variants,
                       "also READOUT:PARAMETER=NUMBER,...\nparameters: " + variant_parameters_help());
-  command->add_option("--scene", options->scenes, "scenes from `dtof list`, one or more")
+  command
+      ->add_option("--scene", options->scenes,
+                   "scenes from `dtof list`, one or more (with --map the default is none)")
       ->capture_default_str();
+  command->add_option("--map", options->maps,
+                      "also your own scene: NAME=DEPTH or NAME=DEPTH,REFLECTIVITY, files as PNG of 8 or 16\n"
+                      "bits, PFM or NPY, resampled to 200 x 160 by nearest neighbour; one or more");
+  options->map_scales.add_to(*command);
   command->add_option("--disparity", options->disparity_file,
                       "also a disparity map (8-bit PNG, 0 = unknown), its reflectivity varied in blocks");
   command->add_option("--nearest", options->nearest_m, "distance of the disparity map's nearest point, m")
@@ -476,7 +518,15 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
-  command->callback([options] { run_scenes_command(*options); });
+  command->callback([options, command] {
+    if (!options->maps.empty() && command->count("--scene") == 0) {
+      options->scenes.clear();
+    } else if (options->maps.empty() &&
+               (options->map_scales.metres_per_unit || options->map_scales.reflectivity_per_unit)) {
+      throw InputError("--depth-scale and --reflectivity-scale need --map");
+    }
+    run_scenes_command(*options);
+  });
 }
 
 }  // namespace dtof

@@ -170,4 +170,21 @@ TargetMap scene_from_depth_image(int width, int height, std::span<const float> m
   return map;
 }
 
+void set_reflectivity(TargetMap& targets, int width, int height, std::span<const float> values) {
+  if (width < 1 || height < 1 ||
+      values.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    throw InputError(fmt::format("scene: a reflectivity map of {} x {} pixels cannot have {} values", width,
+                                 height, values.size()));
+  }
+  for (int column = 0; column < targets.columns(); ++column) {
+    for (int row = 0; row < targets.rows(); ++row) {
+      const auto x = static_cast<std::size_t>(nearest(column, targets.columns(), width));
+      const auto y = static_cast<std::size_t>(nearest(row, targets.rows(), height));
+      const double reflectivity = values[y * static_cast<std::size_t>(width) + x];
+      require_reflectivity(reflectivity);
+      targets.at(column, row).reflectivity = reflectivity;
+    }
+  }
+}
+
 }  // namespace dtof

@@ -54,4 +54,9 @@ TargetMap make_scene(Scene scene, const SceneParameters& parameters);
 TargetMap scene_from_depth_image(int width, int height, std::span<const float> metres, int columns, int rows,
                                  double reflectivity = 1.0);
 
+/// Gives every target its reflectivity from a map of width x height (`values` row by row, row 0 on top),
+/// resampled to the array by nearest neighbour over the whole map. Throws InputError for a wrong number of
+/// values or one that is not finite and at least 0.
+void set_reflectivity(TargetMap& targets, int width, int height, std::span<const float> values);
+
 }  // namespace dtof

@@ -14,12 +14,14 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/parameters.hpp"
 #include "io/atomic_file.hpp"
 #include "io/depth_image.hpp"
 #include "io/input_file.hpp"
+#include "io/npy.hpp"
 
 namespace dtof {
 namespace {
@@ -412,6 +414,73 @@ TEST_F(CommandLine, FrameAndScenesGiveTheSameFiguresAndNameTheirTable) {
   }
   expect_refused("frame --table round --out out", "--table");
   expect_refused("scenes --table round --out out", "--table");
+}
+
+TEST_F(CommandLine, OwnMapsOfDepthAndReflectivityInFrame) {
+  // 2 x 1 pixels: the left half of the array sees 1 m at half the reflectivity of the right half at 2 m.
+  const std::array<double, 2> metres = {1.0, 2.0};
+  const std::array<double, 2> reflectivity = {0.4, 0.8};
+  const std::array<std::size_t, 2> shape = {1, 2};
+  write_npy(path("depth.npy"), shape, metres);
+  write_npy(path("reflectivity.npy"), shape, reflectivity);
+  write_pfm(path("depth.pfm"), {.width = 2, .height = 1, .metres = {100.0F, 200.0F}});
+  const std::string frame = fmt::format("frame -r histogram {} --table none ", kSmallScene);
+  const Outcome npy = dtof(frame + "--depth depth.npy --reflectivity-map reflectivity.npy --out npy");
+  ASSERT_EQ(npy.exit_code, 0) << npy.output;
+  EXPECT_THAT(npy.output,
+              HasSubstr("Depth map depth.npy: 2 x 1 pixels, resampled to 6 x 5 by nearest neighbour."));
+  EXPECT_THAT(read_file(path("npy/summary.md")),
+              HasSubstr("Reflectivity map reflectivity.npy: 2 x 1 pixels, resampled to 6 x 5"));
+  const Outcome scaled = dtof(frame +
+                              "--depth depth.pfm --depth-scale 0.01 --reflectivity-map "
+                              "reflectivity.npy --out pfm");
+  ASSERT_EQ(scaled.exit_code, 0) << scaled.output;
+  EXPECT_EQ(read_file(path("npy/histogram.csv")), read_file(path("pfm/histogram.csv")));
+  // One reflectivity everywhere is another scene, and the map that says so is the same as the option.
+  ASSERT_EQ(dtof(frame + "--depth depth.npy --reflectivity 0.4 --out plain").exit_code, 0);
+  EXPECT_NE(read_file(path("npy/histogram.csv")), read_file(path("plain/histogram.csv")));
+  const std::array<double, 1> even = {0.8};
+  write_npy(path("even.npy"), std::array<std::size_t, 2>{1, 1}, even);
+  ASSERT_EQ(dtof(frame + "--depth depth.npy --reflectivity-map even.npy --reflectivity-scale 0.5 --out even")
+                .exit_code,
+            0);
+  EXPECT_EQ(read_file(path("even/histogram.csv")), read_file(path("plain/histogram.csv")));
+
+  expect_refused("frame --depth-scale 0.01 --out out", "--depth-scale needs --depth");
+  expect_refused("frame --reflectivity-scale 0.01 --out out", "needs --reflectivity-map");
+  expect_refused("frame --reflectivity 0.5 --reflectivity-map even.npy --out out", "choose one");
+  expect_refused("frame --depth depth.npy --depth-scale 0 --out out", "--depth-scale");
+}
+
+TEST_F(CommandLine, OwnMapsInScenesHaveTheirName) {
+  const std::array<double, 2> metres = {1.5, 2.0};
+  const std::array<double, 2> reflectivity = {0.4, 0.8};
+  const std::array<std::size_t, 2> shape = {1, 2};
+  write_npy(path("depth.npy"), shape, metres);
+  write_npy(path("dim.npy"), shape, reflectivity);
+  const Outcome outcome = dtof(
+      "scenes --preset thesis --klux 14 -r hispointer --columns 2 --map hall=depth.npy --map "
+      "'dim hall=depth.npy,dim.npy' --out out2");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string csv = read_file(path("out2/scenes.csv"));
+  EXPECT_THAT(csv, HasSubstr("thesis,14,hall,hisPointer,320,"));
+  EXPECT_THAT(csv, HasSubstr("thesis,14,dim hall,hisPointer,320,"));
+  EXPECT_THAT(csv, ::testing::Not(HasSubstr("room")));
+  EXPECT_THAT(read_file(path("out2/scenes.md")),
+              HasSubstr("Scene dim hall: Depth map depth.npy: 2 x 1 pixels, resampled to 200 x 160"));
+  EXPECT_GT(std::filesystem::file_size(path("out2/dim_hall_14klux_thesis.png")), 0U);
+
+  for (const auto& [map, reason] :
+       {std::pair("hall", "expected NAME=DEPTH"), std::pair("hall=", "expected NAME=DEPTH"),
+        std::pair("=depth.npy", "expected NAME=DEPTH"), std::pair("hall=depth.npy,", "expected NAME=DEPTH"),
+        std::pair("a/b=depth.npy", "a name has letters"),
+        std::pair("room=depth.npy", "name of another scene"),
+        std::pair("'flat 1 m=depth.npy'", "name of another scene"),
+        std::pair("a=depth.npy --map a=depth.npy", "another map has this name"),
+        std::pair("a=nowhere.npy", "nowhere.npy")}) {
+    expect_refused(fmt::format("scenes --map {} --out out", map), reason);
+  }
+  expect_refused("scenes --depth-scale 2 --out out", "need --map");
 }
 
 TEST_F(CommandLine, RefusesBadScenesAndMeasurements) {

@@ -278,6 +278,20 @@ TEST(DepthImageScene, UnknownDepthIsNoTarget) {
   EXPECT_TRUE(map.at(3, 0).returns_signal());
 }
 
+TEST(ReflectivityMap, IsResampledToTheNearestPixelAndKeepsDistances) {
+  TargetMap map(4, 2, {.depth_m = 3.0, .reflectivity = 1.0});
+  const std::array<float, 2> values = {0.25F, 0.5F};
+  set_reflectivity(map, 2, 1, values);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 2; ++row) {
+      EXPECT_EQ(map.at(column, row), (PixelTarget{3.0, column < 2 ? 0.25 : 0.5}));
+    }
+  }
+  EXPECT_THAT(refusal([&] { set_reflectivity(map, 3, 1, values); }), HasSubstr("2 values"));
+  const std::array<float, 1> negative = {-0.5F};
+  EXPECT_THAT(refusal([&] { set_reflectivity(map, 1, 1, negative); }), HasSubstr("-0.5"));
+}
+
 TEST(DepthImageScene, RefusesBadImages) {
   const std::vector<float> metres = {1.0F, -2.0F};
   EXPECT_THAT(refusal([&] { scene_from_depth_image(3, 1, metres, 2, 2); }), HasSubstr("2 values"));
