@@ -47,7 +47,7 @@ MatchedFilter::MatchedFilter(const MatchedFilterParameters& parameters) {
   scores_.resize(no_detection_ + 2 * reach_);
 }
 
-MatchedFilter::Result MatchedFilter::estimate(std::span<const Detection> detections) {
+std::span<const double> MatchedFilter::scores(std::span<const Detection> detections) {
   std::ranges::fill(counts_, 0.0);
   std::ranges::fill(scores_, 0.0);
   for (const Detection& detection : detections) {
@@ -70,16 +70,24 @@ MatchedFilter::Result MatchedFilter::estimate(std::span<const Detection> detecti
       }
     }
   }
-  const double* const first = scores_.data() + reach_;
-  const double* const best = std::max_element(first, first + no_detection_);
-  const auto index = best - first;
-  Result result{static_cast<double>(index), *best};
-  const bool inside = index > 0 && index + 1 < static_cast<std::ptrdiff_t>(no_detection_);
-  const double curvature = inside ? 2.0 * best[0] - best[-1] - best[1] : 0.0;
-  if (curvature > 0.0) {
-    result.position += 0.5 * (best[1] - best[-1]) / curvature;
+  return std::span<const double>(scores_).subspan(reach_, no_detection_);
+}
+
+MatchedFilter::Result MatchedFilter::estimate(std::span<const Detection> detections) {
+  const std::span<const double> sums = scores(detections);
+  const auto best = static_cast<std::size_t>(std::ranges::max_element(sums) - sums.begin());
+  return {refined_peak(sums, best), sums[best]};
+}
+
+double refined_peak(std::span<const double> scores, std::size_t peak) {
+  const auto position = static_cast<double>(peak);
+  if (peak == 0 || peak + 1 >= scores.size()) {
+    return position;
   }
-  return result;
+  const double left = scores[peak] - scores[peak - 1];
+  const double right = scores[peak] - scores[peak + 1];
+  const bool is_peak = left >= 0.0 && right >= 0.0 && left + right > 0.0;
+  return is_peak ? position + 0.5 * (left - right) / (left + right) : position;
 }
 
 }  // namespace dtof

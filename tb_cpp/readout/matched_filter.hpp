@@ -38,6 +38,10 @@ class MatchedFilter {
   /// range.
   Result estimate(std::span<const Detection> detections);
 
+  /// The sum at every tau of 0 .. 2^np - 2: log-likelihood ratios but for a constant. Valid until the next
+  /// call of either function. Throws InputError as `estimate` does.
+  std::span<const double> scores(std::span<const Detection> detections);
+
  private:
   std::size_t no_detection_;
   std::size_t reach_;             // bins on each side beyond which the template is negligible
@@ -45,5 +49,9 @@ class MatchedFilter {
   std::vector<double> counts_;
   std::vector<double> scores_;  // with `reach_` bins of margin on both sides
 };
+
+/// Position of a peak between whole bins, by the parabola through the score at `peak` < scores.size() and its
+/// two neighbours; `peak` itself at either end, and where it is no peak.
+double refined_peak(std::span<const double> scores, std::size_t peak);
 
 }  // namespace dtof
