@@ -22,6 +22,7 @@
 #include "readout/matched_filter.hpp"
 #include "readout/model.hpp"
 #include "readout/paired_his_pointer.hpp"
+#include "readout/pooled_matched_filter.hpp"
 
 namespace dtof {
 namespace {
@@ -167,6 +168,7 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
   }
   titles_.emplace_back("hisPointer pairs");
   titles_.emplace_back("matched filter");
+  titles_.emplace_back("pooled matched filter");
 
   if (table == TableRule::kNone) {
     return;
@@ -210,6 +212,11 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
     // The template depends on the rates: neighbouring pixels of equal rates share a filter.
     std::unique_ptr<MatchedFilter> filter;
     PixelRates matched;
+    const std::size_t single = readouts_.size() + 1;
+    const std::size_t pooled = readouts_.size() + 2;
+    // A pixel without a target has no pulse to look for and tells its neighbours nothing.
+    const auto bins = (std::size_t{1} << static_cast<unsigned>(sensor_.np)) - 1;
+    std::vector<std::vector<double>> scores(rows, std::vector<double>(bins, 0.0));
     for (std::size_t row = 0; row < rows; ++row) {
       const PixelRates rates = source.rates(column, static_cast<int>(row));
       if (rates.signal <= 0.0) {
@@ -223,8 +230,14 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
                                                                     .background_events = rates.background});
         matched = rates;
       }
-      const MatchedFilter::Result result = filter->estimate(stream.row(static_cast<int>(row)));
-      positions.back()[row * width + index] = {result.position, result.score};
+      std::ranges::copy(filter->scores(stream.row(static_cast<int>(row))), scores[row].begin());
+      const auto peak = std::ranges::max_element(scores[row]);
+      const auto bin = static_cast<std::size_t>(peak - scores[row].begin());
+      positions[single][row * width + index] = {refined_peak(scores[row], bin), *peak};
+    }
+    const std::vector<MatchedFilter::Result> results = pool_column(scores);
+    for (std::size_t row = 0; row < rows; ++row) {
+      positions[pooled][row * width + index] = {results[row].position, results[row].score};
     }
   });
   return positions;

@@ -66,8 +66,9 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
 double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
                                const SceneMeasurement& measurement);
 
-/// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and the matched
-/// filter on the full histogram that knows each pixel's signal and background. All see the same photons. With
+/// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and two
+/// references on full histograms that know each pixel's signal and background: the matched filter of the
+/// single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the same photons. With
 /// TableRule::kFlat each has a look-up table by FlatCalibration, else distances are those of Eq. 3.11.
 class SceneStudy {
  public:

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "sensor/preset.hpp"
@@ -110,7 +113,7 @@ TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
   const SceneStudy two(sensor, 14.0, readouts, 3, 2);
   const std::vector<SceneMeasurement> measured = one.measure(scene);
   const std::vector<SceneMeasurement> again = two.measure(scene);
-  ASSERT_EQ(measured.size(), 4U);
+  ASSERT_EQ(measured.size(), 5U);
   for (std::size_t e = 0; e < measured.size(); ++e) {
     EXPECT_EQ(measured[e].distance_m, again[e].distance_m) << one.estimators()[e];
     EXPECT_EQ(measured[e].confidence, again[e].confidence) << one.estimators()[e];
@@ -118,6 +121,22 @@ TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
   const double his_pointer = score_scene(truth, measured[0]).all.above_3_percent;
   const double pool_pointer = score_scene(truth, measured[1]).all.above_3_percent;
   EXPECT_LT(pool_pointer, 0.5 * his_pointer);
+}
+
+TEST(SceneStudy, PoolingHelpsTheMatchedFilterWhereASinglePixelIsLost) {
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 1000;
+  const StudyScene scene{"wall", TargetMap(4, 80, {4.0, 1.0}), 4};
+  const SceneTruth truth = scene_truth(scene);
+  const SceneStudy study(sensor, 50.0, {}, 3, 0);
+  const std::vector<SceneMeasurement> measured = study.measure(scene);
+  const std::vector<std::string>& names = study.estimators();
+  const auto outliers = [&](std::string_view name) {
+    const auto index = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    return score_scene(truth, measured.at(index)).all.above_10_percent;
+  };
+  EXPECT_GT(outliers("matched filter"), 0.2);
+  EXPECT_LT(outliers("pooled matched filter"), 0.1);
 }
 
 }  // namespace
