@@ -12,6 +12,7 @@
 #include "app/accuracy_study.hpp"
 #include "app/accuracy_tables.hpp"
 #include "app/commands.hpp"
+#include "app/option_checks.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/plot.hpp"
@@ -81,6 +82,9 @@ StudySettings settings_of(const AccuracyOptions& options) {
   settings.sensor = options.sensor.model(options.readout.np, settings.readouts.front().slots);
   settings.reflectivity = options.reflectivity.value_or(settings.sensor.default_reflectivity);
   settings.distances_m = options.distances_m;
+  for (const double distance_m : settings.distances_m) {
+    SensorOptions::require_in_range(settings.sensor, distance_m, "--distances");
+  }
   settings.frames = options.frames;
   if (options.precision_percent) {
     settings.precision = *options.precision_percent / 100.0;
@@ -245,6 +249,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand(
       "accuracy", "Distance sweep: precision, bias, slope, outliers and efficiency of every read-out");
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
+      ->check(sensible_klux())
       ->capture_default_str();
   command->add_option("-d,--distances", options->distances_m, "distances in m")->capture_default_str();
   command->add_option("-n,--frames", options->frames, "frames a distance (with --precision: at least)")
@@ -264,12 +269,19 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
           "reject measurements of low confidence, so that of the calibration's accepted ones at most "
           "this many per cent are more than 10 % off")
       ->check(CLI::Range(0.0, 100.0));
-  command->add_option("--reflectivity", options->reflectivity, "of the target (default: the preset's)");
+  command->add_option("--reflectivity", options->reflectivity, "of the target (default: the preset's)")
+      ->check(sensible_reflectivity());
   options->sensor.add_sensor_to(*command);
   options->readout.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
-  command->callback([options] { run_accuracy_command(*options); });
+  command->callback([options, command] {
+    if (!options->precision_percent) {
+      refuse_without_effect(*command, "--max-frames", "it ends what --precision asks for");
+    }
+    options->sensor.refuse_options_without_effect(*command);
+    run_accuracy_command(*options);
+  });
 }
 
 }  // namespace dtof

@@ -12,6 +12,7 @@
 #include "analytic/fidelity.hpp"
 #include "app/commands.hpp"
 #include "app/flat_calibration.hpp"
+#include "app/option_checks.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/own_map.hpp"
@@ -90,6 +91,55 @@ void validate_maps(const FrameOptions& options) {
   }
   if (!options.maps.reflectivity.empty() && options.reflectivity) {
     throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
+  }
+}
+
+/// What the scene's own options need, as far as it does not depend on the sensor.
+void check_scene_options(const CLI::App& command, const FrameOptions& options) {
+  if (!options.maps.depth.empty()) {
+    refuse_without_effect(command, "--scene", "--depth takes its place");
+  }
+  const bool own = options.maps.depth.empty();
+  const bool slope = own && (options.scene == "staircase" || options.scene == "plane");
+  if (!own || options.scene != "flat") {
+    refuse_without_effect(command, "--distance", "only --scene flat has one distance");
+  }
+  if (!slope) {
+    refuse_without_effect(command, "--near", "only --scene staircase and plane have a near and a far end");
+    refuse_without_effect(command, "--far", "only --scene staircase and plane have a near and a far end");
+  }
+  if (!own || options.scene != "staircase") {
+    refuse_without_effect(command, "--steps", "only --scene staircase has steps");
+  }
+  if (!options.precision_percent) {
+    refuse_without_effect(command, "--max-frames", "it ends what --precision asks for");
+  }
+  options.sensor.refuse_options_without_effect(command);
+}
+
+/// The scene's distances are ones that the sensor can measure.
+void check_distances(const FrameOptions& options, const SensorModel& sensor) {
+  if (!options.maps.depth.empty()) {
+    return;
+  }
+  const SceneParameters& parameters = options.scene_parameters;
+  if (options.scene == "flat") {
+    SensorOptions::require_in_range(sensor, parameters.distance_m, "--distance");
+  } else if (options.scene == "staircase" || options.scene == "plane") {
+    SensorOptions::require_in_range(sensor, parameters.near_m, "--near");
+    SensorOptions::require_in_range(sensor, parameters.far_m, "--far");
+  }
+}
+
+/// A column's detections are held while it is read out.
+void check_memory(const SensorModel& sensor, int rows) {
+  constexpr double kMostDetections = 160.0 * 2.0 * kMostAcquisitions;
+  const double detections = static_cast<double>(rows) * sensor.slots * sensor.acquisitions;
+  if (detections > kMostDetections) {
+    throw InputError(fmt::format(
+        "{} acquisitions of {} rows and {} slots: a column could have {:.2g} detections, more than the "
+        "{:.2g} (2.7 GB) that are held",
+        sensor.acquisitions, rows, sensor.slots, detections, kMostDetections));
   }
 }
 
@@ -305,6 +355,8 @@ void run_frame_command(const FrameOptions& options) {
   }
   const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
   validate_maps(options);
+  check_distances(options, sensor);
+  check_memory(sensor, options.scene_parameters.rows);
   OwnMap made = make_targets(options, sensor);
   const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
   const Fidelity fidelity = photon_model(options, scene);
@@ -314,6 +366,8 @@ void run_frame_command(const FrameOptions& options) {
   if (options.precision_percent && std::ranges::all_of(truth.metres, [](float m) { return std::isnan(m); })) {
     throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
   }
+  check_engine(scene, readouts, options.run, region);
+  check_ply_size(options.out, truth.width, truth.height);
   const TableRule rule = parse_table_rule(options.table);
   const std::vector<TabledReadout> tabled = with_tables(readouts, rule, scene, fidelity, options.run);
   create_output_folder(options.out);
@@ -379,7 +433,8 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   scene->add_option("--far", options->scene_parameters.far_m, "staircase, plane: far end in m")
       ->capture_default_str();
   scene->add_option("--steps", options->scene_parameters.steps, "staircase: steps")->capture_default_str();
-  scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the preset's)");
+  scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the preset's)")
+      ->check(sensible_reflectivity());
   command
       ->add_option("--table", options->table,
                    "host look-up table: flat (each read-out's own, fitted on flat targets of the preset's\n"
@@ -400,7 +455,8 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->add_option("--record", options->record,
                       "also write the TDC stream of the whole array as CSV, for `dtof replay`");
-  command->callback([options] {
+  command->callback([options, command] {
+    check_scene_options(*command, *options);
     // A recording must give the same results when it is replayed.
     options->run.streams_only = !options->record.empty();
     run_frame_command(*options);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
+#include <new>
 #include <string>
 
-#include "app/commands.hpp"
+#include "app/command_line.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "rtl/error.hpp"
@@ -26,44 +27,15 @@ std::string join_arguments(int count, char** arguments) {
   return line;
 }
 
-int run(int argc, char** argv) {
-  CLI::App app{
-      "dtof: read-outs for large SPAD arrays, from photons to depth.\n"
-      "Runs the hardware (Verilated RTL) or its bit-exact model on modelled or recorded TDC streams."};
-  app.require_subcommand(1);
-  app.footer(
-      "Try:\n"
-      "  dtof frame --scene room --readout all --out build/frame     model every read-out on one scene\n"
-      "  dtof frame --readout sifh --engine rtl --verify --columns 0-7 --out build/sifh\n"
-      "  dtof replay recording.csv --readout hispointer --engine rtl --out build/replay\n"
-      "  dtof accuracy --klux 14 --distances 0.5 1 2 3 --out build/accuracy\n"
-      "  dtof reproduce --out reports                                the thesis's statements, measured\n"
-      "  dtof list\n"
-      "Exit codes: 0 done, 1 bad input, 3 RTL misbehaved or differs from its model, 4 failure, 130 "
-      "interrupted.");
-  const std::string command_line = join_arguments(argc, argv);
-  dtof::add_frame_command(app, command_line);
-  dtof::add_replay_command(app, command_line);
-  dtof::add_accuracy_command(app, command_line);
-  dtof::add_reproduce_command(app, command_line);
-  dtof::add_speed_error_command(app, command_line);
-  dtof::add_stability_command(app, command_line);
-  dtof::add_scenes_command(app, command_line);
-  dtof::add_measured_command(app, command_line);
-  dtof::add_list_command(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) {
-      return app.exit(error);
-    }
-    throw dtof::InputError(error.what());
-  }
-  return 0;
+/// A file's name, or what stands in the file, may hold line ends and terminal codes.
+std::string in_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char letter) { return letter < ' ' || letter == 0x7F; }, ' ');
+  return text;
 }
 
-int fail(int code, const std::exception& error) {
-  fmt::print(stderr, "dtof: error: {}\n", error.what());
+int fail(int code, const std::string& reason) {
+  fmt::print(stderr, "dtof: error: {}\n", reason);
   return code;
 }
 
@@ -72,14 +44,18 @@ int fail(int code, const std::exception& error) {
 int main(int argc, char** argv) {
   dtof::install_interruption_handler();
   try {
-    return run(argc, argv);
+    const std::string command_line = join_arguments(argc, argv);
+    dtof::run_command_line(*dtof::make_command_line(command_line), argc, argv);
+    return 0;
   } catch (const dtof::InputError& error) {
-    return fail(kExitInputError, error);
+    return fail(kExitInputError, in_one_line(error.what()));
   } catch (const dtof::RtlError& error) {
-    return fail(kExitRtlError, error);
+    return fail(kExitRtlError, error.what());
   } catch (const dtof::Interrupted& error) {
-    return fail(kExitInterrupted, error);
+    return fail(kExitInterrupted, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kExitFailure, "the memory of this machine is not enough");
   } catch (const std::exception& error) {
-    return fail(kExitFailure, error);
+    return fail(kExitFailure, error.what());
   }
 }

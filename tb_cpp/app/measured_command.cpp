@@ -14,6 +14,7 @@
 
 #include "app/commands.hpp"
 #include "app/measured_scene.hpp"
+#include "app/option_checks.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/readout_run.hpp"
@@ -414,7 +415,14 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
-  command->callback([options] { run_measured_command(*options); });
+  command->callback([options, command] {
+    if (options->surfaces_file.empty()) {
+      for (const char* option : {"--from-tick", "--tick", "--shift"}) {
+        refuse_without_effect(*command, option, "only photon times (with --surfaces) have ticks");
+      }
+    }
+    run_measured_command(*options);
+  });
 }
 
 }  // namespace dtof

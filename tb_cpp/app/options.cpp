@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "app/option_checks.hpp"
 #include "core/error.hpp"
+#include "core/physical_constants.hpp"
 #include "sensor/preset.hpp"
 
 namespace dtof {
@@ -53,22 +59,43 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
       chosen.push_back(parse_readout(name));
     }
   }
+  struct Override {
+    std::string_view option;
+    std::string_view parameter;
+    std::optional<int> value;
+    int ReadoutParameters::*member;
+  };
+  const std::array<Override, 6> overrides = {{
+      {"--nb", "NB", nb, &ReadoutParameters::nb},
+      {"--count-width", "COUNT_WIDTH", count_width, &ReadoutParameters::count_width},
+      {"--pointer-step", "POINTER_STEP", pointer_step, &ReadoutParameters::pointer_step},
+      {"--fraction-bits", "FRACTION_BITS", fraction_bits, &ReadoutParameters::fraction_bits},
+      {"--confidence-width", "CONFIDENCE_WIDTH", confidence_width, &ReadoutParameters::confidence_width},
+      {"--guard", "GUARD", guard, &ReadoutParameters::guard},
+  }};
+  const auto require_owner = [&](std::string_view option, std::string_view parameter) {
+    if (std::ranges::none_of(chosen, [&](Readout readout) { return has_parameter(readout, parameter); })) {
+      throw InputError(fmt::format("{} has no effect: {} has no {}", option, readouts, parameter));
+    }
+  };
+  for (const Override& change : overrides) {
+    if (change.value) {
+      require_owner(change.option, change.parameter);
+    }
+  }
+  if (window_centred) {
+    require_owner("--window-centred", "WINDOW_CENTRED");
+  }
   std::vector<ReadoutParameters> sets;
   for (const Readout readout : chosen) {
     ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
-    const bool pool = is_pool_readout(readout);
-    if (readout != Readout::kHistogram && !pool) {
-      override_with(nb, parameters.nb);
+    for (const Override& change : overrides) {
+      if (change.value && has_parameter(readout, change.parameter)) {
+        parameters.*change.member = *change.value;
+      }
     }
     override_with(slots, parameters.slots);
-    override_with(count_width, parameters.count_width);
-    override_with(pointer_step, parameters.pointer_step);
-    if (!pool) {
-      override_with(fraction_bits, parameters.fraction_bits);
-    }
-    override_with(confidence_width, parameters.confidence_width);
-    override_with(guard, parameters.guard);
-    parameters.window_centred = window_centred;
+    parameters.window_centred = window_centred && has_parameter(readout, "WINDOW_CENTRED");
     if (!code_gate.empty()) {
       parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};
     }
@@ -111,14 +138,17 @@ void RunOptions::validate() const {
 }
 
 void SensorOptions::add_to(CLI::App& command) {
-  command.add_option("-k,--klux", klux, "background light in klux")->capture_default_str();
+  command.add_option("-k,--klux", klux, "background light in klux")
+      ->check(sensible_klux())
+      ->capture_default_str();
   add_sensor_to(command);
 }
 
 void SensorOptions::add_sensor_to(CLI::App& command) {
   auto* group = command.add_option_group("sensor");
   group->add_option("-p,--preset", preset, "thesis or phone")->capture_default_str();
-  group->add_option("-a,--acquisitions", acquisitions, "laser pulses a frame (default: the preset's)");
+  group->add_option("-a,--acquisitions", acquisitions, "laser pulses a frame (default: the preset's)")
+      ->check(sensible_acquisitions());
   group->add_option("--dead-time", dead_time_ns, "dead time of a pixel in ns");
   group->add_option("--binning", binning, "B: blocks of B x B pixels share one stream")
       ->capture_default_str();
@@ -153,6 +183,21 @@ SensorModel SensorOptions::model(int np, int slots) const {
   }
   sensor.validate();
   return sensor;
+}
+
+void SensorOptions::refuse_options_without_effect(const CLI::App& command) const {
+  if (fidelity != "auto") {
+    refuse_without_effect(command, "--tolerance", "only --fidelity auto has one");
+  }
+}
+
+void SensorOptions::require_in_range(const SensorModel& sensor, double metres, const std::string& option) {
+  const double range_m = 0.5 * kSpeedOfLight * sensor.integration_time_s;
+  if (metres >= range_m) {
+    throw InputError(
+        fmt::format("{}: {} m is beyond the sensor's range, {:.2f} m (light there and back in {:g} ns)",
+                    option, metres, range_m, sensor.integration_time_s / kNanosecond));
+  }
 }
 
 Fidelity SensorOptions::photon_model(const PhotonSource& exact) const {

@@ -29,7 +29,8 @@ struct ReadoutOptions {
   std::vector<int> code_gate;
 
   void add_to(CLI::App& command);
-  /// One set of parameters a read-out asked for; "all" stands for those of `all`. Throws InputError.
+  /// One set of parameters for each read-out asked for; "all" stands for those of `all`. Throws InputError,
+  /// also for an override that none of the read-outs has.
   [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all) const;
 };
 
@@ -67,6 +68,10 @@ struct SensorOptions {
   void add_sensor_to(CLI::App& command);
   /// The preset with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
   [[nodiscard]] SensorModel model(int np, int slots) const;
+  /// Throws InputError for an option of `command` that changes nothing.
+  void refuse_options_without_effect(const CLI::App& command) const;
+  /// Throws InputError unless a target at `metres`, which `option` named, is within the sensor's range.
+  static void require_in_range(const SensorModel& sensor, double metres, const std::string& option);
   /// The photon model that --fidelity and --tolerance ask for (analytic/fidelity.hpp). Throws InputError.
   [[nodiscard]] Fidelity photon_model(const PhotonSource& exact) const;
 };

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <utility>
 
+#include "core/error.hpp"
 #include "core/pixel_sampler.hpp"
 #include "core/progress.hpp"
 #include "core/row_region.hpp"
@@ -78,6 +80,28 @@ void verify(const ArrayRows& array, const ReadoutParameters& parameters, const R
 }
 
 }  // namespace
+
+void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
+                  const RunOptions& options, const Region& region) {
+  if (!options.rtl()) {
+    return;
+  }
+  constexpr std::uint32_t kMostRtlAcquisitions = std::numeric_limits<std::uint16_t>::max();
+  if (source.acquisitions() > kMostRtlAcquisitions) {
+    throw InputError(fmt::format("--engine rtl: {} acquisitions; the RTL counts 16 bits of them, to {}",
+                                 source.acquisitions(), kMostRtlAcquisitions));
+  }
+  for (const ReadoutParameters& parameters : readouts) {
+    const ArrayRows array = array_rows(source, region.rows, parameters.readout);
+    const RtlConfiguration configuration =
+        find_rtl_configuration(parameters, array.source->rows(), static_cast<int>(region.columns.size()));
+    if (!options.trace.empty() && region.columns.size() > static_cast<std::size_t>(configuration.sram_num)) {
+      throw InputError(
+          fmt::format("--trace: a waveform holds at most SRAM_NUM = {} columns, not {}; choose some",
+                      configuration.sram_num, region.columns.size()));
+    }
+  }
+}
 
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunOptions& options, const Region& region, const std::string& command) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct ReadoutRun {
   std::uint64_t cycles = 0;          ///< clocks of the frame; 0 for the model
   double seconds = 0.0;              ///< wall time, photon generation included
 };
+
+/// Throws InputError for what `run_readout` would refuse with --engine rtl: a read-out that is not compiled
+/// for so many rows, more acquisitions than the RTL's 16 bits count, or more columns than a trace holds. To
+/// be asked before anything is written.
+void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
+                  const RunOptions& options, const Region& region);
 
 /// Reads a region of `source` out with the engine of `options`, which does not change a result. A pool
 /// read-out's array has the sensor's rows, at least the 160 of the compiled arrays, and those outside the

@@ -41,7 +41,8 @@ constexpr std::array<Parameter, 7> kParameters = {{
 }};
 
 bool has(Readout readout, const Parameter& parameter) {
-  return is_pool_readout(readout) ? parameter.pool : parameter.pixelwise;
+  return is_pool_readout(readout) ? parameter.pool
+                                  : parameter.pixelwise && has_parameter(readout, parameter.name);
 }
 
 std::string names(bool Parameter::*owner) {

@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "io/histogram_stream.hpp"
+#include "io/input_file.hpp"
 #include "io/npy.hpp"
 #include "io/photon_times_mat.hpp"
 #include "io/stream_csv.hpp"
@@ -18,26 +19,6 @@
 
 namespace dtof {
 namespace {
-
-std::string format_of(const RecordingOptions& options) {
-  if (options.format != "auto") {
-    return options.format;
-  }
-  const std::string& file = options.file;
-  if (file.ends_with(".csv")) {
-    return "csv";
-  }
-  if (file.ends_with(".npy")) {
-    return "npy";
-  }
-  if (file.ends_with(".mat")) {
-    return "mat";
-  }
-  if (file.ends_with(".json") || file.ends_with(".json.gz")) {
-    return file.find("8829") == std::string::npos ? "tmf8820" : "tmf8829";
-  }
-  throw InputError(fmt::format("{}: unknown kind of recording; name it with --format", file));
-}
 
 // A pixel whose histogram is empty measured nothing: its result is no measurement of the true distance.
 void forget_truth_without_photons(const HistogramCube& cube, std::vector<double>& true_distance) {
@@ -62,16 +43,42 @@ Recording from_cube(HistogramCube cube, const Resampling& resampling, std::strin
 
 }  // namespace
 
+std::string recording_format(const RecordingOptions& options) {
+  if (options.format != "auto") {
+    return options.format;
+  }
+  const std::string& file = options.file;
+  if (file.ends_with(".csv")) {
+    return "csv";
+  }
+  if (file.ends_with(".npy")) {
+    return "npy";
+  }
+  if (file.ends_with(".mat")) {
+    return "mat";
+  }
+  if (file.ends_with(".json") || file.ends_with(".json.gz")) {
+    // A TMF8829 log is an object, the TMF8820 captures are an array.
+    const std::string text = read_file_or_gzip(file);
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    return begin != std::string::npos && text[begin] == '{' ? "tmf8829" : "tmf8820";
+  }
+  throw InputError(fmt::format("{}: unknown kind of recording; name it with --format", file));
+}
+
 Recording open_recording(const RecordingOptions& options) {
-  const std::string format = format_of(options);
+  const std::string format = recording_format(options);
   Resampling resampling = options.resampling;
   if (options.acquisitions) {
     resampling.acquisitions = *options.acquisitions;
   }
   if (format == "csv") {
-    auto stream = std::make_unique<RecordedStream>(read_stream_csv(
-        options.file,
-        {.np = resampling.np, .slots = resampling.slots, .acquisitions = options.acquisitions}));
+    auto stream = std::make_unique<RecordedStream>(
+        read_stream_csv(options.file, {.np = resampling.np,
+                                       .slots = resampling.slots,
+                                       .columns = options.columns,
+                                       .rows = options.rows,
+                                       .acquisitions = options.acquisitions}));
     Recording recording;
     recording.description = fmt::format("recorded stream, {} detections", stream->detection_count());
     recording.source = std::move(stream);

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/option_checks.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/plot.hpp"
@@ -45,6 +46,24 @@ struct TruthComparison {
   double offset_m = 0.0;
 };
 
+/// Whether the recording knows a true distance of a pixel of the region: not of one that saw nothing.
+bool has_truth(const Recording& recording, const Region& region) {
+  if (recording.true_distance.empty()) {
+    return false;
+  }
+  const auto width = static_cast<std::size_t>(recording.source->columns());
+  for (int row = region.rows.first; row < region.rows.first + region.rows.count; ++row) {
+    for (const int column : region.columns) {
+      if (!std::isnan(recording.true_distance[static_cast<std::size_t>(row) * width +
+                                              static_cast<std::size_t>(column)])) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// The region has a pixel of known distance.
 TruthComparison compare(const Recording& recording, const ReadoutParameters& parameters,
                         const ReadoutRun& run, const Region& region, double t_int_s) {
   // No pulse width is subtracted: the recording's zero distance is part of the offset.
@@ -61,9 +80,6 @@ TruthComparison compare(const Recording& recording, const ReadoutParameters& par
       comparison.measured_m.push_back(scale.depth(code_position(pixel.result, parameters.fraction_bits)));
       differences.push_back(comparison.measured_m.back() - truth);
     }
-  }
-  if (differences.empty()) {
-    throw InputError("the chosen pixels have no true distance");
   }
   comparison.offset_m = median(differences);
   for (double& measured : comparison.measured_m) {
@@ -169,6 +185,28 @@ void write_comparison(const std::vector<TruthComparison>& comparisons, const Rep
              summary.markdown(), distances.markdown());
 }
 
+/// Options that say nothing about this kind of recording.
+void check_recording_options(const CLI::App& command, const RecordingOptions& recording) {
+  const std::string format = recording_format(recording);
+  if (format == "csv") {
+    for (const char* option : {"--photons", "--background", "--shift"}) {
+      refuse_without_effect(command, option, "a TDC stream is replayed as it was recorded");
+    }
+  } else {
+    for (const char* option : {"--array-columns", "--array-rows"}) {
+      refuse_without_effect(command, option, "only a TDC stream (CSV) does not know its array");
+    }
+  }
+  if (format != "npy") {
+    refuse_without_effect(command, "--bin-width", "only an NPY file does not know it");
+  }
+  if (format != "mat") {
+    for (const char* option : {"--tick", "--variable"}) {
+      refuse_without_effect(command, option, "only MATLAB files have one");
+    }
+  }
+}
+
 void run_replay_command(const ReplayOptions& options) {
   options.run.validate();
   const std::vector<ReadoutParameters> readouts = options.readout.parameters(kModelReadouts);
@@ -190,6 +228,7 @@ void run_replay_command(const ReplayOptions& options) {
   const Recording recording = open_recording(recording_options);
   const Region region{.columns = parse_columns(options.run.columns, recording.source->columns()),
                       .rows = parse_rows(options.run.rows, recording.source->rows())};
+  check_engine(*recording.source, readouts, options.run, region);
   create_output_folder(options.out);
   std::vector<TruthComparison> comparisons;
   for (const ReadoutParameters& parameters : readouts) {
@@ -198,7 +237,7 @@ void run_replay_command(const ReplayOptions& options) {
     write_result_csv(
         std::filesystem::path(options.out) / fmt::format("{}.csv", readout_name(parameters.readout)),
         result_records(run.results, region));
-    if (!recording.true_distance.empty()) {
+    if (has_truth(recording, region)) {
       comparisons.push_back(compare(recording, parameters, run, region, resampling.integration_time));
     }
   }
@@ -229,6 +268,12 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("-a,--acquisitions", options->recording.acquisitions,
                       "laser pulses a frame (default: CSV: the last one recorded, else 3333)");
+  command
+      ->add_option("--array-columns", options->recording.columns,
+                   "CSV: columns of the sensor (default: to the last one that detected something)")
+      ->check(CLI::Range(1, 65536));
+  command->add_option("--array-rows", options->recording.rows, "CSV: rows of the sensor, likewise")
+      ->check(CLI::Range(1, 65536));
   command->add_option("--photons", options->photons,
                       "measured data: thin to this mean number of photons a pixel and frame");
   command
@@ -246,7 +291,10 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
   options->readout.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
-  command->callback([options] { run_replay_command(*options); });
+  command->callback([options, command] {
+    check_recording_options(*command, options->recording);
+    run_replay_command(*options);
+  });
 }
 
 }  // namespace dtof

@@ -14,6 +14,7 @@
 
 #include "app/commands.hpp"
 #include "app/flat_calibration.hpp"
+#include "app/option_checks.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "app/own_map.hpp"
@@ -475,7 +476,7 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       "scenes", "Read-outs, their strongest cheap rival and the matched filter compared on scenes");
   command->add_option("-p,--preset", options->presets, "presets, one or more")->capture_default_str();
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
-      ->check(CLI::NonNegativeNumber)
+      ->check(sensible_klux())
       ->capture_default_str();
   command->add_option("-r,--readout", options->readouts, "names from `dtof list`, separated by commas")
       ->take_last()
@@ -524,6 +525,15 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
     } else if (options->maps.empty() &&
                (options->map_scales.metres_per_unit || options->map_scales.reflectivity_per_unit)) {
       throw InputError("--depth-scale and --reflectivity-scale need --map");
+    }
+    if (options->disparity_file.empty()) {
+      refuse_without_effect(*command, "--nearest", "it places the map of --disparity");
+    }
+    if (options->surface_file.empty()) {
+      refuse_without_effect(*command, "--variable", "it is in the file of --surface");
+    }
+    if (!options->held_out) {
+      refuse_without_effect(*command, "--surface", "it is one of the scenes of --held-out");
     }
     run_scenes_command(*options);
   });

@@ -20,8 +20,13 @@ struct Point {
 };
 Point point_of_pixel(const DepthImage& image, int column, int row, double degrees_per_pixel = kPixelAngle);
 
+/// Throws InputError, which names the file, when an image of so many pixels would turn a ray by 90 degrees or
+/// more: 375 pixels of 0.48 degrees.
+void check_ply_size(const std::filesystem::path& path, int width, int height,
+                    double degrees_per_pixel = kPixelAngle);
+
 /// Writes the known pixels as a binary little-endian PLY (x, y, z float m; red, green, blue), coloured by
-/// depth over `range`. Throws InputError when the image would turn a ray by 90 degrees or more.
+/// depth over `range`. Throws InputError as check_ply_size.
 void write_ply(const std::filesystem::path& path, const DepthImage& image, const ColourRange& range,
                double degrees_per_pixel = kPixelAngle);
 

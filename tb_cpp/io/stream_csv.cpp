@@ -132,8 +132,10 @@ RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCs
                          static_cast<std::uint16_t>(fields[2]), static_cast<Timestamp>(fields[3]), number});
       });
   if (lines.empty() && (!options.columns || !options.rows || !options.acquisitions)) {
-    throw InputError(fmt::format(
-        "{}: no detections: columns, rows and acquisitions cannot be found and must be given", name));
+    throw InputError(
+        fmt::format("{}: no detections: columns, rows and acquisitions cannot be found and must be given "
+                    "(--array-columns, --array-rows, --acquisitions)",
+                    name));
   }
 
   const int columns = size_or_largest(options.columns, lines, &Line::column);

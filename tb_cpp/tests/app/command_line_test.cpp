@@ -343,7 +343,7 @@ TEST_F(CommandLine, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --trace x.fst --engine rtl --out out", "one read-out");
   expect_refused("frame --frobnicate --out out", "--frobnicate");
   expect_refused("accuracy --distances 0 --out out", "distances");
-  expect_refused("", "subcommand");
+  expect_refused("", "no command is given; known are frame,");
 }
 
 TEST_F(CommandLine, RefusesBadImages) {
@@ -500,6 +500,157 @@ TEST_F(CommandLine, RefusesAnUnwritableOutput) {
   expect_refused(fmt::format("frame -r fifh {} --record nowhere/stream.csv --out out", kSmallScene),
                  "nowhere");
   EXPECT_EQ(read_file(blocked), "a file, not a folder");
+}
+
+TEST_F(CommandLine, TheVersionIsOneInTheWholeTree) {
+  const Outcome outcome = dtof("--version");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, ::testing::MatchesRegex("dtof [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  const std::string version = outcome.output.substr(5, outcome.output.size() - 6);
+  EXPECT_THAT(read_file(DTOF_CORE_FILE), HasSubstr("dtof_array:" + version + "\n"));
+}
+
+TEST_F(CommandLine, UnknownWordsSuggestTheNearest) {
+  expect_refused("fram --klux 3", "unknown command 'fram'; did you mean 'frame'? Known are frame, replay,");
+  expect_refused("scnees", "did you mean 'scenes'?");
+  expect_refused("frobnicate", "unknown command 'frobnicate'; known are frame,");
+  expect_refused("frame --klxu 3",
+                 "frame: unknown option '--klxu'; did you mean '--klux'? `dtof frame --help`");
+  expect_refused("frame --xyzzy", "frame: unknown option '--xyzzy'; `dtof frame --help` lists the options");
+  expect_refused("--versoin", "unknown option '--versoin'; did you mean '--version'?");
+  expect_refused("frame --scene rom", "unknown scene 'rom'; did you mean 'room'?");
+  expect_refused("frame -r sfih", "unknown read-out 'sfih'; did you mean 'sifh'?");
+  expect_refused("replay a.csv b.csv", "unexpected argument 'b.csv'");
+}
+
+TEST_F(CommandLine, WhatIsNoNumberIsSaidSo) {
+  expect_refused("frame --klux abc", "frame: --klux: 'abc' is not a number");
+  expect_refused("frame --klux inf", "frame: --klux: 'inf' is not a number");
+  expect_refused("frame --gate 1 x", "frame: --gate: 'x' is not a number");
+  expect_refused("frame --np 9.5", "frame: --np: '9.5' is not a whole number");
+  expect_refused("frame --np 99999999999", "--np = 99999999999 is beyond what the option can hold");
+  expect_refused("frame --np 100", "NP must be 3 to 16, not 100");
+  expect_refused("frame --seed -1", "frame: --seed: '-1' is negative");
+  expect_refused("frame --seed 99999999999999999999", "'99999999999999999999' is too large");
+  expect_refused("stability --seed -1", "stability: --seed: '-1' is negative");
+  expect_refused("frame --threads 010", "'010' begins with 0");
+}
+
+TEST_F(CommandLine, NonsenseIsRefusedWithAReason) {
+  expect_refused("frame --klux 1e30",
+                 "1e30 is not within 0 to 200 klux: the brightest sunlight is about 130");
+  expect_refused("accuracy --klux 14 300", "300 is not within 0 to 200 klux");
+  expect_refused("scenes --klux 300", "300 is not within 0 to 200 klux");
+  expect_refused("frame --reflectivity 4.1", "a white matt surface is 1");
+  expect_refused("accuracy --reflectivity 4.1", "a white matt surface is 1");
+  expect_refused("frame --scene flat --distance 6.75", "beyond the sensor's range, 6.75 m");
+  expect_refused("frame --scene plane --far 7", "--far: 7 m is beyond the sensor's range");
+  expect_refused("accuracy --distances 1 7", "--distances: 7 m is beyond the sensor's range");
+}
+
+TEST_F(CommandLine, MemoryIsRefusedBeforeItIsSpent) {
+  for (const char* command : {"frame", "accuracy"}) {
+    expect_refused(std::string(command) + " -a 4294967295", "4294967295 is not within 1 to 1048575");
+    expect_refused(std::string(command) + " -a 4294967296", "4294967296 is not within 1 to 1048575");
+  }
+  expect_refused("frame --array-columns 1 --array-rows 4096 -a 1000000 --out out",
+                 "a column could have 8.2e+09 detections");
+  std::string captures = R"([{"dist_to_plane": 1, "reference_hist": [)";
+  const auto append_bins = [&](std::string_view first) {
+    captures += first;
+    for (int bin = 1; bin < 128; ++bin) {
+      captures += ",0";
+    }
+    captures += "]";
+  };
+  append_bins("0");
+  captures += R"(, "hists": [)";
+  for (int zone = 0; zone < 9; ++zone) {
+    captures += zone == 0 ? "[" : ",[";
+    append_bins("4294967295");
+  }
+  captures += "]}]";
+  expect_refused("replay " + file("many.json", captures) + " --out out",
+                 "column 0, row 0: 4294967295 photons are more than the 1e+07");
+  const std::vector<std::size_t> shape = {1, 2};
+  write_npy(path("many.npy"), shape, std::vector<double>{0.0, 4294967296.0});
+  expect_refused("replay many.npy --bin-width 100 --out out", "give a photon budget (--photons)");
+  EXPECT_EQ(dtof("replay many.npy --bin-width 100 --photons 50 -r sifh --out out").exit_code, 0);
+}
+
+TEST_F(CommandLine, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
+  expect_refused("frame --array-columns 375 --array-rows 1 -a 10 --out out", "point cloud of 375 x 1 pixels");
+  expect_refused("frame --array-columns 1 --array-rows 375 -a 10 --out out", "point cloud of 1 x 375 pixels");
+  // Of a large array a part that fits a picture.
+  EXPECT_EQ(dtof("frame -r fifh --array-columns 375 --array-rows 1 --columns 0-3 -a 10 --out part").exit_code,
+            0);
+  expect_refused("frame -r ezpointer,sifh --nb 7 --engine rtl --out out", "no RTL is compiled for sifh");
+  expect_refused("frame -r ezpointer --engine rtl -a 65536 --array-columns 1 --array-rows 1 --out out",
+                 "the RTL counts 16 bits of them, to 65535");
+  expect_refused("frame -r ezpointer --engine rtl --trace x.fst --record stream.csv --out out",
+                 "a waveform holds at most SRAM_NUM");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+  EXPECT_FALSE(std::filesystem::exists(path("stream.csv")));
+}
+
+TEST_F(CommandLine, OptionsWithoutEffectAreErrors) {
+  expect_refused("frame --guard 3 -r sifh", "--guard has no effect: sifh has no GUARD");
+  expect_refused("frame --nb 5 -r ezpointer", "--nb has no effect: ezpointer has no NB");
+  expect_refused("frame --window-centred -r ezpointer,fifh",
+                 "--window-centred has no effect: ezpointer,fifh");
+  expect_refused("frame --pointer-step 2 -r poolpointer", "--pointer-step has no effect");
+  expect_refused("frame --distance 3 --scene room", "--distance has no effect: only --scene flat");
+  expect_refused("frame --near 1 --scene flat", "--near has no effect");
+  expect_refused("frame --steps 3 --scene plane", "--steps has no effect");
+  expect_refused("frame --depth a.png --scene room", "--scene has no effect: --depth takes its place");
+  expect_refused("frame --depth a.png --distance 2", "--distance has no effect");
+  expect_refused("frame --max-frames 9", "--max-frames has no effect");
+  expect_refused("accuracy --max-frames 9", "--max-frames has no effect");
+  expect_refused("frame --tolerance 0.1", "--tolerance has no effect: only --fidelity auto has one");
+  expect_refused("scenes --variant ezpointer:COUNT_WIDTH=8", "ezpointer has no COUNT_WIDTH to change");
+  expect_refused("scenes --nearest 2", "--nearest has no effect");
+  expect_refused("scenes --surface a.mat", "--surface has no effect");
+  expect_refused("measured a.json --tick 8", "--tick has no effect");
+  const std::string stream = file("one.csv", "acquisition,column,row,timestamp\n0,0,1,1\n");
+  expect_refused("replay " + stream + " --photons 3", "--photons has no effect");
+  expect_refused("replay " + stream + " --tick 3", "--tick has no effect");
+  expect_refused("replay " + stream + " --bin-width 3", "--bin-width has no effect");
+  expect_refused("replay a.npy --bin-width 3 --array-rows 3", "--array-rows has no effect");
+  // The same options where they have one, also for one read-out of several.
+  const std::string small = kSmallScene + " --out out ";
+  EXPECT_EQ(dtof("frame -r sifh,hispointer --guard 3 --scene flat --distance 3 " + small).exit_code, 0);
+  EXPECT_EQ(dtof("frame -r sifh,ezpointer --nb 5 --scene staircase --near 1 --steps 3 " + small).exit_code,
+            0);
+}
+
+TEST_F(CommandLine, EmptyAndDarkRecordingsAreReplayed) {
+  const std::string empty = file("empty.csv", "acquisition,column,row,timestamp\n");
+  expect_refused("replay " + empty + " --out out", "--array-columns, --array-rows, --acquisitions");
+  for (const char* engine : {"model", "rtl"}) {
+    const Outcome outcome = dtof(fmt::format(
+        "replay {} --array-columns 3 --array-rows 2 -a 100 --engine {} --out {}", empty, engine, engine));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("3 columns x 2 rows, 100 acquisitions"));
+  }
+  for (const Readout readout : kModelReadouts) {
+    const std::string csv = fmt::format("/{}.csv", readout_name(readout));
+    EXPECT_EQ(read_file(path("model") + csv), read_file(path("rtl") + csv)) << csv;
+  }
+  // Dark pixels beyond the last that detected something belong to the array, too.
+  const std::string corner = file("corner.csv", "acquisition,column,row,timestamp\n0,0,0,1\n");
+  EXPECT_THAT(dtof("replay " + corner + " -r sifh --array-columns 4 --array-rows 5 --out out").output,
+              HasSubstr("4 columns x 5 rows"));
+  expect_refused("replay " + corner + " --array-columns 0", "--array-columns");
+  const std::vector<std::size_t> shape = {2, 3, 4};
+  write_npy(path("dark.npy"), shape, std::vector<double>(24, 0.0));
+  EXPECT_EQ(dtof("replay dark.npy --bin-width 100 -r sifh --out dark").exit_code, 0);
+}
+
+TEST_F(CommandLine, TheContentOfAJsonFileChoosesItsReader) {
+  // Complaints are those of the reader: of captures, and of a log with its "Result_Set".
+  std::filesystem::create_directories(path("tmf8829"));
+  expect_refused("replay " + file("tmf8829/tmf8829.json", " [{}]") + " --out out", "dist_to_plane");
+  expect_refused("replay " + file("tmf8820.json", "\n{}") + " --out out", "Result_Set");
 }
 
 }  // namespace

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace dtof {
+
+/// A number from `lowest` to `highest`; the refusal of another one ends with `reason`, e.g. "to 200: direct
+/// sunlight is about 130 klux".
+CLI::Validator within(double lowest, double highest, const std::string& reason);
+
+/// Full sun is 100 to 130 klux.
+CLI::Validator sensible_klux();
+/// 1 is a white matt surface; a glint or a retroreflector is more.
+CLI::Validator sensible_reflectivity();
+/// Of a frame; more than the RTL's 16 bits, and a column of 160 rows and 2 slots still fits 2.7 GB.
+inline constexpr double kMostAcquisitions = 1048575;
+CLI::Validator sensible_acquisitions();
+
+/// "" if `text` is what an option of CLI11's type (FLOAT, INT or UINT) can hold, else the reason, e.g. "'abc'
+/// is not a number". Numbers are decimal and finite; CLI11 alone would read 010 as 8 and -1 as 2^64 - 1.
+std::string number_error(const std::string& text, const std::string& type);
+
+/// Adds number_error to every numeric option of the command, its subcommands and option groups.
+void check_numbers(CLI::App& command);
+
+/// Throws InputError "<option> has no effect: <reason>" if the user gave the option.
+void refuse_without_effect(const CLI::App& command, const std::string& option, const std::string& reason);
+
+}  // namespace dtof
