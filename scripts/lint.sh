@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format.
+# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; the README's table.
 # --static-analysis adds clang-tidy over all C++ (minutes; needs a configured build).
 set -euo pipefail
 /usr/bin/python3 scripts/lint_rtl.py
@@ -8,6 +8,9 @@ set -euo pipefail
 mapfile -t sources < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp' 'tb_cpp/*.hpp')
 clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files clean"
+
+scripts/update_readme.py --check
+echo "README.md: the results table is that of reports/"
 
 if [ "${1:-}" = "--static-analysis" ]; then
   mapfile -t units < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp')

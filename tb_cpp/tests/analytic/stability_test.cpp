@@ -21,6 +21,16 @@ TEST(Stability, EveryCheckIsWithinItsLimit) {
   }
 }
 
+TEST(Stability, NoLimitIsMoreThanTenTimesWhatIsObserved) {
+  for (const StabilityResult& result : check_stability(1)) {
+    // Random draws have limits of six standard deviations, whatever was drawn.
+    if (result.unit != "standard deviations") {
+      EXPECT_LE(result.limit, 10.0 * result.error)
+          << result.what << ": " << result.error << " " << result.unit;
+    }
+  }
+}
+
 TEST(Stability, AnErrorThatIsNoNumberIsNotAccepted) {
   StabilityResult result{
       .what = "", .inputs = "", .reference = "", .cases = 1, .error = 0.0, .limit = 0.0, .unit = ""};
