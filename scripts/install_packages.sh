@@ -8,7 +8,7 @@ packages=(
   # C++ build
   cmake ninja-build g++ ccache pkg-config make
   libcli11-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev librandom123-dev
-  libboost-dev libmatio-dev libpng-dev libcairo2-dev fonts-dejavu-core zlib1g-dev libtbb-dev
+  libboost-dev libmatio-dev libpng-dev libcairo2-dev fonts-dejavu-core zlib1g-dev libtbb-dev libtomlplusplus-dev
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta qflow-tech-osu018
   # scripts, plots, checks

@@ -78,8 +78,8 @@ std::string models_taken(const AccuracyOptions& options, const StudySettings& se
 
 StudySettings settings_of(const AccuracyOptions& options) {
   StudySettings settings;
-  settings.readouts = options.readout.parameters(kAllReadouts);
-  settings.sensor = options.sensor.model(options.readout.np, settings.readouts.front().slots);
+  settings.readouts = options.readout.parameters(kAllReadouts, options.sensor.described());
+  settings.sensor = options.sensor.model(settings.readouts.front().np, settings.readouts.front().slots);
   settings.reflectivity = options.reflectivity.value_or(settings.sensor.default_reflectivity);
   settings.distances_m = options.distances_m;
   for (const double distance_m : settings.distances_m) {
@@ -101,11 +101,11 @@ StudySettings settings_of(const AccuracyOptions& options) {
 
 std::string heading(const AccuracyOptions& options, const StudySettings& settings) {
   return fmt::format(
-      "Preset {}, reflectivity {:g}, {} acquisitions a frame, engine {}, photon model {}, seed {}. {} frames "
+      "Sensor {}, reflectivity {:g}, {} acquisitions a frame, engine {}, photon model {}, seed {}. {} frames "
       "a distance{}; "
       "the\n"
       "look-up table comes from {} other frames every {:g} m, at the same light.\n",
-      options.sensor.preset, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
+      settings.sensor.name, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
       models_taken(options, settings), options.run.seed, settings.frames,
       settings.precision
           ? fmt::format(
@@ -227,7 +227,7 @@ void run_accuracy_command(const AccuracyOptions& options) {
     for (const Picture& picture : pictures()) {
       write_plot(folder / fmt::format("{}_{:g}klux.svg", picture.name, klux),
                  accuracy_series(study.points, picture.value),
-                 {.title = fmt::format("{:g} klux, preset {}", klux, options.sensor.preset),
+                 {.title = fmt::format("{:g} klux, sensor {}", klux, settings.sensor.name),
                   .x_label = "distance, m",
                   .y_label = picture.y_label,
                   .logarithmic_y = picture.logarithmic,
@@ -269,7 +269,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
           "reject measurements of low confidence, so that of the calibration's accepted ones at most "
           "this many per cent are more than 10 % off")
       ->check(CLI::Range(0.0, 100.0));
-  command->add_option("--reflectivity", options->reflectivity, "of the target (default: the preset's)")
+  command->add_option("--reflectivity", options->reflectivity, "of the target (default: the sensor's)")
       ->check(sensible_reflectivity());
   options->sensor.add_sensor_to(*command);
   options->readout.add_to(*command);

@@ -129,6 +129,7 @@ std::unique_ptr<CLI::App> make_command_line(const std::string& command_line) {
       "  dtof replay recording.csv --readout hispointer --engine rtl --out build/replay\n"
       "  dtof accuracy --klux 14 --distances 0.5 1 2 3 --out build/accuracy\n"
       "  dtof reproduce --out reports                                the thesis's statements, measured\n"
+      "  dtof sensor thesis                                          a sensor file to start from\n"
       "  dtof list\n"
       "Exit codes: 0 done, 1 bad input, 3 RTL misbehaved or differs from its model, 4 failure, 130 "
       "interrupted.");
@@ -140,6 +141,7 @@ std::unique_ptr<CLI::App> make_command_line(const std::string& command_line) {
   add_stability_command(*app, command_line);
   add_scenes_command(*app, command_line);
   add_measured_command(*app, command_line);
+  add_sensor_command(*app);
   add_list_command(*app);
   check_numbers(*app);
   return app;

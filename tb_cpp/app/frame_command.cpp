@@ -46,6 +46,8 @@ struct FrameOptions {
   MapFiles maps;
   MapScales map_scales;
   SceneParameters scene_parameters;
+  std::optional<int> array_columns;
+  std::optional<int> array_rows;
   std::optional<double> reflectivity;
   std::string table = "flat";
   std::optional<double> precision_percent;
@@ -70,6 +72,8 @@ struct MeasuredFrame {
 
 OwnMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
   SceneParameters parameters = options.scene_parameters;
+  parameters.columns = options.array_columns.value_or(sensor.columns);
+  parameters.rows = options.array_rows.value_or(sensor.rows);
   parameters.reflectivity = options.reflectivity.value_or(sensor.default_reflectivity);
   if (!options.maps.depth.empty()) {
     return read_own_map(options.maps, options.map_scales, parameters.columns, parameters.rows,
@@ -243,11 +247,11 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const Tabled
 }
 
 void write_readout_files(const MeasuredFrame& frame, const Region& region, const ColourRange& depth_range,
-                         const std::filesystem::path& folder) {
+                         double degrees_per_pixel, const std::filesystem::path& folder) {
   const std::string name(readout_name(frame.parameters.readout));
   write_result_csv(folder / (name + ".csv"), result_records(frame.run.results, region));
   write_depth_png(folder / (name + "_depth_mm.png"), frame.depth);
-  write_ply(folder / (name + ".ply"), frame.depth, depth_range);
+  write_ply(folder / (name + ".ply"), frame.depth, depth_range, degrees_per_pixel);
   const std::string title(readout_title(frame.parameters.readout));
   write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{frame.depth, "", MapKind::kDepth}},
                     {.title = title, .depth_range = depth_range});
@@ -317,7 +321,7 @@ Fidelity photon_model(const FrameOptions& options, const PhotonSource& scene) {
 }
 
 void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& truth,
-                    const ColourRange& depth_range, const FrameOptions& options) {
+                    const ColourRange& depth_range, const SensorModel& sensor, const FrameOptions& options) {
   std::vector<MapPanel> depths = {{truth, "true depth", MapKind::kDepth}};
   std::vector<MapPanel> errors;
   for (const MeasuredFrame& frame : frames) {
@@ -326,9 +330,9 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
     errors.push_back({frame.error, title, MapKind::kError});
   }
   const std::filesystem::path folder(options.out);
-  const std::string title = fmt::format("{}, {} klux, preset {}, engine {}",
+  const std::string title = fmt::format("{}, {} klux, sensor {}, engine {}",
                                         options.maps.depth.empty() ? options.scene : options.maps.depth,
-                                        options.sensor.klux, options.sensor.preset, options.run.engine);
+                                        options.sensor.klux, sensor.name, options.run.engine);
   const int pixel_size = truth.width >= 100 ? 2 : 0;
   write_map_picture(folder / "overview.png", depths,
                     {.title = "Depth: " + title,
@@ -346,17 +350,18 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
 
 void run_frame_command(const FrameOptions& options) {
   options.run.validate();
-  const std::vector<ReadoutParameters> readouts = options.readout.parameters(kModelReadouts);
+  const std::vector<ReadoutParameters> readouts =
+      options.readout.parameters(kModelReadouts, options.sensor.described());
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }
   if (!options.run.trace.empty() && options.precision_percent) {
     throw InputError("--trace shows one frame, --precision takes many: choose one");
   }
-  const SensorModel sensor = options.sensor.model(options.readout.np, readouts.front().slots);
+  const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
   validate_maps(options);
   check_distances(options, sensor);
-  check_memory(sensor, options.scene_parameters.rows);
+  check_memory(sensor, options.array_rows.value_or(sensor.rows));
   OwnMap made = make_targets(options, sensor);
   const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
   const Fidelity fidelity = photon_model(options, scene);
@@ -378,9 +383,9 @@ void run_frame_command(const FrameOptions& options) {
   std::vector<MeasuredFrame> frames;
   for (const TabledReadout& readout : tabled) {
     frames.push_back(measure(scene, fidelity, readout, options, region, truth));
-    write_readout_files(frames.back(), region, range, options.out);
+    write_readout_files(frames.back(), region, range, sensor.degrees_per_pixel(), options.out);
   }
-  write_overview(frames, truth, range, options);
+  write_overview(frames, truth, range, sensor, options);
   double seconds = 0.0;
   for (const MeasuredFrame& frame : frames) {
     seconds += frame.run.seconds;
@@ -388,11 +393,11 @@ void run_frame_command(const FrameOptions& options) {
   const Table table = summarise(frames, options);
   const std::string precision = precision_sentence(frames, options);
   const std::string heading = fmt::format(
-      "Scene {}: {} x {} pixels, {} klux, preset {}, {} acquisitions, {} photons, engine {}{}, seed "
+      "Scene {}: {} x {} pixels, {} klux, sensor {}, {} acquisitions, {} photons, engine {}{}, seed "
       "{}.{}{}\n",
       options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
-      options.sensor.klux, options.sensor.preset, sensor.acquisitions, fidelity_name(fidelity),
-      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      options.sensor.klux, sensor.name, sensor.acquisitions, fidelity_name(fidelity), options.run.engine,
+      options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
       made.description.empty() ? "" : "\n", made.description);
   const std::string body = fmt::format("{}\n{}\n{}\n\n{}", heading, table.markdown(),
                                        table_sentence(rule, sensor, options.run.seed), precision);
@@ -420,12 +425,12 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   scene->add_option("--reflectivity-map", options->maps.reflectivity,
                     "reflectivity of each pixel, for a scene or a depth map: PNG, PFM or NPY of any size");
   options->map_scales.add_to(*scene);
-  scene->add_option("--array-columns", options->scene_parameters.columns, "columns of the array")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  scene->add_option("--array-rows", options->scene_parameters.rows, "rows of the array (pixels a column)")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+  scene->add_option("--array-columns", options->array_columns, "columns of the array (default: the sensor's)")
+      ->check(CLI::Range(1, 4096));
+  scene
+      ->add_option("--array-rows", options->array_rows,
+                   "rows of the array, pixels per column (default: the sensor's)")
+      ->check(CLI::Range(1, 4096));
   scene->add_option("--distance", options->scene_parameters.distance_m, "flat: distance in m")
       ->capture_default_str();
   scene->add_option("--near", options->scene_parameters.near_m, "staircase, plane: near end in m")
@@ -433,11 +438,11 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   scene->add_option("--far", options->scene_parameters.far_m, "staircase, plane: far end in m")
       ->capture_default_str();
   scene->add_option("--steps", options->scene_parameters.steps, "staircase: steps")->capture_default_str();
-  scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the preset's)")
+  scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the sensor's)")
       ->check(sensible_reflectivity());
   command
       ->add_option("--table", options->table,
-                   "host look-up table: flat (each read-out's own, fitted on flat targets of the preset's\n"
+                   "host look-up table: flat (each read-out's own, fitted on flat targets of the sensor's\n"
                    "reflectivity from other photons, as `dtof scenes` does) or none (Eq. 3.11 alone)")
       ->check(CLI::IsMember({"none", "flat"}))
       ->capture_default_str();

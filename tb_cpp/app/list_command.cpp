@@ -11,14 +11,15 @@
 namespace dtof {
 
 void add_list_command(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("list", "Shows read-outs, presets, scenes and compiled hardware");
+  CLI::App* command =
+      app.add_subcommand("list", "Shows read-outs, presets of sensors, scenes and compiled hardware");
   command->callback([] {
     fmt::print("Read-outs (--readout):\n");
     for (const Readout readout : kModelReadouts) {
       fmt::print("  {:<16} {}\n", readout_name(readout), readout_summary(readout));
       fmt::print("  {:<16}   defaults: {}\n", "", ReadoutParameters::defaults(readout).to_string());
     }
-    fmt::print("\nPresets (--preset), per pixel and pulse at 1 m, reflectivity 1, 14 klux:\n");
+    fmt::print("\nPresets (--sensor), per pixel and pulse at 1 m, reflectivity 1, 14 klux:\n");
     for (const std::string_view name : preset_names()) {
       const SensorModel sensor = parse_preset(name);
       fmt::print("  {:<16} {:.3f} signal events, {:.3f} background events, {} acquisitions a frame\n", name,

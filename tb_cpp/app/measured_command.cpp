@@ -51,7 +51,7 @@ struct MeasuredOptions {
 
   [[nodiscard]] Resampling resampling() const {
     Resampling resampling;
-    resampling.np = readout.np;
+    resampling.np = readout.np.value_or(SensorModel().np);
     resampling.slots = readout.slots.value_or(2);
     resampling.integration_time = t_int_ns * 1e-9;
     resampling.acquisitions = acquisitions;
@@ -136,6 +136,7 @@ class MeasuredStudy {
 
   [[nodiscard]] const MeasuredScene& scene() const { return scene_; }
   [[nodiscard]] const std::vector<std::string>& titles() const { return titles_; }
+  [[nodiscard]] int timestamp_bits() const { return readouts_.front().np; }
   [[nodiscard]] const std::vector<double>& offsets_m() const { return offsets_m_; }
 
   /// The first light's median differences to truth are the read-outs' offsets from then on: host calibration.
@@ -347,7 +348,7 @@ void run_measured_command(const MeasuredOptions& options) {
       "is "
       "taken away. Seed {}.\n",
       study.scene().title, study.scene().description, options.acquisitions, options.t_int_ns,
-      options.readout.np, options.frames, options.run.seed);
+      study.timestamp_bits(), options.frames, options.run.seed);
   report +=
       matrix("Per cent of pixels with an error above 3 % / 10 %:", results, titles, [](const Outcome& o) {
         return fmt::format("{} / {}", percent(o.score.all.above_3_percent),

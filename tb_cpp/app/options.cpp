@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "app/option_checks.hpp"
@@ -15,7 +16,7 @@
 namespace dtof {
 namespace {
 
-constexpr double kNanosecond = 1e-9;
+constexpr double kNanosecondsPerSecond = 1e9;
 
 template <typename T>
 void override_with(const std::optional<T>& value, T& parameter) {
@@ -26,6 +27,15 @@ void override_with(const std::optional<T>& value, T& parameter) {
 
 }  // namespace
 
+ReadoutParameters default_parameters(Readout readout, const SensorModel& sensor) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(readout, sensor.np);
+  parameters.slots = sensor.slots;
+  if (readout == Readout::kHisPointer) {
+    parameters.guard = static_cast<int>(std::ceil(sensor.pulse_fwhm_s / sensor.time_resolution_s()));
+  }
+  return parameters;
+}
+
 void ReadoutOptions::add_to(CLI::App& command) {
   auto* group = command.add_option_group("read-out");
   group
@@ -35,14 +45,14 @@ void ReadoutOptions::add_to(CLI::App& command) {
           "commas")
       ->take_last()
       ->capture_default_str();
-  group->add_option("--np", np, "NP, bits of a timestamp")->capture_default_str();
+  group->add_option("--np", np, "NP, bits of a timestamp (default: the sensor's, 10 for a recording)");
   group->add_option("--nb", nb, "NB, bits of the coarse index (default: the read-out's own)");
-  group->add_option("--slots", slots, "SLOTS, timestamps a pixel and acquisition");
+  group->add_option("--slots", slots, "SLOTS, timestamps per pixel and acquisition (default: the sensor's)");
   group->add_option("--count-width", count_width, "COUNT_WIDTH, bits of a histogram bin");
   group->add_option("--pointer-step", pointer_step, "POINTER_STEP, bins");
   group->add_option("--fraction-bits", fraction_bits, "FRACTION_BITS of the pointer read-outs");
   group->add_option("--confidence-width", confidence_width, "CONFIDENCE_WIDTH of the pointer read-outs");
-  group->add_option("--guard", guard, "GUARD of hisPointer's window, bins");
+  group->add_option("--guard", guard, "GUARD of hisPointer's window, bins (default: the pulse's FWHM)");
   group->add_flag("--window-centred", window_centred, "WINDOW_CENTRED: SiFH's window as in Fig. 3.8");
   group
       ->add_option("--code-gate", code_gate,
@@ -50,7 +60,10 @@ void ReadoutOptions::add_to(CLI::App& command) {
       ->expected(2);
 }
 
-std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readout> all) const {
+std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readout> all,
+                                                          const SensorModel& sensor) const {
+  SensorModel asked = sensor;
+  override_with(np, asked.np);
   std::vector<Readout> chosen;
   for (const std::string& name : CLI::detail::split(readouts, ',')) {
     if (name == "all") {
@@ -88,7 +101,7 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
   }
   std::vector<ReadoutParameters> sets;
   for (const Readout readout : chosen) {
-    ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
+    ReadoutParameters parameters = default_parameters(readout, asked);
     for (const Override& change : overrides) {
       if (change.value && has_parameter(readout, change.parameter)) {
         parameters.*change.member = *change.value;
@@ -146,8 +159,11 @@ void SensorOptions::add_to(CLI::App& command) {
 
 void SensorOptions::add_sensor_to(CLI::App& command) {
   auto* group = command.add_option_group("sensor");
-  group->add_option("-p,--preset", preset, "thesis or phone")->capture_default_str();
-  group->add_option("-a,--acquisitions", acquisitions, "laser pulses a frame (default: the preset's)")
+  group
+      ->add_option("--sensor,-p,--preset", sensor,
+                   "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
+      ->capture_default_str();
+  group->add_option("-a,--acquisitions", acquisitions, "laser pulses a frame (default: the sensor's)")
       ->check(sensible_acquisitions());
   group->add_option("--dead-time", dead_time_ns, "dead time of a pixel in ns");
   group->add_option("--binning", binning, "B: blocks of B x B pixels share one stream")
@@ -166,23 +182,26 @@ void SensorOptions::add_sensor_to(CLI::App& command) {
       ->capture_default_str();
 }
 
+SensorModel SensorOptions::described() const { return find_sensor(sensor); }
+
 SensorModel SensorOptions::model(int np, int slots) const {
-  SensorModel sensor = parse_preset(preset);
-  sensor.np = np;
-  sensor.slots = slots;
-  override_with(acquisitions, sensor.acquisitions);
+  SensorModel model = described();
+  model.np = np;
+  model.slots = slots;
+  override_with(acquisitions, model.acquisitions);
   if (dead_time_ns) {
-    sensor.dead_time_s = *dead_time_ns * kNanosecond;
+    model.dead_time_s = *dead_time_ns / kNanosecondsPerSecond;
   }
-  sensor.binning = binning;
+  model.binning = binning;
   if (!time_gate_ns.empty()) {
-    sensor.time_gate = TimeGate{time_gate_ns[0] * kNanosecond, time_gate_ns[1] * kNanosecond};
+    model.time_gate =
+        TimeGate{time_gate_ns[0] / kNanosecondsPerSecond, time_gate_ns[1] / kNanosecondsPerSecond};
   }
   if (coincidence_ns) {
-    sensor.coincidence_window_s = *coincidence_ns * kNanosecond;
+    model.coincidence_window_s = *coincidence_ns / kNanosecondsPerSecond;
   }
-  sensor.validate();
-  return sensor;
+  model.validate();
+  return model;
 }
 
 void SensorOptions::refuse_options_without_effect(const CLI::App& command) const {
@@ -196,7 +215,7 @@ void SensorOptions::require_in_range(const SensorModel& sensor, double metres, c
   if (metres >= range_m) {
     throw InputError(
         fmt::format("{}: {} m is beyond the sensor's range, {:.2f} m (light there and back in {:g} ns)",
-                    option, metres, range_m, sensor.integration_time_s / kNanosecond));
+                    option, metres, range_m, sensor.integration_time_s * kNanosecondsPerSecond));
   }
 }
 

@@ -14,10 +14,14 @@
 
 namespace dtof {
 
+/// ReadoutParameters::defaults with the sensor's NP and SLOTS, and hisPointer's GUARD for its pulse:
+/// ceil(FWHM / T_res).
+ReadoutParameters default_parameters(Readout readout, const SensorModel& sensor);
+
 /// --readout and the overrides of its parameters.
 struct ReadoutOptions {
   std::string readouts = "all";  ///< names separated by commas
-  int np = 10;
+  std::optional<int> np;
   std::optional<int> nb;
   std::optional<int> slots;
   std::optional<int> count_width;
@@ -30,8 +34,9 @@ struct ReadoutOptions {
 
   void add_to(CLI::App& command);
   /// One set of parameters for each read-out asked for; "all" stands for those of `all`. Throws InputError,
-  /// also for an override that none of the read-outs has.
-  [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all) const;
+  /// also for an override that none of the read-outs has. What no option says is that of default_parameters.
+  [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all,
+                                                          const SensorModel& sensor = {}) const;
 };
 
 /// Which engine runs, how, and what is random.
@@ -53,7 +58,7 @@ struct RunOptions {
 
 /// Light, sensor and the improvement methods of thesis section 2.2.4.
 struct SensorOptions {
-  std::string preset = "thesis";
+  std::string sensor = "thesis";  ///< a preset or a sensor file
   double klux = 14.0;
   std::optional<std::uint32_t> acquisitions;
   std::optional<double> dead_time_ns;
@@ -66,7 +71,9 @@ struct SensorOptions {
   void add_to(CLI::App& command);
   /// Without --klux, for commands that take several light levels.
   void add_sensor_to(CLI::App& command);
-  /// The preset with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
+  /// The sensor as its file describes it. Throws InputError.
+  [[nodiscard]] SensorModel described() const;
+  /// The same with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
   [[nodiscard]] SensorModel model(int np, int slots) const;
   /// Throws InputError for an option of `command` that changes nothing.
   void refuse_options_without_effect(const CLI::App& command) const;

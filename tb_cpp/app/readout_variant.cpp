@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/options.hpp"
 #include "core/error.hpp"
 
 namespace dtof {
@@ -62,7 +63,7 @@ std::string variant_parameters_help() {
                      names(&Parameter::pool));
 }
 
-ReadoutParameters parse_variant(const std::string& text) {
+ReadoutParameters parse_variant(const std::string& text, const SensorModel& sensor) {
   const auto malformed = [&] {
     return InputError(fmt::format("variant {}: expected READOUT:PARAMETER=NUMBER,...", text));
   };
@@ -70,7 +71,7 @@ ReadoutParameters parse_variant(const std::string& text) {
   if (colon == std::string::npos) {
     throw malformed();
   }
-  ReadoutParameters parameters = ReadoutParameters::defaults(parse_readout(text.substr(0, colon)));
+  ReadoutParameters parameters = default_parameters(parse_readout(text.substr(0, colon)), sensor);
   for (const std::string& change : CLI::detail::split(text.substr(colon + 1), ',')) {
     const std::size_t equals = change.find('=');
     int value = 0;

@@ -219,7 +219,7 @@ void run_replay_command(const ReplayOptions& options) {
     recording_options.bin_width_s = options.bin_width_ps * 1e-12;
   }
   Resampling& resampling = recording_options.resampling;
-  resampling.np = options.readout.np;
+  resampling.np = readouts.front().np;
   resampling.slots = readouts.front().slots;
   resampling.integration_time = options.t_int_ns * 1e-9;
   resampling.time_shift = options.shift_ns * 1e-9;

@@ -36,7 +36,7 @@ namespace dtof {
 namespace {
 
 struct ScenesOptions {
-  std::vector<std::string> presets = {"thesis", "phone"};
+  std::vector<std::string> sensors = {"thesis", "phone"};
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
   std::string readouts =
       "ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,poolpointer,poolpointer-lean";
@@ -59,8 +59,6 @@ struct ScenesOptions {
 
 constexpr std::array kFlatDistances = {0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
 constexpr int kFlatColumns = 10;
-constexpr int kArrayColumns = 200;
-constexpr int kArrayRows = 160;
 
 /// Surfaces have no reflectivity in a depth map: each block of 20 x 20 pixels gets its own.
 void vary_reflectivity(TargetMap& targets, double reflectivity, std::uint64_t seed) {
@@ -87,7 +85,7 @@ struct SceneList {
 
 /// The map scaled to its nearest point's distance.
 void add_depth_map(SceneList& list, const std::string& name, DepthImage image, double nearest_m,
-                   double reflectivity, const ScenesOptions& options) {
+                   const SensorModel& sensor, const ScenesOptions& options) {
   float nearest = std::numeric_limits<float>::infinity();
   for (const float metres : image.metres) {
     nearest = metres > 0.0F ? std::min(nearest, metres) : nearest;
@@ -99,11 +97,11 @@ void add_depth_map(SceneList& list, const std::string& name, DepthImage image, d
     metres *= static_cast<float>(nearest_m) / nearest;
   }
   TargetMap targets =
-      scene_from_depth_image(image.width, image.height, image.metres, kArrayColumns, kArrayRows);
-  vary_reflectivity(targets, reflectivity, options.seed);
+      scene_from_depth_image(image.width, image.height, image.metres, sensor.columns, sensor.rows);
+  vary_reflectivity(targets, sensor.default_reflectivity, options.seed);
   const std::string note = resampling_sentence(fmt::format("nearest point put at {:g} m", nearest_m),
                                                image.width, image.height, targets);
-  list.add_map(name, note, std::move(targets), std::min(options.columns, kArrayColumns));
+  list.add_map(name, note, std::move(targets), std::min(options.columns, sensor.columns));
 }
 
 /// Rows become columns.
@@ -127,12 +125,14 @@ DepthImage read_surface(const ScenesOptions& options) {
 }
 
 /// Scenes that poolPointer's parameters were not chosen on.
-void add_held_out(const ScenesOptions& options, double reflectivity, SceneList& list) {
+void add_held_out(const ScenesOptions& options, const SensorModel& sensor, SceneList& list) {
   constexpr std::uint64_t kOtherShapes = 1000;
   SceneParameters parameters;
-  parameters.reflectivity = reflectivity;
+  parameters.columns = sensor.columns;
+  parameters.rows = sensor.rows;
+  parameters.reflectivity = sensor.default_reflectivity;
   parameters.seed = options.seed + kOtherShapes;
-  const int columns = std::min(options.columns, kArrayColumns);
+  const int columns = std::min(options.columns, sensor.columns);
   for (const Scene scene : {Scene::kPlanes, Scene::kClutter, Scene::kPoles, Scene::kStaircase}) {
     list.scenes.push_back(
         {fmt::format("held {}", scene_name(scene)), make_scene(scene, parameters), columns});
@@ -140,20 +140,22 @@ void add_held_out(const ScenesOptions& options, double reflectivity, SceneList& 
   if (!options.disparity_file.empty()) {
     constexpr double kNearer = 0.6;
     add_depth_map(list, "held disparity map", turned(read_disparity_png(options.disparity_file, 1.0)),
-                  kNearer * options.nearest_m, reflectivity, options);
+                  kNearer * options.nearest_m, sensor, options);
   }
   if (!options.surface_file.empty()) {
-    add_depth_map(list, "held surface", read_surface(options), options.nearest_m, reflectivity, options);
+    add_depth_map(list, "held surface", read_surface(options), options.nearest_m, sensor, options);
   }
 }
 
-SceneList make_scenes(const ScenesOptions& options, double reflectivity) {
+SceneList make_scenes(const ScenesOptions& options, const SensorModel& sensor) {
   SceneList list;
   std::vector<StudyScene>& scenes = list.scenes;
   for (const std::string& name : options.scenes) {
     const Scene scene = parse_scene(name);
     SceneParameters parameters;
-    parameters.reflectivity = reflectivity;
+    parameters.columns = sensor.columns;
+    parameters.rows = sensor.rows;
+    parameters.reflectivity = sensor.default_reflectivity;
     parameters.seed = options.seed;
     if (scene == Scene::kFlat) {
       parameters.columns = kFlatColumns;
@@ -162,24 +164,25 @@ SceneList make_scenes(const ScenesOptions& options, double reflectivity) {
         scenes.push_back({fmt::format("flat {:g} m", distance), make_scene(scene, parameters), kFlatColumns});
       }
     } else {
-      scenes.push_back({name, make_scene(scene, parameters), std::min(options.columns, kArrayColumns)});
+      scenes.push_back({name, make_scene(scene, parameters), std::min(options.columns, sensor.columns)});
     }
   }
   if (!options.disparity_file.empty()) {
     add_depth_map(list, "disparity map", read_disparity_png(options.disparity_file, 1.0), options.nearest_m,
-                  reflectivity, options);
+                  sensor, options);
   }
   for (const std::string& text : options.maps) {
     const NamedMap named = parse_named_map(text);
     if (std::ranges::find(scenes, named.name, &StudyScene::name) != scenes.end()) {
       throw InputError(fmt::format("--map '{}': another map has this name", text));
     }
-    OwnMap map = read_own_map(named.files, options.map_scales, kArrayColumns, kArrayRows, reflectivity);
+    OwnMap map = read_own_map(named.files, options.map_scales, sensor.columns, sensor.rows,
+                              sensor.default_reflectivity);
     list.add_map(named.name, map.description, std::move(map.targets),
-                 std::min(options.columns, kArrayColumns));
+                 std::min(options.columns, sensor.columns));
   }
   if (options.held_out) {
-    add_held_out(options, reflectivity, list);
+    add_held_out(options, sensor, list);
   }
   return list;
 }
@@ -316,22 +319,25 @@ std::string file_name(std::string text) {
 }
 
 /// The read-outs asked for, and variants such as "hispointer:COUNT_WIDTH=8".
-std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options) {
+std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options, const SensorModel& sensor) {
   ReadoutOptions plain;
   plain.readouts = options.readouts;
-  std::vector<ReadoutParameters> readouts = plain.parameters(kModelReadouts);
+  std::vector<ReadoutParameters> readouts = plain.parameters(kModelReadouts, sensor);
   for (const std::string& text : options.variants) {
-    readouts.push_back(parse_variant(text));
+    readouts.push_back(parse_variant(text, sensor));
   }
   return readouts;
 }
 
 void run_scenes_command(const ScenesOptions& options) {
-  const std::vector<ReadoutParameters> readouts = parse_readouts(options);
   const TableRule rule = parse_table_rule(options.table);
-  std::vector<SceneList> lists;  // of each preset
-  for (const std::string& preset : options.presets) {
-    lists.push_back(make_scenes(options, parse_preset(preset).default_reflectivity));
+  std::vector<SensorModel> sensors;
+  std::vector<std::vector<ReadoutParameters>> readouts_of;  // each sensor
+  std::vector<SceneList> lists;                             // of each sensor
+  for (const std::string& name : options.sensors) {
+    sensors.push_back(find_sensor(name));
+    readouts_of.push_back(parse_readouts(options, sensors.back()));
+    lists.push_back(make_scenes(options, sensors.back()));
   }
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
@@ -372,9 +378,10 @@ void run_scenes_command(const ScenesOptions& options) {
     report += fmt::format("\n{}\n", note);
     fmt::print("{}\n", note);
   }
-  for (std::size_t p = 0; p < options.presets.size(); ++p) {
-    const std::string& preset = options.presets[p];
-    const SensorModel sensor = parse_preset(preset);
+  for (std::size_t p = 0; p < sensors.size(); ++p) {
+    const SensorModel& sensor = sensors[p];
+    const std::string& preset = sensor.name;
+    const std::vector<ReadoutParameters>& readouts = readouts_of[p];
     const std::vector<StudyScene>& scenes = lists[p].scenes;
     for (const double klux : options.klux) {
       Progress progress(fmt::format("{} {:g} klux", preset, klux), scenes.size() + 1);
@@ -474,7 +481,10 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "scenes", "Read-outs, their strongest cheap rival and the matched filter compared on scenes");
-  command->add_option("-p,--preset", options->presets, "presets, one or more")->capture_default_str();
+  command
+      ->add_option("--sensor,-p,--preset", options->sensors,
+                   "presets of `dtof list` or sensor files (docs/sensor_file.md), one or more")
+      ->capture_default_str();
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
       ->check(sensible_klux())
       ->capture_default_str();
@@ -507,12 +517,12 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       "staircase, the disparity map turned and nearer");
   command
       ->add_option("--table", options->table,
-                   "host look-up table: flat (each read-out's own, fitted on flat targets of the preset's\n"
+                   "host look-up table: flat (each read-out's own, fitted on flat targets of the sensor's\n"
                    "reflectivity from other photons) or none (Eq. 3.11 alone)")
       ->check(CLI::IsMember({"none", "flat"}))
       ->capture_default_str();
   command->add_option("--columns", options->columns, "columns read of a scene, evenly spread")
-      ->check(CLI::Range(1, kArrayColumns))
+      ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command->add_option("-s,--seed", options->seed, "seed of photons and random shapes")->capture_default_str();
   command->add_option("-j,--threads", options->threads, "threads, 0 = all processors")

@@ -38,7 +38,7 @@ namespace {
 
 struct SpeedErrorOptions {
   RunOptions run;
-  std::string preset = "thesis";
+  std::string sensor = "thesis";
   int frames = 20000;
   std::string out = "reports";
   std::string command_line;
@@ -87,7 +87,7 @@ Sample sample_streams(const StreamSource& source, const SensorModel& sensor, int
   parallel_for(columns.size(), threads, [&](std::size_t i) {
     columns[i] = source.column(static_cast<int>(i));
     for (std::size_t r = 0; r < kReadouts.size(); ++r) {
-      results[i][r] = make_readout_model(ReadoutParameters::defaults(kReadouts[r], sensor.np))
+      results[i][r] = make_readout_model(default_parameters(kReadouts[r], sensor))
                           ->run_column(columns[i], source.acquisitions());
     }
   });
@@ -123,7 +123,7 @@ Sample sample_sampler(const SampledSource& source, const SensorModel& sensor, in
   }
   for (std::size_t r = 0; r < kReadouts.size(); ++r) {
     for (const PixelResult& result :
-         run_sampled_frame(source, ReadoutParameters::defaults(kReadouts[r], sensor.np), threads)) {
+         run_sampled_frame(source, default_parameters(kReadouts[r], sensor), threads)) {
       ++sample.results[r].at(result.code);
     }
   }
@@ -224,7 +224,7 @@ void time_frame(const std::function<void()>& run, Verdict& verdict) {
 class SpeedErrorReport {
  public:
   explicit SpeedErrorReport(const SpeedErrorOptions& options)
-      : options_(options), sensor_(parse_preset(options.preset)), verdicts_(kRivals.size()) {}
+      : options_(options), sensor_(find_sensor(options.sensor)), verdicts_(kRivals.size()) {}
 
   void run() {
     for (const double klux : kKlux) {
@@ -275,7 +275,7 @@ class SpeedErrorReport {
         std::min(verdict.codes_p, one_sample_p(reference.codes, expected_detections(sensor_, rates)));
     for (std::size_t r = 0; r < kReadouts.size(); ++r) {
       const std::vector<double> predicted =
-          code_distribution(sensor_, rates, ReadoutParameters::defaults(kReadouts[r], sensor_.np));
+          code_distribution(sensor_, rates, default_parameters(kReadouts[r], sensor_));
       verdict.results_p = std::min(verdict.results_p, one_sample_p(reference.results[r], predicted));
       add_point(Rival::kAnalytic, kReadouts[r], klux, distance, as_distribution(reference.results[r]),
                 predicted, verdict);
@@ -295,7 +295,7 @@ class SpeedErrorReport {
 
   void add_point(Rival rival, Readout readout, double klux, double distance,
                  const std::vector<double>& reference, const std::vector<double>& other, Verdict& verdict) {
-    const ReadoutParameters parameters = ReadoutParameters::defaults(readout, sensor_.np);
+    const ReadoutParameters parameters = default_parameters(readout, sensor_);
     const PredictedErrors a = predict_errors(reference, sensor_, parameters, distance);
     const PredictedErrors b = predict_errors(other, sensor_, parameters, distance);
     const double bias = std::abs(b.bias_m - a.bias_m) / distance;
@@ -318,7 +318,7 @@ class SpeedErrorReport {
                              kFrameKlux, options_.run.seed);
     const FastPhotonSource fast(exact);
     const auto mean = make_source(Fidelity::kAnalytic, exact);
-    const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHisPointer, sensor_.np);
+    const ReadoutParameters parameters = default_parameters(Readout::kHisPointer, sensor_);
     const int threads = options_.run.threads;
     for (int column = 0; column < exact.columns(); ++column) {
       detections_ += exact.column(column).detection_count();
@@ -434,7 +434,7 @@ class SpeedErrorReport {
         "a sweep without waiting for frames. Its histogram read-outs take counts of different bins as "
         "independent and its pointers the slots of an acquisition, which shows at pile-up (0.5 m and less): "
         "see the CSV.\n",
-        options_.preset, options_.run.seed, options_.frames, points, options_.command_line, table.markdown(),
+        sensor_.name, options_.run.seed, options_.frames, points, options_.command_line, table.markdown(),
         curve_table(curves).markdown(), curve_settings.reference_frames, sensor_.acquisitions,
         static_cast<double>(detections_) * 1e-6,
         options_.run.threads == 0 ? hardware_threads() : options_.run.threads, points, points,
@@ -463,7 +463,10 @@ void add_speed_error_command(CLI::App& app, const std::string& command_line) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "speed-error", "Speed of the photon models against their error, measured against the exact one");
-  command->add_option("-p,--preset", options->preset, "thesis or phone")->capture_default_str();
+  command
+      ->add_option("--sensor,-p,--preset", options->sensor,
+                   "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
+      ->capture_default_str();
   command->add_option("--frames", options->frames, "frames a scene and model")
       ->check(CLI::Range(200, 10'000'000))
       ->capture_default_str();

@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "analytic/code_distribution.hpp"
+#include "app/options.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "metrics/depth.hpp"
@@ -46,7 +47,7 @@ BlockErrors block_errors(const SensorModel& sensor, double distance, int blocks,
   parallel_for(static_cast<std::size_t>(blocks), threads, [&](std::size_t block) {
     const ReadColumn read = columns(static_cast<int>(block));
     for (std::size_t r = 0; r < kReadouts.size(); ++r) {
-      const ReadoutParameters parameters = ReadoutParameters::defaults(kReadouts[r], sensor.np);
+      const ReadoutParameters parameters = default_parameters(kReadouts[r], sensor);
       const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
       for (const PixelResult& result : read(static_cast<int>(block), parameters)) {
         errors[r][block].add(distance, scale.depth(code_position(result, parameters.fraction_bits)));
@@ -140,7 +141,7 @@ std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, const Erro
   curves[kFastStream].model = "fast stream";
   curves[kFastSampler].model = "fast sampler";
   curves[kAnalytic].model = "analytic";
-  const ReadoutParameters timed = ReadoutParameters::defaults(Readout::kHisPointer, sensor.np);
+  const ReadoutParameters timed = default_parameters(Readout::kHisPointer, sensor);
   const std::vector<int>& frames = settings.frames;
   const auto pixel_at = [&](double distance, int count) {
     return frames_at(sensor, distance, settings.klux, count, seed);
@@ -165,7 +166,7 @@ std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, const Erro
                                     distance, right);
         }
       }
-      const ReadoutParameters parameters = ReadoutParameters::defaults(kReadouts[r], sensor.np);
+      const ReadoutParameters parameters = default_parameters(kReadouts[r], sensor);
       const PredictedErrors predicted = predict_errors(
           code_distribution(sensor, exact.rates(0, 0), parameters), sensor, parameters, distance);
       analytic_error.add({.bias = predicted.bias_m / distance, .precision = predicted.relative_precision},

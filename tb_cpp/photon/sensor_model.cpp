@@ -46,6 +46,15 @@ void SensorModel::validate() const {
   if (binning < 1) {
     throw InputError(fmt::format("sensor model: binning must be at least 1, not {}", binning));
   }
+  if (columns < 1 || rows < 1) {
+    throw InputError(
+        fmt::format("sensor model: the array must have at least 1 x 1 pixels, not {} x {}", columns, rows));
+  }
+  // Written so that a NaN fails.
+  if (!(field_of_view_deg > 0.0 && field_of_view_deg <= 180.0)) {
+    throw InputError(fmt::format("sensor model: the field of view must be above 0 to 180 degrees, not {}",
+                                 field_of_view_deg));
+  }
   require_positive(integration_time_s, "integration time (s)");
   require_positive(pulse_fwhm_s, "pulse FWHM (s)");
   require_at_least_zero(signal_events_1m, "signal events at 1 m");

@@ -15,9 +15,13 @@ struct TimeGate {
   bool operator==(const TimeGate&) const = default;
 };
 
-/// What the photon source has to know of laser, sensor and TDC (spec section 4).
+/// What the photon source has to know of laser, sensor and TDC (spec section 4). The defaults are those of
+/// the preset "thesis" (sensor/presets/thesis.toml).
 struct SensorModel {
   std::string name;
+  int columns = 200;                  ///< of the array, >= 1
+  int rows = 160;                     ///< of the array, >= 1
+  double field_of_view_deg = 96.0;    ///< over all columns, above 0 to 180; pixels see equal angles
   int np = 10;                        ///< NP, bits of a timestamp, 3 .. 16
   int slots = 2;                      ///< events the TDC keeps per acquisition, >= 1
   std::uint32_t acquisitions = 3333;  ///< laser pulses per frame
@@ -34,6 +38,8 @@ struct SensorModel {
   std::optional<TimeGate> time_gate;
   std::optional<double> coincidence_window_s;  ///< W; >= 0
 
+  /// Angle that a pixel sees.
+  [[nodiscard]] double degrees_per_pixel() const { return field_of_view_deg / columns; }
   /// T_res = T_int / 2^NP.
   [[nodiscard]] double time_resolution_s() const;
   /// Mean detectable signal events of a pixel per pulse.

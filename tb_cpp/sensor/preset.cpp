@@ -4,61 +4,54 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <array>
+#include <algorithm>
+#include <filesystem>
+#include <string>
 
 #include "core/error.hpp"
-#include "photon/physics.hpp"
+#include "core/suggestion.hpp"
+#include "sensor/preset_texts.hpp"
+#include "sensor/sensor_file.hpp"
 
 namespace dtof {
 namespace {
 
-SensorModel thesis_preset() {
-  SensorModel model;
-  model.name = "thesis";
-  return model;
+bool is_preset(std::string_view name) {
+  return std::ranges::count(preset_texts(), name, &PresetText::name) > 0;
 }
-
-SensorModel phone_preset() {
-  OpticalInputs inputs;
-  inputs.wavelength_m = 940e-9;
-  inputs.filter_width_nm = 20.0;
-  inputs.solar_irradiance = 2.8;
-
-  SensorModel model;
-  model.name = "phone";
-  model.integration_time_s = inputs.integration_time_s;
-  model.pulse_fwhm_s = inputs.pulse_fwhm_s;
-  model.signal_events_1m = signal_events_per_pulse(inputs, 1.0, 1.0);
-  model.background_events_per_klux = sunlight_events_per_window(inputs, 1.0, 1.0);
-  model.dark_count_rate_hz = inputs.dark_count_rate_hz;
-  model.default_reflectivity = 0.5;
-  return model;
-}
-
-struct Preset {
-  std::string_view name;
-  SensorModel (*make)();
-};
-constexpr std::array<Preset, 2> kPresets = {{{"thesis", thesis_preset}, {"phone", phone_preset}}};
 
 }  // namespace
 
 std::vector<std::string_view> preset_names() {
   std::vector<std::string_view> names;
-  names.reserve(kPresets.size());
-  for (const Preset& preset : kPresets) {
+  for (const PresetText& preset : preset_texts()) {
     names.push_back(preset.name);
   }
   return names;
 }
 
-SensorModel parse_preset(std::string_view name) {
-  for (const Preset& preset : kPresets) {
-    if (preset.name == name) {
-      return preset.make();
-    }
+std::string_view preset_text(std::string_view name) {
+  const auto found = std::ranges::find(preset_texts(), name, &PresetText::name);
+  if (found == preset_texts().end()) {
+    throw InputError(unknown_name("preset", name, preset_names()));
   }
-  throw InputError(fmt::format("unknown preset '{}': known are {}", name, fmt::join(preset_names(), ", ")));
+  return found->toml;
+}
+
+SensorModel parse_preset(std::string_view name) {
+  return parse_sensor(preset_text(name), fmt::format("preset {}.toml", name));
+}
+
+SensorModel find_sensor(std::string_view name_or_file) {
+  if (is_preset(name_or_file)) {
+    return parse_preset(name_or_file);
+  }
+  const std::filesystem::path path(name_or_file);
+  if (!path.has_extension() && !std::filesystem::exists(path)) {
+    throw InputError(
+        fmt::format("{}, and there is no such file", unknown_name("preset", name_or_file, preset_names())));
+  }
+  return read_sensor_file(path);
 }
 
 }  // namespace dtof

@@ -8,10 +8,14 @@
 
 namespace dtof {
 
-/// "thesis": calibrated to the thesis's accuracy figures (0.30 / R^2 signal events, 0.15 background events
-/// at 14 klux). "phone": 940 nm and a 20 nm filter, everything derived from OpticalInputs, reflectivity 0.5.
+/// Names of the sensor files that are compiled into the program (sensor/presets/): thesis, phone.
 std::vector<std::string_view> preset_names();
 /// Throws InputError that names the known presets.
 SensorModel parse_preset(std::string_view name);
+
+/// What --sensor takes: a preset's name, or else the path of a sensor file. Throws InputError.
+SensorModel find_sensor(std::string_view name_or_file);
+/// The text of that file, after it has been checked. Throws InputError.
+std::string_view preset_text(std::string_view name);
 
 }  // namespace dtof

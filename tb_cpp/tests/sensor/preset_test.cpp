@@ -46,6 +46,24 @@ TEST(Preset, PhoneIsDerived) {
   EXPECT_NEAR(model.background_events(14.0, 1.0), 0.042 * 940.0 / 905.0 * 2.8 / 6.3 * 20.0 + 4.5e-4, 0.003);
 }
 
+TEST(Preset, ThesisIsTheDefaultModelToTheLastBit) {
+  const SensorModel preset = parse_preset("thesis");
+  const SensorModel model;
+  EXPECT_EQ(preset.columns, model.columns);
+  EXPECT_EQ(preset.rows, model.rows);
+  EXPECT_EQ(preset.field_of_view_deg, model.field_of_view_deg);
+  EXPECT_EQ(preset.np, model.np);
+  EXPECT_EQ(preset.slots, model.slots);
+  EXPECT_EQ(preset.acquisitions, model.acquisitions);
+  EXPECT_EQ(preset.integration_time_s, model.integration_time_s);
+  EXPECT_EQ(preset.pulse_fwhm_s, model.pulse_fwhm_s);
+  EXPECT_EQ(preset.signal_events_1m, model.signal_events_1m);
+  EXPECT_EQ(preset.background_events_per_klux, model.background_events_per_klux);
+  EXPECT_EQ(preset.dark_count_rate_hz, model.dark_count_rate_hz);
+  EXPECT_EQ(preset.dead_time_s, model.dead_time_s);
+  EXPECT_EQ(preset.default_reflectivity, model.default_reflectivity);
+}
+
 TEST(Preset, UnknownNameListsTheKnown) {
   EXPECT_THAT(preset_names(), ElementsAre("thesis", "phone"));
   const std::string message = refusal([] { parse_preset("tablet"); });

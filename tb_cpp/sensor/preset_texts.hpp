@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace dtof {
+
+/// A file of sensor/presets/, compiled into the program so that it runs from anywhere.
+struct PresetText {
+  std::string_view name;  ///< the file's, without .toml
+  std::string_view toml;
+};
+const std::vector<PresetText>& preset_texts();
+
+}  // namespace dtof
