@@ -2,7 +2,6 @@
 #include "io/photon_times_mat.hpp"
 
 #include <fmt/format.h>
-#include <matio.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -10,10 +9,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -23,55 +22,209 @@
 namespace dtof {
 namespace {
 
-constexpr std::size_t kLongestUnpackedMat = std::size_t{1} << 30U;
+// The MATLAB 5 format as far as it is read here: "MAT-File Format", The MathWorks. After a header of 128
+// bytes the file is a row of elements, each a tag (type, size) and data. The reader is our own because the
+// files come from anywhere, and libraries for the whole format trust their sizes.
+constexpr std::size_t kHeaderSize = 128;
+constexpr std::size_t kTagSize = 8;
+constexpr std::size_t kLongestUnpackedVariable = std::size_t{1} << 30U;
 constexpr std::size_t kLargestExtent = std::numeric_limits<std::uint16_t>::max();
 
-struct MatCloser {
-  void operator()(mat_t* file) const { Mat_Close(file); }
+enum ElementType : std::uint32_t {
+  kInt8 = 1,
+  kUint8 = 2,
+  kInt16 = 3,
+  kUint16 = 4,
+  kInt32 = 5,
+  kUint32 = 6,
+  kSingle = 7,
+  kDouble = 9,
+  kInt64 = 12,
+  kUint64 = 13,
+  kMatrix = 14,
+  kCompressed = 15,
 };
-struct VariableDeleter {
-  void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
+
+enum ArrayClass : std::uint8_t {
+  kCellClass = 1,
+  kSparseClass = 5,
+  kFirstNumericClass = 6,
+  kLastNumericClass = 15
 };
-using Variable = std::unique_ptr<matvar_t, VariableDeleter>;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
   throw InputError(fmt::format("{}: {}", path.string(), reason));
 }
 
-std::uint32_t word_at(std::string_view file, std::size_t offset) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, &file[offset], sizeof word);
-  return word;
+template <typename T>
+T value_at(std::string_view bytes, std::size_t offset) {
+  T value{};
+  std::memcpy(&value, &bytes[offset], sizeof value);
+  return value;
 }
 
-/// Bytes that zlib data unpacks to; none if it does not decompress to its end with the right checksum, or to
-/// more than `longest`.
-std::optional<std::size_t> unpacked_size(std::string_view data, std::size_t longest) {
+struct Element {
+  std::uint32_t type = 0;
+  std::string_view data;
+};
+
+/// Takes the first element of `rest`; none if it is damaged.
+std::optional<Element> take_element(std::string_view& rest) {
+  if (rest.size() < kTagSize) {
+    return std::nullopt;
+  }
+  const auto word = value_at<std::uint32_t>(rest, 0);
+  // Up to four bytes stand in the tag itself, their number in its upper half.
+  if (const std::uint32_t small_size = word >> 16U; small_size != 0) {
+    if (small_size > 4) {
+      return std::nullopt;
+    }
+    const Element element{word & 0xFFFFU, rest.substr(4, small_size)};
+    rest.remove_prefix(kTagSize);
+    return element;
+  }
+  const auto size = value_at<std::uint32_t>(rest, 4);
+  if (rest.size() - kTagSize < size) {
+    return std::nullopt;
+  }
+  const Element element{word, rest.substr(kTagSize, size)};
+  const std::size_t padded = (kTagSize + size + 7) / 8 * 8;
+  rest.remove_prefix(std::min(padded, rest.size()));
+  return element;
+}
+
+/// An array's description and what follows it.
+struct Array {
+  std::uint8_t kind = 0;  ///< ArrayClass
+  bool complex = false;
+  std::vector<std::size_t> extents;  ///< rows, columns, ...
+  std::string_view name;
+  std::string_view contents;
+};
+
+/// The array that the data of a matrix element hold; none if it is damaged.
+std::optional<Array> parse_array(std::string_view data) {
+  const auto flags = take_element(data);
+  const auto extents = take_element(data);
+  const auto name = take_element(data);
+  if (!flags || flags->type != kUint32 || flags->data.size() != 8 || !extents || extents->type != kInt32 ||
+      extents->data.size() < 8 || extents->data.size() % 4 != 0 || !name) {
+    return std::nullopt;
+  }
+  constexpr std::uint32_t kComplexFlag = 0x800;
+  const auto word = value_at<std::uint32_t>(flags->data, 0);
+  Array array{.kind = static_cast<std::uint8_t>(word & 0xFFU),
+              .complex = (word & kComplexFlag) != 0,
+              .extents = {},
+              .name = name->data,
+              .contents = data};
+  for (std::size_t offset = 0; offset < extents->data.size(); offset += 4) {
+    const auto extent = value_at<std::int32_t>(extents->data, offset);
+    if (extent < 0) {
+      return std::nullopt;
+    }
+    array.extents.push_back(static_cast<std::size_t>(extent));
+  }
+  return array;
+}
+
+template <typename T>
+bool append_as(std::string_view data, std::size_t count, std::vector<double>& out) {
+  if (data.size() / sizeof(T) != count || data.size() % sizeof(T) != 0) {
+    return false;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    out.push_back(static_cast<double>(value_at<T>(data, i * sizeof(T))));
+  }
+  return true;
+}
+
+/// Appends the elements of a real numeric array in file order (columns first); false if it is none, or
+/// damaged.
+bool append_numbers(const Array& array, std::vector<double>& out) {
+  if (array.kind < kFirstNumericClass || array.kind > kLastNumericClass || array.complex) {
+    return false;
+  }
+  std::size_t count = 1;
+  for (const std::size_t extent : array.extents) {
+    if (extent != 0 && count > array.contents.size() / extent) {
+      return false;
+    }
+    count *= extent;
+  }
+  if (count == 0) {
+    return true;
+  }
+  std::string_view rest = array.contents;
+  const auto numbers = take_element(rest);
+  if (!numbers) {
+    return false;
+  }
+  switch (numbers->type) {
+    case kInt8:
+      return append_as<std::int8_t>(numbers->data, count, out);
+    case kUint8:
+      return append_as<std::uint8_t>(numbers->data, count, out);
+    case kInt16:
+      return append_as<std::int16_t>(numbers->data, count, out);
+    case kUint16:
+      return append_as<std::uint16_t>(numbers->data, count, out);
+    case kInt32:
+      return append_as<std::int32_t>(numbers->data, count, out);
+    case kUint32:
+      return append_as<std::uint32_t>(numbers->data, count, out);
+    case kSingle:
+      return append_as<float>(numbers->data, count, out);
+    case kDouble:
+      return append_as<double>(numbers->data, count, out);
+    case kInt64:
+      return append_as<std::int64_t>(numbers->data, count, out);
+    case kUint64:
+      return append_as<std::uint64_t>(numbers->data, count, out);
+    default:
+      return false;
+  }
+}
+
+/// zlib data unpacked; none if they do not unpack to their end with the right checksum, or to more than
+/// `longest` bytes.
+std::optional<std::string> unpack(std::string_view data, std::size_t longest) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) {
     return std::nullopt;
   }
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
   stream.avail_in = static_cast<uInt>(data.size());
-  std::array<Bytef, std::size_t{1} << 16U> discarded{};
+  std::array<Bytef, std::size_t{1} << 16U> chunk{};
+  std::string unpacked;
   int status = Z_OK;
-  while (status == Z_OK && stream.total_out <= longest) {
-    stream.next_out = discarded.data();
-    stream.avail_out = static_cast<uInt>(discarded.size());
+  while (status == Z_OK && unpacked.size() <= longest) {
+    stream.next_out = chunk.data();
+    stream.avail_out = static_cast<uInt>(chunk.size());
     status = inflate(&stream, Z_NO_FLUSH);
+    unpacked.append(reinterpret_cast<const char*>(chunk.data()), chunk.size() - stream.avail_out);
   }
   inflateEnd(&stream);
-  return status == Z_STREAM_END && stream.total_out <= longest ? std::optional(stream.total_out)
-                                                               : std::nullopt;
+  return status == Z_STREAM_END && unpacked.size() <= longest ? std::optional(std::move(unpacked))
+                                                              : std::nullopt;
 }
 
-/// matio hands out what it could read of a truncated file and ignores zlib's checksum, so the container is
-/// checked here: after the header of 128 bytes the elements (type, size, data) must fill the file exactly.
-/// Returns the bytes of all elements, unpacked.
-std::size_t check_mat_file(const std::filesystem::path& path) {
-  constexpr std::size_t kHeaderSize = 128;
-  constexpr std::size_t kTagSize = 8;
-  constexpr std::uint32_t kCompressed = 15;
+/// A variable of a file, and the bytes that it points into.
+struct Variable {
+  std::unique_ptr<const std::string> bytes;  ///< a matrix element
+  Array array;
+};
+
+[[noreturn]] void fail_sparse(const std::filesystem::path& path, const std::string& name,
+                              const std::string& conversion) {
+  fail(path,
+       fmt::format("\"{0}\" is sparse, which is not supported; convert it in MATLAB or Octave: {0} = {1}; "
+                   "save('-v7', 'full.mat', '{0}')",
+                   name, conversion));
+}
+
+/// The matrix element of the variable `name`; empty if there is none. Every element must be sound.
+std::string find_variable(const std::filesystem::path& path, const std::string& name) {
   constexpr std::string_view kLittleEndianLevel5 = {"\x00\x01IM", 4};
   const std::string contents = read_file(path);
   const std::string_view file = contents;
@@ -85,155 +238,119 @@ std::size_t check_mat_file(const std::filesystem::path& path) {
       kLittleEndianLevel5) {
     fail(path, "not a little-endian MATLAB 5 file (save with -v7 or -v6)");
   }
-  std::size_t unpacked = 0;
-  std::size_t offset = kHeaderSize;
-  while (offset < file.size()) {
-    if (file.size() - offset < kTagSize || file.size() - offset - kTagSize < word_at(file, offset + 4)) {
+  std::string found;
+  for (std::size_t offset = kHeaderSize; offset < file.size();) {
+    if (file.size() - offset < kTagSize ||
+        file.size() - offset - kTagSize < value_at<std::uint32_t>(file, offset + 4)) {
       fail(path, fmt::format("damaged: the variable at byte {} ends beyond the file", offset));
     }
-    const std::size_t size = word_at(file, offset + 4);
-    if (word_at(file, offset) == kCompressed) {
-      const auto bytes = unpacked_size(file.substr(offset + kTagSize, size), kLongestUnpackedMat - unpacked);
-      if (!bytes) {
+    const std::size_t size = value_at<std::uint32_t>(file, offset + 4);
+    std::string element(file.substr(offset, kTagSize + size));
+    if (value_at<std::uint32_t>(file, offset) == kCompressed) {
+      auto unpacked = unpack(std::string_view(element).substr(kTagSize), kLongestUnpackedVariable);
+      if (!unpacked) {
         fail(path,
              fmt::format("damaged: the variable at byte {} does not decompress, or not to 1 GiB at most",
                          offset));
       }
-      unpacked += *bytes;
-    } else {
-      unpacked += size;
+      element = *std::move(unpacked);
+    }
+    std::string_view rest = element;
+    const auto matrix = take_element(rest);
+    if (found.empty() && matrix && matrix->type == kMatrix) {
+      const auto array = parse_array(matrix->data);
+      if (array && array->name == name) {
+        found = std::move(element);
+      }
     }
     offset += kTagSize + size;
   }
-  return unpacked;
-}
-
-[[noreturn]] void fail_sparse(const std::filesystem::path& path, const std::string& name,
-                              const std::string& conversion) {
-  fail(path,
-       fmt::format("\"{0}\" is sparse, which is not supported; convert it in MATLAB or Octave: {0} = {1}; "
-                   "save('-v7', 'full.mat', '{0}')",
-                   name, conversion));
+  return found;
 }
 
 Variable read_variable(const std::filesystem::path& path, const std::string& name) {
-  const std::size_t unpacked_bytes = check_mat_file(path);
-  const std::unique_ptr<mat_t, MatCloser> file(Mat_Open(path.c_str(), MAT_ACC_RDONLY));
-  if (!file) {
-    fail(path, "not a MATLAB file");
-  }
-  const Variable info(Mat_VarReadInfo(file.get(), name.c_str()));
-  if (!info) {
+  Variable variable{std::make_unique<const std::string>(find_variable(path, name)), {}};
+  std::string_view rest = *variable.bytes;
+  const auto matrix = take_element(rest);
+  auto array = matrix ? parse_array(matrix->data) : std::nullopt;
+  if (!array) {
     fail(path, fmt::format("the variable \"{}\" is missing or damaged", name));
   }
-  if (info->class_type == MAT_C_SPARSE) {
+  if (array->kind == kSparseClass) {
     fail_sparse(path, name, fmt::format("full({})", name));
   }
-  if (info->rank != 2 || info->dims[0] == 0 || info->dims[1] == 0 || info->dims[0] > kLargestExtent ||
-      info->dims[1] > kLargestExtent) {
+  const std::vector<std::size_t>& extents = array->extents;
+  if (extents.size() != 2 || extents[0] == 0 || extents[1] == 0 || extents[0] > kLargestExtent ||
+      extents[1] > kLargestExtent) {
     fail(path, fmt::format("\"{}\" is not a two-dimensional array of at most 65535 x 65535", name));
   }
-  // Every element takes at least a byte of the file: a header that asks for more is damaged.
-  if (info->dims[0] * info->dims[1] > unpacked_bytes) {
-    fail(path, fmt::format("damaged: \"{}\" has {} x {} elements, the whole file {} bytes", name,
-                           info->dims[0], info->dims[1], unpacked_bytes));
-  }
-  Variable variable(Mat_VarRead(file.get(), name.c_str()));
-  if (!variable) {
-    fail(path, fmt::format("the variable \"{}\" is missing or damaged", name));
-  }
+  variable.array = *std::move(array);
   return variable;
-}
-
-template <typename T>
-void append_as(const matvar_t& variable, std::size_t count, std::vector<double>& out) {
-  const auto* const data = static_cast<const T*>(variable.data);
-  std::transform(data, data + count, std::back_inserter(out),
-                 [](T value) { return static_cast<double>(value); });
-}
-
-/// Appends the elements of a real numeric array in file order (columns first); false if it is none.
-bool append_numbers(const matvar_t& variable, std::vector<double>& out) {
-  std::size_t count = 1;
-  for (int axis = 0; axis < variable.rank; ++axis) {
-    count *= variable.dims[axis];
-  }
-  if (count == 0) {
-    return true;
-  }
-  if (variable.data == nullptr || variable.isComplex != 0 || variable.data_size <= 0 ||
-      variable.nbytes < count * static_cast<std::size_t>(variable.data_size)) {
-    return false;
-  }
-  switch (variable.class_type) {
-    case MAT_C_DOUBLE:
-      append_as<double>(variable, count, out);
-      return true;
-    case MAT_C_SINGLE:
-      append_as<float>(variable, count, out);
-      return true;
-    case MAT_C_INT32:
-      append_as<std::int32_t>(variable, count, out);
-      return true;
-    case MAT_C_UINT32:
-      append_as<std::uint32_t>(variable, count, out);
-      return true;
-    case MAT_C_INT16:
-      append_as<std::int16_t>(variable, count, out);
-      return true;
-    case MAT_C_UINT16:
-      append_as<std::uint16_t>(variable, count, out);
-      return true;
-    default:
-      return false;
-  }
 }
 
 }  // namespace
 
 PhotonTimes read_photon_times_mat(const std::filesystem::path& path, const std::string& variable) {
-  const Variable cells = read_variable(path, variable);
-  if (cells->class_type != MAT_C_CELL || cells->data == nullptr) {
+  const Variable read = read_variable(path, variable);
+  const Array& cells = read.array;
+  if (cells.kind != kCellClass) {
     fail(path, fmt::format("\"{}\" is not a cell array", variable));
   }
-  PhotonTimes photons;
-  photons.rows = static_cast<int>(cells->dims[0]);
-  photons.columns = static_cast<int>(cells->dims[1]);
-  photons.begin.push_back(0);
-  for (int row = 0; row < photons.rows; ++row) {
-    for (int column = 0; column < photons.columns; ++column) {
-      const matvar_t* const cell = Mat_VarGetCell(cells.get(), row + column * photons.rows);
-      const bool empty = cell == nullptr || cell->class_type == MAT_C_EMPTY;
-      if (!empty && cell->class_type == MAT_C_SPARSE) {
+  const std::size_t rows = cells.extents[0];
+  const std::size_t columns = cells.extents[1];
+  if (rows * columns > cells.contents.size() / kTagSize) {
+    fail(path, fmt::format("damaged: \"{}\" has {} x {} cells in {} bytes", variable, rows, columns,
+                           cells.contents.size()));
+  }
+  // The file has them column by column.
+  std::vector<Element> elements(rows * columns);
+  std::string_view rest = cells.contents;
+  for (std::size_t column = 0; column < columns; ++column) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      const auto element = take_element(rest);
+      if (!element || element->type != kMatrix) {
+        fail(path, fmt::format("\"{}\": the cell of column {}, row {} is damaged", variable, column, row));
+      }
+      elements[row * columns + column] = *element;
+    }
+  }
+  PhotonTimes photons{
+      .columns = static_cast<int>(columns), .rows = static_cast<int>(rows), .ticks = {}, .begin = {0}};
+  for (std::size_t pixel = 0; pixel < elements.size(); ++pixel) {
+    // An element without data is an empty cell.
+    if (!elements[pixel].data.empty()) {
+      const auto numbers = parse_array(elements[pixel].data);
+      if (numbers && numbers->kind == kSparseClass) {
         fail_sparse(path, variable, fmt::format("cellfun(@full, {}, 'UniformOutput', false)", variable));
       }
-      if (!empty && !append_numbers(*cell, photons.ticks)) {
+      if (!numbers || !append_numbers(*numbers, photons.ticks)) {
         fail(path, fmt::format("\"{}\": the cell of column {}, row {} is damaged or holds no real numbers",
-                               variable, column, row));
+                               variable, pixel % columns, pixel / columns));
       }
-      const auto first = photons.ticks.begin() + static_cast<std::ptrdiff_t>(photons.begin.back());
-      if (!std::all_of(first, photons.ticks.end(), [](double tick) { return std::isfinite(tick); })) {
-        fail(path,
-             fmt::format("\"{}\": column {}, row {} holds a time that is not finite", variable, column, row));
-      }
-      photons.begin.push_back(photons.ticks.size());
     }
+    const auto first = photons.ticks.begin() + static_cast<std::ptrdiff_t>(photons.begin.back());
+    if (!std::all_of(first, photons.ticks.end(), [](double tick) { return std::isfinite(tick); })) {
+      fail(path, fmt::format("\"{}\": column {}, row {} holds a time that is not finite", variable,
+                             pixel % columns, pixel / columns));
+    }
+    photons.begin.push_back(photons.ticks.size());
   }
   return photons;
 }
 
 MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable) {
-  const Variable array = read_variable(path, variable);
+  const Variable read = read_variable(path, variable);
   std::vector<double> by_column;
-  if (!append_numbers(*array, by_column)) {
+  if (!append_numbers(read.array, by_column)) {
     fail(path, fmt::format("\"{}\" is not a real numeric matrix, or damaged", variable));
   }
-  MatMatrix matrix{
-      .columns = static_cast<int>(array->dims[1]), .rows = static_cast<int>(array->dims[0]), .values = {}};
+  const std::size_t rows = read.array.extents[0];
+  const std::size_t columns = read.array.extents[1];
+  MatMatrix matrix{.columns = static_cast<int>(columns), .rows = static_cast<int>(rows), .values = {}};
   matrix.values.reserve(by_column.size());
-  for (std::size_t row = 0; row < array->dims[0]; ++row) {
-    for (std::size_t column = 0; column < array->dims[1]; ++column) {
-      matrix.values.push_back(by_column[row + column * array->dims[0]]);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      matrix.values.push_back(by_column[row + column * rows]);
     }
   }
   return matrix;

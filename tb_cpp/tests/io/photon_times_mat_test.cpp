@@ -122,9 +122,8 @@ TEST_F(PhotonTimesTest, AHeaderThatAsksForMoreThanTheFileHoldsIsRefusedBeforeItI
   whole[162] = 0;
   whole[161] = static_cast<char>(0xE0);
   whole[165] = static_cast<char>(0xE0);
-  test::expect_input_error(
-      [&] { (void)read_photon_times_mat(write("t.mat", whole)); },
-      HasSubstr("damaged: \"photon_times\" has 57346 x 57347 elements, the whole file "));
+  test::expect_input_error([&] { (void)read_photon_times_mat(write("t.mat", whole)); },
+                           HasSubstr("damaged: \"photon_times\" has 57346 x 57347 cells in "));
 }
 
 TEST_F(PhotonTimesTest, TruncationAnywhereIsRefused) {
