@@ -9,6 +9,7 @@
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
 # make bench      speed of RTL, models and photon model
+# make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
 # make mutate     small changes of RTL and models: which of them the tests notice (long)
 # make clean      remove build/
 BUILD := build/cpp
@@ -66,3 +67,4 @@ clean:
 -include scripts/formal.mk
 -include scripts/faults.mk
 -include scripts/mutate.mk
+-include scripts/hostile.mk

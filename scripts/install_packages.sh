@@ -15,6 +15,11 @@ packages=(
   python3 python3-numpy gnuplot-nox clang-format clang-tidy gcovr
 )
 
+# libFuzzer, for make fuzz only.
+if [ "${1:-}" = fuzz ]; then
+  packages+=(clang libclang-rt-dev)
+fi
+
 missing=()
 for package in "${packages[@]}"; do
   dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
