@@ -6,36 +6,31 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <stdexcept>
 
 #include "core/error.hpp"
-#include "metrics/cramer_rao.hpp"
-#include "metrics/depth.hpp"
-#include "photon/arrival_table.hpp"
 #include "photon/fast_photon_source.hpp"
 #include "photon/mean_photon_source.hpp"
-#include "photon/physics.hpp"
 
 namespace dtof {
 namespace {
 
-constexpr std::array<Fidelity, 3> kCheapestFirst = {Fidelity::kAnalytic, Fidelity::kFast, Fidelity::kExact};
+constexpr std::array kModels = {Fidelity::kExact, Fidelity::kFast, Fidelity::kAnalytic};
 
-double pixel_error_bins(Fidelity fidelity, const SensorModel& model, const PixelRates& rates,
-                        ArrivalTable& table) {
-  if (fidelity == Fidelity::kFast) {
-    table.build(rates);
-    return table.displacement();
-  }
-  constexpr int kMostSlots = 16;  // more change nothing at rates a bound can be computed for
-  return cramer_rao_bound({.signal_events = rates.signal,
-                           .background_events = rates.background,
-                           .centre_bins = rates.centre_bins,
-                           .sigma_bins = pulse_sigma_s(model.pulse_fwhm_s) / model.time_resolution_s(),
-                           .np = model.np,
-                           .acquisitions = static_cast<double>(model.acquisitions),
-                           .kept_events = std::min(model.slots, kMostSlots)});
-}
+struct SamplerDifference {
+  Readout readout;
+  double largest;
+};
+
+// Upper ends of the 95 % intervals, rounded up; `dtof fidelity` measures them again.
+constexpr std::array kSamplerDifferences = {
+    SamplerDifference{Readout::kEzPointer, 0.01},  SamplerDifference{Readout::kHisPointer1, 0.01},
+    SamplerDifference{Readout::kHisPointer, 0.01}, SamplerDifference{Readout::kSifh, 0.01},
+    SamplerDifference{Readout::kFifh, 0.01},       SamplerDifference{Readout::kThreeSteps, 0.01},
+    SamplerDifference{Readout::kPifh, 0.01},       SamplerDifference{Readout::kHistogram, 0.01},
+};
 
 }  // namespace
 
@@ -51,48 +46,50 @@ std::string_view fidelity_name(Fidelity fidelity) {
   throw std::logic_error("unknown photon model");
 }
 
-double model_error(Fidelity fidelity, const PhotonSource& exact) {
-  if (fidelity == Fidelity::kExact) {
-    return 0.0;
-  }
+double fast_sampler_difference(Readout readout) {
+  const auto* const row = std::ranges::find(kSamplerDifferences, readout, &SamplerDifference::readout);
+  return row == kSamplerDifferences.end() ? std::numeric_limits<double>::infinity() : row->largest;
+}
+
+bool within_measured_range(const PhotonSource& exact) {
+  constexpr int kMostBits = 10;
+  constexpr int kSlots = 2;
+  constexpr std::uint32_t kFewestAcquisitions = 3333;
+  constexpr double kMostSignal = 0.5;
+  constexpr double kMostBackground = 0.55;
   const SensorModel& model = exact.model();
-  if (!FastPhotonSource::supports(model)) {
-    return std::numeric_limits<double>::infinity();
+  if (!FastPhotonSource::supports(model) || model.np > kMostBits || model.slots != kSlots ||
+      model.acquisitions < kFewestAcquisitions) {
+    return false;
   }
-  constexpr int kMostPixels = 256;
-  const int pixels = exact.columns() * exact.rows();
-  const int looked_at = std::min(pixels, kMostPixels);
-  const double bin_depth = DepthScale(model.integration_time_s, model.np, model.pulse_fwhm_s).bin_depth();
-  ArrivalTable table(model);
-  double largest = 0.0;
-  for (int i = 0; i < looked_at; ++i) {
-    const auto pixel =
-        looked_at == 1 ? 0 : static_cast<int>(static_cast<std::int64_t>(i) * (pixels - 1) / (looked_at - 1));
-    const int column = pixel / exact.rows();
-    const int row = pixel % exact.rows();
-    const PixelTarget& target = exact.targets().at(column, row);
-    if (target.returns_signal()) {
-      const double bins = pixel_error_bins(fidelity, model, exact.rates(column, row), table);
-      largest = std::max(largest, bins * bin_depth / target.depth_m);
+  for (int column = 0; column < exact.columns(); ++column) {
+    for (int row = 0; row < exact.rows(); ++row) {
+      const PixelRates rates = exact.rates(column, row);
+      if (rates.signal > kMostSignal || rates.background > kMostBackground) {
+        return false;
+      }
     }
   }
-  return largest;
+  return true;
 }
 
-Fidelity choose_fidelity(const PhotonSource& exact, double tolerance) {
-  if (!std::isfinite(tolerance) || tolerance < 0.0) {
-    throw InputError(fmt::format("--tolerance must be a finite number of at least 0, not {}", tolerance));
+Fidelity choose_fidelity(const PhotonSource& exact, const FidelityRequest& request) {
+  if (!std::isfinite(request.tolerance) || request.tolerance < 0.0) {
+    throw InputError(
+        fmt::format("--tolerance must be a finite number of at least 0, not {}", request.tolerance));
   }
-  return *std::ranges::find_if(kCheapestFirst, [&](Fidelity fidelity) {
-    return fidelity == Fidelity::kExact || (tolerance > 0.0 && model_error(fidelity, exact) <= tolerance);
+  const bool kept = std::ranges::all_of(request.readouts, [&](Readout readout) {
+    return fast_sampler_difference(readout) <= request.tolerance;
   });
+  return request.use == PhotonUse::kSampler && kept && within_measured_range(exact) ? Fidelity::kFast
+                                                                                    : Fidelity::kExact;
 }
 
-Fidelity parse_fidelity(std::string_view name, const PhotonSource& exact, double tolerance) {
+Fidelity parse_fidelity(std::string_view name, const PhotonSource& exact, const FidelityRequest& request) {
   if (name == "auto") {
-    return choose_fidelity(exact, tolerance);
+    return choose_fidelity(exact, request);
   }
-  for (const Fidelity fidelity : kCheapestFirst) {
+  for (const Fidelity fidelity : kModels) {
     if (name == fidelity_name(fidelity)) {
       return fidelity;
     }

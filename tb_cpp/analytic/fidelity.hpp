@@ -2,15 +2,17 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "core/parameters.hpp"
 #include "core/pixel_sampler.hpp"
 #include "photon/photon_source.hpp"
 
 namespace dtof {
 
-/// Photon models, dearest first.
+/// Photon models.
 enum class Fidelity {
   kExact,     ///< PhotonSource: event by event
   kFast,      ///< FastPhotonSource: times from a table of each distinct pixel
@@ -20,19 +22,38 @@ enum class Fidelity {
 /// Command-line name: exact, fast, analytic.
 std::string_view fidelity_name(Fidelity fidelity);
 
-/// What a model leaves out of a pixel's distance, relative to the distance; the larger of the scene's
-/// extremes. 0 for the exact model, infinite where the model lacks something that the sensor has.
-///  - fast: mean displacement of an event by the table (ArrivalTable::displacement);
-///  - analytic: the noise, at least the Cramer-Rao bound.
-/// Pixels without a target do not count. Looks at no more than 256 pixels, spread evenly over the array.
-double model_error(Fidelity fidelity, const PhotonSource& exact);
+/// How a read-out takes its photons.
+enum class PhotonUse {
+  kStream,   ///< acquisition by acquisition: the RTL, poolPointer, recordings
+  kSampler,  ///< measurement by measurement: the models of all other read-outs
+};
 
-/// The cheapest model whose model_error is at most `tolerance`, a relative error of distance >= 0 (InputError
-/// otherwise). With tolerance 0 the exact one.
-Fidelity choose_fidelity(const PhotonSource& exact, double tolerance);
+/// What `--fidelity auto` was asked for and is going to do with it.
+struct FidelityRequest {
+  /// Largest difference from the exact model that any of these figures of a scene may have, for any of the
+  /// read-outs, in the mean over frames: root mean square and mean of the relative error of distance, share
+  /// of pixels off by more than 3 %, and by more than 10 %. >= 0 and finite; 0 asks for the exact model.
+  double tolerance = 0.0;
+  PhotonUse use = PhotonUse::kStream;
+  std::span<const Readout> readouts;
+};
 
-/// `name` is a model's, or "auto": then `tolerance` chooses. Throws InputError for another name.
-Fidelity parse_fidelity(std::string_view name, const PhotonSource& exact, double tolerance);
+/// The largest such difference that the fast model's sampler makes for a read-out: an upper limit measured by
+/// `dtof fidelity` (reports/fidelity.md) over eight scenes and three lights, which says whether it still
+/// holds.
+double fast_sampler_difference(Readout readout);
+
+/// True if the scene's rates, NP, SLOTS and number of acquisitions are within what fast_sampler_difference
+/// was measured for.
+bool within_measured_range(const PhotonSource& exact);
+
+/// The cheapest model with noise that keeps the request (a model without noise shows no frame as a sensor
+/// would). Streams are drawn by the exact model, which is as fast as any (reports/fidelity.md). Throws
+/// InputError for a tolerance outside its range.
+Fidelity choose_fidelity(const PhotonSource& exact, const FidelityRequest& request);
+
+/// `name` is a model's, or "auto": then `request` chooses. Throws InputError for another name.
+Fidelity parse_fidelity(std::string_view name, const PhotonSource& exact, const FidelityRequest& request);
 
 /// A model's source for the exact source's scene, seed and frame. Throws InputError where the model lacks
 /// something that the sensor has.

@@ -585,7 +585,8 @@ StabilityResult check_refusals() {
       PhotonSource(SensorModel(), TargetMap(1, 1, {.depth_m = 1.0, .reflectivity = bad}), 14.0, 1);
     });
     refused([&] {
-      choose_fidelity(PhotonSource(SensorModel(), TargetMap(1, 1, {.depth_m = 1.0}), 14.0, 1), bad);
+      choose_fidelity(PhotonSource(SensorModel(), TargetMap(1, 1, {.depth_m = 1.0}), 14.0, 1),
+                      {.tolerance = bad, .use = PhotonUse::kStream, .readouts = {}});
     });
     refused([&] {
       (void)LookupTable::fit(std::vector<CalibrationPoint>{{0.0, 1.0}, {bad == -1.0 ? kNan : bad, 2.0}});

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <set>
-#include <string_view>
 
 #include "analytic/fidelity.hpp"
 #include "app/accuracy_study.hpp"
@@ -39,17 +37,14 @@ struct AccuracyOptions {
   std::string command_line;
 };
 
-/// The photon model for a source's scene; one with noise.
+/// The photon model for a source's scene, whose streams all read-outs share; one with noise.
 Fidelity noisy_model(const SensorOptions& options, const PhotonSource& exact) {
-  const Fidelity fidelity = options.photon_model(exact);
-  if (fidelity != Fidelity::kAnalytic) {
-    return fidelity;
-  }
-  if (options.fidelity != "auto") {
+  const Fidelity fidelity = options.photon_model(exact, PhotonUse::kStream, {});
+  if (fidelity == Fidelity::kAnalytic) {
     throw InputError(
         "accuracy: the analytic photon model has no noise to measure; choose exact, fast or auto");
   }
-  return Fidelity::kFast;
+  return fidelity;
 }
 
 SourceFactory source_factory(const SensorOptions& options) {
@@ -58,22 +53,6 @@ SourceFactory source_factory(const SensorOptions& options) {
     const PhotonSource exact(sensor, targets, klux, seed, frame);
     return make_source(noisy_model(options, exact), exact);
   };
-}
-
-/// --fidelity, and for "auto" what it takes over the sweep.
-std::string models_taken(const AccuracyOptions& options, const StudySettings& settings) {
-  if (options.sensor.fidelity != "auto") {
-    return options.sensor.fidelity;
-  }
-  std::set<std::string_view> taken;
-  for (const double klux : options.klux) {
-    for (const double distance : settings.distances_m) {
-      const TargetMap target(1, 1, {.depth_m = distance, .reflectivity = settings.reflectivity});
-      const PhotonSource source(settings.sensor, target, klux, options.run.seed);
-      taken.insert(fidelity_name(noisy_model(options.sensor, source)));
-    }
-  }
-  return fmt::format("auto within {:g}: {}", options.sensor.tolerance, fmt::join(taken, " and "));
 }
 
 StudySettings settings_of(const AccuracyOptions& options) {
@@ -106,7 +85,7 @@ std::string heading(const AccuracyOptions& options, const StudySettings& setting
       "the\n"
       "look-up table comes from {} other frames every {:g} m, at the same light.\n",
       settings.sensor.name, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
-      models_taken(options, settings), options.run.seed, settings.frames,
+      options.sensor.fidelity, options.run.seed, settings.frames,
       settings.precision
           ? fmt::format(
                 " or more, up to {}, until the intervals of relative precision and rmse are within {:g} %",
@@ -200,7 +179,7 @@ void run_accuracy_command(const AccuracyOptions& options) {
           return fmt::format("{:.1f}", p.outlier_rate.value * 100.0);
         }).markdown());
     report += fmt::format("\n## {:g} klux\n\n{}", klux, overview);
-    fmt::print("{:g} klux, photon model {}\n\n{}", klux, models_taken(options, settings), overview);
+    fmt::print("{:g} klux, photon model {}\n\n{}", klux, options.sensor.fidelity, overview);
     if (!study.without_rejection.empty()) {
       const std::string sentence =
           fmt::format("No confidence leaves as few outliers as wanted, so nothing is rejected: {}.\n",

@@ -138,6 +138,7 @@ std::unique_ptr<CLI::App> make_command_line(const std::string& command_line) {
   add_accuracy_command(*app, command_line);
   add_reproduce_command(*app, command_line);
   add_speed_error_command(*app, command_line);
+  add_fidelity_command(*app, command_line);
   add_stability_command(*app, command_line);
   add_scenes_command(*app, command_line);
   add_measured_command(*app, command_line);

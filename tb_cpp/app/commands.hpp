@@ -13,6 +13,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line);
 void add_accuracy_command(CLI::App& app, const std::string& command_line);
 void add_reproduce_command(CLI::App& app, const std::string& command_line);
 void add_speed_error_command(CLI::App& app, const std::string& command_line);
+void add_fidelity_command(CLI::App& app, const std::string& command_line);
 void add_stability_command(CLI::App& app, const std::string& command_line);
 void add_scenes_command(CLI::App& app, const std::string& command_line);
 void add_measured_command(CLI::App& app, const std::string& command_line);

@@ -8,6 +8,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "analytic/fidelity.hpp"
 #include "app/commands.hpp"
@@ -307,17 +309,22 @@ std::string precision_sentence(const std::vector<MeasuredFrame>& frames, const F
 }
 
 /// The photon model; with --precision one that has noise.
-Fidelity photon_model(const FrameOptions& options, const PhotonSource& scene) {
-  const Fidelity fidelity = options.sensor.photon_model(scene);
-  if (!options.precision_percent || fidelity != Fidelity::kAnalytic) {
-    return fidelity;
+Fidelity photon_model(const FrameOptions& options, std::span<const ReadoutParameters> readouts,
+                      const PhotonSource& scene) {
+  std::vector<Readout> sampled;
+  for (const ReadoutParameters& parameters : readouts) {
+    if (reads_samples(parameters.readout, options.run)) {
+      sampled.push_back(parameters.readout);
+    }
   }
-  if (options.sensor.fidelity != "auto") {
+  const PhotonUse use = sampled.empty() ? PhotonUse::kStream : PhotonUse::kSampler;
+  const Fidelity fidelity = options.sensor.photon_model(scene, use, sampled);
+  if (options.precision_percent && fidelity == Fidelity::kAnalytic) {
     throw InputError(
         "frame: the analytic photon model has no noise, so --precision has nothing to do; choose exact, fast "
         "or auto");
   }
-  return Fidelity::kFast;
+  return fidelity;
 }
 
 void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& truth,
@@ -364,7 +371,7 @@ void run_frame_command(const FrameOptions& options) {
   check_memory(sensor, options.array_rows.value_or(sensor.rows));
   OwnMap made = make_targets(options, sensor);
   const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
-  const Fidelity fidelity = photon_model(options, scene);
+  const Fidelity fidelity = photon_model(options, readouts, scene);
   const Region region{.columns = parse_columns(options.run.columns, scene.columns()),
                       .rows = parse_rows(options.run.rows, scene.rows())};
   const DepthImage truth = true_depth(scene.targets(), region);

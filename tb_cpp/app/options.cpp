@@ -171,14 +171,17 @@ void SensorOptions::add_sensor_to(CLI::App& command) {
   group->add_option("--gate", time_gate_ns, "time gate, BEGIN END in ns")->expected(2);
   group->add_option("--coincidence", coincidence_ns, "coincidence window in ns");
   group
-      ->add_option("--fidelity", fidelity,
-                   "photon model: exact (event by event), fast (times from tables), analytic (expected\n"
-                   "detections, no noise), auto (the cheapest within --tolerance)")
+      ->add_option(
+          "--fidelity", fidelity,
+          "photon model: exact (event by event), fast (times from tables), analytic (expected\n"
+          "detections, no noise; frame only), auto (the cheapest with noise that keeps --tolerance;\n"
+          "streams for the RTL, poolPointer, accuracy and recordings are always drawn exactly)")
       ->check(CLI::IsMember({"exact", "fast", "analytic", "auto"}))
       ->capture_default_str();
   group
       ->add_option("--tolerance", tolerance,
-                   "auto: what the model may leave out of a distance, relative (reports/speed_error.md)")
+                   "auto: how far the figures may be from those of the exact model in the mean over frames:\n"
+                   "rmse and bias of the relative error, shares above 3 % and 10 % (reports/fidelity.md)")
       ->capture_default_str();
 }
 
@@ -219,8 +222,9 @@ void SensorOptions::require_in_range(const SensorModel& sensor, double metres, c
   }
 }
 
-Fidelity SensorOptions::photon_model(const PhotonSource& exact) const {
-  return parse_fidelity(fidelity, exact, tolerance);
+Fidelity SensorOptions::photon_model(const PhotonSource& exact, PhotonUse use,
+                                     std::span<const Readout> readouts) const {
+  return parse_fidelity(fidelity, exact, {.tolerance = tolerance, .use = use, .readouts = readouts});
 }
 
 }  // namespace dtof

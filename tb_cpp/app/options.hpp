@@ -66,7 +66,7 @@ struct SensorOptions {
   std::vector<double> time_gate_ns;
   std::optional<double> coincidence_ns;
   std::string fidelity = "exact";
-  double tolerance = 1e-3;
+  double tolerance = 0.01;
 
   void add_to(CLI::App& command);
   /// Without --klux, for commands that take several light levels.
@@ -80,7 +80,8 @@ struct SensorOptions {
   /// Throws InputError unless a target at `metres`, which `option` named, is within the sensor's range.
   static void require_in_range(const SensorModel& sensor, double metres, const std::string& option);
   /// The photon model that --fidelity and --tolerance ask for (analytic/fidelity.hpp). Throws InputError.
-  [[nodiscard]] Fidelity photon_model(const PhotonSource& exact) const;
+  [[nodiscard]] Fidelity photon_model(const PhotonSource& exact, PhotonUse use,
+                                      std::span<const Readout> readouts) const;
 };
 
 }  // namespace dtof

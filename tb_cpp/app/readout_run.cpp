@@ -103,6 +103,10 @@ void check_engine(const StreamSource& source, std::span<const ReadoutParameters>
   }
 }
 
+bool reads_samples(Readout readout, const RunOptions& options) {
+  return !options.rtl() && !options.streams_only && !is_pool_readout(readout);
+}
+
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunOptions& options, const Region& region, const std::string& command) {
   const auto start = std::chrono::steady_clock::now();
@@ -132,9 +136,9 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
     return run;
   }
   const auto* sampled = dynamic_cast<const SampledSource*>(array.source.get());
-  const bool sample = sampled != nullptr && !options.streams_only;
-  finish(sample ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
-                : run_frame(*array.source, parameters, options.threads, columns, &progress));
+  finish(sampled != nullptr && reads_samples(parameters.readout, options)
+             ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
+             : run_frame(*array.source, parameters, options.threads, columns, &progress));
   return run;
 }
 

@@ -27,6 +27,10 @@ struct ReadoutRun {
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
                   const RunOptions& options, const Region& region);
 
+/// True if run_readout asks a photon source that can be sampled (SampledSource) for the photons of one
+/// measurement at a time; false if it reads streams: the RTL, the pool read-outs, --record.
+bool reads_samples(Readout readout, const RunOptions& options);
+
 /// Reads a region of `source` out with the engine of `options`, which does not change a result. A pool
 /// read-out's array has the sensor's rows, at least the 160 of the compiled arrays, and those outside the
 /// region are dark. With --verify the RTL's pixels are compared with the model's, and a difference is thrown

@@ -344,8 +344,12 @@ class SpeedErrorReport {
     for (std::size_t i = 0; i < kRivals.size(); ++i) {
       time_frame(points[i], point_times_[i]);
     }
-    fast_bound_ = model_error(Fidelity::kFast, exact);
-    analytic_bound_ = model_error(Fidelity::kAnalytic, exact);
+  }
+
+  [[nodiscard]] ModelCosts costs() const {
+    return {.exact_stream_ms = verdicts_[0].seconds * 1e3,
+            .fast_stream_ms = verdicts_[1].seconds * 1e3,
+            .fast_sampler_ms = verdicts_[2].seconds * 1e3};
   }
 
   static Table curve_table(const std::vector<ErrorCurve>& curves) {
@@ -424,22 +428,17 @@ class SpeedErrorReport {
         "(times, "
         "{} tests), detections per pixel (numbers, {}) and results by code (results, {}). With {} tests of a "
         "right model the smallest is below {:.0e} once in a hundred reports.\n"
-        "* What `--fidelity auto` compares with `--tolerance` is computed for the scene itself: here {:.1e} "
-        "for fast (displacement of an event by its table) and {:.1e} for analytic (the noise that a frame "
-        "without random numbers lacks, at least the Cramer-Rao bound), relative to the distance.\n\n"
-        "Which one: **exact** for dead time, binning and coincidence, which the others refuse; **fast** "
-        "for everything else that needs noise: streams for the RTL or for several read-outs of the same "
-        "photons, the sampler for one read-out model; **analytic** for the precision, bias and outlier rate "
-        "of "
-        "a sweep without waiting for frames. Its histogram read-outs take counts of different bins as "
-        "independent and its pointers the slots of an acquisition, which shows at pile-up (0.5 m and less): "
-        "see the CSV.\n",
+        "What `--fidelity auto` takes, and why, is in [fidelity.md](fidelity.md).\n\n"
+        "Which one, by the figures above:\n\n{}\n"
+        "Only the exact model has dead time, binning and coincidence. The analytic model's histogram "
+        "read-outs "
+        "take counts of different bins as independent and its pointers the slots of an acquisition.\n",
         sensor_.name, options_.run.seed, options_.frames, points, options_.command_line, table.markdown(),
         curve_table(curves).markdown(), curve_settings.reference_frames, sensor_.acquisitions,
         static_cast<double>(detections_) * 1e-6,
         options_.run.threads == 0 ? hardware_threads() : options_.run.threads, points, points,
         points * kReadouts.size(), points * kReadouts.size(),
-        0.01 / static_cast<double>(points * kReadouts.size()), fast_bound_, analytic_bound_);
+        0.01 / static_cast<double>(points * kReadouts.size()), advice(costs(), curves));
     write_file(folder / "speed_error.md", text);
     fmt::print("{}\nSeed {}. Written to {}\n", table.markdown(), options_.run.seed,
                (folder / "speed_error.md").string());
@@ -452,8 +451,6 @@ class SpeedErrorReport {
   Table points_{{"model", "read-out", "klux", "distance m", "precision exact", "precision", "bias exact m",
                  "bias m", "outliers exact", "outliers"}};
   std::uint64_t detections_ = 0;
-  double fast_bound_ = 0.0;
-  double analytic_bound_ = 0.0;
 };
 
 }  // namespace

@@ -43,6 +43,21 @@ struct ErrorCurveSettings {
 std::vector<ErrorCurve> speed_error_curves(const SensorModel& sensor, const ErrorCurveSettings& settings,
                                            std::uint64_t seed, int threads);
 
+/// CPU ms of a frame by photon model, photons and one read-out.
+struct ModelCosts {
+  double exact_stream_ms = 0.0;
+  double fast_stream_ms = 0.0;
+  double fast_sampler_ms = 0.0;
+};
+
+/// CPU ms at which a curve reaches an error of `error_percent`, interpolated between its points on
+/// logarithmic scales; not a number if it does not get there.
+double cost_to_reach(const ErrorCurve& curve, double error_percent);
+
+/// Three lines a user can act on, as a Markdown list: the cheapest model for a stream, for a sampler, and for
+/// a sweep of several errors. Each is computed from the figures.
+std::string advice(const ModelCosts& costs, const std::vector<ErrorCurve>& curves);
+
 /// What a set of frames of one pixel says.
 struct ErrorAnswer {
   double bias = 0.0;       ///< relative to the distance

@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
@@ -20,51 +22,81 @@ PhotonSource flat(double depth_m, double dead_time_s = 0.0) {
   return {sensor, TargetMap(20, 20, {.depth_m = depth_m, .reflectivity = 1.0}), 14.0, 1};
 }
 
-TEST(Fidelity, AutoTakesTheCheapestThatIsGoodEnough) {
+FidelityRequest sampled(double tolerance, std::span<const Readout> readouts) {
+  return {.tolerance = tolerance, .use = PhotonUse::kSampler, .readouts = readouts};
+}
+
+TEST(Fidelity, AutoTakesTheFastSamplerWhereItsLimitIsWithinTheTolerance) {
   const PhotonSource scene = flat(1.0);
-  EXPECT_EQ(choose_fidelity(scene, 0.0), Fidelity::kExact);
-  EXPECT_EQ(choose_fidelity(scene, 1e-9), Fidelity::kExact);
-  EXPECT_EQ(choose_fidelity(scene, 1e-3), Fidelity::kFast);
-  EXPECT_EQ(choose_fidelity(scene, 0.5), Fidelity::kAnalytic);
-  for (const Fidelity fidelity : {Fidelity::kFast, Fidelity::kAnalytic}) {
-    const double error = model_error(fidelity, scene);
-    EXPECT_LE(choose_fidelity(scene, error), Fidelity::kAnalytic);
-    EXPECT_GE(choose_fidelity(scene, error), fidelity);
-    EXPECT_LT(choose_fidelity(scene, error * 0.999), fidelity);
+  for (const Readout readout : kAllReadouts) {
+    const std::span<const Readout> one(&readout, 1);
+    const double limit = fast_sampler_difference(readout);
+    EXPECT_GT(limit, 0.0);
+    EXPECT_EQ(choose_fidelity(scene, sampled(limit, one)), Fidelity::kFast);
+    EXPECT_EQ(choose_fidelity(scene, sampled(0.999 * limit, one)), Fidelity::kExact);
+    EXPECT_EQ(choose_fidelity(scene, sampled(0.0, one)), Fidelity::kExact);
   }
 }
 
-TEST(Fidelity, NoisierScenesNeedAMoreExactModel) {
-  EXPECT_GT(model_error(Fidelity::kAnalytic, flat(5.0)), model_error(Fidelity::kAnalytic, flat(1.0)));
-  EXPECT_EQ(model_error(Fidelity::kExact, flat(5.0)), 0.0);
+TEST(Fidelity, AutoKeepsTheToleranceForEveryReadoutOfTheFrame) {
+  double largest = 0.0;
+  for (const Readout readout : kAllReadouts) {
+    largest = std::max(largest, fast_sampler_difference(readout));
+  }
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(largest, kAllReadouts)), Fidelity::kFast);
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(0.999 * largest, kAllReadouts)), Fidelity::kExact);
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, kModelReadouts)), Fidelity::kExact)
+      << "poolPointer's differences were not measured";
+}
+
+TEST(Fidelity, StreamsAreExact) {
+  EXPECT_EQ(choose_fidelity(flat(1.0), {.tolerance = 1.0, .use = PhotonUse::kStream, .readouts = {}}),
+            Fidelity::kExact);
+}
+
+TEST(Fidelity, BeyondWhatWasMeasuredOnlyTheExactModelIsTaken) {
+  const Readout readout = Readout::kHisPointer;
+  const FidelityRequest request = sampled(1.0, std::span(&readout, 1));
+  EXPECT_EQ(choose_fidelity(flat(1.0, 1e-9), request), Fidelity::kExact) << "dead time";
+  EXPECT_EQ(choose_fidelity(flat(0.2), request), Fidelity::kExact) << "too bright";
+  const auto with = [&](auto change) {
+    SensorModel sensor = parse_preset("thesis");
+    change(sensor);
+    return choose_fidelity({sensor, TargetMap(2, 2, {.depth_m = 1.0}), 14.0, 1}, request);
+  };
+  EXPECT_EQ(with([](SensorModel&) {}), Fidelity::kFast);
+  EXPECT_EQ(with([](SensorModel& sensor) { sensor.np = 11; }), Fidelity::kExact);
+  EXPECT_EQ(with([](SensorModel& sensor) { sensor.slots = 4; }), Fidelity::kExact);
+  EXPECT_EQ(with([](SensorModel& sensor) { sensor.acquisitions = 100; }), Fidelity::kExact);
+  EXPECT_EQ(with([](SensorModel& sensor) { sensor.background_events_per_klux = 1.0; }), Fidelity::kExact);
 }
 
 TEST(Fidelity, OnlyTheExactModelHasADeadTime) {
-  EXPECT_EQ(choose_fidelity(flat(1.0, 1e-9), 1.0), Fidelity::kExact);
   EXPECT_THROW(make_source(Fidelity::kFast, flat(1.0, 1e-9)), InputError);
   EXPECT_THROW(make_source(Fidelity::kAnalytic, flat(1.0, 1e-9)), InputError);
 }
 
-TEST(Fidelity, AnEmptySceneHasNoError) {
-  EXPECT_EQ(model_error(Fidelity::kAnalytic, flat(0.0)), 0.0);
-  EXPECT_EQ(choose_fidelity(flat(0.0), 1e-12), Fidelity::kAnalytic);
+TEST(Fidelity, AutoNeverTakesAModelWithoutNoise) {
+  for (const double depth : {0.0, 1.0, 5.0}) {
+    EXPECT_NE(choose_fidelity(flat(depth), sampled(1e9, kAllReadouts)), Fidelity::kAnalytic);
+  }
 }
 
 TEST(Fidelity, NamesAndRefusals) {
   const PhotonSource scene = flat(1.0);
   for (const Fidelity fidelity : {Fidelity::kExact, Fidelity::kFast, Fidelity::kAnalytic}) {
-    EXPECT_EQ(parse_fidelity(fidelity_name(fidelity), scene, 0.0), fidelity);
+    EXPECT_EQ(parse_fidelity(fidelity_name(fidelity), scene, {}), fidelity);
     EXPECT_EQ(make_source(fidelity, scene)->columns(), 20);
   }
-  EXPECT_EQ(parse_fidelity("auto", scene, 1e-3), Fidelity::kFast);
+  EXPECT_EQ(parse_fidelity("auto", scene, sampled(1.0, kAllReadouts)), Fidelity::kFast);
   try {
-    parse_fidelity("quick", scene, 0.0);
+    parse_fidelity("quick", scene, {});
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("'quick': known are exact, fast, analytic and auto"));
   }
   for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(parse_fidelity("auto", scene, bad), InputError);
+    EXPECT_THROW(parse_fidelity("auto", scene, sampled(bad, kAllReadouts)), InputError);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <numbers>
 #include <random>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -214,6 +215,36 @@ TEST(SpeedErrorCurves, ErrorsDependOnTheSeedAndNotOnTheThreads) {
   }
   // The truth comes from other frames: as many of the exact model are not right.
   EXPECT_GT(once[0][1], 0.0);
+}
+
+ErrorCurve falling(const std::string& model, double cost) {
+  // Error 1 % at `cost`, and a tenth of it for a hundred times the cost, as noise falls.
+  return {
+      .model = model, .frames = {100, 10'000}, .cpu_ms = {cost, 100.0 * cost}, .error_percent = {1.0, 0.1}};
+}
+
+TEST(ErrorCurve, CostOfAnErrorBetweenThePoints) {
+  const ErrorCurve curve = falling("exact", 5.0);
+  EXPECT_DOUBLE_EQ(cost_to_reach(curve, 1.0), 5.0);
+  EXPECT_NEAR(cost_to_reach(curve, 0.5), 5.0 * 4.0, 1e-9);
+  EXPECT_NEAR(cost_to_reach(curve, 0.1), 500.0, 1e-9);
+  EXPECT_TRUE(std::isnan(cost_to_reach(curve, 0.05)));
+}
+
+TEST(Advice, FollowsTheFigures) {
+  using testing::HasSubstr;
+  const ErrorCurve analytic{.model = "analytic", .frames = {}, .cpu_ms = {40.0}, .error_percent = {0.2}};
+  const std::string one = advice({.exact_stream_ms = 700, .fast_stream_ms = 800, .fast_sampler_ms = 300},
+                                 {falling("exact", 5.0), analytic});
+  EXPECT_THAT(one, HasSubstr("the exact model, 700 ms a frame against 800 ms"));
+  EXPECT_THAT(one, HasSubstr("the fast model's sampler, 300 ms against 700 ms"));
+  EXPECT_THAT(one, HasSubstr("1 %: exact (5 ms); 0.3 %: analytic (40 ms); 0.1 %: exact (500 ms)"));
+  EXPECT_THAT(one, HasSubstr("0.03 %: none of these runs"));
+  const std::string other = advice({.exact_stream_ms = 200, .fast_stream_ms = 100, .fast_sampler_ms = 300},
+                                   {falling("exact", 5.0), falling("fast sampler", 2.0)});
+  EXPECT_THAT(other, HasSubstr("the fast model's stream, 100 ms a frame against 200 ms"));
+  EXPECT_THAT(other, HasSubstr("**: the exact model, 200 ms against 300 ms"));
+  EXPECT_THAT(other, HasSubstr("1 %: fast sampler (2 ms)"));
 }
 
 }  // namespace
