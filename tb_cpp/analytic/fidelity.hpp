@@ -41,7 +41,11 @@ struct FidelityRequest {
 /// The largest such difference that the fast model's sampler makes for a read-out: an upper limit measured by
 /// `dtof fidelity` (reports/fidelity.md) over eight scenes and three lights, which says whether it still
 /// holds.
+/// Infinite for a read-out that has no sampler.
 double fast_sampler_difference(Readout readout);
+/// Processor time of a frame with the fast model's sampler over that with exact streams, photons included,
+/// from the same report; infinite for a read-out that has no sampler.
+double fast_sampler_cost(Readout readout);
 
 /// True if the scene's rates, NP, SLOTS and number of acquisitions are within what fast_sampler_difference
 /// was measured for.

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -32,7 +33,8 @@ TEST(Fidelity, AutoTakesTheFastSamplerWhereItsLimitIsWithinTheTolerance) {
     const std::span<const Readout> one(&readout, 1);
     const double limit = fast_sampler_difference(readout);
     EXPECT_GT(limit, 0.0);
-    EXPECT_EQ(choose_fidelity(scene, sampled(limit, one)), Fidelity::kFast);
+    const Fidelity cheaper = fast_sampler_cost(readout) < 1.0 ? Fidelity::kFast : Fidelity::kExact;
+    EXPECT_EQ(choose_fidelity(scene, sampled(limit, one)), cheaper);
     EXPECT_EQ(choose_fidelity(scene, sampled(0.999 * limit, one)), Fidelity::kExact);
     EXPECT_EQ(choose_fidelity(scene, sampled(0.0, one)), Fidelity::kExact);
   }
@@ -47,6 +49,14 @@ TEST(Fidelity, AutoKeepsTheToleranceForEveryReadoutOfTheFrame) {
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(0.999 * largest, kAllReadouts)), Fidelity::kExact);
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, kModelReadouts)), Fidelity::kExact)
       << "poolPointer's differences were not measured";
+}
+
+TEST(Fidelity, OneDearReadoutDoesNotSpoilAFrameOfCheapOnes) {
+  EXPECT_GT(fast_sampler_cost(Readout::kPifh), 1.0);
+  const std::array both = {Readout::kPifh, Readout::kHisPointer};
+  const std::array three = {Readout::kPifh, Readout::kHisPointer, Readout::kSifh};
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, both)), Fidelity::kExact);
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, three)), Fidelity::kFast);
 }
 
 TEST(Fidelity, StreamsAreExact) {
