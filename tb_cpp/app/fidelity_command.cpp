@@ -16,7 +16,7 @@ namespace dtof {
 namespace {
 
 struct FidelityOptions {
-  std::string preset = "thesis";
+  std::string sensor = "thesis";
   int frames = 4;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -26,7 +26,7 @@ struct FidelityOptions {
 
 void run_fidelity_command(const FidelityOptions& options) {
   FidelitySettings settings;
-  settings.sensor = parse_preset(options.preset);
+  settings.sensor = find_sensor(options.sensor);
   settings.frames = options.frames;
   settings.seed = options.seed;
   settings.threads = options.threads;
@@ -55,7 +55,10 @@ void add_fidelity_command(CLI::App& app, const std::string& command_line) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "fidelity", "What the fast photon model changes of a scene's figures, and what --fidelity auto takes");
-  command->add_option("-p,--preset", options->preset, "thesis or phone")->capture_default_str();
+  command
+      ->add_option("--sensor,-p,--preset", options->sensor,
+                   "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
+      ->capture_default_str();
   command->add_option("--frames", options->frames, "frames of each scene and light")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "app/options.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -104,7 +105,7 @@ class Comparison {
     const double drawing_ms = draw(exact);
     streams_.exact_ms += drawing_ms;
     for (std::size_t r = 0; r < cells_.size(); ++r) {
-      const ReadoutParameters parameters = parameters_of(cells_[r].readout);
+      const ReadoutParameters parameters = default_parameters(cells_[r].readout, settings_.sensor);
       std::vector<std::vector<PixelResult>> results(columns);
       cells_[r].exact_ms +=
           drawing_ms + processor_ms([&] {
@@ -133,12 +134,6 @@ class Comparison {
       }
       add_column(targets_, static_cast<int>(i), column, scale_, parameters.fraction_bits, figures_[r].fast);
     }
-  }
-
-  [[nodiscard]] ReadoutParameters parameters_of(Readout readout) const {
-    ReadoutParameters parameters = ReadoutParameters::defaults(readout, settings_.sensor.np);
-    parameters.slots = settings_.sensor.slots;
-    return parameters;
   }
 
   const FidelitySettings& settings_;
