@@ -41,7 +41,6 @@ module controller #(
     output logic                  scan_start_o,
     output logic                  scan_reset_o,
     output logic                  scan_final_o,
-    output logic                  scan_rewind_o,
     input  logic                  scan_busy_i,
     input  logic                  scan_last_row_i,
     // result_output
@@ -150,7 +149,6 @@ module controller #(
   assign scan_reset_o = entering && (state_d == dtof_pkg::STATE_RESET);
   assign scan_final_o = entering && ((state_q == dtof_pkg::STATE_M3) || (result_start_o && !scan_last_row_i));
   assign scan_start_o = scan_reset_o || scan_final_o || (entering && state_d == dtof_pkg::STATE_M1);
-  assign scan_rewind_o = !result_start_o;
   assign result_start_o = entering && (state_d == dtof_pkg::STATE_M5);
 
 endmodule

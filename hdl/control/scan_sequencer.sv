@@ -20,7 +20,6 @@ module scan_sequencer #(
     input  logic                 start_i,
     input  logic                 reset_state_i,  // with start_i: clear only, all pixels
     input  logic                 final_state_i,  // with start_i: one pixel, FINAL_BINS addresses
-    input  logic                 rewind_i,       // with start_i: begin with pixel 0
     input  logic                 hold_i,         // the result chain is in use
     output logic                 busy_o,
     output logic [ROW_WIDTH-1:0] row_o,          // the pixel just scanned
@@ -71,9 +70,6 @@ module scan_sequencer #(
       reset_q <= reset_state_i;
       final_q <= final_state_i;
       bin_q <= '0;
-      if (rewind_i) begin
-        pixel_q <= '0;
-      end
     end else if (hold_q) begin
       run_q <= !hold_i;
       hold_q <= hold_i;

@@ -43,7 +43,7 @@ module control_properties #(
   logic [2:0] state;
   logic [ACQ_WIDTH-1:0] acq_num;
   logic [PASS_WIDTH-1:0] pass;
-  logic stream, stream_idle, scan_start, scan_reset, scan_final, scan_rewind, scan_busy, scan_last_row;
+  logic stream, stream_idle, scan_start, scan_reset, scan_final, scan_busy, scan_last_row;
   logic result_start, result_done, result_busy, result_shift, more, acq_done, ready, tvalid, tlast;
   logic gear, fetch, beat_t1, first_slot, visit, first_acq, last_slot, beat_t5;
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5, row, pixel_s0, pixel_s1, pixel_s3;
@@ -79,7 +79,6 @@ module control_properties #(
       .scan_start_o   (scan_start),
       .scan_reset_o   (scan_reset),
       .scan_final_o   (scan_final),
-      .scan_rewind_o  (scan_rewind),
       .scan_busy_i    (scan_busy),
       .scan_last_row_i(scan_last_row),
       .result_start_o (result_start),
@@ -140,7 +139,6 @@ module control_properties #(
       .start_i      (scan_start),
       .reset_state_i(scan_reset),
       .final_state_i(scan_final),
-      .rewind_i     (scan_rewind),
       .hold_i       (result_busy),
       .busy_o       (scan_busy),
       .row_o        (row),

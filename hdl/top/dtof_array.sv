@@ -93,7 +93,7 @@ module dtof_array #(
   logic [PASS_WIDTH-1:0] pass;
   logic [GEAR_WIDTH-1:0] gear;
   logic stream, stream_idle;
-  logic scan_start, scan_reset, scan_final, scan_rewind, scan_busy, scan_last_row;
+  logic scan_start, scan_reset, scan_final, scan_busy, scan_last_row;
   logic result_start, result_done, result_busy, result_shift;
   logic [ROW_WIDTH-1:0] row;
 
@@ -124,7 +124,6 @@ module dtof_array #(
       .scan_start_o   (scan_start),
       .scan_reset_o   (scan_reset),
       .scan_final_o   (scan_final),
-      .scan_rewind_o  (scan_rewind),
       .scan_busy_i    (scan_busy),
       .scan_last_row_i(scan_last_row),
       .result_start_o (result_start),
@@ -213,7 +212,6 @@ module dtof_array #(
       .start_i      (scan_start),
       .reset_state_i(scan_reset),
       .final_state_i(scan_final),
-      .rewind_i     (scan_rewind),
       .hold_i       (result_busy),
       .busy_o       (scan_busy),
       .row_o        (row),
