@@ -135,6 +135,53 @@ def plot(schedules: list[Point], candidates: list[Point], limit: float, path: Pa
     drawn.replace(path)
 
 
+def rank_correlation(pairs: list[tuple[float, float]]) -> float:
+    """Kendall's tau-a: 1 if the second figure always rises with the first, -1 if it always falls; ties count as 0."""
+    score, compared = 0, 0
+    for index, (x, y) in enumerate(pairs):
+        for other_x, other_y in pairs[index + 1:]:
+            if x != other_x:
+                compared += 1
+                product = (x - other_x) * (y - other_y)
+                score += (product > 0) - (product < 0)
+    return score / compared if compared else 0.0
+
+
+def change(tau: float, falls: str, rises: str) -> str:
+    """What a rank correlation says of a figure; half of the pairs more one way than the other count as a trend."""
+    trend = falls if tau <= -0.5 else rises if tau >= 0.5 else None
+    return f"{trend} (rank correlation {tau:+.2f})" if trend else f"no clear trend (rank correlation {tau:+.2f})"
+
+
+def schedule_sentence(schedules: list[Point]) -> str:
+    """How the phases' lengths and the figures go together."""
+    phases = [(point, *(int(share) for share in point.label.split("/"))) for point in schedules]
+    lost = rank_correlation([(coarse, point.figures["lost_14klux"]) for point, coarse, _ in phases])
+    wrong = rank_correlation([(coarse, point.figures["outliers_50klux"]) for point, coarse, _ in phases])
+    precision = rank_correlation([(64 - coarse - track, point.figures["bound_ratio_1m_14klux"])
+                                  for point, coarse, track in phases])
+    return (f"With a longer coarse phase the single pixels lost show {change(lost, 'a fall', 'a rise')} and the outliers "
+            f"of the scenes at 50 klux {change(wrong, 'a fall', 'a rise')}; with a longer pointer phase the rmse over the "
+            f"bound shows {change(precision, 'a fall', 'a rise')}.")
+
+
+def candidate_sentence(candidates: list[Point]) -> str:
+    """How number and width of the candidates go with the figures, and what a bit of the score does."""
+    sizes = {tuple(int(part) for part in point.label.split("x")): point for point in candidates}
+    lost = rank_correlation([(labels, point.figures["lost_14klux"]) for (labels, _), point in sizes.items()])
+    cost = rank_correlation([(labels, point.mm2) for (labels, _), point in sizes.items()])
+    text = (f"With more candidates the single pixels lost show {change(lost, 'a fall', 'a rise')}, the area "
+            f"{change(cost, 'a fall', 'a rise')}.")
+    for (labels, bits), point in sorted(sizes.items()):
+        wider = sizes.get((labels, bits + 1))
+        if wider:
+            one, other = point.figures["outliers_50klux"], wider.figures["outliers_50klux"]
+            verdict = "worse than" if one > other else "better than" if one < other else "as good as"
+            text += (f" At {labels} candidates, scores of {bits} bits are {verdict} those of {bits + 1} at 50 klux "
+                     f"({one:.2f} against {other:.2f} % above 10 %).")
+    return text
+
+
 def table(title: str, points: list[Point], with_area: bool) -> list[str]:
     head = [title, *(["mm2"] if with_area else []), *FIGURES.values()]
     lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
@@ -166,11 +213,11 @@ def main() -> int:
              f"Written by `make trade`: preset `thesis`, seed {SEED}, {COLUMNS} columns of the scenes "
              f"{', '.join(SCENES[1:])} ({SINGLE_COLUMNS} of isolated for the single pixels), 14 and 50 klux; areas of "
              "`make synth-growth`.", "", "![trade](trade.svg)", "", "## Shares of the frame", "",
-             "64ths of the acquisitions in the coarse and the track phase; registers, no area. A longer coarse phase finds "
-             "more small objects, a longer pointer phase measures them better.", "",
+             "64ths of the acquisitions in the coarse and the track phase; registers, no area. "
+             + schedule_sentence(schedules), "",
              *table("coarse/track", schedules, with_area=False), "", "## Candidates of a group", "",
-             f"Number and bits of a score; {base['DARK_LABELS']}x{base['DARK_SCORE_BITS']} is the product. More candidates "
-             "keep more single pixels, cost matching, words or engines, and scores of 3 bits decide worse in sunlight.", "",
+             f"Number and bits of a score; {base['DARK_LABELS']}x{base['DARK_SCORE_BITS']} is the product. "
+             + candidate_sentence(candidates), "",
              *table("candidates", candidates, with_area=True), ""]
     (REPORTS / "trade.md").write_text("\n".join(lines), encoding="utf-8")
     with (REPORTS / "trade.csv").open("w", newline="", encoding="utf-8") as file:
