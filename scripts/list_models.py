@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Prints the models of a top module to Verilate, one a line: name, then names and values for dtof_verilate() of CMake.
+"""Prints the models of a top module to Verilate, one per line: name, then names and values for dtof_verilate() of CMake.
 
 `list_models.py readouts dtof_array`: the read-outs of configurations.toml, each with many columns and with one.
 `list_models.py variants dtof_array`: its variants, with one column.

@@ -85,7 +85,7 @@ def logic_mw(output: str, modules: int) -> float:
 
 
 def clock_mw(output: str, modules: int, tree: ClockTree, library: Library, mhz: float) -> float:
-    """Clock pins inside the flip-flops, and the tree's wires and pins, charged once a clock."""
+    """Clock pins inside the flip-flops, and the tree's wires and pins, charged once per clock."""
     internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), modules)
     return internal / 2 * 1e3 + tree.load_ff * library.voltage**2 * mhz * 1e-6
 

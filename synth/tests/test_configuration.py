@@ -27,7 +27,7 @@ class Configurations(unittest.TestCase):
         self.assertEqual({item.readout for item in self.named.values()}, {*configuration.READOUTS, *configuration.POOL_READOUTS})
 
     def test_bits_of_the_thesis(self):
-        # Spec section 6: 10, 640 and 320 bits a pixel; peak and pointer memories come on top.
+        # Spec section 6: 10, 640 and 320 bits per pixel; peak and pointer memories come on top.
         self.assertEqual(bits_per_pixel(self.named["ezpointer_bare"]), 10)
         self.assertEqual(bits_per_pixel(self.named["sifh"]), 640 + 6)
         self.assertEqual(bits_per_pixel(self.named["fifh"]), 320 + 5)

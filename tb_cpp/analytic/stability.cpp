@@ -285,7 +285,8 @@ std::vector<StabilityResult> check_sources(std::uint64_t seed) {
     }
   }
   const std::string inputs =
-      "0.05 m with rho 4 (480 events a pulse) to 9 m and no target; rho 0, 1e-6; 0, 14, 200 klux; NP 4, 10, "
+      "0.05 m with rho 4 (480 events per pulse) to 9 m and no target; rho 0, 1e-6; 0, 14, 200 klux; NP 4, "
+      "10, "
       "14; "
       "FWHM 4.4 ps to 45 ns";
   const std::string number = "number of detections: closed form";
@@ -333,10 +334,11 @@ std::vector<StabilityResult> check_dense_pulses(std::uint64_t seed) {
       dead.add(std::abs(static_cast<double>(events.size()) - sensor.acquisitions));
     }
   }
-  return {deviation.row("first event of a dense pulse, mean time", "30 to 1e6 events a pulse, 20,000 pulses",
-                        "quadrature of exp(-C(t)), long double", kSixSigma, "standard deviations"),
-          dead.row("dead time of 1 s (range 45 ns)", "30 and 480 events a pulse",
-                   "one detection an acquisition", 0.0, "detections")};
+  return {
+      deviation.row("first event of a dense pulse, mean time", "30 to 1e6 events per pulse, 20,000 pulses",
+                    "quadrature of exp(-C(t)), long double", kSixSigma, "standard deviations"),
+      dead.row("dead time of 1 s (range 45 ns)", "30 and 480 events per pulse",
+               "one detection per acquisition", 0.0, "detections")};
 }
 
 std::vector<StabilityResult> check_statistics() {

@@ -80,7 +80,8 @@ StudySettings settings_of(const AccuracyOptions& options) {
 
 std::string heading(const AccuracyOptions& options, const StudySettings& settings) {
   return fmt::format(
-      "Sensor {}, reflectivity {:g}, {} acquisitions a frame, engine {}, photon model {}, seed {}. {} frames "
+      "Sensor {}, reflectivity {:g}, {} acquisitions per frame, engine {}, photon model {}, seed {}. {} "
+      "frames "
       "a distance{}; "
       "the\n"
       "look-up table comes from {} other frames every {:g} m, at the same light.\n",
@@ -231,7 +232,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
       ->check(sensible_klux())
       ->capture_default_str();
   command->add_option("-d,--distances", options->distances_m, "distances in m")->capture_default_str();
-  command->add_option("-n,--frames", options->frames, "frames a distance (with --precision: at least)")
+  command->add_option("-n,--frames", options->frames, "frames per distance (with --precision: at least)")
       ->check(CLI::Range(4, 10'000'000))
       ->capture_default_str();
   command

@@ -22,7 +22,7 @@ void add_list_command(CLI::App& app) {
     fmt::print("\nPresets (--sensor), per pixel and pulse at 1 m, reflectivity 1, 14 klux:\n");
     for (const std::string_view name : preset_names()) {
       const SensorModel sensor = parse_preset(name);
-      fmt::print("  {:<16} {:.3f} signal events, {:.3f} background events, {} acquisitions a frame\n", name,
+      fmt::print("  {:<16} {:.3f} signal events, {:.3f} background events, {} acquisitions per frame\n", name,
                  sensor.signal_events(1.0, 1.0), sensor.background_events(14.0, 1.0), sensor.acquisitions);
     }
     fmt::print("\nScenes (--scene):\n");

@@ -72,7 +72,7 @@ MeasuredScene open_scene(const MeasuredOptions& options) {
                              .from_tick = options.from_tick});
 }
 
-/// How bright it is: photons a pixel and frame, and what the sun adds.
+/// How bright it is: photons per pixel and frame, and what the sun adds.
 struct Light {
   double photons;
   double background;
@@ -395,11 +395,11 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--t-int", options->t_int_ns, "T_int in ns")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("-a,--acquisitions", options->acquisitions, "laser pulses a frame")
+  command->add_option("-a,--acquisitions", options->acquisitions, "laser pulses per frame")
       ->capture_default_str();
   command
       ->add_option("--photons", options->photons,
-                   "mean photons a pixel and frame, one or more; 0: all there are")
+                   "mean photons per pixel and frame, one or more; 0: all there are")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command

@@ -96,7 +96,7 @@ MeasuredScene two_surfaces_scene(TwoSurfaces recording) {
       static_cast<double>(photons.ticks.size()) / static_cast<double>(std::max<std::size_t>(1, count));
   scene.title = recording.from_tick > 0.0 ? "Photon times, the surface behind" : "Photon times, two surfaces";
   scene.description = fmt::format(
-      "Photon arrival times, {} x {} pixels, {:.1f} photons a pixel in the mean{}. Truth: the surface, as "
+      "Photon arrival times, {} x {} pixels, {:.1f} photons per pixel in the mean{}. Truth: the surface, as "
       "estimated "
       "from all photons, that more of the pixel's photons come from.",
       scene.columns, scene.rows, mean,

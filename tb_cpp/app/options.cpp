@@ -163,7 +163,7 @@ void SensorOptions::add_sensor_to(CLI::App& command) {
       ->add_option("--sensor,-p,--preset", sensor,
                    "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
       ->capture_default_str();
-  group->add_option("-a,--acquisitions", acquisitions, "laser pulses a frame (default: the sensor's)")
+  group->add_option("-a,--acquisitions", acquisitions, "laser pulses per frame (default: the sensor's)")
       ->check(sensible_acquisitions());
   group->add_option("--dead-time", dead_time_ns, "dead time of a pixel in ns");
   group->add_option("--binning", binning, "B: blocks of B x B pixels share one stream")

@@ -244,7 +244,7 @@ void run_replay_command(const ReplayOptions& options) {
   const std::string heading = fmt::format(
       "{} ({}): {} columns x {} rows, {} acquisitions{}, engine {}{}, seed {}.\n", options.recording.file,
       recording.description, region.columns.size(), region.rows.count, recording.source->acquisitions(),
-      options.photons ? fmt::format(", thinned to {:g} photons a pixel and frame", *options.photons) : "",
+      options.photons ? fmt::format(", thinned to {:g} photons per pixel and frame", *options.photons) : "",
       options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
   if (comparisons.empty()) {
     fmt::print("{}", heading);
@@ -267,7 +267,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       ->check(CLI::IsMember({"auto", "csv", "npy", "mat", "tmf8820", "tmf8829"}))
       ->capture_default_str();
   command->add_option("-a,--acquisitions", options->recording.acquisitions,
-                      "laser pulses a frame (default: CSV: the last one recorded, else 3333)");
+                      "laser pulses per frame (default: CSV: the last one recorded, else 3333)");
   command
       ->add_option("--array-columns", options->recording.columns,
                    "CSV: columns of the sensor (default: to the last one that detected something)")
@@ -275,7 +275,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--array-rows", options->recording.rows, "CSV: rows of the sensor, likewise")
       ->check(CLI::Range(1, 65536));
   command->add_option("--photons", options->photons,
-                      "measured data: thin to this mean number of photons a pixel and frame");
+                      "measured data: thin to this mean number of photons per pixel and frame");
   command
       ->add_option("--background", options->recording.resampling.background,
                    "measured data: background events to add per acquisition and T_int")

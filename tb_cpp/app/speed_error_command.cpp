@@ -130,7 +130,8 @@ Sample sample_sampler(const SampledSource& source, const SensorModel& sensor, in
   return sample;
 }
 
-/// p-value of two sets of counts having one distribution; classes pooled to at least 10 of both together.
+/// p-value of two sets of counts having one distribution. Neighbouring classes are joined until each has at
+/// least 20 counts of both sets together.
 double two_sample_p(const std::vector<std::uint64_t>& a, const std::vector<std::uint64_t>& b, double scale) {
   double chi_square = 0.0;
   double classes = 0.0;

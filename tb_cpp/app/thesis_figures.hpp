@@ -40,7 +40,7 @@ HistogramPeaks histogram_peaks(const FigureScene& scene, std::uint32_t acquisiti
 
 /// What the TDC delivers against what arrives (Fig. 2.4).
 struct PileUp {
-  std::vector<double> arriving;   ///< mean events a frame and bin, without pile-up
+  std::vector<double> arriving;   ///< mean events per frame and bin, without pile-up
   std::vector<double> delivered;  ///< the same after the TDC
   double arriving_fwhm_ns = 0.0;
   double delivered_fwhm_ns = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Speed of the Verilated full-size arrays with their driver, in column-cycles per second (one clock of one
-// column), at the photon density of the thesis's 14 klux. One array a thread.
+// column), at the photon density of the thesis's 14 klux. One array per thread.
 #include <benchmark/benchmark.h>
 
 #include <vector>

@@ -31,7 +31,7 @@ class PixelSampler {
 /// A source that can be sampled pixel by pixel as well; not the same random numbers as its streams.
 class SampledSource : public StreamSource {
  public:
-  /// One a thread.
+  /// One per thread.
   [[nodiscard]] virtual std::unique_ptr<PixelSampler> pixel_sampler() const = 0;
 };
 

@@ -34,7 +34,7 @@ struct PictureLayout {
   std::string title;
   std::string caption = {};  ///< last line, e.g. command, seed and preset
   int panels_per_row = 1;
-  int pixel_size = 0;  ///< screen pixels a map pixel; 0 chooses 1..16 so that a map is about 480 wide
+  int pixel_size = 0;  ///< screen pixels per map pixel; 0 chooses 1..16 so that a map is about 480 wide
   std::optional<ColourRange> depth_range = std::nullopt;  ///< none: smallest to largest depth of all maps
   std::optional<double> largest_error = std::nullopt;     ///< m; none: 98 % of all |errors| lie inside
 };

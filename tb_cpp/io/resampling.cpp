@@ -32,9 +32,9 @@ void Resampling::validate() const {
   check(std::isfinite(time_shift), "time shift", time_shift, "a finite number of seconds");
   check(slots >= 1, "SLOTS", slots, "1 or more");
   const double budget = photon_budget.value_or(0.0);
-  check(budget >= 0.0 && budget <= kLargestPhotonNumber, "photon budget", budget, "0..1e7 photons a pixel");
+  check(budget >= 0.0 && budget <= kLargestPhotonNumber, "photon budget", budget, "0..1e7 photons per pixel");
   check(background >= 0.0 && background * acquisitions <= kLargestPhotonNumber, "background", background,
-        "0 or more events an acquisition, at most 1e7 a frame");
+        "0 or more events per acquisition, at most 1e7 per frame");
 }
 
 ResampledStream::ResampledStream(int columns, int rows, const Resampling& resampling)

@@ -14,7 +14,7 @@ namespace dtof {
 
 inline constexpr std::size_t kTmf8820Zones = 9;  ///< 3 x 3
 inline constexpr std::size_t kTmf8820Bins = 128;
-/// s; 13.9 mm a bin, the slope of the published captures against their ground truth.
+/// s; 13.9 mm per bin, the slope of the published captures against their ground truth.
 inline constexpr double kTmf8820BinWidth = 92.7e-12;
 
 /// One capture of an ams TMF8820 in front of a plane (C. Sifferman, SPAD-ICCP-Summer-School, part 2).

@@ -12,7 +12,7 @@
 namespace dtof {
 
 inline constexpr std::size_t kTmf8829Bins = 64;
-/// s; 122.2 mm a bin, the slope of histogram peaks against on-chip distances in the published log.
+/// s; 122.2 mm per bin, the slope of histogram peaks against on-chip distances in the published log.
 inline constexpr double kTmf8829BinWidth = 815e-12;
 /// Centre of gravity of a histogram peak at distance zero, in bins (bin k counts as k), from the same fit.
 inline constexpr double kTmf8829ZeroDistanceBin = 3.11;

@@ -15,7 +15,7 @@
 namespace dtof {
 namespace {
 
-// With more mean events an acquisition, pairs of one acquisition are so common that pointers notice if they
+// With more mean events per acquisition, pairs of one acquisition are so common that pointers notice if they
 // are drawn apart (bias, outliers); then the sampler walks as the streams do.
 constexpr double kWalkFrom = 0.7;
 

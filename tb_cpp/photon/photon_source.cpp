@@ -84,7 +84,7 @@ PhotonSource::PhotonSource(SensorModel model, TargetMap targets, double klux, st
   if (!std::isfinite(klux) || klux < 0.0) {
     throw InputError(fmt::format("illuminance must be a finite number of at least 0 klux, not {}", klux));
   }
-  // Coincidence needs every event at once; the others stop at SLOTS events an acquisition.
+  // Coincidence needs every event at once; the others stop at SLOTS events per acquisition.
   constexpr double kMaxEventsInMemory = 1e8;
   for (int column = 0; column < columns(); ++column) {
     for (int row = 0; row < rows(); ++row) {

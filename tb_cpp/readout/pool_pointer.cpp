@@ -364,7 +364,7 @@ class PoolPointerModel final : public ReadoutModel {
     return taken;
   }
 
-  /// What two adjacent pixels count: a timestamp an acquisition, the even row's in even ones, the odd row's
+  /// What two adjacent pixels count: a timestamp per acquisition, the even row's in even ones, the odd row's
   /// in odd ones, and the other's where that one has none.
   static std::vector<Timed> one_of_two_rows(std::span<const Timed> even, std::span<const Timed> odd) {
     std::vector<Timed> counted;

@@ -23,7 +23,7 @@ class ArrayModel {
     std::uint16_t* track_end;
     std::uint16_t* late_begin;
     std::uint8_t* tdc_valid;
-    std::uint32_t* timestamps;  ///< 16 bits a column, column 0 in the low half of word 0
+    std::uint32_t* timestamps;  ///< 16 bits per column, column 0 in the low half of word 0
     std::size_t timestamp_words;
     std::uint8_t* result_ready;
 

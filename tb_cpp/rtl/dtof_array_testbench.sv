@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// dtof_array behind ports whose C++ types are the same for every configuration, so that one driver runs
-/// them all: 16 bits a column of timestamp on a bus of at least 128 bits (an array of words in C++), each
+/// them all: 16 bits per column of timestamp on a bus of at least 128 bits (an array of words in C++), each
 /// field of the result on its own 16-bit port. PROBE = 1 shows the writes to column 0's histogram or pointer
 /// SRAM, for tests that follow the thesis's examples word by word.
 module dtof_array_testbench #(

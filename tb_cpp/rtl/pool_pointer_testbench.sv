@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/// pool_pointer_array behind the ports of dtof_array_testbench and the schedule's: 16 bits a column of timestamp
+/// pool_pointer_array behind the ports of dtof_array_testbench and the schedule's: 16 bits per column of timestamp
 /// on a bus of at least 128 bits, each field of the result on its own 16-bit port.
 module pool_pointer_testbench #(
     parameter NP = 10,

@@ -64,7 +64,7 @@ struct RtlFrame {
   RtlStatistics statistics;
 };
 
-/// A Verilated array with source and sink. Not thread-safe: one instance a thread.
+/// A Verilated array with source and sink. Not thread-safe: one instance per thread.
 class RtlReadout {
  public:
   /// `sram_report` makes every SRAM print its size and organisation on standard output. Throws InputError

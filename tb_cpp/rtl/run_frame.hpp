@@ -23,9 +23,9 @@ struct RtlSourceFrame {
 ///
 /// `columns` lists the columns to read, in the order of the result; empty means all; columns not read cost
 /// nothing. Where pixels are independent, short columns share a column of the array, one below the other: a
-/// sensor of few rows costs little. `progress`, if given, advances by one a column. A trace holds one group:
-/// more columns than SRAM_NUM with `options.trace` set are refused. Throws InputError as RtlReadout::run and
-/// for a column outside the source.
+/// sensor of few rows costs little. `progress`, if given, advances by one per column. A trace holds one
+/// group: more columns than SRAM_NUM with `options.trace` set are refused. Throws InputError as
+/// RtlReadout::run and for a column outside the source.
 RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration,
                              int threads = 0, std::span<const int> columns = {},
                              const RtlRunOptions& options = {}, Progress* progress = nullptr);

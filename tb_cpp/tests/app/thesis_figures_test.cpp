@@ -48,7 +48,7 @@ TEST(PileUp, FarTargetsLoseNothing) {
 
 TEST(PileUp, NearTargetsFillBothSlots) {
   SCOPED_TRACE(test_seed_message());
-  const PileUp near = pile_up(scene(0.1, 20));  // 30 events a pulse: two are kept
+  const PileUp near = pile_up(scene(0.1, 20));  // 30 events per pulse: two are kept
   EXPECT_NEAR(std::accumulate(near.delivered.begin(), near.delivered.end(), 0.0), 2.0 * 3333, 0.01 * 3333);
   EXPECT_EQ(judge_pile_up(near, pile_up(scene(0.5, 20))).verdict, Verdict::kAgrees);
   EXPECT_EQ(judge_pile_up(pile_up(scene(0.5, 20)), near).verdict, Verdict::kDisagrees);

@@ -206,18 +206,18 @@ TEST(HistogramStream, Refusals) {
   const auto refused = [&](const Resampling& resampling, const std::string& reason) {
     test::expect_input_error([&] { HistogramStream(cube, resampling); }, "resampling: " + reason);
   };
-  refused({.photon_budget = -1.0}, "photon budget is -1, must be 0..1e7 photons a pixel");
-  refused({.photon_budget = std::nan("")}, "photon budget is nan, must be 0..1e7 photons a pixel");
+  refused({.photon_budget = -1.0}, "photon budget is -1, must be 0..1e7 photons per pixel");
+  refused({.photon_budget = std::nan("")}, "photon budget is nan, must be 0..1e7 photons per pixel");
   refused({.np = 0}, "NP is 0, must be 1..16");
   refused({.integration_time = 0.0}, "integration time is 0, must be a positive number of seconds");
   refused({.time_shift = std::nan("")}, "time shift is nan, must be a finite number of seconds");
   refused({.slots = 0}, "SLOTS is 0, must be 1 or more");
   refused({.background = -0.1},
-          "background is -0.1, must be 0 or more events an acquisition, at most 1e7 a frame");
+          "background is -0.1, must be 0 or more events per acquisition, at most 1e7 per frame");
   Resampling bright{.acquisitions = 5000, .background = 2e3};  // 1e7 photons
   bright.validate();
   bright.acquisitions = 5001;
-  refused(bright, "background is 2000, must be 0 or more events an acquisition, at most 1e7 a frame");
+  refused(bright, "background is 2000, must be 0 or more events per acquisition, at most 1e7 per frame");
   const HistogramCube many = cube_of(2, 1, {0, 0, 4294967296.0, 1});
   test::expect_input_error([&] { HistogramStream(many, {}); },
                            "histograms: column 0, row 0: 4294967297 photons are more than the 1e+07 that a "

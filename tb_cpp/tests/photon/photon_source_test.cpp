@@ -465,7 +465,7 @@ TEST_F(PhotonSourceTest, EmptyFramesAndEveryWidthOfTimestamp) {
 }
 
 TEST_F(PhotonSourceTest, MirrorNearby) {
-  // 0.05 m and four times a white target: 480 events a pulse.
+  // 0.05 m and four times a white target: 480 events per pulse.
   const PhotonSource source(model_, TargetMap(1, 4, {.depth_m = 0.05, .reflectivity = 4.0}), 200.0,
                             test_seed());
   const ColumnStream stream = source.column(0);

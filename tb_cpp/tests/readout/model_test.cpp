@@ -16,7 +16,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// `slots` codes an acquisition, row 0 of one column.
+/// `slots` codes per acquisition, row 0 of one column.
 ColumnStream stream_of(const std::vector<Timestamp>& codes, std::uint32_t slots = 1) {
   ColumnStream column;
   std::uint32_t index = 0;

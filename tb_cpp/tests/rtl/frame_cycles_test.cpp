@@ -17,7 +17,7 @@ class FrameCycles : public testing::TestWithParam<Readout> {};
 
 INSTANTIATE_TEST_SUITE_P(FullSize, FrameCycles, testing::ValuesIn(kAllReadouts), readout_test_name);
 
-// One column and a sink that is as slow as 199 more columns. The full histogram, too: 160 pixels a column.
+// One column and a sink that is as slow as 199 more columns. The full histogram, too: 160 pixels per column.
 TEST_P(FrameCycles, StayBelowTheLimit) {
   const RtlConfiguration configuration =
       find_rtl_configuration(ReadoutParameters::defaults(GetParam()), kRows, 1);
@@ -39,7 +39,7 @@ TEST_P(FrameCycles, StayBelowTheLimit) {
 
   const std::uint64_t cycles = frame.statistics.cycles;
   fmt::print(
-      "{:12} {:.4e} clocks a frame of {} acquisitions (thesis 1.06e7 to 1.08e7), {:.2f} ms at 330 MHz\n",
+      "{:12} {:.4e} clocks per frame of {} acquisitions (thesis 1.06e7 to 1.08e7), {:.2f} ms at 330 MHz\n",
       readout_title(GetParam()), static_cast<double>(cycles), kAcquisitions,
       static_cast<double>(cycles) / 330e3);
   EXPECT_LE(cycles, kCycleLimit);

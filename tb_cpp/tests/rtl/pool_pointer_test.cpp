@@ -303,7 +303,7 @@ TEST_P(PoolPointerWithDarkGroups, TellsThemFromBrightOnes) {
   ASSERT_LE(least, 8 * ((1 << parameters.count_width) - 1)) << "no group can be bright";
   const int rows = GetParam().pixels_per_sram;
   const int group = std::min(pool.group_size, rows);
-  const int pairs = (group + 1) / 2;  // of rows, each of which counts once an acquisition
+  const int pairs = (group + 1) / 2;  // of rows, each of which counts once per acquisition
   const auto coarse = static_cast<std::uint32_t>((4 * least + pairs - 1) / pairs);
   const std::uint32_t acquisitions = 64 * coarse / static_cast<std::uint32_t>(pool.coarse_share) + 64;
   RtlReadout rtl(GetParam());
@@ -484,7 +484,7 @@ TEST_P(FullSizePoolPointer, StaysBelowTheCycleLimit) {
   const std::uint64_t overhead =
       one_column + more_columns / added * static_cast<std::uint64_t>(engine_columns - 1);
   const std::uint64_t cycles = kAcquisitions * stream + overhead;
-  fmt::print("{:16} {:.4e} clocks a frame of {} acquisitions, {} of them not streaming, {} engines\n",
+  fmt::print("{:16} {:.4e} clocks per frame of {} acquisitions, {} of them not streaming, {} engines\n",
              readout_title(GetParam()), static_cast<double>(cycles), kAcquisitions, overhead, engines);
   EXPECT_LE(cycles, kCycleLimit);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compiled configurations hold every promised value of every parameter with every kind of read-out.
+// The compiled configurations hold every value listed here of every parameter with every kind of column.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
