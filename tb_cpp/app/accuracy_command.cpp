@@ -4,15 +4,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 
 #include "analytic/fidelity.hpp"
 #include "app/accuracy_study.hpp"
 #include "app/accuracy_tables.hpp"
 #include "app/commands.hpp"
+#include "app/flat_calibration.hpp"
+#include "app/map_accuracy.hpp"
 #include "app/option_checks.hpp"
 #include "app/options.hpp"
 #include "app/output_folder.hpp"
+#include "app/own_map.hpp"
 #include "app/plot.hpp"
 #include "app/table.hpp"
 #include "core/error.hpp"
@@ -33,6 +37,8 @@ struct AccuracyOptions {
   int most_frames = 100'000;
   std::optional<double> reject_percent;
   std::optional<double> reflectivity;
+  MapFiles maps;
+  MapScales map_scales;
   std::string out = "build/accuracy";
   std::string command_line;
 };
@@ -95,6 +101,9 @@ std::string heading(const AccuracyOptions& options, const StudySettings& setting
       settings.calibration_frames, settings.calibration_step_m);
 }
 
+constexpr int kArrayColumns = 200;  // of a map
+constexpr int kArrayRows = 160;
+
 constexpr const char* kLegend =
     "In brackets: 95 % confidence intervals, closed forms (Student's t for the bias, Welch for the slope, "
     "Wilson's\n"
@@ -151,10 +160,6 @@ const std::vector<Picture>& pictures() {
 }
 
 void run_accuracy_command(const AccuracyOptions& options) {
-  options.run.validate();
-  if (options.run.columns != "all" || options.run.rows != "all" || !options.run.trace.empty()) {
-    throw InputError("accuracy: --columns, --rows and --trace do not apply, every frame is read out");
-  }
   StudySettings settings = settings_of(options);
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
@@ -221,6 +226,109 @@ void run_accuracy_command(const AccuracyOptions& options) {
              options.out);
 }
 
+/// Bands down, read-outs across; the last row is the whole range.
+Table band_matrix(const std::vector<BandAccuracy>& rows,
+                  const std::function<std::string(const BandAccuracy&)>& cell) {
+  std::vector<std::string> header = {"distance m", "pixels"};
+  std::vector<std::vector<std::string>> lines;
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const BandAccuracy& row = rows[i];
+    if (i == 0 || row.readout != rows[i - 1].readout) {
+      header.push_back(row.title);
+      line = 0;
+    }
+    if (line == lines.size()) {
+      lines.push_back({fmt::format("{:.2f} to {:.2f}", row.from_m, row.to_m), fmt::format("{}", row.pixels)});
+    }
+    lines[line].push_back(cell(row));
+    ++line;
+  }
+  Table table(std::move(header));
+  for (std::vector<std::string>& cells : lines) {
+    table.add(std::move(cells));
+  }
+  return table;
+}
+
+Table band_csv(const std::vector<BandAccuracy>& rows) {
+  std::vector<std::string> header = {"klux", "readout", "from_m", "to_m", "pixels", "frames"};
+  for (const char* name : {"bias_m", "rmse_m", "above_3_percent", "above_10_percent"}) {
+    header.insert(header.end(), {name, fmt::format("{}_low", name), fmt::format("{}_high", name)});
+  }
+  Table table(std::move(header));
+  for (const BandAccuracy& row : rows) {
+    std::vector<std::string> cells = {fmt::format("{:g}", row.klux),     row.readout,
+                                      fmt::format("{:.4f}", row.from_m), fmt::format("{:.4f}", row.to_m),
+                                      fmt::format("{}", row.pixels),     fmt::format("{}", row.frames)};
+    for (const Estimate& e : {row.bias_m, row.rmse_m, row.above_3_percent, row.above_10_percent}) {
+      for (const double value : {e.value, e.interval.low, e.interval.high}) {
+        cells.push_back(fmt::format("{:.6g}", value));
+      }
+    }
+    table.add(std::move(cells));
+  }
+  return table;
+}
+
+/// With --depth: errors by distance band over the user's map. `command` tells which options were given.
+void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
+  for (const char* option : {"--precision", "--max-frames", "--reject"}) {
+    if (command.count(option) > 0) {
+      throw InputError(fmt::format("accuracy: {} does not apply to a map (--depth)", option));
+    }
+  }
+  if (!options.maps.reflectivity.empty() && options.reflectivity) {
+    throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
+  }
+  const StudySettings sweep = settings_of(options);
+  OwnMap map = read_own_map(options.maps, options.map_scales, kArrayColumns, kArrayRows, sweep.reflectivity);
+  MapAccuracySettings settings;
+  settings.sensor = sweep.sensor;
+  settings.targets = std::move(map.targets);
+  settings.readouts = sweep.readouts;
+  settings.band_edges_m =
+      command.count("--distances") > 0 ? options.distances_m : equal_bands(settings.targets);
+  if (command.count("--frames") > 0) {
+    settings.frames = options.frames;
+  }
+  settings.make_source = sweep.make_source;
+  settings.run = options.run;
+  settings.command = options.command_line;
+  std::vector<BandAccuracy> all;
+  std::string report;
+  for (const double klux : options.klux) {
+    settings.klux = klux;
+    const std::vector<BandAccuracy> rows = run_map_accuracy(settings);
+    all.insert(all.end(), rows.begin(), rows.end());
+    const auto part = [&](const char* title, const std::function<std::string(const BandAccuracy&)>& cell) {
+      return fmt::format("{}\n\n{}\n", title, band_matrix(rows, cell).markdown());
+    };
+    report += fmt::format("\n## {:g} klux\n\n", klux);
+    report += part("Rmse, mm:", [](const auto& row) { return format_estimate(row.rmse_m, 1e3, 0); });
+    report += part("Bias, mm:", [](const auto& row) { return format_estimate(row.bias_m, 1e3, 1); });
+    report += part("Errors above 3 %, % of pixels:",
+                   [](const auto& row) { return format_estimate(row.above_3_percent, 100.0, 2); });
+    report += part("Errors above 10 %, % of pixels:",
+                   [](const auto& row) { return format_estimate(row.above_10_percent, 100.0, 2); });
+  }
+  const std::string heading = fmt::format(
+      "{}\nPreset {}, {} acquisitions a frame, {} frames, engine {}, photon model {}, seed {}.\n{}\nErrors "
+      "are "
+      "against each pixel's own distance, by bands of it; the last line is the whole range. In brackets: 95 "
+      "% "
+      "confidence intervals over the frames.\n",
+      map.description, options.sensor.preset, settings.sensor.acquisitions, settings.frames,
+      options.run.engine, models_taken(options, sweep), options.run.seed,
+      table_sentence(TableRule::kFlat, settings.sensor, options.run.seed));
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  write_file(folder / "accuracy.csv", band_csv(all).csv());
+  write_file(folder / "accuracy.md", fmt::format("# Accuracy over a map\n\n{}{}\nCommand: `{}`\n", heading,
+                                                 report, options.command_line));
+  fmt::print("{}{}Tables are in {}\n", heading, report, options.out);
+}
+
 }  // namespace
 
 void add_accuracy_command(CLI::App& app, const std::string& command_line) {
@@ -231,8 +339,13 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
       ->check(sensible_klux())
       ->capture_default_str();
-  command->add_option("-d,--distances", options->distances_m, "distances in m")->capture_default_str();
-  command->add_option("-n,--frames", options->frames, "frames per distance (with --precision: at least)")
+  command
+      ->add_option("-d,--distances", options->distances_m,
+                   "distances in m; with --depth the edges of the bands (default: ten equal ones)")
+      ->capture_default_str();
+  command
+      ->add_option("-n,--frames", options->frames,
+                   "frames per distance (with --precision: at least), or of a map (default: 8)")
       ->check(CLI::Range(4, 10'000'000))
       ->capture_default_str();
   command
@@ -251,6 +364,13 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
       ->check(CLI::Range(0.0, 100.0));
   command->add_option("--reflectivity", options->reflectivity, "of the target (default: the sensor's)")
       ->check(sensible_reflectivity());
+  auto* map = command->add_option_group("map");
+  map->add_option(
+      "--depth", options->maps.depth,
+      "instead of a sweep: errors by distance band over your own depth map (PNG of 8 or 16 bits,\n"
+      "PFM or NPY), resampled to 200 x 160 by nearest neighbour");
+  map->add_option("--reflectivity-map", options->maps.reflectivity, "its reflectivity: PNG, PFM or NPY");
+  options->map_scales.add_to(*map);
   options->sensor.add_sensor_to(*command);
   options->readout.add_to(*command);
   options->run.add_to(*command);
@@ -260,7 +380,18 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
       refuse_without_effect(*command, "--max-frames", "it ends what --precision asks for");
     }
     options->sensor.refuse_options_without_effect(*command);
-    run_accuracy_command(*options);
+    options->run.validate();
+    if (options->run.columns != "all" || options->run.rows != "all" || !options->run.trace.empty()) {
+      throw InputError("accuracy: --columns, --rows and --trace do not apply, every frame is read out");
+    }
+    if (!options->maps.depth.empty()) {
+      run_over_map(*options, *command);
+    } else if (!options->maps.reflectivity.empty() || options->map_scales.metres_per_unit ||
+               options->map_scales.reflectivity_per_unit) {
+      throw InputError("accuracy: --reflectivity-map, --depth-scale and --reflectivity-scale need --depth");
+    } else {
+      run_accuracy_command(*options);
+    }
   });
 }
 

@@ -21,6 +21,7 @@
 #include "app/readout_variant.hpp"
 #include "app/scene_study.hpp"
 #include "app/table.hpp"
+#include "app/truth_map.hpp"
 #include "core/error.hpp"
 #include "host/range_converter.hpp"
 #include "io/atomic_file.hpp"
@@ -36,6 +37,8 @@ namespace {
 struct MeasuredOptions {
   std::string file;
   std::string surfaces_file;
+  std::string truth_file;
+  std::optional<double> truth_scale;
   double from_tick = 0.0;
   double tick_ps = 8.0;
   double shift_ns = 0.0;
@@ -60,7 +63,7 @@ struct MeasuredOptions {
   }
 };
 
-MeasuredScene open_scene(const MeasuredOptions& options) {
+MeasuredScene open_recorded_scene(const MeasuredOptions& options) {
   if (options.surfaces_file.empty()) {
     return tmf8829_scene(options.file);
   }
@@ -70,6 +73,23 @@ MeasuredScene open_scene(const MeasuredOptions& options) {
                              .tick_s = options.tick_ps * 1e-12,
                              .shift_s = options.shift_ns * 1e-9,
                              .from_tick = options.from_tick});
+}
+
+/// With --truth, that map's distances are the truth, of one surface.
+MeasuredScene open_scene(const MeasuredOptions& options) {
+  if (options.truth_scale && options.truth_file.empty()) {
+    throw InputError("--truth-scale needs --truth");
+  }
+  MeasuredScene scene = open_recorded_scene(options);
+  if (!options.truth_file.empty()) {
+    scene.true_m = read_truth_map(options.truth_file, options.truth_scale, scene.columns, scene.rows,
+                                  Region::whole(scene.columns, scene.rows));
+    std::ranges::replace_if(
+        scene.true_m, [](double metres) { return std::isnan(metres); }, 0.0);
+    scene.other_m.clear();
+    scene.description += fmt::format(" The truth is the map {}.", options.truth_file);
+  }
+  return scene;
 }
 
 /// How bright it is: photons per pixel and frame, and what the sun adds.
@@ -110,6 +130,7 @@ SceneTruth repeated_truth(const MeasuredScene& scene, std::uint32_t frames) {
 struct Outcome {
   SceneMeasurement measurement;  // offset removed
   SceneScore score;
+  ErrorSummary errors;
   double median_error_m;
   double off_both_surfaces;  // share of pixels more than 3 % off the nearer of the two
 };
@@ -217,7 +238,8 @@ class MeasuredStudy {
   }
 
   [[nodiscard]] Outcome judge(SceneMeasurement measurement) const {
-    Outcome outcome{{}, score_scene(truth_, measurement), 0.0, 0.0};
+    Outcome outcome{{}, score_scene(truth_, measurement), {}, 0.0, 0.0};
+    ErrorStatistics statistics;
     std::vector<double> errors;
     std::size_t off = 0;
     for (std::size_t i = 0; i < truth_.distance_m.size(); ++i) {
@@ -227,10 +249,12 @@ class MeasuredStudy {
       }
       const double measured = measurement.distance_m[i];
       errors.push_back(std::abs(measured - truth));
+      statistics.add(truth, measured);
       const double other = scene_.other_m.empty() ? truth : scene_.other_m[i % scene_.other_m.size()];
       constexpr double kOff = 0.03;
       off += std::abs(measured - truth) > kOff * truth && std::abs(measured - other) > kOff * other ? 1 : 0;
     }
+    outcome.errors = statistics.summary();
     outcome.off_both_surfaces = static_cast<double>(off) / static_cast<double>(errors.size());
     outcome.median_error_m = median(std::move(errors));
     outcome.measurement = std::move(measurement);
@@ -323,7 +347,7 @@ void run_measured_command(const MeasuredOptions& options) {
   const bool two_surfaces = !study.scene().other_m.empty();
   Table csv({"photons", "background", "readout", "pixels", "above_3_percent", "above_10_percent",
              "off_both_surfaces", "median_error_mm", "relative_rmse", "outliers_removed_at_5_percent",
-             "offset_mm"});
+             "offset_mm", "rmse_mm", "bias_mm"});
   for (const LightResult& result : results) {
     for (std::size_t r = 0; r < titles.size(); ++r) {
       const Outcome& outcome = result.readouts[r];
@@ -336,7 +360,9 @@ void run_measured_command(const MeasuredOptions& options) {
                fmt::format("{:.1f}", outcome.median_error_m * 1e3),
                fmt::format("{:.5f}", outcome.score.all.rmse),
                std::isnan(removed) ? "" : fmt::format("{:.4f}", removed),
-               fmt::format("{:.1f}", study.offsets_m()[r] * 1e3)});
+               fmt::format("{:.1f}", study.offsets_m()[r] * 1e3),
+               fmt::format("{:.1f}", outcome.errors.rmse_m * 1e3),
+               fmt::format("{:.1f}", outcome.errors.bias_m * 1e3)});
     }
   }
   std::string report = fmt::format(
@@ -344,8 +370,8 @@ void run_measured_command(const MeasuredOptions& options) {
       "of "
       "{:g} ns, {} bits, {} frames of each light; background: events added per acquisition (preset `thesis`: "
       "0.15 "
-      "at 14 klux, 0.54 at 50). Each read-out's constant offset, its median difference in the first light, "
-      "is "
+      "at 14 klux, 0.54 at 50). Each read-out's constant offset, its median difference to truth in the first "
+      "light, is "
       "taken away. Seed {}.\n",
       study.scene().title, study.scene().description, options.acquisitions, options.t_int_ns,
       study.timestamp_bits(), options.frames, options.run.seed);
@@ -358,6 +384,9 @@ void run_measured_command(const MeasuredOptions& options) {
     report += matrix("Per cent of pixels more than 3 % off both surfaces:", results, titles,
                      [](const Outcome& o) { return percent(o.off_both_surfaces); });
   }
+  report += matrix("Rmse / bias, mm:", results, titles, [](const Outcome& o) {
+    return fmt::format("{:.0f} / {:.0f}", o.errors.rmse_m * 1e3, o.errors.bias_m * 1e3);
+  });
   report += matrix("Median error, mm:", results, titles,
                    [](const Outcome& o) { return fmt::format("{:.0f}", o.median_error_m * 1e3); });
   report += matrix("Per cent of the outliers (above 10 %) removed by dropping the 5 % of lowest confidence:",
@@ -384,6 +413,16 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
       ->required();
   command->add_option("--surfaces", options->surfaces_file,
                       "MATLAB file with T_first and T_second, the surfaces' ticks in each pixel");
+  command->add_option(
+      "--truth", options->truth_file,
+      "true distances instead of the recording's own: a depth map (PNG of 8 or 16 bits, PFM or\n"
+      "NPY) of the recording's size");
+  command
+      ->add_option(
+          "--truth-scale", options->truth_scale,
+          "metres that one unit of the truth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
+          "for PFM and NPY; a PNG of 8 bits needs it)")
+      ->check(CLI::PositiveNumber);
   command->add_option("--from-tick", options->from_tick, "photon times: leave earlier ones out")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -16,6 +16,7 @@
 #include "app/recording.hpp"
 #include "app/region.hpp"
 #include "app/table.hpp"
+#include "app/truth_map.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/result_csv.hpp"
@@ -34,6 +35,9 @@ struct ReplayOptions {
   double tick_ps = 8.0;
   double t_int_ns = 45.0;
   std::optional<double> photons;
+  std::string truth_file;
+  std::optional<double> truth_scale;
+  std::optional<double> offset_mm;
   std::string out = "build/replay";
   std::string command_line;
 };
@@ -42,8 +46,8 @@ struct ReplayOptions {
 struct TruthComparison {
   std::string title;
   std::vector<double> true_m;
-  std::vector<double> measured_m;  ///< the median difference to truth is removed: the sensor's own offset
-  double offset_m = 0.0;
+  std::vector<double> measured_m;  ///< without the offset
+  double offset_m = 0.0;  ///< zero distance of the recording: --offset, or the median difference to truth
 };
 
 /// Whether the recording knows a true distance of a pixel of the region: not of one that saw nothing.
@@ -54,8 +58,8 @@ bool has_truth(const Recording& recording, const Region& region) {
   const auto width = static_cast<std::size_t>(recording.source->columns());
   for (int row = region.rows.first; row < region.rows.first + region.rows.count; ++row) {
     for (const int column : region.columns) {
-      if (!std::isnan(recording.true_distance[static_cast<std::size_t>(row) * width +
-                                              static_cast<std::size_t>(column)])) {
+      if (recording.true_distance[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)] >
+          0.0) {
         return true;
       }
     }
@@ -65,9 +69,9 @@ bool has_truth(const Recording& recording, const Region& region) {
 
 /// The region has a pixel of known distance.
 TruthComparison compare(const Recording& recording, const ReadoutParameters& parameters,
-                        const ReadoutRun& run, const Region& region, double t_int_s) {
+                        const ReadoutRun& run, const Region& region, const ReplayOptions& options) {
   // No pulse width is subtracted: the recording's zero distance is part of the offset.
-  const DepthScale scale(t_int_s, parameters.np, 0.0);
+  const DepthScale scale(options.t_int_ns * 1e-9, parameters.np, 0.0);
   TruthComparison comparison;
   comparison.title = readout_title(parameters.readout);
   std::vector<double> differences;
@@ -75,25 +79,17 @@ TruthComparison compare(const Recording& recording, const ReadoutParameters& par
   for (const ResultRecord& pixel : result_records(run.results, region)) {
     const double truth = recording.true_distance[static_cast<std::size_t>(pixel.row) * width +
                                                  static_cast<std::size_t>(pixel.column)];
-    if (!std::isnan(truth)) {
+    if (truth > 0.0) {  // false for NaN, too
       comparison.true_m.push_back(truth);
       comparison.measured_m.push_back(scale.depth(code_position(pixel.result, parameters.fraction_bits)));
       differences.push_back(comparison.measured_m.back() - truth);
     }
   }
-  comparison.offset_m = median(differences);
+  comparison.offset_m = options.offset_mm ? *options.offset_mm * 1e-3 : median(differences);
   for (double& measured : comparison.measured_m) {
     measured -= comparison.offset_m;
   }
   return comparison;
-}
-
-double rms_error(const TruthComparison& comparison) {
-  RunningMoments error;
-  for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
-    error.add(comparison.measured_m[i] - comparison.true_m[i]);
-  }
-  return std::sqrt(error.mean_square());
 }
 
 double median_error(const TruthComparison& comparison) {
@@ -104,17 +100,38 @@ double median_error(const TruthComparison& comparison) {
   return median(errors);
 }
 
+/// Slope of measured over true distance; none if all true distances are equal.
+std::string slope(const TruthComparison& comparison) {
+  const auto [lowest, highest] = std::ranges::minmax(comparison.true_m);
+  return lowest == highest ? "-"
+                           : fmt::format("{:.3f}", fit_line(comparison.true_m, comparison.measured_m).slope);
+}
+
 Table summarise(const std::vector<TruthComparison>& comparisons) {
-  Table table({"read-out", "slope", "rms error mm", "median error mm", "offset mm", "measurements"});
+  Table table({"read-out", "slope", "rmse mm", "bias mm", "median error mm", "above 3 %", "above 10 %",
+               "offset mm", "measurements"});
   for (const TruthComparison& comparison : comparisons) {
-    const LinearFit fit = fit_line(comparison.true_m, comparison.measured_m);
-    table.add({comparison.title, fmt::format("{:.3f}", fit.slope),
-               fmt::format("{:.1f}", rms_error(comparison) * 1e3),
+    const ErrorSummary errors = summarise_errors(comparison.true_m, comparison.measured_m);
+    table.add({comparison.title, slope(comparison), fmt::format("{:.1f}", errors.rmse_m * 1e3),
+               fmt::format("{:.1f}", errors.bias_m * 1e3),
                fmt::format("{:.1f}", median_error(comparison) * 1e3),
-               fmt::format("{:.0f}", comparison.offset_m * 1e3),
-               fmt::format("{}", comparison.true_m.size())});
+               fmt::format("{:.2f} %", errors.share_above_3_percent * 100.0),
+               fmt::format("{:.2f} %", errors.share_above_10_percent * 100.0),
+               fmt::format("{:.0f}", comparison.offset_m * 1e3), fmt::format("{}", errors.count)});
   }
   return table;
+}
+
+std::string offset_sentence(const ReplayOptions& options) {
+  const std::string truth = options.truth_file.empty() ? "the recording's own" : options.truth_file;
+  return options.offset_mm
+             ? fmt::format("Truth: {}. Offset: {:g} mm is taken from every distance (--offset).", truth,
+                           *options.offset_mm)
+             : fmt::format(
+                   "Truth: {}. Offset: each read-out's median difference to truth is taken from its "
+                   "distances; "
+                   "bias is what is left.",
+                   truth);
 }
 
 /// Median measured distance in about ten groups of true distance.
@@ -173,16 +190,18 @@ void write_comparison(const std::vector<TruthComparison>& comparisons, const Rep
   }
   write_file(folder / "summary.csv", summary.csv());
   write_file(folder / "measurements.csv", measurements.csv());
-  write_file(folder / "summary.md",
-             fmt::format("{}\n{}\nMeasured distance in mm (median of each group of true distances):\n\n{}\n"
-                         "Command: `{}`\n",
-                         heading, summary.markdown(), distances.markdown(), options.command_line));
+  write_file(
+      folder / "summary.md",
+      fmt::format("{}\n{}\n{}\n\nMeasured distance in mm (median of each group of true distances):\n\n{}\n"
+                  "Command: `{}`\n",
+                  heading, summary.markdown(), offset_sentence(options), distances.markdown(),
+                  options.command_line));
   write_plot(folder / "error.svg", series,
              {.title = "Error of the measured distance: " + options.recording.file,
               .x_label = "true distance, mm",
               .y_label = "measured - true, mm (median of the zones)"});
-  fmt::print("{}\n{}\nMeasured distance in mm (median of each group of true distances):\n\n{}\n", heading,
-             summary.markdown(), distances.markdown());
+  fmt::print("{}\n{}\n{}\n\nMeasured distance in mm (median of each group of true distances):\n\n{}\n",
+             heading, summary.markdown(), offset_sentence(options), distances.markdown());
 }
 
 /// Options that say nothing about this kind of recording.
@@ -209,6 +228,9 @@ void check_recording_options(const CLI::App& command, const RecordingOptions& re
 
 void run_replay_command(const ReplayOptions& options) {
   options.run.validate();
+  if (options.truth_scale && options.truth_file.empty()) {
+    throw InputError("--truth-scale needs --truth");
+  }
   const std::vector<ReadoutParameters> readouts = options.readout.parameters(kModelReadouts);
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
@@ -225,10 +247,19 @@ void run_replay_command(const ReplayOptions& options) {
   resampling.time_shift = options.shift_ns * 1e-9;
   resampling.photon_budget = options.photons;
   resampling.seed = options.run.seed;
-  const Recording recording = open_recording(recording_options);
+  Recording recording = open_recording(recording_options);
   const Region region{.columns = parse_columns(options.run.columns, recording.source->columns()),
                       .rows = parse_rows(options.run.rows, recording.source->rows())};
   check_engine(*recording.source, readouts, options.run, region);
+  if (!options.truth_file.empty()) {
+    recording.true_distance = read_truth_map(options.truth_file, options.truth_scale,
+                                             recording.source->columns(), recording.source->rows(), region);
+  }
+  const bool judged = has_truth(recording, region);
+  if (!judged && (!options.truth_file.empty() || options.offset_mm)) {
+    throw InputError(options.truth_file.empty() ? "--offset needs true distances: name a map with --truth"
+                                                : "--truth: the pixels read have no true distance");
+  }
   create_output_folder(options.out);
   std::vector<TruthComparison> comparisons;
   for (const ReadoutParameters& parameters : readouts) {
@@ -237,8 +268,8 @@ void run_replay_command(const ReplayOptions& options) {
     write_result_csv(
         std::filesystem::path(options.out) / fmt::format("{}.csv", readout_name(parameters.readout)),
         result_records(run.results, region));
-    if (has_truth(recording, region)) {
-      comparisons.push_back(compare(recording, parameters, run, region, resampling.integration_time));
+    if (judged) {
+      comparisons.push_back(compare(recording, parameters, run, region, options));
     }
   }
   const std::string heading = fmt::format(
@@ -288,6 +319,19 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--tick", options->tick_ps, "MAT: duration of a tick in ps")->capture_default_str();
   command->add_option("--variable", options->recording.variable, "MAT: name of the cell array")
       ->capture_default_str();
+  command->add_option(
+      "--truth", options->truth_file,
+      "true distances: a depth map (PNG of 8 or 16 bits, PFM or NPY) of the recording's or the\n"
+      "region's size; errors are then in the summary");
+  command
+      ->add_option(
+          "--truth-scale", options->truth_scale,
+          "metres that one unit of the truth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
+          "for PFM and NPY; a PNG of 8 bits needs it)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--offset", options->offset_mm,
+                      "mm that the recording calls zero, taken from every distance (default: each\n"
+                      "read-out's median difference to truth; 299.8 for a stream of preset thesis)");
   options->readout.add_to(*command);
   options->run.add_to(*command);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();

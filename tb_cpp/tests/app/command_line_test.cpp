@@ -483,6 +483,65 @@ TEST_F(CommandLine, OwnMapsInScenesHaveTheirName) {
   expect_refused("scenes --depth-scale 2 --out out", "need --map");
 }
 
+TEST_F(CommandLine, AccuracyOverAMapIsByDistanceBand) {
+  const std::array<double, 2> metres = {1.5, 2.5};
+  write_npy(path("depth.npy"), std::array<std::size_t, 2>{1, 2}, metres);
+  const std::string accuracy = "accuracy -r hispointer -a 200 --fidelity fast --depth depth.npy ";
+  const Outcome outcome = dtof(accuracy + "--distances 1 2 3 --frames 4 --out map");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("2 x 1 pixels, resampled to 200 x 160 by nearest neighbour"));
+  EXPECT_THAT(outcome.output, HasSubstr("(--table flat)"));
+  const std::string csv = read_file(path("map/accuracy.csv"));
+  for (const char* band : {"1.0000,2.0000,16000,4", "2.0000,3.0000,16000,4", "1.0000,3.0000,32000,4"}) {
+    EXPECT_THAT(csv, HasSubstr(fmt::format("\n14,hispointer,{},", band)));
+  }
+  expect_refused(accuracy + "--precision 5 --out out", "--precision does not apply to a map");
+  expect_refused(accuracy + "--distances 3 2 --out out", "ascending edges");
+  expect_refused("accuracy --depth-scale 2 --out out", "need --depth");
+}
+
+TEST_F(CommandLine, ReplayAgainstATruthMap) {
+  // A staircase of two steps, read out without noise: with the preset's zero, replay finds frame's own
+  // errors.
+  const std::string scene =
+      "frame --scene staircase --steps 2 --near 1 --far 3 -r histogram --array-columns 4 --array-rows 3 "
+      "--table none ";
+  ASSERT_EQ(dtof(scene + "--record stream.csv --out frame").exit_code, 0);
+  std::vector<float> truth;
+  for (int row = 0; row < 3; ++row) {
+    truth.insert(truth.end(), {1.0F, 1.0F, 3.0F, 3.0F});
+  }
+  write_pfm(path("truth.pfm"), {.width = 4, .height = 3, .metres = truth});
+  write_depth_png(path("truth.png"), {.width = 4, .height = 3, .metres = truth});
+  const std::string replay = "replay stream.csv -a 3333 -r histogram ";
+  const Outcome outcome = dtof(replay + "--truth truth.pfm --offset 299.792458 --out replay");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string frame = read_file(path("frame/summary.csv"));
+  const std::string csv = read_file(path("replay/summary.csv"));
+  for (const char* figure : {"rmse mm", "bias mm"}) {
+    EXPECT_NEAR(std::stod(csv_cell(csv, "histogram", figure)),
+                std::stod(csv_cell(frame, "histogram", figure)), 0.51)
+        << figure;
+  }
+  EXPECT_EQ(csv_cell(csv, "histogram", "above 3 %"), csv_cell(frame, "histogram", "above 3 %"));
+  EXPECT_EQ(csv_cell(csv, "histogram", "measurements"), "12");
+  // Another format, another offset: the bias moves by it.
+  ASSERT_EQ(dtof(replay + "--truth truth.png --offset 199.792458 --out moved").exit_code, 0);
+  EXPECT_NEAR(std::stod(csv_cell(read_file(path("moved/summary.csv")), "histogram", "bias mm")),
+              std::stod(csv_cell(csv, "histogram", "bias mm")) + 100.0, 0.11);
+  // A map of the region's size, and one distance only: no slope.
+  write_pfm(path("region.pfm"), {.width = 1, .height = 2, .metres = {3.0F, 3.0F}});
+  const Outcome region = dtof(replay + "--columns 3 --rows 0-1 --truth region.pfm --out region");
+  ASSERT_EQ(region.exit_code, 0) << region.output;
+  EXPECT_EQ(csv_cell(read_file(path("region/summary.csv")), "histogram", "measurements"), "2");
+  EXPECT_EQ(csv_cell(read_file(path("region/summary.csv")), "histogram", "slope"), "-");
+
+  expect_refused(replay + "--truth region.pfm --out out", "1 x 2 pixels, but the recording has 4 x 3");
+  expect_refused(replay + "--truth nowhere.png --out out", "nowhere.png");
+  expect_refused(replay + "--truth-scale 1 --out out", "--truth-scale needs --truth");
+  expect_refused(replay + "--offset 1 --out out", "--truth");
+}
+
 TEST_F(CommandLine, RefusesBadScenesAndMeasurements) {
   expect_refused("scenes --variant hispointer --out out", "expected READOUT:PARAMETER=NUMBER");
   expect_refused("scenes --variant hispointer:COUNT_WIDTH=x --out out", "expected READOUT:PARAMETER=NUMBER");
