@@ -44,7 +44,7 @@ std::vector<Estimator> make_estimators(const StudySettings& settings) {
         {std::string(readout_name(readout.readout)), std::string(readout_title(readout.readout)), readout});
   }
   if (settings.matched_filter) {
-    estimators.push_back({"matched-filter", "matched filter", std::nullopt});
+    estimators.push_back({"matched-filter", "matched filter (single pixel)", std::nullopt});
   }
   return estimators;
 }

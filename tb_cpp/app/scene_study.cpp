@@ -167,7 +167,7 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
     titles_.push_back(variant_title(readout));
   }
   titles_.emplace_back("hisPointer pairs");
-  titles_.emplace_back("matched filter");
+  titles_.emplace_back("matched filter (single pixel)");
   titles_.emplace_back("pooled matched filter");
 
   if (table == TableRule::kNone) {
