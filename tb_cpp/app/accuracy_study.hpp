@@ -31,8 +31,9 @@ struct StudySettings {
   double reflectivity = 1.0;
   std::vector<double> distances_m;
   std::vector<ReadoutParameters> readouts;
-  bool matched_filter = true;       ///< on a pixel's full histogram, knowing both rates: the single-pixel reference
-  int frames = 1000;                ///< a distance; with `precision` the first batch
+  bool matched_filter =
+      true;           ///< on a pixel's full histogram, knowing both rates: the single-pixel reference
+  int frames = 1000;  ///< a distance; with `precision` the first batch
   std::optional<double> precision;  ///< wanted relative half width of the intervals of precision and rmse
   int most_frames = 100'000;        ///< where `precision` gives up
   bool lookup_table = true;         ///< fit the host's table; without it, distances are those of Eq. 3.11
