@@ -3,7 +3,8 @@
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
-.PHONY: scenes pareto trade real-data
+# make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
+.PHONY: scenes pareto trade real-data walk-error
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -31,6 +32,10 @@ pareto:
 
 trade: build
 	@/usr/bin/python3 scripts/trade.py $(DTOF)
+
+walk-error: build
+	@$(DTOF) walk --seed $(SEED) --out build/walk
+	@cp build/walk/walk_error.md build/walk/walk_error.csv build/walk/walk_error.svg reports/
 
 real-data: build
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \

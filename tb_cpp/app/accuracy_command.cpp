@@ -101,9 +101,6 @@ std::string heading(const AccuracyOptions& options, const StudySettings& setting
       settings.calibration_frames, settings.calibration_step_m);
 }
 
-constexpr int kArrayColumns = 200;  // of a map
-constexpr int kArrayRows = 160;
-
 constexpr const char* kLegend =
     "In brackets: 95 % confidence intervals, closed forms (Student's t for the bias, Welch for the slope, "
     "Wilson's\n"
@@ -282,7 +279,8 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
     throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
   }
   const StudySettings sweep = settings_of(options);
-  OwnMap map = read_own_map(options.maps, options.map_scales, kArrayColumns, kArrayRows, sweep.reflectivity);
+  OwnMap map = read_own_map(options.maps, options.map_scales, sweep.sensor.columns, sweep.sensor.rows,
+                            sweep.reflectivity);
   MapAccuracySettings settings;
   settings.sensor = sweep.sensor;
   settings.targets = std::move(map.targets);
@@ -313,12 +311,12 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
                    [](const auto& row) { return format_estimate(row.above_10_percent, 100.0, 2); });
   }
   const std::string heading = fmt::format(
-      "{}\nPreset {}, {} acquisitions a frame, {} frames, engine {}, photon model {}, seed {}.\n{}\nErrors "
+      "{}\nSensor {}, {} acquisitions a frame, {} frames, engine {}, photon model {}, seed {}.\n{}\nErrors "
       "are "
       "against each pixel's own distance, by bands of it; the last line is the whole range. In brackets: 95 "
       "% "
       "confidence intervals over the frames.\n",
-      map.description, options.sensor.preset, settings.sensor.acquisitions, settings.frames,
+      map.description, settings.sensor.name, settings.sensor.acquisitions, settings.frames,
       options.run.engine, models_taken(options, sweep), options.run.seed,
       table_sentence(TableRule::kFlat, settings.sensor, options.run.seed));
   const std::filesystem::path folder(options.out);
@@ -368,7 +366,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   map->add_option(
       "--depth", options->maps.depth,
       "instead of a sweep: errors by distance band over your own depth map (PNG of 8 or 16 bits,\n"
-      "PFM or NPY), resampled to 200 x 160 by nearest neighbour");
+      "PFM or NPY), resampled to the sensor's pixels by nearest neighbour");
   map->add_option("--reflectivity-map", options->maps.reflectivity, "its reflectivity: PNG, PFM or NPY");
   options->map_scales.add_to(*map);
   options->sensor.add_sensor_to(*command);

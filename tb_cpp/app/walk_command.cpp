@@ -93,9 +93,10 @@ Table bias_table(const WalkReadout& readout, const WalkOptions& options) {
 }
 
 Table points_csv(const std::vector<WalkReadout>& readouts) {
-  std::vector<std::string> header = {"readout", "reflectivity", "distance_m", "judged"};
+  std::vector<std::string> header = {"readout", "reflectivity", "distance_m", "found", "judged"};
   for (const char* way : {"before", "after"}) {
-    for (const char* figure : {"bias_m", "bias_low", "bias_high", "rmse_m", "above_3_percent", "outliers"}) {
+    for (const char* figure :
+         {"bias_m", "bias_low", "bias_high", "rmse_m", "above_3_percent", "above_10_percent"}) {
       header.push_back(fmt::format("{}_{}", way, figure));
     }
   }
@@ -103,11 +104,12 @@ Table points_csv(const std::vector<WalkReadout>& readouts) {
   for (const WalkReadout& readout : readouts) {
     for (const WalkPoint& point : readout.points) {
       std::vector<std::string> row = {readout.name, fmt::format("{:g}", point.reflectivity),
-                                      fmt::format("{:g}", point.distance_m), point.judged ? "1" : "0"};
+                                      fmt::format("{:g}", point.distance_m),
+                                      fmt::format("{:.4f}", point.found), point.judged ? "1" : "0"};
       for (const WalkErrors& errors : {point.before, point.after}) {
         for (const double value :
              {errors.bias_m.value, errors.bias_m.interval.low, errors.bias_m.interval.high, errors.rmse_m,
-              errors.above_3_percent, errors.outliers}) {
+              errors.above_3_percent, errors.above_10_percent}) {
           row.push_back(fmt::format("{:.6g}", value));
         }
       }
@@ -184,8 +186,8 @@ void write_picture(const std::filesystem::path& path, const std::vector<WalkRead
 
 void run_walk_command(const WalkOptions& options) {
   WalkSettings settings;
-  settings.readouts = options.readout.parameters(kModelReadouts);
-  settings.sensor = options.sensor.model(options.readout.np, settings.readouts.front().slots);
+  settings.readouts = options.readout.parameters(kModelReadouts, options.sensor.described());
+  settings.sensor = options.sensor.model(settings.readouts.front().np, settings.readouts.front().slots);
   settings.klux = options.sensor.klux;
   settings.reflectivities = options.reflectivities;
   settings.distances_m = options.distances_m;
@@ -198,23 +200,23 @@ void run_walk_command(const WalkOptions& options) {
       "# Walk error\n\n"
       "A bright target fills the TDC's {} slots early (pile-up), so that its pulse seems nearer. Flat "
       "targets, {} pixels "
-      "at each reflectivity and distance, {:g} klux, preset {}, {} acquisitions, seed {}.\n\n"
+      "at each reflectivity and distance, {:g} klux, sensor {}, {} acquisitions, seed {}.\n\n"
       "* Before: the look-up table is fitted on {}.\n"
-      "* After: tables by classes of the result's own confidence (`host/walk_correction.hpp`), fitted on "
-      "eight other "
-      "reflectivities in the same range, from other photons.\n"
-      "* Bias is the mean error of the pixels within 10 % of the truth; points where these are less than "
-      "half are not "
-      "judged. Intervals (95 %) come from the columns' means. Better, worse: points where the bias is "
-      "smaller, "
-      "larger after the correction, beyond both intervals.\n"
+      "* After: the table's mean error for the result's own confidence and distance is taken away "
+      "(`host/walk_correction.hpp`), fitted on eight other reflectivities in the same range, from other "
+      "photons.\n"
+      "* Bias is the mean error of the pixels that found the target: by the table within the pulse's width "
+      "of the "
+      "truth. Points where these are less than half are not judged. Intervals (95 %) come from the columns' "
+      "means. "
+      "Better, worse: points where the bias is smaller, larger after the correction, beyond both intervals.\n"
       "* At largest confidence: share of the results of the correction's own targets that all look alike to "
       "it, for their "
       "confidence is at its top.\n\n"
       "![Bias over reflectivity at the nearest distance](walk_error.svg)\n\n{}\n{}\n"
-      "All points with outliers: [walk_error.csv](walk_error.csv). Bias in mm, before -> after:\n",
+      "All points with shares of errors: [walk_error.csv](walk_error.csv). Bias in mm, before -> after:\n",
       settings.sensor.slots, options.columns * FlatCalibration::kPixels, options.sensor.klux,
-      options.sensor.preset, settings.sensor.acquisitions, options.seed,
+      settings.sensor.name, settings.sensor.acquisitions, options.seed,
       FlatCalibration(settings.sensor).description(), summary_table(readouts).markdown(), verdict(readouts));
   for (const WalkReadout& readout : readouts) {
     report += fmt::format("\n## {}\n\n{}", readout.title, bias_table(readout, options).markdown());

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <span>
 #include <utility>
 
 #include "app/flat_calibration.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/physical_constants.hpp"
 #include "host/range_converter.hpp"
 #include "host/walk_correction.hpp"
 #include "metrics/error_statistics.hpp"
@@ -26,6 +28,7 @@ constexpr std::uint32_t kJudgedFrame = scene_frame(0);
 constexpr std::uint32_t kCorrectionFrame = scene_frame(1);
 constexpr double kOutlier = 0.10;
 constexpr double kRequirement = 0.03;
+constexpr double kLeastFound = 0.5;
 
 /// A column of pixels that all look at one target.
 using Measurements = std::vector<std::vector<std::vector<Measurement>>>;  // read-out, column, row
@@ -78,40 +81,45 @@ std::vector<PixelTarget> correction_targets(const WalkSettings& settings,
   return targets;
 }
 
-struct Judgement {
-  WalkErrors errors;
-  bool judged = true;
-};
-
-/// `columns`: measurements of one target.
-Judgement judge(std::span<const std::vector<Measurement>> columns, double truth_m,
-                const std::function<double(const Measurement&)>& distance) {
-  Judgement judgement;
+/// `columns`: measurements of one target; `table` tells which pixels found it.
+WalkErrors errors_of_found(std::span<const std::vector<Measurement>> columns, double truth_m,
+                           double found_within_m, const RangeConverter& table,
+                           const std::function<double(const Measurement&)>& distance) {
   std::vector<double> means;
-  RunningMoments within;
-  std::size_t above = 0;
-  std::size_t outliers = 0;
+  RunningMoments found;
+  std::size_t above_3_percent = 0;
+  std::size_t above_10_percent = 0;
   std::size_t total = 0;
   for (const std::vector<Measurement>& column : columns) {
     RunningMoments errors;
     for (const Measurement& measurement : column) {
       const double error = distance(measurement) - truth_m;
-      above += std::abs(error) > kRequirement * truth_m ? 1 : 0;
-      if (std::abs(error) > kOutlier * truth_m) {
-        ++outliers;
-      } else {
+      above_3_percent += std::abs(error) > kRequirement * truth_m ? 1 : 0;
+      above_10_percent += std::abs(error) > kOutlier * truth_m ? 1 : 0;
+      if (std::abs(table.distance(measurement.position) - truth_m) <= found_within_m) {
         errors.add(error);
       }
     }
     total += column.size();
-    judgement.judged = judgement.judged && 2 * errors.count() >= column.size();
     means.push_back(errors.mean());
-    within.merge(errors);
+    found.merge(errors);
   }
-  judgement.errors = {estimate_mean(means), std::sqrt(within.mean_square()),
-                      static_cast<double>(above) / static_cast<double>(total),
-                      static_cast<double>(outliers) / static_cast<double>(total)};
-  return judgement;
+  return {estimate_mean(means), std::sqrt(found.mean_square()),
+          static_cast<double>(above_3_percent) / static_cast<double>(total),
+          static_cast<double>(above_10_percent) / static_cast<double>(total)};
+}
+
+/// Shares of pixels of each column that found the target.
+std::vector<double> found_shares(std::span<const std::vector<Measurement>> columns, double truth_m,
+                                 double found_within_m, const RangeConverter& table) {
+  std::vector<double> shares;
+  for (const std::vector<Measurement>& column : columns) {
+    const auto found = std::ranges::count_if(column, [&](const Measurement& measurement) {
+      return std::abs(table.distance(measurement.position) - truth_m) <= found_within_m;
+    });
+    shares.push_back(static_cast<double>(found) / static_cast<double>(column.size()));
+  }
+  return shares;
 }
 
 void validate(const WalkSettings& settings) {
@@ -196,6 +204,7 @@ std::vector<WalkReadout> run_walk_study(const WalkSettings& settings) {
   }
   const Measurements measured = read(settings, judged, kJudgedFrame);
 
+  const double found_within_m = 0.5 * kSpeedOfLight * settings.sensor.pulse_fwhm_s;
   std::vector<WalkReadout> results;
   const auto columns = static_cast<std::size_t>(settings.columns);
   for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
@@ -212,8 +221,7 @@ std::vector<WalkReadout> run_walk_study(const WalkSettings& settings) {
     for (const TargetRun& run : runs) {
       at_top += static_cast<std::size_t>(std::ranges::count(run.measurements, top, &Measurement::confidence));
     }
-    const WalkCorrection correction =
-        WalkCorrection::calibrate(runs, std::ldexp(1.0, -readout.fraction_bits));
+    const WalkCorrection correction = WalkCorrection::calibrate(runs, tables[r], found_within_m);
     WalkReadout result{std::string(readout_name(readout.readout)),
                        std::string(readout_title(readout.readout)),
                        correction.classes(),
@@ -222,11 +230,17 @@ std::vector<WalkReadout> run_walk_study(const WalkSettings& settings) {
     for (std::size_t i = 0; i < judged.size(); i += columns) {
       const std::span own(&measured[r][i], columns);
       const double truth = judged[i].depth_m;
-      const Judgement before =
-          judge(own, truth, [&](const Measurement& m) { return tables[r].distance(m.position); });
-      const Judgement after = judge(own, truth, [&](const Measurement& m) { return correction.distance(m); });
+      const std::vector<double> found = found_shares(own, truth, found_within_m, tables[r]);
+      const auto errors = [&](const std::function<double(const Measurement&)>& distance) {
+        return errors_of_found(own, truth, found_within_m, tables[r], distance);
+      };
       result.points.push_back(
-          {judged[i].reflectivity, truth, before.judged && after.judged, before.errors, after.errors});
+          {.reflectivity = judged[i].reflectivity,
+           .distance_m = truth,
+           .found = std::accumulate(found.begin(), found.end(), 0.0) / static_cast<double>(found.size()),
+           .judged = std::ranges::min(found) >= kLeastFound,
+           .before = errors([&](const Measurement& m) { return tables[r].distance(m.position); }),
+           .after = errors([&](const Measurement& m) { return correction.distance(m); })});
     }
     results.push_back(std::move(result));
   }

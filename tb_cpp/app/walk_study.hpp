@@ -25,20 +25,22 @@ struct WalkSettings {
   int threads = 0;
 };
 
-/// Errors with one way to distances. Bias and rmse are of the pixels within 10 % of the truth, the others are
-/// outliers. Intervals come from the columns' means, which are independent for every read-out.
+/// Errors with one way to distances. Bias and rmse are of the pixels that found the target: those whose
+/// distance by the table is within the pulse's width (c/2 FWHM) of the truth. Intervals come from the
+/// columns' means, which are independent for every read-out.
 struct WalkErrors {
   Estimate bias_m;
   double rmse_m = 0.0;
   double above_3_percent = 0.0;
-  double outliers = 0.0;
+  double above_10_percent = 0.0;
 };
 
 /// One read-out at one reflectivity and distance.
 struct WalkPoint {
   double reflectivity;
   double distance_m;
-  bool judged;        ///< at least half of each column's pixels are no outliers, before and after
+  double found;       ///< share of pixels
+  bool judged;        ///< at least half of each column's pixels found the target
   WalkErrors before;  ///< table at the sensor's default reflectivity (FlatCalibration)
   WalkErrors after;   ///< WalkCorrection by the result's confidence
 };
@@ -46,7 +48,7 @@ struct WalkPoint {
 struct WalkReadout {
   std::string name;
   std::string title;
-  std::size_t classes;  ///< of confidence that the correction has tables for
+  std::size_t classes;  ///< of confidence that the correction tells apart
   double at_top;        ///< share of the correction's calibration results that have the largest confidence
   std::vector<WalkPoint> points;  ///< reflectivity by reflectivity
 

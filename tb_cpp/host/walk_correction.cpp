@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "core/error.hpp"
+#include "metrics/error_statistics.hpp"
 
 namespace dtof {
 namespace {
@@ -41,61 +43,88 @@ std::vector<ConfidenceRange> equal_shares(std::vector<double> confidences, std::
   return ranges;
 }
 
+/// Mean, drawn to 0 as far as its own variance explains it (positive-part James-Stein).
+double shrunk_mean(const RunningMoments& moments) {
+  const double mean = moments.mean();
+  const double variance = moments.variance() / static_cast<double>(moments.count());
+  return mean == 0.0 ? 0.0 : mean * std::max(0.0, 1.0 - variance / (mean * mean));
+}
+
 }  // namespace
 
-WalkCorrection::WalkCorrection(std::vector<Class> classes) : classes_(std::move(classes)) {}
+WalkCorrection::WalkCorrection(RangeConverter table, std::vector<Class> classes)
+    : table_(std::move(table)), classes_(std::move(classes)) {}
 
-WalkCorrection WalkCorrection::calibrate(std::span<const TargetRun> runs, double code_step) {
+WalkCorrection WalkCorrection::calibrate(std::span<const TargetRun> runs, const RangeConverter& table,
+                                         double found_within_m) {
   constexpr double kLeastShare = 0.1;
+  constexpr std::uint64_t kLeastMeasurements = 20;
+  if (!std::isfinite(found_within_m) || found_within_m <= 0.0) {
+    throw InputError(fmt::format("walk correction: the window is {} m, but must be above 0", found_within_m));
+  }
   std::vector<double> confidences;
   for (const TargetRun& run : runs) {
     for (const Measurement& measurement : run.measurements) {
       if (!std::isfinite(measurement.confidence)) {
-        throw InputError(fmt::format("calibration at {} m: confidence {} is not finite", run.distance_m,
-                                     measurement.confidence));
+        throw InputError(fmt::format("walk correction: calibration at {} m: confidence {} is not finite",
+                                     run.distance_m, measurement.confidence));
       }
-      confidences.push_back(measurement.confidence);
+      if (std::abs(table.distance(measurement.position) - run.distance_m) <= found_within_m) {
+        confidences.push_back(measurement.confidence);
+      }
     }
   }
   std::vector<Class> classes;
   for (const ConfidenceRange& range : equal_shares(std::move(confidences), kClasses)) {
-    std::map<double, TargetRun> by_distance;
+    std::map<double, RunningMoments> errors;  // by true distance
     for (const TargetRun& run : runs) {
-      std::vector<Measurement> own;
-      std::ranges::copy_if(run.measurements, std::back_inserter(own),
-                           [&](const Measurement& m) { return range.holds(m.confidence); });
-      if (own.empty() ||
-          static_cast<double>(own.size()) < kLeastShare * static_cast<double>(run.measurements.size())) {
-        continue;
+      RunningMoments own;
+      for (const Measurement& measurement : run.measurements) {
+        const double error = table.distance(measurement.position) - run.distance_m;
+        if (range.holds(measurement.confidence) && std::abs(error) <= found_within_m) {
+          own.add(error);
+        }
       }
-      TargetRun& together =
-          by_distance.try_emplace(run.distance_m, TargetRun{run.identity, run.distance_m, {}}).first->second;
-      together.measurements.insert(together.measurements.end(), own.begin(), own.end());
+      if (static_cast<double>(own.count()) >= kLeastShare * static_cast<double>(run.measurements.size())) {
+        errors[run.distance_m].merge(own);
+      }
     }
-    if (by_distance.size() >= 2) {
-      std::vector<TargetRun> own_runs;
-      for (auto& [distance, run] : by_distance) {
-        own_runs.push_back(std::move(run));
+    Class of_range{range.median, {}};
+    for (const auto& [truth_m, error] : errors) {
+      if (error.count() >= kLeastMeasurements) {
+        of_range.nodes.push_back({truth_m + error.mean(), shrunk_mean(error)});
       }
-      classes.push_back({range.median, RangeConverter::calibrate(own_runs, code_step)});
+    }
+    if (!of_range.nodes.empty()) {
+      std::ranges::stable_sort(of_range.nodes, {}, &Node::distance_m);
+      classes.push_back(std::move(of_range));
     }
   }
-  if (classes.empty()) {
-    throw InputError("walk correction: no class of confidence has two distances to fit a table to");
+  return {table, std::move(classes)};
+}
+
+double WalkCorrection::Class::error_m(double distance_m) const {
+  const auto above = std::ranges::upper_bound(nodes, distance_m, {}, &Node::distance_m);
+  if (above == nodes.begin() || above == nodes.end()) {
+    return above == nodes.begin() ? nodes.front().error_m : nodes.back().error_m;
   }
-  return WalkCorrection(std::move(classes));
+  const Node& below = *(above - 1);
+  return std::lerp(below.error_m, above->error_m,
+                   (distance_m - below.distance_m) / (above->distance_m - below.distance_m));
 }
 
 double WalkCorrection::distance(const Measurement& measurement) const {
+  const double before = table_.distance(measurement.position);
+  if (classes_.empty()) {
+    return before;
+  }
   const auto above = std::ranges::upper_bound(classes_, measurement.confidence, {}, &Class::confidence);
   if (above == classes_.begin() || above == classes_.end()) {
-    const Class& end = above == classes_.begin() ? classes_.front() : classes_.back();
-    return end.table.distance(measurement.position);
+    return before - (above == classes_.begin() ? classes_.front() : classes_.back()).error_m(before);
   }
   const Class& below = *(above - 1);
   const double share = (measurement.confidence - below.confidence) / (above->confidence - below.confidence);
-  return std::lerp(below.table.distance(measurement.position), above->table.distance(measurement.position),
-                   share);
+  return before - std::lerp(below.error_m(before), above->error_m(before), share);
 }
 
 }  // namespace dtof

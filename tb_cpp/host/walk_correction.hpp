@@ -9,36 +9,43 @@
 
 namespace dtof {
 
-/// Corrects walk error on the host: with pile-up a bright target's pulse arrives early, so that one look-up
-/// table for all brightnesses is wrong for most. A read-out whose confidence grows with brightness tells
-/// which table to take: this one has a table for each class of confidence, fitted on targets of several
-/// reflectivities, and interpolates between the classes.
+/// Corrects walk error on the host: with pile-up a bright target's pulse arrives early, so that a look-up
+/// table that was fitted at one brightness is biased at others. Where a read-out's confidence grows with
+/// brightness it tells how much: for each class of confidence this has the table's mean error over distance,
+/// which it takes from the table's distances, linear in distance and in confidence between its nodes.
 class WalkCorrection {
  public:
-  static constexpr std::size_t kClasses = 12;
+  static constexpr std::size_t kClasses = 16;
 
   /// `runs`: targets at several distances, each distance with several reflectivities; runs of one distance
-  /// are taken together. Classes hold about equally many measurements; equal confidences are never parted, so
-  /// a confidence with few values makes few classes. A class ignores a run of which it holds less than a
-  /// tenth (those are its outliers), and has a table if two distances are left. `code_step` as
-  /// RangeConverter::calibrate. Throws InputError for runs that RangeConverter::calibrate refuses, or if no
-  /// class has a table.
-  static WalkCorrection calibrate(std::span<const TargetRun> runs, double code_step = 1.0);
+  /// are taken together. Only measurements that `table` puts within `found_within_m` of the truth count: the
+  /// others missed the target. Classes hold about equally many measurements, and equal confidences are never
+  /// parted, so a confidence with few values makes few classes. At a distance, a class ignores runs of which
+  /// it holds less than a tenth, and needs 20 measurements. Mean errors are shrunk by their own uncertainty,
+  /// so that what is not known is not corrected. Throws InputError for a confidence that is not finite or a
+  /// window that is not above 0.
+  static WalkCorrection calibrate(std::span<const TargetRun> runs, const RangeConverter& table,
+                                  double found_within_m);
 
-  /// Distance in m: linear in confidence between the tables of neighbouring classes, those at the ends
-  /// beyond.
+  /// Distance in m. Beyond a class's nodes its last one holds, beyond the classes the last class.
   [[nodiscard]] double distance(const Measurement& measurement) const;
 
-  /// Classes that have a table, at least one.
+  /// Classes that correct anything; with none, distances are the table's.
   [[nodiscard]] std::size_t classes() const { return classes_.size(); }
 
  private:
+  struct Node {
+    double distance_m;  ///< by the table
+    double error_m;     ///< its mean error there
+  };
   struct Class {
     double confidence;  ///< median of its measurements
-    RangeConverter table;
+    std::vector<Node> nodes;
+    [[nodiscard]] double error_m(double distance_m) const;
   };
-  explicit WalkCorrection(std::vector<Class> classes);
+  WalkCorrection(RangeConverter table, std::vector<Class> classes);
 
+  RangeConverter table_;
   std::vector<Class> classes_;  // confidence strictly ascending
 };
 

@@ -500,6 +500,20 @@ TEST_F(CommandLine, AccuracyOverAMapIsByDistanceBand) {
   expect_refused("accuracy --depth-scale 2 --out out", "need --depth");
 }
 
+TEST_F(CommandLine, WalkWritesItsReportAndPicture) {
+  const Outcome outcome =
+      dtof("walk -r sifh,ezpointer -a 300 --columns 4 --reflectivities 0.1 1 --distances 0.5 1 --out walk");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("rms bias"));
+  EXPECT_THAT(read_file(path("walk/walk_error.csv")), HasSubstr("\nsifh,0.1,0.5,"));
+  EXPECT_THAT(read_file(path("walk/walk_error.md")), HasSubstr("## ezPointer"));
+  EXPECT_GT(std::filesystem::file_size(path("walk/walk_error.svg")), 0U);
+  expect_refused("walk --fidelity fast --out out", "--fidelity has no effect");
+  expect_refused("walk --binning 2 --out out", "binning");
+  expect_refused("walk --reflectivities 0 1 --out out", "reflectivity");
+  expect_refused("walk --distances 0 --out out", "distance");
+}
+
 TEST_F(CommandLine, ReplayAgainstATruthMap) {
   // A staircase of two steps, read out without noise: with the preset's zero, replay finds frame's own
   // errors.
