@@ -499,7 +499,7 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("--map", options->maps,
                       "also your own scene: NAME=DEPTH or NAME=DEPTH,REFLECTIVITY, files as PNG of 8 or 16\n"
-                      "bits, PFM or NPY, resampled to 200 x 160 by nearest neighbour; one or more");
+                      "bits, PFM or NPY, resampled to the sensor's pixels by nearest neighbour; one or more");
   options->map_scales.add_to(*command);
   command->add_option("--disparity", options->disparity_file,
                       "also a disparity map (8-bit PNG, 0 = unknown), its reflectivity varied in blocks");

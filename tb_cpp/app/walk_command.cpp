@@ -35,37 +35,35 @@ struct WalkOptions {
   std::string command_line;
 };
 
+/// Mean over the judged points, in per cent.
+double above_3_percent(const WalkReadout& readout, WalkErrors WalkPoint::*errors) {
+  double sum = 0.0;
+  for (const WalkPoint& point : readout.points) {
+    sum += point.judged ? (point.*errors).above_3_percent : 0.0;
+  }
+  return readout.judged() == 0 ? 0.0 : 100.0 * sum / static_cast<double>(readout.judged());
+}
+
 Table summary_table(const std::vector<WalkReadout>& readouts) {
-  Table table({"read-out", "points judged", "rms bias before, mm", "after", "largest bias before, mm",
-               "after", "better", "worse", "above 3 % before, %", "after", "classes",
-               "at largest confidence, %"});
+  Table table({"read-out", "points judged", "walk before, mm", "after", "rms bias before, mm", "after",
+               "better", "worse", "above 3 % before, %", "after", "classes", "at largest confidence, %"});
   for (const WalkReadout& readout : readouts) {
-    const auto over_judged = [&](const std::function<double(const WalkPoint&)>& value, bool largest) {
-      double result = 0.0;
-      for (const WalkPoint& point : readout.points) {
-        if (point.judged) {
-          result = largest ? std::max(result, value(point))
-                           : result + value(point) / static_cast<double>(readout.judged());
-        }
-      }
-      return result;
-    };
-    const auto largest = [&](WalkErrors WalkPoint::*errors) {
-      return over_judged([&](const WalkPoint& p) { return std::abs((p.*errors).bias_m.value); }, true) * 1e3;
-    };
-    const auto above = [&](WalkErrors WalkPoint::*errors) {
-      return over_judged([&](const WalkPoint& p) { return (p.*errors).above_3_percent; }, false) * 100.0;
-    };
     table.add({readout.title, fmt::format("{} of {}", readout.judged(), readout.points.size()),
+               fmt::format("{:.1f}", readout.walk_before_m() * 1e3),
+               fmt::format("{:.1f}", readout.walk_after_m() * 1e3),
                fmt::format("{:.1f}", readout.rms_bias_before_m() * 1e3),
-               fmt::format("{:.1f}", readout.rms_bias_after_m() * 1e3),
-               fmt::format("{:.1f}", largest(&WalkPoint::before)),
-               fmt::format("{:.1f}", largest(&WalkPoint::after)), fmt::format("{}", readout.better()),
-               fmt::format("{}", readout.worse()), fmt::format("{:.1f}", above(&WalkPoint::before)),
-               fmt::format("{:.1f}", above(&WalkPoint::after)), fmt::format("{}", readout.classes),
-               fmt::format("{:.1f}", readout.at_top * 100.0)});
+               fmt::format("{:.1f}", readout.rms_bias_after_m() * 1e3), fmt::format("{}", readout.better()),
+               fmt::format("{}", readout.worse()),
+               fmt::format("{:.1f}", above_3_percent(readout, &WalkPoint::before)),
+               fmt::format("{:.1f}", above_3_percent(readout, &WalkPoint::after)),
+               fmt::format("{}", readout.classes), fmt::format("{:.1f}", readout.at_top * 100.0)});
   }
   return table;
+}
+
+/// Whether the correction takes at least half of the walk away.
+bool halves_walk(const WalkReadout& readout) {
+  return readout.walk_after_m() <= 0.5 * readout.walk_before_m();
 }
 
 std::string plus_minus(const Estimate& bias) {
@@ -126,16 +124,14 @@ std::string verdict(const std::vector<WalkReadout>& readouts) {
   std::vector<std::string> others;
   std::vector<std::string> unjudged;
   for (const WalkReadout& readout : readouts) {
-    const double before = readout.rms_bias_before_m();
-    const double after = readout.rms_bias_after_m();
-    if (readout.judged() == 0) {
+    const double before = readout.walk_before_m();
+    const double after = readout.walk_after_m();
+    if (before == 0.0) {  // no distance with two reflectivities that could be judged
       unjudged.push_back(readout.title);
       continue;
     }
-    std::vector<std::string>& group = after <= 0.5 * before                                  ? halved
-                                      : after < before && readout.better() > readout.worse() ? reduced
-                                                                                             : others;
-    group.push_back(fmt::format("{} ({:.1f} to {:.1f} mm)", readout.title, before * 1e3, after * 1e3));
+    std::vector<std::string>& group = halves_walk(readout) ? halved : after < before ? reduced : others;
+    group.push_back(fmt::format("{} ({:.0f} to {:.0f} mm)", readout.title, before * 1e3, after * 1e3));
   }
   std::string text;
   const auto say = [&](const char* what, const std::vector<std::string>& names) {
@@ -143,14 +139,14 @@ std::string verdict(const std::vector<WalkReadout>& readouts) {
       text += fmt::format("* {}: {}.\n", what, fmt::join(names, ", "));
     }
   };
-  say("The rms bias is at least halved", halved);
-  say("It is reduced by less than half, at more points than it is raised", reduced);
-  say("It is not reduced, or raised at as many points as it is lowered", others);
-  say("No point could be judged", unjudged);
+  say("The walk is at least halved", halved);
+  say("It is reduced by less than half", reduced);
+  say("It is not reduced", others);
+  say("It could not be judged", unjudged);
   return text;
 }
 
-/// Before the correction at the nearest distance, and after it where it halves the rms bias.
+/// Before the correction at the nearest distance, and after it where it halves the walk.
 void write_picture(const std::filesystem::path& path, const std::vector<WalkReadout>& readouts,
                    const WalkOptions& options) {
   const auto nearest =
@@ -171,7 +167,7 @@ void write_picture(const std::filesystem::path& path, const std::vector<WalkRead
   };
   for (const WalkReadout& readout : readouts) {
     add(readout, &WalkPoint::before, readout.title);
-    if (readout.rms_bias_after_m() <= 0.5 * readout.rms_bias_before_m()) {
+    if (halves_walk(readout)) {
       add(readout, &WalkPoint::after, readout.title + ", corrected");
     }
   }
@@ -210,6 +206,8 @@ void run_walk_command(const WalkOptions& options) {
       "truth. Points where these are less than half are not judged. Intervals (95 %) come from the columns' "
       "means. "
       "Better, worse: points where the bias is smaller, larger after the correction, beyond both intervals.\n"
+      "* Walk is the largest less the smallest bias over reflectivity at a distance, rms over the distances; "
+      "rms bias and shares are over the judged points.\n"
       "* At largest confidence: share of the results of the correction's own targets that all look alike to "
       "it, for their "
       "confidence is at its top.\n\n"

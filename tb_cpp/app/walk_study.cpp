@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -159,6 +160,23 @@ double rms_bias(const std::vector<WalkPoint>& points, WalkErrors WalkPoint::*err
   return std::sqrt(moments.mean_square());
 }
 
+double rms_walk(const std::vector<WalkPoint>& points, WalkErrors WalkPoint::*errors) {
+  std::map<double, std::vector<double>> by_distance;
+  for (const WalkPoint& point : points) {
+    if (point.judged) {
+      by_distance[point.distance_m].push_back((point.*errors).bias_m.value);
+    }
+  }
+  RunningMoments ranges;
+  for (const auto& [distance, biases] : by_distance) {
+    if (biases.size() >= 2) {
+      const auto [lowest, highest] = std::ranges::minmax(biases);
+      ranges.add(highest - lowest);
+    }
+  }
+  return std::sqrt(ranges.mean_square());
+}
+
 /// Whether |a| is below |b| beyond both intervals.
 bool clearly_smaller(const Estimate& a, const Estimate& b) {
   return size(a) + half_width(a) < size(b) - half_width(b);
@@ -170,6 +188,8 @@ std::size_t WalkReadout::judged() const {
   return static_cast<std::size_t>(std::ranges::count(points, true, &WalkPoint::judged));
 }
 
+double WalkReadout::walk_before_m() const { return rms_walk(points, &WalkPoint::before); }
+double WalkReadout::walk_after_m() const { return rms_walk(points, &WalkPoint::after); }
 double WalkReadout::rms_bias_before_m() const { return rms_bias(points, &WalkPoint::before); }
 double WalkReadout::rms_bias_after_m() const { return rms_bias(points, &WalkPoint::after); }
 

@@ -53,6 +53,11 @@ struct WalkReadout {
   std::vector<WalkPoint> points;  ///< reflectivity by reflectivity
 
   [[nodiscard]] std::size_t judged() const;
+  /// The walk itself, m: largest less smallest bias over the judged reflectivities of a distance; root of the
+  /// mean square over distances with at least two of them; 0 if there is none. A correction that only moves
+  /// all reflectivities alike leaves it as it is.
+  [[nodiscard]] double walk_before_m() const;
+  [[nodiscard]] double walk_after_m() const;
   /// Root of the mean square of the judged points' biases, m; 0 if none is.
   [[nodiscard]] double rms_bias_before_m() const;
   [[nodiscard]] double rms_bias_after_m() const;

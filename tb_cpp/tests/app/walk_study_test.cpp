@@ -78,6 +78,8 @@ TEST(WalkReadout, FiguresByHand) {
                              {1.0, 1.0, 0.4, false, errors(9.0), errors(0.0)}}};
   EXPECT_EQ(readout.judged(), 3U);
   EXPECT_NEAR(readout.rms_bias_before_m(), std::sqrt(0.0025 / 3.0), 1e-12);
+  EXPECT_NEAR(readout.walk_before_m(), 0.07, 1e-12);
+  EXPECT_NEAR(readout.walk_after_m(), 0.0495, 1e-12);
   EXPECT_EQ(readout.better(), 1U);  // 30 to 10 mm; 40 to 39.5 is within the intervals
   EXPECT_EQ(readout.worse(), 1U);
 }
