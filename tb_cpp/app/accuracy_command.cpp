@@ -278,7 +278,9 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
   if (!options.maps.reflectivity.empty() && options.reflectivity) {
     throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
   }
-  const StudySettings sweep = settings_of(options);
+  AccuracyOptions without_distances = options;
+  without_distances.distances_m.clear();  // the map has its own
+  const StudySettings sweep = settings_of(without_distances);
   OwnMap map = read_own_map(options.maps, options.map_scales, sweep.sensor.columns, sweep.sensor.rows,
                             sweep.reflectivity);
   MapAccuracySettings settings;
@@ -292,6 +294,7 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
   }
   settings.make_source = sweep.make_source;
   settings.run = options.run;
+  settings.run.streams_only = true;  // the photon model was chosen for streams
   settings.command = options.command_line;
   std::vector<BandAccuracy> all;
   std::string report;
@@ -317,7 +320,7 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
       "% "
       "confidence intervals over the frames.\n",
       map.description, settings.sensor.name, settings.sensor.acquisitions, settings.frames,
-      options.run.engine, models_taken(options, sweep), options.run.seed,
+      options.run.engine, options.sensor.fidelity, options.run.seed,
       table_sentence(TableRule::kFlat, settings.sensor, options.run.seed));
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
