@@ -26,7 +26,10 @@ POOL_CONFIGURATIONS = {"poolpointer": "poolPointer", "poolpointer_lean": "poolPo
 PRESET = "thesis"
 LIGHTS = {"indoor": "14", "outdoor": "50"}
 ARRAY_PIXELS = 32000
-MATCHED_FILTER = "matched filter (single pixel)"  # of dtof scenes: no bound for read-outs that pool pixels
+# Estimators of dtof scenes on full histograms, which no chip could hold: the first is no bound for read-outs that pool.
+REFERENCES = ("matched filter (single pixel)", "pooled matched filter")
+# Share above 3 % and relative rmse of a reference, by its name and the light.
+References = dict[str, dict[str, tuple[float, float]]]
 
 
 def rows(name: str) -> list[dict[str, str]]:
@@ -239,9 +242,10 @@ def place_labels(panel: Panel, labels: list[tuple[str, float, float]],
     return placed
 
 
-def draw(points: list[Point], metric: int, what: str, path: Path, single_pixel: dict[str, tuple[float, float]]) -> None:
+def draw(points: list[Point], metric: int, what: str, path: Path, references: References) -> None:
     shown = [p for p in points if "scaled" not in p.title]
-    values = [p.accuracy[light][metric] for p in shown for light in LIGHTS] + [b[metric] for b in single_pixel.values()]
+    values = [p.accuracy[light][metric] for p in shown for light in LIGHTS] + [
+        values[light][metric] for values in references.values() for light in LIGHTS]
     y_range = (100 * min(values) * 0.6, 100 * max(values) * 1.4)
     areas = [p.mm2 for p in shown] + [p.thesis_mm2 for p in shown if p.thesis_mm2]
     x_range = (min(areas) * 0.75, max(areas) * 1.35)
@@ -269,15 +273,14 @@ def draw(points: list[Point], metric: int, what: str, path: Path, single_pixel: 
             if p.thesis_mm2:
                 marks.append(panel.at(p.thesis_mm2, y))
                 plots.append((p.thesis_mm2, y, 2, 1.1, colour))
-        reference_y = panel.at(x_range[0], 100 * single_pixel[light][metric])[1]
-        script.append(f"set arrow from graph 0, first {100 * single_pixel[light][metric]} to graph 1, first "
-                      f"{100 * single_pixel[light][metric]} nohead dt 2 lc rgb '#444444'")
-        text = MATCHED_FILTER
-        marks += [(panel.x1 - 20 - k * 15, reference_y) for k in range(int((panel.x1 - panel.x0) / 15))]
-        script.append(f"set label '{text}' at graph 0.98, first {100 * single_pixel[light][metric]} right offset 0,0.6 "
-                      f"tc rgb '#444444'")
+        for name, values in references.items():
+            level = 100 * values[light][metric]
+            reference_y = panel.at(x_range[0], level)[1]
+            script.append(f"set arrow from graph 0, first {level} to graph 1, first {level} nohead dt 2 lc rgb '#444444'")
+            script.append(f"set label '{name}' at graph 0.98, first {level} right offset 0,0.6 tc rgb '#444444'")
+            marks += [(panel.x1 - 20 - k * 15, reference_y) for k in range(int((panel.x1 - panel.x0) / 15))]
+            marks += [(panel.x1 - 12 - LETTER * k, reference_y - 10) for k in range(len(name))]
         script.append(f"set label '{LEGEND}' at graph 0.98, graph 0.05 right tc rgb '#444444'")
-        marks += [(panel.x1 - 12 - LETTER * k, reference_y - 10) for k in range(len(text))]
         marks += [(panel.x1 - 12 - LETTER * k, HEIGHT - BOTTOM - 25) for k in range(len(LEGEND))]
         for text, left, middle, line in place_labels(panel, labels, marks):
             x, y = next((lx, ly) for name, lx, ly in labels if name == text)
@@ -308,7 +311,7 @@ def dominated(point: Point, points: list[Point], light: str) -> bool:
                (p.mm2 < point.mm2 or p.accuracy[light][0] < value) for p in points)
 
 
-def report(points: list[Point], missing: list[str], scenes: Scenes, single_pixel: dict[str, tuple[float, float]]) -> str:
+def report(points: list[Point], missing: list[str], scenes: Scenes, references: References) -> str:
     lines = [
         "# Area against accuracy", "",
         "Written by `make pareto`: areas of 200 columns of 160 pixels from [area.csv](area.csv) (`make synth`), "
@@ -328,10 +331,12 @@ def report(points: list[Point], missing: list[str], scenes: Scenes, single_pixel
             above, rmse = p.accuracy[light]
             cells += [f"{100 * above:.2f}", f"{100 * rmse:.2f}", "" if dominated(p, points, light) else "x"]
         lines.append("| " + " | ".join(cells) + " |")
-    cells = [MATCHED_FILTER, "", "", ""]
-    for light in LIGHTS:
-        cells += [f"{100 * single_pixel[light][0]:.2f}", f"{100 * single_pixel[light][1]:.2f}", ""]
-    lines += ["| " + " | ".join(cells) + " |", "", "## Goals", "", "| goal | measured | met |", "|---|---|:---:|"]
+    for name, values in references.items():
+        cells = [name, "", "", ""]
+        for light in LIGHTS:
+            cells += [f"{100 * values[light][0]:.2f}", f"{100 * values[light][1]:.2f}", ""]
+        lines.append("| " + " | ".join(cells) + " |")
+    lines += ["", "## Goals", "", "| goal | measured | met |", "|---|---|:---:|"]
     lines += [f"| {goal} | {measured} | {met} |" for goal, measured, met in goals(scenes)]
     return "\n".join(lines) + "\n"
 
@@ -339,9 +344,11 @@ def report(points: list[Point], missing: list[str], scenes: Scenes, single_pixel
 def main() -> int:
     scenes = Scenes()
     points, missing = collect(scenes)
-    single_pixel = {light: scenes.overall(klux, MATCHED_FILTER) for light, klux in LIGHTS.items()}
-    if None in single_pixel.values():
-        raise SystemExit(f"error: reports/scenes.csv has no '{MATCHED_FILTER}' on every scene: run `make scenes`")
+    references = {}
+    for name in REFERENCES:
+        references[name] = {light: scenes.overall(klux, name) for light, klux in LIGHTS.items()}
+        if None in references[name].values():
+            raise SystemExit(f"error: reports/scenes.csv has no '{name}' on every scene: run `make scenes`")
     with open(REPORTS / "pareto.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["title", "read_out", "variant", "mm2", "thesis_mm2", "bits_per_pixel"] +
@@ -349,9 +356,9 @@ def main() -> int:
         for p in points:
             writer.writerow([f"{p.title}", p.family, int(p.variant), f"{p.mm2:.4f}", p.thesis_mm2 or "", p.bits] +
                             [f"{value:.6f}" for light in LIGHTS for value in p.accuracy[light]])
-    (REPORTS / "pareto.md").write_text(report(points, missing, scenes, single_pixel), encoding="utf-8")
-    draw(points, 0, "pixels off by more than 3 %", REPORTS / "pareto.svg", single_pixel)
-    draw(points, 1, "relative rmse", REPORTS / "pareto_rmse.svg", single_pixel)
+    (REPORTS / "pareto.md").write_text(report(points, missing, scenes, references), encoding="utf-8")
+    draw(points, 0, "pixels off by more than 3 %", REPORTS / "pareto.svg", references)
+    draw(points, 1, "relative rmse", REPORTS / "pareto_rmse.svg", references)
     print(f"reports/pareto.md: {len(points)} configurations")
     for goal, measured, met in goals(scenes):
         print(f"  {met:7} {goal}: {measured}")
