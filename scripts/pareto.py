@@ -245,7 +245,7 @@ def place_labels(panel: Panel, labels: list[tuple[str, float, float]],
 def draw(points: list[Point], metric: int, what: str, path: Path, references: References) -> None:
     shown = [p for p in points if "scaled" not in p.title]
     values = [p.accuracy[light][metric] for p in shown for light in LIGHTS] + [
-        values[light][metric] for values in references.values() for light in LIGHTS]
+        figures[light][metric] for figures in references.values() for light in LIGHTS]
     y_range = (100 * min(values) * 0.6, 100 * max(values) * 1.4)
     areas = [p.mm2 for p in shown] + [p.thesis_mm2 for p in shown if p.thesis_mm2]
     x_range = (min(areas) * 0.75, max(areas) * 1.35)
