@@ -66,5 +66,6 @@ clean:
 -include scripts/study.mk
 -include scripts/formal.mk
 -include scripts/faults.mk
+-include scripts/sensor_effects.mk
 -include scripts/mutate.mk
 -include scripts/hostile.mk

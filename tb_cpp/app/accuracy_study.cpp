@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "analytic/pulse_match.hpp"
 #include "app/readout_run.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -65,15 +66,11 @@ RunIdentity run_identity(const StudySettings& settings, Use use, std::size_t poi
 }
 
 // Mean events a stream of the sensor holds, binning included.
-PulseObservation observation(const SensorModel& sensor, double klux, double distance_m, double reflectivity) {
+PixelRates stream_rates(const SensorModel& sensor, double klux, double distance_m, double reflectivity) {
   const double pixels = sensor.binning * sensor.binning;
-  return {.signal_events = pixels * sensor.signal_events(distance_m, reflectivity),
-          .background_events = pixels * sensor.background_events(klux, reflectivity),
-          .centre_bins = arrival_centre_s(distance_m, sensor.pulse_fwhm_s) / sensor.time_resolution_s(),
-          .sigma_bins = pulse_sigma_s(sensor.pulse_fwhm_s) / sensor.time_resolution_s(),
-          .np = sensor.np,
-          .acquisitions = static_cast<double>(sensor.acquisitions),
-          .kept_events = std::min(sensor.slots, 16)};
+  return {.background = pixels * sensor.background_events(klux, reflectivity),
+          .signal = pixels * sensor.signal_events(distance_m, reflectivity),
+          .centre_bins = arrival_centre_s(distance_m, sensor.pulse_fwhm_s) / sensor.time_resolution_s()};
 }
 
 class Sweep {
@@ -183,12 +180,8 @@ class Sweep {
       });
       return;
     }
-    const PulseObservation pulse =
-        observation(settings_.sensor, settings_.klux, distance_m, settings_.reflectivity);
-    MatchedFilter filter({.np = pulse.np,
-                          .sigma_bins = pulse.sigma_bins,
-                          .signal_events = pulse.signal_events,
-                          .background_events = pulse.background_events});
+    MatchedFilter filter(matched_to(settings_.sensor, stream_rates(settings_.sensor, settings_.klux,
+                                                                   distance_m, settings_.reflectivity)));
     for (int row = 0; row < stream.rows(); ++row) {
       const MatchedFilter::Result result = filter.estimate(stream.row(row));
       measurements[static_cast<std::size_t>(row)] = {result.position, result.score};
@@ -290,8 +283,10 @@ class Sweep {
     point.rmse_m = estimate_root_mean_square(errors);
     point.above_3_percent = estimate_share(above_3_percent, count);
     point.outlier_rate = estimate_share(outliers, count);
-    point.cramer_rao_m = scale_.bin_depth() * cramer_rao_bound(observation(settings_.sensor, settings_.klux,
-                                                                           truth, settings_.reflectivity));
+    point.cramer_rao_m =
+        scale_.bin_depth() *
+        cramer_rao_bound(pulse_observation(
+            settings_.sensor, stream_rates(settings_.sensor, settings_.klux, truth, settings_.reflectivity)));
     point.efficiency = reciprocal(point.cramer_rao_m, point.rmse_m);
     if (settings_.rejection) {
       point.accepted = estimate_share(accepted, count);

@@ -143,6 +143,7 @@ std::unique_ptr<CLI::App> make_command_line(const std::string& command_line) {
   add_scenes_command(*app, command_line);
   add_measured_command(*app, command_line);
   add_walk_command(*app, command_line);
+  add_sensor_effects_command(*app, command_line);
   add_sensor_command(*app);
   add_list_command(*app);
   check_numbers(*app);

@@ -18,6 +18,7 @@ void add_stability_command(CLI::App& app, const std::string& command_line);
 void add_scenes_command(CLI::App& app, const std::string& command_line);
 void add_walk_command(CLI::App& app, const std::string& command_line);
 void add_measured_command(CLI::App& app, const std::string& command_line);
+void add_sensor_effects_command(CLI::App& app, const std::string& command_line);
 void add_sensor_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 

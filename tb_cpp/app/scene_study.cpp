@@ -12,13 +12,14 @@
 #include <string_view>
 #include <utility>
 
+#include "analytic/pulse_match.hpp"
+#include "app/options.hpp"
 #include "app/readout_variant.hpp"
 #include "core/parallel.hpp"
 #include "metrics/cramer_rao.hpp"
 #include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
-#include "photon/physics.hpp"
 #include "readout/matched_filter.hpp"
 #include "readout/model.hpp"
 #include "readout/paired_his_pointer.hpp"
@@ -193,7 +194,6 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
   const auto width = static_cast<std::size_t>(scene.columns);
   const auto rows = static_cast<std::size_t>(scene.targets.rows());
   Positions positions(titles_.size(), std::vector<Measurement>(width * rows));
-  const double sigma_bins = pulse_sigma_s(sensor_.pulse_fwhm_s) / sensor_.time_resolution_s();
   parallel_for(width, threads_, [&](std::size_t index) {
     const int column = picked_column(scene, static_cast<int>(index));
     const ColumnStream stream = source.column(column);
@@ -206,8 +206,7 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
     for (std::size_t e = 0; e < readouts_.size(); ++e) {
       store(e, *make_readout_model(readouts_[e]), readouts_[e].fraction_bits);
     }
-    ReadoutParameters his_pointer = ReadoutParameters::defaults(Readout::kHisPointer, sensor_.np);
-    his_pointer.slots = sensor_.slots;
+    const ReadoutParameters his_pointer = default_parameters(Readout::kHisPointer, sensor_);
     store(readouts_.size(), *make_paired_his_pointer(his_pointer), his_pointer.fraction_bits);
     // The template depends on the rates: neighbouring pixels of equal rates share a filter.
     std::unique_ptr<MatchedFilter> filter;
@@ -223,11 +222,7 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
         continue;
       }
       if (!filter || rates.signal != matched.signal || rates.background != matched.background) {
-        filter =
-            std::make_unique<MatchedFilter>(MatchedFilterParameters{.np = sensor_.np,
-                                                                    .sigma_bins = sigma_bins,
-                                                                    .signal_events = rates.signal,
-                                                                    .background_events = rates.background});
+        filter = std::make_unique<MatchedFilter>(matched_to(sensor_, rates));
         matched = rates;
       }
       std::ranges::copy(filter->scores(stream.row(static_cast<int>(row))), scores[row].begin());
@@ -268,14 +263,7 @@ std::vector<double> SceneStudy::relative_bounds(const StudyScene& scene) const {
       const double distance = scene.targets.at(column, static_cast<int>(row)).depth_m;
       const PixelRates rates = source.rates(column, static_cast<int>(row));
       if (rates.signal > 0.0) {
-        const double bins = cramer_rao_bound(
-            {.signal_events = rates.signal,
-             .background_events = rates.background,
-             .centre_bins = arrival_centre_s(distance, sensor_.pulse_fwhm_s) / sensor_.time_resolution_s(),
-             .sigma_bins = pulse_sigma_s(sensor_.pulse_fwhm_s) / sensor_.time_resolution_s(),
-             .np = sensor_.np,
-             .acquisitions = static_cast<double>(sensor_.acquisitions),
-             .kept_events = sensor_.slots});
+        const double bins = cramer_rao_bound(pulse_observation(sensor_, rates));
         bounds[row * width + index] = bins * scale_.bin_depth() / distance;
       }
     }

@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "core/physical_constants.hpp"
 #include "io/input_file.hpp"
+#include "photon/fast_photon_source.hpp"
 #include "sensor/preset.hpp"
 #include "sensor/sensor_file.hpp"
 
@@ -19,12 +20,16 @@ std::string consequences(const SensorModel& sensor) {
   return fmt::format(
       "\n# What follows:\n"
       "# T_res {:.4g} ps, {:.4g} mm; unambiguous to {:.4g} m\n"
+      "# pulse: FWHM {:.4g} ns, standard deviation with jitter {:.4g} ns\n"
       "# a pixel sees {:.4g} degrees\n"
       "# per pulse and pixel at 1 m, reflectivity 1, 14 klux: {:.4g} signal events, {:.4g} background "
-      "events\n",
+      "events\n"
+      "# photon models (--fidelity): {}\n",
       sensor.time_resolution_s() * 1e12, 0.5 * kSpeedOfLight * sensor.time_resolution_s() * 1e3,
-      0.5 * kSpeedOfLight * (sensor.integration_time_s - sensor.pulse_fwhm_s), sensor.degrees_per_pixel(),
-      sensor.signal_events(1.0, 1.0), sensor.background_events(14.0, 1.0));
+      0.5 * kSpeedOfLight * (sensor.integration_time_s - sensor.pulse_fwhm_s), sensor.pulse_fwhm_s * 1e9,
+      sensor.pulse_sigma_s() * 1e9, sensor.degrees_per_pixel(), sensor.signal_events(1.0, 1.0),
+      sensor.background_events(14.0, 1.0),
+      FastPhotonSource::supports(sensor) ? "exact, fast, analytic" : "exact");
 }
 
 void run_sensor_command(const std::string& name, bool keys) {

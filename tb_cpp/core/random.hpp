@@ -81,7 +81,8 @@ enum class RandomPurpose : std::uint32_t {
   kTestControl = 4,
   kFastPhotons = 5,
   kScene = 6,
-  kFaults = 7
+  kFaults = 7,
+  kPixelDefects = 8
 };
 
 }  // namespace dtof

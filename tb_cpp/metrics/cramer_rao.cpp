@@ -42,6 +42,24 @@ double normal_share(double low, double high) {
   return 0.5 * (std::erfc(-high / std::numbers::sqrt2) - std::erfc(-low / std::numbers::sqrt2));
 }
 
+// Share of the pulse in a bin and its derivative with respect to the arrival time.
+struct BinShare {
+  double share;
+  double slope;
+};
+BinShare bin_share(const PulseObservation& o, int bin) {
+  const double begin = bin - o.centre_bins;
+  if (o.response) {
+    const auto share_from = [&](double time) {
+      return o.response->share_before(time + 1.0) - o.response->share_before(time);
+    };
+    return {share_from(begin), share_from(begin - 0.5) - share_from(begin + 0.5)};
+  }
+  const double low = begin / o.sigma_bins;
+  const double high = (bin + 1 - o.centre_bins) / o.sigma_bins;
+  return {normal_share(low, high), (normal_density(low) - normal_density(high)) / o.sigma_bins};
+}
+
 // P(N <= count) for a Poisson number N of the given mean.
 double poisson_cdf(int count, double mean) {
   double term = std::exp(-mean);
@@ -78,11 +96,9 @@ double cramer_rao_bound(const PulseObservation& observation) {
   double information = 0.0;
   double earlier = 0.0;
   for (int bin = 0; bin < code_count - 1; ++bin) {
-    const double low = (bin - observation.centre_bins) / observation.sigma_bins;
-    const double high = (bin + 1 - observation.centre_bins) / observation.sigma_bins;
-    const double rate = observation.signal_events * normal_share(low, high) + background;
-    const double slope =
-        observation.signal_events * (normal_density(low) - normal_density(high)) / observation.sigma_bins;
+    const BinShare pulse = bin_share(observation, bin);
+    const double rate = observation.signal_events * pulse.share + background;
+    const double slope = observation.signal_events * pulse.slope;
     if (rate > 0.0) {
       const double weight =
           observation.kept_events == 0 ? 1.0 : mean_weight(observation.kept_events, earlier, rate);

@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "photon/physics.hpp"
-
 namespace dtof {
 namespace {
 
@@ -124,7 +122,7 @@ ArrivalTable::ArrivalTable(const SensorModel& model)
       gate_begin_(model.time_gate ? model.time_gate->begin_s / model.time_resolution_s() : 0.0),
       gate_end_(model.time_gate ? model.time_gate->end_s / model.time_resolution_s() : code_count_),
       last_time_(std::nextafter(gate_end_, 0.0)),
-      sigma_(pulse_sigma_s(model.pulse_fwhm_s) / model.time_resolution_s()),
+      sigma_(model.pulse_sigma_s() / model.time_resolution_s()),
       cells_(kCells) {
   const int half = static_cast<int>(kReachSigmas) * kKnotsPerSigma;
   for (int i = -half; i <= half; ++i) {

@@ -51,6 +51,8 @@ class Bits64 {
 };
 
 double draw_exponential(Bits64& bits) { return boost::random::exponential_distribution<double>(1.0)(bits); }
+/// In [0, 1).
+double draw_uniform(Bits64& bits) { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
 double draw_normal(Bits64& bits) { return boost::random::normal_distribution<double>(0.0, 1.0)(bits); }
 
 /// Inverse of erfc without Boost's detour over long double.
@@ -75,6 +77,13 @@ double next_in_pulse(double now, double events, double gap) {
   return above > 0.0 ? std::numbers::sqrt2 * erfc_inverse(2.0 * above) : kNever;
 }
 
+/// First event after `now` (from the response's centroid) of a measured pulse; `share` of the pulse lies
+/// between.
+double next_in_response(const PulseResponse& response, double now, double share) {
+  const double before = response.share_before(now) + share;
+  return before < 1.0 ? response.quantile(before) : kNever;
+}
+
 void make_room(std::vector<double>& values, std::size_t count) {
   if (count == values.size()) {
     values.resize(std::max<std::size_t>(1024, 2 * count));
@@ -89,16 +98,20 @@ EventSampler::EventSampler(const SensorModel& model, std::size_t keep)
       frame_end_(acquisitions_ * code_count_),
       gate_begin_(model.time_gate ? model.time_gate->begin_s / model.time_resolution_s() : 0.0),
       gate_end_(model.time_gate ? model.time_gate->end_s / model.time_resolution_s() : code_count_),
-      sigma_(pulse_sigma_s(model.pulse_fwhm_s) / model.time_resolution_s()),
+      sigma_(model.pulse_sigma_s() / model.time_resolution_s()),
       dead_time_(model.dead_time_s / model.time_resolution_s()),
+      response_(model.pulse_response_bins()),
+      afterpulse_probability_(model.afterpulse_probability),
+      afterpulse_time_constant_(model.afterpulse_time_constant_s / model.time_resolution_s()),
       keep_(keep),
       background_{kBeforeFrame},
       signal_{kBeforeFrame} {}
 
 std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRandom random) {
   PixelRates visible = rates;
-  const double outside = std::max(gate_begin_ - rates.centre_bins, rates.centre_bins - gate_end_);
-  if (outside > kNegligibleSigma * sigma_) {
+  const double pulse_begin = response_ ? response_->begin() : -kNegligibleSigma * sigma_;
+  const double pulse_end = response_ ? response_->end() : kNegligibleSigma * sigma_;
+  if (gate_begin_ - rates.centre_bins > pulse_end || rates.centre_bins - gate_end_ > -pulse_begin) {
     visible.signal = 0.0;
   }
   const double background = rates.background * (gate_end_ - gate_begin_) / code_count_;
@@ -108,7 +121,9 @@ std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRan
     walk_background(background, random);
     walk_signal(visible, random);
     merge();
-    if (dead_time_ > 0.0) {
+    if (afterpulse_probability_ > 0.0) {
+      follow_with_afterpulses(random);
+    } else if (dead_time_ > 0.0) {
       drop_in_dead_time();
     }
   }
@@ -149,7 +164,8 @@ std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRan
   double walked = 0.0;
   while ((walked += draw_exponential(bits)) < end) {
     const double acquisition = std::floor(walked * acquisitions_per_event);
-    const double time = rates.centre_bins + sigma_ * draw_normal(bits);
+    const double time = rates.centre_bins +
+                        (response_ ? response_->quantile(draw_uniform(bits)) : sigma_ * draw_normal(bits));
     const double position = acquisition * code_count_ + time;
     if (time < gate_begin_ || time >= gate_end_ || position >= frame_end_) {
       continue;
@@ -209,13 +225,24 @@ void EventSampler::walk_in_time_order(const PixelRates& rates, double background
   const double bins_per_background = (gate_end_ - gate_begin_) / background;
   for (std::uint32_t acquisition = 0; acquisition < acquisitions_; ++acquisition) {
     double now = gate_begin_;
+    afterpulses_.clear();
     for (std::size_t kept = 0; kept < keep_; ++kept) {
       // Both processes are memoryless, so they may be restarted at any time.
       double next = background > 0.0 ? now + bins_per_background * draw_exponential(bits) : kNever;
       if (rates.signal > 0.0) {
         const double gap = draw_exponential(bits);
-        const double in_pulse = next_in_pulse((now - rates.centre_bins) / sigma_, rates.signal, gap);
-        next = std::min(next, std::max(now, rates.centre_bins + sigma_ * in_pulse));
+        const double in_pulse =
+            response_ ? next_in_response(*response_, now - rates.centre_bins, gap / rates.signal)
+                      : sigma_ * next_in_pulse((now - rates.centre_bins) / sigma_, rates.signal, gap);
+        next = std::min(next, std::max(now, rates.centre_bins + in_pulse));
+      }
+      if (afterpulse_probability_ > 0.0) {
+        std::erase_if(afterpulses_, [now](double time) { return time < now; });  // in the dead time
+        const auto first = std::ranges::min_element(afterpulses_);
+        if (first != afterpulses_.end() && *first < next) {
+          next = *first;
+          afterpulses_.erase(first);
+        }
       }
       const double position = acquisition * code_count_ + next;
       if (next >= gate_end_ || position >= frame_end_) {
@@ -224,6 +251,9 @@ void EventSampler::walk_in_time_order(const PixelRates& rates, double background
       make_room(events_, event_count_);
       events_[event_count_++] = position;
       now = next + dead_time_;
+      if (afterpulse_probability_ > 0.0 && draw_uniform(bits) < afterpulse_probability_) {
+        afterpulses_.push_back(now + afterpulse_time_constant_ * draw_exponential(bits));
+      }
     }
   }
 }
@@ -242,6 +272,37 @@ void EventSampler::drop_in_dead_time() {
     dead_until = std::min(position + dead_time_, acquisition_end);
   }
   event_count_ = kept;
+}
+
+void EventSampler::follow_with_afterpulses(CounterRandom& random) {
+  Bits64 bits(random);
+  counted_.clear();
+  afterpulses_.clear();
+  double dead_until = -1.0;
+  for (std::size_t i = 0; i < event_count_ || !afterpulses_.empty();) {
+    const auto first = std::ranges::min_element(afterpulses_);
+    const bool photon = first == afterpulses_.end() || (i < event_count_ && events_[i] <= *first);
+    const double position = photon ? events_[i] : *first;
+    if (photon) {
+      ++i;
+    } else {
+      afterpulses_.erase(first);
+    }
+    if (position < dead_until) {
+      continue;
+    }
+    counted_.push_back(position);
+    const double acquisition_begin = std::floor(position / code_count_) * code_count_;
+    dead_until = std::min(position + dead_time_, acquisition_begin + code_count_);
+    if (draw_uniform(bits) < afterpulse_probability_) {
+      const double next = position + dead_time_ + afterpulse_time_constant_ * draw_exponential(bits);
+      if (next < std::min(acquisition_begin + gate_end_, frame_end_)) {
+        afterpulses_.push_back(next);
+      }
+    }
+  }
+  event_count_ = counted_.size();
+  std::swap(events_, counted_);
 }
 
 }  // namespace dtof

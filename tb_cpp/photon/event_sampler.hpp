@@ -4,9 +4,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "core/pulse_response.hpp"
 #include "core/random.hpp"
 #include "photon/sensor_model.hpp"
 
@@ -23,8 +25,9 @@ struct PixelRates {
 ///
 /// An event is a position on the frame's concatenated time axis in units of T_res: acquisition * 2^NP + t,
 /// 0 <= t < 2^NP, so that floor(position) holds acquisition and TDC code. Time gate and dead time have been
-/// applied. Both Poisson processes are walked by exponential gaps: acquisitions without events cost
-/// nothing, and the distribution is exact. Positions are rounded to 2^-52 of the frame.
+/// applied, and afterpulses follow the counted events. Both Poisson processes are walked by exponential gaps:
+/// acquisitions without events cost nothing, and the distribution is exact. Positions are rounded to 2^-52 of
+/// the frame.
 class EventSampler {
  public:
   static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
@@ -41,6 +44,7 @@ class EventSampler {
   void merge();
   void walk_in_time_order(const PixelRates& rates, double background, CounterRandom& random);
   void drop_in_dead_time();
+  void follow_with_afterpulses(CounterRandom& random);
 
   double code_count_;
   std::uint32_t acquisitions_;
@@ -49,6 +53,9 @@ class EventSampler {
   double gate_end_;
   double sigma_;
   double dead_time_;
+  std::shared_ptr<const PulseResponse> response_;  // in units of T_res; none: a Gaussian of sigma_
+  double afterpulse_probability_;
+  double afterpulse_time_constant_;
   std::size_t keep_;
 
   // Each process's events between two sentinels.
@@ -57,6 +64,8 @@ class EventSampler {
   std::size_t background_end_ = 0;
   std::size_t signal_end_ = 0;
   std::vector<double> events_;
+  std::vector<double> counted_;
+  std::vector<double> afterpulses_;  // still to come in this acquisition
   std::size_t event_count_ = 0;
 };
 

@@ -5,11 +5,11 @@
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <numbers>
+#include <numeric>
 
 #include "core/error.hpp"
-#include "photon/fast_photon_source.hpp"
-#include "photon/physics.hpp"
 
 namespace dtof {
 namespace {
@@ -50,25 +50,37 @@ double slot_probability(int k, double before, double after) {
 }  // namespace
 
 std::vector<std::vector<double>> expected_slot_detections(const SensorModel& model, const PixelRates& rates) {
-  if (!FastPhotonSource::supports(model)) {
+  if (model.dead_time_s > 0.0 || model.afterpulse_probability > 0.0 || model.binning > 1 ||
+      model.coincidence_window_s) {
     throw InputError(
-        "expected detections know no dead time, binning or coincidence: use the exact photon model");
+        "expected detections know no dead time, afterpulsing, binning or coincidence: use the exact photon "
+        "model");
   }
   const auto codes = std::size_t{1} << static_cast<unsigned>(model.np);
   const double resolution = model.time_resolution_s();
   const double gate_begin = model.time_gate ? model.time_gate->begin_s / resolution : 0.0;
   const double gate_end = model.time_gate ? model.time_gate->end_s / resolution : static_cast<double>(codes);
-  const double sigma = pulse_sigma_s(model.pulse_fwhm_s) / resolution;
+  const double sigma = model.pulse_sigma_s() / resolution;
   std::vector<std::vector<double>> slots(static_cast<std::size_t>(model.slots),
                                          std::vector<double>(codes, 0.0));
+  const std::shared_ptr<const PulseResponse> response = model.pulse_response_bins();
+  std::vector<double> boundaries;
+  if (model.tdc_codes) {
+    boundaries = model.tdc_codes->boundaries(0, model.np);
+  } else {
+    boundaries.resize(codes + 1);
+    std::iota(boundaries.begin(), boundaries.end(), 0.0);
+  }
   double before = 0.0;
   for (std::size_t code = 0; code < codes; ++code) {
-    const double begin = std::clamp(static_cast<double>(code), gate_begin, gate_end);
-    const double end = std::clamp(static_cast<double>(code) + 1.0, gate_begin, gate_end);
+    const double begin = std::clamp(boundaries[code], gate_begin, gate_end);
+    const double end = std::clamp(boundaries[code + 1], gate_begin, gate_end);
     double mean = rates.background * (end - begin) / static_cast<double>(codes);
     if (rates.signal > 0.0 && end > begin) {
-      mean +=
-          rates.signal * normal_share((begin - rates.centre_bins) / sigma, (end - rates.centre_bins) / sigma);
+      const double from = begin - rates.centre_bins;
+      const double to = end - rates.centre_bins;
+      mean += rates.signal * (response ? response->share_before(to) - response->share_before(from)
+                                       : normal_share(from / sigma, to / sigma));
     }
     for (std::size_t k = 0; mean > 0.0 && k < slots.size(); ++k) {
       slots[k][code] = slot_probability(static_cast<int>(k), before, before + mean);

@@ -11,7 +11,8 @@ namespace dtof {
 
 /// Faster stand-in for a PhotonSource: times come from a table of the pixel's cumulative mean events
 /// (ArrivalTable) instead of single events. Pile-up to SLOTS is included; other random numbers than the exact
-/// source's. Time gates work; dead time, binning and coincidence need the exact source.
+/// source's. Time gates, jitter, hot and dead pixels work; dead time, afterpulsing, binning, coincidence, a
+/// measured pulse and TDC code widths need the exact source.
 ///
 /// Streams (`column`): one exponential gap per detection gives acquisition and time together; empty
 /// acquisitions and events after the last slot are not visited. Times are displaced by
@@ -23,7 +24,7 @@ namespace dtof {
 /// the streams are, without that approximation.
 class FastPhotonSource final : public SampledSource {
  public:
-  /// Throws InputError if the exact source's sensor has a dead time, binning or coincidence.
+  /// Throws InputError unless supports().
   explicit FastPhotonSource(PhotonSource exact);
 
   [[nodiscard]] int columns() const override { return exact_.columns(); }

@@ -56,7 +56,10 @@ class MeanPixelSampler final : public PixelSampler {
 
 MeanPhotonSource::MeanPhotonSource(PhotonSource exact) : exact_(std::move(exact)) {
   if (!FastPhotonSource::supports(exact_.model())) {
-    throw InputError("the analytic photon model has no dead time, binning or coincidence: use the exact one");
+    throw InputError(
+        "the analytic photon model has no dead time, afterpulsing, binning, coincidence, measured pulse or "
+        "TDC "
+        "code widths: use the exact one");
   }
 }
 

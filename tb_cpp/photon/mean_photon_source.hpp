@@ -11,10 +11,10 @@ namespace dtof {
 /// The analytic model as a source: no random numbers. A pixel's detections are the expected number, spread
 /// evenly over the acquisitions, with times that fill the distribution of kept events evenly (multiples of
 /// the golden ratio's fraction, Weyl 1916). What a read-out makes of it is its systematic error alone.
-/// Time gates work; dead time, binning and coincidence need the exact source.
+/// It models what FastPhotonSource does (FastPhotonSource::supports).
 class MeanPhotonSource final : public SampledSource {
  public:
-  /// Throws InputError if the exact source's sensor has a dead time, binning or coincidence.
+  /// Throws InputError unless FastPhotonSource::supports().
   explicit MeanPhotonSource(PhotonSource exact);
 
   [[nodiscard]] int columns() const override { return exact_.columns(); }

@@ -21,9 +21,11 @@ namespace {
 /// The TDC: appends a row that keeps the first SLOTS events of every acquisition.
 class TdcRow {
  public:
-  explicit TdcRow(const SensorModel& model) : np_(model.np), slots_(static_cast<std::size_t>(model.slots)) {}
+  explicit TdcRow(const SensorModel& model)
+      : np_(model.np), slots_(static_cast<std::size_t>(model.slots)), codes_(model.tdc_codes.get()) {}
 
-  void append(std::span<const double> events, ColumnStream& stream) {
+  /// `pixel`: row * columns + column.
+  void append(std::span<const double> events, std::size_t pixel, ColumnStream& stream) {
     if (detections_.size() < events.size()) {
       detections_.resize(events.size());
     }
@@ -41,13 +43,30 @@ class TdcRow {
       // The slots are full if the event SLOTS places earlier is of the same acquisition.
       const bool full = i >= slots_ && whole(events[i - slots_]) >> shift == acquisition;
       count += full ? 0 : 1;
+      if (codes_ != nullptr && !full) {
+        detections_[count - 1].timestamp = unequal_code(events[i], acquisition, pixel);
+      }
     }
     stream.append_row(std::span<const Detection>(detections_).first(count));
   }
 
  private:
+  [[nodiscard]] Timestamp unequal_code(double position, std::uint64_t acquisition, std::size_t pixel) {
+    const std::size_t table = pixel % codes_->tables();
+    if (boundaries_.empty() || table != table_) {
+      boundaries_ = codes_->boundaries(pixel, np_);
+      table_ = table;
+    }
+    const double time = position - std::ldexp(static_cast<double>(acquisition), np_);
+    const auto after = std::upper_bound(boundaries_.begin() + 1, boundaries_.end() - 1, time);
+    return static_cast<Timestamp>(after - boundaries_.begin() - 1);
+  }
+
   int np_;
   std::size_t slots_;
+  const TdcCodes* codes_;
+  std::vector<double> boundaries_;  // of the table `table_`
+  std::size_t table_ = 0;
   std::vector<Detection> detections_;
 };
 
@@ -115,6 +134,15 @@ PixelRates PhotonSource::rates(int column, int row) const {
   const PixelTarget& target = targets_->at(column, row);
   PixelRates rates;
   rates.background = model_.background_events(klux_, target.reflectivity);
+  if (!model_.defects.none()) {
+    if (model_.defects.is_dead(column, row)) {
+      return {};
+    }
+    if (model_.defects.is_hot(column, row)) {
+      rates.background +=
+          (model_.defects.hot_dark_count_rate_hz - model_.dark_count_rate_hz) * model_.integration_time_s;
+    }
+  }
   if (target.returns_signal()) {
     rates.signal = model_.signal_events(target.depth_m, target.reflectivity);
     rates.centre_bins = arrival_centre_s(target.depth_m, model_.pulse_fwhm_s) / model_.time_resolution_s();
@@ -140,7 +168,7 @@ ColumnStream PhotonSource::plain_column(int index, RowRange range) const {
   // A twentieth more than the mean is rarely exceeded, and costs a copy then.
   stream.reserve(static_cast<std::size_t>(1.05 * expected * model_.acquisitions));
   for (int row = range.first; row < end; ++row) {
-    tdc.append(sampler.sample(rates(index, row), random(index, row)), stream);
+    tdc.append(sampler.sample(rates(index, row), random(index, row)), pixel_number(index, row), stream);
   }
   return stream;
 }
@@ -210,16 +238,15 @@ ColumnStream PhotonSource::combined_column(int index, RowRange range) const {
       }
     }
     for (int row = std::max(row_begin, range.first); row < std::min(row_end, range_end); ++row) {
-      tdc.append(block, stream);
+      tdc.append(block, pixel_number(index, row), stream);
     }
   }
   return stream;
 }
 
 CounterRandom PhotonSource::random(int column, int row, RandomPurpose purpose) const {
-  const auto pixel = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns()) +
-                     static_cast<std::uint32_t>(column);
-  return {seed_, static_cast<std::uint32_t>(purpose), frame_, pixel};
+  return {seed_, static_cast<std::uint32_t>(purpose), frame_,
+          static_cast<std::uint32_t>(pixel_number(column, row))};
 }
 
 }  // namespace dtof

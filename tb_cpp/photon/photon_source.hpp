@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
@@ -14,16 +15,19 @@ namespace dtof {
 
 /// TDC stream of a modelled scene, exact event by event (spec section 4).
 ///
-/// Per acquisition and pixel: Poisson numbers of signal events (Gaussian around 2R/c + FWHM) and background
-/// events (flat); events outside [0, T_int) are lost. Then, in this order:
+/// Per acquisition and pixel: Poisson numbers of signal events (Gaussian, or a measured pulse with its
+/// centroid, at 2R/c + FWHM) and background events (flat); events outside [0, T_int) are lost. Dead pixels
+/// have none; hot ones have more dark counts. Then, in this order:
 ///  1. time gate: only events inside count;
 ///  2. dead time: an event within it after the pixel's last counted event is lost; it ends with the
-///     acquisition;
+///     acquisition; afterpulses: a counted event draws another one behind the dead time, which is counted
+///     unless the acquisition or the gate is over or a dead time is under way, and may draw the next;
 ///  3. coincidence window: an event counts only if one of the four neighbouring pixels has an event of the
 ///     same acquisition at most W away;
 ///  4. binning: the B x B pixels of a block (cut at the array's border) share one stream, the union of
 ///  theirs;
-///  5. the TDC keeps the first SLOTS events in time order, code = floor(t / T_res).
+///  5. the TDC keeps the first SLOTS events in time order, code = floor(t / T_res), or by its own code widths
+///  (TdcCodes; those of a block's pixels stay their own).
 /// An event in the last bin gets the no-detection code: it takes its slot, and read-outs drop it.
 ///
 /// Random numbers depend on seed, frame and pixel alone. Copies are cheap. Some rows of a column
@@ -48,13 +52,17 @@ class PhotonSource final : public StreamSource {
   [[nodiscard]] const SensorModel& model() const { return model_; }
   [[nodiscard]] const TargetMap& targets() const { return *targets_; }
   [[nodiscard]] double klux() const { return klux_; }
-  /// Mean events of a pixel before any loss.
+  /// Mean events of a pixel before any loss, of a hot or dead pixel its own.
   [[nodiscard]] PixelRates rates(int column, int row) const;
   /// Random numbers of a pixel in this frame.
   [[nodiscard]] CounterRandom random(int column, int row,
                                      RandomPurpose purpose = RandomPurpose::kPhotons) const;
 
  private:
+  [[nodiscard]] std::size_t pixel_number(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
+           static_cast<std::size_t>(column);
+  }
   [[nodiscard]] ColumnStream plain_column(int index, RowRange range) const;
   [[nodiscard]] ColumnStream combined_column(int index, RowRange range) const;
 

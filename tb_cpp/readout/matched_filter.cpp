@@ -33,18 +33,36 @@ MatchedFilter::MatchedFilter(const MatchedFilterParameters& parameters) {
   require_positive(parameters.background_events, "number of background events");
   const auto code_count = std::size_t{1} << static_cast<unsigned>(parameters.np);
   no_detection_ = code_count - 1;
-  const double peak_ratio = parameters.signal_events * std::numbers::inv_sqrtpi / std::numbers::sqrt2 /
-                            parameters.sigma_bins /
-                            (parameters.background_events / static_cast<double>(code_count));
-  const double reach =
-      parameters.sigma_bins * std::sqrt(2.0 * std::log(std::max(peak_ratio / kNegligible, 1.0)));
-  reach_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(reach)), 1, no_detection_);
-  for (std::size_t i = 0; i <= 2 * reach_; ++i) {
-    const double z = (static_cast<double>(i) - static_cast<double>(reach_)) / parameters.sigma_bins;
-    template_.push_back(std::log1p(peak_ratio * std::exp(-0.5 * z * z)));
+  if (parameters.response) {
+    match_response(*parameters.response,
+                   parameters.signal_events * static_cast<double>(code_count) / parameters.background_events);
+  } else {
+    match_gaussian(parameters.sigma_bins,
+                   parameters.signal_events * std::numbers::inv_sqrtpi / std::numbers::sqrt2 /
+                       parameters.sigma_bins /
+                       (parameters.background_events / static_cast<double>(code_count)));
   }
   counts_.resize(no_detection_);
   scores_.resize(no_detection_ + 2 * reach_);
+}
+
+void MatchedFilter::match_gaussian(double sigma_bins, double peak_ratio) {
+  const double reach = sigma_bins * std::sqrt(2.0 * std::log(std::max(peak_ratio / kNegligible, 1.0)));
+  reach_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(reach)), 1, no_detection_);
+  for (std::size_t i = 0; i <= 2 * reach_; ++i) {
+    const double z = (static_cast<double>(i) - static_cast<double>(reach_)) / sigma_bins;
+    template_.push_back(std::log1p(peak_ratio * std::exp(-0.5 * z * z)));
+  }
+}
+
+void MatchedFilter::match_response(const PulseResponse& response, double bin_ratio) {
+  const double reach = std::max(-response.begin(), response.end()) + 0.5;
+  reach_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(reach)), 1, no_detection_);
+  for (std::size_t i = 0; i <= 2 * reach_; ++i) {
+    const double offset = static_cast<double>(reach_) - static_cast<double>(i);
+    const double share = response.share_before(offset + 0.5) - response.share_before(offset - 0.5);
+    template_.push_back(std::log1p(bin_ratio * share));
+  }
 }
 
 std::span<const double> MatchedFilter::scores(std::span<const Detection> detections) {
@@ -64,7 +82,7 @@ std::span<const double> MatchedFilter::scores(std::span<const Detection> detecti
   for (std::size_t bin = 0; bin < no_detection_; ++bin) {
     const double count = counts_[bin];
     if (count != 0.0) {
-      double* const score = scores_.data() + bin;  // the template is symmetric
+      double* const score = scores_.data() + bin;
       for (std::size_t i = 0; i < taps; ++i) {
         score[i] += count * pulse[i];
       }

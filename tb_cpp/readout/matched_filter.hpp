@@ -3,25 +3,28 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/detection.hpp"
+#include "core/pulse_response.hpp"
 
 namespace dtof {
 
-/// What a matched filter is matched to: a Gaussian pulse on a flat background, per acquisition.
+/// What a matched filter is matched to: a Gaussian or measured pulse on a flat background, per acquisition.
 struct MatchedFilterParameters {
   int np = 10;                     ///< NP, 3 .. 16
   double sigma_bins = 1.0;         ///< standard deviation of the pulse in bins, > 0
   double signal_events = 1.0;      ///< mean signal events, > 0
   double background_events = 1.0;  ///< mean background events over all 2^np bins, > 0
+  std::shared_ptr<const PulseResponse> response = nullptr;  ///< in bins; none: the Gaussian
 };
 
 /// Maximum-likelihood arrival time of one pulse from all detections of a frame: argmax over tau of
 /// sum_i log(1 + A g(t_i - tau) / b), A and b known. It needs every photon's time (a full histogram), so it
 /// is no read-out for a large array, but the practical bound for all of them. Pile-up is not modelled: near
-/// targets get a bias that the host's look-up table removes.
+/// targets get a bias that the host's look-up table removes. Codes are taken as equally wide.
 ///
 /// tau is searched on whole bins and refined by the parabola through the best three scores.
 class MatchedFilter {
@@ -43,9 +46,14 @@ class MatchedFilter {
   std::span<const double> scores(std::span<const Detection> detections);
 
  private:
+  /// `peak_ratio`: signal over background at the pulse's peak.
+  void match_gaussian(double sigma_bins, double peak_ratio);
+  /// `bin_ratio`: all the signal over one bin's background.
+  void match_response(const PulseResponse& response, double bin_ratio);
+
   std::size_t no_detection_;
   std::size_t reach_;             // bins on each side beyond which the template is negligible
-  std::vector<double> template_;  // 2 reach + 1 values
+  std::vector<double> template_;  // of tau - reach .. tau + reach for an event in bin tau: the pulse reversed
   std::vector<double> counts_;
   std::vector<double> scores_;  // with `reach_` bins of margin on both sides
 };

@@ -6,7 +6,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -17,7 +19,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr PulseObservation kThesis{.signal_events = 0.3,
+const PulseObservation kThesis{.signal_events = 0.3,
                                    .background_events = 0.15,
                                    .centre_bins = 400.0,
                                    .sigma_bins = 19.3,
@@ -201,6 +203,53 @@ TEST(CramerRao, RefusesImpossibleValues) {
   refuses([](PulseObservation& o) { o.np = 0; }, "NP is 0");
   refuses([](PulseObservation& o) { o.acquisitions = -1; }, "number of acquisitions is -1");
   refuses([](PulseObservation& o) { o.kept_events = 17; }, "number of kept events is 17");
+}
+
+// Samples of a Gaussian of this standard deviation, on bins a quarter as wide.
+std::shared_ptr<const PulseResponse> sampled_gaussian(double sigma_bins) {
+  constexpr double kBin = 0.25;
+  std::vector<double> samples;
+  for (double time = -6.0 * sigma_bins; time < 6.0 * sigma_bins; time += kBin) {
+    const double middle = (time + 0.5 * kBin) / sigma_bins;
+    samples.push_back(std::exp(-0.5 * middle * middle));
+  }
+  return std::make_shared<const PulseResponse>(std::move(samples), kBin);
+}
+
+TEST(CramerRao, SampledGaussianHasTheGaussiansBound) {
+  for (const double sigma : {6.0, 19.3}) {
+    for (const int kept : {0, 1, 2}) {
+      PulseObservation o{.signal_events = 0.1,
+                         .background_events = 0.15,
+                         .centre_bins = 300.3,
+                         .sigma_bins = sigma,
+                         .np = 10,
+                         .acquisitions = 1000.0,
+                         .kept_events = kept};
+      const double gaussian = cramer_rao_bound(o);
+      o.response = sampled_gaussian(sigma);
+      // The slope over one bin falls short by 1 / (8 sigma^2), more or less.
+      EXPECT_NEAR(cramer_rao_bound(o) / gaussian, 1.0, 0.3 / (sigma * sigma)) << sigma << ' ' << kept;
+      // A pulse of half the width is told apart.
+      o.response = sampled_gaussian(0.5 * sigma);
+      EXPECT_LT(cramer_rao_bound(o), 0.8 * gaussian);
+    }
+  }
+}
+
+TEST(CramerRao, MeasuredPulseOfOneBoxTellsByItsEdges) {
+  // A box of 8 bins at whole bins on background b: each of the four bins that a shift by half a bin touches
+  // has |slope| S / 16; two have the rate b + S / 8, two have b.
+  PulseObservation o{.signal_events = 0.8,
+                     .background_events = 1024.0 * 0.05,
+                     .centre_bins = 100.0,
+                     .sigma_bins = 1.0,
+                     .np = 10,
+                     .acquisitions = 100.0,
+                     .kept_events = 0,
+                     .response = std::make_shared<const PulseResponse>(std::vector<double>(8, 1.0), 1.0)};
+  const double information = 100.0 * 2.0 * (0.05 * 0.05 / 0.15 + 0.05 * 0.05 / 0.05);
+  EXPECT_NEAR(cramer_rao_bound(o), 1.0 / std::sqrt(information), 1e-9);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Streams of sensors without measured effects stay what they were, photon for photon: checksums of the streams,
-// taken before the first of these effects was added to the model.
+// Streams of sensors without measured effects stay what they were, photon for photon: checksums of the
+// streams, taken before the first of these effects was added to the model.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -17,7 +19,7 @@
 namespace dtof {
 namespace {
 
-constexpr MatchedFilterParameters kPulse{
+const MatchedFilterParameters kPulse{
     .np = 10, .sigma_bins = 19.3, .signal_events = 0.1, .background_events = 0.15};
 
 std::vector<Detection> detections_of(std::initializer_list<Timestamp> timestamps) {
@@ -137,6 +139,45 @@ TEST(MatchedFilter, Refusals) {
               ThrowsMessage<InputError>(HasSubstr("background")));
   MatchedFilter small({.np = 4, .sigma_bins = 1.0, .signal_events = 1.0, .background_events = 1.0});
   EXPECT_THROW((void)small.estimate(detections_of({16})), InputError);
+}
+
+TEST(MatchedFilter, MeasuredPulseIsFoundByItsCentroidWhicheverWayItLeans) {
+  // Three quarters of the pulse in its first bin, a quarter six bins later: the centroid is 1.5 bins behind
+  // the first bin's middle.
+  const auto response =
+      std::make_shared<const PulseResponse>(std::vector<double>{3.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}, 1.0);
+  MatchedFilter filter({.np = 8, .signal_events = 0.4, .background_events = 0.1, .response = response});
+  std::vector<Detection> detections;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    detections.push_back({i, static_cast<Timestamp>(i % 4 == 3 ? 106 : 100)});
+  }
+  EXPECT_NEAR(filter.estimate(detections).position, 101.5, 0.51);
+  // Events elsewhere that a mirrored pulse would explain better do not distract it.
+  std::vector<Detection> mirrored;
+  for (std::uint32_t i = 0; i < 40; ++i) {
+    mirrored.push_back({i, static_cast<Timestamp>(i % 4 == 3 ? 94 : 100)});
+  }
+  EXPECT_GT(filter.estimate(detections).score, filter.estimate(mirrored).score);
+}
+
+TEST(MatchedFilter, SampledGaussianFindsWhatTheGaussianFinds) {
+  constexpr double kSigma = 8.0;
+  std::vector<double> samples;
+  for (double time = -48.0; time < 48.0; time += 0.5) {
+    const double z = (time + 0.25) / kSigma;
+    samples.push_back(std::exp(-0.5 * z * z));
+  }
+  MatchedFilter gaussian({.np = 10, .sigma_bins = kSigma, .signal_events = 0.2, .background_events = 0.3});
+  MatchedFilter sampled({.np = 10,
+                         .sigma_bins = kSigma,
+                         .signal_events = 0.2,
+                         .background_events = 0.3,
+                         .response = std::make_shared<const PulseResponse>(std::move(samples), 0.5)});
+  std::vector<Detection> detections;
+  for (std::uint32_t i = 0; i < 60; ++i) {
+    detections.push_back({i, static_cast<Timestamp>(i % 3 == 0 ? 17 * i % 1000 : 400 + (7 * i) % 23)});
+  }
+  EXPECT_NEAR(sampled.estimate(detections).position, gaussian.estimate(detections).position, 0.05);
 }
 
 }  // namespace

@@ -8,13 +8,17 @@
 #include <fstream>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
+#include "io/npy.hpp"
 #include "sensor/preset.hpp"
 
 namespace dtof {
 namespace {
 
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
@@ -132,6 +136,124 @@ TEST(SensorFile, WhatIsNoTomlIsRefusedWithTheLine) {
   EXPECT_THAT(refusal("[tdc]\nrange_ns = = 3\n"), StartsWith("my.toml:2: no TOML: "));
   EXPECT_THAT(refusal("[tdc]\nrange_ns = 1\nrange_ns = 2\n"), StartsWith("my.toml:3: no TOML: "));
   EXPECT_THAT(refusal(std::string("\xff\xfe\x00", 3)), HasSubstr("no TOML"));
+}
+
+class SensorFiles : public ::testing::Test {
+ protected:
+  SensorFiles() { std::filesystem::create_directories(folder_); }
+  ~SensorFiles() override { std::filesystem::remove_all(folder_); }
+  SensorFiles(const SensorFiles&) = delete;
+  SensorFiles& operator=(const SensorFiles&) = delete;
+  SensorFiles(SensorFiles&&) = delete;
+  SensorFiles& operator=(SensorFiles&&) = delete;
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+  [[nodiscard]] SensorModel parse(const std::string& text) const {
+    return parse_sensor(text, folder_ / "my.toml");
+  }
+  [[nodiscard]] std::string refused(const std::string& text) const {
+    try {
+      (void)parse(text);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path folder_ = std::filesystem::path(::testing::TempDir()) / "sensor_files";
+};
+
+TEST_F(SensorFiles, EffectsOfTheDetector) {
+  const SensorModel sensor =
+      parse(with("[light]",
+                 "[detector]\njitter_fwhm_ps = 120\nafterpulsing_probability = 0.01\n"
+                 "afterpulsing_time_constant_ns = 15\nhot_pixel_share = 0.02\n"
+                 "hot_pixels = [[3, 4], [5, 6]]\nhot_pixel_dark_count_rate_hz = 1e6\n"
+                 "dead_pixel_share = 0.005\ndead_pixels = [[7, 8]]\ndefect_seed = 9\n[light]"));
+  EXPECT_DOUBLE_EQ(sensor.jitter_fwhm_s, 120e-12);
+  EXPECT_DOUBLE_EQ(sensor.afterpulse_probability, 0.01);
+  EXPECT_DOUBLE_EQ(sensor.afterpulse_time_constant_s, 15e-9);
+  EXPECT_DOUBLE_EQ(sensor.defects.hot_share, 0.02);
+  EXPECT_DOUBLE_EQ(sensor.defects.hot_dark_count_rate_hz, 1e6);
+  EXPECT_DOUBLE_EQ(sensor.defects.dead_share, 0.005);
+  EXPECT_EQ(sensor.defects.seed, 9U);
+  EXPECT_EQ(sensor.defects.hot, (std::vector<PixelPosition>{{3, 4}, {5, 6}}));
+  EXPECT_EQ(sensor.defects.dead, (std::vector<PixelPosition>{{7, 8}}));
+}
+
+TEST_F(SensorFiles, DetectorKeysThatNeedOthers) {
+  const auto detector = [&](const std::string& keys) {
+    return refused(with("[light]", "[detector]\n" + keys + "\n[light]"));
+  };
+  EXPECT_THAT(detector("hot_pixel_share = 0.1"), HasSubstr("need hot_pixel_dark_count_rate_hz"));
+  EXPECT_THAT(detector("hot_pixel_dark_count_rate_hz = 1"),
+              HasSubstr("my.toml:7: hot_pixel_dark_count_rate_hz needs"));
+  EXPECT_THAT(detector("defect_seed = 1"), HasSubstr("defect_seed needs"));
+  EXPECT_THAT(detector("afterpulsing_probability = 0.1"), HasSubstr("needs afterpulsing_time_constant_ns"));
+  EXPECT_THAT(detector("afterpulsing_time_constant_ns = 3"), HasSubstr("needs an afterpulsing_probability"));
+  EXPECT_THAT(detector("dead_pixels = 3"), HasSubstr("must be a list of [column, row]"));
+  EXPECT_THAT(detector("dead_pixels = [[1, 2, 3]]"), HasSubstr("must be a list of [column, row]"));
+  EXPECT_THAT(detector("dead_pixels = [[1, 2],\n[200, 0]]"),
+              HasSubstr("my.toml:8: dead_pixels: pixel [200, 0] is outside"));
+  EXPECT_THAT(detector("hot_pixel_share = 0.6\ndead_pixel_share = 0.6\nhot_pixel_dark_count_rate_hz = 1"),
+              HasSubstr("together at most 1"));
+}
+
+TEST_F(SensorFiles, MeasuredPulse) {
+  const std::vector<double> samples = {1.0, 3.0, 0.0, 0.0,
+                                       2.0};  // one period: the pulse begins with the last bin
+  const std::size_t shape[] = {samples.size()};
+  write_npy(folder_ / "pulse.npy", shape, samples);
+  const std::string response = "pulse_response_file = \"pulse.npy\"\npulse_response_bin_ps = 500\n";
+  const SensorModel sensor = parse(with("pulse_fwhm_ns = 1.5", response + "pulse_response_first_bin = 4"));
+  ASSERT_TRUE(sensor.pulse_response);
+  EXPECT_NEAR(sensor.pulse_response->end() - sensor.pulse_response->begin(), 1.5e-9, 1e-21);
+  EXPECT_NEAR(sensor.pulse_response->share_before(sensor.pulse_response->begin() + 0.5e-9), 2.0 / 6.0, 1e-12);
+  EXPECT_NEAR(sensor.pulse_fwhm_s, sensor.pulse_response->full_width_at_half_maximum(), 0.0);
+  EXPECT_THAT(refused(with("pulse_fwhm_ns = 1.5", "pulse_fwhm_ns = 1.5\n" + response)),
+              HasSubstr("give one of the two"));
+  EXPECT_THAT(refused(with("pulse_fwhm_ns = 1.5", "pulse_response_file = \"pulse.npy\"")),
+              HasSubstr("needs pulse_response_bin_ps"));
+  EXPECT_THAT(refused(with("pulse_fwhm_ns = 1.5", "pulse_fwhm_ns = 1.5\npulse_response_bin_ps = 3")),
+              HasSubstr("needs pulse_response_file"));
+  EXPECT_THAT(refused(with("pulse_fwhm_ns = 1.5", response + "pulse_response_first_bin = 5")),
+              HasSubstr("5 bins"));
+  EXPECT_THAT(
+      refused(with("pulse_fwhm_ns = 1.5", "pulse_response_file = \"no.npy\"\npulse_response_bin_ps = 500")),
+      HasSubstr("my.toml:5: pulse_response_file: "));
+}
+
+TEST_F(SensorFiles, CodeWidthsOfAColumnALineOrEveryLine) {
+  write("codes.csv", "tdc,a,b,c\nx,1,3,4\ny,2,2,6\n");
+  const auto codes = [&](const std::string& keys) {
+    return parse(with("[tdc]", "[tdc]\ntimestamp_bits = 3\ncode_widths_file = \"codes.csv\"\n" + keys))
+        .tdc_codes;
+  };
+  EXPECT_THAT(
+      codes("code_widths_row = \"x\"")->boundaries(0, 3),
+      ElementsAre(0.0, DoubleEq(8.0 / 20), DoubleEq(32.0 / 20), DoubleEq(64.0 / 20), DoubleEq(72.0 / 20),
+                  DoubleEq(96.0 / 20), DoubleEq(128.0 / 20), DoubleEq(136.0 / 20), 8.0));
+  EXPECT_THAT(codes("code_widths_column = \"b\"")->boundaries(0, 3)[1], DoubleEq(3.0 * 8.0 / 20.0));
+  // Edges 2, 2, 6: widths 2, 0, 4.
+  EXPECT_THAT(codes("code_widths_row = \"y\"\ncode_widths_are_edges = true")->boundaries(0, 3),
+              ElementsAre(0.0, DoubleEq(16.0 / 14), DoubleEq(16.0 / 14), DoubleEq(48.0 / 14),
+                          DoubleEq(64.0 / 14), DoubleEq(64.0 / 14), DoubleEq(96.0 / 14), DoubleEq(8.0), 8.0));
+  EXPECT_EQ(codes("code_widths_row = \"all\"")->tables(), 2U);
+  const auto refusal_of = [&](const std::string& keys) {
+    return refused(with("[tdc]", "[tdc]\ncode_widths_file = \"codes.csv\"\n" + keys));
+  };
+  EXPECT_THAT(refusal_of(""), HasSubstr("needs either code_widths_column or code_widths_row"));
+  EXPECT_THAT(refusal_of("code_widths_row = \"z\""), HasSubstr("no line begins with 'z'"));
+  EXPECT_THAT(refusal_of("code_widths_column = \"d\""), HasSubstr("no column is called 'd'"));
+  EXPECT_THAT(refusal_of("code_widths_column = \"tdc\""), HasSubstr("codes.csv:2: 'x' is no number"));
+  EXPECT_THAT(refusal_of("code_widths_row = \"all\"\ncode_widths_are_edges = 1"), HasSubstr("true or false"));
+  EXPECT_THAT(refused(with("[tdc]", "[tdc]\ncode_widths_row = \"all\"")),
+              HasSubstr("needs code_widths_file"));
+  write("codes.csv", "tdc,a,b,c\nx,1,3\n");
+  EXPECT_THAT(refusal_of("code_widths_row = \"x\""),
+              HasSubstr("codes.csv:2: 3 fields, but the first line has 4"));
 }
 
 TEST(SensorFile, FindSensorTakesPresetsAndFiles) {

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The sensor files of scripts/sensor_effects/ against the preset thesis: reports/sensor_effects.md and .csv.
+# Data that a sensor file names is looked for beside it, so both are linked into one folder.
+set -euo pipefail
+dtof=$1
+data=$(realpath -m "$2")
+seed=$3
+folder=build/sensor_effects
+rm -rf "$folder"
+mkdir -p "$folder"
+sensors=()
+for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time hot_pixels; do
+  cp "scripts/sensor_effects/$name.toml" "$folder/"
+  file=$(sed -n 's/^[a-z_]*_file = "\(.*\)"$/\1/p' "$folder/$name.toml")
+  if [ -n "$file" ]; then
+    if [ ! -f "$data/$file" ]; then
+      echo "sensor-effects: $data/$file is not here: $name is skipped"
+      continue
+    fi
+    ln -sf "$data/$file" "$folder/$file"
+  fi
+  sensors+=("$folder/$name.toml")
+done
+"$dtof" sensor-effects "${sensors[@]}" --seed "$seed" --out "$folder"
+cp "$folder/sensor_effects.md" "$folder/sensor_effects.csv" reports/
