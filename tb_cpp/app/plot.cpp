@@ -49,6 +49,9 @@ std::string logarithmic_marks(const std::vector<PlotSeries>& series) {
   for (int decade = static_cast<int>(std::floor(std::log10(low))); decade <= last; ++decade) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double mark = digit * std::pow(10.0, decade);
+      if (mark < 0.999 * low || mark > 1.001 * high) {
+        continue;  // gnuplot would make room for its label
+      }
       marks += fmt::format("{}'{:g}' {:.9g}", marks.empty() ? "" : ", ", mark, mark);
     }
   }

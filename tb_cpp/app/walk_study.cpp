@@ -60,9 +60,9 @@ Measurements read(const WalkSettings& settings, std::span<const PixelTarget> col
 std::vector<double> correction_reflectivities(const WalkSettings& settings) {
   constexpr int kReflectivities = 8;
   const auto [least, most] = std::ranges::minmax(settings.reflectivities);
-  std::vector<double> reflectivities;
-  for (int i = 0; i < kReflectivities; ++i) {
-    reflectivities.push_back(least * std::pow(most / least, static_cast<double>(i) / (kReflectivities - 1)));
+  std::vector<double> reflectivities(kReflectivities);
+  for (std::size_t i = 0; i < reflectivities.size(); ++i) {
+    reflectivities[i] = least * std::pow(most / least, static_cast<double>(i) / (kReflectivities - 1));
   }
   return reflectivities;
 }
