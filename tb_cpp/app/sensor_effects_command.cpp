@@ -24,7 +24,7 @@ struct SensorEffectsOptions {
   std::string clean = "thesis";
   std::vector<std::string> others;
   std::vector<double> klux = {2.0, 14.0, 50.0};
-  std::vector<double> distances_m = {0.52, 1.03, 2.07, 3.11};  // between those of the calibration
+  std::vector<double> distances_m = {0.33, 1.03, 2.03, 3.03};  // between those of the calibration
   ReadoutOptions readouts;
   int frames = 1000;
   std::string out = "build/sensor_effects";
