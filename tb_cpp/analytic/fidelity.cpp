@@ -31,7 +31,7 @@ constexpr std::array kFastSamplers = {
     FastSampler{Readout::kEzPointer, 0.01, 0.55},  FastSampler{Readout::kHisPointer1, 0.01, 0.55},
     FastSampler{Readout::kHisPointer, 0.01, 0.45}, FastSampler{Readout::kSifh, 0.01, 0.45},
     FastSampler{Readout::kFifh, 0.01, 0.45},       FastSampler{Readout::kThreeSteps, 0.01, 0.55},
-    FastSampler{Readout::kPifh, 0.01, 1.6},        FastSampler{Readout::kHistogram, 0.01, 0.5},
+    FastSampler{Readout::kPifh, 0.015, 1.6},       FastSampler{Readout::kHistogram, 0.01, 0.5},
 };
 
 const FastSampler* find_sampler(Readout readout) {
