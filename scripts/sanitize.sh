@@ -26,6 +26,7 @@ build_and_run() { # name, sanitizers, tests (empty: all)
 export GTEST_FILTER=${GTEST_FILTER:--*FrameCycles.StayBelowTheLimit*:*StaysBelowTheCycleLimit*}
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan_suppressions.txt:print_suppressions=0
 export TSAN_OPTIONS=halt_on_error=1:suppressions=$PWD/scripts/tsan_suppressions.txt
 case ${1:-all} in
   address) build_and_run address address,undefined "" ;;
