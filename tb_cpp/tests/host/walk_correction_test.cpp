@@ -130,6 +130,14 @@ TEST(WalkCorrection, WhatMissedTheTargetCorrectsNothing) {
   const WalkCorrection correction = WalkCorrection::calibrate(two_classes(), ten_bins_a_metre(), 0.4);
   EXPECT_EQ(correction.classes(), 1U);
   EXPECT_NEAR(correction.distance({25.0, 20.0}), 2.5, 1e-9);
+  // Nor do misses of the same confidence as the rest.
+  std::vector<TargetRun> runs = two_classes();
+  for (TargetRun& run : runs) {
+    for (std::size_t i = 0; i < 12; ++i) {
+      run.measurements[i].position += 20.0;
+    }
+  }
+  EXPECT_NEAR(WalkCorrection::calibrate(runs, ten_bins_a_metre(), 0.6).distance({20.0, 10.0}), 2.0, 1e-9);
   const WalkCorrection none = WalkCorrection::calibrate({}, ten_bins_a_metre(), 0.4);
   EXPECT_EQ(none.classes(), 0U);
   EXPECT_NEAR(none.distance({25.0, 20.0}), 2.5, 1e-9);

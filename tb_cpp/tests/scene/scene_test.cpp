@@ -280,14 +280,14 @@ TEST(DepthImageScene, UnknownDepthIsNoTarget) {
 
 TEST(ReflectivityMap, IsResampledToTheNearestPixelAndKeepsDistances) {
   TargetMap map(4, 2, {.depth_m = 3.0, .reflectivity = 1.0});
-  const std::array<float, 2> values = {0.25F, 0.5F};
-  set_reflectivity(map, 2, 1, values);
+  const std::array<float, 4> values = {0.25F, 0.5F, 0.75F, 1.0F};
+  set_reflectivity(map, 2, 2, values);
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 2; ++row) {
-      EXPECT_EQ(map.at(column, row), (PixelTarget{3.0, column < 2 ? 0.25 : 0.5}));
+      EXPECT_EQ(map.at(column, row), (PixelTarget{3.0, 0.25 + (column < 2 ? 0.0 : 0.25) + 0.5 * row}));
     }
   }
-  EXPECT_THAT(refusal([&] { set_reflectivity(map, 3, 1, values); }), HasSubstr("2 values"));
+  EXPECT_THAT(refusal([&] { set_reflectivity(map, 3, 1, values); }), HasSubstr("4 values"));
   const std::array<float, 1> negative = {-0.5F};
   EXPECT_THAT(refusal([&] { set_reflectivity(map, 1, 1, negative); }), HasSubstr("-0.5"));
 }
