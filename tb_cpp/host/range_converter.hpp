@@ -29,7 +29,8 @@ struct RunIdentity {
   std::uint64_t seed;
   std::uint32_t frame;
 
-  auto operator<=>(const RunIdentity&) const = default;
+  // clang-tidy 14 objects to the 0 with which the compiler makes this comparison.
+  auto operator<=>(const RunIdentity&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// Repeated measurements of a target at a known distance.
