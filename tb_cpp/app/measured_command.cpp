@@ -316,7 +316,7 @@ void write_pictures(const std::filesystem::path& folder, const MeasuredScene& sc
   }
   constexpr int kPanelWidth = 200;
   const int pixel_size = std::clamp(kPanelWidth / scene.columns, 1, 12);
-  const double margin = 0.1 * (farthest - nearest);
+  const double margin = 0.1 * (farthest > nearest ? farthest - nearest : farthest);
   write_map_picture(folder / "depth.png", depths,
                     {.title = fmt::format("{}: distance, {}", scene.title, result.light.name()),
                      .caption = options.command_line,

@@ -556,6 +556,30 @@ TEST_F(CommandLine, ReplayAgainstATruthMap) {
   expect_refused(replay + "--offset 1 --out out", "--truth");
 }
 
+TEST_F(CommandLine, MeasuredAgainstATruthMap) {
+  const std::filesystem::path core_file = std::filesystem::weakly_canonical(DTOF_CORE_FILE);
+  const std::filesystem::path log =
+      core_file.parent_path().parent_path().parent_path() / "shared/data/ams_tmf8829_log.json.gz";
+  if (!std::filesystem::exists(log)) {
+    GTEST_SKIP() << log.string() << " is not here";
+  }
+  const std::string measured = fmt::format("measured '{}' -r sifh -a 500 --photons 300 ", log.string());
+  // The log's 26 frames of 16 zones; the lower half of each is unknown.
+  std::vector<float> truth(26 * 16, 1.5F);
+  std::fill(truth.begin() + 26 * 8, truth.end(), 0.0F);
+  write_pfm(path("truth.pfm"), {.width = 26, .height = 16, .metres = truth});
+  const Outcome outcome = dtof(measured + "--truth truth.pfm --out measured");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("The truth is the map truth.pfm."));
+  const std::string csv = read_file(path("measured/summary.csv"));
+  EXPECT_THAT(csv, HasSubstr("offset_mm,rmse_mm,bias_mm"));
+  EXPECT_THAT(csv, HasSubstr("\n300,0,SiFH,208,"));
+  write_pfm(path("small.pfm"), {.width = 2, .height = 1, .metres = {1.0F, 1.0F}});
+  expect_refused(measured + "--truth small.pfm --out out",
+                 "small.pfm: the truth map has 2 x 1 pixels, but the recording has 26 x 16");
+  expect_refused(measured + "--truth-scale 2 --out out", "--truth-scale needs --truth");
+}
+
 TEST_F(CommandLine, RefusesBadScenesAndMeasurements) {
   expect_refused("scenes --variant hispointer --out out", "expected READOUT:PARAMETER=NUMBER");
   expect_refused("scenes --variant hispointer:COUNT_WIDTH=x --out out", "expected READOUT:PARAMETER=NUMBER");
