@@ -60,6 +60,7 @@ SensorAccuracy measure(const SensorEffectsOptions& options, const SensorModel& s
 void run_sensor_effects_command(const SensorEffectsOptions& options) {
   const SensorModel clean_sensor = find_sensor(options.clean);
   std::vector<SensorModel> sensors;
+  sensors.reserve(options.others.size());
   for (const std::string& name : options.others) {
     sensors.push_back(find_sensor(name));
     (void)settings_of(options, sensors.back());  // refused before the first is measured
@@ -68,6 +69,7 @@ void run_sensor_effects_command(const SensorEffectsOptions& options) {
   create_output_folder(folder);
   const SensorAccuracy clean = measure(options, clean_sensor);
   std::vector<SensorAccuracy> others;
+  others.reserve(sensors.size());
   for (const SensorModel& sensor : sensors) {
     others.push_back(measure(options, sensor));
   }

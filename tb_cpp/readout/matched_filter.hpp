@@ -52,7 +52,7 @@ class MatchedFilter {
   void match_response(const PulseResponse& response, double bin_ratio);
 
   std::size_t no_detection_;
-  std::size_t reach_;             // bins on each side beyond which the template is negligible
+  std::size_t reach_ = 1;         // bins on each side beyond which the template is negligible
   std::vector<double> template_;  // of tau - reach .. tau + reach for an event in bin tau: the pulse reversed
   std::vector<double> counts_;
   std::vector<double> scores_;  // with `reach_` bins of margin on both sides

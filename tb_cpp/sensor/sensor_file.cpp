@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -65,7 +66,7 @@ constexpr bool kReal = false;
 constexpr double kNano = 1e9;
 constexpr double kPico = 1e12;
 
-constexpr NumberKey kNumbers[] = {
+constexpr auto kNumbers = std::to_array<NumberKey>({
     {"array", "columns", Need::kNever, 1, kIncluded, 4096, kWhole,
      [](Draft& d, double v) { d.model.columns = static_cast<int>(v); }, "200", "columns of the array",
      "larger arrays are described by a part of them"},
@@ -164,7 +165,7 @@ constexpr NumberKey kNumbers[] = {
     {"detector", "defect_seed", Need::kNever, 0, kIncluded, 4294967295.0, kWhole,
      [](Draft& d, double v) { d.model.defects.seed = static_cast<std::uint64_t>(v); }, "1",
      "which pixels the shares choose; the same in every frame", "32 bits"},
-};
+});
 
 /// A key that is no number.
 struct OtherKey {
@@ -175,7 +176,7 @@ struct OtherKey {
   std::string_view meaning;
 };
 
-constexpr OtherKey kOthers[] = {
+constexpr auto kOthers = std::to_array<OtherKey>({
     {"tdc", "code_widths_file", "path", "none: equal codes",
      "CSV, plain or gzip, of measured TDC code widths (differential non-linearity), in any unit: they repeat "
      "until all "
@@ -196,9 +197,10 @@ constexpr OtherKey kOthers[] = {
      "2R/c, as the Gaussian's does"},
     {"detector", "hot_pixels", "list of [column, row]", "[]", "pixels that are hot besides the share"},
     {"detector", "dead_pixels", "list of [column, row]", "[]", "pixels that are dead besides the share"},
-};
+});
 
-constexpr std::string_view kSections[] = {"array", "tdc", "laser", "light", "optics", "detector"};
+constexpr auto kSections =
+    std::to_array<std::string_view>({"array", "tdc", "laser", "light", "optics", "detector"});
 
 std::vector<std::string_view> keys_of(std::string_view section) {
   std::vector<std::string_view> names;
@@ -237,7 +239,7 @@ std::string_view default_of(const NumberKey& key) {
 
 class SensorReader {
  public:
-  SensorReader(const toml::table& root, const std::filesystem::path& path) : root_(root), path_(path) {}
+  SensorReader(const toml::table& root, std::filesystem::path path) : root_(root), path_(std::move(path)) {}
 
   SensorModel read() {
     check_names();
@@ -416,8 +418,9 @@ class SensorReader {
         throw InputError(fmt::format("{} bins, so pulse_response_first_bin cannot be {}", array.values.size(),
                                      draft.response_first_bin));
       }
-      std::ranges::rotate(array.values,
-                          array.values.begin() + static_cast<std::ptrdiff_t>(draft.response_first_bin));
+      std::rotate(array.values.begin(),
+                  array.values.begin() + static_cast<std::ptrdiff_t>(draft.response_first_bin),
+                  array.values.end());
       return std::make_shared<const PulseResponse>(std::move(array.values), draft.response_bin_s);
     });
     draft.model.pulse_fwhm_s = draft.model.pulse_response->full_width_at_half_maximum();

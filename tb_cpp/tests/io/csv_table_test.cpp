@@ -17,13 +17,15 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 class CsvTableTest : public ::testing::Test {
- protected:
-  ~CsvTableTest() override { std::filesystem::remove(path_); }
-  CsvTableTest() = default;
+ public:
   CsvTableTest(const CsvTableTest&) = delete;
   CsvTableTest& operator=(const CsvTableTest&) = delete;
   CsvTableTest(CsvTableTest&&) = delete;
   CsvTableTest& operator=(CsvTableTest&&) = delete;
+
+ protected:
+  ~CsvTableTest() override { std::filesystem::remove(path_); }
+  CsvTableTest() = default;
 
   [[nodiscard]] CsvTable table(const std::string& text) const {
     std::ofstream(path_) << text;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -289,9 +290,9 @@ TEST_F(SensorEffects, UnequalCodesGetTheLightOfTheirWidths) {
   const PhotonSource exact = source(0.0, 14.0);
   const double background = exact.rates(0, 0).background;
   std::vector<double> means;
-  const double widths[] = {1.5, 0.5, 0.0, 2.0};
+  constexpr std::array kWidths = {1.5, 0.5, 0.0, 2.0};
   for (std::size_t code = 0; code < 1024; ++code) {
-    means.push_back(background / 1024.0 * widths[code % 4]);
+    means.push_back(background / 1024.0 * kWidths.at(code % 4));
   }
   const std::vector<std::uint64_t> codes = counts(exact);
   EXPECT_GT(poisson_chi_square_p(codes, times_acquisitions(means)), kErrorRate);

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -139,13 +141,15 @@ TEST(SensorFile, WhatIsNoTomlIsRefusedWithTheLine) {
 }
 
 class SensorFiles : public ::testing::Test {
- protected:
-  SensorFiles() { std::filesystem::create_directories(folder_); }
-  ~SensorFiles() override { std::filesystem::remove_all(folder_); }
+ public:
   SensorFiles(const SensorFiles&) = delete;
   SensorFiles& operator=(const SensorFiles&) = delete;
   SensorFiles(SensorFiles&&) = delete;
   SensorFiles& operator=(SensorFiles&&) = delete;
+
+ protected:
+  SensorFiles() { std::filesystem::create_directories(folder_); }
+  ~SensorFiles() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -204,7 +208,7 @@ TEST_F(SensorFiles, DetectorKeysThatNeedOthers) {
 TEST_F(SensorFiles, MeasuredPulse) {
   const std::vector<double> samples = {1.0, 3.0, 0.0, 0.0,
                                        2.0};  // one period: the pulse begins with the last bin
-  const std::size_t shape[] = {samples.size()};
+  const std::array<std::size_t, 1> shape = {samples.size()};
   write_npy(folder_ / "pulse.npy", shape, samples);
   const std::string response = "pulse_response_file = \"pulse.npy\"\npulse_response_bin_ps = 500\n";
   const SensorModel sensor = parse(with("pulse_fwhm_ns = 1.5", response + "pulse_response_first_bin = 4"));
