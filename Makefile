@@ -2,7 +2,7 @@
 # make            install what is missing, build, read one scene out through the RTL of every read-out, report
 # make test       every test and the lint
 # make sim        the main job without the installation step
-# make reproduce  the thesis's accuracy statements, measured (minutes)
+# make reproduce  the thesis's accuracy statements, measured (minutes); make coverage-study: their intervals checked
 # make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
 # make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
 # make lint       RTL in three tools, C++ format and static analysis
@@ -62,6 +62,7 @@ clean:
 
 -include synth/synth.mk
 -include scripts/reproduce.mk
+-include scripts/coverage_study.mk
 -include scripts/photon_report.mk
 -include scripts/study.mk
 -include scripts/formal.mk

@@ -34,6 +34,9 @@ struct AccuracyOptions {
   std::vector<double> distances_m = {0.2, 0.5, 0.8, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0};
   int frames = 1000;
   std::optional<double> precision_percent;
+  double rare_outliers_percent = 0.1;
+  std::uint64_t calibration_seed = 1;
+  int calibration_frames = 200;
   int most_frames = 100'000;
   std::optional<double> reject_percent;
   std::optional<double> reflectivity;
@@ -74,6 +77,9 @@ StudySettings settings_of(const AccuracyOptions& options) {
   if (options.precision_percent) {
     settings.precision = *options.precision_percent / 100.0;
   }
+  settings.rare_outliers = options.rare_outliers_percent / 100.0;
+  settings.calibration_seed = options.calibration_seed;
+  settings.calibration_frames = options.calibration_frames;
   settings.most_frames = std::max(options.most_frames, options.frames);
   if (options.reject_percent) {
     settings.rejection = *options.reject_percent / 100.0;
@@ -88,23 +94,39 @@ std::string heading(const AccuracyOptions& options, const StudySettings& setting
   return fmt::format(
       "Sensor {}, reflectivity {:g}, {} acquisitions per frame, engine {}, photon model {}, seed {}. {} "
       "frames "
-      "a distance{}; "
-      "the\n"
-      "look-up table comes from {} other frames every {:g} m, at the same light.\n",
+      "per distance{}.\n"
+      "The look-up table is that of calibration run {}: {} frames at every {:g} m, at the same light. It "
+      "does "
+      "not depend on\n"
+      "the seed; all figures after the table are those of this one table.\n",
       settings.sensor.name, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
       options.sensor.fidelity, options.run.seed, settings.frames,
       settings.precision
           ? fmt::format(
-                " or more, up to {}, until the intervals of relative precision and rmse are within {:g} %",
-                settings.most_frames, *settings.precision * 100.0)
+                " or more, up to {}, until the intervals of relative precision and rmse are within {:g} % "
+                "and "
+                "outliers are either ten or more, or none in so many frames that they are rarer than {:g} %",
+                settings.most_frames, *settings.precision * 100.0, settings.rare_outliers * 100.0)
           : "",
-      settings.calibration_frames, settings.calibration_step_m);
+      settings.calibration_seed, settings.calibration_frames, settings.calibration_step_m);
 }
 
 constexpr const char* kLegend =
-    "In brackets: 95 % confidence intervals, closed forms (Student's t for the bias, Welch for the slope, "
-    "Wilson's\n"
-    "score for shares, the fourth moment and the delta method for relative precision and rmse).\n"
+    "In brackets: 95 % confidence intervals, closed forms (Student's t for the bias, Wilson's score for "
+    "shares, "
+    "the\n"
+    "fourth moment and the delta method for relative precision and rmse); `make coverage-study` shows that "
+    "they "
+    "hold.\n"
+    "* fewer than ten outliers were seen. A share's interval is then the exact one (Clopper and Pearson). "
+    "For the "
+    "other\n"
+    "figures the brackets take outliers to be like those seen, and the second interval holds whatever those "
+    "too rare\n"
+    "to be seen are, up to the sensor's range. An outlier is here a result farther than six robust "
+    "deviations "
+    "(quartile\n"
+    "range / 1.349) from the median.\n"
     "Relative precision (Eq. 3.14), bias and slope are those of Eq. 3.11, before the look-up table; rmse, "
     "shares\n"
     "of errors and efficiency (Cramer-Rao bound / rmse) are those after it. Slope: change of measured over "
@@ -270,7 +292,8 @@ Table band_csv(const std::vector<BandAccuracy>& rows) {
 
 /// With --depth: errors by distance band over the user's map. `command` tells which options were given.
 void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
-  for (const char* option : {"--precision", "--max-frames", "--reject"}) {
+  for (const char* option : {"--precision", "--rare-outliers", "--max-frames", "--reject",
+                             "--calibration-seed", "--calibration-frames"}) {
     if (command.count(option) > 0) {
       throw InputError(fmt::format("accuracy: {} does not apply to a map (--depth)", option));
     }
@@ -354,6 +377,18 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
                    "more frames until the 95 % intervals of relative precision and rmse are within this many "
                    "per cent of their value")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--rare-outliers", options->rare_outliers_percent,
+                   "--precision does not wait for outliers rarer than this many per cent")
+      ->check(CLI::Range(1e-4, 50.0))
+      ->capture_default_str();
+  command
+      ->add_option("--calibration-seed", options->calibration_seed,
+                   "names the calibration run that the look-up table comes from; --seed does not change it")
+      ->capture_default_str();
+  command->add_option("--calibration-frames", options->calibration_frames, "its frames per distance")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
   command->add_option("--max-frames", options->most_frames, "where --precision gives up")
       ->check(CLI::Range(4, 10'000'000))
       ->capture_default_str();
@@ -379,6 +414,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
   command->callback([options, command] {
     if (!options->precision_percent) {
       refuse_without_effect(*command, "--max-frames", "it ends what --precision asks for");
+      refuse_without_effect(*command, "--rare-outliers", "it limits what --precision waits for");
     }
     options->sensor.refuse_options_without_effect(*command);
     options->run.validate();

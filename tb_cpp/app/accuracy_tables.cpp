@@ -14,28 +14,39 @@ void append(std::vector<std::string>& row, const Estimate& estimate) {
   for (const double value : {estimate.value, estimate.interval.low, estimate.interval.high}) {
     row.push_back(fmt::format("{:.6g}", value));
   }
+  row.push_back(estimate.with_unseen ? fmt::format("{:.6g}", estimate.with_unseen->low) : "");
+  row.push_back(estimate.with_unseen ? fmt::format("{:.6g}", estimate.with_unseen->high) : "");
 }
 
 void append(std::vector<std::string>& row, const std::optional<Estimate>& estimate) {
   if (estimate) {
     append(row, *estimate);
   } else {
-    row.insert(row.end(), 3, "");
+    row.insert(row.end(), 5, "");
   }
 }
 
 }  // namespace
 
 std::string format_estimate(const Estimate& estimate, double scale, int digits) {
-  return fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", estimate.value * scale, digits,
-                     estimate.interval.low * scale, digits, estimate.interval.high * scale, digits);
+  std::string text =
+      fmt::format("{:.{}f} [{:.{}f}, {:.{}f}]", estimate.value * scale, digits, estimate.interval.low * scale,
+                  digits, estimate.interval.high * scale, digits);
+  if (estimate.with_unseen) {
+    text += '*';
+    if (estimate.with_unseen != estimate.interval) {
+      text += fmt::format(" {:.{}f} to {:.{}f}", estimate.with_unseen->low * scale, digits,
+                          estimate.with_unseen->high * scale, digits);
+    }
+  }
+  return text;
 }
 
 Table accuracy_csv(std::span<const AccuracyPoint> points) {
   std::vector<std::string> header = {"klux", "readout", "distance_m", "frames", "precision_reached"};
   for (const char* figure : {"relative_precision", "bias_m", "slope", "rmse_m", "above_3_percent",
                              "outlier_rate", "efficiency", "accepted", "outliers_kept"}) {
-    for (const char* part : {"", "_low", "_high"}) {
+    for (const char* part : {"", "_low", "_high", "_low_unseen", "_high_unseen"}) {
       header.push_back(fmt::format("{}{}", figure, part));
     }
   }

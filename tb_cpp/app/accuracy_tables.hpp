@@ -13,10 +13,13 @@
 
 namespace dtof {
 
-/// "value [low, high]", each times `scale`, with `digits` after the point.
+/// "value [low, high]", each times `scale`, with `digits` after the point. With few outliers "value [low,
+/// high]* low to high": the second interval allows for outliers that were not seen; "value [low, high]*"
+/// where both are the same.
 std::string format_estimate(const Estimate& estimate, double scale, int digits);
 
-/// Every figure of every point, intervals as columns of their own; SI units, shares 0 .. 1.
+/// Every figure of every point, intervals as columns of their own; SI units, shares 0 .. 1. Columns
+/// `*_low_unseen` and `*_high_unseen` are empty but where fewer than kFewOutliers outliers were seen.
 Table accuracy_csv(std::span<const AccuracyPoint> points);
 
 /// A table of one estimator over distance, with intervals.

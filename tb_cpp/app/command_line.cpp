@@ -136,6 +136,7 @@ std::unique_ptr<CLI::App> make_command_line(const std::string& command_line) {
   add_frame_command(*app, command_line);
   add_replay_command(*app, command_line);
   add_accuracy_command(*app, command_line);
+  add_coverage_command(*app, command_line);
   add_reproduce_command(*app, command_line);
   add_speed_error_command(*app, command_line);
   add_fidelity_command(*app, command_line);

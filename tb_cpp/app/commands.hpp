@@ -11,6 +11,7 @@ namespace dtof {
 void add_frame_command(CLI::App& app, const std::string& command_line);
 void add_replay_command(CLI::App& app, const std::string& command_line);
 void add_accuracy_command(CLI::App& app, const std::string& command_line);
+void add_coverage_command(CLI::App& app, const std::string& command_line);
 void add_reproduce_command(CLI::App& app, const std::string& command_line);
 void add_speed_error_command(CLI::App& app, const std::string& command_line);
 void add_fidelity_command(CLI::App& app, const std::string& command_line);

@@ -32,7 +32,7 @@ std::vector<std::vector<double>> histograms(const FigureScene& scene, std::uint3
     for (std::size_t row = 0; row < rows; ++row) {
       std::vector<double>& histogram = counts[column * rows + row];
       histogram.resize(bins);
-      for (const Detection& detection : stream.row(pixels.column(static_cast<int>(row)))) {
+      for (const Detection& detection : stream.row(pixels.row(static_cast<int>(row)))) {
         if (detection.acquisition < acquisitions && detection.timestamp < bins) {
           histogram[detection.timestamp] += 1.0;
         }

@@ -84,11 +84,12 @@ TEST(ConfidenceInterval, CoverageOfMeanOfFewValues) {
 TEST(ConfidenceInterval, CoverageOfSlope) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = make_random(2);
-  EXPECT_NEAR(
-      coverage(
-          0.0,
-          [&] { return estimate_slope(normal_values(random, 60), normal_values(random, 30, 3.0), 2.0); }),
-      0.95, 0.02);
+  EXPECT_NEAR(coverage(0.0,
+                       [&] {
+                         return estimate_slope(estimate_mean(normal_values(random, 60)),
+                                               estimate_mean(normal_values(random, 30, 3.0)), 2.0);
+                       }),
+              0.95, 0.02);
 }
 
 TEST(ConfidenceInterval, CoverageOfStandardDeviationAndRootMeanSquare) {
@@ -132,6 +133,110 @@ TEST(ConfidenceInterval, CoverageOfSmallShare) {
   EXPECT_LT(covered, 0.99);
 }
 
+TEST(ConfidenceInterval, RareShareIsExact) {
+  // Clopper and Pearson, e.g. from R's binom.test.
+  const Estimate one = estimate_rare_share(1, 10);
+  EXPECT_NEAR(one.interval.low, 0.00252858, 1e-7);
+  EXPECT_NEAR(one.interval.high, 0.4450161, 1e-7);
+  EXPECT_EQ(one.with_unseen, one.interval);
+  // Closed forms of the ends: 1 - 0.025^(1/n) for no success, 0.025^(1/n) for no failure.
+  EXPECT_NEAR(estimate_rare_share(0, 1000).interval.high, 1.0 - std::pow(0.025, 1e-3), 1e-12);
+  EXPECT_NEAR(estimate_rare_share(1000, 1000).interval.low, std::pow(0.025, 1e-3), 1e-12);
+  EXPECT_EQ(estimate_rare_share(10, 1000), estimate_share(10, 1000));
+  EXPECT_FALSE(estimate_rare_share(10, 1000).with_unseen);
+  EXPECT_TRUE(estimate_rare_share(991, 1000).with_unseen);
+}
+
+TEST(Outliers, BeyondSixRobustDeviations) {
+  // Quartiles 3 and 7, median 5: deviation 4 / 1.349, six of them 17.8.
+  EXPECT_EQ(find_outliers(std::vector<double>{22.7, 2, 3, 4, 5, 6, 7, 8, 1}).count, 0U);
+  const Outliers outliers = find_outliers(std::vector<double>{22.9, 2, 3, 4, 5, 6, 7, 8, 1});
+  EXPECT_EQ(outliers.count, 1U);
+  EXPECT_TRUE(outliers.is_outlier.front());
+  EXPECT_EQ(find_outliers(std::vector<double>{9, 2, 3, 4, 5, 6, 7, 8, -12.9}).count, 1U);
+  EXPECT_EQ(find_outliers(std::vector<double>{}).count, 0U);
+}
+
+// Few outliers of a normal population: `count` expected in 1,000 values, as large as what `size` draws.
+std::vector<double> contaminated(CounterRandom& random, double count, const std::function<double()>& size) {
+  std::vector<double> values = normal_values(random, 1000);
+  for (double& value : values) {
+    if (random.uniform() < count / 1000.0) {
+      value = size();
+    }
+  }
+  return values;
+}
+
+TEST(ConfidenceInterval, CoversWhateverFewOutliersAre) {
+  SCOPED_TRACE(test_seed_message());
+  const Interval range{-100.0, 300.0};
+  CounterRandom random = make_random(6);
+  struct Population {
+    const char* name;
+    std::function<double()> size;
+    double mean;
+    double mean_square;
+  };
+  const std::vector<Population> populations = {
+      {"uniform over the range", [&] { return -100.0 + 400.0 * random.uniform(); }, 100.0,
+       100.0 * 100.0 + 400.0 * 400.0 / 12.0},
+      {"at the range's end", [] { return 300.0; }, 300.0, 300.0 * 300.0},
+      {"just outside", [] { return -8.0; }, -8.0, 64.0}};
+  for (const Population& population : populations) {
+    for (const double expected : {0.05, 0.5, 2.0, 6.0, 12.0}) {
+      SCOPED_TRACE(population.name + std::string(", outliers expected: ") + std::to_string(expected));
+      const double share = expected / 1000.0;
+      const double mean = share * population.mean;
+      const double mean_square = (1.0 - share) + share * population.mean_square;
+      int mean_covered = 0;
+      int root_covered = 0;
+      int deviation_covered = 0;
+      constexpr int kFewerSets = 1000;
+      for (int set = 0; set < kFewerSets; ++set) {
+        const std::vector<double> values = contaminated(random, expected, population.size);
+        const Outliers outliers = find_outliers(values);
+        const auto covers = [](const Estimate& estimate, double truth) {
+          return estimate.covering().low <= truth && truth <= estimate.covering().high ? 1 : 0;
+        };
+        mean_covered += covers(estimate_mean(values, outliers, range), mean);
+        root_covered += covers(estimate_root_mean_square(values, outliers, range), std::sqrt(mean_square));
+        deviation_covered += covers(estimate_standard_deviation(values, outliers, range),
+                                    std::sqrt(mean_square - mean * mean));
+      }
+      constexpr int kLeast = 930;
+      EXPECT_GT(mean_covered, kLeast);
+      EXPECT_GT(root_covered, kLeast);
+      EXPECT_GT(deviation_covered, kLeast);
+    }
+  }
+}
+
+TEST(ConfidenceInterval, WithoutOutliersTheNarrowIntervalIsTheUsualOne) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = make_random(7);
+  const std::vector<double> values = normal_values(random, 100);
+  const Outliers none = find_outliers(values);
+  ASSERT_EQ(none.count, 0U);
+  const Interval range{-50.0, 20.0};
+  const Estimate rms = estimate_root_mean_square(values, none, range);
+  const Estimate usual = estimate_root_mean_square(values);
+  EXPECT_NEAR(rms.interval.low, usual.interval.low, 1e-12);
+  EXPECT_NEAR(rms.interval.high, usual.interval.high, 1e-12);
+  const double most = 1.0 - std::pow(0.025, 0.01);  // of the share when none of 100 was seen
+  ASSERT_TRUE(rms.with_unseen);
+  EXPECT_NEAR(rms.with_unseen->high, std::sqrt(usual.interval.high * usual.interval.high + most * 2500.0),
+              1e-9);
+  const Estimate mean = estimate_mean(values, none, range);
+  EXPECT_NEAR(mean.interval.low, estimate_mean(values).interval.low, 1e-12);
+  EXPECT_NEAR(mean.with_unseen->low, mean.interval.low - most * (mean.value + 50.0), 1e-9);
+  EXPECT_NEAR(mean.with_unseen->high, mean.interval.high + most * (20.0 - mean.value), 1e-9);
+  EXPECT_EQ(reciprocal(2.0, rms).with_unseen->low, 2.0 / rms.with_unseen->high);
+  const Estimate slope = estimate_slope(mean, mean, 1.0);
+  EXPECT_NEAR(slope.with_unseen->high,
+              std::hypot(mean.with_unseen->high - mean.value, mean.value - mean.with_unseen->low), 1e-9);
+}
+
 TEST(ConfidenceInterval, EqualValues) {
   const std::vector<double> values(5, 0.1);
   EXPECT_EQ(estimate_standard_deviation(values), (Estimate{0.0, {0.0, 0.0}}));
@@ -153,8 +258,9 @@ TEST(ConfidenceInterval, Refusals) {
   EXPECT_THROW((void)estimate_standard_deviation(std::vector<double>{1.0, 2.0, 3.0}), InputError);
   EXPECT_THROW((void)estimate_standard_deviation(bad), InputError);
   EXPECT_THROW((void)estimate_root_mean_square(bad), InputError);
-  EXPECT_THROW((void)estimate_slope(std::vector<double>{1.0, 2.0}, std::vector<double>{1.0, 2.0}, 0.0),
-               InputError);
+  EXPECT_THROW((void)estimate_slope({1.0, {0.0, 2.0}}, {1.0, {0.0, 2.0}}, 0.0), InputError);
+  EXPECT_THROW((void)estimate_mean(std::vector<double>{1.0, 2.0}, Outliers{}, {0.0, 3.0}), InputError);
+  EXPECT_THROW((void)estimate_rare_share(2, 1), InputError);
   EXPECT_THROW((void)estimate_share(0, 0), InputError);
   EXPECT_THROW((void)estimate_share(2, 1), InputError);
 }
