@@ -98,6 +98,8 @@ class Sweep {
     point.rmse_m = after.rmse_m;
     point.above_3_percent = after.above_3_percent;
     point.outlier_rate = after.outlier_rate;
+    point.far_before = before.far_from_others;
+    point.far_after = after.far_from_others;
     point.cramer_rao_m = bench_.cramer_rao_m(run.distance_m);
     point.efficiency = reciprocal(point.cramer_rao_m, point.rmse_m);
     if (settings_.rejection) {
@@ -150,12 +152,22 @@ class Sweep {
 
 }  // namespace
 
+Estimate without_rare_outliers(const Estimate& estimate, std::uint64_t far_from_others, std::uint64_t frames,
+                               double rare_outliers) {
+  Estimate result = estimate;
+  if (far_from_others == 0 && frames > 0 && estimate_rare_share(0, frames).interval.high <= rare_outliers) {
+    result.with_unseen.reset();
+  }
+  return result;
+}
+
 bool precision_reached(const ErrorEstimates& before, const ErrorEstimates& after, std::uint64_t frames,
                        double precision, double rare_outliers) {
-  const bool surely_rare = estimate_rare_share(0, frames).interval.high <= rare_outliers;
-  const auto known = [&](const Estimate& estimate, std::uint64_t outliers) {
+  const auto known = [&](const Estimate& estimate, std::uint64_t far) {
+    const bool few = far < kFewOutliers;
     return estimate.relative_half_width() <= precision &&
-           (outliers >= kFewOutliers || (outliers == 0 && surely_rare));
+           (!few || !without_rare_outliers({0.0, {}, Interval{}}, far, frames, rare_outliers)
+                         .with_unseen.has_value());
   };
   return known(before.relative_precision, before.far_from_others) &&
          known(after.rmse_m, after.far_from_others);

@@ -25,7 +25,9 @@ struct AccuracyPoint {
       slope;        ///< d(depth)/dR over the neighbouring distances, before the table; 1 = ideal
   Estimate rmse_m;  ///< after the look-up table, as everything below
   Estimate above_3_percent;
-  Estimate outlier_rate;  ///< error above 10 %
+  Estimate outlier_rate;         ///< error above 10 %
+  std::uint64_t far_before = 0;  ///< ErrorEstimates::far_from_others before the table
+  std::uint64_t far_after = 0;   ///< and after it
   double cramer_rao_m = 0.0;
   Estimate efficiency;                    ///< Cramer-Rao bound / rmse
   std::optional<Estimate> accepted;       ///< share with enough confidence
@@ -45,6 +47,11 @@ struct AccuracyStudy {
 /// in so many frames that their share is below `rare_outliers` (at kConfidenceLevel).
 bool precision_reached(const ErrorEstimates& before, const ErrorEstimates& after, std::uint64_t frames,
                        double precision, double rare_outliers);
+
+/// `estimate` for a judgement that does not mind outliers rarer than `rare_outliers`: where none was seen in
+/// so many frames that they are rarer (at kConfidenceLevel), it loses its interval for unseen outliers.
+Estimate without_rare_outliers(const Estimate& estimate, std::uint64_t far_from_others, std::uint64_t frames,
+                               double rare_outliers);
 
 /// Throws InputError for settings out of range.
 AccuracyStudy run_accuracy_study(const StudySettings& settings);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "app/accuracy_tables.hpp"
 #include "metrics/error_statistics.hpp"
@@ -19,6 +20,13 @@ const Names kFour = {"ezpointer", "sifh", "fifh", "hispointer"};
 const Names kFive = {"ezpointer", "sifh", "fifh", "hispointer", "threesteps"};
 const Names kIfhAndHisPointer = {"sifh", "fifh", "hispointer"};
 
+std::vector<double> distances_within(double near_m, double far_m) {
+  std::vector<double> distances;
+  std::ranges::copy_if(thesis_distances(), std::back_inserter(distances),
+                       [&](double distance) { return distance >= near_m && distance <= far_m; });
+  return distances;
+}
+
 std::string title_of(const std::string& estimator) {
   return std::string(readout_title(parse_readout(estimator)));
 }
@@ -30,8 +38,7 @@ std::vector<Comparison> precisions(const AccuracyStudy& study, const Names& esti
   for (const AccuracyPoint& point : study.points) {
     if (std::ranges::find(estimators, point.estimator) != estimators.end() && point.distance_m >= near_m &&
         point.distance_m <= far_m) {
-      comparisons.push_back({fmt::format("{} at {:g} m", point.title, point.distance_m),
-                             point.relative_precision, limit(point.distance_m)});
+      comparisons.push_back(precision_against(point, limit(point.distance_m)));
     }
   }
   return comparisons;
@@ -75,12 +82,16 @@ Comparison ratio(const AccuracyStudy& study, const std::string& worse, const std
           precision_ratio(study, worse, better, near_m, far_m), 1.0};
 }
 
+// At each distance by itself.
 Judgement most_precise(const AccuracyStudy& study, const std::string& best, const Names& among, double near_m,
                        double far_m) {
   std::vector<Comparison> ratios;
-  for (const std::string& other : among) {
-    if (other != best) {
-      ratios.push_back(ratio(study, other, best, near_m, far_m));
+  for (const double distance : distances_within(near_m, far_m)) {
+    for (const std::string& other : among) {
+      if (other != best) {
+        ratios.push_back(ratio(study, other, best, distance, distance));
+        ratios.back().label += fmt::format(" at {:g} m", distance);
+      }
     }
   }
   return all_of(ratios, Side::kAbove);
@@ -179,9 +190,28 @@ std::string_view verdict_text(Verdict verdict) {
   }
 }
 
+Comparison precision_against(const AccuracyPoint& point, double limit) {
+  return {fmt::format("{} at {:g} m", point.title, point.distance_m),
+          without_rare_outliers(point.relative_precision, point.far_before, point.frames, kRareOutliers),
+          limit};
+}
+
+Comparison rmse_against(const AccuracyPoint& point, double limit) {
+  const auto over_distance = [&](const Interval& interval) {
+    return Interval{interval.low / point.distance_m, interval.high / point.distance_m};
+  };
+  Estimate rmse = without_rare_outliers(point.rmse_m, point.far_after, point.frames, kRareOutliers);
+  rmse.value /= point.distance_m;
+  rmse.interval = over_distance(rmse.interval);
+  if (rmse.with_unseen) {
+    rmse.with_unseen = over_distance(*rmse.with_unseen);
+  }
+  return {fmt::format("{} at {:g} m", point.title, point.distance_m), rmse, limit};
+}
+
 Verdict compare(const Comparison& comparison, Side side) {
-  const bool below = comparison.value.interval.high <= comparison.limit;
-  const bool above = comparison.value.interval.low > comparison.limit;
+  const bool below = comparison.value.covering().high <= comparison.limit;
+  const bool above = comparison.value.covering().low > comparison.limit;
   if (!below && !above) {
     return Verdict::kOpen;
   }
@@ -237,13 +267,16 @@ Estimate precision_ratio(const AccuracyStudy& study, const std::string& numerato
     if (point.estimator != numerator || point.distance_m < near_m || point.distance_m > far_m) {
       continue;
     }
-    // Intervals are symmetric on the logarithm. Both read-outs saw the same photons, which narrows the
+    // Both read-outs saw the same photons, which narrows the
     // ratio's interval further; ignoring that is the careful side.
     for (const double sign : {1.0, -1.0}) {
-      const Estimate& precision =
-          sign > 0.0 ? point.relative_precision : study.at(denominator, point.distance_m).relative_precision;
+      const AccuracyPoint& side = sign > 0.0 ? point : study.at(denominator, point.distance_m);
+      const Estimate precision = precision_against(side, 0.0).value;
       sum += sign * std::log(precision.value);
-      const double half_width = 0.5 * std::log(precision.interval.high / precision.interval.low);
+      // With few outliers the interval reaches farther up than down; the wider side counts for both.
+      const Interval& interval = precision.covering();
+      const double half_width =
+          std::log(std::max(interval.high / precision.value, precision.value / interval.low));
       squared_half_widths += half_width * half_width;
     }
     ++count;
@@ -272,85 +305,165 @@ const std::vector<Readout>& thesis_readouts() {
   return readouts;
 }
 
+namespace {
+
+using StudyOf = std::function<const AccuracyStudy&(const ThesisStudies&)>;
+
+StudyOf at(double klux) {
+  return [klux](const ThesisStudies& studies) -> const AccuracyStudy& { return studies.at_klux.at(klux); };
+}
+const AccuracyStudy& small_array(const ThesisStudies& studies) { return studies.tenth_at_50_klux; }
+
+std::string titles_of(const Names& estimators) {
+  std::vector<std::string> titles;
+  for (const std::string& estimator : estimators) {
+    titles.push_back(title_of(estimator));
+  }
+  return fmt::format("{}", fmt::join(titles, ", "));
+}
+
+std::string metres(const std::vector<double>& distances) {
+  return fmt::format("{:g} m", fmt::join(distances, ", "));
+}
+
+ThesisStatement meets(std::string place, std::string text, const StudyOf& study, const Names& estimators,
+                      double near_m, double far_m) {
+  return {
+      std::move(place), std::move(text),
+      fmt::format("relative precision of each of {} at each of {}: at most 10 % below 1 m, 3 % from 1 m on",
+                  titles_of(estimators), metres(distances_within(near_m, far_m))),
+      [=](const ThesisStudies& s) { return meets_limits(study(s), estimators, near_m, far_m); }};
+}
+
+ThesisStatement fails(std::string place, std::string text, const StudyOf& study, const Names& estimators,
+                      double near_m, double far_m) {
+  const std::vector<double> judged = distances_within(near_m, far_m);
+  const std::string farthest =
+      judged.back() == thesis_distances().back()
+          ? fmt::format("; nothing is said beyond {:g} m, the largest distance judged", judged.back())
+          : std::string();
+  return {std::move(place), std::move(text),
+          fmt::format("relative precision of each of {} at each of {}: above 3 %{}", titles_of(estimators),
+                      metres(judged), farthest),
+          [=](const ThesisStudies& s) { return fails_three_percent(study(s), estimators, near_m, far_m); }};
+}
+
+ThesisStatement fails_at_whole_metres(std::string place, std::string text, const StudyOf& study,
+                                      const std::string& estimator, int near_m, int far_m) {
+  return {std::move(place), std::move(text),
+          fmt::format("relative precision of {} at {} to {} m in steps of 1 m: above 3 %",
+                      title_of(estimator), near_m, far_m),
+          [=](const ThesisStudies& s) {
+            return fails_three_percent_at_whole_metres(study(s), estimator, near_m, far_m);
+          }};
+}
+
+ThesisStatement each_fails(std::string place, std::string text, const StudyOf& study, const Names& estimators,
+                           double near_m, double far_m) {
+  return {std::move(place), std::move(text),
+          fmt::format("each of {} is above its limit (10 % below 1 m, 3 % from 1 m on) at one of {} at least",
+                      titles_of(estimators), metres(distances_within(near_m, far_m))),
+          [=](const ThesisStudies& s) { return each_fails_somewhere(study(s), estimators, near_m, far_m); }};
+}
+
+ThesisStatement best(std::string place, std::string text, const StudyOf& study, const std::string& estimator,
+                     const Names& among, double near_m, double far_m) {
+  return {
+      std::move(place), std::move(text),
+      fmt::format("relative precision of each other of {} over that of {}, at each of {} by itself: above 1",
+                  titles_of(among), title_of(estimator), metres(distances_within(near_m, far_m))),
+      [=](const ThesisStudies& s) { return most_precise(study(s), estimator, among, near_m, far_m); }};
+}
+
+ThesisStatement rmse_above(std::string place, std::string text, const StudyOf& study, const Names& estimators,
+                           double distance_m) {
+  return {std::move(place), std::move(text),
+          fmt::format("rmse after the look-up table of each of {} at {:g} m: above 3 % of the distance",
+                      titles_of(estimators), distance_m),
+          [=](const ThesisStudies& s) {
+            std::vector<Comparison> errors;
+            for (const std::string& estimator : estimators) {
+              errors.push_back(rmse_against(study(s).at(estimator, distance_m), 0.03));
+            }
+            return all_of(errors, Side::kAbove);
+          }};
+}
+
+}  // namespace
+
 const std::vector<ThesisStatement>& precision_statements() {
   static const std::vector<ThesisStatement> statements = {
-      {"3.4, Fig. 3.12", "50 klux: at 3 m no read-out is below 3 %",
-       [](const auto& s) { return fails_three_percent(s.at_klux.at(50.0), kFive, 3.0, 3.0); }},
-      {"3.4, Fig. 3.14", "14 klux: all but three steps meet the limits from 0.2 to 3.5 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(14.0), kFour, 0.2, 3.5); }},
-      {"3.4", "14 klux: beyond 3.5 m no read-out is below 3 %",
-       [](const auto& s) { return fails_three_percent(s.at_klux.at(14.0), kFive, 3.6, 5.0); }},
-      {"Fig. 3.14", "14 klux: three steps fails beyond 2 m",
-       [](const auto& s) { return fails_three_percent(s.at_klux.at(14.0), {"threesteps"}, 2.1, 5.0); }},
-      {"3.4, Fig. 3.14", "14 klux, 0.2 to 3 m: hisPointer is the most precise of the four",
-       [](const auto& s) { return most_precise(s.at_klux.at(14.0), "hispointer", kFour, 0.2, 3.0); }},
+      fails("3.4, Fig. 3.12", "50 klux: at 3 m no read-out is below 3 %", at(50.0), kFive, 3.0, 3.0),
+      meets("3.4, Fig. 3.14", "14 klux: all but three steps meet the limits from 0.2 to 3.5 m", at(14.0),
+            kFour, 0.2, 3.5),
+      fails("3.4", "14 klux: beyond 3.5 m no read-out is below 3 %", at(14.0), kFive, 3.6, 5.0),
+      fails("Fig. 3.14", "14 klux: three steps fails beyond 2 m", at(14.0), {"threesteps"}, 2.1, 5.0),
+      best("3.4, Fig. 3.14", "14 klux, 0.2 to 3 m: hisPointer is the most precise of the four", at(14.0),
+           "hispointer", kFour, 0.2, 3.0),
       {"Table 1", "14 klux: hisPointer first, ezPointer second, SiFH and FiFH share the third rank",
+       fmt::format(
+           "ratios of relative precision, geometric means over {} (the table has one rank for all "
+           "distances); SiFH and FiFH share a rank if they are nearer to each other than to ezPointer",
+           metres(distances_within(0.2, 3.0))),
        [](const auto& s) { return table_1(s.at_klux.at(14.0)); }},
-      {"3.4", "14 klux, 5 m: ezPointer is better than the other four",
-       [](const auto& s) { return most_precise(s.at_klux.at(14.0), "ezpointer", kFive, 5.0, 5.0); }},
+      best("3.4", "14 klux, 5 m: ezPointer is better than the other four", at(14.0), "ezpointer", kFive, 5.0,
+           5.0),
       {"Fig. 3.16", "14 klux, 0.2 to 3 m: FiFH's and hisPointer's results are linear in distance",
+       fmt::format(
+           "a least-squares line through the mean results at {} explains 99 % of their variance, for each "
+           "of both; no interval",
+           metres(distances_within(0.2, 3.0))),
        [](const auto& s) {
          return both(linear(s.at_klux.at(14.0), "fifh", 0.2, 3.0),
                      linear(s.at_klux.at(14.0), "hispointer", 0.2, 3.0));
        }},
-      {"3.4", "21 klux: SiFH, FiFH and hisPointer meet the limits to 3 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(21.0), kIfhAndHisPointer, 0.2, 3.0); }},
-      {"3.4", "25 klux: SiFH, FiFH and hisPointer no longer do (\"until 21 klux\")",
-       [](const auto& s) { return each_fails_somewhere(s.at_klux.at(25.0), kIfhAndHisPointer, 0.2, 3.0); }},
-      {"3.4", "25 klux: ezPointer meets the limits to 3 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(25.0), {"ezpointer"}, 0.2, 3.0); }},
-      {"3.4, Fig. 3.17", "2 klux: all but three steps meet the limits to 5 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(2.0), kFour, 0.2, 5.0); }},
-      {"Fig. 3.17", "2 klux: three steps fails beyond 3 m",
-       [](const auto& s) { return fails_three_percent(s.at_klux.at(2.0), {"threesteps"}, 3.1, 5.0); }},
-      {"3.4, Fig. 3.17", "2 klux, 0.2 to 5 m: hisPointer is the most precise of the four",
-       [](const auto& s) { return most_precise(s.at_klux.at(2.0), "hispointer", kFour, 0.2, 5.0); }},
-      {"6.2",
-       "50 klux, a tenth of the sensors (ten times the signal for each): the four meet the limits to 3 m",
-       [](const auto& s) { return meets_limits(s.tenth_at_50_klux, kFour, 0.2, 3.0); }},
+      meets("3.4", "21 klux: SiFH, FiFH and hisPointer meet the limits to 3 m", at(21.0), kIfhAndHisPointer,
+            0.2, 3.0),
+      each_fails("3.4", "25 klux: SiFH, FiFH and hisPointer no longer do (\"until 21 klux\")", at(25.0),
+                 kIfhAndHisPointer, 0.2, 3.0),
+      meets("3.4", "25 klux: ezPointer meets the limits to 3 m", at(25.0), {"ezpointer"}, 0.2, 3.0),
+      meets("3.4, Fig. 3.17", "2 klux: all but three steps meet the limits to 5 m", at(2.0), kFour, 0.2, 5.0),
+      fails("Fig. 3.17", "2 klux: three steps fails beyond 3 m", at(2.0), {"threesteps"}, 3.1, 5.0),
+      best("3.4, Fig. 3.17", "2 klux, 0.2 to 5 m: hisPointer is the most precise of the four", at(2.0),
+           "hispointer", kFour, 0.2, 5.0),
+      meets(
+          "6.2",
+          "50 klux, a tenth of the sensors (ten times the signal for each): the four meet the limits to 3 m",
+          small_array, kFour, 0.2, 3.0),
   };
   return statements;
 }
 
 const std::vector<ThesisStatement>& alternative_readings() {
   static const std::vector<ThesisStatement> readings = {
-      {"Fig. 3.14", "14 klux: three steps fails beyond 2 m, judged at whole metres",
-       [](const auto& s) {
-         return fails_three_percent_at_whole_metres(s.at_klux.at(14.0), "threesteps", 3, 5);
-       }},
-      {"Fig. 3.14", "14 klux: three steps meets the limits to 2 m (so that the plot turns up after 2 m)",
-       [](const auto& s) { return meets_limits(s.at_klux.at(14.0), {"threesteps"}, 0.2, 2.0); }},
-      {"Fig. 3.17", "2 klux: three steps fails beyond 3 m, judged at whole metres",
-       [](const auto& s) {
-         return fails_three_percent_at_whole_metres(s.at_klux.at(2.0), "threesteps", 4, 5);
-       }},
-      {"3.4, Fig. 3.14", "14 klux: all but three steps meet the limits, without 0.2 m: from 0.5 to 3.5 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(14.0), kFour, 0.5, 3.5); }},
-      {"3.4, Fig. 3.17", "2 klux: all but three steps meet the limits, without 0.2 m: from 0.5 to 5 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(2.0), kFour, 0.5, 5.0); }},
-      {"3.4", "21 klux: SiFH, FiFH and hisPointer meet the limits, without 0.2 m: from 0.5 to 3 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(21.0), kIfhAndHisPointer, 0.5, 3.0); }},
-      {"3.4", "25 klux: ezPointer meets the limits, without 0.2 m: from 0.5 to 3 m",
-       [](const auto& s) { return meets_limits(s.at_klux.at(25.0), {"ezpointer"}, 0.5, 3.0); }},
-      {"3.4", "21 klux: SiFH, FiFH and hisPointer meet the limits from 0.5 to 3.5 m, the reach at 14 klux",
-       [](const auto& s) { return meets_limits(s.at_klux.at(21.0), kIfhAndHisPointer, 0.5, 3.5); }},
-      {"3.4", "25 klux: SiFH, FiFH and hisPointer no longer do, from 0.5 to 3.5 m",
-       [](const auto& s) { return each_fails_somewhere(s.at_klux.at(25.0), kIfhAndHisPointer, 0.5, 3.5); }},
-      {"3.4, Fig. 3.12", "50 klux: at 3.5 m no read-out is below 3 %",
-       [](const auto& s) { return fails_three_percent(s.at_klux.at(50.0), kFive, 3.5, 3.5); }},
-      {"3.4, Fig. 3.12", "50 klux: at 3 m the rmse after the look-up table is above 3 % for every read-out",
-       [](const auto& s) {
-         std::vector<Comparison> errors;
-         for (const std::string& estimator : kFive) {
-           const AccuracyPoint& point = s.at_klux.at(50.0).at(estimator, 3.0);
-           const auto share = [&](double error) { return error / point.distance_m; };
-           errors.push_back({fmt::format("{} at 3 m", point.title),
-                             {share(point.rmse_m.value),
-                              {share(point.rmse_m.interval.low), share(point.rmse_m.interval.high)}},
-                             0.03});
-         }
-         return all_of(errors, Side::kAbove);
-       }},
+      fails_at_whole_metres("Fig. 3.14", "14 klux: three steps fails beyond 2 m, judged at whole metres",
+                            at(14.0), "threesteps", 3, 5),
+      meets("Fig. 3.14", "14 klux: three steps meets the limits to 2 m (so that the plot turns up after 2 m)",
+            at(14.0), {"threesteps"}, 0.2, 2.0),
+      fails_at_whole_metres("Fig. 3.17", "2 klux: three steps fails beyond 3 m, judged at whole metres",
+                            at(2.0), "threesteps", 4, 5),
+      meets("3.4, Fig. 3.14",
+            "14 klux: all but three steps meet the limits, without 0.2 m: from 0.5 to 3.5 m", at(14.0), kFour,
+            0.5, 3.5),
+      meets("3.4, Fig. 3.17", "2 klux: all but three steps meet the limits, without 0.2 m: from 0.5 to 5 m",
+            at(2.0), kFour, 0.5, 5.0),
+      meets("3.4", "21 klux: SiFH, FiFH and hisPointer meet the limits, without 0.2 m: from 0.5 to 3 m",
+            at(21.0), kIfhAndHisPointer, 0.5, 3.0),
+      meets("3.4", "25 klux: ezPointer meets the limits, without 0.2 m: from 0.5 to 3 m", at(25.0),
+            {"ezpointer"}, 0.5, 3.0),
+      meets("3.4",
+            "21 klux: SiFH, FiFH and hisPointer meet the limits from 0.5 to 3.5 m, the reach at 14 klux",
+            at(21.0), kIfhAndHisPointer, 0.5, 3.5),
+      each_fails("3.4", "25 klux: SiFH, FiFH and hisPointer no longer do, from 0.5 to 3.5 m", at(25.0),
+                 kIfhAndHisPointer, 0.5, 3.5),
+      best("3.4, Fig. 3.14", "14 klux, from 0.5 to 3 m: hisPointer is the most precise of the four", at(14.0),
+           "hispointer", kFour, 0.5, 3.0),
+      best("3.4, Fig. 3.17", "2 klux, from 0.8 to 3.5 m: hisPointer is the most precise of the four", at(2.0),
+           "hispointer", kFour, 0.8, 3.5),
+      fails("3.4, Fig. 3.12", "50 klux: at 3.5 m no read-out is below 3 %", at(50.0), kFive, 3.5, 3.5),
+      rmse_above("3.4, Fig. 3.12",
+                 "50 klux: at 3 m the rmse after the look-up table is above 3 % for every read-out", at(50.0),
+                 kFive, 3.0),
   };
   return readings;
 }

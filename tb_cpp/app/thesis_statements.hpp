@@ -32,7 +32,13 @@ struct Comparison {
 };
 enum class Side { kBelow, kAbove };
 
-/// The interval lies wholly on this side of the limit: agrees; wholly on the other: disagrees.
+/// A figure of a point as it is judged: outliers too rare to be seen are allowed for, unless none was seen in
+/// so many frames that they are rarer than kRareOutliers.
+Comparison precision_against(const AccuracyPoint& point, double limit);
+Comparison rmse_against(const AccuracyPoint& point, double limit);  ///< rmse over distance
+inline constexpr double kRareOutliers = 1e-3;
+
+/// Estimate::covering() lies wholly on this side of the limit: agrees; wholly on the other: disagrees.
 Verdict compare(const Comparison& comparison, Side side);
 /// Agrees if all do, disagrees if one does. Names what contradicts, or the figure nearest to its limit.
 /// Throws std::logic_error for an empty list: a statement about nothing is always true.
@@ -63,6 +69,7 @@ const std::vector<Readout>& thesis_readouts();
 struct ThesisStatement {
   std::string place;  ///< in the thesis
   std::string text;
+  std::string rule;  ///< by which it is judged: which read-outs, distances, figures, what is averaged
   std::function<Judgement(const ThesisStudies&)> judge;
 };
 /// Every statement of section 3.4, Table 1 and section 6.2 on relative precision, as a predicate.

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -79,6 +80,28 @@ TEST(Compare, IntervalDecides) {
   EXPECT_EQ(compare(figure(0.04, 0.005, 0.03), Side::kAbove), Verdict::kAgrees);
 }
 
+AccuracyPoint seen(double precision, std::uint64_t frames, std::uint64_t far) {
+  AccuracyPoint result = point(Readout::kThreeSteps, 14.0, 2.5, precision);
+  result.frames = frames;
+  result.far_before = result.far_after = far;
+  result.relative_precision.with_unseen = Interval{precision / 1.01, 0.3};
+  result.rmse_m = {0.05, {0.04, 0.06}, Interval{0.04, 1.0}};
+  return result;
+}
+
+TEST(Compare, OutliersThatWereNotSeenAreAllowedFor) {
+  // None in 1,000 frames: they may still be 0.37 %. None in 4,000: rarer than 0.1 %.
+  EXPECT_EQ(compare(precision_against(seen(0.019, 1000, 0), 0.03), Side::kBelow), Verdict::kOpen);
+  EXPECT_EQ(compare(precision_against(seen(0.019, 4000, 0), 0.03), Side::kBelow), Verdict::kAgrees);
+  EXPECT_EQ(compare(precision_against(seen(0.019, 4000, 1), 0.03), Side::kBelow), Verdict::kOpen);
+  EXPECT_EQ(compare(precision_against(seen(0.04, 1000, 1), 0.03), Side::kBelow), Verdict::kDisagrees);
+  const Comparison rmse = rmse_against(seen(0.019, 1000, 3), 0.03);
+  EXPECT_DOUBLE_EQ(rmse.value.value, 0.02);
+  EXPECT_DOUBLE_EQ(rmse.value.with_unseen->high, 0.4);
+  EXPECT_EQ(compare(rmse, Side::kBelow), Verdict::kOpen);
+  EXPECT_EQ(compare(rmse_against(seen(0.019, 4000, 0), 0.03), Side::kBelow), Verdict::kAgrees);
+}
+
 TEST(Judgement, AllOf) {
   const Comparison low = figure(0.02, 0.005, 0.03);
   const Comparison high = figure(0.04, 0.005, 0.03);
@@ -134,6 +157,35 @@ TEST(PrecisionStatements, AllAgreeWithWhatTheThesisClaims) {
   }
 }
 
+TEST(PrecisionStatements, EveryRuleNamesWhatIsJudged) {
+  for (const auto* statements : {&precision_statements(), &alternative_readings()}) {
+    for (const ThesisStatement& statement : *statements) {
+      EXPECT_THAT(statement.rule, HasSubstr(" m")) << statement.text;
+    }
+  }
+  const auto beyond = std::ranges::find(
+      precision_statements(), "14 klux: beyond 3.5 m no read-out is below 3 %", &ThesisStatement::text);
+  ASSERT_NE(beyond, precision_statements().end());
+  EXPECT_THAT(beyond->rule, HasSubstr("4, 4.5, 5 m"));
+  EXPECT_THAT(beyond->rule, HasSubstr("nothing is said beyond 5 m"));
+}
+
+// One distance at which another read-out is the more precise contradicts, however good the mean is.
+TEST(PrecisionStatements, TheMostPreciseIsJudgedAtEachDistance) {
+  ThesisStudies studies = claimed_studies();
+  for (AccuracyPoint& p : studies.at_klux.at(14.0).points) {
+    if (p.estimator == "ezpointer" && p.distance_m == 0.2) {
+      p.relative_precision = {0.005, {0.0049, 0.0051}};
+    }
+  }
+  const auto statement = std::ranges::find(precision_statements(),
+                                           "14 klux, 0.2 to 3 m: hisPointer is the most precise of the four",
+                                           &ThesisStatement::text);
+  const Judgement judgement = statement->judge(studies);
+  EXPECT_EQ(judgement.verdict, Verdict::kDisagrees);
+  EXPECT_THAT(judgement.here, HasSubstr("ezPointer / hisPointer at 0.2 m"));
+}
+
 TEST(PrecisionStatements, EachCanFail) {
   // Perfect and hopeless sensors contradict the statements between them.
   ThesisStudies perfect = claimed_studies();
@@ -166,14 +218,15 @@ TEST(AlternativeReadings, CanAgreeAndFail) {
   ThesisStudies hopeless = claimed_studies();
   for (const double klux : thesis_klux()) {
     for (AccuracyPoint& p : hopeless.at_klux.at(klux).points) {
-      p = point(parse_readout(p.estimator), klux, p.distance_m, 0.9);
+      // The one with the least spread loses where the best is asked for.
+      p = point(parse_readout(p.estimator), klux, p.distance_m, p.estimator == "hispointer" ? 0.95 : 0.9);
       p.rmse_m = {0.5 * p.distance_m, {0.4 * p.distance_m, 0.6 * p.distance_m}};
     }
   }
   ThesisStudies perfect = claimed_studies();
   for (const double klux : thesis_klux()) {
     for (AccuracyPoint& p : perfect.at_klux.at(klux).points) {
-      p = point(parse_readout(p.estimator), klux, p.distance_m, 0.001);
+      p = point(parse_readout(p.estimator), klux, p.distance_m, p.estimator == "hispointer" ? 0.0005 : 0.001);
     }
   }
   for (const ThesisStatement& reading : alternative_readings()) {
