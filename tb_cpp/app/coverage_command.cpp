@@ -49,8 +49,8 @@ void add_coverage_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<CoverageOptions>();
   options->command_line = command_line;
   CoverageSettings& settings = options->settings;
-  settings.klux = {2.0, 14.0, 25.0, 50.0};
-  settings.distances_m = {0.3, 1.0, 3.0, 4.5};
+  settings.klux = {2.0, 14.0, 50.0};
+  settings.distances_m = {0.3, 1.0, 4.0};
   CLI::App* command = app.add_subcommand(
       "coverage",
       "Do the confidence intervals hold? Repeats accuracy studies and compares spread and interval");
