@@ -131,7 +131,7 @@ class Measuring {
     StudySettings settings = bare_;
     settings.klux = 50.0;
     settings.distances_m = {3.0};
-    settings.frames = base_.frames;
+    settings.frames = 4 * base_.frames;
     result_.method_frames = settings.frames;
     const auto add = [&](const std::string& name, auto change) {
       settings.sensor = result_.sensor;
@@ -215,7 +215,7 @@ class Measuring {
     StudySettings settings = bare_;
     settings.distances_m = {2.5, 3.0, 3.5};
     settings.readouts = defaults_of(thesis_readouts(), settings.sensor.slots);
-    settings.frames = 2 * base_.frames;  // outliers are rare, and they decide
+    settings.frames = 5 * base_.frames;  // outliers are rare, and they decide
     result_.light_frames = settings.frames;
     for (double klux = 50.0; klux >= 2.0; klux -= 4.0) {
       settings.klux = klux;
@@ -239,7 +239,7 @@ class Measuring {
   void pulses() {
     StudySettings settings = bare_;
     settings.klux = 14.0;
-    settings.frames = std::max(base_.frames / 20, 4);
+    settings.frames = std::max(base_.frames / 10, 4);
     settings.readouts = defaults_of(std::array{Readout::kEzPointer}, settings.sensor.slots);
     settings.distances_m = {3.0, 4.0, 5.0};
     for (const std::uint32_t acquisitions :
@@ -257,7 +257,6 @@ class Measuring {
     }
     StudySettings settings = base_;
     settings.klux = 50.0;
-    settings.frames = std::max(base_.frames / 4, 4);
     settings.readouts = defaults_of(kAllReadouts, settings.sensor.slots);
     settings.calibration_step_m = 0.1;
     result_.margins = array_margins(settings, result_.array_sizes);

@@ -228,7 +228,7 @@ TEST(ReproductionReport, MoreFramesDecideWhatIsOpen) {
   r.more_frames = studies(0.05);
   const Judgement judgement = judge(r, precision_statements().front());
   EXPECT_EQ(judgement.verdict, Verdict::kAgrees);
-  EXPECT_THAT(judgement.here, HasSubstr("(40000 frames)"));
+  EXPECT_THAT(judgement.here, HasSubstr("(10000 frames)"));
 }
 
 TEST(ReproductionReport, EveryPictureIsShown) {
