@@ -90,7 +90,7 @@ nlohmann::json read_json(const std::filesystem::path& path) {
   const std::string text = read_file_or_gzip(path);
   try {
     return nlohmann::json::parse(text);
-  } catch (const nlohmann::json::parse_error& error) {
+  } catch (const nlohmann::json::exception& error) {  // malformed, or a number beyond a double
     // "[json.exception.parse_error.101] parse error at line 1, column 3: ...": the tag says nothing to a
     // user.
     const std::string message = error.what();
