@@ -30,8 +30,8 @@ void read(const std::uint8_t* data, std::size_t size) {
   attempt([&] { (void)dtof::parse_scene(text); });
   dtof::ReadoutOptions options;
   options.readouts = text;
-  options.np = static_cast<signed char>(data[0]);
-  const int value = static_cast<signed char>(data[1]);
+  options.np = data[0] - 128;
+  const int value = data[1] - 128;
   for (auto* option : {&options.nb, &options.slots, &options.count_width, &options.pointer_step,
                        &options.fraction_bits, &options.confidence_width, &options.guard}) {
     *option = value;
