@@ -6,7 +6,7 @@ from pathlib import Path
 from unittest import mock
 
 import mutate
-from mutation import cpp, cpp_operators, equivalence, report, rtl, rtl_operators
+from mutation import cpp, cpp_operators, equivalence, remembered, report, rtl, rtl_operators
 from mutation.explained import Explanation, explain
 from mutation.mutant import Mutant, Selection, draw
 from mutation.schemata import with_mutants
@@ -224,6 +224,12 @@ class ReportOfRtl(unittest.TestCase):
                                   (TOY.replace("in_i == 4'd3", "in_i == 4'd2"), False)):  # fmt: skip
                 proved = equivalence.proved(tree, [file], file, mutated, frozenset({("MODE", 0)}))
                 self.assertEqual(proved, same)
+
+
+class Remembered(unittest.TestCase):
+    def test_every_one_is_still_in_its_source(self):
+        for folder in ("tb_cpp", "hdl"):
+            self.assertTrue(remembered.load(mutate.ROOT, folder), folder)
 
 
 if __name__ == "__main__":
