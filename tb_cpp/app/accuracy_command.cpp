@@ -46,6 +46,11 @@ struct AccuracyOptions {
   std::string command_line;
 };
 
+/// What the reports call the photon model: auto always takes the exact one for streams.
+std::string photon_model_title(const SensorOptions& options) {
+  return options.fidelity == "auto" ? "auto, which draws streams exactly" : options.fidelity;
+}
+
 /// The photon model for a source's scene, whose streams all read-outs share; one with noise.
 Fidelity noisy_model(const SensorOptions& options, const PhotonSource& exact) {
   const Fidelity fidelity = options.photon_model(exact, PhotonUse::kStream, {});
@@ -100,7 +105,7 @@ std::string heading(const AccuracyOptions& options, const StudySettings& setting
       "not depend on\n"
       "the seed; all figures after the table are those of this one table.\n",
       settings.sensor.name, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
-      options.sensor.fidelity, options.run.seed, settings.frames,
+      photon_model_title(options.sensor), options.run.seed, settings.frames,
       settings.precision
           ? fmt::format(
                 " or more, up to {}, until the intervals of relative precision and rmse are within {:g} % "
@@ -199,7 +204,7 @@ void run_accuracy_command(const AccuracyOptions& options) {
           return fmt::format("{:.1f}", p.outlier_rate.value * 100.0);
         }).markdown());
     report += fmt::format("\n## {:g} klux\n\n{}", klux, overview);
-    fmt::print("{:g} klux, photon model {}\n\n{}", klux, options.sensor.fidelity, overview);
+    fmt::print("{:g} klux, photon model {}\n\n{}", klux, photon_model_title(options.sensor), overview);
     if (!study.without_rejection.empty()) {
       const std::string sentence =
           fmt::format("No confidence leaves as few outliers as wanted, so nothing is rejected: {}.\n",
@@ -338,7 +343,7 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
       "% "
       "confidence intervals over the frames.\n",
       map.description, settings.sensor.name, settings.sensor.acquisitions, settings.frames,
-      options.run.engine, options.sensor.fidelity, options.run.seed,
+      options.run.engine, photon_model_title(options.sensor), options.run.seed,
       table_sentence(TableRule::kFlat, settings.sensor, options.run.seed));
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);

@@ -291,6 +291,8 @@ TEST_F(CommandLine, FidelityAutoTakesTheCheapestModelWithNoiseThatKeepsTheTolera
   EXPECT_THAT(photons("-r hispointer --tolerance 9 --record recording.csv"), HasSubstr("exact photons"));
   EXPECT_THAT(photons("-r hispointer --tolerance 9 --acquisitions 100"), HasSubstr("exact photons"))
       << "beyond what was measured";
+  EXPECT_THAT(dtof("accuracy -r hispointer --distances 2 --frames 20 --out out --fidelity auto").output,
+              HasSubstr("auto, which draws streams exactly"));
 }
 
 TEST_F(CommandLine, RefusesPrecisionWithoutNoise) {
