@@ -108,7 +108,7 @@ TEST_F(StreamCsvTest, RefusesFilesThatAreNoStream) {
       EndsWith(reason));
   test::expect_input_error([&] { (void)read(""); },
                            HasSubstr("no detections: columns, rows and acquisitions cannot be found and must "
-                                    "be given"));
+                                     "be given"));
   test::expect_input_error([&] { (void)read("0,0,0,0\n", {.columns = 0}); },
                            "recorded stream: columns is 0, must be 1..65536");
   test::expect_input_error([&] { (void)read("0,0,0,0\n", {.np = 17}); },

@@ -20,12 +20,12 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 const PulseObservation kThesis{.signal_events = 0.3,
-                                   .background_events = 0.15,
-                                   .centre_bins = 400.0,
-                                   .sigma_bins = 19.3,
-                                   .np = 10,
-                                   .acquisitions = 3333,
-                                   .kept_events = 2};
+                               .background_events = 0.15,
+                               .centre_bins = 400.0,
+                               .sigma_bins = 19.3,
+                               .np = 10,
+                               .acquisitions = 3333,
+                               .kept_events = 2};
 
 PulseObservation thesis_with(void (*change)(PulseObservation&)) {
   PulseObservation observation = kThesis;
