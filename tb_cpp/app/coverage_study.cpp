@@ -69,10 +69,9 @@ bool holds(const CoverageCell& cell, const RunStatistics& statistics) {
 
 bool is_share(Figure figure) { return figure == Figure::kAbove3Percent || figure == Figure::kOutlierRate; }
 
-/// The spread says something unless a handful of outliers makes it.
+/// The spread says something unless a handful of outliers makes it: the typical run saw enough of them.
 bool judged_by_spread(const RunStatistics& seen, Figure figure, const ErrorEstimates& truth) {
-  constexpr std::uint64_t kOneIn = 20;
-  const bool many = kOneIn * seen.with_few <= seen.runs;
+  const bool many = 2 * seen.with_few <= seen.runs;
   const bool none = !is_share(figure) && truth.far_from_others == 0;
   return (many || none) && seen.mean_standard_error > 0.0;
 }

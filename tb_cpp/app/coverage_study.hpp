@@ -66,8 +66,8 @@ struct CoverageCell {
   Figure figure = Figure::kRmse;
   double truth = 0.0;
   RunStatistics seen;
-  /// Many outliers, or none in all frames: the spread is judged. Otherwise a handful makes the spread, and
-  /// the share of intervals that hold the truth is judged.
+  /// At least half of the runs saw many outliers, or there is none in all frames: the spread is judged.
+  /// Otherwise a handful makes the spread, and the share of intervals that hold the truth is judged.
   bool by_spread = true;
   std::optional<RunStatistics> redrawn;
   CoverageVerdict verdict = CoverageVerdict::kHolds;

@@ -107,8 +107,10 @@ Estimate root_with_rare_outliers(double value, const Estimate& others, const Rar
   const double high = square + std::hypot(squared(others.interval.high) - squared(others.value),
                                           (rare.share_interval.high - rare.share) * added);
   const Interval seen{std::sqrt(std::max(low, 0.0)), std::sqrt(high)};
+  // Outliers that are as far as these may be rarer than any share that was seen, and others may be farther.
   const double unseen = squared(others.interval.high) + rare.share_interval.high * farthest;
-  return {value, seen, Interval{seen.low, std::max(seen.high, std::sqrt(unseen))}};
+  return {value, seen,
+          Interval{std::min(seen.low, others.interval.low), std::max(seen.high, std::sqrt(unseen))}};
 }
 
 }  // namespace
