@@ -47,7 +47,7 @@ class Scenes:
         self.rows = {}
         for name in ("scenes_variants.csv", "scenes.csv"):
             for row in rows(name):
-                self.rows[row["preset"], row["klux"], row["scene"], row["estimator"]] = row
+                self.rows[row["sensor"], row["klux"], row["scene"], row["estimator"]] = row
 
     def figure(self, klux: str, scene: str, estimator: str, column: str, preset: str = PRESET) -> float | None:
         row = self.rows.get((preset, klux, scene, estimator))

@@ -341,7 +341,7 @@ void run_scenes_command(const ScenesOptions& options) {
   }
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
-  std::vector<std::string> header = {"preset",
+  std::vector<std::string> header = {"sensor",
                                      "klux",
                                      "scene",
                                      "estimator",
@@ -380,11 +380,11 @@ void run_scenes_command(const ScenesOptions& options) {
   }
   for (std::size_t p = 0; p < sensors.size(); ++p) {
     const SensorModel& sensor = sensors[p];
-    const std::string& preset = sensor.name;
+    const std::string& sensor_name = sensor.name;
     const std::vector<ReadoutParameters>& readouts = readouts_of[p];
     const std::vector<StudyScene>& scenes = lists[p].scenes;
     for (const double klux : options.klux) {
-      Progress progress(fmt::format("{} {:g} klux", preset, klux), scenes.size() + 1);
+      Progress progress(fmt::format("{} {:g} klux", sensor_name, klux), scenes.size() + 1);
       const SceneStudy study(sensor, klux, readouts, options.seed, options.threads, rule);
       progress.advance();
       const std::vector<std::string>& estimators = study.estimators();
@@ -400,7 +400,7 @@ void run_scenes_command(const ScenesOptions& options) {
               {score_scene(truth, measurements[e]), median_error_over_bound(truth, bounds, measurements[e])});
           const SceneScore& score = result.estimators.back().score;
           std::vector<std::string> row = {
-              preset,
+              sensor_name,
               fmt::format("{:g}", klux),
               scene.name,
               estimators[e],
@@ -423,9 +423,11 @@ void run_scenes_command(const ScenesOptions& options) {
           csv.add(std::move(row));
         }
         if (!is_flat(scene.name)) {
-          const std::string title = fmt::format("{}, {:g} klux, preset {}: error", scene.name, klux, preset);
-          write_error_maps(folder / fmt::format("{}_{:g}klux_{}.png", file_name(scene.name), klux, preset),
-                           title, truth, estimators, measurements, options.command_line);
+          const std::string title =
+              fmt::format("{}, {:g} klux, sensor {}: error", scene.name, klux, sensor_name);
+          write_error_maps(
+              folder / fmt::format("{}_{:g}klux_{}.png", file_name(scene.name), klux, sensor_name), title,
+              truth, estimators, measurements, options.command_line);
         }
         results.push_back(std::move(result));
         progress.advance();
@@ -436,8 +438,8 @@ void run_scenes_command(const ScenesOptions& options) {
       };
       const std::string overview = part("All pixels: above 3 % / 10 %",
                                         [](const EstimatorResult& r) { return share_pair(r.score.all); });
-      fmt::print("\n## {:g} klux, preset {}\n{}", klux, preset, overview);
-      report += fmt::format("\n## {:g} klux, preset {}\n\n{}\n{}", klux, preset,
+      fmt::print("\n## {:g} klux, sensor {}\n{}", klux, sensor_name, overview);
+      report += fmt::format("\n## {:g} klux, sensor {}\n\n{}\n{}", klux, sensor_name,
                             table_sentence(rule, sensor, options.seed), overview);
       report +=
           part("Pixels at depth edges", [](const EstimatorResult& r) { return share_pair(r.score.edges); });
@@ -463,8 +465,8 @@ void run_scenes_command(const ScenesOptions& options) {
       for (std::size_t e = 0; e < estimators.size(); ++e) {
         curves.push_back(confidence_curve(results, e, estimators[e]));
       }
-      write_plot(folder / fmt::format("confidence_{:g}klux_{}.svg", klux, preset), curves,
-                 {.title = fmt::format("Confidence, {:g} klux, preset {}, all scenes", klux, preset),
+      write_plot(folder / fmt::format("confidence_{:g}klux_{}.svg", klux, sensor_name), curves,
+                 {.title = fmt::format("Confidence, {:g} klux, sensor {}, all scenes", klux, sensor_name),
                   .x_label = "pixels dropped, %",
                   .y_label = "outliers removed, %"});
     }
