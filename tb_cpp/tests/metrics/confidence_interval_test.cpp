@@ -237,6 +237,20 @@ TEST(ConfidenceInterval, WithoutOutliersTheNarrowIntervalIsTheUsualOne) {
               std::hypot(mean.with_unseen->high - mean.value, mean.value - mean.with_unseen->low), 1e-9);
 }
 
+TEST(ConfidenceInterval, FewOutliersMayBeBadLuck) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = make_random(8);
+  std::vector<double> values = normal_values(random, 100);
+  const Estimate others = estimate_root_mean_square(values);
+  values.insert(values.end(), {40.0, 45.0});
+  const Outliers outliers = find_outliers(values);
+  ASSERT_EQ(outliers.count, 2U);
+  const Estimate rms = estimate_root_mean_square(values, outliers, {-50.0, 50.0});
+  ASSERT_TRUE(rms.with_unseen);
+  EXPECT_GT(rms.value, 2.0 * others.value);
+  EXPECT_NEAR(rms.with_unseen->low, others.interval.low, 1e-12);
+}
+
 TEST(ConfidenceInterval, EqualValues) {
   const std::vector<double> values(5, 0.1);
   EXPECT_EQ(estimate_standard_deviation(values), (Estimate{0.0, {0.0, 0.0}}));
