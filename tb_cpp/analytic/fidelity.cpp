@@ -64,14 +64,18 @@ double fast_sampler_cost(Readout readout) {
 }
 
 bool within_measured_range(const PhotonSource& exact) {
-  constexpr int kMostBits = 10;
+  constexpr int kBits = 10;
   constexpr int kSlots = 2;
   constexpr std::uint32_t kFewestAcquisitions = 3333;
   constexpr double kMostSignal = 0.5;
   constexpr double kMostBackground = 0.55;
+  constexpr double kPulseSigmaBins = 19.33;
+  constexpr double kPulseTolerance = 0.02;
   const SensorModel& model = exact.model();
-  if (!FastPhotonSource::supports(model) || model.np > kMostBits || model.slots != kSlots ||
-      model.acquisitions < kFewestAcquisitions) {
+  const double pulse_sigma_bins = model.pulse_sigma_s() / model.time_resolution_s();
+  if (!FastPhotonSource::supports(model) || model.time_gate || model.np != kBits || model.slots != kSlots ||
+      model.acquisitions < kFewestAcquisitions ||
+      std::abs(pulse_sigma_bins / kPulseSigmaBins - 1.0) > kPulseTolerance) {
     return false;
   }
   for (int column = 0; column < exact.columns(); ++column) {

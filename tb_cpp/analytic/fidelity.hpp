@@ -47,8 +47,8 @@ double fast_sampler_difference(Readout readout);
 /// from the same report; infinite for a read-out that has no sampler.
 double fast_sampler_cost(Readout readout);
 
-/// True if the scene's rates, NP, SLOTS and number of acquisitions are within what fast_sampler_difference
-/// was measured for.
+/// True if the scene's rates, NP, SLOTS, number of acquisitions and width of the pulse in bins are within
+/// what fast_sampler_difference was measured for; no time gate was.
 bool within_measured_range(const PhotonSource& exact);
 
 /// The cheapest model with noise that keeps the request (a model without noise shows no frame as a sensor

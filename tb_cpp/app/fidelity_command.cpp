@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/fidelity_study.hpp"
+#include "app/options.hpp"
 #include "app/output_folder.hpp"
 #include "io/atomic_file.hpp"
 #include "scene/scene.hpp"
@@ -43,7 +44,7 @@ void run_fidelity_command(const FidelityOptions& options) {
   const FidelityStudy study = run_fidelity_study(settings);
   const std::filesystem::path folder(options.out);
   const std::string report = fidelity_report(study, settings, options.command_line);
-  write_file(folder / "fidelity.csv", fidelity_csv(study, settings));
+  write_file(folder / "fidelity.csv", fidelity_csv(study));
   write_file(folder / "fidelity.md", report);
   fmt::print("{}\nWritten to {}\n", report, (folder / "fidelity.md").string());
 }
@@ -55,18 +56,11 @@ void add_fidelity_command(CLI::App& app, const std::string& command_line) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "fidelity", "What the fast photon model changes of a scene's figures, and what --fidelity auto takes");
-  command
-      ->add_option("--sensor,-p,--preset", options->sensor,
-                   "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
-      ->capture_default_str();
+  add_sensor_option(*command, options->sensor);
   command->add_option("--frames", options->frames, "frames of each scene and light")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("-s,--seed", options->seed, "seed of everything random")->capture_default_str();
-  command->add_option("-j,--threads", options->threads, "threads, 0 = all processors")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  add_study_options(*command, options->seed, options->threads, options->out);
   command->callback([options] { run_fidelity_command(*options); });
 }
 

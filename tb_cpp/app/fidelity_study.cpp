@@ -83,9 +83,15 @@ class Comparison {
       progress.advance();
     }
     for (std::size_t r = 0; r < cells_.size(); ++r) {
-      cells_[r].difference = compare_models(figures_[r].exact, figures_[r].fast);
-      cells_[r].exact_ms /= settings_.frames;
-      cells_[r].fast_ms /= settings_.frames;
+      FidelityCell& cell = cells_[r];
+      cell.difference = compare_models(figures_[r].exact, figures_[r].fast);
+      for (std::size_t t = 0; t < kTolerances.size(); ++t) {
+        cell.taken[t] = choose_fidelity(source_, {.tolerance = kTolerances[t],
+                                                  .use = PhotonUse::kSampler,
+                                                  .readouts = std::span(&cell.readout, 1)});
+      }
+      cell.exact_ms /= settings_.frames;
+      cell.fast_ms /= settings_.frames;
     }
     return cells_;
   }
@@ -144,14 +150,6 @@ class Comparison {
   std::vector<FidelityCell> cells_;
   std::vector<Figures> figures_;
 };
-
-Fidelity taken(const FidelityCell& cell, const FidelitySettings& settings, double tolerance) {
-  const auto scene =
-      std::ranges::find(settings.scenes, cell.scene, &std::pair<std::string, TargetMap>::first);
-  const PhotonSource exact(settings.sensor, scene->second, cell.klux, settings.seed);
-  return choose_fidelity(
-      exact, {.tolerance = tolerance, .use = PhotonUse::kSampler, .readouts = std::span(&cell.readout, 1)});
-}
 
 std::string as_percent(double share) { return fmt::format("{:.3f}", 100.0 * share); }
 
@@ -214,17 +212,18 @@ std::string readout_section(const FidelityStudy& study, const FidelitySettings& 
           : fmt::format("{:.0f} % more", 100.0 * (study.streams.exact_ms / study.streams.fast_ms - 1.0)));
 }
 
-std::string promise_section(const FidelityStudy& study, const FidelitySettings& settings) {
+std::string promise_section(const FidelityStudy& study) {
   Table table(
       {"tolerance", "exact", "fast", "CPU ms a frame", "all exact, CPU ms", "kept", "open", "broken"});
   std::size_t broken = 0;
-  for (const double tolerance : kTolerances) {
+  for (std::size_t t = 0; t < kTolerances.size(); ++t) {
+    const double tolerance = kTolerances[t];
     std::array<std::size_t, 3> promises{};
     std::size_t fast = 0;
     double cost = 0.0;
     double exact_cost = 0.0;
     for (const FidelityCell& cell : study.cells) {
-      const bool is_fast = taken(cell, settings, tolerance) == Fidelity::kFast;
+      const bool is_fast = cell.taken[t] == Fidelity::kFast;
       fast += is_fast ? 1 : 0;
       cost += is_fast ? cell.fast_ms : cell.exact_ms;
       exact_cost += cell.exact_ms;
@@ -265,8 +264,8 @@ std::string scene_section(const FidelityStudy& study, const FidelitySettings& se
       continue;
     }
     std::string models;
-    for (const double tolerance : kTolerances) {
-      models += taken(cell, settings, tolerance) == Fidelity::kFast ? 'f' : 'e';
+    for (const Fidelity model : cell.taken) {
+      models += model == Fidelity::kFast ? 'f' : 'e';
     }
     std::vector<std::string> row = {cell.scene, std::string(readout_title(cell.readout)), models};
     for (const FigureDifference& figure : cell.difference.figures) {
@@ -390,18 +389,19 @@ std::string fidelity_report(const FidelityStudy& study, const FidelitySettings& 
       "elsewhere; "
       "times are processor time of this run. Command: `{}`\n\n{}\n{}\n{}",
       settings.scenes.size(), first.columns(), first.rows(), settings.klux.size(), settings.frames,
-      settings.seed, command, readout_section(study, settings), promise_section(study, settings),
+      settings.seed, command, readout_section(study, settings), promise_section(study),
       scene_section(study, settings));
 }
 
-std::string fidelity_csv(const FidelityStudy& study, const FidelitySettings& settings) {
+std::string fidelity_csv(const FidelityStudy& study) {
   Table table({"klux", "scene", "readout", "tolerance", "taken", "promise", "cost_ms", "exact_ms", "fast_ms",
                "rmse_exact", "rmse_difference", "rmse_standard_error", "bias_difference",
                "bias_standard_error", "above_3_percent_difference", "above_3_percent_standard_error",
                "above_10_percent_difference", "above_10_percent_standard_error"});
   for (const FidelityCell& cell : study.cells) {
-    for (const double tolerance : kTolerances) {
-      const bool fast = taken(cell, settings, tolerance) == Fidelity::kFast;
+    for (std::size_t t = 0; t < kTolerances.size(); ++t) {
+      const double tolerance = kTolerances[t];
+      const bool fast = cell.taken[t] == Fidelity::kFast;
       std::vector<std::string> row = {
           fmt::format("{:g}", cell.klux),
           cell.scene,

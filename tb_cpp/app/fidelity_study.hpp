@@ -56,12 +56,16 @@ inline constexpr std::array<const char*, 4> kFigureNames = {"rmse", "bias", "abo
 /// At least two pairs (InputError otherwise).
 ModelDifference compare_models(std::span<const ColumnFigures> exact, std::span<const ColumnFigures> other);
 
+/// Tolerances for which the study says what `--fidelity auto` takes.
+inline constexpr std::array kTolerances = {0.1, 0.03, 0.01, 0.003, 0.001};
+
 /// One scene in one light, read by one read-out with photons of both models.
 struct FidelityCell {
   std::string scene;
   double klux = 0.0;
   Readout readout = Readout::kEzPointer;
   ModelDifference difference;
+  std::array<Fidelity, kTolerances.size()> taken{};  ///< what auto takes, in the order of kTolerances
   double exact_ms = 0.0;  ///< processor time of a frame with exact streams, photons and read-out
   double fast_ms = 0.0;   ///< with the fast model's sampler
 };
@@ -95,8 +99,6 @@ std::string fidelity_report(const FidelityStudy& study, const FidelitySettings& 
                             const std::string& command);
 
 /// One row per cell and tolerance: what `--fidelity auto` takes there, its cost, the differences measured.
-std::string fidelity_csv(const FidelityStudy& study, const FidelitySettings& settings);
-
-inline constexpr std::array kTolerances = {0.1, 0.03, 0.01, 0.003, 0.001};
+std::string fidelity_csv(const FidelityStudy& study);
 
 }  // namespace dtof

@@ -450,11 +450,7 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   options->readout.add_to(*command);
-  command->add_option("-s,--seed", options->run.seed, "seed of everything random")->capture_default_str();
-  command->add_option("-j,--threads", options->run.threads, "threads, 0 = all processors")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  add_study_options(*command, options->run.seed, options->run.threads, options->out);
   command->callback([options, command] {
     if (options->surfaces_file.empty()) {
       for (const char* option : {"--from-tick", "--tick", "--shift"}) {

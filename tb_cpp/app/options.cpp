@@ -120,6 +120,21 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
   return sets;
 }
 
+void add_sensor_option(CLI::App& command, std::string& sensor) {
+  command
+      .add_option("--sensor,-p,--preset", sensor,
+                  "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
+      ->capture_default_str();
+}
+
+void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out) {
+  command.add_option("-s,--seed", seed, "seed of everything random")->capture_default_str();
+  command.add_option("-j,--threads", threads, "threads, 0 = all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("-o,--out", out, "output folder")->capture_default_str();
+}
+
 void RunOptions::add_to(CLI::App& command) {
   auto* group = command.add_option_group("run");
   group->add_option("-e,--engine", engine, "model (C++) or rtl (the Verilated hardware)")
@@ -159,10 +174,7 @@ void SensorOptions::add_to(CLI::App& command) {
 
 void SensorOptions::add_sensor_to(CLI::App& command) {
   auto* group = command.add_option_group("sensor");
-  group
-      ->add_option("--sensor,-p,--preset", sensor,
-                   "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
-      ->capture_default_str();
+  add_sensor_option(*group, sensor);
   group->add_option("-a,--acquisitions", acquisitions, "laser pulses per frame (default: the sensor's)")
       ->check(sensible_acquisitions());
   group->add_option("--dead-time", dead_time_ns, "dead time of a pixel in ns");

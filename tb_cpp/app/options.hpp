@@ -39,6 +39,11 @@ struct ReadoutOptions {
                                                           const SensorModel& sensor = {}) const;
 };
 
+/// --sensor with its synonyms: a preset's name or a sensor file.
+void add_sensor_option(CLI::App& command, std::string& sensor);
+/// --seed of everything random, --threads and --out: what every study has.
+void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out);
+
 /// Which engine runs, how, and what is random.
 struct RunOptions {
   std::string engine = "model";

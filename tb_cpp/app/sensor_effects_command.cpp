@@ -130,11 +130,7 @@ void add_sensor_effects_command(CLI::App& app, const std::string& command_line) 
   command->add_option("--frames", options->frames, "frames at each distance and light")
       ->check(CLI::Range(4, 1'000'000))
       ->capture_default_str();
-  command->add_option("-s,--seed", options->run.seed, "seed of everything random")->capture_default_str();
-  command->add_option("-j,--threads", options->run.threads, "threads, 0 = all processors")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  add_study_options(*command, options->run.seed, options->run.threads, options->out);
   command->callback([options] { run_sensor_effects_command(*options); });
 }
 

@@ -461,18 +461,11 @@ void add_speed_error_command(CLI::App& app, const std::string& command_line) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "speed-error", "Speed of the photon models against their error, measured against the exact one");
-  command
-      ->add_option("--sensor,-p,--preset", options->sensor,
-                   "a preset of `dtof list`, or a sensor file (TOML, docs/sensor_file.md)")
-      ->capture_default_str();
+  add_sensor_option(*command, options->sensor);
   command->add_option("--frames", options->frames, "frames a scene and model")
       ->check(CLI::Range(200, 10'000'000))
       ->capture_default_str();
-  command->add_option("-s,--seed", options->run.seed, "seed of everything random")->capture_default_str();
-  command->add_option("-j,--threads", options->run.threads, "threads, 0 = all processors")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  add_study_options(*command, options->run.seed, options->run.threads, options->out);
   command->callback([options] { SpeedErrorReport(*options).run(); });
 }
 

@@ -246,11 +246,7 @@ void add_walk_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   options->sensor.add_to(*command);
   options->readout.add_to(*command);
-  command->add_option("-s,--seed", options->seed, "seed of everything random")->capture_default_str();
-  command->add_option("-j,--threads", options->threads, "threads, 0 = all processors")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  add_study_options(*command, options->seed, options->threads, options->out);
   command->callback([options, command] {
     for (const char* option : {"--fidelity", "--tolerance"}) {
       refuse_without_effect(*command, option, "walk error is measured with exact photons");

@@ -76,6 +76,9 @@ TEST(Fidelity, BeyondWhatWasMeasuredOnlyTheExactModelIsTaken) {
   };
   EXPECT_EQ(with([](SensorModel&) {}), Fidelity::kFast);
   EXPECT_EQ(with([](SensorModel& sensor) { sensor.np = 11; }), Fidelity::kExact);
+  EXPECT_EQ(with([](SensorModel& sensor) { sensor.pulse_fwhm_s = 1e-9; }), Fidelity::kExact);
+  EXPECT_EQ(with([](SensorModel& sensor) { sensor.jitter_fwhm_s = 1e-9; }), Fidelity::kExact);
+  EXPECT_EQ(with([](SensorModel& sensor) { sensor.time_gate = {0.0, 20e-9}; }), Fidelity::kExact);
   EXPECT_EQ(with([](SensorModel& sensor) { sensor.slots = 4; }), Fidelity::kExact);
   EXPECT_EQ(with([](SensorModel& sensor) { sensor.acquisitions = 100; }), Fidelity::kExact);
   EXPECT_EQ(with([](SensorModel& sensor) { sensor.background_events_per_klux = 1.0; }), Fidelity::kExact);
