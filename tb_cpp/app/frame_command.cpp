@@ -248,17 +248,30 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const Tabled
   return frame;
 }
 
+/// End of the error maps' scale in m, the same for every read-out.
+constexpr double kLargestError = 0.25;
+
+/// What the pictures' titles say beside the read-out.
+std::string scene_sentence(const SensorModel& sensor, const FrameOptions& options) {
+  return fmt::format("{}, {} klux, sensor {}, engine {}",
+                     options.maps.depth.empty() ? options.scene : options.maps.depth, options.sensor.klux,
+                     sensor.name, options.run.engine);
+}
+
 void write_readout_files(const MeasuredFrame& frame, const Region& region, const ColourRange& depth_range,
-                         double degrees_per_pixel, const std::filesystem::path& folder) {
+                         const SensorModel& sensor, const FrameOptions& options) {
+  const std::filesystem::path folder(options.out);
   const std::string name(readout_name(frame.parameters.readout));
   write_result_csv(folder / (name + ".csv"), result_records(frame.run.results, region));
   write_depth_png(folder / (name + "_depth_mm.png"), frame.depth);
-  write_ply(folder / (name + ".ply"), frame.depth, depth_range, degrees_per_pixel);
+  write_ply(folder / (name + ".ply"), frame.depth, depth_range, sensor.degrees_per_pixel());
   const std::string title(readout_title(frame.parameters.readout));
+  const std::string scene = scene_sentence(sensor, options);
   write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{frame.depth, "", MapKind::kDepth}},
-                    {.title = title, .depth_range = depth_range});
-  write_map_picture(folder / (name + "_error.png"), std::vector<MapPanel>{{frame.error, "", MapKind::kError}},
-                    {.title = title + ", error"});
+                    {.title = fmt::format("{}, depth in m: {}", title, scene), .depth_range = depth_range});
+  write_map_picture(
+      folder / (name + "_error.png"), std::vector<MapPanel>{{frame.error, "", MapKind::kError}},
+      {.title = fmt::format("{}, error in m: {}", title, scene), .largest_error = kLargestError});
 }
 
 Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
@@ -337,22 +350,20 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
     errors.push_back({frame.error, title, MapKind::kError});
   }
   const std::filesystem::path folder(options.out);
-  const std::string title = fmt::format("{}, {} klux, sensor {}, engine {}",
-                                        options.maps.depth.empty() ? options.scene : options.maps.depth,
-                                        options.sensor.klux, sensor.name, options.run.engine);
-  const int pixel_size = truth.width >= 100 ? 2 : 0;
+  const std::string title = scene_sentence(sensor, options);
+  const int pixel_size = truth.width >= 100 ? 1 : 0;
   write_map_picture(folder / "overview.png", depths,
-                    {.title = "Depth: " + title,
+                    {.title = "Depth in m: " + title,
                      .caption = options.command_line,
-                     .panels_per_row = 3,
+                     .panels_per_row = 4,
                      .pixel_size = pixel_size,
                      .depth_range = depth_range});
   write_map_picture(folder / "errors.png", errors,
-                    {.title = "Error: " + title,
+                    {.title = "Error in m: " + title,
                      .caption = options.command_line,
-                     .panels_per_row = 3,
+                     .panels_per_row = 4,
                      .pixel_size = pixel_size,
-                     .largest_error = 0.25});
+                     .largest_error = kLargestError});
 }
 
 void run_frame_command(const FrameOptions& options) {
@@ -390,7 +401,7 @@ void run_frame_command(const FrameOptions& options) {
   std::vector<MeasuredFrame> frames;
   for (const TabledReadout& readout : tabled) {
     frames.push_back(measure(scene, fidelity, readout, options, region, truth));
-    write_readout_files(frames.back(), region, range, sensor.degrees_per_pixel(), options.out);
+    write_readout_files(frames.back(), region, range, sensor, options);
   }
   write_overview(frames, truth, range, sensor, options);
   double seconds = 0.0;

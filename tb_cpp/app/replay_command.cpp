@@ -192,8 +192,8 @@ void write_comparison(const std::vector<TruthComparison>& comparisons, const Rep
   write_file(folder / "measurements.csv", measurements.csv());
   write_file(
       folder / "summary.md",
-      fmt::format("{}\n{}\n{}\n\nMeasured distance in mm (median of each group of true distances):\n\n{}\n"
-                  "Command: `{}`\n",
+      fmt::format("{}\n{}\n{}\n\n![Error of the measured distance](error.svg)\n\n"
+                  "Measured distance in mm (median of each group of true distances):\n\n{}\nCommand: `{}`\n",
                   heading, summary.markdown(), offset_sentence(options), distances.markdown(),
                   options.command_line));
   write_plot(folder / "error.svg", series,

@@ -3,14 +3,17 @@
 
 #include <cairo.h>
 #include <fmt/format.h>
+#include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "core/error.hpp"
@@ -33,6 +36,9 @@ constexpr int kWantedMapWidth = 480;
 constexpr int kLargestPixelSize = 16;
 constexpr int kLargestExtent = 32767;  ///< of a cairo image
 constexpr Colour kUnknown = {0.62, 0.62, 0.62};
+/// Colours of a scale; odd, so that its middle is one. Few, so that the pictures of noise stay small.
+constexpr int kScaleSteps = 65;
+constexpr std::size_t kPaletteSize = 256;
 
 struct SurfaceDeleter {
   void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -47,9 +53,63 @@ bool is_known(MapKind kind, float value) {
   return std::isfinite(value) && (kind == MapKind::kError || value > 0.0F);
 }
 
+/// The scale's colour nearest to a position from 0 to 1.
 Colour colour_at(MapKind kind, double position) {
-  return kind == MapKind::kDepth ? viridis(position) : blue_white_red(position);
+  const double step = std::round(std::clamp(position, 0.0, 1.0) * (kScaleSteps - 1)) / (kScaleSteps - 1);
+  return kind == MapKind::kDepth ? viridis(step) : blue_white_red(step);
 }
+
+std::uint32_t packed(const Colour& colour) {
+  const auto byte = [](double value) { return static_cast<std::uint32_t>(std::lround(value * 255.0)); };
+  return byte(colour[0]) << 16U | byte(colour[1]) << 8U | byte(colour[2]);
+}
+
+std::array<int, 3> channels(std::uint32_t colour) {
+  return {static_cast<int>(colour >> 16U & 0xffU), static_cast<int>(colour >> 8U & 0xffU),
+          static_cast<int>(colour & 0xffU)};
+}
+
+/// The colours of a picture: a byte a pixel makes files a third as large as three do.
+class Palette {
+ public:
+  explicit Palette(std::span<const MapKind> kinds) {
+    colours_.push_back(packed(kUnknown));
+    for (const MapKind kind : kinds) {
+      for (int step = 0; step < kScaleSteps; ++step) {
+        colours_.push_back(packed(colour_at(kind, static_cast<double>(step) / (kScaleSteps - 1))));
+      }
+    }
+    const auto greys = static_cast<int>(kPaletteSize - colours_.size());
+    for (int grey = 0; grey < greys; ++grey) {
+      const double level = static_cast<double>(grey) / (greys - 1);
+      colours_.push_back(packed({level, level, level}));
+    }
+  }
+
+  [[nodiscard]] const std::vector<std::uint32_t>& colours() const { return colours_; }
+
+  /// Index of the colour; of the nearest one for the edges of text and lines.
+  [[nodiscard]] std::uint8_t index(std::uint32_t colour) {
+    const auto [place, is_new] = indices_.try_emplace(colour, std::uint8_t{0});
+    if (is_new) {
+      const auto distance = [wanted = channels(colour)](std::uint32_t candidate) {
+        int sum = 0;
+        for (std::size_t i = 0; i < wanted.size(); ++i) {
+          const int difference = channels(candidate).at(i) - wanted.at(i);
+          sum += difference * difference;
+        }
+        return sum;
+      };
+      place->second =
+          static_cast<std::uint8_t>(std::ranges::min_element(colours_, {}, distance) - colours_.begin());
+    }
+    return place->second;
+  }
+
+ private:
+  std::vector<std::uint32_t> colours_;
+  std::unordered_map<std::uint32_t, std::uint8_t> indices_;
+};
 
 /// A scale and whether values beyond its ends occur.
 struct Scale {
@@ -188,25 +248,43 @@ class Picture {
     return extents.x_advance;
   }
 
-  [[nodiscard]] std::string png() const {
-    std::string encoded;
-    const auto append = [](void* closure, const unsigned char* data, unsigned int length) {
-      static_cast<std::string*>(closure)->append(reinterpret_cast<const char*>(data), length);
-      return CAIRO_STATUS_SUCCESS;
-    };
-    const cairo_status_t status = cairo_surface_write_to_png_stream(surface_.get(), append, &encoded);
-    if (status != CAIRO_STATUS_SUCCESS) {
-      throw InputError(fmt::format("picture: {}", cairo_status_to_string(status)));
+  [[nodiscard]] std::string png(Palette palette) const {
+    cairo_surface_flush(surface_.get());
+    const int width = cairo_image_surface_get_width(surface_.get());
+    const int height = cairo_image_surface_get_height(surface_.get());
+    const unsigned char* const data = cairo_image_surface_get_data(surface_.get());
+    const int stride = cairo_image_surface_get_stride(surface_.get());
+    std::vector<std::uint8_t> indices;
+    indices.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    for (int row = 0; row < height; ++row) {
+      const auto* const line =
+          reinterpret_cast<const std::uint32_t*>(data + static_cast<std::ptrdiff_t>(row) * stride);
+      for (int column = 0; column < width; ++column) {
+        indices.push_back(palette.index(line[column] & 0xffffffU));
+      }
     }
+    std::vector<png_byte> map;
+    for (const std::uint32_t colour : palette.colours()) {
+      for (const int channel : channels(colour)) {
+        map.push_back(static_cast<png_byte>(channel));
+      }
+    }
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_RGB_COLORMAP;
+    image.colormap_entries = static_cast<png_uint_32>(palette.colours().size());
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    std::string encoded(size, '\0');
+    if (png_image_write_to_memory(&image, encoded.data(), &size, 0, indices.data(), 0, map.data()) == 0) {
+      throw InputError(fmt::format("picture: {}", image.message));
+    }
+    encoded.resize(size);
     return encoded;
   }
 
  private:
-  static std::uint32_t packed(const Colour& colour) {
-    const auto byte = [](double value) { return static_cast<std::uint32_t>(std::lround(value * 255.0)); };
-    return byte(colour[0]) << 16U | byte(colour[1]) << 8U | byte(colour[2]);
-  }
-
   /// Triangle on an end of the bar: values lie beyond it.
   void point(double x, double y, double length, const Colour& colour) {
     cairo_t* const cr = context_.get();
@@ -381,7 +459,11 @@ void write_map_picture(const std::filesystem::path& path, std::span<const MapPan
     picture.text(kMargin, y + kFontSize * 0.5, kFontSize * 0.85, line);
     y += kFontSize * 1.3;
   }
-  write_file(path, picture.png());
+  std::vector<MapKind> kinds;
+  for (const Scale& scale : scales) {
+    kinds.push_back(scale.kind);
+  }
+  write_file(path, picture.png(Palette(kinds)));
 }
 
 }  // namespace dtof

@@ -126,6 +126,33 @@ TEST_F(ColourPngTest, EveryPixelIsDrawnAsASquareOfItsColour) {
   EXPECT_EQ(picture.at(x0 + 29, y0 + 19), bytes(viridis(1.0)));
 }
 
+TEST_F(ColourPngTest, APictureIsAByteAPixelHoweverManyValuesAndKindsItHas) {
+  DepthImage ramp{.width = 100, .height = 40, .metres = {}};
+  for (int i = 0; i < 4000; ++i) {
+    ramp.metres.push_back(static_cast<float>(i + 1) * 1e-3F);
+  }
+  DepthImage errors = ramp;
+  for (float& error : errors.metres) {
+    error -= 2.0F;
+  }
+  write_map_picture(
+      path("a.png"),
+      std::vector<MapPanel>{{ramp, "ramp", MapKind::kDepth}, {errors, "error", MapKind::kError}},
+      {.title = "title", .caption = "caption", .panels_per_row = 2, .largest_error = 1.0});
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&image, path("a.png").c_str()), 0) << image.message;
+  EXPECT_EQ(image.format & PNG_FORMAT_FLAG_COLORMAP, PNG_FORMAT_FLAG_COLORMAP);
+  EXPECT_EQ(image.colormap_entries, 256U);
+  png_image_free(&image);
+  // Each of a scale's colours occurs.
+  const RgbPicture picture = read_picture(path("a.png"));
+  for (const double position : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    EXPECT_GT(picture.count(bytes(viridis(position))), 100) << position;
+    EXPECT_GT(picture.count(bytes(blue_white_red(position))), 100) << position;
+  }
+}
+
 TEST_F(ColourPngTest, RangesOfPanels) {
   const std::vector<MapPanel> panels = {
       {.image = {.width = 2, .height = 1, .metres = {1.0F, 0.0F}}, .label = ""},
