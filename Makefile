@@ -2,6 +2,7 @@
 # make            install what is missing, build, read one scene out through the RTL of every read-out, report
 # make test       every test and the lint
 # make sim        the main job without the installation step
+# make report     build/report/index.html, all results on a page, and the main job's tables; make publish: reports/ has them
 # make reproduce  the thesis's accuracy statements, measured (minutes); make coverage-study: their intervals checked
 # make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
 # make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
@@ -18,9 +19,10 @@ SHARED_DATA ?= ../shared/data
 DTOF := $(BUILD)/app/dtof
 
 .DEFAULT_GOAL := all
-.PHONY: all packages configure build sim report test lint bench clean
+.PHONY: all packages configure build sim report publish test lint bench clean
 
-all: packages sim report
+all: packages sim
+	@$(MAKE) --no-print-directory report
 
 packages:
 	@scripts/install_packages.sh
@@ -38,10 +40,16 @@ build_folder:
 sim: build
 	@SEED=$(SEED) SHARED_DATA=$(SHARED_DATA) scripts/simulate.sh $(DTOF)
 
-report:
+report: packages
+	@scripts/report_page.py
 	@scripts/print_report.sh
 
+publish:
+	@scripts/publish.py frame $(if $(wildcard build/tmf8820/summary.md),tmf8820)
+	@scripts/update_readme.py
+
 test: | build_folder
+	@scripts/install_packages.sh browser
 	@$(MAKE) --no-print-directory configure
 	@ninja -C $(BUILD)
 	@scripts/lint.sh

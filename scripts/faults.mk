@@ -12,4 +12,4 @@ faults: | build_folder
 	@$(MAKE) --no-print-directory configure
 	@ninja -C $(BUILD) dtof-faults
 	@$(BUILD)/faults/dtof-faults --flips $(FLIPS) --seed $(SEED) --out build/faults
-	@cp build/faults/faults.md build/faults/faults.csv reports/
+	@scripts/publish.py faults

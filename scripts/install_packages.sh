@@ -12,13 +12,16 @@ packages=(
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta qflow-tech-osu018
   # scripts, plots, checks
-  python3 python3-numpy gnuplot-nox clang-format clang-tidy gcovr
+  python3 python3-numpy python3-markdown gnuplot-nox clang-format clang-tidy gcovr
 )
 
-# libFuzzer, for make fuzz only.
-if [ "${1:-}" = fuzz ]; then
-  packages+=(clang libclang-rt-dev)
-fi
+for purpose in "$@"; do
+  case $purpose in
+    fuzz) packages+=(clang libclang-rt-dev) ;;  # libFuzzer, for make fuzz only
+    browser) packages+=(chromium) ;;            # opens the pages, for make test only
+    *) echo "error: $purpose: packages for fuzz and browser are known" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; the README's table.
+# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; the README's table; the pictures under reports/.
 # --static-analysis adds clang-tidy over all C++ (minutes; needs a configured build).
 set -euo pipefail
 /usr/bin/python3 scripts/lint_rtl.py
@@ -11,6 +11,9 @@ echo "clang-format: ${#sources[@]} files clean"
 
 scripts/update_readme.py --check
 echo "README.md: the results table is that of reports/"
+
+scripts/check_pictures.py
+echo "reports/: few and small pictures, each shown by a document"
 
 if [ "${1:-}" = "--static-analysis" ]; then
   mapfile -t units < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp')

@@ -1,10 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Prints the tables of reports/ that this tree's commands wrote, one after the other.
+# Prints the tables of the main job: those in build/, or the committed ones of reports/ if it has not run here.
 set -euo pipefail
 for report in frame tmf8820; do
-  if [ -f "reports/$report/summary.md" ]; then
-    printf '\n== reports/%s\n\n' "$report"
-    cat "reports/$report/summary.md"
-  fi
+  for folder in build reports; do
+    if [ -f "$folder/$report/summary.md" ]; then
+      printf '\n== %s\n\n' "$folder/$report"
+      grep -v '^!\[' "$folder/$report/summary.md"  # pictures are for the page
+      break
+    fi
+  done
 done

@@ -2,4 +2,5 @@
 # make reproduce  the thesis's accuracy statements against the models: reports/reproduction.md
 .PHONY: reproduce
 reproduce: build
-	@$(DTOF) reproduce --seed $(SEED) --out reports
+	@$(DTOF) reproduce --seed $(SEED) --out build/reproduce
+	@scripts/publish.py reproduction

@@ -10,12 +10,14 @@ folder=build/sensor_effects
 rm -rf "$folder"
 mkdir -p "$folder"
 sensors=()
+complete=yes
 for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time hot_pixels; do
   cp "scripts/sensor_effects/$name.toml" "$folder/"
   file=$(sed -n 's/^[a-z_]*_file = "\(.*\)"$/\1/p' "$folder/$name.toml")
   if [ -n "$file" ]; then
     if [ ! -f "$data/$file" ]; then
       echo "sensor-effects: $data/$file is not here: $name is skipped"
+      complete=no
       continue
     fi
     ln -sf "$data/$file" "$folder/$file"
@@ -23,4 +25,8 @@ for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time ho
   sensors+=("$folder/$name.toml")
 done
 "$dtof" sensor-effects "${sensors[@]}" --seed "$seed" --out "$folder"
-cp "$folder/sensor_effects.md" "$folder/sensor_effects.csv" reports/
+if [ "$complete" = yes ]; then
+  scripts/publish.py sensor_effects
+else
+  echo "sensor-effects: reports/ keeps the report of all sensors; this one is in $folder"
+fi

@@ -10,22 +10,21 @@ SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
   hispointer:COUNT_WIDTH=12 sifh:WINDOW_CENTRED=1 sifh:COUNT_WIDTH=8 sifh:COUNT_WIDTH=12 \
   fifh:COUNT_WIDTH=8 fifh:COUNT_WIDTH=12
-SCENE_PICTURES := clutter_14klux_thesis.png disparity_map_50klux_thesis.png room_50klux_thesis.png \
-  held_disparity_map_50klux_thesis.png confidence_50klux_thesis.svg confidence_14klux_thesis.svg
 PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
   --surfaces $(SHARED_DATA)/shin2016_two_layer_obj.mat --shift -20
 
+# The committed report has the maps, too: without them it stays as it is.
 scenes: build
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  $(DTOF) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --out build/scenes; \
 	  $(DTOF) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --preset thesis --klux 14 50 --readout fifh \
 	    --variant $(SCENE_VARIANTS) --columns 25 --out build/scenes_variants; \
-	  mkdir -p reports/scenes; \
-	  cp build/scenes/scenes.md build/scenes/scenes.csv reports/; \
-	  cp $(addprefix build/scenes/,$(SCENE_PICTURES)) reports/scenes/; \
-	  cp build/scenes_variants/scenes.csv reports/scenes_variants.csv; \
-	else echo "depth maps are not here ($(SHARED_DATA)): the scene study is skipped"; fi
+	  scripts/publish.py scenes; \
+	else \
+	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/scenes_synthetic"; \
+	  $(DTOF) scenes --held-out --seed $(SEED) --out build/scenes_synthetic; \
+	fi
 
 pareto:
 	@/usr/bin/python3 scripts/pareto.py
@@ -35,19 +34,18 @@ trade: build
 
 walk-error: build
 	@$(DTOF) walk --seed $(SEED) --out build/walk
-	@cp build/walk/walk_error.md build/walk/walk_error.csv build/walk/walk_error.svg reports/
+	@scripts/publish.py walk_error
 
 real-data: build
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
-	  set -e; \
 	  $(DTOF) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons 2000 750 300 \
-	    --background 0 0.15 --frames 4 --seed $(SEED) --out build/tmf8829; \
+	    --background 0 0.15 --frames 4 --seed $(SEED) --out build/tmf8829 && scripts/publish.py tmf8829; \
+	else echo "TMF8829 frames are not here ($(SHARED_DATA)): skipped"; fi
+	@if [ -f $(SHARED_DATA)/shin2016_two_layer_photon_times.mat ]; then \
+	  set -e; \
 	  $(DTOF) measured $(PHOTON_TIMES) --photons 0 25 \
 	    --background 0 0.15 --seed $(SEED) --out build/photon_times; \
 	  $(DTOF) measured $(PHOTON_TIMES) --from-tick 5200 --photons 0 12 \
 	    --background 0 0.15 --seed $(SEED) --out build/photon_times_behind; \
-	  for run in tmf8829 photon_times photon_times_behind; do \
-	    mkdir -p reports/$$run; \
-	    cp build/$$run/summary.md build/$$run/summary.csv build/$$run/depth.png build/$$run/error.png reports/$$run/; \
-	  done; \
-	else echo "measured data are not here ($(SHARED_DATA)): make real-data is skipped"; fi
+	  scripts/publish.py photon_times photon_times_behind; \
+	else echo "photon times are not here ($(SHARED_DATA)): skipped"; fi

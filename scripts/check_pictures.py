@@ -1,0 +1,47 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Pictures that git keeps under reports/ are few and small, and a document shows each: every renewal stays in the history
+for ever. The others are drawn in build/, where `make report` finds them."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+MOST = 10
+LARGEST = 200_000  # bytes
+PICTURES = (".png", ".svg", ".jpg", ".gif", ".webp", ".pdf")
+SHOWN = re.compile(r"!\[[^\]]*\]\(([^)]*)\)")
+
+
+def problems(root: Path, files: list[str]) -> list[str]:
+    """`files`: what git keeps, from `root`."""
+    pictures = [file for file in files if file.startswith("reports/") and file.endswith(PICTURES)]
+    found = [f"{len(pictures)} pictures under reports/, {MOST} are allowed"] if len(pictures) > MOST else []
+    shown = set()
+    for file in files:
+        if file.endswith(".md"):
+            folder = (root / file).parent
+            shown |= {(folder / name).resolve() for name in SHOWN.findall((root / file).read_text(encoding="utf-8"))}
+    for picture in pictures:
+        size = (root / picture).stat().st_size
+        if size > LARGEST:
+            found.append(f"{picture} has {size} bytes, {LARGEST} are allowed")
+        if (root / picture).resolve() not in shown:
+            found.append(f"{picture} is shown by no document")
+    return found
+
+
+def main() -> int:
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, check=True,
+                            capture_output=True, text=True).stdout
+    files = [file for file in listed.split("\0") if file and (ROOT / file).is_file()]
+    found = problems(ROOT, files)
+    for sentence in found:
+        print(f"error: {sentence}", file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

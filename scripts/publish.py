@@ -1,0 +1,37 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""`publish.py REPORT ...`: copies what a command left in build/ to reports/: text, tables and the pictures that are kept
+there (scripts/page/sections.py has the lists)."""
+
+import shutil
+import sys
+from pathlib import Path
+
+from page.sections import ALL, for_reports
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def main() -> int:
+    reports = {report.name: report for report in ALL if report.built}
+    if len(sys.argv) < 2 or not reports.keys() >= set(sys.argv[1:]):
+        print(f"{__doc__}\nReports: {' '.join(reports)}", file=sys.stderr)
+        return 2
+    for name in sys.argv[1:]:
+        report = reports[name]
+        needed = [report.built, *(built for built, _ in report.with_it)]
+        missing = [file for file in needed if not (ROOT / "build" / file).is_file()]
+        if missing:
+            print(f"error: build/{missing[0]} is missing: run `make {report.target}` first", file=sys.stderr)
+            return 1
+        for built, committed in report.with_it:
+            (ROOT / "reports" / committed).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(ROOT / "build" / built, ROOT / "reports" / committed)
+        (ROOT / "reports" / report.committed).parent.mkdir(parents=True, exist_ok=True)
+        (ROOT / "reports" / report.committed).write_text(for_reports(report, ROOT), encoding="utf-8")
+        print(f"reports/{report.committed} renewed")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,282 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The page of `make report`: its parts on small examples, and the page of this tree in a browser."""
+
+import json
+import os
+import re
+import shutil
+import tempfile
+import unittest
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import check_pictures
+from page import figures, links, render, sections
+from page.commands import commands
+from page.site import Site
+from tests.browser import Browser, missing
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+SCREENSHOTS = ROOT / "build" / "report_test"
+
+
+class Folder(unittest.TestCase):
+    """A tree with the files that the page needs to know read-outs and commands."""
+
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name) / "tree"
+        for name in ("configurations.toml", "Makefile"):
+            self.write(name, (ROOT / name).read_text(encoding="utf-8"))
+        for makefile in [*ROOT.glob("scripts/*.mk"), *ROOT.glob("synth/*.mk")]:
+            self.write(str(makefile.relative_to(ROOT)), makefile.read_text(encoding="utf-8"))
+
+    def write(self, name: str, text: str) -> Path:
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    def site(self) -> tuple[list[str], Path]:
+        out = self.root / "build" / "report"
+        return Site(self.root, out).write(), out
+
+
+class Rendering(unittest.TestCase):
+    def html(self, text: str, prefix: str = "") -> str:
+        return render.to_html(text, lambda address: None if address == "lost" else f"to/{address}", prefix=prefix)
+
+    def test_anchors_are_githubs(self) -> None:
+        text = self.html("# A `b`: c, d_e\n\n## Netlist = RTL = model\n\n## Twice\n\n## Twice\n")
+        for anchor in ("a-b-c-d_e", "netlist--rtl--model", "twice", "twice-1"):
+            self.assertIn(f'id="{anchor}"', text)
+        self.assertIn('<h1 id="x-t">', self.html("# T", "x-"))
+
+    def test_links_and_pictures_follow_and_leave_their_text_where_they_lead_nowhere(self) -> None:
+        text = self.html("[here](a.md#b) [gone](lost) ![seen](p.svg) ![unseen](lost)")
+        self.assertIn('<a href="to/a.md#b">here</a> gone ', text)
+        self.assertIn('<img src="to/p.svg" alt="seen"', text)
+        self.assertIn("unseen: the picture is not here", text)
+
+    def test_text_is_escaped_and_tables_scroll(self) -> None:
+        text = self.html("a < b & `c <d>`\n\n| x | y |\n|---|---:|\n| 1 | 2 |\n")
+        self.assertIn("a &lt; b &amp; <code>c &lt;d&gt;</code>", text)
+        self.assertIn('<div class="scroll" tabindex="0"><table>', text)
+        self.assertIn("</table></div>", text)
+
+    def test_a_list_follows_its_paragraph(self) -> None:
+        self.assertEqual(self.html("a:\n- b\n- c\n").count("<li>"), 2)
+
+    def test_excerpts(self) -> None:
+        text = "# T\n\nfirst\n\n## A\n\nin a\n\n### B\n\nin b\n\n## C\n\n### B\n\nb of c\n\n```\n## no heading\n```\n"
+        self.assertEqual(render.excerpt(text, ()), "first\n")
+        self.assertEqual(render.excerpt(text, ("A",)), "first\n\n## A\n\nin a\n")
+        shown = render.excerpt(text, ("C/B",))
+        self.assertIn("## C: B\n\nb of c", shown)
+        self.assertIn("## no heading", shown)
+        self.assertNotIn("in b", shown)
+
+
+class Links(Folder):
+    def problems(self, body: str) -> list[str]:
+        self.write("out/index.html", body)
+        self.write("out/sub/b.html", '<h2 id="there">b</h2>')
+        return links.problems(self.root / "out")
+
+    def test_what_resolves(self) -> None:
+        self.assertEqual(self.problems('<p id="a"><a href="#a">x</a><a href="sub/b.html#there">x</a><a href='
+                                       '"https://example.org/">x</a></p>'), [])
+
+    def test_what_does_not(self) -> None:
+        for body, sentence in {
+                '<a href="#b">x</a>': "#b has no such anchor",
+                '<a href="sub/b.html#a">x</a>': "sub/b.html#a has no such anchor",
+                '<a href="c.html">x</a>': "c.html does not exist",
+                '<img src="c.png">': "c.png does not exist",
+                '<img src="https://example.org/a.png">': "is outside of the page's folder",
+                '<script src="//example.org/a.js"></script>': "is outside of the page's folder",
+                '<a href="/etc/passwd">x</a>': "is outside of the page's folder",
+                '<a href="../Makefile">x</a>': "is outside of the page's folder",
+                '<p id="a"></p><p id="a"></p>': "the anchor a is there twice"}.items():
+            found = self.problems(body)
+            self.assertEqual(len(found), 1, body)
+            self.assertIn(sentence, found[0])
+
+
+class Sources(Folder):
+    REPORT = sections.Report("walk_error", "Walk", "walk-error", "walk_error.md", "walk/walk_error.md",
+                             with_it=(("walk/kept.svg", "kept.svg"),))
+    BUILT = "text\n\n![kept one](kept.svg)\n\n![other](other.svg)\n"
+
+    def stamp(self, path: Path, seconds: int) -> Path:
+        os.utime(path, (seconds, seconds))
+        return path
+
+    def test_reports_keeps_the_text_and_some_pictures(self) -> None:
+        self.write("build/walk/walk_error.md", self.BUILT)
+        text = sections.for_reports(self.REPORT, self.root)
+        self.assertIn("![kept one](kept.svg)", text)
+        self.assertNotIn("other.svg", text)
+        self.assertIn("*other: this report's command draws the picture", text)
+
+    def test_the_newer_one_is_shown_but_pictures_where_the_texts_agree(self) -> None:
+        self.assertIsNone(sections.chosen(self.REPORT, self.root))
+        committed = self.stamp(self.write("reports/walk_error.md", "else\n"), 2000)
+        self.assertEqual(sections.chosen(self.REPORT, self.root), committed)
+        built = self.stamp(self.write("build/walk/walk_error.md", self.BUILT), 1000)
+        self.assertEqual(sections.chosen(self.REPORT, self.root), committed)
+        self.stamp(built, 3000)
+        self.assertEqual(sections.chosen(self.REPORT, self.root), built)
+        self.stamp(self.write("reports/walk_error.md", sections.for_reports(self.REPORT, self.root)), 4000)
+        self.assertEqual(sections.chosen(self.REPORT, self.root), built)
+
+
+class Pages(Folder):
+    SUMMARY = "read-out,rmse mm,bias mm,bias before table mm,above 3 %,above 10 %,cycles\nSiFH,478,-75,-114,40.56 %,5.35 %,1\n"
+
+    def test_without_any_report_each_section_names_its_command(self) -> None:
+        wrong, out = self.site()
+        self.assertEqual(wrong, [])
+        text = (out / "index.html").read_text(encoding="utf-8")
+        for report in (sections.FRAME, *sections.SHOWN):
+            start = text.index(f'<section id="{report.name}">')
+            section = text[start:text.index("</section>", start)]
+            self.assertIn(f'Not made yet: <a href="index.html#make-{report.target}">', section)
+        self.assertEqual(text.count("<em>Not made yet.</em>"), len(sections.LISTED))
+
+    def test_figures_of_the_main_job(self) -> None:
+        self.write("build/frame/summary.md", "Scene room: 14 klux.\n")
+        self.write("build/frame/summary.csv", self.SUMMARY)
+        self.write("reports/area.csv", "configuration,total_mm2,columns,bits_per_pixel\nsifh,14.9061,200,646\n")
+        self.write("reports/timing.csv", "configuration,corner,logic_mw,sram_mw,clock_mw\nsifh,slow,,,\n"
+                                         "sifh,typical,47.1,156.7,72.0\n")
+        one, = figures.figures(self.root, self.root / "build/frame")
+        self.assertEqual((one.above_3, one.rmse_mm, one.mm2, one.mw, one.bits), ("40.56 %", "478", "14.91", "276", "646"))
+        wrong, out = self.site()
+        self.assertEqual(wrong, [])
+        self.assertIn("draws them", (out / "index.html").read_text(encoding="utf-8"))
+        for kind in ("depth", "error"):
+            self.write(f"build/frame/sifh_{kind}.png", "picture")
+        wrong, out = self.site()
+        self.assertEqual(wrong, [])
+        text = (out / "index.html").read_text(encoding="utf-8")
+        self.assertIn('src="files/build/frame/sifh_error.png"', text)
+        self.assertTrue((out / "files/build/frame/sifh_error.png").is_file())
+
+    def test_a_foreign_folder_is_left_alone(self) -> None:
+        mine = self.write("other/thesis.txt", "mine")
+        self.assertIn("has other files", Site(self.root, mine.parent).write()[0])
+        self.assertTrue(mine.is_file())
+
+    def test_every_command_named_is_one_of_make(self) -> None:
+        known = commands(ROOT)
+        for report in sections.ALL:
+            self.assertIn(report.target, known, report.name)
+
+
+class Pictures(Folder):
+    def test_limits(self) -> None:
+        self.write("README.md", "![a](reports/a.svg)\n")
+        self.write("reports/a.svg", "x" * 200_000)
+        self.assertEqual(check_pictures.problems(self.root, ["README.md", "reports/a.svg"]), [])
+        self.write("reports/a.svg", "x" * 200_001)
+        self.assertIn("200001 bytes", check_pictures.problems(self.root, ["README.md", "reports/a.svg"])[0])
+        self.write("reports/b.png", "")
+        self.assertIn("shown by no document", check_pictures.problems(self.root, ["README.md", "reports/b.png"])[0])
+        many = [f"reports/{number}.svg" for number in range(11)]
+        for name in many:
+            self.write(name, "")
+        self.write("README.md", "\n".join(f"![a]({name})" for name in many))
+        self.assertEqual(check_pictures.problems(self.root, ["README.md", *many]),
+                         ["11 pictures under reports/, 10 are allowed"])
+
+
+@unittest.skipIf(missing(), missing() or "")
+class InTheBrowser(unittest.TestCase):
+    """Chromium shows the page of this tree, moved elsewhere."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.folder = tempfile.TemporaryDirectory()
+        made = Path(cls.folder.name) / "made"
+        cls.wrong = Site(ROOT, made).write()
+        cls.out = Path(cls.folder.name) / "moved elsewhere"
+        shutil.move(made, cls.out)
+        cls.browser = Browser()
+
+    @classmethod
+    def tearDownClass(cls) -> None:
+        cls.browser.__exit__()
+        cls.folder.cleanup()
+
+    def show(self, page: Path, width: int = 1280, height: int = 900, dark: bool = False) -> list[str]:
+        """What the browser complains about."""
+        self.browser.complaints.clear()
+        self.browser.requests.clear()
+        self.browser.window(width, height, dark)
+        self.browser.open(page)
+        return self.browser.complaints
+
+    def test_every_link_and_anchor_of_every_page_resolves(self) -> None:
+        self.assertEqual(self.wrong, [])
+
+    def test_every_page_opens_without_a_complaint_and_asks_for_nothing_outside(self) -> None:
+        pages = sorted(self.out.rglob("*.html"))
+        self.assertGreater(len(pages), len(sections.SHOWN))
+        for page in pages:
+            with self.subTest(page=str(page.relative_to(self.out))):
+                self.assertEqual(self.show(page), [])
+                for address in self.browser.requests:
+                    self.assertTrue(address.startswith(self.out.as_uri()), address)
+                broken = self.browser.evaluate("[...document.images].filter(i => !i.naturalWidth).map(i => i.src)")
+                self.assertEqual(broken, [])
+
+    def test_every_link_of_the_first_page_leads_where_the_browser_finds_it(self) -> None:
+        self.show(self.out / "index.html")
+        addresses = self.browser.evaluate("[...document.links].map(a => a.href)")
+        self.assertGreater(len(addresses), 50)
+        for address in sorted(set(addresses)):
+            path, _, anchor = address.partition("#")
+            self.assertTrue(path.startswith(self.out.as_uri()), address)
+            if not path.endswith(".html"):  # it would be downloaded
+                self.assertTrue(Path(unquote(urlsplit(path).path)).is_file(), address)
+                continue
+            self.browser.call("Page.navigate", url=address)
+            self.assertEqual(self.browser.evaluate("document.URL").partition("#")[0], path)
+            if anchor:
+                self.assertTrue(self.browser.evaluate(f"!!document.getElementById({json.dumps(anchor)})"), address)
+
+    def test_it_fits_a_phone(self) -> None:
+        for page in sorted(self.out.rglob("*.html")):
+            with self.subTest(page=str(page.relative_to(self.out))):
+                self.show(page, width=390, height=844)
+                self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 390)
+
+    def test_light_and_dark(self) -> None:
+        papers = {}
+        for dark in (False, True):
+            self.show(self.out / "index.html", dark=dark)
+            papers[dark] = self.browser.evaluate("getComputedStyle(document.body).backgroundColor")
+        self.assertNotEqual(papers[False], papers[True])
+
+    def test_screenshots(self) -> None:
+        for name, width, dark in (("light", 1280, False), ("dark_phone", 390, True)):
+            self.show(self.out / "index.html", width=width, dark=dark)
+            path = SCREENSHOTS / f"{name}.png"
+            self.browser.screenshot(path)
+            self.assertGreater(path.stat().st_size, 50_000)
+
+    def test_planted_faults_are_seen(self) -> None:
+        """Or else the tests above would say nothing."""
+        page = self.out / "planted.html"
+        self.addCleanup(page.unlink)
+        for body, complaint in {"<script>console.error('planted')</script>": "planted",
+                                "<script>throw new Error('thrown')</script>": "thrown",
+                                '<img src="none.png">': "ERR_FILE_NOT_FOUND"}.items():
+            page.write_text(f"<!DOCTYPE html><title>x</title>{body}", encoding="utf-8")
+            self.assertTrue(any(re.search(complaint, said) for said in self.show(page)), body)
+
+
+if __name__ == "__main__":
+    unittest.main()
