@@ -107,7 +107,8 @@ Estimate root_with_rare_outliers(double value, const Estimate& others, const Rar
   const double high = square + std::hypot(squared(others.interval.high) - squared(others.value),
                                           (rare.share_interval.high - rare.share) * added);
   const Interval seen{std::sqrt(std::max(low, 0.0)), std::sqrt(high)};
-  // The few outliers seen may be bad luck, so that the others alone are right; those unseen may be farther away.
+  // The few outliers seen may be bad luck, so that the others alone are right; those unseen may be farther
+  // away.
   const double unseen = squared(others.interval.high) + rare.share_interval.high * farthest;
   return {value, seen,
           Interval{std::min(seen.low, others.interval.low), std::max(seen.high, std::sqrt(unseen))}};
