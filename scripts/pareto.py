@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 REPORTS = ROOT / "reports"
 sys.path.insert(0, str(ROOT / "synth"))
 
+import plot_style  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 from dtof_synth.goals import ARRAY_MM2  # noqa: E402
 
@@ -195,11 +196,8 @@ def goals(scenes: Scenes) -> list[tuple[str, str, str]]:
 WIDTH, HEIGHT = 1240, 600
 LEFT, RIGHT, TOP, BOTTOM = 75, 20, 45, 60
 FONT, LETTER, LINE = 13, 7.6, 16
-COLOURS = {"ezPointer": "#1f77b4", "hisPointer": "#d62728", "hisPointer v1": "#ff9896", "SiFH": "#2ca02c",
-           "FiFH": "#8c564b", "three steps": "#9467bd", "PiFH": "#7f7f7f", "poolPointer": "#e6a100",
-           "poolPointer lean": "#b8860b"}
-OTHER_COLOUR = "#17becf"
-LEGEND = "small dots: variants; crosses: area of the thesis"
+LEGEND = "small: variants; crosses: area of the thesis"
+THESIS_MARKER = 2
 
 
 class Panel:
@@ -249,6 +247,7 @@ def draw(points: list[Point], metric: int, what: str, path: Path, references: Re
     y_range = (100 * min(values) * 0.6, 100 * max(values) * 1.4)
     areas = [p.mm2 for p in shown] + [p.thesis_mm2 for p in shown if p.thesis_mm2]
     x_range = (min(areas) * 0.75, max(areas) * 1.35)
+    styles = plot_style.load()
     script = [f"set terminal svg size {WIDTH},{HEIGHT} font 'sans,{FONT}' background '#ffffff'",
               "set multiplot", "set logscale xy", "set grid lc rgb '#dddddd'", "unset key",
               "set xtics (0.5,0.7,1,1.5,2,3,5,7,10,15)", "set ytics (0.5,1,2,3,5,10,20,30,50,100)",
@@ -260,24 +259,25 @@ def draw(points: list[Point], metric: int, what: str, path: Path, references: Re
         script += ["unset label", "unset arrow", "unset object",
                    f"set lmargin at screen {panel.x0 / WIDTH}", f"set rmargin at screen {panel.x1 / WIDTH}",
                    f"set tmargin at screen {1 - TOP / HEIGHT}", f"set bmargin at screen {BOTTOM / HEIGHT}",
-                   f"set title '{light}, {klux} klux' offset 0,-0.4"]
+                   f"set title '{what} in %: all scenes but the flats, {klux} klux, sensor {PRESET}' offset 0,-0.4"]
         plots = []
         for p in shown:
             y = 100 * p.accuracy[light][metric]
-            colour = COLOURS.get(p.family, OTHER_COLOUR)
+            style = plot_style.style(p.family, styles)
             marks.append(panel.at(p.mm2, y))
-            size, kind = (0.6, 7) if p.variant else (1.3 if p.family in POOL_CONFIGURATIONS.values() else 1.1, 7)
-            plots.append((p.mm2, y, kind, size, colour))
+            plots.append((p.mm2, y, style.marker, 0.6 if p.variant else 1.1, style.colour))
             if not p.variant:
                 labels.append((p.title, *marks[-1]))
             if p.thesis_mm2:
                 marks.append(panel.at(p.thesis_mm2, y))
-                plots.append((p.thesis_mm2, y, 2, 1.1, colour))
+                plots.append((p.thesis_mm2, y, THESIS_MARKER, 1.1, style.colour))
         for name, values in references.items():
             level = 100 * values[light][metric]
             reference_y = panel.at(x_range[0], level)[1]
-            script.append(f"set arrow from graph 0, first {level} to graph 1, first {level} nohead dt 2 lc rgb '#444444'")
-            script.append(f"set label '{name}' at graph 0.98, first {level} right offset 0,0.6 tc rgb '#444444'")
+            style = plot_style.style(name, styles)
+            script.append(f"set arrow from graph 0, first {level} to graph 1, first {level} nohead dt {style.dash} "
+                          f"lc rgb '{style.colour}'")
+            script.append(f"set label '{name}' at graph 0.98, first {level} right offset 0,0.6 tc rgb '{style.colour}'")
             marks += [(panel.x1 - 20 - k * 15, reference_y) for k in range(int((panel.x1 - panel.x0) / 15))]
             marks += [(panel.x1 - 12 - LETTER * k, reference_y - 10) for k in range(len(name))]
         script.append(f"set label '{LEGEND}' at graph 0.98, graph 0.05 right tc rgb '#444444'")
@@ -319,7 +319,7 @@ def report(points: list[Point], missing: list[str], scenes: Scenes, references: 
         f"preset `{PRESET}`, all scenes but the flats together: {', '.join(scenes.names(flats=False))}. Variants that "
         "change results were read on fewer columns of each.", "",
         "![Pixels off by more than 3 %](pareto.svg)", "", "![Relative rmse](pareto_rmse.svg)", "",
-        "Dots: read-outs, small dots: their variants, crosses: the area that the thesis gives (Table 5) at the accuracy "
+        "Large marks: read-outs, small ones: their variants, crosses: the area that the thesis gives (Table 5) at the accuracy "
         "measured here. Front: nothing is both smaller and better (above 3 %).", ""]
     if missing:
         lines += [f"**Missing** (no area or no accuracy yet): {', '.join(missing)}.", ""]

@@ -4,7 +4,7 @@
 group keeps at what area.
 
 `trade.py DTOF`: runs `DTOF scenes` with the variants, takes the areas of `make synth-growth` (reports/growth.csv),
-writes reports/trade.md, trade.csv and trade.svg.
+writes reports/trade.md, trade.csv and trade.svg. `trade.py --draw`: draws trade.svg from trade.csv again.
 """
 
 import csv
@@ -18,6 +18,7 @@ REPORTS = ROOT / "reports"
 BUILD = ROOT / "build" / "trade"
 sys.path.insert(0, str(ROOT / "synth"))
 
+import plot_style  # noqa: E402
 from dtof_synth import growth  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 from dtof_synth.goals import ARRAY_MM2  # noqa: E402
@@ -29,6 +30,7 @@ COLUMNS = 50
 SINGLE_COLUMNS = 200  # single pixels are few
 SEED = 1
 BOUND_GOAL = 1.5
+OTHER_MARKER = 4  # gnuplot's open square, for poolPointer's second figure in a panel
 FIGURES = {"bound_ratio_1m_14klux": "flat 1 m, 14: rmse / bound", "rmse_4m_50klux": "flat 4 m, 50: rmse, %",
            "lost_14klux": "single pixels lost, 14, %", "outliers_14klux": "scenes, 14: above 10 %, %",
            "above_3_50klux": "scenes, 50: above 3 %, %", "outliers_50klux": "scenes, 50: above 10 %, %"}
@@ -88,6 +90,16 @@ def measure(dtof: str, points: list[Point]) -> None:
             "outliers_50klux": share(rows, "50", "above_10_percent")}
 
 
+def read(points: list[Point]) -> None:
+    """Their figures as reports/trade.csv has them."""
+    with (REPORTS / "trade.csv").open(newline="", encoding="utf-8") as file:
+        found = {row["variant"]: row for row in csv.DictReader(file)}
+    for point in points:
+        if point.variant not in found:
+            raise SystemExit(f"error: reports/trade.csv has no {point.variant}: run `make trade` first")
+        point.figures = {name: float(found[point.variant][name]) for name in FIGURES}
+
+
 def areas() -> dict[str, float]:
     path = REPORTS / "growth.csv"
     found = {}
@@ -104,10 +116,13 @@ def plot(schedules: list[Point], candidates: list[Point], limit: float, path: Pa
     def block(name: str, data: list[tuple[float, float, str]]) -> list[str]:
         return [f"${name} << EOD", *(f'{x} {y} "{label}"' for x, y, label in data), "EOD"]
 
-    def points(name: str, colour: str, title: str) -> str:
-        return (f"${name} using 1:2 with points pt 7 lc rgb '{colour}' title '{title}', "
+    style = plot_style.style("poolPointer", plot_style.load())
+
+    def points(name: str, title: str, marker: int = style.marker) -> str:
+        return (f"${name} using 1:2 with points pt {marker} lc rgb '{style.colour}' title '{title}', "
                 f"${name} using 1:2:3 with labels offset 0.6,0.7 left font ',10' notitle")
 
+    scenes = ", ".join(SCENES[1:])
     frame = sorted(schedules, key=lambda point: point.figures["bound_ratio_1m_14klux"])
     area = sorted(candidates, key=lambda point: point.mm2)
     script = [
@@ -116,17 +131,17 @@ def plot(schedules: list[Point], candidates: list[Point], limit: float, path: Pa
         *block("wrong", [(p.mm2, p.figures["outliers_50klux"], "") for p in area]),
         "set terminal svg size 1240,520 font 'sans,13' background '#ffffff'", "set multiplot layout 1,2",
         "set grid lc rgb '#dddddd'", "set offsets graph 0.06, graph 0.14, graph 0.1, graph 0.02",
-        "set title 'frame: coarse / track phase, 64ths'", "set xlabel 'flat at 1 m, 14 klux: rmse over the bound'",
-        "set ylabel 'scenes at 50 klux: pixels above 10 %, %'", "unset key",
+        f"set title 'pixels above 10 % in %: {scenes}; 50 klux, sensor thesis' font ',12'", "set xlabel 'rmse over the bound: flat at 1 m, 14 klux (labels: coarse / track phase in 64ths of the frame)'",
+        "set ylabel 'pixels above 10 %, %'", "unset key",
         f"set arrow 1 from {BOUND_GOAL},graph 0 to {BOUND_GOAL},graph 1 nohead dt 2 lc rgb '#888888'",
         f"set label 1 'goal' at {BOUND_GOAL},graph 0.04 right offset -0.4,0",
-        "plot " + points("outliers", "#d62728", ""),
-        "set title 'group: candidates x bits of a score'", "set xlabel 'area of 200 x 160 pixels, mm^2'",
+        "plot " + points("outliers", ""),
+        "set title 'pixels in %: isolated at 14 klux, the same scenes at 50 klux, sensor thesis' font ',12'", "set xlabel 'area of 200 x 160 pixels, mm^2 (labels: candidates x bits of a score)'",
         "set ylabel 'pixels, %'", "set key top right", "set logscale y", "set yrange [0.02:10]",
         f"set arrow 1 from {limit},graph 0 to {limit},graph 1 nohead dt 2 lc rgb '#888888'",
         f"set label 1 'goal' at {limit},graph 0.04 right offset -0.4,0",
-        "plot " + points("lost", "#1f77b4", "single pixels lost, 14 klux") + ", "
-        + points("wrong", "#d62728", "above 10 % in the scenes, 50 klux"), "unset multiplot"]
+        "plot " + points("lost", "single pixels lost, 14 klux") + ", "
+        + points("wrong", "above 10 % in the scenes, 50 klux", OTHER_MARKER), "unset multiplot"]
     drawn = BUILD / "trade.svg"
     result = subprocess.run(["gnuplot"], input=f"set output '{drawn}'\n" + "\n".join(script) + "\nset output\n", text=True,
                             capture_output=True)
@@ -202,12 +217,17 @@ def main() -> int:
                  for coarse, track in SCHEDULES]
     candidates = [Point(f"{labels}x{bits}", f"poolpointer:LABELS={labels},SCORE_BITS={bits}", {}, area[f"{labels}x{bits}"])
                   for labels, bits in growth.CANDIDATES]
+    if sys.argv[1] == "--draw":
+        read(schedules + candidates)
+        plot(schedules, candidates, ARRAY_MM2["poolpointer"], REPORTS / "trade.svg")
+        return 0
     try:
         measure(sys.argv[1], schedules + candidates)
     except subprocess.CalledProcessError as error:
         print(f"error: dtof scenes ended with exit code {error.returncode}", file=sys.stderr)
         return 1
     limit = ARRAY_MM2["poolpointer"]
+    BUILD.mkdir(parents=True, exist_ok=True)
     plot(schedules, candidates, limit, REPORTS / "trade.svg")
     lines = ["# Goals of poolPointer that collide", "",
              f"Written by `make trade`: preset `thesis`, seed {SEED}, {COLUMNS} columns of the scenes "

@@ -18,8 +18,12 @@ synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
 	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict)
 
-synth-growth synth-check synth-budgets synth-sizes: synth-%:
+synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
+
+synth-growth:
+	@synth/synth.py growth
+	@scripts/growth_plot.py
 
 synth-test: vectors
 	@cd synth && /usr/bin/python3 -m unittest discover -q -s tests -t .

@@ -55,7 +55,7 @@ SHOWN = (
 LISTED = (
     Report("tmf8820", "Measured data: ams TMF8820", "sim", "tmf8820/summary.md", "tmf8820/summary.md",
            "a plane at 159 distances from 5 to 400 mm, through the RTL of every read-out",
-           with_it=same("tmf8820/summary.csv")),
+           with_it=same("tmf8820/summary.csv", "tmf8820/error.svg")),
     Report("tmf8829", "Measured data: ams TMF8829", "real-data", "tmf8829/summary.md", "tmf8829/summary.md",
            "26 frames of 16 x 16 pixels", pictures=("depth.png", "error.png"), with_it=same("tmf8829/summary.csv")),
     Report("photon_times", "Measured data: photon times", "real-data", "photon_times/summary.md",

@@ -113,8 +113,8 @@ def _growth(arguments: argparse.Namespace, named: dict[str, Configuration]) -> i
     bases = {point.name: point for _, _, point in points if point.name in named}
     jobs = [batch.Job(item) for item in bases.values()] + growth.jobs(named)
     results = batch.run_all(jobs, technology, build / "runs", arguments.jobs, _say)
-    growth.write(points, results, ROOT / "reports", build)
-    _say(f"reports/growth.csv, reports/growth.png written: {len(jobs)} configurations in "
+    growth.write(points, results, ROOT / "reports")
+    _say(f"reports/growth.csv written: {len(jobs)} configurations in "
          f"{time.monotonic() - started:.0f} s")
     return 0
 

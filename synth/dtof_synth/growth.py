@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import csv
 import math
-import subprocess
 from pathlib import Path
 
 from .batch import Job
@@ -16,8 +15,6 @@ from .run import Result
 READOUTS = ("ezpointer", "hispointer", "sifh")
 SWEEPS = {"NP": (8, 9, 10, 11, 12), "NB": (4, 5, 6, 7), "PIXELS_PER_SRAM": (40, 80, 160, 320),
           "SRAM_NUM": (50, 100, 200, 400)}
-LABELS = {"NP": "bits of a timestamp", "NB": "bits of the coarse index",
-          "PIXELS_PER_SRAM": "pixels of a column", "SRAM_NUM": "columns"}
 FWHM_NS, RANGE_NS = 2.0, 45.0
 
 # poolPointer's candidates: labels and bits of a score. Their accuracy: scripts/trade.py.
@@ -83,9 +80,8 @@ def jobs(configurations: dict[str, Configuration]) -> list[Job]:
             if configuration.name not in configurations]
 
 
-def write(points: list[tuple[str, int | str, Configuration]], results: dict[str, Result], reports: Path,
-          build: Path) -> None:
-    """growth.csv and one plot a parameter."""
+def write(points: list[tuple[str, int | str, Configuration]], results: dict[str, Result], reports: Path) -> None:
+    """growth.csv; scripts/growth_plot.py draws it."""
     rows = []
     for parameter, value, configuration in points:
         result = results[configuration.name]
@@ -97,39 +93,3 @@ def write(points: list[tuple[str, int | str, Configuration]], results: dict[str,
         writer.writerow(["readout", "parameter", "value", "total_mm2", "bits_per_pixel", "fmax_slow_mhz",
                          "logic_column_um2", "shared_um2", "sram_column_um2"])
         writer.writerows(rows)
-    script = build / "growth.gp"
-    script.write_text(_gnuplot(rows, reports), encoding="utf-8")
-    try:
-        subprocess.run(["gnuplot", str(script)], check=True, capture_output=True, text=True)
-    except FileNotFoundError:
-        raise FlowError("gnuplot is not installed; scripts/install_packages.sh installs it") from None
-    except subprocess.CalledProcessError as error:
-        raise FlowError(f"gnuplot: {error.stderr.strip().splitlines()[-1]} (see {script})") from None
-
-
-METRICS = ((3, "area, mm^2"), (4, "memory, bits a pixel"), (5, "slow-corner clock, MHz"))
-
-
-def _gnuplot(rows: list[list], reports: Path) -> str:
-    """One picture: a column a parameter; rows: area, bits of a pixel, highest clock frequency."""
-    blocks, plots = [], []
-    for index, label in METRICS:
-        for parameter, values in SWEEPS.items():
-            series = []
-            for colour, readout in enumerate(READOUTS, start=1):
-                data = [(row[2], row[index]) for row in rows if row[0] == readout and row[1] == parameter]
-                if data:
-                    name = f"$d{len(blocks)}"
-                    blocks.append(f"{name} << EOD\n" + "\n".join(f"{x} {y}" for x, y in data) + "\nEOD")
-                    series.append(f"{name} using 1:2 with linespoints lw 2 pt 7 lc {colour} title '{readout}'")
-            low, high = (250, 400) if index == 5 else ("*", "*")
-            ticks = ", ".join(map(str, values))
-            plots += ["unset logscale y" if index == 5 else "set logscale y", f"set yrange [{low}:{high}]",
-                      f"set xtics ({ticks})", f"set xlabel '{parameter}: {LABELS[parameter]}' noenhanced",
-                      f"set ylabel '{label}'", "plot " + ", ".join(series)]
-    lines = ["set terminal pngcairo size 1500,1000 font 'DejaVu Sans,10'",
-             f"set output '{reports / 'growth.png'}'",
-             f"set multiplot layout {len(METRICS)},{len(SWEEPS)}", "set grid",
-             "set key at graph 0.5, graph 1.02 center bottom horizontal", "set tmargin 4",
-             "set offsets graph 0.05, graph 0.05"]
-    return "\n".join(blocks + lines + plots + ["unset multiplot", ""])

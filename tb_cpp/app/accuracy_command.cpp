@@ -231,7 +231,8 @@ void run_accuracy_command(const AccuracyOptions& options) {
     for (const Picture& picture : pictures()) {
       write_plot(folder / fmt::format("{}_{:g}klux.svg", picture.name, klux),
                  accuracy_series(study.points, picture.value),
-                 {.title = fmt::format("{:g} klux, sensor {}", klux, settings.sensor.name),
+                 {.title = fmt::format("{}: flat target, {:g} klux, sensor {}", picture.y_label, klux,
+                                       settings.sensor.name),
                   .x_label = "distance, m",
                   .y_label = picture.y_label,
                   .logarithmic_y = picture.logarithmic,

@@ -318,13 +318,13 @@ void write_pictures(const std::filesystem::path& folder, const MeasuredScene& sc
   const int pixel_size = std::clamp(kPanelWidth / scene.columns, 1, 12);
   const double margin = 0.1 * (farthest > nearest ? farthest - nearest : farthest);
   write_map_picture(folder / "depth.png", depths,
-                    {.title = fmt::format("{}: distance, {}", scene.title, result.light.name()),
+                    {.title = fmt::format("Distance in m: {}, {}", scene.title, result.light.name()),
                      .caption = options.command_line,
                      .panels_per_row = 4,
                      .pixel_size = pixel_size,
                      .depth_range = ColourRange{std::max(0.0, nearest - margin), farthest + margin}});
   write_map_picture(folder / "error.png", errors,
-                    {.title = fmt::format("{}: error, {}", scene.title, result.light.name()),
+                    {.title = fmt::format("Error in m: {}, {}", scene.title, result.light.name()),
                      .caption = options.command_line,
                      .panels_per_row = 4,
                      .pixel_size = pixel_size,

@@ -134,23 +134,30 @@ std::string offset_sentence(const ReplayOptions& options) {
                    truth);
 }
 
+/// Indices of the measurements by groups of true distance of equal width.
+std::vector<std::vector<std::size_t>> groups_of_distance(const std::vector<double>& true_m, int count) {
+  const auto [lowest, highest] = std::ranges::minmax(true_m);
+  const double width = std::max((highest - lowest) / count, 1e-3);
+  std::map<int, std::vector<std::size_t>> groups;
+  for (std::size_t i = 0; i < true_m.size(); ++i) {
+    groups[std::min(static_cast<int>((true_m[i] - lowest) / width), count - 1)].push_back(i);
+  }
+  std::vector<std::vector<std::size_t>> found;
+  for (auto& [group, members] : groups) {
+    found.push_back(std::move(members));
+  }
+  return found;
+}
+
 /// Median measured distance in about ten groups of true distance.
 Table distances_against_truth(const std::vector<TruthComparison>& comparisons) {
-  constexpr double kGroups = 10.0;
+  constexpr int kGroups = 10;
   std::vector<std::string> header = {"true mm"};
   for (const TruthComparison& comparison : comparisons) {
     header.push_back(comparison.title);
   }
   Table table(header);
-  const auto [lowest, highest] =
-      std::minmax_element(comparisons.front().true_m.begin(), comparisons.front().true_m.end());
-  const double first = *lowest;
-  const double width = std::max((*highest - first) / kGroups, 1e-3);
-  std::map<int, std::vector<std::size_t>> groups;
-  for (std::size_t i = 0; i < comparisons.front().true_m.size(); ++i) {
-    groups[static_cast<int>((comparisons.front().true_m[i] - first) / width)].push_back(i);
-  }
-  for (const auto& [group, members] : groups) {
+  for (const std::vector<std::size_t>& members : groups_of_distance(comparisons.front().true_m, kGroups)) {
     std::vector<double> truths;
     for (const std::size_t i : members) {
       truths.push_back(comparisons.front().true_m[i]);
@@ -168,24 +175,43 @@ Table distances_against_truth(const std::vector<TruthComparison>& comparisons) {
   return table;
 }
 
+/// Errors of each read-out in mm over groups of true distance: the median, and a band that holds 80 % of
+/// them.
+std::vector<PlotSeries> errors_over_truth(const std::vector<TruthComparison>& comparisons) {
+  constexpr int kGroups = 20;
+  std::vector<PlotSeries> series;
+  for (const TruthComparison& comparison : comparisons) {
+    PlotSeries& line = series.emplace_back(PlotSeries{comparison.title, {}, {}});
+    for (const std::vector<std::size_t>& members : groups_of_distance(comparison.true_m, kGroups)) {
+      std::vector<double> truths;
+      std::vector<double> errors;
+      for (const std::size_t i : members) {
+        truths.push_back(comparison.true_m[i] * 1e3);
+        errors.push_back((comparison.measured_m[i] - comparison.true_m[i]) * 1e3);
+      }
+      std::ranges::sort(errors);
+      const auto at = [&](double share) {
+        return errors[static_cast<std::size_t>(std::lround(share * static_cast<double>(errors.size() - 1)))];
+      };
+      line.x.push_back(median(truths));
+      line.y.push_back(median(errors));
+      line.low.push_back(at(0.1));
+      line.high.push_back(at(0.9));
+    }
+  }
+  return series;
+}
+
 void write_comparison(const std::vector<TruthComparison>& comparisons, const ReplayOptions& options,
-                      const std::string& heading) {
+                      const std::string& recording, const std::string& heading) {
   const std::filesystem::path folder(options.out);
   const Table summary = summarise(comparisons);
   const Table distances = distances_against_truth(comparisons);
   Table measurements({"true_mm", "readout", "measured_mm"});
-  std::vector<PlotSeries> series;
   for (const TruthComparison& comparison : comparisons) {
-    PlotSeries& line = series.emplace_back(PlotSeries{comparison.title, {}, {}});
-    std::map<double, std::vector<double>> by_truth;
     for (std::size_t i = 0; i < comparison.true_m.size(); ++i) {
       measurements.add({fmt::format("{:.1f}", comparison.true_m[i] * 1e3), comparison.title,
                         fmt::format("{:.1f}", comparison.measured_m[i] * 1e3)});
-      by_truth[comparison.true_m[i] * 1e3].push_back(comparison.measured_m[i] * 1e3);
-    }
-    for (const auto& [truth, measured] : by_truth) {
-      line.x.push_back(truth);
-      line.y.push_back(median(measured) - truth);
     }
   }
   write_file(folder / "summary.csv", summary.csv());
@@ -196,10 +222,14 @@ void write_comparison(const std::vector<TruthComparison>& comparisons, const Rep
                   "Measured distance in mm (median of each group of true distances):\n\n{}\nCommand: `{}`\n",
                   heading, summary.markdown(), offset_sentence(options), distances.markdown(),
                   options.command_line));
-  write_plot(folder / "error.svg", series,
-             {.title = "Error of the measured distance: " + options.recording.file,
-              .x_label = "true distance, mm",
-              .y_label = "measured - true, mm (median of the zones)"});
+  write_plot(
+      folder / "error.svg", errors_over_truth(comparisons),
+      {.title = fmt::format("Error of the measured distance in mm (median, and 80 % of the measurements): {}",
+                            recording),
+       .x_label = "true distance, mm",
+       .y_label = "error, mm",
+       .y_limits = {0.0},
+       .panels = true});
   fmt::print("{}\n{}\n{}\n\nMeasured distance in mm (median of each group of true distances):\n\n{}\n",
              heading, summary.markdown(), offset_sentence(options), distances.markdown());
 }
@@ -280,7 +310,9 @@ void run_replay_command(const ReplayOptions& options) {
   if (comparisons.empty()) {
     fmt::print("{}", heading);
   } else {
-    write_comparison(comparisons, options, heading);
+    const std::string thinned =
+        options.photons ? fmt::format(", {:g} photons per pixel and frame", *options.photons) : "";
+    write_comparison(comparisons, options, recording.description + thinned, heading);
   }
   fmt::print("Results are in {}\n", options.out);
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -77,6 +78,12 @@ class Rendering {
   }
 
  private:
+  /// What the pictures' titles say of scene and light.
+  [[nodiscard]] std::string flat(double klux, std::optional<double> distance_m = std::nullopt) const {
+    return fmt::format("flat target{}, {:g} klux, sensor {}",
+                       distance_m ? fmt::format(" at {:g} m", *distance_m) : "", klux, r_.sensor.name);
+  }
+
   void picture(const std::string& name, std::vector<PlotSeries> series, const PlotLayout& layout) {
     text_ += fmt::format("![{}](reproduction/{})\n\n", layout.title, name);
     report_.pictures.push_back({name, std::move(series), layout});
@@ -124,7 +131,7 @@ class Rendering {
       all.insert(all.end(), study.points.begin(), study.points.end());
       picture(fmt::format("relative_precision_{:g}klux.svg", klux),
               accuracy_series(study.points, [](const auto& p) { return p.relative_precision.value * 100.0; }),
-              {.title = fmt::format("Relative precision, {:g} klux", klux),
+              {.title = "Relative precision in %: " + flat(klux),
                .x_label = "distance, m",
                .y_label = "relative precision, %",
                .logarithmic_y = true,
@@ -137,7 +144,7 @@ class Rendering {
     text_ += "## Linearity (Fig. 3.16)\n\n";
     picture("mean_distance_14klux.svg",
             accuracy_series(study.points, [](const auto& p) { return p.distance_m + p.bias_m.value; }),
-            {.title = "Mean measured distance before the look-up table, 14 klux",
+            {.title = "Mean measured distance in m before the look-up table: " + flat(14.0),
              .x_label = "distance, m",
              .y_label = "mean measured distance, m"});
     text_ +=
@@ -153,7 +160,8 @@ class Rendering {
 
   void histograms() {
     one_histogram(
-        "Fig. 3.5: which histogram has 17 counts", "figure_3_5.svg", "Histogram of one frame, 1 m, 14 klux",
+        "Fig. 3.5: which histogram has 17 counts", "figure_3_5.svg",
+        "Counts of one frame: " + flat(14.0, 1.0),
         {bins_of("whole frame", r_.whole_frame.one_frame), bins_of("first half", r_.half_frame.one_frame)});
     Table table({"histogram of", "counts in the highest bin, 95 %", "its number, 95 %"});
     const auto add = [&](const std::string& what, const HistogramPeaks& peaks) {
@@ -165,16 +173,18 @@ class Rendering {
     add("33,333 acquisitions (as written in the thesis)", r_.long_frame);
     text_ += table.markdown() + "\n";
     one_histogram("Fig. 3.6: the histogram turned around its peak", "figure_3_6.svg",
-                  "Histogram of one frame, turned so that its peak is in the middle, 1 m, 14 klux",
+                  "Counts of one frame, turned so that its peak is in the middle: " + flat(14.0, 1.0),
                   {bins_of("turned", r_.sides.one_frame)});
     one_histogram("Fig. 3.9: SiFH's fine histogram", "figure_3_9.svg",
-                  "SiFH's fine histogram of one frame, 1 m, 14 klux",
+                  "Counts of SiFH's fine histogram of one frame: " + flat(14.0, 1.0),
                   {bins_of("second measurement", r_.fine.one_frame, r_.fine.first_bin)});
-    one_histogram("Fig. 3.13: 50 and 14 klux at 3 m", "figure_3_13.svg",
-                  "Histogram of one measurement (half a frame), 3 m",
-                  {bins_of("50 klux (a)", r_.sunny.one_frame), bins_of("14 klux (b)", r_.indoors.one_frame)});
+    one_histogram(
+        "Fig. 3.13: 50 and 14 klux at 3 m", "figure_3_13.svg",
+        fmt::format("Counts of one measurement (half a frame): flat target at 3 m, 14 and 50 klux, sensor {}",
+                    r_.sensor.name),
+        {bins_of("50 klux (a)", r_.sunny.one_frame), bins_of("14 klux (b)", r_.indoors.one_frame)});
     one_histogram("Fig. 3.15: 14 klux at 5 m", "figure_3_15.svg",
-                  "Histogram of one measurement (half a frame), 14 klux, 5 m",
+                  "Counts of one measurement (half a frame): " + flat(14.0, 5.0),
                   {bins_of("5 m", r_.far.one_frame)});
     Table peaks({"half frames", "highest bin, 95 %", "its counts, 95 %", "off by more than 10 %, %"});
     const auto add_peaks = [&](const std::string& what, const HistogramPeaks& p) {
@@ -191,7 +201,7 @@ class Rendering {
       picture(fmt::format("figure_2_4_{:g}m.svg", distance),
               {bins_of("arriving", figure->arriving, 1.0, 256),
                bins_of("delivered by the TDC", figure->delivered, 1.0, 256)},
-              {.title = fmt::format("Events per frame and bin, {:g} m, 14 klux", distance),
+              {.title = "Events per frame and bin: " + flat(14.0, distance),
                .x_label = "bin (1 = code 0)",
                .y_label = "events",
                .markers = false});
@@ -205,7 +215,7 @@ class Rendering {
       series.push_back(bins_of(fmt::format("GUARD {}", filter.guard), filter.remaining, 1.0, 400));
     }
     picture("figure_3_11.svg", series,
-            {.title = "What the filter leaves of the second measurement, mean over frames, 14 klux, 1 m",
+            {.title = "Counts per frame that the filter leaves of the second measurement: " + flat(14.0, 1.0),
              .x_label = "bin (1 = code 0)",
              .y_label = "counts per frame and bin",
              .markers = false});
@@ -437,7 +447,8 @@ class Rendering {
     text_ +=
         fmt::format("## How much light each read-out stands\n\n{} frames per point.\n\n", r_.light_frames);
     picture("tolerance_3m.svg", series,
-            {.title = "Relative precision at 3 m over background light",
+            {.title = "Relative precision in % over background light: flat target at 3 m, sensor " +
+                      r_.sensor.name,
              .x_label = "klux",
              .y_label = "relative precision, %",
              .logarithmic_y = true,
@@ -466,14 +477,14 @@ class Rendering {
     text_ +=
         "## What relative precision hides\n\nEq. 3.14 is a spread: it does not show a mean that is off.\n\n";
     const AccuracyStudy& indoors = r_.convergence.front();
-    const std::string light = fmt::format("{:g} klux", indoors.points.front().klux);
+    const std::string light = flat(indoors.points.front().klux);
     picture("convergence.svg",
             accuracy_series(indoors.points, [](const auto& p) { return p.distance_m + p.bias_m.value; }),
-            {.title = "Mean measured distance before the look-up table, " + light,
+            {.title = "Mean measured distance in m before the look-up table: " + light,
              .x_label = "distance, m",
              .y_label = "mean measured distance, m"});
     picture("slope.svg", accuracy_series(indoors.points, [](const auto& p) { return p.slope->value; }),
-            {.title = "Slope of measured over true distance, " + light,
+            {.title = "Slope of measured over true distance: " + light,
              .x_label = "distance, m",
              .y_label = "slope",
              .y_limits = {1.0}});
@@ -487,7 +498,7 @@ class Rendering {
       both.push_back({series.label + ": rmse", series.x, series.y});
     }
     picture("hidden.svg", both,
-            {.title = "Relative precision against rmse after the look-up table, " + light,
+            {.title = "Relative precision and rmse after the look-up table in %: " + light,
              .x_label = "distance, m",
              .y_label = "%",
              .logarithmic_y = true,
@@ -544,7 +555,7 @@ class Rendering {
                          r_.pulses.front().study.points.back().distance_m,
                          bias(usual == r_.pulses.end() ? r_.pulses.front() : *usual), bias(r_.pulses.back()));
     picture("pulses.svg", series,
-            {.title = "ezPointer's bias over the frame's pulses, 14 klux",
+            {.title = "ezPointer's bias in m over the frame's pulses: " + flat(14.0),
              .x_label = "acquisitions per frame",
              .y_label = "bias, m",
              .logarithmic_x = true});
@@ -579,7 +590,7 @@ class Rendering {
         "the figures without their intervals. {} array sizes from {:g} to {:g} sensors.\n\n{}\n",
         sizes, r_.array_sizes.back(), r_.array_sizes.front(), table.markdown());
     picture("array_size.svg", series,
-            {.title = "Worst rmse / limit from 0.2 to 3 m, 50 klux",
+            {.title = "Worst rmse / limit: flat target at 0.2 to 3 m, 50 klux, sensor " + r_.sensor.name,
              .x_label = "sensors that share the laser",
              .y_label = "rmse after the look-up table / limit",
              .logarithmic_y = true,

@@ -424,7 +424,7 @@ void run_scenes_command(const ScenesOptions& options) {
         }
         if (!is_flat(scene.name)) {
           const std::string title =
-              fmt::format("{}, {:g} klux, sensor {}: error", scene.name, klux, sensor_name);
+              fmt::format("Error in m: {}, {:g} klux, sensor {}", scene.name, klux, sensor_name);
           write_error_maps(
               folder / fmt::format("{}_{:g}klux_{}.png", file_name(scene.name), klux, sensor_name), title,
               truth, estimators, measurements, options.command_line);
@@ -466,7 +466,9 @@ void run_scenes_command(const ScenesOptions& options) {
         curves.push_back(confidence_curve(results, e, estimators[e]));
       }
       write_plot(folder / fmt::format("confidence_{:g}klux_{}.svg", klux, sensor_name), curves,
-                 {.title = fmt::format("Confidence, {:g} klux, sensor {}, all scenes", klux, sensor_name),
+                 {.title = fmt::format("Outliers removed in % by dropping the pixels of lowest confidence: "
+                                       "all scenes, {:g} klux, sensor {}",
+                                       klux, sensor_name),
                   .x_label = "pixels dropped, %",
                   .y_label = "outliers removed, %"});
     }

@@ -148,7 +148,7 @@ std::string verdict(const std::vector<WalkReadout>& readouts) {
 
 /// Before the correction at the nearest distance, and after it where it halves the walk.
 void write_picture(const std::filesystem::path& path, const std::vector<WalkReadout>& readouts,
-                   const WalkOptions& options) {
+                   const WalkOptions& options, const std::string& sensor) {
   const auto nearest =
       static_cast<std::size_t>(std::ranges::min_element(options.distances_m) - options.distances_m.begin());
   std::vector<PlotSeries> series;
@@ -171,13 +171,14 @@ void write_picture(const std::filesystem::path& path, const std::vector<WalkRead
       add(readout, &WalkPoint::after, readout.title + ", corrected");
     }
   }
-  write_plot(path, series,
-             {.title = fmt::format("Walk error at {:g} m, {:g} klux", options.distances_m[nearest],
-                                   options.sensor.klux),
-              .x_label = "reflectivity",
-              .y_label = "bias, mm",
-              .y_limits = {0.0},
-              .logarithmic_x = true});
+  write_plot(
+      path, series,
+      {.title = fmt::format("Bias in mm over reflectivity: flat target at {:g} m, {:g} klux, sensor {}",
+                            options.distances_m[nearest], options.sensor.klux, sensor),
+       .x_label = "reflectivity",
+       .y_label = "bias, mm",
+       .y_limits = {0.0},
+       .logarithmic_x = true});
 }
 
 void run_walk_command(const WalkOptions& options) {
@@ -224,7 +225,7 @@ void run_walk_command(const WalkOptions& options) {
   create_output_folder(folder);
   write_file(folder / "walk_error.csv", points_csv(readouts).csv());
   write_file(folder / "walk_error.md", report);
-  write_picture(folder / "walk_error.svg", readouts, options);
+  write_picture(folder / "walk_error.svg", readouts, options, settings.sensor.name);
   fmt::print("{}\n{}\nSeed {}. Written to {}\n", summary_table(readouts).markdown(), verdict(readouts),
              options.seed, (folder / "walk_error.md").string());
 }

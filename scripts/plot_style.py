@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""How a read-out looks in every picture (plot_styles.toml). As a program: the styles as elements of a C++ array, for
+CMake."""
+
+import json
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+FILE = Path(__file__).resolve().parent / "plot_styles.toml"
+
+
+@dataclass(frozen=True)
+class Style:
+    title: str
+    colour: str
+    marker: int  # gnuplot's pointtype
+    dash: int  # gnuplot's dashtype
+
+    def points(self) -> str:
+        return f"pointtype {self.marker} linecolor rgb '{self.colour}'"
+
+    def lines(self) -> str:
+        return f"{self.points()} dashtype {self.dash}"
+
+
+def load(file: Path = FILE) -> list[Style]:
+    with file.open("rb") as opened:
+        return [Style(**entry) for entry in tomllib.load(opened)["style"]]
+
+
+def style(label: str, styles: list[Style]) -> Style:
+    """That of the longest title which the label begins with."""
+    found = [one for one in styles if label == one.title
+             or label.startswith(one.title) and not label[len(one.title)].isalnum()]
+    if not found:
+        raise SystemExit(f"error: {label} has no style in scripts/{FILE.name}")
+    return max(found, key=lambda one: len(one.title))
+
+
+def main() -> None:
+    for one in load():
+        print(f"    {{{json.dumps(one.title)}, {json.dumps(one.colour)}, {one.marker}, {one.dash}}},")
+
+
+if __name__ == "__main__":
+    main()
