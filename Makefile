@@ -46,7 +46,6 @@ report: packages
 
 publish:
 	@scripts/publish.py frame $(if $(wildcard build/tmf8820/summary.md),tmf8820)
-	@scripts/update_readme.py
 
 test: | build_folder
 	@scripts/install_packages.sh browser

@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """`publish.py REPORT ...`: copies what a command left in build/ to reports/: text, tables and the pictures that are kept
-there (scripts/page/sections.py has the lists)."""
+there (scripts/page/sections.py has the lists). The README's results follow."""
 
 import shutil
 import sys
 from pathlib import Path
 
+import update_readme
 from page.sections import ALL, for_reports
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -30,7 +31,7 @@ def main() -> int:
         (ROOT / "reports" / report.committed).parent.mkdir(parents=True, exist_ok=True)
         (ROOT / "reports" / report.committed).write_text(for_reports(report, ROOT), encoding="utf-8")
         print(f"reports/{report.committed} renewed")
-    return 0
+    return update_readme.write()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The examples of README.md and docs/ run as they stand, one after the other."""
+
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import update_readme
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+EXAMPLE = re.compile(r"^    (build/cpp/\S.*?)(?:\s+#.*)?$", re.MULTILINE)
+PROGRAMS = ROOT / "build" / "cpp"
+
+
+def examples(document: Path) -> list[str]:
+    return EXAMPLE.findall(document.read_text(encoding="utf-8"))
+
+
+@unittest.skipUnless((PROGRAMS / "app" / "dtof").is_file(), "dtof is not built")
+class Examples(unittest.TestCase):
+    def run_examples(self, document: Path) -> int:
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "build").mkdir()
+            (Path(folder) / "build" / "cpp").symlink_to(PROGRAMS)
+            commands = examples(document)
+            for command in commands:
+                with self.subTest(document=document.name, command=command):
+                    done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True)
+                    self.assertEqual(done.returncode, 0, done.stderr[-2000:])
+            return len(commands)
+
+    def test_readme(self) -> None:
+        self.assertGreaterEqual(self.run_examples(ROOT / "README.md"), 8)
+
+    def test_documents(self) -> None:
+        self.assertGreater(sum(self.run_examples(document) for document in sorted(ROOT.glob("docs/**/*.md"))), 0)
+
+
+class Results(unittest.TestCase):
+    def test_the_block_is_replaced_and_the_rest_stays(self) -> None:
+        text = "before\n" + update_readme.BEGIN + "old\n" + update_readme.END + "\nafter\n"
+        new = update_readme.updated(text)
+        self.assertTrue(new.startswith("before\n" + update_readme.BEGIN))
+        self.assertTrue(new.endswith(update_readme.END + "\nafter\n"))
+        self.assertNotIn("old\n", new)
+        self.assertEqual(update_readme.updated(new), new)
+
+    def test_scene_and_light_are_named(self) -> None:
+        self.assertRegex(update_readme.scene(), r"Scene \w+: \d+ x \d+ pixels, [\d.]+ klux, sensor \w+")
+
+
+if __name__ == "__main__":
+    unittest.main()
