@@ -5,6 +5,7 @@
 `report_page.py [FOLDER]`: another folder than build/report. Its content is replaced.
 """
 
+import os
 import sys
 from pathlib import Path
 
@@ -23,7 +24,7 @@ def main() -> int:
         print(f"error: {sentence}", file=sys.stderr)
     if wrong:
         return 1
-    print(f"The page of all results: {out}/index.html")
+    print(f"The page of all results: {os.path.relpath(out)}/index.html")
     return 0
 
 

@@ -31,6 +31,15 @@ class Styles(unittest.TestCase):
             self.assertGreater(sum(abs(a - b) for a, b in channels), 60, f"{one.title}, {other.title}")
         self.assertNotIn(pareto.THESIS_MARKER, {style.marker for style in self.styles})
 
+    def test_every_line_stands_out_from_white(self) -> None:
+        def luminance(colour: str) -> float:  # of WCAG 2
+            channels = [value / 255 for value in bytes.fromhex(colour[1:])]
+            linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+            return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+        for style in self.styles:
+            self.assertGreaterEqual(1.05 / (luminance(style.colour) + 0.05), 3.0, style.title)
+
     def test_a_label_has_the_style_of_the_longest_title(self) -> None:
         for label, title in {"hisPointer v1": "hisPointer v1", "hisPointer": "hisPointer",
                              "hisPointer, corrected": "hisPointer", "hisPointer FRACTION_BITS=4": "hisPointer",
