@@ -17,9 +17,10 @@ BUILD := build/cpp
 SEED ?= 1
 SHARED_DATA ?= ../shared/data
 DTOF := $(BUILD)/app/dtof
+DTOF_STUDY := $(BUILD)/study_app/dtof-study
 
 .DEFAULT_GOAL := all
-.PHONY: all packages configure build sim report publish test lint bench clean
+.PHONY: all packages configure build study sim report publish test lint bench clean
 
 all: packages sim
 	@$(MAKE) --no-print-directory report
@@ -33,6 +34,10 @@ configure: packages
 build: | build_folder
 	@$(MAKE) --no-print-directory configure
 	@ninja -C $(BUILD) dtof
+
+study: | build_folder
+	@$(MAKE) --no-print-directory configure
+	@ninja -C $(BUILD) dtof-study
 
 build_folder:
 	@mkdir -p build

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Area against accuracy of every read-out and variant, and poolPointer's goals beside what was measured.
 
-Areas, clock and bits are those of `make synth` (reports/area.csv, timing.csv), accuracies those of `dtof scenes`
+Areas, clock and bits are those of `make synth` (reports/area.csv, timing.csv), accuracies those of `dtof-study scenes`
 (reports/scenes.csv, and scenes_variants.csv for variants that change results). Writes reports/pareto.md, .csv, .svg
 (pixels off by more than 3 %) and pareto_rmse.svg. Configurations without an area are named as missing.
 """
@@ -27,7 +27,7 @@ POOL_CONFIGURATIONS = {"poolpointer": "poolPointer", "poolpointer_lean": "poolPo
 PRESET = "thesis"
 LIGHTS = {"indoor": "14", "outdoor": "50"}
 ARRAY_PIXELS = 32000
-# Estimators of dtof scenes on full histograms, which no chip could hold: the first is no bound for read-outs that pool.
+# Estimators of dtof-study scenes on full histograms, which no chip could hold: the first is no bound for read-outs that pool.
 REFERENCES = ("matched filter (single pixel)", "pooled matched filter")
 # Share above 3 % and relative rmse of a reference, by its name and the light.
 References = dict[str, dict[str, tuple[float, float]]]
@@ -70,7 +70,7 @@ class Scenes:
 
 
 def estimator_title(configuration, base) -> str:
-    """As `dtof scenes` names it: parameters that change results follow the read-out's title."""
+    """As `dtof-study scenes` names it: parameters that change results follow the read-out's title."""
     title = base.title
     for name in ("COUNT_WIDTH", "FRACTION_BITS", "WINDOW_CENTRED"):
         if configuration[name] != base[name]:

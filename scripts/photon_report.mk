@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make photon-report  speed against error of the photon models, what auto may take, numerical stability (reports/)
+# make photon-report  speed against error of the photon models, what auto may take (reports/)
 # make photon-bench   speed of the photon models beside NumPy
 .PHONY: photon-report photon-bench
 
-photon-report: build
-	@$(DTOF) stability --seed $(SEED) --out reports
-	@$(DTOF) speed-error --seed $(SEED) --out reports
-	@$(DTOF) fidelity --seed $(SEED) --out reports
+photon-report: study
+	@$(DTOF_STUDY) speed-error --seed $(SEED) --out reports
+	@$(DTOF_STUDY) fidelity --seed $(SEED) --out reports
 
 photon-bench: | build_folder
 	@$(MAKE) --no-print-directory configure

@@ -6,7 +6,7 @@
 set -euo pipefail
 folder=build/sanitize
 # These run on several threads; the others would only repeat their code.
-threaded_tests='core photon readout analytic app rtl_pool'
+threaded_tests='core photon readout analytic run study rtl_pool'
 
 build_and_run() { # name, sanitizers, tests (empty: all)
   local build=$folder/$1 tests=$3

@@ -2,5 +2,5 @@
 # make sensor-effects  what measured TDC code widths, a measured pulse, dead time and hot pixels do to each read-out
 #                      (sensor files: scripts/sensor_effects/; those whose data are absent are skipped)
 .PHONY: sensor-effects
-sensor-effects: build
-	@scripts/sensor_effects.sh $(DTOF) $(SHARED_DATA) $(SEED)
+sensor-effects: study
+	@scripts/sensor_effects.sh $(DTOF_STUDY) $(SHARED_DATA) $(SEED)

@@ -14,38 +14,38 @@ PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
   --surfaces $(SHARED_DATA)/shin2016_two_layer_obj.mat --shift -20
 
 # The committed report has the maps, too: without them it stays as it is.
-scenes: build
+scenes: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
-	  $(DTOF) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --out build/scenes; \
-	  $(DTOF) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --preset thesis --klux 14 50 --readout fifh \
+	  $(DTOF_STUDY) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --out build/scenes; \
+	  $(DTOF_STUDY) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --preset thesis --klux 14 50 --readout fifh \
 	    --variant $(SCENE_VARIANTS) --columns 25 --out build/scenes_variants; \
 	  scripts/publish.py scenes; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/scenes_synthetic"; \
-	  $(DTOF) scenes --held-out --seed $(SEED) --out build/scenes_synthetic; \
+	  $(DTOF_STUDY) scenes --held-out --seed $(SEED) --out build/scenes_synthetic; \
 	fi
 
 pareto:
 	@/usr/bin/python3 scripts/pareto.py
 
-trade: build
-	@/usr/bin/python3 scripts/trade.py $(DTOF)
+trade: study
+	@/usr/bin/python3 scripts/trade.py $(DTOF_STUDY)
 
-walk-error: build
-	@$(DTOF) walk --seed $(SEED) --out build/walk
+walk-error: study
+	@$(DTOF_STUDY) walk --seed $(SEED) --out build/walk
 	@scripts/publish.py walk_error
 
-real-data: build
+real-data: study
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
-	  $(DTOF) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons 2000 750 300 \
+	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons 2000 750 300 \
 	    --background 0 0.15 --frames 4 --seed $(SEED) --out build/tmf8829 && scripts/publish.py tmf8829; \
 	else echo "TMF8829 frames are not here ($(SHARED_DATA)): skipped"; fi
 	@if [ -f $(SHARED_DATA)/shin2016_two_layer_photon_times.mat ]; then \
 	  set -e; \
-	  $(DTOF) measured $(PHOTON_TIMES) --photons 0 25 \
+	  $(DTOF_STUDY) measured $(PHOTON_TIMES) --photons 0 25 \
 	    --background 0 0.15 --seed $(SEED) --out build/photon_times; \
-	  $(DTOF) measured $(PHOTON_TIMES) --from-tick 5200 --photons 0 12 \
+	  $(DTOF_STUDY) measured $(PHOTON_TIMES) --from-tick 5200 --photons 0 12 \
 	    --background 0 0.15 --seed $(SEED) --out build/photon_times_behind; \
 	  scripts/publish.py photon_times photon_times_behind; \
 	else echo "photon times are not here ($(SHARED_DATA)): skipped"; fi

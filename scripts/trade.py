@@ -224,7 +224,7 @@ def main() -> int:
     try:
         measure(sys.argv[1], schedules + candidates)
     except subprocess.CalledProcessError as error:
-        print(f"error: dtof scenes ended with exit code {error.returncode}", file=sys.stderr)
+        print(f"error: dtof-study scenes ended with exit code {error.returncode}", file=sys.stderr)
         return 1
     limit = ARRAY_MM2["poolpointer"]
     BUILD.mkdir(parents=True, exist_ok=True)

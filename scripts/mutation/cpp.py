@@ -26,18 +26,19 @@ READOUT_SHARE = 0.6
 OTHERS = [
     "core/detection.*", "core/parallel.cpp", "core/parameters.*", "core/pixel_sampler.hpp", "core/random.*",
     "core/row_region.cpp", "core/select_columns.cpp", "metrics/*", "host/*", "photon/*", "io/csv_fields.cpp",
-    "io/depth_image.cpp", "io/histogram_stream.*", "io/input_file.cpp", "io/json_file.cpp", "io/npy.cpp",
-    "io/photon_times_mat.cpp", "io/resampling.*", "io/result_csv.cpp", "io/stream_csv.cpp", "io/tmf8820_json.*",
-    "io/tmf8829_json.*",
+    "io/depth_image.cpp", "io/input_file.cpp", "io/json_file.cpp", "io/npy.cpp", "io/result_csv.cpp",
+    "recording/histogram_stream.*", "recording/photon_times_mat.cpp", "recording/resampling.*",
+    "recording/stream_csv.cpp", "recording/tmf8820_json.*", "recording/tmf8829_json.*",
 ]  # fmt: skip
 # The test programs that link a library, its own first.
 PROGRAMS = {
-    "core": ["core", "readout", "metrics", "host", "io", "photon", "analytic"],
+    "core": ["core", "readout", "metrics", "host", "io", "recording", "photon", "analytic"],
     "readout": ["readout", "analytic"],
     "metrics": ["metrics", "host", "analytic"],
     "host": ["host"],
     "photon": ["photon", "analytic"],
-    "io": ["io"],
+    "io": ["io", "recording"],
+    "recording": ["recording"],
 }
 LIBRARIES = sorted({program for programs in PROGRAMS.values() for program in programs})
 TIMEOUT_FACTOR = 5  # of a program's time without a mutant, and ten seconds more; a mutant that hangs is killed

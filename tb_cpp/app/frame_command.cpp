@@ -13,26 +13,26 @@
 
 #include "analytic/fidelity.hpp"
 #include "app/commands.hpp"
-#include "app/flat_calibration.hpp"
-#include "app/option_checks.hpp"
-#include "app/options.hpp"
-#include "app/output_folder.hpp"
-#include "app/own_map.hpp"
-#include "app/readout_run.hpp"
-#include "app/region.hpp"
-#include "app/table.hpp"
+#include "command_line/option_checks.hpp"
+#include "command_line/options.hpp"
+#include "command_line/own_map.hpp"
 #include "core/error.hpp"
 #include "host/range_converter.hpp"
 #include "io/atomic_file.hpp"
-#include "io/colour_png.hpp"
 #include "io/depth_image.hpp"
+#include "io/output_folder.hpp"
 #include "io/ply.hpp"
 #include "io/result_csv.hpp"
-#include "io/stream_csv.hpp"
 #include "metrics/confidence_interval.hpp"
 #include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
+#include "recording/stream_csv.hpp"
+#include "report/colour_png.hpp"
+#include "report/table.hpp"
+#include "run/flat_calibration.hpp"
+#include "run/readout_run.hpp"
+#include "run/region.hpp"
 #include "scene/scene.hpp"
 
 namespace dtof {
@@ -42,7 +42,7 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 struct FrameOptions {
   ReadoutOptions readout;
-  RunOptions run;
+  RunSettings run;
   SensorOptions sensor;
   std::string scene = "room";
   MapFiles maps;
@@ -179,7 +179,7 @@ struct TabledReadout {
 };
 
 std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& readouts, TableRule rule,
-                                       const PhotonSource& scene, Fidelity fidelity, const RunOptions& run) {
+                                       const PhotonSource& scene, Fidelity fidelity, const RunSettings& run) {
   std::vector<TabledReadout> tabled;
   for (const ReadoutParameters& parameters : readouts) {
     tabled.push_back({parameters, std::nullopt});
@@ -367,7 +367,7 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
 }
 
 void run_frame_command(const FrameOptions& options) {
-  options.run.validate();
+  check_run_options(options.run);
   const std::vector<ReadoutParameters> readouts =
       options.readout.parameters(kModelReadouts, options.sensor.described());
   if (!options.run.trace.empty() && readouts.size() != 1) {
@@ -461,7 +461,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   command
       ->add_option("--table", options->table,
                    "host look-up table: flat (each read-out's own, fitted on flat targets of the sensor's\n"
-                   "reflectivity from other photons, as `dtof scenes` does) or none (Eq. 3.11 alone)")
+                   "reflectivity from other photons, as `dtof-study scenes` does) or none (Eq. 3.11 alone)")
       ->check(CLI::IsMember({"none", "flat"}))
       ->capture_default_str();
   command
@@ -474,7 +474,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   options->sensor.add_to(*command);
   options->readout.add_to(*command);
-  options->run.add_to(*command);
+  add_run_options(*command, options->run);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->add_option("--record", options->record,
                       "also write the TDC stream of the whole array as CSV, for `dtof replay`");

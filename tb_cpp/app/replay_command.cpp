@@ -8,27 +8,27 @@
 #include <memory>
 
 #include "app/commands.hpp"
-#include "app/option_checks.hpp"
-#include "app/options.hpp"
-#include "app/output_folder.hpp"
-#include "app/plot.hpp"
-#include "app/readout_run.hpp"
-#include "app/recording.hpp"
-#include "app/region.hpp"
-#include "app/table.hpp"
-#include "app/truth_map.hpp"
+#include "command_line/option_checks.hpp"
+#include "command_line/options.hpp"
+#include "command_line/truth_map.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/output_folder.hpp"
 #include "io/result_csv.hpp"
 #include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
+#include "recording/recording.hpp"
+#include "report/plot.hpp"
+#include "report/table.hpp"
+#include "run/readout_run.hpp"
+#include "run/region.hpp"
 
 namespace dtof {
 namespace {
 
 struct ReplayOptions {
   ReadoutOptions readout;
-  RunOptions run;
+  RunSettings run;
   RecordingOptions recording;
   double shift_ns = 0.0;
   double bin_width_ps = 0.0;
@@ -257,7 +257,7 @@ void check_recording_options(const CLI::App& command, const RecordingOptions& re
 }
 
 void run_replay_command(const ReplayOptions& options) {
-  options.run.validate();
+  check_run_options(options.run);
   if (options.truth_scale && options.truth_file.empty()) {
     throw InputError("--truth-scale needs --truth");
   }
@@ -365,7 +365,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
                       "mm that the recording calls zero, taken from every distance (default: each\n"
                       "read-out's median difference to truth; 299.8 for a stream of preset thesis)");
   options->readout.add_to(*command);
-  options->run.add_to(*command);
+  add_run_options(*command, options->run);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->callback([options, command] {
     check_recording_options(*command, options->recording);

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/table.hpp"
 #include "metrics/confidence_interval.hpp"
+#include "report/table.hpp"
 
 namespace dtof {
 namespace {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "app/output_folder.hpp"
 #include "core/error.hpp"
 #include "core/progress.hpp"
 #include "faults/fault_report.hpp"
 #include "faults/fault_study.hpp"
 #include "io/atomic_file.hpp"
+#include "io/output_folder.hpp"
 #include "rtl/error.hpp"
 
 namespace {

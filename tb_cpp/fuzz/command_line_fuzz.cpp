@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/command_line.hpp"
+#include "app/commands.hpp"
+#include "command_line/command_line.hpp"
 #include "core/error.hpp"
+#include "study_app/commands.hpp"
 
 namespace {
 
@@ -24,20 +26,21 @@ void read(const std::uint8_t* data, std::size_t size) {
   for (const std::string& argument : arguments) {
     pointers.push_back(argument.c_str());
   }
-  const std::string text = "dtof";
-  const auto app = dtof::make_command_line(text);
-  for (CLI::App* command : app->get_subcommands([](const CLI::App*) { return true; })) {
-    command->callback([] {});
+  for (const dtof::Program& program : {dtof::dtof_program(), dtof::study_program()}) {
+    const auto app = dtof::make_command_line(program, program.name);
+    for (CLI::App* command : app->get_subcommands([](const CLI::App*) { return true; })) {
+      command->callback([] {});
+    }
+    try {
+      dtof::run_command_line(*app, static_cast<int>(pointers.size()), pointers.data());
+    } catch (const dtof::InputError&) {  // any other exception ends the fuzzer
+    }
   }
-  dtof::run_command_line(*app, static_cast<int>(pointers.size()), pointers.data());
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  try {
-    read(data, size);
-  } catch (const dtof::InputError&) {  // any other exception ends the fuzzer
-  }
+  read(data, size);
   return 0;
 }

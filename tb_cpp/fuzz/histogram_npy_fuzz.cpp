@@ -5,8 +5,8 @@
 
 #include "core/error.hpp"
 #include "fuzz/input_file.hpp"
-#include "io/histogram_stream.hpp"
 #include "io/npy.hpp"
+#include "recording/histogram_stream.hpp"
 
 namespace {
 

@@ -5,11 +5,11 @@
 #include <functional>
 #include <string>
 
-#include "app/options.hpp"
-#include "app/readout_variant.hpp"
-#include "app/region.hpp"
+#include "command_line/options.hpp"
 #include "core/error.hpp"
+#include "run/region.hpp"
 #include "scene/scene.hpp"
+#include "study/readout_variant.hpp"
 
 namespace {
 

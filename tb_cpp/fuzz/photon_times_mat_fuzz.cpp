@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "fuzz/input_file.hpp"
-#include "io/photon_times_mat.hpp"
+#include "recording/photon_times_mat.hpp"
 
 namespace {
 

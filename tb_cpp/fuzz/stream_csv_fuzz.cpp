@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "fuzz/input_file.hpp"
-#include "io/stream_csv.hpp"
+#include "recording/stream_csv.hpp"
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "fuzz/input_file.hpp"
-#include "io/tmf8820_json.hpp"
+#include "recording/tmf8820_json.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
-#include "io/colour_map.hpp"
+#include "report/colour_map.hpp"
 
 namespace dtof {
 

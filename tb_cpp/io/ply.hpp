@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "io/colour_png.hpp"
 #include "io/depth_image.hpp"
+#include "report/colour_png.hpp"
 
 namespace dtof {
 

@@ -2,6 +2,7 @@
 #include "scoreboard/scoreboard.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -10,6 +11,8 @@
 
 #include "core/error.hpp"
 #include "readout/model.hpp"
+#include "readout/run_frame.hpp"
+#include "rtl/registry.hpp"
 
 namespace dtof {
 namespace {
@@ -70,6 +73,19 @@ std::uint32_t shortest_failing_frame(RtlReadout& rtl, std::span<const ColumnStre
     (same ? agrees : differs) = middle;
   }
   return differs;
+}
+
+/// For --columns: what the array held beside `columns[index]`; just that column where columns know nothing of
+/// each other.
+std::string columns_to_trace(std::span<const int> columns, std::size_t index,
+                             const RtlConfiguration& configuration) {
+  std::size_t first = index;
+  std::size_t count = 1;
+  if (is_pool_readout(configuration.parameters.readout)) {
+    count = static_cast<std::size_t>(configuration.sram_num);
+    first = index / count * count;
+  }
+  return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
 }
 
 }  // namespace
@@ -135,6 +151,31 @@ std::string check_frame(RtlReadout& rtl, std::span<const ColumnStream> columns, 
     context.shortest_failing_frame = shortest_failing_frame(rtl, columns, acquisitions, options);
   }
   return describe_mismatches(mismatches, rtl_frame.results.size(), context);
+}
+
+std::string check_source_frame(const StreamSource& source, const ReadoutParameters& parameters,
+                               std::span<const int> columns, const RtlSourceFrame& actual,
+                               const SourceFrameContext& frame) {
+  const std::vector<PixelResult> expected = run_frame(source, parameters, frame.threads, columns);
+  std::vector<Mismatch> mismatches = compare_frames(columns, expected, actual.results, actual.result_cycles);
+  if (mismatches.empty()) {
+    return {};
+  }
+  for (Mismatch& mismatch : mismatches) {
+    mismatch.row += frame.first_row;
+  }
+  const RtlConfiguration configuration =
+      find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
+  const auto index =
+      static_cast<std::size_t>(std::ranges::find(columns, mismatches.front().column) - columns.begin());
+  return describe_mismatches(mismatches, expected.size(),
+                             {.configuration = configuration,
+                              .acquisitions = source.acquisitions(),
+                              .seed = frame.seed,
+                              .reproduce = fmt::format("{} --readout {} --columns {} --trace mismatch.fst",
+                                                       frame.command, readout_name(parameters.readout),
+                                                       columns_to_trace(columns, index, configuration)),
+                              .shortest_failing_frame = std::nullopt});
 }
 
 }  // namespace dtof

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "core/detection.hpp"
+#include "core/parameters.hpp"
 #include "core/result.hpp"
 #include "rtl/rtl_readout.hpp"
+#include "rtl/run_frame.hpp"
 
 namespace dtof {
 
@@ -53,5 +55,19 @@ std::string describe_mismatches(std::span<const Mismatch> mismatches, std::size_
 std::string check_frame(RtlReadout& rtl, std::span<const ColumnStream> columns, std::uint32_t acquisitions,
                         const RtlRunOptions& options, const std::string& reproduce,
                         RtlFrame* frame = nullptr);
+
+/// Whose frame it is and how to run it again.
+struct SourceFrameContext {
+  int threads = 0;
+  int first_row = 0;  ///< sensor row of the source's row 0
+  std::uint64_t seed = 0;
+  std::string command;  ///< reproduces the run, without --readout, --columns and --trace
+};
+
+/// Compares every pixel of a frame that the RTL read from `columns` of `source` with the model's; empty if
+/// all agree, else the description.
+std::string check_source_frame(const StreamSource& source, const ReadoutParameters& parameters,
+                               std::span<const int> columns, const RtlSourceFrame& actual,
+                               const SourceFrameContext& frame);
 
 }  // namespace dtof

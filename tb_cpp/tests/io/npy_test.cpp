@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/histogram_stream.hpp"
 #include "io_test_support.hpp"
+#include "recording/histogram_stream.hpp"
 
 namespace dtof {
 namespace {

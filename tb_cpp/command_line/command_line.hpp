@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+namespace dtof {
+
+/// One of the project's programs.
+struct Program {
+  std::string name;
+  std::string description;  ///< first lines of --help
+  std::string examples;     ///< last lines of --help, before the exit codes
+  /// Adds the subcommands, which run when the command line is parsed. `command_line` is the whole command
+  /// line as typed, for reports; it outlives the parsing.
+  void (*add_commands)(CLI::App& app, const std::string& command_line);
+};
+
+/// The program's commands and options. `command_line` must outlive the parsing.
+std::unique_ptr<CLI::App> make_command_line(const Program& program, const std::string& command_line);
+
+/// Parses the arguments (the first is the program's name) and runs the command that they name; help and
+/// version are printed. Throws InputError of one line for whatever cannot be parsed.
+void run_command_line(CLI::App& app, int count, const char* const* arguments);
+
+/// What main() does: runs the command line, prints what went wrong as one line, and returns the exit code.
+int run_program(const Program& program, int count, const char* const* arguments);
+
+}  // namespace dtof

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study/readout_variant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/error.hpp"
+#include "sensor/default_parameters.hpp"
+
+namespace dtof {
+namespace {
+
+struct Parameter {
+  std::string_view name;
+  bool pool;       ///< of the pool read-outs
+  bool pixelwise;  ///< of the others
+  int (*get)(const ReadoutParameters&);
+  void (*set)(ReadoutParameters&, int);
+};
+
+// LABELS and SCORE_BITS: of dark and bright groups alike.
+constexpr std::array<Parameter, 7> kParameters = {{
+    {"COUNT_WIDTH", true, true, [](const ReadoutParameters& p) { return p.count_width; },
+     [](ReadoutParameters& p, int value) { p.count_width = value; }},
+    {"FRACTION_BITS", false, true, [](const ReadoutParameters& p) { return p.fraction_bits; },
+     [](ReadoutParameters& p, int value) { p.fraction_bits = value; }},
+    {"WINDOW_CENTRED", false, true, [](const ReadoutParameters& p) { return p.window_centred ? 1 : 0; },
+     [](ReadoutParameters& p, int value) { p.window_centred = value != 0; }},
+    {"LABELS", true, false, [](const ReadoutParameters& p) { return p.pool.bright_labels; },
+     [](ReadoutParameters& p, int value) { p.pool.dark_labels = p.pool.bright_labels = value; }},
+    {"SCORE_BITS", true, false, [](const ReadoutParameters& p) { return p.pool.bright_score_bits; },
+     [](ReadoutParameters& p, int value) { p.pool.dark_score_bits = p.pool.bright_score_bits = value; }},
+    {"COARSE_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.coarse_share; },
+     [](ReadoutParameters& p, int value) { p.pool.coarse_share = value; }},
+    {"TRACK_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.track_share; },
+     [](ReadoutParameters& p, int value) { p.pool.track_share = value; }},
+}};
+
+bool has(Readout readout, const Parameter& parameter) {
+  return is_pool_readout(readout) ? parameter.pool
+                                  : parameter.pixelwise && has_parameter(readout, parameter.name);
+}
+
+std::string names(bool Parameter::*owner) {
+  std::string list;
+  for (const Parameter& parameter : kParameters) {
+    if (parameter.*owner) {
+      list += (list.empty() ? "" : ", ") + std::string(parameter.name);
+    }
+  }
+  return list;
+}
+
+bool parse_number(std::string_view text, int& value) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && rest == end;
+}
+
+}  // namespace
+
+std::string variant_parameters_help() {
+  return fmt::format("{}; poolpointer and poolpointer-lean: {}", names(&Parameter::pixelwise),
+                     names(&Parameter::pool));
+}
+
+ReadoutParameters parse_variant(const std::string& text, const SensorModel& sensor) {
+  const auto malformed = [&] {
+    return InputError(fmt::format("variant {}: expected READOUT:PARAMETER=NUMBER,...", text));
+  };
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) {
+    throw malformed();
+  }
+  ReadoutParameters parameters = default_parameters(parse_readout(text.substr(0, colon)), sensor);
+  std::istringstream changes(text.substr(colon + 1));
+  for (std::string change; std::getline(changes, change, ',');) {
+    const std::size_t equals = change.find('=');
+    int value = 0;
+    if (equals == std::string::npos || !parse_number(std::string_view(change).substr(equals + 1), value)) {
+      throw malformed();
+    }
+    const auto parameter = std::ranges::find(kParameters, change.substr(0, equals), &Parameter::name);
+    if (parameter == kParameters.end() || !has(parameters.readout, *parameter)) {
+      throw InputError(fmt::format("variant {}: {} has no {} to change; known are {}", text,
+                                   readout_name(parameters.readout), change.substr(0, equals),
+                                   variant_parameters_help()));
+    }
+    parameter->set(parameters, value);
+  }
+  parameters.validate();
+  return parameters;
+}
+
+std::string variant_title(const ReadoutParameters& parameters) {
+  const ReadoutParameters defaults = ReadoutParameters::defaults(parameters.readout, parameters.np);
+  std::string title(readout_title(parameters.readout));
+  for (const Parameter& parameter : kParameters) {
+    const int value = parameter.get(parameters);
+    if (has(parameters.readout, parameter) && value != parameter.get(defaults)) {
+      title += fmt::format(" {}={}", parameter.name, value);
+    }
+  }
+  return title;
+}
+
+}  // namespace dtof

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "command_line/command_line.hpp"
+
+namespace dtof {
+
+/// dtof-study: how well read-outs and photon models do.
+Program study_program();
+
+/// Each adds its subcommand; `command_line` as in Program.
+void add_accuracy_command(CLI::App& app, const std::string& command_line);
+void add_scenes_command(CLI::App& app, const std::string& command_line);
+void add_measured_command(CLI::App& app, const std::string& command_line);
+void add_reproduce_command(CLI::App& app, const std::string& command_line);
+void add_coverage_command(CLI::App& app, const std::string& command_line);
+void add_walk_command(CLI::App& app, const std::string& command_line);
+void add_sensor_effects_command(CLI::App& app, const std::string& command_line);
+void add_speed_error_command(CLI::App& app, const std::string& command_line);
+void add_fidelity_command(CLI::App& app, const std::string& command_line);
+
+}  // namespace dtof

@@ -1,0 +1,769 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <sstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/parameters.hpp"
+#include "io/atomic_file.hpp"
+#include "io/depth_image.hpp"
+#include "io/input_file.hpp"
+#include "io/npy.hpp"
+
+namespace dtof {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int exit_code;
+  std::string output;  ///< standard output and standard error
+};
+
+/// The program that has the command with which the arguments begin.
+std::string_view program_of(std::string_view arguments) {
+  constexpr std::array<std::string_view, 9> kStudies = {"accuracy", "coverage",       "fidelity",
+                                                        "measured", "reproduce",      "scenes",
+                                                        "walk",     "sensor-effects", "speed-error"};
+  const std::string_view command = arguments.substr(0, arguments.find(' '));
+  return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
+}
+
+class Programs : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / fmt::format("dtof_programs_{}", getpid());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  [[nodiscard]] std::string file(const std::string& name, const std::string& contents) const {
+    write_file(folder_ / name, contents);
+    return path(name);
+  }
+
+  [[nodiscard]] Outcome dtof(const std::string& arguments) const {
+    const std::string command =
+        fmt::format("cd '{}' && {} {} 2>&1", folder_.string(), program_of(arguments), arguments);
+    std::FILE* pipe = popen(command.c_str(), "r");
+    Outcome outcome{-1, ""};
+    std::array<char, 4096> buffer{};
+    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
+      outcome.output.append(buffer.data(), n);
+    }
+    const int status = pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+
+  // Bad input: exit code 1 and exactly one line, which holds `reason`; no output folder is filled.
+  void expect_refused(const std::string& arguments, const std::string& reason) const {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = dtof(arguments);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr(reason));
+    EXPECT_THAT(outcome.output,
+                ::testing::StartsWith(program_of(arguments) == DTOF_PROGRAM ? "dtof: error: "
+                                                                            : "dtof-study: error: "));
+    EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "out" / "summary.csv"));
+  }
+
+ private:
+  std::filesystem::path folder_;
+};
+
+const std::string kSmallScene = "--array-columns 6 --array-rows 5 --acquisitions 300";
+
+TEST_F(Programs, HelpTeaches) {
+  const Outcome outcome = dtof("--help");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, HasSubstr("dtof frame --scene room"));
+  EXPECT_EQ(dtof("frame --help").exit_code, 0);
+}
+
+TEST_F(Programs, ListNamesReadoutsPresetsScenesAndHardware) {
+  const Outcome outcome = dtof("list");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* word : {"hispointer1", "threesteps", "phone", "room", "PIXELS_PER_SRAM=160"}) {
+    EXPECT_THAT(outcome.output, HasSubstr(word));
+  }
+}
+
+TEST_F(Programs, FrameThroughTheRtlEqualsTheModelAndIsWritten) {
+  const Outcome outcome = dtof(fmt::format("frame --engine rtl --verify {} --out out", kSmallScene));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("every pixel equal to the model"));
+  for (const char* name : {"summary.md", "summary.csv", "overview.png", "errors.png", "sifh.csv", "sifh.ply",
+                           "sifh_depth_mm.png", "sifh_depth.png", "sifh_error.png"}) {
+    EXPECT_GT(std::filesystem::file_size(path("out") + "/" + name), 0U) << name;
+  }
+}
+
+TEST_F(Programs, ThreadsAndChosenColumnsDoNotChangeAResult) {
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 1 --out one", kSmallScene)).exit_code, 0);
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 2 --out two", kSmallScene)).exit_code, 0);
+  ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --columns 4 --out four", kSmallScene)).exit_code, 0);
+  const std::string whole = read_file(path("one/fifh.csv"));
+  EXPECT_EQ(whole, read_file(path("two/fifh.csv")));
+  std::ifstream part(path("four/fifh.csv"));
+  std::string line;
+  int lines = 0;
+  for (std::getline(part, line); std::getline(part, line); ++lines) {
+    EXPECT_THAT(whole, HasSubstr(line + "\n"));
+  }
+  EXPECT_EQ(lines, 5);
+}
+
+/// A result file without the lines of other rows than first to last.
+std::string rows_of_csv(const std::string& csv, int first, int last) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  std::string chosen = line + "\n";
+  while (std::getline(lines, line)) {
+    const int row = std::stoi(line.substr(line.find(',') + 1));
+    if (row >= first && row <= last) {
+      chosen += line + "\n";
+    }
+  }
+  return chosen;
+}
+
+TEST_F(Programs, ARegionOfInterestIsThatPartOfTheWholeFrame) {
+  const std::string frame = fmt::format("frame -r fifh,hispointer {} ", kSmallScene);
+  for (const char* sensor : {"", "--fidelity fast", "--binning 2 --coincidence 2"}) {
+    SCOPED_TRACE(sensor);
+    ASSERT_EQ(dtof(frame + sensor + " --out whole").exit_code, 0);
+    const Outcome outcome = dtof(frame + sensor + " --rows 1-3 --out part");
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("6 x 3 pixels"));
+    for (const char* csv : {"fifh.csv", "hispointer.csv"}) {
+      EXPECT_EQ(read_file(path("part/") + csv), rows_of_csv(read_file(path("whole/") + csv), 1, 3)) << csv;
+    }
+    const DepthImage depth = read_depth_image(path("part/fifh_depth_mm.png"));
+    const DepthImage whole = read_depth_image(path("whole/fifh_depth_mm.png"));
+    ASSERT_EQ(depth.width, 6);
+    ASSERT_EQ(depth.height, 3);
+    EXPECT_THAT(depth.metres, ::testing::ElementsAreArray(std::span(whole.metres).subspan(6, 18)));
+  }
+  const Outcome rectangle = dtof(frame + "--columns 2-3 --rows 4 --out rectangle");
+  EXPECT_THAT(rectangle.output, HasSubstr("2 x 1 pixels"));
+  EXPECT_THAT(read_file(path("rectangle/fifh.csv")), HasSubstr("\n3,4,"));
+}
+
+TEST_F(Programs, ARegionsErrorsAreAgainstTheTruthOfItsOwnPixels) {
+  // Every row has a distance of its own: with another row's truth the error would be metres.
+  std::string pfm = "Pf\n1 4\n-1\n";
+  for (const float metres : {4.0F, 3.0F, 2.0F, 1.0F}) {
+    const auto bytes = std::bit_cast<std::array<char, sizeof metres>>(metres);
+    pfm.append(bytes.data(), bytes.size());
+  }
+  const Outcome outcome = dtof("frame -r histogram --depth " + file("rows.pfm", pfm) +
+                               " --array-columns 3 --array-rows 4 --fidelity analytic --rows 2-3 --out out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(read_file(path("out/summary.csv")), HasSubstr("0.00 %,0.00 %"));
+}
+
+TEST_F(Programs, ARegionThroughTheRtlEqualsTheModelAndTheWholeFrame) {
+  const std::string frame = "frame --scene plane --array-columns 2 --array-rows 40 --acquisitions 200 ";
+  ASSERT_EQ(dtof(frame + "-r sifh,ezpointer --out whole").exit_code, 0);
+  const Outcome outcome =
+      dtof(frame + "-r sifh,ezpointer,poolpointer --rows 17-28 --engine rtl --verify --out part");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("2 x 12 pixels"));
+  EXPECT_THAT(outcome.output, HasSubstr("every pixel equal to the model"));
+  for (const char* csv : {"sifh.csv", "ezpointer.csv"}) {
+    EXPECT_EQ(read_file(path("part/") + csv), rows_of_csv(read_file(path("whole/") + csv), 17, 28)) << csv;
+  }
+}
+
+TEST_F(Programs, BothEnginesGiveTheSameFilesOnEverySensorAndRegion) {
+  // Odd sizes, and regions that begin and end inside poolPointer's groups of 8 and 16 rows, so that arrays,
+  // engines and groups are only partly used.
+  for (const char* pixels :
+       {"--array-columns 1 --array-rows 1", "--array-columns 3 --array-rows 40",
+        "--array-columns 13 --array-rows 33 --columns 0-2,5,10-11", "--array-columns 2 --array-rows 159",
+        "--array-columns 2 --array-rows 60 --rows 21-39", "--array-columns 2 --array-rows 160 --rows 40-59",
+        "--array-columns 12 --array-rows 47 --rows 13-46 --columns 4,7-11"}) {
+    SCOPED_TRACE(pixels);
+    const std::string frame = fmt::format("frame -r all --acquisitions 400 {} ", pixels);
+    const Outcome model = dtof(frame + "--engine model --out model");
+    ASSERT_EQ(model.exit_code, 0) << model.output;
+    const Outcome rtl = dtof(frame + "--engine rtl --out rtl");
+    ASSERT_EQ(rtl.exit_code, 0) << rtl.output;
+    for (const Readout readout : kModelReadouts) {
+      const std::string csv = fmt::format("/{}.csv", readout_name(readout));
+      EXPECT_EQ(read_file(path("model") + csv), read_file(path("rtl") + csv)) << csv;
+    }
+  }
+}
+
+TEST_F(Programs, BothEnginesReplayARegionToTheSameFiles) {
+  ASSERT_EQ(
+      dtof("frame -r ezpointer --array-columns 5 --array-rows 30 --acquisitions 400 --record stream.csv "
+           "--out frame")
+          .exit_code,
+      0);
+  for (const char* engine : {"model", "rtl"}) {
+    const Outcome outcome = dtof(fmt::format(
+        "replay stream.csv -r all --acquisitions 400 --rows 5-22 --columns 1,3-4 --engine {0} --out {0}",
+        engine));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  }
+  for (const Readout readout : kModelReadouts) {
+    const std::string csv = fmt::format("/{}.csv", readout_name(readout));
+    EXPECT_EQ(read_file(path("model") + csv), read_file(path("rtl") + csv)) << csv;
+  }
+}
+
+TEST_F(Programs, ARecordingIsReplayedInARegion) {
+  const std::string frame = fmt::format("frame -r sifh {} --rows 2-3 ", kSmallScene);
+  ASSERT_EQ(dtof(frame + "--record stream.csv --out frame").exit_code, 0);
+  const Outcome outcome = dtof("replay stream.csv -r sifh --acquisitions 300 --rows 2-3 --out replay");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("6 columns x 2 rows"));
+  EXPECT_EQ(read_file(path("replay/sifh.csv")), read_file(path("frame/sifh.csv")));
+}
+
+TEST_F(Programs, ARecordedFrameReplaysToTheSameResult) {
+  ASSERT_EQ(
+      dtof(fmt::format("frame -r hispointer {} --record stream.csv --out frame", kSmallScene)).exit_code, 0);
+  for (const char* engine : {"model", "rtl"}) {
+    const Outcome outcome = dtof(
+        fmt::format("replay stream.csv -r hispointer --acquisitions 300 --engine {} --out replay", engine));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_EQ(read_file(path("frame/hispointer.csv")), read_file(path("replay/hispointer.csv"))) << engine;
+  }
+}
+
+TEST_F(Programs, AccuracyPrintsTheSweep) {
+  const Outcome outcome = dtof("accuracy -r hispointer,histogram --distances 1 2 --frames 20 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("Relative precision"));
+  EXPECT_THAT(outcome.output, HasSubstr("matched filter"));
+  EXPECT_GT(std::filesystem::file_size(path("out/relative_precision_14klux.svg")), 0U);
+  EXPECT_THAT(read_file(path("out/accuracy.csv")), HasSubstr("\n14,hispointer,2,20,1,"));
+}
+
+TEST_F(Programs, AccuracyTakesMoreFramesUntilPreciseEnoughAndSaysHowMany) {
+  const std::string sweep = "accuracy -r hispointer --distances 2 --frames 50 --out out ";
+  const Outcome reached = dtof(sweep + "--precision 20");
+  EXPECT_EQ(reached.exit_code, 0) << reached.output;
+  EXPECT_THAT(reached.output, HasSubstr("Precision reached at 2 of 2 points"));
+  const Outcome given_up = dtof(sweep + "--precision 0.1 --max-frames 100");
+  EXPECT_EQ(given_up.exit_code, 0) << given_up.output;
+  EXPECT_THAT(given_up.output, HasSubstr("Precision reached at 0 of 2 points, with up to 100 frames"));
+}
+
+TEST_F(Programs, FrameTakesMoreFramesUntilPreciseEnoughAndSaysHowMany) {
+  const std::string frame = fmt::format("frame -r hispointer {} --out out ", kSmallScene);
+  const Outcome once = dtof(frame);
+  ASSERT_EQ(once.exit_code, 0) << once.output;
+  const std::string first = read_file(path("out/hispointer.csv"));
+  const Outcome given_up = dtof(frame + "--precision 0.01 --max-frames 5");
+  EXPECT_EQ(given_up.exit_code, 0) << given_up.output;
+  EXPECT_THAT(given_up.output, HasSubstr("for 0 of 1 read-outs, with up to 5 frames"));
+  EXPECT_THAT(given_up.output, HasSubstr("5+"));
+  EXPECT_EQ(read_file(path("out/hispointer.csv")), first);
+  const Outcome reached = dtof(frame + "--precision 50");
+  EXPECT_EQ(reached.exit_code, 0) << reached.output;
+  EXPECT_THAT(reached.output, HasSubstr("for 1 of 1 read-outs"));
+  EXPECT_THAT(read_file(path("out/summary.md")), HasSubstr("for 1 of 1 read-outs"));
+}
+
+TEST_F(Programs, FidelityAutoTakesTheCheapestModelWithNoiseThatKeepsTheTolerance) {
+  const auto photons = [&](const std::string& options) {
+    const Outcome outcome =
+        dtof("frame --scene flat --array-columns 4 --array-rows 4 --out out --fidelity auto " + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return outcome.output;
+  };
+  EXPECT_THAT(photons("-r hispointer --tolerance 0"), HasSubstr("exact photons"));
+  EXPECT_THAT(photons("-r hispointer --tolerance 0.001"), HasSubstr("exact photons"));
+  EXPECT_THAT(photons("-r hispointer"), HasSubstr("fast photons"));
+  EXPECT_THAT(photons("-r hispointer --tolerance 9 --precision 50"), HasSubstr("fast photons"));
+  EXPECT_THAT(photons("-r poolpointer --tolerance 9"), HasSubstr("exact photons")) << "it reads streams";
+  EXPECT_THAT(photons("-r hispointer --tolerance 9 --record recording.csv"), HasSubstr("exact photons"));
+  EXPECT_THAT(photons("-r hispointer --tolerance 9 --acquisitions 100"), HasSubstr("exact photons"))
+      << "beyond what was measured";
+  EXPECT_THAT(dtof("accuracy -r hispointer --distances 2 --frames 20 --out out --fidelity auto").output,
+              HasSubstr("auto, which draws streams exactly"));
+}
+
+TEST_F(Programs, RefusesPrecisionWithoutNoise) {
+  expect_refused("frame --fidelity analytic --precision 1 --out out", "no noise");
+  expect_refused("frame --fidelity auto --tolerance -1 --out out", "tolerance");
+  expect_refused("frame --fidelity auto --tolerance nan --out out", "tolerance");
+  expect_refused("frame --precision 0 --out out", "--precision");
+  expect_refused("frame -r fifh --engine rtl --trace x.fst --precision 5 --out out", "--trace");
+  expect_refused("accuracy --distances 2 --fidelity analytic --out out", "no noise");
+}
+
+TEST_F(Programs, RefusesBadStreams) {
+  const std::string header = "acquisition,column,row,timestamp\n";
+  expect_refused("replay nowhere.csv --out out", "nowhere.csv");
+  expect_refused("replay " + file("empty.csv", "") + " --out out", "empty.csv");
+  expect_refused("replay " + file("head.csv", "a,b\n") + " --out out", "head.csv:1:");
+  expect_refused("replay " + file("text.csv", header + "0,0,0,1\n0,0,x,1\n") + " --out out", "text.csv:3:");
+  expect_refused("replay " + file("cut.csv", header + "0,0,0,1\n0,0") + " --out out", "cut.csv:3:");
+  expect_refused("replay " + file("range.csv", header + "0,0,0,1024\n") + " --out out", "range.csv:2:");
+  expect_refused("replay " + file("slots.csv", header + "0,0,0,1\n0,0,0,2\n0,0,0,3\n") + " --out out",
+                 "slots.csv:4:");
+  expect_refused("replay " + file("late.csv", header + "7,0,0,1\n") + " -a 7 --out out", "late.csv:2:");
+  expect_refused("replay " + file("data.xyz", "1") + " --out out", "--format");
+  expect_refused("replay " + file("broken.json", "[{") + " --out out", "broken.json");
+  expect_refused("replay " + file("broken.npy", "\x93NUMPY") + " --bin-width 100 --out out", "broken.npy");
+  expect_refused("replay " + file("broken.mat", "not a MATLAB file") + " --out out", "broken.mat");
+}
+
+TEST_F(Programs, RefusesBadFlagsAndPhysics) {
+  expect_refused("frame --readout ezpionter --out out", "unknown read-out 'ezpionter'");
+  expect_refused("frame --readout sifh --nb 11 --out out", "NB");
+  expect_refused("frame --readout ezpointer --pointer-step 512 --out out", "POINTER_STEP");
+  expect_refused("frame --scene moon --out out", "moon");
+  expect_refused("frame --preset sun --out out", "sun");
+  expect_refused("frame --klux nan --out out", "klux");
+  expect_refused("frame --klux -1 --out out", "klux");
+  expect_refused("frame --dead-time -2 --out out", "dead");
+  expect_refused("frame --scene flat --distance nan --out out", "distance");
+  expect_refused("frame --reflectivity -0.5 --out out", "reflectivity");
+  expect_refused("frame --columns 0-999 --out out", "column");
+  expect_refused("frame --rows 5-2 --out out", "--rows '5-2': range '5-2' runs backwards");
+  expect_refused("frame --rows 0-999 --out out", "row 999 is outside 0 to 159");
+  expect_refused("frame --rows abc --out out", "'abc' is not a row number");
+  expect_refused("frame --rows 0-3,7 --out out", "one range");
+  expect_refused(
+      "replay " + file("one.csv", "acquisition,column,row,timestamp\n0,0,1,1\n") + " --rows 0-2 --out out",
+      "row 2 is outside 0 to 1");
+  expect_refused("accuracy --rows 0-3 --distances 2 --out out", "--rows");
+  expect_refused("scenes --rows 0-3 --out out", "--rows");
+  expect_refused("frame --engine rtl --readout ezpointer --np 9 --out out", "compiled");
+  expect_refused("frame --verify --out out", "--engine rtl");
+  expect_refused("frame --trace x.fst --engine rtl --out out", "one read-out");
+  expect_refused("frame --frobnicate --out out", "--frobnicate");
+  expect_refused("accuracy --distances 0 --out out", "distances");
+  expect_refused("", "no command is given; known are frame,");
+}
+
+TEST_F(Programs, RefusesBadImages) {
+  // The smallest possible 8-bit greyscale PNG is not a depth image.
+  const std::string png8(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\1\0\0\0\1\x08\0\0\0\0\x3a\x7e\x9b\x55\0\0\0\nIDAT\x78\x9c\x63\x68"
+      "\0\0\0"
+      "\x82\0\x81\x77\xcd\x72\xb6\0\0\0\0IEND\xae\x42\x60\x82",
+      67);
+  expect_refused("frame --depth " + file("eight.png", png8) + " --out out", "eight.png");
+  expect_refused("frame --depth nowhere.png --out out", "nowhere.png");
+  expect_refused("frame --depth " + file("cut.pfm", "Pf\n4 4\n-1\nabc") + " --out out", "cut.pfm");
+}
+
+TEST_F(Programs, ScenesComparesReadoutsAndVariants) {
+  const Outcome outcome = dtof(
+      "scenes --preset thesis --klux 14 --scene planes --columns 2 -r poolpointer,hispointer "
+      "--variant hispointer:COUNT_WIDTH=8 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string table = read_file(path("out/scenes.csv"));
+  for (const char* estimator : {"poolPointer", "hisPointer", "COUNT_WIDTH=8", "matched filter"}) {
+    EXPECT_THAT(table, HasSubstr(estimator));
+  }
+  EXPECT_GT(std::filesystem::file_size(path("out/planes_14klux_thesis.png")), 0U);
+}
+
+/// Cell of a CSV whose lines begin with the row's name: column `column` of the row that begins with `row`.
+std::string csv_cell(const std::string& csv, const std::string& row, const std::string& column) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const auto cells = [](const std::string& text) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, ',');) {
+      parts.push_back(part);
+    }
+    return parts;
+  };
+  const std::vector<std::string> head = cells(line);
+  const auto index = static_cast<std::size_t>(std::find(head.begin(), head.end(), column) - head.begin());
+  while (std::getline(lines, line)) {
+    if (line.starts_with(row + ",")) {
+      return cells(line).at(index);
+    }
+  }
+  return "no such row";
+}
+
+TEST_F(Programs, FrameAndScenesGiveTheSameFiguresAndNameTheirTable) {
+  for (const char* table : {"flat", "none"}) {
+    SCOPED_TRACE(table);
+    const Outcome frame =
+        dtof(fmt::format("frame --scene poles -r hispointer,fifh --table {} --out frame", table));
+    ASSERT_EQ(frame.exit_code, 0) << frame.output;
+    const Outcome scenes = dtof(fmt::format(
+        "scenes --preset thesis --klux 14 --scene poles -r hispointer,fifh --table {} --out scenes", table));
+    ASSERT_EQ(scenes.exit_code, 0) << scenes.output;
+    for (const char* title : {"hisPointer", "FiFH"}) {
+      const std::string one = csv_cell(read_file(path("frame/summary.csv")), title, "above 3 %");
+      const std::string other = csv_cell(read_file(path("scenes/scenes.csv")),
+                                         fmt::format("thesis,14,poles,{}", title), "above_3_percent");
+      EXPECT_EQ(one, fmt::format("{:.2f} %", std::stod(other) * 100.0)) << title;
+    }
+    const std::string named = fmt::format("(--table {})", table);
+    EXPECT_THAT(read_file(path("frame/summary.md")), HasSubstr(named));
+    EXPECT_THAT(read_file(path("scenes/scenes.md")), HasSubstr(named));
+  }
+  expect_refused("frame --table round --out out", "--table");
+  expect_refused("scenes --table round --out out", "--table");
+}
+
+TEST_F(Programs, OwnMapsOfDepthAndReflectivityInFrame) {
+  // 2 x 1 pixels: the left half of the array sees 1 m at half the reflectivity of the right half at 2 m.
+  const std::array<double, 2> metres = {1.0, 2.0};
+  const std::array<double, 2> reflectivity = {0.4, 0.8};
+  const std::array<std::size_t, 2> shape = {1, 2};
+  write_npy(path("depth.npy"), shape, metres);
+  write_npy(path("reflectivity.npy"), shape, reflectivity);
+  write_pfm(path("depth.pfm"), {.width = 2, .height = 1, .metres = {100.0F, 200.0F}});
+  const std::string frame = fmt::format("frame -r histogram {} --table none ", kSmallScene);
+  const Outcome npy = dtof(frame + "--depth depth.npy --reflectivity-map reflectivity.npy --out npy");
+  ASSERT_EQ(npy.exit_code, 0) << npy.output;
+  EXPECT_THAT(npy.output,
+              HasSubstr("Depth map depth.npy: 2 x 1 pixels, resampled to 6 x 5 by nearest neighbour."));
+  EXPECT_THAT(read_file(path("npy/summary.md")),
+              HasSubstr("Reflectivity map reflectivity.npy: 2 x 1 pixels, resampled to 6 x 5"));
+  const Outcome scaled = dtof(frame +
+                              "--depth depth.pfm --depth-scale 0.01 --reflectivity-map "
+                              "reflectivity.npy --out pfm");
+  ASSERT_EQ(scaled.exit_code, 0) << scaled.output;
+  EXPECT_EQ(read_file(path("npy/histogram.csv")), read_file(path("pfm/histogram.csv")));
+  // One reflectivity everywhere is another scene, and the map that says so is the same as the option.
+  ASSERT_EQ(dtof(frame + "--depth depth.npy --reflectivity 0.4 --out plain").exit_code, 0);
+  EXPECT_NE(read_file(path("npy/histogram.csv")), read_file(path("plain/histogram.csv")));
+  const std::array<double, 1> even = {0.8};
+  write_npy(path("even.npy"), std::array<std::size_t, 2>{1, 1}, even);
+  ASSERT_EQ(dtof(frame + "--depth depth.npy --reflectivity-map even.npy --reflectivity-scale 0.5 --out even")
+                .exit_code,
+            0);
+  EXPECT_EQ(read_file(path("even/histogram.csv")), read_file(path("plain/histogram.csv")));
+
+  expect_refused("frame --depth-scale 0.01 --out out", "--depth-scale needs --depth");
+  expect_refused("frame --reflectivity-scale 0.01 --out out", "needs --reflectivity-map");
+  expect_refused("frame --reflectivity 0.5 --reflectivity-map even.npy --out out", "choose one");
+  expect_refused("frame --depth depth.npy --depth-scale 0 --out out", "--depth-scale");
+}
+
+TEST_F(Programs, OwnMapsInScenesHaveTheirName) {
+  const std::array<double, 2> metres = {1.5, 2.0};
+  const std::array<double, 2> reflectivity = {0.4, 0.8};
+  const std::array<std::size_t, 2> shape = {1, 2};
+  write_npy(path("depth.npy"), shape, metres);
+  write_npy(path("dim.npy"), shape, reflectivity);
+  const Outcome outcome = dtof(
+      "scenes --preset thesis --klux 14 -r hispointer --columns 2 --map hall=depth.npy --map "
+      "'dim hall=depth.npy,dim.npy' --out out2");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string csv = read_file(path("out2/scenes.csv"));
+  EXPECT_THAT(csv, HasSubstr("thesis,14,hall,hisPointer,320,"));
+  EXPECT_THAT(csv, HasSubstr("thesis,14,dim hall,hisPointer,320,"));
+  EXPECT_THAT(csv, ::testing::Not(HasSubstr("room")));
+  EXPECT_THAT(read_file(path("out2/scenes.md")),
+              HasSubstr("Scene dim hall: Depth map depth.npy: 2 x 1 pixels, resampled to 200 x 160"));
+  EXPECT_GT(std::filesystem::file_size(path("out2/dim_hall_14klux_thesis.png")), 0U);
+
+  for (const auto& [map, reason] :
+       {std::pair("hall", "expected NAME=DEPTH"), std::pair("hall=", "expected NAME=DEPTH"),
+        std::pair("=depth.npy", "expected NAME=DEPTH"), std::pair("hall=depth.npy,", "expected NAME=DEPTH"),
+        std::pair("a/b=depth.npy", "a name has letters"),
+        std::pair("room=depth.npy", "name of another scene"),
+        std::pair("'flat 1 m=depth.npy'", "name of another scene"),
+        std::pair("a=depth.npy --map a=depth.npy", "another map has this name"),
+        std::pair("a=nowhere.npy", "nowhere.npy")}) {
+    expect_refused(fmt::format("scenes --map {} --out out", map), reason);
+  }
+  expect_refused("scenes --depth-scale 2 --out out", "need --map");
+}
+
+TEST_F(Programs, AccuracyOverAMapIsByDistanceBand) {
+  const std::array<double, 2> metres = {1.5, 2.5};
+  write_npy(path("depth.npy"), std::array<std::size_t, 2>{1, 2}, metres);
+  const std::string accuracy = "accuracy -r hispointer -a 200 --fidelity fast --depth depth.npy ";
+  const Outcome outcome = dtof(accuracy + "--distances 1 2 3 --frames 4 --out map");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("2 x 1 pixels, resampled to 200 x 160 by nearest neighbour"));
+  EXPECT_THAT(outcome.output, HasSubstr("(--table flat)"));
+  const std::string csv = read_file(path("map/accuracy.csv"));
+  for (const char* band : {"1.0000,2.0000,16000,4", "2.0000,3.0000,16000,4", "1.0000,3.0000,32000,4"}) {
+    EXPECT_THAT(csv, HasSubstr(fmt::format("\n14,hispointer,{},", band)));
+  }
+  expect_refused(accuracy + "--precision 5 --out out", "--precision does not apply to a map");
+  expect_refused(accuracy + "--distances 3 2 --out out", "ascending edges");
+  expect_refused("accuracy --depth-scale 2 --out out", "need --depth");
+}
+
+TEST_F(Programs, WalkWritesItsReportAndPicture) {
+  const Outcome outcome =
+      dtof("walk -r sifh,ezpointer -a 300 --columns 4 --reflectivities 0.1 1 --distances 0.5 1 --out walk");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("walk before"));
+  EXPECT_THAT(read_file(path("walk/walk_error.csv")), HasSubstr("\nsifh,0.1,0.5,"));
+  EXPECT_THAT(read_file(path("walk/walk_error.md")), HasSubstr("## ezPointer"));
+  EXPECT_GT(std::filesystem::file_size(path("walk/walk_error.svg")), 0U);
+  expect_refused("walk --fidelity fast --out out", "--fidelity has no effect");
+  expect_refused("walk --binning 2 --out out", "binning");
+  expect_refused("walk --reflectivities 0 1 --out out", "reflectivity");
+  expect_refused("walk --distances 0 --out out", "distance");
+}
+
+TEST_F(Programs, ReplayAgainstATruthMap) {
+  // A staircase of two steps, read out without noise: with the preset's zero, replay finds frame's own
+  // errors.
+  const std::string scene =
+      "frame --scene staircase --steps 2 --near 1 --far 3 -r histogram --array-columns 4 --array-rows 3 "
+      "--table none ";
+  ASSERT_EQ(dtof(scene + "--record stream.csv --out frame").exit_code, 0);
+  std::vector<float> truth;
+  for (int row = 0; row < 3; ++row) {
+    truth.insert(truth.end(), {1.0F, 1.0F, 3.0F, 3.0F});
+  }
+  write_pfm(path("truth.pfm"), {.width = 4, .height = 3, .metres = truth});
+  write_depth_png(path("truth.png"), {.width = 4, .height = 3, .metres = truth});
+  const std::string replay = "replay stream.csv -a 3333 -r histogram ";
+  const Outcome outcome = dtof(replay + "--truth truth.pfm --offset 299.792458 --out replay");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string frame = read_file(path("frame/summary.csv"));
+  const std::string csv = read_file(path("replay/summary.csv"));
+  for (const char* figure : {"rmse mm", "bias mm"}) {
+    EXPECT_NEAR(std::stod(csv_cell(csv, "histogram", figure)),
+                std::stod(csv_cell(frame, "histogram", figure)), 0.51)
+        << figure;
+  }
+  EXPECT_EQ(csv_cell(csv, "histogram", "above 3 %"), csv_cell(frame, "histogram", "above 3 %"));
+  EXPECT_EQ(csv_cell(csv, "histogram", "measurements"), "12");
+  // Another format, another offset: the bias moves by it.
+  ASSERT_EQ(dtof(replay + "--truth truth.png --offset 199.792458 --out moved").exit_code, 0);
+  EXPECT_NEAR(std::stod(csv_cell(read_file(path("moved/summary.csv")), "histogram", "bias mm")),
+              std::stod(csv_cell(csv, "histogram", "bias mm")) + 100.0, 0.11);
+  // A map of the region's size, and one distance only: no slope.
+  write_pfm(path("region.pfm"), {.width = 1, .height = 2, .metres = {3.0F, 3.0F}});
+  const Outcome region = dtof(replay + "--columns 3 --rows 0-1 --truth region.pfm --out region");
+  ASSERT_EQ(region.exit_code, 0) << region.output;
+  EXPECT_EQ(csv_cell(read_file(path("region/summary.csv")), "histogram", "measurements"), "2");
+  EXPECT_EQ(csv_cell(read_file(path("region/summary.csv")), "histogram", "slope"), "-");
+
+  expect_refused(replay + "--truth region.pfm --out out", "1 x 2 pixels, but the recording has 4 x 3");
+  expect_refused(replay + "--truth nowhere.png --out out", "nowhere.png");
+  expect_refused(replay + "--truth-scale 1 --out out", "--truth-scale needs --truth");
+  expect_refused(replay + "--offset 1 --out out", "--truth");
+}
+
+TEST_F(Programs, MeasuredAgainstATruthMap) {
+  const std::filesystem::path core_file = std::filesystem::weakly_canonical(DTOF_CORE_FILE);
+  const std::filesystem::path log =
+      core_file.parent_path().parent_path().parent_path() / "shared/data/ams_tmf8829_log.json.gz";
+  if (!std::filesystem::exists(log)) {
+    GTEST_SKIP() << log.string() << " is not here";
+  }
+  const std::string measured = fmt::format("measured '{}' -r sifh -a 500 --photons 300 ", log.string());
+  // The log's 26 frames of 16 zones; the lower half of each is unknown.
+  std::vector<float> truth(26 * 16, 1.5F);
+  std::fill(truth.begin() + 26 * 8, truth.end(), 0.0F);
+  write_pfm(path("truth.pfm"), {.width = 26, .height = 16, .metres = truth});
+  const Outcome outcome = dtof(measured + "--truth truth.pfm --out measured");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("The truth is the map truth.pfm."));
+  const std::string csv = read_file(path("measured/summary.csv"));
+  EXPECT_THAT(csv, HasSubstr("offset_mm,rmse_mm,bias_mm"));
+  EXPECT_THAT(csv, HasSubstr("\n300,0,SiFH,208,"));
+  write_pfm(path("small.pfm"), {.width = 2, .height = 1, .metres = {1.0F, 1.0F}});
+  expect_refused(measured + "--truth small.pfm --out out",
+                 "small.pfm: the truth map has 2 x 1 pixels, but the recording has 26 x 16");
+  expect_refused(measured + "--truth-scale 2 --out out", "--truth-scale needs --truth");
+}
+
+TEST_F(Programs, RefusesBadScenesAndMeasurements) {
+  expect_refused("scenes --variant hispointer --out out", "expected READOUT:PARAMETER=NUMBER");
+  expect_refused("scenes --variant hispointer:COUNT_WIDTH=x --out out", "expected READOUT:PARAMETER=NUMBER");
+  expect_refused("scenes --variant hispointer:GUARD=3 --out out", "hispointer has no GUARD to change");
+  expect_refused("scenes --scene moon --out out", "moon");
+  expect_refused("scenes --disparity nowhere.png --out out", "nowhere.png");
+  expect_refused("measured nowhere.json.gz --out out", "nowhere.json.gz");
+  expect_refused("measured " + file("broken.mat", "not a MATLAB file") + " --out out", "broken.mat");
+  expect_refused("measured " + file("broken.json", "[{") + " --out out", "broken.json");
+}
+
+TEST_F(Programs, RefusesAnUnwritableOutput) {
+  const std::string blocked = file("blocked", "a file, not a folder");
+  expect_refused(fmt::format("frame -r fifh {} --out blocked/out", kSmallScene), "blocked");
+  expect_refused(fmt::format("frame -r fifh {} --record nowhere/stream.csv --out out", kSmallScene),
+                 "nowhere");
+  EXPECT_EQ(read_file(blocked), "a file, not a folder");
+}
+
+TEST_F(Programs, TheVersionIsOneInTheWholeTree) {
+  const Outcome outcome = dtof("--version");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.output, ::testing::MatchesRegex("dtof [0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  const std::string version = outcome.output.substr(5, outcome.output.size() - 6);
+  EXPECT_THAT(read_file(DTOF_CORE_FILE), HasSubstr("dtof_array:" + version + "\n"));
+}
+
+TEST_F(Programs, UnknownWordsSuggestTheNearest) {
+  expect_refused("fram --klux 3", "unknown command 'fram'; did you mean 'frame'? Known are frame, replay,");
+  expect_refused("scnees", "did you mean 'scenes'?");
+  expect_refused("frobnicate", "unknown command 'frobnicate'; known are frame,");
+  expect_refused("frame --klxu 3",
+                 "frame: unknown option '--klxu'; did you mean '--klux'? `dtof frame --help`");
+  expect_refused("frame --xyzzy", "frame: unknown option '--xyzzy'; `dtof frame --help` lists the options");
+  expect_refused("--versoin", "unknown option '--versoin'; did you mean '--version'?");
+  expect_refused("frame --scene rom", "unknown scene 'rom'; did you mean 'room'?");
+  expect_refused("frame -r sfih", "unknown read-out 'sfih'; did you mean 'sifh'?");
+  expect_refused("replay a.csv b.csv", "unexpected argument 'b.csv'");
+}
+
+TEST_F(Programs, WhatIsNoNumberIsSaidSo) {
+  expect_refused("frame --klux abc", "frame: --klux: 'abc' is not a number");
+  expect_refused("frame --klux inf", "frame: --klux: 'inf' is not a number");
+  expect_refused("frame --gate 1 x", "frame: --gate: 'x' is not a number");
+  expect_refused("frame --np 9.5", "frame: --np: '9.5' is not a whole number");
+  expect_refused("frame --np 99999999999", "--np = 99999999999 is beyond what the option can hold");
+  expect_refused("frame --np 100", "NP must be 3 to 16, not 100");
+  expect_refused("frame --seed -1", "frame: --seed: '-1' is negative");
+  expect_refused("frame --seed 99999999999999999999", "'99999999999999999999' is too large");
+  expect_refused("stability --seed -1", "stability: --seed: '-1' is negative");
+  expect_refused("frame --threads 010", "'010' begins with 0");
+}
+
+TEST_F(Programs, NonsenseIsRefusedWithAReason) {
+  expect_refused("frame --klux 1e30",
+                 "1e30 is not within 0 to 200 klux: the brightest sunlight is about 130");
+  expect_refused("accuracy --klux 14 300", "300 is not within 0 to 200 klux");
+  expect_refused("scenes --klux 300", "300 is not within 0 to 200 klux");
+  expect_refused("frame --reflectivity 4.1", "a white matt surface is 1");
+  expect_refused("accuracy --reflectivity 4.1", "a white matt surface is 1");
+  expect_refused("frame --scene flat --distance 6.75", "beyond the sensor's range, 6.75 m");
+  expect_refused("frame --scene plane --far 7", "--far: 7 m is beyond the sensor's range");
+  expect_refused("accuracy --distances 1 7", "--distances: 7 m is beyond the sensor's range");
+}
+
+TEST_F(Programs, MemoryIsRefusedBeforeItIsSpent) {
+  for (const char* command : {"frame", "accuracy"}) {
+    expect_refused(std::string(command) + " -a 4294967295", "4294967295 is not within 1 to 1048575");
+    expect_refused(std::string(command) + " -a 4294967296", "4294967296 is not within 1 to 1048575");
+  }
+  expect_refused("frame --array-columns 1 --array-rows 4096 -a 1000000 --out out",
+                 "a column could have 8.2e+09 detections");
+  std::string captures = R"([{"dist_to_plane": 1, "reference_hist": [)";
+  const auto append_bins = [&](std::string_view first) {
+    captures += first;
+    for (int bin = 1; bin < 128; ++bin) {
+      captures += ",0";
+    }
+    captures += "]";
+  };
+  append_bins("0");
+  captures += R"(, "hists": [)";
+  for (int zone = 0; zone < 9; ++zone) {
+    captures += zone == 0 ? "[" : ",[";
+    append_bins("4294967295");
+  }
+  captures += "]}]";
+  expect_refused("replay " + file("many.json", captures) + " --out out",
+                 "column 0, row 0: 4294967295 photons are more than the 1e+07");
+  const std::vector<std::size_t> shape = {1, 2};
+  write_npy(path("many.npy"), shape, std::vector<double>{0.0, 4294967296.0});
+  expect_refused("replay many.npy --bin-width 100 --out out", "give a photon budget (--photons)");
+  EXPECT_EQ(dtof("replay many.npy --bin-width 100 --photons 50 -r sifh --out out").exit_code, 0);
+}
+
+TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
+  expect_refused("frame --array-columns 375 --array-rows 1 -a 10 --out out", "point cloud of 375 x 1 pixels");
+  expect_refused("frame --array-columns 1 --array-rows 375 -a 10 --out out", "point cloud of 1 x 375 pixels");
+  // Of a large array a part that fits a picture.
+  EXPECT_EQ(dtof("frame -r fifh --array-columns 375 --array-rows 1 --columns 0-3 -a 10 --out part").exit_code,
+            0);
+  expect_refused("frame -r ezpointer,sifh --nb 7 --engine rtl --out out", "no RTL is compiled for sifh");
+  expect_refused("frame -r ezpointer --engine rtl -a 65536 --array-columns 1 --array-rows 1 --out out",
+                 "the RTL counts 16 bits of them, to 65535");
+  expect_refused("frame -r ezpointer --engine rtl --trace x.fst --record stream.csv --out out",
+                 "a waveform holds at most SRAM_NUM");
+  EXPECT_FALSE(std::filesystem::exists(path("out")));
+  EXPECT_FALSE(std::filesystem::exists(path("stream.csv")));
+}
+
+TEST_F(Programs, OptionsWithoutEffectAreErrors) {
+  expect_refused("frame --guard 3 -r sifh", "--guard has no effect: sifh has no GUARD");
+  expect_refused("frame --nb 5 -r ezpointer", "--nb has no effect: ezpointer has no NB");
+  expect_refused("frame --window-centred -r ezpointer,fifh",
+                 "--window-centred has no effect: ezpointer,fifh");
+  expect_refused("frame --pointer-step 2 -r poolpointer", "--pointer-step has no effect");
+  expect_refused("frame --distance 3 --scene room", "--distance has no effect: only --scene flat");
+  expect_refused("frame --near 1 --scene flat", "--near has no effect");
+  expect_refused("frame --steps 3 --scene plane", "--steps has no effect");
+  expect_refused("frame --depth a.png --scene room", "--scene has no effect: --depth takes its place");
+  expect_refused("frame --depth a.png --distance 2", "--distance has no effect");
+  expect_refused("frame --max-frames 9", "--max-frames has no effect");
+  expect_refused("accuracy --max-frames 9", "--max-frames has no effect");
+  expect_refused("frame --tolerance 0.1", "--tolerance has no effect: only --fidelity auto has one");
+  expect_refused("scenes --variant ezpointer:COUNT_WIDTH=8", "ezpointer has no COUNT_WIDTH to change");
+  expect_refused("scenes --nearest 2", "--nearest has no effect");
+  expect_refused("scenes --surface a.mat", "--surface has no effect");
+  expect_refused("measured a.json --tick 8", "--tick has no effect");
+  const std::string stream = file("one.csv", "acquisition,column,row,timestamp\n0,0,1,1\n");
+  expect_refused("replay " + stream + " --photons 3", "--photons has no effect");
+  expect_refused("replay " + stream + " --tick 3", "--tick has no effect");
+  expect_refused("replay " + stream + " --bin-width 3", "--bin-width has no effect");
+  expect_refused("replay a.npy --bin-width 3 --array-rows 3", "--array-rows has no effect");
+  // The same options where they have one, also for one read-out of several.
+  const std::string small = kSmallScene + " --out out ";
+  EXPECT_EQ(dtof("frame -r sifh,hispointer --guard 3 --scene flat --distance 3 " + small).exit_code, 0);
+  EXPECT_EQ(dtof("frame -r sifh,ezpointer --nb 5 --scene staircase --near 1 --steps 3 " + small).exit_code,
+            0);
+}
+
+TEST_F(Programs, EmptyAndDarkRecordingsAreReplayed) {
+  const std::string empty = file("empty.csv", "acquisition,column,row,timestamp\n");
+  expect_refused("replay " + empty + " --out out", "--array-columns, --array-rows, --acquisitions");
+  for (const char* engine : {"model", "rtl"}) {
+    const Outcome outcome = dtof(fmt::format(
+        "replay {} --array-columns 3 --array-rows 2 -a 100 --engine {} --out {}", empty, engine, engine));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("3 columns x 2 rows, 100 acquisitions"));
+  }
+  for (const Readout readout : kModelReadouts) {
+    const std::string csv = fmt::format("/{}.csv", readout_name(readout));
+    EXPECT_EQ(read_file(path("model") + csv), read_file(path("rtl") + csv)) << csv;
+  }
+  // Dark pixels beyond the last that detected something belong to the array, too.
+  const std::string corner = file("corner.csv", "acquisition,column,row,timestamp\n0,0,0,1\n");
+  EXPECT_THAT(dtof("replay " + corner + " -r sifh --array-columns 4 --array-rows 5 --out out").output,
+              HasSubstr("4 columns x 5 rows"));
+  expect_refused("replay " + corner + " --array-columns 0", "--array-columns");
+  const std::vector<std::size_t> shape = {2, 3, 4};
+  write_npy(path("dark.npy"), shape, std::vector<double>(24, 0.0));
+  EXPECT_EQ(dtof("replay dark.npy --bin-width 100 -r sifh --out dark").exit_code, 0);
+}
+
+TEST_F(Programs, TheContentOfAJsonFileChoosesItsReader) {
+  // Complaints are those of the reader: of captures, and of a log with its "Result_Set".
+  std::filesystem::create_directories(path("tmf8829"));
+  expect_refused("replay " + file("tmf8829/tmf8829.json", " [{}]") + " --out out", "dist_to_plane");
+  expect_refused("replay " + file("tmf8820.json", "\n{}") + " --out out", "Result_Set");
+}
+
+}  // namespace
+}  // namespace dtof
