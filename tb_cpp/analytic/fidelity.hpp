@@ -39,7 +39,7 @@ struct FidelityRequest {
 };
 
 /// The largest such difference that the fast model's sampler makes for a read-out: an upper limit measured by
-/// `dtof-study fidelity` (reports/fidelity.md) over eight scenes and three lights, which says whether it still
+/// `dtof-study fidelity` (reports/fidelity.md) over eight scenes and three lights, which says whether it
 /// holds.
 /// Infinite for a read-out that has no sampler.
 double fast_sampler_difference(Readout readout);
