@@ -13,6 +13,10 @@
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
 # make mutate     small changes of RTL and models: which of them the tests notice (long)
 # make clean      remove build/
+ifneq ($(words $(CURDIR)),1)
+$(error The folder '$(CURDIR)' has a blank in its path, which Make and Verilator cannot handle: move the project)
+endif
+
 BUILD := build/cpp
 SEED ?= 1
 SHARED_DATA ?= ../shared/data
@@ -28,15 +32,13 @@ all: packages sim
 packages:
 	@scripts/install_packages.sh
 
-configure: packages
-	@cmake -S tb_cpp -B $(BUILD) -G Ninja > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+configure: packages | build_folder
+	@cmake -S tb_cpp --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 
-build: | build_folder
-	@$(MAKE) --no-print-directory configure
+build: configure
 	@ninja -C $(BUILD) dtof
 
-study: | build_folder
-	@$(MAKE) --no-print-directory configure
+study: configure
 	@ninja -C $(BUILD) dtof-study
 
 build_folder:
@@ -52,19 +54,16 @@ report: packages
 publish:
 	@scripts/publish.py frame $(if $(wildcard build/tmf8820/summary.md),tmf8820)
 
-test: | build_folder
+test: configure
 	@scripts/install_packages.sh browser
-	@$(MAKE) --no-print-directory configure
 	@ninja -C $(BUILD)
 	@scripts/lint.sh
 	@scripts/run_tests.sh $(BUILD)
 
-lint: | build_folder
-	@$(MAKE) --no-print-directory configure
+lint: configure
 	@scripts/lint.sh --static-analysis
 
-bench: | build_folder
-	@$(MAKE) --no-print-directory configure
+bench: configure
 	@ninja -C $(BUILD) rtl_bench photon_bench
 	@$(BUILD)/bench/rtl_bench
 	@$(BUILD)/bench/photon_bench

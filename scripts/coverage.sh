@@ -8,7 +8,7 @@ build=$folder/cpp
 counts=$folder/counts
 
 mkdir -p "$folder"
-cmake -S tb_cpp -B "$build" -G Ninja -DDTOF_COVERAGE=ON > "$folder/cmake.log" 2>&1 || { cat "$folder/cmake.log"; exit 1; }
+cmake -S tb_cpp --preset coverage > "$folder/cmake.log" 2>&1 || { cat "$folder/cmake.log"; exit 1; }
 ninja -C "$build"
 find "$build" -name '*.gcda' -delete
 rm -rf "$counts" "$folder/hdl" "$folder/html"

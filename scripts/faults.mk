@@ -8,8 +8,7 @@ coverage: | build_folder
 	@$(MAKE) --no-print-directory packages
 	@scripts/coverage.sh
 
-faults: | build_folder
-	@$(MAKE) --no-print-directory configure
+faults: configure
 	@ninja -C $(BUILD) dtof-faults
 	@$(BUILD)/faults/dtof-faults --flips $(FLIPS) --seed $(SEED) --out build/faults
 	@scripts/publish.py faults

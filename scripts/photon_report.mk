@@ -7,8 +7,7 @@ photon-report: study
 	@$(DTOF_STUDY) speed-error --seed $(SEED) --out reports
 	@$(DTOF_STUDY) fidelity --seed $(SEED) --out reports
 
-photon-bench: | build_folder
-	@$(MAKE) --no-print-directory configure
+photon-bench: configure
 	@ninja -C $(BUILD) photon_bench
 	@$(BUILD)/bench/photon_bench --benchmark_out=build/photon_bench.json --benchmark_out_format=json
 	@/usr/bin/python3 scripts/photon_baseline.py --seed $(SEED) --bench build/photon_bench.json

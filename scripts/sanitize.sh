@@ -8,10 +8,10 @@ folder=build/sanitize
 # These run on several threads; the others would only repeat their code.
 threaded_tests='core photon readout analytic run study rtl_pool'
 
-build_and_run() { # name, sanitizers, tests (empty: all)
+build_and_run() { # name, CMake preset, tests (empty: all)
   local build=$folder/$1 tests=$3
   mkdir -p "$folder"
-  cmake -S tb_cpp -B "$build" -G Ninja -DDTOF_SANITIZE="$2" > "$folder/$1_cmake.log" 2>&1 \
+  cmake -S tb_cpp --preset "$2" > "$folder/$1_cmake.log" 2>&1 \
     || { cat "$folder/$1_cmake.log"; exit 1; }
   if [ -z "$tests" ]; then
     ninja -C "$build"
@@ -29,11 +29,11 @@ export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
 export LSAN_OPTIONS=suppressions=$PWD/scripts/lsan_suppressions.txt:print_suppressions=0
 export TSAN_OPTIONS=halt_on_error=1:suppressions=$PWD/scripts/tsan_suppressions.txt
 case ${1:-all} in
-  address) build_and_run address address,undefined "" ;;
-  thread) build_and_run thread thread "$threaded_tests" ;;
+  address) build_and_run address sanitize "" ;;
+  thread) build_and_run thread sanitize-thread "$threaded_tests" ;;
   all)
-    build_and_run address address,undefined ""
-    build_and_run thread thread "$threaded_tests"
+    build_and_run address sanitize ""
+    build_and_run thread sanitize-thread "$threaded_tests"
     ;;
   *)
     echo "usage: sanitize.sh [address|thread|all]" >&2

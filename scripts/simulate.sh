@@ -7,12 +7,28 @@ dtof=$1
 seed=${SEED:-1}
 data=${SHARED_DATA:-../shared/data}
 
-"$dtof" frame --scene room --readout all --engine rtl --verify --seed "$seed" --out build/frame
+# Runs dtof unless it has filled the folder with the same program, arguments and files before.
+run_once() { # folder below build/, arguments
+  local folder=build/$1 inputs=("$dtof") key argument
+  shift
+  for argument in "$@"; do
+    if [ -f "$argument" ]; then inputs+=("$argument"); fi
+  done
+  key=$(sha256sum "${inputs[@]}" && echo "$* seed $seed")
+  if [ -f "$folder/summary.md" ] && [ "$key" = "$(cat "$folder/inputs.txt" 2>/dev/null)" ]; then
+    echo "$folder is up to date"
+    return
+  fi
+  rm -f "$folder/inputs.txt"
+  "$dtof" "$@" --seed "$seed" --out "$folder"
+  echo "$key" > "$folder/inputs.txt"
+}
+
+run_once frame frame --scene room --readout all --engine rtl --verify
 
 captures=$data/sifferman_tmf8820_distance_data.json
 if [ -f "$captures" ]; then
-  "$dtof" replay "$captures" --readout all --engine rtl --verify --photons 500 --shift 2 --seed "$seed" \
-    --out build/tmf8820
+  run_once tmf8820 replay "$captures" --readout all --engine rtl --verify --photons 500 --shift 2
 else
   echo "TMF8820 captures are not here ($captures): replay skipped"
 fi

@@ -29,8 +29,7 @@ synth-test: vectors
 	@cd synth && /usr/bin/python3 -m unittest discover -q -s tests -t .
 
 # The program that writes what the benches in synth/simulation drive and expect.
-vectors: | build_folder
-	@$(MAKE) --no-print-directory configure
+vectors: configure
 	@ninja -C $(BUILD) dtof-vectors > $(BUILD).log || { cat $(BUILD).log; exit 1; }
 
 sim-icarus: vectors

@@ -17,6 +17,7 @@
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
 #include "core/error.hpp"
+#include "core/kept_streams.hpp"
 #include "host/range_converter.hpp"
 #include "io/atomic_file.hpp"
 #include "io/depth_image.hpp"
@@ -220,12 +221,29 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
   return frame;
 }
 
+/// The first frame's photons. Streams are drawn once for all read-outs.
+class FirstFrame {
+ public:
+  FirstFrame(Fidelity fidelity, const PhotonSource& scene, const RunSettings& run)
+      : source_(make_source(fidelity, scene)), streams_(*source_), run_(run) {}
+
+  [[nodiscard]] const StreamSource& source(Readout readout) const {
+    return reads_samples(readout, run_) ? *source_ : streams_;
+  }
+
+ private:
+  std::unique_ptr<StreamSource> source_;
+  KeptStreams streams_;
+  const RunSettings& run_;
+};
+
 /// With --precision, frames until the rmse's interval is narrow enough. Pixels of a frame differ in distance,
 /// frames are equals: the interval comes from the spread of the frames' mean squares.
-MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const TabledReadout& readout,
-                      const FrameOptions& options, const Region& region, const DepthImage& truth) {
+MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstFrame& first,
+                      const TabledReadout& readout, const FrameOptions& options, const Region& region,
+                      const DepthImage& truth) {
   MeasuredFrame frame =
-      measure_once(*make_source(fidelity, scene), scene.model(), readout, options, region, truth);
+      measure_once(first.source(readout.parameters.readout), scene.model(), readout, options, region, truth);
   std::vector<double> mean_squares = {add_errors(truth, frame.error, frame.statistics)};
   if (!options.precision_percent) {
     return frame;
@@ -398,9 +416,10 @@ void run_frame_command(const FrameOptions& options) {
   if (!options.record.empty()) {
     write_stream_csv(options.record, *make_source(fidelity, scene));
   }
+  const FirstFrame first(fidelity, scene, options.run);
   std::vector<MeasuredFrame> frames;
   for (const TabledReadout& readout : tabled) {
-    frames.push_back(measure(scene, fidelity, readout, options, region, truth));
+    frames.push_back(measure(scene, fidelity, first, readout, options, region, truth));
     write_readout_files(frames.back(), region, range, sensor, options);
   }
   write_overview(frames, truth, range, sensor, options);

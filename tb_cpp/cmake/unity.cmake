@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Joins the C++ files that Verilator wrote into DIRECTORY, and REGISTRATION, into one translation unit. What runs
 # once (construction) or on demand (waveform) is not worth the optimiser's time: it would take longer than the rest.
+# model.d has the files that Verilator read, for the build.
 file(GLOB sources ${DIRECTORY}/V*.cpp)
 list(SORT sources)
 set(rare ${sources})
@@ -18,3 +19,8 @@ foreach(source ${rare})
 endforeach()
 string(APPEND text "#pragma GCC pop_options\n#undef trace_init\n#include \"${REGISTRATION}\"\n")
 file(WRITE ${DIRECTORY}/model.cpp "${text}")
+
+file(GLOB read ${DIRECTORY}/V*__ver.d)
+file(READ ${read} rule)
+string(REGEX REPLACE "^.* : " "${DIRECTORY}/model.cpp: " rule "${rule}")
+file(WRITE ${DIRECTORY}/model.d "${rule}")

@@ -14,8 +14,8 @@
 #
 # adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
 # finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
-# ReadoutParameters::defaults(); <read-out> is the command-line name. Verilator runs again when a file of the
-# RTL or the wrapper changes; a model is one C++ file.
+# ReadoutParameters::defaults(); <read-out> is the command-line name. Verilator finds the modules by their names, and
+# runs again when a file that it read changes; a model is one C++ file.
 #
 #   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
 #
@@ -35,8 +35,7 @@ set(VERILATOR_INCLUDE ${VERILATOR_ROOT}/include)
 find_package(Threads REQUIRED)
 
 set(DTOF_HDL_DIR ${PROJECT_ROOT}/hdl CACHE PATH "Folder that holds dtof.f and the SystemVerilog sources")
-file(GLOB_RECURSE DTOF_HDL_FILES CONFIGURE_DEPENDS ${DTOF_HDL_DIR}/*.sv ${DTOF_HDL_DIR}/*.svh ${DTOF_HDL_DIR}/*.f)
-list(FILTER DTOF_HDL_FILES EXCLUDE REGEX "/formal/")
+set(DTOF_HDL_FOLDERS top column engine datapath control memory technology/behavioural)
 
 # Coverage (make coverage): each simulation writes the counts of its RTL (rtl/write_coverage.cpp).
 set(DTOF_COVERAGE_FLAGS "")
@@ -183,6 +182,8 @@ function(dtof_verilate name)
   set(wrapper ${PROJECT_SOURCE_DIR}/rtl/${top}.sv)
   # Relative paths: the model's messages name its sources, and its C++ is to be the same in every checkout.
   file(RELATIVE_PATH hdl ${CMAKE_CURRENT_BINARY_DIR} ${DTOF_HDL_DIR})
+  list(TRANSFORM DTOF_HDL_FOLDERS PREPEND ${hdl}/ OUTPUT_VARIABLE modules)
+  list(TRANSFORM modules REPLACE "^(.+)$" "-y;\\1")
   file(RELATIVE_PATH relative_wrapper ${CMAKE_CURRENT_BINARY_DIR} ${wrapper})
   add_custom_command(
     OUTPUT ${directory}/model.cpp
@@ -191,10 +192,12 @@ function(dtof_verilate name)
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
             --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET --trace-fst --timescale 1ns/1ps
             ${DTOF_COVERAGE_FLAGS}
-            ${overrides} -F ${hdl}/dtof_lint.f -F ${hdl}/dtof.f ${access} ${relative_wrapper}
+            ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/package ${hdl}/package/dtof_pkg.sv ${modules} ${access}
+            ${relative_wrapper}
     COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
             -P ${DTOF_VERILATE_DIR}/unity.cmake
-    DEPENDS ${DTOF_HDL_FILES} ${access} ${wrapper} ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
+    DEPENDS ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
+    DEPFILE ${directory}/model.d
     COMMENT "Verilating ${name}"
     VERBATIM)
   target_sources(${P_TARGET} PRIVATE ${directory}/model.cpp)
