@@ -22,7 +22,6 @@
 #include "io/atomic_file.hpp"
 #include "io/depth_image.hpp"
 #include "io/output_folder.hpp"
-#include "io/ply.hpp"
 #include "io/result_csv.hpp"
 #include "metrics/confidence_interval.hpp"
 #include "metrics/depth.hpp"
@@ -30,6 +29,7 @@
 #include "photon/photon_source.hpp"
 #include "recording/stream_csv.hpp"
 #include "report/colour_png.hpp"
+#include "report/ply.hpp"
 #include "report/table.hpp"
 #include "run/flat_calibration.hpp"
 #include "run/readout_run.hpp"
@@ -228,7 +228,10 @@ class FirstFrame {
       : source_(make_source(fidelity, scene)), streams_(*source_), run_(run) {}
 
   [[nodiscard]] const StreamSource& source(Readout readout) const {
-    return reads_samples(readout, run_) ? *source_ : streams_;
+    if (reads_samples(readout, run_)) {
+      return *source_;
+    }
+    return streams_;
   }
 
  private:

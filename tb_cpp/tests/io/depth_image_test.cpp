@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "io/npy.hpp"
-#include "io_test_support.hpp"
+#include "tests/io/io_test_support.hpp"
 
 namespace dtof {
 namespace {

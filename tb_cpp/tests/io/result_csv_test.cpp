@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "io_test_support.hpp"
+#include "tests/io/io_test_support.hpp"
 
 namespace dtof {
 namespace {

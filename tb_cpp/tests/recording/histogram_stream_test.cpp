@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "io_test_support.hpp"
+#include "io/npy.hpp"
+#include "tests/io/io_test_support.hpp"
 
 namespace dtof {
 namespace {
@@ -227,6 +228,31 @@ TEST(HistogramStream, Refusals) {
   bad.true_distance = {1.0, 2.0};
   test::expect_input_error([&] { HistogramStream(bad, {.photon_budget = 1.0}); },
                            EndsWith("2 true distances for 1 pixels"));
+}
+
+TEST(HistogramCube, FromArrays) {
+  NpyArray array{.shape = {2, 3, 4}, .values = std::vector<double>(24)};
+  for (std::size_t i = 0; i < array.values.size(); ++i) {
+    array.values[i] = static_cast<double>(i);
+  }
+  const HistogramCube cube = histogram_cube(array, 1e-9);
+  EXPECT_EQ(cube.rows, 2);
+  EXPECT_EQ(cube.columns, 3);
+  EXPECT_THAT(cube.pixel(2, 1), ElementsAre(20, 21, 22, 23));
+  EXPECT_EQ(histogram_cube({.shape = {24}, .values = array.values}, 1e-9).bins, 24);
+  EXPECT_EQ(histogram_cube({.shape = {6, 4}, .values = array.values}, 1e-9).columns, 6);
+  EXPECT_EQ(histogram_cube({.shape = {2, 3, 2, 2}, .values = array.values}, 1e-9).rows, 6);
+  array.values[21] = -1;
+  test::expect_input_error([&] { (void)histogram_cube(array, 1e-9); },
+                           "histograms: column 2, row 1, bin 1: count -1 is not in 0..2^53");
+  array.values[21] = std::numeric_limits<double>::quiet_NaN();
+  test::expect_input_error([&] { (void)histogram_cube(array, 1e-9); },
+                           EndsWith("count nan is not in 0..2^53"));
+  array.values[21] = 0;
+  test::expect_input_error([&] { (void)histogram_cube(array, 0.0); },
+                           "histograms: bin width is 0, must be a positive number of seconds");
+  test::expect_input_error([&] { (void)histogram_cube({.shape = {}, .values = {1}}, 1e-9); },
+                           "histograms: the array is a single number, its last axis must be the bins");
 }
 
 }  // namespace

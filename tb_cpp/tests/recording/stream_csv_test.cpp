@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/random.hpp"
-#include "io_test_support.hpp"
+#include "tests/io/io_test_support.hpp"
 
 namespace dtof {
 namespace {

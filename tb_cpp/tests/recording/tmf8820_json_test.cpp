@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io_test_support.hpp"
+#include "tests/io/io_test_support.hpp"
 
 namespace dtof {
 namespace {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "io_test_support.hpp"
 #include "report/colour_map.hpp"
+#include "tests/io/io_test_support.hpp"
 
 namespace dtof {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/ply.hpp"
+#include "report/ply.hpp"
 
 #include <cmath>
 #include <cstring>
 #include <numbers>
 #include <string>
 
-#include "io_test_support.hpp"
+#include "tests/io/io_test_support.hpp"
 
 namespace dtof {
 namespace {

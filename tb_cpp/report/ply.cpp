@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "io/ply.hpp"
+#include "report/ply.hpp"
 
 #include <fmt/format.h>
 
