@@ -9,6 +9,9 @@ mapfile -t sources < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp' 'tb_cp
 clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files clean"
 
+scripts/generate.py --check
+echo "readouts.toml: everything written from it is up to date"
+
 scripts/update_readme.py --check
 echo "README.md: the results table is that of reports/"
 

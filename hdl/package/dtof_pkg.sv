@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Read-out numbers and the sizes that follow from the parameters of a read-out (docs/readouts.md).
+// Read-outs (dtof_readouts.svh) and the sizes that follow from the parameters of a read-out (docs/readouts.md).
 package dtof_pkg;
-
-  // Values of the parameter READOUT.
-  localparam int READOUT_EZPOINTER = 0;
-  localparam int READOUT_HISPOINTER1 = 1;
-  localparam int READOUT_HISPOINTER = 2;
-  localparam int READOUT_SIFH = 3;
-  localparam int READOUT_FIFH = 4;
-  localparam int READOUT_THREESTEPS = 5;
-  localparam int READOUT_PIFH = 6;
-  localparam int READOUT_HISTOGRAM = 7;
 
   // Values of state_o of dtof_array: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
   localparam logic [2:0] STATE_IDLE = 3'd0;
@@ -50,35 +40,7 @@ package dtof_pkg;
     index_width = (count <= 2) ? 1 : $clog2(count);
   endfunction
 
-  function automatic bit has_pointer(input int readout);
-    has_pointer = (readout == READOUT_EZPOINTER) || (readout == READOUT_HISPOINTER1)
-        || (readout == READOUT_HISPOINTER);
-  endfunction
-
-  function automatic bit has_histogram(input int readout);
-    has_histogram = (readout != READOUT_EZPOINTER);
-  endfunction
-
-  // Passes over the stream before the final one.
-  function automatic int coarse_passes(input int readout, input int np, input int nb);
-    case (readout)
-      READOUT_EZPOINTER, READOUT_HISTOGRAM: coarse_passes = 0;
-      READOUT_THREESTEPS: coarse_passes = 3;
-      READOUT_PIFH: coarse_passes = (1 << (np - nb)) - 1;
-      default: coarse_passes = 1;
-    endcase
-  endfunction
-
-  // log2 of the bins that the histogram SRAM holds for a pixel.
-  function automatic int bin_width(input int readout, input int np, input int nb);
-    case (readout)
-      READOUT_EZPOINTER: bin_width = 1;
-      READOUT_FIFH: bin_width = max_of(nb, np - nb);
-      READOUT_THREESTEPS: bin_width = 4;
-      READOUT_HISTOGRAM: bin_width = np;
-      default: bin_width = nb;
-    endcase
-  endfunction
+  `include "dtof_readouts.svh"
 
   // Low bits that step k (0 to 2) of three steps leaves undecided; k = -1: all of them.
   function automatic int step_shift(input int np, input int k);

@@ -7,21 +7,9 @@ import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from . import readouts
 from .errors import FlowError
 from .sram_model import Size
-
-# Numbers of the RTL parameter READOUT (hdl/package/dtof_pkg.sv).
-READOUTS = {"ezpointer": 0, "hispointer1": 1, "hispointer": 2, "sifh": 3, "fifh": 4, "threesteps": 5,
-            "pifh": 6, "histogram": 7}
-POINTER_READOUTS = ("ezpointer", "hispointer1", "hispointer")
-POOL_READOUTS = ("poolpointer", "poolpointer-lean")
-PARAMETERS = ("NP", "NB", "PIXELS_PER_SRAM", "SRAM_NUM", "SLOTS", "COUNT_WIDTH", "POINTER_STEP",
-              "FRACTION_BITS", "CONFIDENCE_WIDTH", "GUARD", "WINDOW_CENTRED", "POINTER_PORTS",
-              "SIGNALLED_CLEAR", "TIME_GATE", "ACQ_WIDTH")
-POOL_PARAMETERS = ("NP", "PIXELS_PER_SRAM", "SRAM_NUM", "SLOTS", "COUNT_WIDTH", "GROUP_SIZE", "DARK_LABELS",
-                   "DARK_SCORE_BITS", "BRIGHT_LABELS", "BRIGHT_SCORE_BITS", "BRIGHT_FROM", "OFFSET_BITS",
-                   "ADVANTAGE_WIDTH", "POINTER_SHIFT", "RIVAL_MOVES", "ENGINE_COLUMNS", "ACQ_WIDTH")
-
 
 @dataclass(frozen=True)
 class Configuration:
@@ -40,16 +28,20 @@ class Configuration:
         return self.parameters[parameter]
 
     @property
+    def described(self) -> readouts.Readout:
+        return readouts.load().readouts[self.readout]
+
+    @property
     def has_pointer(self) -> bool:
-        return self.readout in POINTER_READOUTS
+        return self.described.kind == "pointer"
 
     @property
     def is_pool(self) -> bool:
-        return self.readout in POOL_READOUTS
+        return self.described.kind == "pool"
 
     @property
     def top(self) -> str:
-        return "pool_pointer_array" if self.is_pool else "dtof_array"
+        return self.described.top
 
     @property
     def module_columns(self) -> int:
@@ -70,16 +62,16 @@ class Configuration:
         return self["PIXELS_PER_SRAM"] * self["SRAM_NUM"]
 
     def rtl_parameters(self) -> dict[str, int]:
-        return self.parameters if self.is_pool else {"READOUT": READOUTS[self.readout], **self.parameters}
+        number = self.described.number
+        return self.parameters if number is None else {"READOUT": number, **self.parameters}
 
     def with_parameters(self, name: str, **changes: int) -> Configuration:
         return replace(self, name=name, parameters={**self.parameters, **changes})
 
 
 def bin_width(configuration: Configuration) -> int:
-    """log2 of the bins the histogram SRAM holds for a pixel (dtof_pkg::bin_width)."""
-    np, nb = configuration["NP"], configuration["NB"]
-    return {"fifh": max(nb, np - nb), "threesteps": 4, "histogram": np}.get(configuration.readout, nb)
+    """log2 of the bins the histogram SRAM holds for a pixel; only for read-outs that have one."""
+    return readouts.evaluate(configuration.described.bin_width, configuration.parameters)
 
 
 def memories(configuration: Configuration) -> dict[str, Size]:
@@ -88,20 +80,9 @@ def memories(configuration: Configuration) -> dict[str, Size]:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2 + 1)
         return {"pixels and groups": Size(1, words, configuration.module_columns * pool_word_width(configuration))}
-    pixels, np, nb = (configuration[name] for name in ("PIXELS_PER_SRAM", "NP", "NB"))
-    found: dict[str, Size] = {}
-    if configuration.readout != "ezpointer":
-        found["histogram"] = Size(2, pixels << bin_width(configuration), configuration["COUNT_WIDTH"])
-    if configuration.has_pointer:
-        tag = nb if configuration.readout == "hispointer" else 0
-        word = np + configuration["FRACTION_BITS"] + configuration["CONFIDENCE_WIDTH"] + tag
-        found["pointer"] = Size(configuration["POINTER_PORTS"], pixels, word)
-    elif configuration.readout == "pifh" and nb < np:
-        found["best peak"] = Size(1, pixels, 2 * configuration["COUNT_WIDTH"] + np)
-    elif configuration.readout in ("sifh", "fifh", "threesteps"):
-        peak = np - max(np - 9, 0) if configuration.readout == "threesteps" else nb
-        found["coarse peak"] = Size(1, pixels, peak)
-    return found
+    sizes = {name: Size(*(readouts.evaluate(part, configuration.parameters) for part in size))
+             for name, size in configuration.described.memories.items()}
+    return {name: size for name, size in sizes.items() if size.words > 0}
 
 
 def pool_labels(configuration: Configuration) -> int:
@@ -146,20 +127,16 @@ def load(path: Path) -> dict[str, Configuration]:
         if entry.get("variant_of") and base is None:
             raise FlowError(f"{path}: {name} is a variant of '{entry['variant_of']}', which is not above it")
         readout = entry.get("readout", base.readout if base else "")
-        if readout not in READOUTS and readout not in POOL_READOUTS:
-            raise FlowError(f"{path}: {name} has the unknown read-out '{readout}'; "
-                            f"known: {', '.join([*READOUTS, *POOL_READOUTS])}")
-        pool = readout in POOL_READOUTS
-        defaults = table.get("pool_parameters" if pool else "parameters", {})
+        known_readouts = readouts.load().readouts
+        if readout not in known_readouts:
+            raise FlowError(f"{path}: {name} has the unknown read-out '{readout}'; known: {', '.join(known_readouts)}")
+        defaults = readouts.load().defaults(readout)
         parameters = {**(base.parameters if base else defaults), **entry.get("parameters", {})}
         simulation = {**(base.simulation if base else table.get("simulation", {})), **entry.get("simulation", {})}
-        known = set(POOL_PARAMETERS if pool else PARAMETERS)
-        unknown = sorted((set(parameters) | set(simulation)) - known)
-        missing = sorted(known - set(parameters))
-        if unknown or missing:
-            what = f"unknown parameter {unknown[0]}" if unknown else f"no value for {missing[0]}"
-            raise FlowError(f"{path}: {name} has {what}")
-        found[name] = Configuration(name, readout, entry.get("title", name), parameters,
+        unknown = sorted((set(parameters) | set(simulation)) - set(defaults))
+        if unknown:
+            raise FlowError(f"{path}: {name} has unknown parameter {unknown[0]}")
+        found[name] = Configuration(name, readout, entry.get("title", known_readouts[readout].title), parameters,
                                     entry.get("variant_of", ""), float(entry.get("thesis_mm2", 0)),
                                     entry.get("note", ""), simulation)
     if not found:

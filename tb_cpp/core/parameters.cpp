@@ -14,12 +14,6 @@
 namespace dtof {
 namespace {
 
-struct ReadoutText {
-  std::string_view name;
-  std::string_view title;
-  std::string_view summary;
-};
-
 constexpr int kFewestBits = 3;  // of a timestamp
 constexpr int kMostBits = 16;
 constexpr int kPoolCoarseBits = 5;
@@ -27,24 +21,6 @@ constexpr int kPoolPositionBits = 16;
 constexpr int kPoolRivalBits = 7;
 constexpr int kPoolCellBits = 7;
 constexpr int kPoolBackgroundBits = 6;
-
-constexpr double kFwhmOverRange = 2.0 / 45.0;  // thesis: FWHM 2 ns, T_int 45 ns
-
-constexpr std::array<ReadoutText, kModelReadouts.size()> kTexts = {{
-    {"ezpointer", "ezPointer", "one pointer a pixel steps towards each timestamp: a circular median"},
-    {"hispointer1", "hisPointer v1", "coarse histogram, then the pointer starts at its peak"},
-    {"hispointer", "hisPointer", "coarse histogram, then the pointer sees only a window around its peak"},
-    {"sifh", "SiFH", "coarse histogram, then a fine histogram shifted onto its peak"},
-    {"fifh", "FiFH", "coarse histogram, then a fine histogram of exactly its peak bin"},
-    {"threesteps", "three steps", "three coarse histograms of 8 bins zoom in, then 16 fine bins"},
-    {"pifh", "PiFH", "the range is scanned partition by partition in one small histogram"},
-    {"histogram", "histogram", "all 2^NP bins of every pixel, the classical baseline"},
-    {"poolpointer", "poolPointer",
-     "neighbours share a coarse histogram; each pixel picks and refines a candidate"},
-    {"poolpointer-lean", "poolPointer lean", "poolPointer in half the memory: larger groups, shorter words"},
-}};
-
-const ReadoutText& text(Readout readout) { return kTexts[static_cast<std::size_t>(readout)]; }
 
 // Sentences are word for word those with which the RTL stops elaboration (hdl/lint/parameter_limits.csv).
 void require(bool legal, std::string_view sentence, int value) {
@@ -60,10 +36,6 @@ void require_range(std::string_view name, int value, int lowest, int highest) {
 
 }  // namespace
 
-std::string_view readout_name(Readout readout) { return text(readout).name; }
-std::string_view readout_title(Readout readout) { return text(readout).title; }
-std::string_view readout_summary(Readout readout) { return text(readout).summary; }
-
 Readout parse_readout(std::string_view name) {
   std::vector<std::string_view> known;
   for (const Readout readout : kModelReadouts) {
@@ -75,49 +47,21 @@ Readout parse_readout(std::string_view name) {
   throw InputError(unknown_name("read-out", name, known));
 }
 
-bool is_pointer_readout(Readout readout) {
-  return readout == Readout::kEzPointer || readout == Readout::kHisPointer1 ||
-         readout == Readout::kHisPointer;
-}
-
-bool is_pool_readout(Readout readout) {
-  return readout == Readout::kPoolPointer || readout == Readout::kPoolPointerLean;
-}
-
-bool has_parameter(Readout readout, std::string_view parameter) {
-  if (parameter == "NB") {
-    return readout != Readout::kEzPointer && readout != Readout::kThreeSteps &&
-           readout != Readout::kHistogram && !is_pool_readout(readout);
-  }
-  if (parameter == "COUNT_WIDTH") {
-    return readout != Readout::kEzPointer;
-  }
-  if (parameter == "POINTER_STEP" || parameter == "FRACTION_BITS" || parameter == "CONFIDENCE_WIDTH") {
-    return is_pointer_readout(readout);
-  }
-  if (parameter == "GUARD") {
-    return readout == Readout::kHisPointer;
-  }
-  return parameter == "WINDOW_CENTRED" && readout == Readout::kSifh;
-}
-
 PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
-  PoolPointerParameters parameters;
-  if (readout == Readout::kPoolPointerLean) {
-    parameters = {.group_size = 16,
-                  .dark_labels = 4,
-                  .dark_score_bits = 4,
-                  .bright_labels = 4,
-                  .bright_score_bits = 4,
-                  .bright_from = 0,
-                  .offset_bits = 0,
-                  .count_bits = 4,
-                  .pointer_shift = 4,
-                  .rival_moves = false,
-                  .coarse_share = 12,
-                  .track_share = 16};
-  }
-  return parameters;
+  constexpr int kAnyBits = 10;  // none of these depends on NP
+  const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, kAnyBits); };
+  return {.group_size = value("GROUP_SIZE"),
+          .dark_labels = value("DARK_LABELS"),
+          .dark_score_bits = value("DARK_SCORE_BITS"),
+          .bright_labels = value("BRIGHT_LABELS"),
+          .bright_score_bits = value("BRIGHT_SCORE_BITS"),
+          .bright_from = value("BRIGHT_FROM"),
+          .offset_bits = value("OFFSET_BITS"),
+          .count_bits = value("ADVANTAGE_WIDTH"),
+          .pointer_shift = value("POINTER_SHIFT"),
+          .rival_moves = value("RIVAL_MOVES") != 0,
+          .coarse_share = value("COARSE_SHARE"),
+          .track_share = value("TRACK_SHARE")};
 }
 
 void PoolPointerParameters::validate() const {
@@ -169,28 +113,16 @@ ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
   ReadoutParameters parameters;
   parameters.readout = readout;
   parameters.np = np;
-  parameters.guard = static_cast<int>(std::ceil(kFwhmOverRange * std::ldexp(1.0, np)));
-  switch (readout) {
-    case Readout::kSifh:
-      parameters.nb = np / 2 + 1;
-      break;
-    case Readout::kPifh:
-      parameters.nb = std::min(np, 6);
-      break;
-    case Readout::kHistogram:
-      parameters.nb = np;
-      break;
-    case Readout::kPoolPointer:
-    case Readout::kPoolPointerLean:
-      parameters.nb = kPoolCoarseBits;
-      parameters.count_width = readout == Readout::kPoolPointer ? 7 : 8;
-      parameters.fraction_bits = kPoolPositionBits - np;
-      parameters.pool = PoolPointerParameters::defaults(readout);
-      break;
-    default:
-      parameters.nb = np / 2;
-      break;
-  }
+  const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, np); };
+  parameters.nb = value("NB");
+  parameters.slots = value("SLOTS");
+  parameters.count_width = value("COUNT_WIDTH");
+  parameters.pointer_step = value("POINTER_STEP");
+  parameters.fraction_bits = value("FRACTION_BITS");
+  parameters.confidence_width = value("CONFIDENCE_WIDTH");
+  parameters.guard = value("GUARD");
+  parameters.window_centred = value("WINDOW_CENTRED") != 0;
+  parameters.pool = PoolPointerParameters::defaults(readout);
   return parameters;
 }
 

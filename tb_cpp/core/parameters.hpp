@@ -1,56 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/readout.hpp"
+
 namespace dtof {
 
-/// The read-outs of spec section 3, and poolPointer (docs/poolpointer.md). The numbers are the RTL's READOUT
-/// parameter (hdl/package/dtof_pkg.sv).
-enum class Readout : int {
-  kEzPointer = 0,
-  kHisPointer1 = 1,
-  kHisPointer = 2,
-  kSifh = 3,
-  kFifh = 4,
-  kThreeSteps = 5,
-  kPifh = 6,
-  kHistogram = 7,
-  kPoolPointer = 8,
-  kPoolPointerLean = 9,
-};
-
-/// Those of the thesis.
-inline constexpr std::array<Readout, 8> kAllReadouts = {
-    Readout::kEzPointer, Readout::kHisPointer1, Readout::kHisPointer, Readout::kSifh,
-    Readout::kFifh,      Readout::kThreeSteps,  Readout::kPifh,       Readout::kHistogram};
-
-/// All of them.
-inline constexpr std::array<Readout, 10> kModelReadouts = {
-    Readout::kEzPointer,   Readout::kHisPointer1,    Readout::kHisPointer, Readout::kSifh,
-    Readout::kFifh,        Readout::kThreeSteps,     Readout::kPifh,       Readout::kHistogram,
-    Readout::kPoolPointer, Readout::kPoolPointerLean};
-
-/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram,
-/// poolpointer, poolpointer-lean.
-std::string_view readout_name(Readout readout);
-/// Display name as the thesis writes it, e.g. "hisPointer v1".
-std::string_view readout_title(Readout readout);
-/// One sentence on what the read-out does.
-std::string_view readout_summary(Readout readout);
 /// Throws InputError naming the legal names.
 Readout parse_readout(std::string_view name);
-/// ezPointer and both hisPointers: the result comes from a pointer.
-bool is_pointer_readout(Readout readout);
-/// poolpointer and poolpointer-lean: the pixels of a column help each other.
-bool is_pool_readout(Readout readout);
-/// Whether NB, COUNT_WIDTH, POINTER_STEP, FRACTION_BITS, CONFIDENCE_WIDTH, GUARD or WINDOW_CENTRED can be
-/// chosen for the read-out and changes its result; false for any other name.
-bool has_parameter(Readout readout, std::string_view parameter);
 
 /// Parameters of the pool read-outs beyond those they share with the others (docs/poolpointer.md). Lengths
 /// are fractions of a coarse bin, a 32nd of the range.

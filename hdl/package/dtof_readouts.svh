@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by scripts/generate.py from readouts.toml. A part of dtof_pkg.
+
+  // Values of the parameter READOUT.
+  localparam int READOUT_EZPOINTER = 0;
+  localparam int READOUT_HISPOINTER1 = 1;
+  localparam int READOUT_HISPOINTER = 2;
+  localparam int READOUT_SIFH = 3;
+  localparam int READOUT_FIFH = 4;
+  localparam int READOUT_THREESTEPS = 5;
+  localparam int READOUT_PIFH = 6;
+  localparam int READOUT_HISTOGRAM = 7;
+  localparam int READOUTS = 8;
+`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to 7"
+
+  // Whether the result is a pointer.
+  function automatic bit has_pointer(input int readout);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: has_pointer = 1'b1;
+      default: has_pointer = 1'b0;
+    endcase
+  endfunction
+
+  function automatic bit has_histogram(input int readout);
+    case (readout)
+      READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM: has_histogram = 1'b1;
+      default: has_histogram = 1'b0;
+    endcase
+  endfunction
+
+  // Passes over the stream before the final one.
+  function automatic int coarse_passes(input int readout, input int np, input int nb);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISTOGRAM: coarse_passes = 0;
+      READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH: coarse_passes = 1;
+      READOUT_THREESTEPS: coarse_passes = 3;
+      READOUT_PIFH: coarse_passes = (1 << (np - nb)) - 1;
+      default: coarse_passes = 0;
+    endcase
+  endfunction
+
+  // log2 of the bins that the histogram SRAM holds for a pixel; 1 without one.
+  function automatic int bin_width(input int readout, input int np, input int nb);
+    case (readout)
+      READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_PIFH: bin_width = nb;
+      READOUT_FIFH: bin_width = max_of(nb, (np - nb));
+      READOUT_THREESTEPS: bin_width = 4;
+      READOUT_HISTOGRAM: bin_width = np;
+      default: bin_width = 1;
+    endcase
+  endfunction

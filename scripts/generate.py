@@ -1,0 +1,382 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and the README
+need, from readouts.toml and hdl/dtof.f. --check only says which are stale."""
+
+import ast
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "synth"))
+
+from dtof_synth.errors import FlowError  # noqa: E402
+from dtof_synth.readouts import Expression, Table, evaluate, load  # noqa: E402
+
+WRITTEN = "Written by scripts/generate.py from readouts.toml."
+FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
+POINTER = "pointer"
+PARAMETERS_BEGIN = "<!-- parameters of {}: written by scripts/generate.py -->\n"
+PARAMETERS_END = "<!-- end of parameters -->\n"
+
+
+def translated(expression: Expression, name: Callable[[str], str], function: Callable[[str], str]) -> str:
+    """An expression in SystemVerilog or C++, fully bracketed."""
+
+    def text(node: ast.expr) -> str:
+        match node:
+            case ast.Constant(value=number):
+                return str(number)
+            case ast.Name(id=identifier):
+                return name(identifier)
+            case ast.BinOp(left=left, op=operator, right=right):
+                sign = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.LShift: "<<",
+                        ast.RShift: ">>"}[type(operator)]  # fmt: skip
+                return f"({text(left)} {sign} {text(right)})"
+            case ast.Call(func=ast.Name(id=identifier), args=arguments):
+                return f"{function(identifier)}({', '.join(map(text, arguments))})"
+        raise FlowError(f"readouts.toml: '{expression}' is no expression")
+
+    whole = text(ast.parse(str(expression), mode="eval").body)
+    return whole[1:-1] if whole.startswith("(") and matching(whole) == len(whole) - 1 else whole
+
+
+def matching(text: str) -> int:
+    """Where the bracket closes with which the text begins."""
+    depth = 0
+    for i, letter in enumerate(text):
+        depth += {"(": 1, ")": -1}.get(letter, 0)
+        if depth == 0:
+            return i
+    return -1
+
+
+def systemverilog(table: Table) -> str:
+    readouts = [readout for readout in table.readouts.values() if readout.number is not None]
+    translate = lambda expression: translated(expression, str.lower, lambda name: f"{name}_of")  # noqa: E731
+
+    def cases(function: str, by_text: dict[str, list[str]]) -> list[str]:
+        lines = []
+        for text, names in by_text.items():
+            lines.append(f"      {', '.join(names)}: {function} = {text};")
+        return lines
+
+    def grouped(expressions: dict[str, Expression]) -> dict[str, list[str]]:
+        found: dict[str, list[str]] = {}
+        for name, expression in expressions.items():
+            found.setdefault(translate(expression), []).append(name)
+        return found
+
+    pointers = [readout.constant for readout in readouts if readout.kind == POINTER]
+    histograms = [readout.constant for readout in readouts if readout.bin_width is not None]
+    lines = [
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// {WRITTEN} A part of dtof_pkg.",
+        "",
+        "  // Values of the parameter READOUT.",
+        *(f"  localparam int {readout.constant} = {readout.number};" for readout in readouts),
+        f"  localparam int READOUTS = {len(readouts)};",
+        f'`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to {len(readouts) - 1}"',
+        "",
+        "  // Whether the result is a pointer.",
+        "  function automatic bit has_pointer(input int readout);",
+        "    case (readout)",
+        f"      {', '.join(pointers)}: has_pointer = 1'b1;",
+        "      default: has_pointer = 1'b0;",
+        "    endcase",
+        "  endfunction",
+        "",
+        "  function automatic bit has_histogram(input int readout);",
+        "    case (readout)",
+        f"      {', '.join(histograms)}: has_histogram = 1'b1;",
+        "      default: has_histogram = 1'b0;",
+        "    endcase",
+        "  endfunction",
+        "",
+        "  // Passes over the stream before the final one.",
+        "  function automatic int coarse_passes(input int readout, input int np, input int nb);",
+        "    case (readout)",
+        *cases("coarse_passes", grouped({readout.constant: readout.passes for readout in readouts})),
+        "      default: coarse_passes = 0;",
+        "    endcase",
+        "  endfunction",
+        "",
+        "  // log2 of the bins that the histogram SRAM holds for a pixel; 1 without one.",
+        "  function automatic int bin_width(input int readout, input int np, input int nb);",
+        "    case (readout)",
+        *cases("bin_width", grouped({readout.constant: readout.bin_width for readout in readouts
+                                     if readout.bin_width is not None})),
+        "      default: bin_width = 1;",
+        "    endcase",
+        "  endfunction",
+    ]  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def cpp_header(table: Table) -> str:
+    readouts = list(table.readouts.values())
+    thesis = [readout for readout in readouts if readout.thesis]
+    array = lambda chosen: ",\n    ".join(f"Readout::k{readout.enumerator}" for readout in chosen)  # noqa: E731
+    return f"""// SPDX-License-Identifier: Apache-2.0
+// {WRITTEN}
+// clang-format off
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace dtof {{
+
+/// The read-outs of spec section 3, and poolPointer (docs/poolpointer.md).
+enum class Readout : int {{
+{chr(10).join(f"  k{readout.enumerator} = {i}," for i, readout in enumerate(readouts))}
+}};
+
+/// Those of the thesis.
+inline constexpr std::array<Readout, {len(thesis)}> kAllReadouts = {{
+    {array(thesis)}}};
+
+/// All of them.
+inline constexpr std::array<Readout, {len(readouts)}> kModelReadouts = {{
+    {array(readouts)}}};
+
+/// Command-line name: {", ".join(table.readouts)}.
+std::string_view readout_name(Readout readout);
+/// Display name as the thesis writes it, e.g. "hisPointer v1".
+std::string_view readout_title(Readout readout);
+/// One sentence on what the read-out does.
+std::string_view readout_summary(Readout readout);
+/// The result is a pointer.
+bool is_pointer_readout(Readout readout);
+/// The pixels of a column help each other.
+bool is_pool_readout(Readout readout);
+/// Whether a parameter of the RTL can be chosen for the read-out and changes its result, beside NP and SLOTS;
+/// false for an unknown name.
+bool has_parameter(Readout readout, std::string_view parameter);
+/// What the read-out has where nothing else is said, for a parameter of readouts.toml. Throws std::logic_error
+/// for an unknown name.
+int default_value(Readout readout, std::string_view parameter, int np);
+
+}}  // namespace dtof
+"""
+
+
+def cpp_source(table: Table) -> str:
+    readouts = list(table.readouts.values())
+    translate = lambda expression: translated(expression, str.lower, lambda name: f"std::{name}")  # noqa: E731
+    rows = ",\n".join(
+        f'    {{"{readout.name}", "{readout.title}",\n     "{readout.summary}",\n'
+        f"     {str(readout.kind == POINTER).lower()}, {str(readout.kind == 'pool').lower()},\n"
+        f"     {{{', '.join(quoted(readout.choices))}}}}}"
+        for readout in readouts
+    )
+    most = max(len(readout.choices) for readout in readouts)
+    special = "\n".join(
+        f'  if (readout == Readout::k{readout.enumerator} && parameter == "{name}") {{\n    return {translate(value)};\n  }}'
+        for readout in readouts for name, value in readout.defaults.items()
+    )  # fmt: skip
+    common = "\n".join(
+        f'  if (parameter == "{parameter.name}") {{\n    return {translate(parameter.default)};\n  }}'
+        for parameter in table.parameters.values()
+    )
+    return f"""// SPDX-License-Identifier: Apache-2.0
+// {WRITTEN}
+// clang-format off
+#include "core/readout.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace dtof {{
+namespace {{
+
+struct Description {{
+  std::string_view name;
+  std::string_view title;
+  std::string_view summary;
+  bool pointer;
+  bool pool;
+  std::array<std::string_view, {most}> choices;  // empty ones are none
+}};
+
+constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{{{
+{rows},
+}}}};
+
+const Description& description(Readout readout) {{ return kDescriptions[static_cast<std::size_t>(readout)]; }}
+
+}}  // namespace
+
+std::string_view readout_name(Readout readout) {{ return description(readout).name; }}
+std::string_view readout_title(Readout readout) {{ return description(readout).title; }}
+std::string_view readout_summary(Readout readout) {{ return description(readout).summary; }}
+bool is_pointer_readout(Readout readout) {{ return description(readout).pointer; }}
+bool is_pool_readout(Readout readout) {{ return description(readout).pool; }}
+
+bool has_parameter(Readout readout, std::string_view parameter) {{
+  const auto& choices = description(readout).choices;
+  return !parameter.empty() && std::find(choices.begin(), choices.end(), parameter) != choices.end();
+}}
+
+int default_value(Readout readout, std::string_view parameter, int np) {{
+{special}
+{common}
+  throw std::logic_error("no parameter of this name");
+}}
+
+}}  // namespace dtof
+"""
+
+
+def quoted(names: list[str]) -> list[str]:
+    return [f'"{name}"' for name in names]
+
+
+def cmake(table: Table) -> str:
+    def values(expression: Expression) -> str:
+        by_np = [evaluate(expression, {"NP": np}) for np in range(FEWEST_BITS, MOST_BITS + 1)]
+        return str(by_np[0]) if len(set(by_np)) == 1 else " ".join(map(str, by_np))
+
+    array, pool = table.tops["dtof_array"], table.tops["pool_pointer_array"]
+    common = [name for name in array.parameters if name in pool.parameters and name != "ACQ_WIDTH"]
+    own = lambda top: [name for name in top.parameters if name not in [*common, "ACQ_WIDTH"]]  # noqa: E731
+    lines = [
+        "# SPDX-License-Identifier: Apache-2.0",
+        f"# {WRITTEN}",
+        "# Defaults: one value, or one for each NP from 3 to 16.",
+        f"set(DTOF_READOUTS {' '.join(table.readouts)})",
+        f"set(DTOF_COMMON_PARAMETERS {' '.join(common)})",
+        f"set(DTOF_ARRAY_PARAMETERS {' '.join(own(array))})",
+        f"set(DTOF_POOL_PARAMETERS {' '.join(own(pool))})",
+        f"set(DTOF_POOL_SCHEDULE {' '.join(pool.schedule)})  # the driver's, not the RTL's",
+        *(f"set(DTOF_NUMBER_{readout.name} {readout.number})" for readout in table.readouts.values()
+          if readout.number is not None),
+        *(f"set(DTOF_TOP_{readout.name} {readout.top})" for readout in table.readouts.values()),
+        *(f"set(DTOF_DEFAULT_{name} {values(parameter.default)})" for name, parameter in table.parameters.items()),
+        *(f"set(DTOF_DEFAULT_{name}_{readout.name} {values(value)})" for readout in table.readouts.values()
+          for name, value in readout.defaults.items()),
+    ]  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def file_list() -> tuple[list[str], list[str], list[str]]:
+    """hdl/dtof.f: package, technology, the rest."""
+    files = [line for line in (ROOT / "hdl/dtof.f").read_text().splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
+    part = lambda folder: [name for name in files if name.startswith(folder)]  # noqa: E731
+    rest = [name for name in files if not name.startswith(("package/", "technology/"))]
+    return part("package/"), part("technology/"), rest
+
+
+def replaced_lists(text: str, lists: dict[str, list[str]]) -> str:
+    """YAML with the .sv files of each block of `- <folder>/...` lines replaced; `lists` by the block's first folder."""
+    out: list[str] = []
+    open_block = ""
+    for line in text.splitlines():
+        found = re.fullmatch(r"( *)- ([a-z_]+)/[a-z_/0-9]+\.sv", line)
+        if not found:
+            open_block = ""
+            out.append(line)
+        elif not open_block:
+            open_block = found.group(2)
+            if open_block not in lists:
+                raise FlowError(f"no list of files begins in the folder {open_block}")
+            out += [f"{found.group(1)}- {name}" for name in lists[open_block]]
+    return "\n".join(out) + "\n"
+
+
+def fusesoc(text: str) -> str:
+    package, technology, rest = file_list()
+    return replaced_lists(text, {"technology": technology, "package": [*package, *rest]})
+
+
+def bender(text: str) -> str:
+    package, technology, rest = file_list()
+    return replaced_lists(text, {"technology": technology, "package": package, rest[0].split("/")[0]: rest})
+
+
+def readme(text: str, table: Table) -> str:
+    for top in table.tops.values():
+        begin = PARAMETERS_BEGIN.format(top.name)
+        if text.count(begin) != 1:
+            raise FlowError(f"README.md has no place for the parameters of {top.name}")
+        head, rest = text.split(begin)
+        users = [name for name, readout in table.readouts.items() if readout.top == top.name]
+        lines = ["| parameter | default | meaning |", "|---|---|---|"]
+        if top.name == "dtof_array":
+            numbers = ", ".join(f"{table.readouts[name].number} {table.readouts[name].title}" for name in users)
+            lines.append(f"| `READOUT` | 0 | {numbers} |")
+        for name in top.parameters:
+            values: dict[int, list[str]] = {}
+            for user in users:
+                values.setdefault(table.defaults(user)[name], []).append(table.readouts[user].title)
+            usual = max(values, key=lambda value: len(values[value]))
+            others = [f"{value} for {' and '.join(titles)}" for value, titles in values.items() if value != usual]
+            lines.append(f"| `{name}` | {'; '.join([str(usual), *others])} | {table.parameters[name].help} |")
+        text = head + begin + "\n".join(lines) + "\n" + PARAMETERS_END + rest.split(PARAMETERS_END, 1)[1]
+    return text
+
+
+def check_top(name: str, text: str, table: Table) -> list[str]:
+    """What differs between a top module's own parameters and the table's: the module is a contract of its own, written by
+    hand."""
+    declared = re.findall(r"^    parameter int (\w+) = (\w+(?:::\w+)?),", text, re.MULTILINE)
+    own = {parameter: value for parameter, value in declared if parameter != "READOUT"}
+    np = int(table.parameters["NP"].default)
+    described = {parameter: str(evaluate(table.parameters[parameter].default, {"NP": np}))
+                 for parameter in table.tops[name].parameters}  # fmt: skip
+    failures = [f"{parameter} is only in {place}" for place, here, there in
+                ((f"hdl/top/{name}.sv", own, described), ("readouts.toml", described, own))
+                for parameter in here if parameter not in there]  # fmt: skip
+    # A default may be that of one of the top's read-outs.
+    for parameter in own.keys() & described.keys():
+        legal = {described[parameter]} | {
+            str(table.default(readout.name, parameter, np)) for readout in table.readouts.values() if readout.top == name
+        }
+        if own[parameter] not in legal:
+            failures.append(f"{parameter} is {own[parameter]} in hdl/top/{name}.sv, {described[parameter]} in readouts.toml")
+    return failures
+
+
+def main() -> int:
+    if sys.argv[1:] not in ([], ["--check"]):
+        print(f"{__doc__}\nusage: generate.py [--check]", file=sys.stderr)
+        return 2
+    check = "--check" in sys.argv
+    try:
+        table = load()
+        current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
+                   ("hdl/dtof.core", "hdl/Bender.yml", "README.md")}  # fmt: skip
+        files = {
+            "hdl/package/dtof_readouts.svh": systemverilog(table),
+            "tb_cpp/core/readout.hpp": cpp_header(table),
+            "tb_cpp/core/readout.cpp": cpp_source(table),
+            "tb_cpp/cmake/readouts.cmake": cmake(table),
+            "hdl/dtof.core": fusesoc(current["hdl/dtof.core"]),
+            "hdl/Bender.yml": bender(current["hdl/Bender.yml"]),
+            "README.md": readme(current["README.md"], table),
+        }
+        differences = [difference for top in table.tops
+                       for difference in check_top(top, (ROOT / f"hdl/top/{top}.sv").read_text(encoding="utf-8"), table)]
+    except (FlowError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    for difference in differences:
+        print(f"error: {difference}", file=sys.stderr)
+    if differences:
+        return 1
+    stale = [name for name, text in files.items()
+             if not (ROOT / name).exists() or (ROOT / name).read_text(encoding="utf-8") != text]  # fmt: skip
+    if check:
+        for name in stale:
+            print(f"error: {name} is stale: run scripts/generate.py", file=sys.stderr)
+        return 1 if stale else 0
+    for name in stale:
+        (ROOT / name).write_text(files[name], encoding="utf-8")
+        print(f"{name} written")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

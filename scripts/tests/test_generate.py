@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
+
+import generate  # noqa: E402
+from dtof_synth import readouts  # noqa: E402
+from dtof_synth.errors import FlowError  # noqa: E402
+
+TEXT = readouts.PATH.read_text(encoding="utf-8")
+FIRST_PHOTON = """
+[readout.firstphoton]
+number = 8
+title = "first photon"
+enumerator = "FirstPhoton"
+summary = "the code of the first detection"
+kind = "histogram"
+choices = []
+passes = "NP - NB"
+"""
+
+
+class Expressions(unittest.TestCase):
+    def test_values(self):
+        self.assertEqual(readouts.evaluate("(1 << (NP - NB)) - 1", {"NP": 10, "NB": 6}), 15)
+        self.assertEqual(readouts.evaluate("max(NB, NP - NB) * 2 + 7 / 2", {"NP": 10, "NB": 3}), 17)
+        self.assertEqual(readouts.evaluate(4, {}), 4)
+
+    def test_refusals(self):
+        for text in ("NX + 1", "NP +", "__import__(1)", "NP ** 2", "'a'"):
+            with self.subTest(text=text), self.assertRaisesRegex(FlowError, "no expression"):
+                readouts.evaluate(text, {"NP": 10})
+
+    def test_translations_mean_the_same(self):
+        names = (str.lower, lambda name: f"{name}_of")
+        self.assertEqual(generate.translated("(1 << (NP - NB)) - 1", *names), "(1 << (np - nb)) - 1")
+        self.assertEqual(generate.translated("max(NB, NP / 2)", *names), "max_of(nb, (np / 2))")
+        self.assertEqual(generate.translated("(NP - 1) * (NB - 1)", *names), "(np - 1) * (nb - 1)")
+
+
+class Descriptions(unittest.TestCase):
+    def test_a_new_read_out_is_in_every_list(self):
+        table = readouts.parse(TEXT + FIRST_PHOTON)
+        self.assertIn("localparam int READOUT_FIRSTPHOTON = 8;", generate.systemverilog(table))
+        self.assertIn("READOUT must be 0 to 8", generate.systemverilog(table))
+        self.assertIn("READOUT_FIRSTPHOTON: coarse_passes = np - nb;", generate.systemverilog(table))
+        self.assertIn("kFirstPhoton = 10,", generate.cpp_header(table))
+        self.assertIn('"first photon"', generate.cpp_source(table))
+        self.assertIn("set(DTOF_NUMBER_firstphoton 8)", generate.cmake(table))
+        self.assertIn("8 first photon |", generate.readme((ROOT / "README.md").read_text(), table))
+
+    def test_a_changed_default_is_in_every_list(self):
+        table = readouts.parse(TEXT.replace('defaults.NB = "min(NP, 6)"', 'defaults.NB = "min(NP, 7)"'))
+        self.assertIn("return std::min(np, 7);", generate.cpp_source(table))
+        self.assertIn("set(DTOF_DEFAULT_NB_pifh 3 4 5 6 7 7", generate.cmake(table))
+
+    def test_bad_descriptions_are_refused(self):
+        for change, message in (
+            (("number = 6", "number = 5"), "each once"),
+            (("number = 6", "number = 9"), "numbers must be"),
+            (('kind = "pool"', 'kind = "puddle"'), "kind 'puddle'"),
+            (('choices = ["COUNT_WIDTH"]', 'choices = ["COUNTS"]'), "unknown parameter COUNTS"),
+            (('top = "pool_pointer_array"', 'top = "nowhere"'), "no top 'nowhere'"),
+            (('top = "pool_pointer_array"', ""), "have a number"),
+            (("passes = 0", "passages = 0"), "passages"),
+            (('"NP / 2"', '"NQ / 2"'), "no expression"),
+        ):
+            with self.subTest(change=change), self.assertRaisesRegex(FlowError, message):
+                readouts.parse(TEXT.replace(*change, 1))
+
+    def test_parameters_of_the_tops_are_compared(self):
+        table = readouts.load()
+        text = (ROOT / "hdl/top/dtof_array.sv").read_text()
+        self.assertEqual(generate.check_top("dtof_array", text, table), [])
+        self.assertEqual(
+            generate.check_top("dtof_array", text.replace("COUNT_WIDTH = 10,", "COUNT_WIDTH = 11,"), table),
+            ["COUNT_WIDTH is 11 in hdl/top/dtof_array.sv, 10 in readouts.toml"],
+        )
+        self.assertEqual(
+            generate.check_top("dtof_array", text.replace("parameter int SLOTS", "parameter int SLOT"), table),
+            ["SLOT is only in hdl/top/dtof_array.sv", "SLOTS is only in readouts.toml"],
+        )
+
+
+class FileLists(unittest.TestCase):
+    def test_lists_are_replaced_and_nothing_else(self):
+        lists = {"a": ["a/x.sv", "a/y.sv"], "b": ["b/z.sv"]}
+        text = "top:\n  - a/old.sv\n  - a/older.sv\nnext: 1\n    - b/q.sv\n"
+        self.assertEqual(generate.replaced_lists(text, lists),
+                         "top:\n  - a/x.sv\n  - a/y.sv\nnext: 1\n    - b/z.sv\n")
+        with self.assertRaisesRegex(FlowError, "folder c"):
+            generate.replaced_lists("  - c/q.sv\n", lists)
+
+    def test_core_and_bender_have_every_file(self):
+        package, technology, rest = generate.file_list()
+        self.assertEqual(len(package), 1)
+        for name in ("hdl/dtof.core", "hdl/Bender.yml"):
+            text = (ROOT / name).read_text()
+            for file in [*package, *technology, *rest]:
+                self.assertEqual(text.count(f"- {file}\n"), 1, f"{file} in {name}")
+
+
+if __name__ == "__main__":
+    unittest.main()

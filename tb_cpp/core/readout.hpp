@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by scripts/generate.py from readouts.toml.
+// clang-format off
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace dtof {
+
+/// The read-outs of spec section 3, and poolPointer (docs/poolpointer.md).
+enum class Readout : int {
+  kEzPointer = 0,
+  kHisPointer1 = 1,
+  kHisPointer = 2,
+  kSifh = 3,
+  kFifh = 4,
+  kThreeSteps = 5,
+  kPifh = 6,
+  kHistogram = 7,
+  kPoolPointer = 8,
+  kPoolPointerLean = 9,
+};
+
+/// Those of the thesis.
+inline constexpr std::array<Readout, 8> kAllReadouts = {
+    Readout::kEzPointer,
+    Readout::kHisPointer1,
+    Readout::kHisPointer,
+    Readout::kSifh,
+    Readout::kFifh,
+    Readout::kThreeSteps,
+    Readout::kPifh,
+    Readout::kHistogram};
+
+/// All of them.
+inline constexpr std::array<Readout, 10> kModelReadouts = {
+    Readout::kEzPointer,
+    Readout::kHisPointer1,
+    Readout::kHisPointer,
+    Readout::kSifh,
+    Readout::kFifh,
+    Readout::kThreeSteps,
+    Readout::kPifh,
+    Readout::kHistogram,
+    Readout::kPoolPointer,
+    Readout::kPoolPointerLean};
+
+/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram, poolpointer, poolpointer-lean.
+std::string_view readout_name(Readout readout);
+/// Display name as the thesis writes it, e.g. "hisPointer v1".
+std::string_view readout_title(Readout readout);
+/// One sentence on what the read-out does.
+std::string_view readout_summary(Readout readout);
+/// The result is a pointer.
+bool is_pointer_readout(Readout readout);
+/// The pixels of a column help each other.
+bool is_pool_readout(Readout readout);
+/// Whether a parameter of the RTL can be chosen for the read-out and changes its result, beside NP and SLOTS;
+/// false for an unknown name.
+bool has_parameter(Readout readout, std::string_view parameter);
+/// What the read-out has where nothing else is said, for a parameter of readouts.toml. Throws std::logic_error
+/// for an unknown name.
+int default_value(Readout readout, std::string_view parameter, int np);
+
+}  // namespace dtof
