@@ -81,8 +81,6 @@ LISTED = (
            says="the cheapest model for a stream, a sampler and a sweep"),
     Report("fidelity", "Photon models: what the fast one changes", "photon-report", "fidelity.md",
            says="figures that `--fidelity auto` chooses by"),
-    Report("stability", "Photon models: numerical stability", "photon-report", "stability.md",
-           says="errors over extreme inputs"),
     Report("mutants", "Mutants", "mutate", "mutants.md", says="whether the tests notice small changes"),
     Report("coverage", "Coverage of the tests", "coverage", "coverage.md",
            says="lines, branches and toggles that the tests reach"),
