@@ -10,8 +10,11 @@
   localparam int READOUT_THREESTEPS = 5;
   localparam int READOUT_PIFH = 6;
   localparam int READOUT_HISTOGRAM = 7;
-  localparam int READOUTS = 8;
 `define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to 7"
+
+  function automatic bit is_readout(input int readout);
+    is_readout = readout >= 0 && readout < 8;
+  endfunction
 
   // Whether the result is a pointer.
   function automatic bit has_pointer(input int readout);

@@ -53,7 +53,7 @@ module dtof_array #(
     output logic                   result_tlast_o
 );
 
-  `DTOF_REQUIRE(g_illegal_readout, READOUT >= 0 && READOUT < dtof_pkg::READOUTS, `DTOF_READOUT_RANGE)
+  `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT), `DTOF_READOUT_RANGE)
   `DTOF_REQUIRE(g_illegal_np, NP >= 3 && NP <= 16, "dtof_array: NP must be 3 to 16")
   `DTOF_REQUIRE(g_illegal_nb, NB >= 1 && NB <= NP, "dtof_array: NB must be 1 to NP")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "dtof_array: PIXELS_PER_SRAM must be at least 1")
