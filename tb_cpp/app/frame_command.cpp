@@ -18,28 +18,26 @@
 #include "command_line/own_map.hpp"
 #include "core/error.hpp"
 #include "core/kept_streams.hpp"
+#include "frame/flat_calibration.hpp"
+#include "frame/frame_maps.hpp"
 #include "host/range_converter.hpp"
 #include "io/atomic_file.hpp"
 #include "io/depth_image.hpp"
 #include "io/output_folder.hpp"
 #include "io/result_csv.hpp"
 #include "metrics/confidence_interval.hpp"
-#include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
 #include "recording/stream_csv.hpp"
 #include "report/colour_png.hpp"
 #include "report/ply.hpp"
 #include "report/table.hpp"
-#include "run/flat_calibration.hpp"
 #include "run/readout_run.hpp"
 #include "run/region.hpp"
 #include "scene/scene.hpp"
 
 namespace dtof {
 namespace {
-
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 
 struct FrameOptions {
   ReadoutOptions readout;
@@ -151,26 +149,8 @@ void check_memory(const SensorModel& sensor, int rows) {
 }
 
 DepthImage true_depth(const TargetMap& targets, const Region& region) {
-  DepthImage image{static_cast<int>(region.columns.size()), region.rows.count, {}};
-  for (int row = region.rows.first; row < region.rows.first + region.rows.count; ++row) {
-    for (const int column : region.columns) {
-      const PixelTarget& target = targets.at(column, row);
-      image.metres.push_back(target.returns_signal() ? static_cast<float>(target.depth_m) : kUnknown);
-    }
-  }
-  return image;
-}
-
-/// Adds a frame's errors; returns its mean square, m2.
-double add_errors(const DepthImage& truth, const DepthImage& error, ErrorStatistics& all) {
-  RunningMoments errors;
-  for (std::size_t i = 0; i < truth.metres.size(); ++i) {
-    if (!std::isnan(truth.metres[i])) {
-      all.add(truth.metres[i], truth.metres[i] + error.metres[i]);
-      errors.add(error.metres[i]);
-    }
-  }
-  return errors.mean_square();
+  return {static_cast<int>(region.columns.size()), region.rows.count,
+          true_depth(targets, region.columns, region.rows)};
 }
 
 /// A read-out and the look-up table that `--table` gives it.
@@ -205,19 +185,10 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
   const ReadoutParameters& parameters = readout.parameters;
   frame.parameters = parameters;
   frame.run = run_readout(source, parameters, options.run, region, options.command_line);
-  const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
-  frame.depth = truth;
-  frame.error = truth;
-  for (std::size_t i = 0; i < truth.metres.size(); ++i) {
-    const double position = code_position(frame.run.results[i], parameters.fraction_bits);
-    const double before = scale.depth(position);
-    const auto depth = static_cast<float>(readout.table ? readout.table->distance(position) : before);
-    if (!std::isnan(truth.metres[i])) {
-      frame.before.add(before - truth.metres[i]);
-    }
-    frame.depth.metres[i] = std::max(depth, 0.0F);
-    frame.error.metres[i] = depth - truth.metres[i];
-  }
+  FrameMaps maps = frame_maps(frame.run.results, parameters, sensor, readout.table, truth.metres);
+  frame.before = maps.before;
+  frame.depth = {truth.width, truth.height, std::move(maps.depth)};
+  frame.error = {truth.width, truth.height, std::move(maps.error)};
   return frame;
 }
 
@@ -247,7 +218,7 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstF
                       const DepthImage& truth) {
   MeasuredFrame frame =
       measure_once(first.source(readout.parameters.readout), scene.model(), readout, options, region, truth);
-  std::vector<double> mean_squares = {add_errors(truth, frame.error, frame.statistics)};
+  std::vector<double> mean_squares = {add_errors(truth.metres, frame.error.metres, frame.statistics)};
   if (!options.precision_percent) {
     return frame;
   }
@@ -263,7 +234,7 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstF
     const MeasuredFrame other = measure_once(*next, scene.model(), readout, options, region, truth);
     frame.run.seconds += other.run.seconds;
     frame.before.merge(other.before);
-    mean_squares.push_back(add_errors(truth, other.error, frame.statistics));
+    mean_squares.push_back(add_errors(truth.metres, other.error.metres, frame.statistics));
     ++frame.frames;
   }
   return frame;
@@ -297,29 +268,16 @@ void write_readout_files(const MeasuredFrame& frame, const Region& region, const
 
 Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
   const bool tables = options.table != table_rule_name(TableRule::kNone);
-  std::vector<std::string> head = {"read-out", "rmse mm", "bias mm"};
-  if (tables) {
-    head.emplace_back("bias before table mm");
-  }
-  head.insert(head.end(), {"above 3 %", "above 10 %", "cycles"});
+  std::vector<std::string> head = figure_names(tables);
+  head.insert(head.begin(), "read-out");
+  head.emplace_back("cycles");
   if (options.precision_percent) {
     head.emplace_back("frames");
   }
   Table table(head);
   for (const MeasuredFrame& frame : frames) {
-    std::vector<std::string> row = {std::string(readout_title(frame.parameters.readout))};
-    if (frame.statistics.count() == 0) {
-      row.insert(row.end(), tables ? 5 : 4, "-");
-    } else {
-      const ErrorSummary summary = frame.statistics.summary();
-      row.insert(row.end(),
-                 {fmt::format("{:.0f}", summary.rmse_m * 1e3), fmt::format("{:.0f}", summary.bias_m * 1e3)});
-      if (tables) {
-        row.push_back(fmt::format("{:.0f}", frame.before.mean() * 1e3));
-      }
-      row.insert(row.end(), {fmt::format("{:.2f} %", summary.share_above_3_percent * 100.0),
-                             fmt::format("{:.2f} %", summary.share_above_10_percent * 100.0)});
-    }
+    std::vector<std::string> row = figure_values(frame.statistics, frame.before, tables);
+    row.insert(row.begin(), std::string(readout_title(frame.parameters.readout)));
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
     if (options.precision_percent) {
       row.push_back(fmt::format("{}{}", frame.frames, frame.precision_reached ? "" : "+"));

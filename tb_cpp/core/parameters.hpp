@@ -51,6 +51,9 @@ struct PoolSchedule {
   PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters);
 };
 
+/// Rows of a column of the thesis's array, and of the compiled ones.
+inline constexpr int kArrayRows = 160;
+
 /// Digital time gate: a timestamp x with begin <= x < end counts, any other is no detection. Codes, 0 ..
 /// 2^NP - 1; with end <= begin nothing counts.
 struct CodeGate {

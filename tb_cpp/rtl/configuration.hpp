@@ -20,12 +20,12 @@ struct ResultAddress {
 /// Parameters of one compiled array: pool_pointer_array for the pool read-outs, dtof_array for the others.
 struct RtlConfiguration {
   ReadoutParameters
-      parameters;             ///< a pool read-out's shares are not compiled: the driver writes the schedule
-  int pixels_per_sram = 160;  ///< PIXELS_PER_SRAM, rows of a column
-  int sram_num = 8;           ///< SRAM_NUM, columns
-  int pointer_ports = 2;      ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
-  bool signalled_clear = false;  ///< SIGNALLED_CLEAR (histogram read-outs)
-  int engine_columns = 34;       ///< ENGINE_COLUMNS, columns that share an engine (pool read-outs)
+      parameters;  ///< a pool read-out's shares are not compiled: the driver writes the schedule
+  int pixels_per_sram = kArrayRows;  ///< PIXELS_PER_SRAM, rows of a column
+  int sram_num = 8;                  ///< SRAM_NUM, columns
+  int pointer_ports = 2;             ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
+  bool signalled_clear = false;      ///< SIGNALLED_CLEAR (histogram read-outs)
+  int engine_columns = 34;           ///< ENGINE_COLUMNS, columns that share an engine (pool read-outs)
 
   /// E.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".
   [[nodiscard]] std::string to_string() const;

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/pixel_sampler.hpp"
 #include "core/progress.hpp"
-#include "core/row_region.hpp"
+#include "frame/array_rows.hpp"
 #include "readout/run_frame.hpp"
 #include "rtl/error.hpp"
 #include "rtl/registry.hpp"
@@ -21,28 +21,6 @@
 #include "scoreboard/scoreboard.hpp"
 
 namespace dtof {
-namespace {
-
-/// What a read-out's array sees of a region, the same for either engine.
-struct ArrayRows {
-  std::unique_ptr<StreamSource> source;
-  int first;        ///< sensor row of the source's row 0
-  RowRange region;  ///< the region's rows in the source
-};
-
-/// Pixels of a pool read-out look at their neighbours, so its arrays are whole: of as many rows as the
-/// compiled ones, those outside the region dark. All other pixels are independent, and the region's rows are
-/// enough.
-ArrayRows array_rows(const StreamSource& source, RowRange region, Readout readout) {
-  if (!is_pool_readout(readout)) {
-    return {row_region(source, region), region.first, {.first = 0, .count = region.count}};
-  }
-  const int rows = std::max(source.rows(), RtlConfiguration().pixels_per_sram);
-  return {dark_except(source, region, rows), 0, region};
-}
-
-}  // namespace
-
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
                   const RunSettings& options, const Region& region) {
   if (!options.rtl()) {
@@ -78,11 +56,7 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
   Progress progress(fmt::format("{} ({})", readout_title(parameters.readout), options.engine),
                     columns.size());
   const auto finish = [&](std::vector<PixelResult> results) {
-    const auto first = static_cast<std::ptrdiff_t>(columns.size()) * array.region.first;
-    const auto last = first + static_cast<std::ptrdiff_t>(columns.size()) * array.region.count;
-    results.erase(results.begin() + last, results.end());
-    results.erase(results.begin(), results.begin() + first);
-    run.results = std::move(results);
+    run.results = array.read(std::move(results));
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   if (options.rtl()) {

@@ -247,8 +247,6 @@ std::unique_ptr<StreamSource> make_exact_source(const SensorModel& sensor, const
 
 namespace {
 
-constexpr int kArrayRows = 160;  // of the thesis's array, and thus of the RTL
-
 ColumnStream picked_rows(const ColumnStream& stream, int first, int count, int pitch) {
   ColumnStream picked;
   for (int i = 0; i < count; ++i) {

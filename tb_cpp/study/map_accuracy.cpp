@@ -11,9 +11,9 @@
 #include <span>
 
 #include "core/error.hpp"
+#include "frame/flat_calibration.hpp"
 #include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
-#include "run/flat_calibration.hpp"
 #include "run/readout_run.hpp"
 #include "run/region.hpp"
 

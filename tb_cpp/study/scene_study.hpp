@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "core/parameters.hpp"
+#include "frame/flat_calibration.hpp"
 #include "host/range_converter.hpp"
 #include "metrics/depth.hpp"
 #include "photon/sensor_model.hpp"
 #include "photon/target_map.hpp"
-#include "run/flat_calibration.hpp"
 
 namespace dtof {
 

@@ -14,12 +14,12 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/physical_constants.hpp"
+#include "frame/flat_calibration.hpp"
 #include "host/range_converter.hpp"
 #include "host/walk_correction.hpp"
 #include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
 #include "readout/model.hpp"
-#include "run/flat_calibration.hpp"
 
 namespace dtof {
 namespace {

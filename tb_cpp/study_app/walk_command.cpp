@@ -12,11 +12,11 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "frame/flat_calibration.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
 #include "report/plot.hpp"
 #include "report/table.hpp"
-#include "run/flat_calibration.hpp"
 #include "study/walk_study.hpp"
 #include "study_app/commands.hpp"
 

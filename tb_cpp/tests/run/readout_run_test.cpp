@@ -65,7 +65,6 @@ TEST(ReadoutRun, APixelsResultDoesNotDependOnTheRegion) {
 }
 
 TEST(ReadoutRun, APoolReadoutsArrayIsWholeAndDarkOutsideTheRegion) {
-  constexpr int kArrayRows = 160;
   const PhotonSource source = scene();
   const Region region{.columns = {2}, .rows = {.first = 3, .count = 6}};
   const ColumnStream lit = source.column_rows(2, region.rows);

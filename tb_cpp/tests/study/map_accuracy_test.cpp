@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "frame/flat_calibration.hpp"
 #include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
-#include "run/flat_calibration.hpp"
 #include "run/readout_run.hpp"
 #include "sensor/preset.hpp"
 

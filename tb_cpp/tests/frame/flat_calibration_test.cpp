@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run/flat_calibration.hpp"
+#include "frame/flat_calibration.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
