@@ -11,6 +11,7 @@
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
 # make bench      speed of RTL, models and photon model
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
+# make playground the C++ models in a page (scripts/playground.mk)
 # make mutate     small changes of RTL and models: which of them the tests notice (long)
 # make clean      remove build/
 ifneq ($(words $(CURDIR)),1)
@@ -81,3 +82,4 @@ clean:
 -include scripts/sensor_effects.mk
 -include scripts/mutate.mk
 -include scripts/hostile.mk
+-include scripts/playground.mk

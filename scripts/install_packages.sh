@@ -19,7 +19,9 @@ for purpose in "$@"; do
   case $purpose in
     fuzz) packages+=(clang libclang-rt-dev) ;;  # libFuzzer, for make fuzz only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
-    *) echo "error: $purpose: packages for fuzz and browser are known" >&2; exit 2 ;;
+    playground)  # the models as WebAssembly, for make playground only
+      packages+=(emscripten librange-v3-dev) ;;
+    *) echo "error: $purpose: packages for fuzz, browser and playground are known" >&2; exit 2 ;;
   esac
 done
 

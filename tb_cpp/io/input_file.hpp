@@ -9,7 +9,7 @@ namespace dtof {
 
 /// Longest file that is read, and most that gzip data may unpack to: a few kilobytes of it can hold
 /// terabytes.
-inline constexpr std::size_t kLongestFile = std::size_t{1} << 32U;
+inline constexpr std::size_t kLongestFile = std::size_t{1} << (sizeof(std::size_t) > 4 ? 32U : 31U);
 inline constexpr std::size_t kLongestUnpacked = std::size_t{1} << 28U;
 
 /// Whole contents of a file. Throws InputError "<path>: <reason>" when it is missing, unreadable, a

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs beside the page, behind the text of the WebAssembly module: a request comes, progress and frames go.
+"use strict";
+
+const PROGRESS_MS = 100;
+
+createModels().then((models) => {
+  const call = (name, result, types = [], values = []) => models.ccall(`playground_${name}`, result, types, values);
+  const attempt = (name, types = [], values = []) => {
+    if (!call(name, "number", types, values)) {
+      throw new Error(call("error", "string"));
+    }
+  };
+  const floats = (name, count) => {
+    const begin = call(name, "number") / 4;
+    return models.HEAPF32.slice(begin, begin + count);
+  };
+
+  function run(text, readouts) {
+    attempt("begin", ["string"], [text]);
+    const columns = call("columns", "number");
+    const rows = call("rows", "number");
+    const pixels = columns * rows;
+    postMessage({ what: "scene", columns, rows, truth: floats("truth", pixels),
+      reflectivity: floats("reflectivity", pixels) });
+    attempt("calibrate");
+    let told = 0;
+    for (let column = 0; column < columns; ++column) {
+      attempt("read_column", ["number"], [column]);
+      if (performance.now() - told > PROGRESS_MS) {
+        told = performance.now();
+        postMessage({ what: "progress", done: column + 1, of: columns });
+      }
+    }
+    readouts.forEach((readout, index) => {
+      attempt("frame", ["number"], [index]);
+      const depth = floats("depth", pixels);
+      const error = floats("error_map", pixels);
+      const begin = call("results", "number") / 2;
+      const results = models.HEAPU16.slice(begin, begin + 3 * pixels);
+      const figures = call("figures", "string").split("\n");
+      postMessage({ what: "frame", readout, depth, error, results, figures });
+    });
+    postMessage({ what: "done" });
+  }
+
+  onmessage = (event) => {
+    try {
+      run(event.data.text, event.data.readouts);
+    } catch (error) {
+      postMessage({ what: "failed", sentence: error instanceof Error ? error.message : String(error) });
+    }
+  };
+  postMessage({ what: "ready", catalogue: call("catalogue", "string") });
+}).catch((error) => postMessage({ what: "failed", sentence: `The models did not start: ${error}` }));

@@ -1,0 +1,204 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The page of `make playground` in headless Chromium beside `dtof frame`: every code and figure equal.
+
+The commands compared with are those that the page shows. Screenshots are left in build/playground/test/.
+"""
+
+import csv
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+from tests.browser import Browser
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGE = ROOT / "build" / "playground" / "index.html"
+SCREENSHOTS = ROOT / "build" / "playground" / "test"
+SECONDS = 300  # for a frame: the machine may be busy
+
+Pixel = tuple[int, ...]
+
+
+class Frame:
+    """What one run came to: code, fraction and confidence of each pixel, and figures, by read-out."""
+
+    def __init__(self) -> None:
+        self.pixels: dict[str, list[Pixel]] = {}
+        self.figures: dict[str, list[str]] = {}
+
+    def differences(self, other: "Frame") -> list[str]:
+        if self.pixels.keys() != other.pixels.keys():
+            return [f"read-outs {sorted(self.pixels)} and {sorted(other.pixels)}"]
+        found = []
+        for name, pixels in self.pixels.items():
+            others = other.pixels[name]
+            if len(pixels) != len(others):
+                found.append(f"{name}: {len(pixels)} and {len(others)} pixels")
+                continue
+            wrong = [i for i, (one, two) in enumerate(zip(pixels, others)) if one != two]
+            if wrong:
+                i = wrong[0]
+                found.append(f"{name}: {len(wrong)} of {len(pixels)} pixels differ, the first is {i}: {pixels[i]} "
+                             f"and {others[i]}")
+            if self.figures[name] != other.figures[name]:
+                found.append(f"{name}: figures {self.figures[name]} and {other.figures[name]}")
+        return found
+
+
+def native(command: str, **changes: str) -> Frame:
+    """Runs the command that the page shows, with some of its options changed."""
+    words = shlex.split(command.replace("\\\n", " "))
+    for option, value in changes.items():
+        words[words.index(f"--{option}") + 1] = value
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([*words, "--out", folder], cwd=ROOT, check=True, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)
+        frame = Frame()
+        with open(Path(folder) / "summary.csv", newline="", encoding="utf-8") as file:
+            summary = list(csv.reader(file))[1:]
+        listed = subprocess.run([words[0], "list"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+        for row in summary:
+            name = next(path.stem for path in Path(folder).glob("*.csv")
+                        if path.stem.replace("-", "") == title_name(row[0]) and path.stem in listed)
+            with open(Path(folder) / f"{name}.csv", newline="", encoding="utf-8") as file:
+                frame.pixels[name] = [tuple(map(int, line[2:])) for line in list(csv.reader(file))[1:]]
+            frame.figures[name] = row[1:6]
+    return frame
+
+
+def title_name(title: str) -> str:
+    """hisPointer v1 -> hispointer1"""
+    return title.lower().replace(" v", "").replace(" ", "")
+
+
+class Playground(unittest.TestCase):
+    browser: Browser
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.__exit__)
+
+    def setUp(self) -> None:
+        self.browser.complaints.clear()
+        self.browser.requests.clear()
+        self.browser.window(1400, 1000)
+
+    def tearDown(self) -> None:
+        self.assertEqual(self.browser.complaints, [])
+        self.assertEqual([url for url in self.browser.requests if not url.startswith(("file:", "blob:", "data:"))], [])
+
+    def wait(self) -> str:
+        """For the end of the run; returns the page's state."""
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            state = self.browser.evaluate("document.body.dataset.state ?? 'running'")
+            if state != "running":
+                return str(state)
+            time.sleep(0.2)
+        self.fail(f"no result in {SECONDS} s: {self.status()}")
+
+    def status(self) -> str:
+        return str(self.browser.evaluate("document.getElementById('status').textContent"))
+
+    def set(self, settings: dict[str, object], readouts: list[str] | None = None) -> None:
+        """Fills the form in as a user does, and sends it."""
+        for name, value in settings.items():
+            self.browser.evaluate(f"form.elements.{name}.value = '{value}';"
+                                  f"form.elements.{name}.dispatchEvent(new Event('input', {{bubbles: true}}))")
+        if readouts is not None:
+            self.browser.evaluate("form.querySelectorAll('[name=readout]').forEach("
+                                  f"box => {{ box.checked = {readouts}.includes(box.value); }})")
+        self.browser.evaluate("form.requestSubmit()")
+
+    def shown(self) -> Frame:
+        """The frame on the page; its figures are those of the table."""
+        frame = Frame()
+        results = self.browser.evaluate("frames.map(f => [f.readout, [...f.results], f.figures])")
+        for name, values, figures in results:
+            frame.pixels[name] = list(zip(values[0::3], values[1::3], values[2::3]))
+            frame.figures[name] = figures
+        cells = self.browser.evaluate(
+            "[...document.querySelectorAll('#table tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
+        self.assertEqual(len(cells), len(results))
+        for row, (name, _, (rmse, bias, _, above_3, above_10)) in zip(cells, results):
+            self.assertEqual(title_name(row[0]), name.replace("-", ""))
+            self.assertEqual(row[1:5], [above_3, above_10, f"{rmse} mm", f"{bias} mm"])
+        return frame
+
+    def command(self) -> str:
+        return str(self.browser.evaluate("document.getElementById('command').textContent"))
+
+    def assert_equal_to_native(self) -> None:
+        self.assertEqual(self.wait(), "done", self.status())
+        self.assertEqual(self.shown().differences(native(self.command())), [])
+
+    def test_the_first_frame_and_another_seed(self) -> None:
+        self.browser.open(PAGE)
+        self.assert_equal_to_native()
+        self.browser.screenshot(SCREENSHOTS / "wide.png")
+        shown = self.shown()
+        self.assertEqual(len(shown.pixels), 10)
+        self.assertTrue(all(len(pixels) == 32000 for pixels in shown.pixels.values()))
+        # The comparison sees another seed in every read-out.
+        others = shown.differences(native(self.command(), seed="2"))
+        for name in shown.pixels:
+            self.assertTrue(any(line.startswith(f"{name}: ") and "pixels differ" in line for line in others), name)
+
+    def test_other_settings(self) -> None:
+        self.browser.open(PAGE)
+        self.wait()
+        few = ["hispointer", "threesteps", "poolpointer-lean"]
+        # So near and bright that photons are drawn one after the other; an array with fewer rows than the pools'.
+        self.set({"scene": "staircase", "near": 0.1, "far": 6.5, "steps": 5, "klux": 120, "reflectivity": 2,
+                  "acquisitions": 800, "size": "50 40", "seed": 9007199254740991}, few)
+        self.assert_equal_to_native()
+        self.assertEqual(sorted(self.shown().pixels), sorted(few))
+        self.set({"sensor": "phone", "scene": "poles", "klux": 40, "seed": 12, "size": "100 80"}, ["poolpointer", "pifh"])
+        self.assert_equal_to_native()
+        self.assertIn("--reflectivity 0.5 --acquisitions 3333", self.command())
+
+    def test_what_cannot_be_is_refused(self) -> None:
+        self.browser.open(PAGE)
+        self.wait()
+        for settings, sentence in (({"scene": "flat", "distance": 9}, "One of the settings is outside its limits."),
+                                   ({"distance": 1, "seed": "1.5"}, "One of the settings is outside its limits.")):
+            self.set(settings)
+            self.assertEqual(self.wait(), "failed")
+            self.assertEqual(self.status(), sentence)
+        self.set({"seed": 1}, [])
+        self.assertEqual((self.wait(), self.status()), ("failed", "Choose at least one read-out."))
+        # What the models themselves refuse.
+        self.browser.evaluate("form.elements.distance.max = ''")
+        self.set({"distance": 9}, ["ezpointer"])
+        self.assertEqual((self.wait(), self.status()), ("failed", "9 m is beyond the sensor's range, 6.75 m"))
+        self.set({"distance": 2})
+        self.assertEqual(self.wait(), "done")
+
+    def test_a_run_that_is_under_way_is_given_up(self) -> None:
+        self.browser.open(PAGE)
+        self.set_when_ready({"seed": 5, "size": "50 40"}, ["sifh"])
+        self.assert_equal_to_native()
+
+    def set_when_ready(self, settings: dict[str, object], readouts: list[str]) -> None:
+        while self.browser.evaluate("document.body.dataset.state") is None:
+            time.sleep(0.01)
+        self.set(settings, readouts)
+
+    def test_on_a_phone_in_the_dark(self) -> None:
+        self.browser.window(390, 800, dark=True)
+        self.browser.open(PAGE)
+        self.assertEqual(self.wait(), "done", self.status())
+        self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 390)
+        self.browser.screenshot(SCREENSHOTS / "phone.png")
+
+
+if __name__ == "__main__":
+    if not PAGE.exists():
+        sys.exit("error: build/playground/index.html is missing: make playground")
+    unittest.main()

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What Debian 12's emscripten lacks. Every file of the build by emscripten (make playground) includes this
+// first.
+#pragma once
+
+#include <algorithm>
+#include <range/v3/algorithm.hpp>
+
+// Random123 refuses processors that it does not know. What it would do on RISC-V is portable C++.
+#define __riscv
+#include <Random123/philox.h>
+#undef __riscv
+
+// The C++ library has no std::bit_cast and no constrained algorithms: range-v3, from which the standard took
+// them, lends its own.
+namespace std {
+
+template <typename To, typename From>
+constexpr To bit_cast(const From& from) noexcept {
+  return __builtin_bit_cast(To, from);
+}
+
+}  // namespace std
+
+namespace std::ranges {
+
+using ::ranges::adjacent_find;
+using ::ranges::all_of;
+using ::ranges::any_of;
+using ::ranges::binary_search;
+using ::ranges::count;
+using ::ranges::count_if;
+using ::ranges::fill;
+using ::ranges::find;
+using ::ranges::find_if;
+using ::ranges::max;
+using ::ranges::max_element;
+using ::ranges::merge;
+using ::ranges::min;
+using ::ranges::min_element;
+using ::ranges::none_of;
+using ::ranges::nth_element;
+using ::ranges::partition_point;
+using ::ranges::sort;
+using ::ranges::stable_sort;
+using ::ranges::transform;
+using ::ranges::upper_bound;
+
+}  // namespace std::ranges

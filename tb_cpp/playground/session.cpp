@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "playground/session.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/physical_constants.hpp"
+#include "frame/array_rows.hpp"
+#include "frame/flat_calibration.hpp"
+#include "frame/frame_maps.hpp"
+#include "metrics/error_statistics.hpp"
+#include "readout/model.hpp"
+#include "scene/scene.hpp"
+#include "sensor/default_parameters.hpp"
+#include "sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+void require_in_range(const SensorModel& sensor, double metres) {
+  const double range_m = 0.5 * kSpeedOfLight * sensor.integration_time_s;
+  if (metres >= range_m) {
+    throw InputError(fmt::format("{} m is beyond the sensor's range, {:.2f} m", metres, range_m));
+  }
+}
+
+PhotonSource make_photons(const PlaygroundRequest& request) {
+  SensorModel sensor = parse_preset(request.sensor);
+  sensor.acquisitions = request.acquisitions.value_or(sensor.acquisitions);
+  const Scene scene = parse_scene(request.scene);
+  if (scene == Scene::kFlat) {
+    require_in_range(sensor, request.distance_m);
+  } else if (scene == Scene::kStaircase || scene == Scene::kPlane) {
+    require_in_range(sensor, request.near_m);
+    require_in_range(sensor, request.far_m);
+  }
+  SceneParameters parameters;
+  parameters.columns = request.columns.value_or(sensor.columns);
+  parameters.rows = request.rows.value_or(sensor.rows);
+  parameters.distance_m = request.distance_m;
+  parameters.near_m = request.near_m;
+  parameters.far_m = request.far_m;
+  parameters.steps = request.steps;
+  parameters.reflectivity = request.reflectivity.value_or(sensor.default_reflectivity);
+  return {sensor, make_scene(scene, parameters), request.klux, request.seed};
+}
+
+}  // namespace
+
+PlaygroundSession::PlaygroundSession(const PlaygroundRequest& request)
+    : scene_(make_photons(request)), seed_(request.seed) {
+  std::vector<int> columns(static_cast<std::size_t>(scene_.columns()));
+  std::iota(columns.begin(), columns.end(), 0);
+  truth_ = true_depth(scene_.targets(), columns, {.first = 0, .count = scene_.rows()});
+  for (int row = 0; row < rows(); ++row) {
+    for (const int column : columns) {
+      reflectivity_.push_back(static_cast<float>(scene_.targets().at(column, row).reflectivity));
+    }
+  }
+  for (const std::string& name : request.readouts) {
+    readouts_.push_back(default_parameters(parse_readout(name), scene_.model()));
+  }
+  results_.assign(readouts_.size(), std::vector<PixelResult>(truth_.size()));
+}
+
+void PlaygroundSession::calibrate() {
+  constexpr int kOneThread = 1;
+  const FlatCalibration calibration(scene_.model());
+  const PhotonSource photons(scene_.model(), calibration.targets(), scene_.klux(), seed_,
+                             FlatCalibration::kFrame);
+  tables_ = calibration.fit(photons, readouts_, seed_, kOneThread);
+}
+
+void PlaygroundSession::read_column(int column) {
+  const auto rows = static_cast<std::size_t>(scene_.rows());
+  const ColumnStream stream = scene_.column(column);
+  for (std::size_t r = 0; r < readouts_.size(); ++r) {
+    const auto model = make_readout_model(readouts_[r]);
+    // Arrays of pool read-outs may have more rows than the sensor.
+    const ArrayRows array = array_rows(scene_, {.first = 0, .count = scene_.rows()}, readouts_[r].readout);
+    const std::vector<PixelResult> results = model->run_column(
+        array.source->rows() == scene_.rows() ? stream : array.source->column(column), scene_.acquisitions());
+    for (std::size_t row = 0; row < rows; ++row) {
+      results_[r][row * static_cast<std::size_t>(scene_.columns()) + static_cast<std::size_t>(column)] =
+          results[static_cast<std::size_t>(array.region.first) + row];
+    }
+  }
+}
+
+PlaygroundFrame PlaygroundSession::frame(std::size_t readout) const {
+  PlaygroundFrame frame;
+  frame.results = results_.at(readout);
+  FrameMaps maps =
+      frame_maps(frame.results, readouts_.at(readout), scene_.model(), tables_.at(readout), truth_);
+  ErrorStatistics statistics;
+  add_errors(truth_, maps.error, statistics);
+  frame.figures = figure_values(statistics, maps.before, true);
+  frame.depth_m = std::move(maps.depth);
+  frame.error_m = std::move(maps.error);
+  return frame;
+}
+
+}  // namespace dtof
