@@ -620,6 +620,7 @@ TEST_F(Programs, TheVersionIsOneInTheWholeTree) {
   EXPECT_THAT(outcome.output, ::testing::MatchesRegex("dtof [0-9]+\\.[0-9]+\\.[0-9]+\n"));
   const std::string version = outcome.output.substr(5, outcome.output.size() - 6);
   EXPECT_THAT(read_file(DTOF_CORE_FILE), HasSubstr("dtof_array:" + version + "\n"));
+  EXPECT_THAT(read_file(DTOF_CITATION_FILE), HasSubstr("\nversion: " + version + "\n"));
 }
 
 TEST_F(Programs, UnknownWordsSuggestTheNearest) {
