@@ -3,7 +3,7 @@
 #                      of 10,000 frames coverage_study_long.md (half an hour), of poolPointer coverage_study_pool.md
 .PHONY: coverage-study
 coverage-study: study
-	@$(DTOF_STUDY) coverage --frames 100 300 1000 --seed $(SEED) --out reports
+	@$(DTOF_STUDY) coverage --frames 100 1000 --seed $(SEED) --out reports
 	@$(DTOF_STUDY) coverage --klux 14 50 --distances 1 4 --frames 10000 --other-calibrations 0 --seed $(SEED) \
 	  --name coverage_study_long --out reports
 	@$(DTOF_STUDY) coverage --readout poolpointer,poolpointer-lean --klux 50 --distances 3 --frames 100 200 \
