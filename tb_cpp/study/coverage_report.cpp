@@ -288,7 +288,8 @@ std::string coverage_report(const CoverageSettings& settings, const CoverageStud
       study.cells, [](const CoverageCell& cell) { return cell.verdict != CoverageVerdict::kHolds; });
   return fmt::format(
              "# Do the intervals hold?\n\n"
-             "What `dtof-study accuracy` and `dtof-study reproduce` print as 95 % intervals, against what repeated runs "
+             "What `dtof-study accuracy` and `dtof-study reproduce` print as 95 % intervals, against what "
+             "repeated runs "
              "show. {} seeds from\n{} on, {} frames each, at {} klux and {} m; photons are drawn once for "
              "all "
              "read-outs, and shorter runs are parts\nof the long ones ({} runs of {} frames). Preset {}, "
