@@ -96,6 +96,8 @@ TEST_F(NpyTest, Refusals) {
   refused(npy("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (2,), }", two),
           "the NPY header has no readable 'descr'");
   refused(npy("{'descr': '<f8', 'shape': (2,), }", two), "the NPY header has no readable 'fortran_order'");
+  refused(npy("{'descr': '<f8', 'fortran_order': Maybe, 'shape': (2,), }", two),
+          "the NPY header has no readable 'fortran_order'");
   refused(npy(header("<f8", "(-2,)"), two), "the NPY header has no readable 'shape'");
   refused(npy(header("<f8", "(3,)"), two),
           "shape (3) of f8 needs more than the file's 2 elements: truncated");

@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -249,6 +250,33 @@ TEST(ConfidenceInterval, FewOutliersMayBeBadLuck) {
   ASSERT_TRUE(rms.with_unseen);
   EXPECT_GT(rms.value, 2.0 * others.value);
   EXPECT_NEAR(rms.with_unseen->low, others.interval.low, 1e-12);
+}
+
+TEST(ConfidenceInterval, TheMeanWithFewOutliersByHand) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = make_random(9);
+  std::vector<double> values = normal_values(random, 98);
+  const Estimate others = estimate_mean(values);
+  values.insert(values.end(), {40.0, 44.0});
+  const Estimate mean = estimate_mean(values, find_outliers(values), {-50.0, 50.0});
+  const double above = 42.0 - others.value;
+  const Interval share = estimate_rare_share(2, 100).interval;
+  EXPECT_NEAR(mean.value, others.value + 0.02 * above, 1e-12);
+  EXPECT_NEAR(mean.interval.high - mean.value,
+              std::hypot(others.interval.high - others.value, (share.high - 0.02) * above), 1e-9);
+  EXPECT_NEAR(mean.value - mean.interval.low,
+              std::hypot(others.value - others.interval.low, (0.02 - share.low) * above), 1e-9);
+}
+
+TEST(ConfidenceInterval, ASlopeSaysThatEitherEndMayHaveUnseenOutliers) {
+  const Estimate sure{1.0, {0.9, 1.1}};
+  const Estimate rare{2.0, {1.9, 2.1}, Interval{1.8, 3.0}};
+  EXPECT_FALSE(estimate_slope(sure, sure, 1.0).with_unseen);
+  for (const auto& [first, second] : {std::pair(sure, rare), std::pair(rare, sure)}) {
+    const Estimate slope = estimate_slope(first, second, 1.0);
+    ASSERT_TRUE(slope.with_unseen);
+    EXPECT_LT(slope.with_unseen->low, slope.interval.low);
+  }
 }
 
 TEST(ConfidenceInterval, EqualValues) {

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -159,6 +161,24 @@ TEST_F(SensorEffects, AfterpulsesRaiseTheRateAsTheBranchingProcessSays) {
   EXPECT_GT(poisson_chi_square_p(counts(exact), times_acquisitions(means)), kErrorRate);
   sensor_.afterpulse_probability = 0.0;
   EXPECT_LT(poisson_chi_square_p(counts(source(0.0, 14.0)), times_acquisitions(means)), kErrorRate);
+}
+
+TEST_F(SensorEffects, AfterpulsesOfDenseLightFollowOnce) {
+  // So much light that events are drawn in time order; all are kept.
+  constexpr double kProbability = 0.2;
+  sensor_.slots = 1000;
+  sensor_.acquisitions = 50;
+  sensor_.afterpulse_probability = kProbability;
+  sensor_.afterpulse_time_constant_s = 1e-9;
+  const PhotonSource exact = source(0.0, 3000.0);
+  const double codes = std::ldexp(1.0, sensor_.np);
+  const double rise = (1.0 - kProbability) * sensor_.time_resolution_s() / 1e-9;
+  const double mean =
+      exact.rates(0, 0).background *
+      (1.0 + kProbability / (1.0 - kProbability) * (1.0 + std::expm1(-rise * codes) / (rise * codes)));
+  const std::vector<std::uint64_t> all = counts(exact);
+  const auto total = static_cast<double>(std::accumulate(all.begin(), all.end(), std::uint64_t{0}));
+  EXPECT_NEAR(total / (50.0 * kColumns * kRows), mean, 0.01 * mean);
 }
 
 TEST_F(SensorEffects, SecondEventsFollowAtTheTimeOfPhotonOrAfterpulse) {
@@ -329,6 +349,24 @@ TEST_F(SensorEffects, EqualWidthsChangeNothingAndPixelsHaveTheirOwnTdc) {
     EXPECT_EQ(std::ranges::equal(plain.column(column).row(0), alternating.column(column).row(0)),
               column % 2 == 0);
   }
+}
+
+TEST_F(SensorEffects, EveryPixelOfAColumnHasItsOwnTable) {
+  const std::vector<std::vector<double>> tables = {{1.0}, {1.0, 3.0}, {5.0, 1.0, 1.0}};
+  const auto column_with = [&](std::vector<std::vector<double>> chosen) {
+    sensor_.tdc_codes = std::make_shared<const TdcCodes>(std::move(chosen));
+    return PhotonSource(sensor_, TargetMap(1, 6, {.depth_m = 1.0, .reflectivity = 1.0}), 14.0, test_seed())
+        .column(0);
+  };
+  const ColumnStream all = column_with(tables);
+  for (int row = 0; row < all.rows(); ++row) {
+    const ColumnStream own = column_with({tables[static_cast<std::size_t>(row) % tables.size()]});
+    EXPECT_TRUE(std::ranges::equal(all.row(row), own.row(row))) << row;
+  }
+  // Closed forms, which know no pixel, take the first table.
+  sensor_.tdc_codes = std::make_shared<const TdcCodes>(tables);
+  const std::vector<double> first = expected_detections(sensor_, {.background = 0.1, .signal = 0.0});
+  EXPECT_NEAR(first[0] / first[1], 1.0, 1e-3);
 }
 
 TEST_F(SensorEffects, SomeRowsAreThoseOfTheWholeColumn) {

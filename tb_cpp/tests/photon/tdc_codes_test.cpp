@@ -41,6 +41,7 @@ TEST(TdcCodes, RefusesWhatIsNoWidth) {
   EXPECT_THROW(TdcCodes({}), InputError);
   EXPECT_THROW(TdcCodes({{1.0}, {0.0, 0.0}}), InputError);
   EXPECT_THROW(TdcCodes({{1.0, -0.1, 1.0}}), InputError);
+  EXPECT_THROW(TdcCodes({{-0.1, 1.0}}), InputError);
   EXPECT_THROW(TdcCodes({{1.0, std::numeric_limits<double>::quiet_NaN()}}), InputError);
 }
 

@@ -105,6 +105,8 @@ TEST(PooledMatchedFilter, Refusals) {
   using testing::ThrowsMessage;
   const std::vector<std::vector<double>> uneven = {{1.0, 2.0}, {1.0}};
   EXPECT_THAT([&] { pool_column(uneven); }, ThrowsMessage<InputError>(HasSubstr("pixel 1 has 1 scores")));
+  const std::vector<std::vector<double>> nothing = {{}, {1.0}};
+  EXPECT_THAT([&] { pool_column(nothing); }, ThrowsMessage<InputError>(HasSubstr("pixel 0 has 0 scores")));
   const std::vector<std::vector<double>> one = {{1.0, 2.0}};
   EXPECT_THAT([&] { pool_column(one, {.reach_bins = -1}); }, ThrowsMessage<InputError>(HasSubstr("reach")));
   EXPECT_THAT([&] { pool_column(one, {.edge_penalty = NAN}); },

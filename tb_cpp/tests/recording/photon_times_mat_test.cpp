@@ -126,6 +126,27 @@ TEST_F(PhotonTimesTest, AHeaderThatAsksForMoreThanTheFileHoldsIsRefusedBeforeItI
                            HasSubstr("damaged: \"photon_times\" has 57346 x 57347 cells in "));
 }
 
+TEST_F(PhotonTimesTest, ShortElementsStandInTheirTag) {
+  mat_t* const file = Mat_CreateVer(path("d.mat").c_str(), nullptr, MAT_FT_MAT5);
+  std::array<std::size_t, 2> dims = {1, 3};
+  std::array<double, 3> depth = {1.5, 2.5, 3.5};
+  matvar_t* const matrix = Mat_VarCreate("d", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims.data(), depth.data(), 0);
+  Mat_VarWrite(file, matrix, MAT_COMPRESSION_NONE);
+  Mat_VarFree(matrix);
+  Mat_Close(file);
+  std::string whole = contents(path("d.mat"));
+  // The name stands behind header, tag, flags and extents, with a tag of its own, or in it: 1 byte of type 1.
+  constexpr std::size_t kName = 128 + 8 + 16 + 16;
+  const std::string in_tag("\1\0\1\0d\0\0\0", 8);
+  const std::string with_tag("\1\0\0\0\1\0\0\0d\0\0\0\0\0\0\0", 16);
+  if (whole.compare(kName, with_tag.size(), with_tag) == 0) {
+    whole.replace(kName, with_tag.size(), in_tag);
+    whole[132] = static_cast<char>(whole[132] - 8);  // the variable's size
+  }
+  ASSERT_EQ(whole.compare(kName, in_tag.size(), in_tag), 0);
+  EXPECT_THAT(read_mat_matrix(write("s.mat", whole), "d").values, ElementsAre(1.5, 2.5, 3.5));
+}
+
 TEST_F(PhotonTimesTest, TruncationAnywhereIsRefused) {
   for (const auto compression : {MAT_COMPRESSION_NONE, MAT_COMPRESSION_ZLIB}) {
     const std::string whole = contents(write_cells("a.mat", compression));
