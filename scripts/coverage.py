@@ -3,7 +3,7 @@
 """Writes the coverage report from Verilator's merged counts and gcovr's summary.
 
 `coverage.py <rtl.dat> <cpp.json> <report.md>`. Fails if fewer of the RTL's lines ran than the goal says, or if a line
-that did not run is not explained in docs/testplan.md.
+that did not run is not explained in docs/reference/testplan.md.
 
 A line of the RTL has run if every block of statements on it has; lines without statements (declarations,
 continuous assignments) do not count. A branch is one way out of an `if` or one arm of a `case`. A toggle is one bit
@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-TEST_PLAN = ROOT / "docs" / "testplan.md"
+TEST_PLAN = ROOT / "docs" / "reference" / "testplan.md"
 GOAL_PERCENT = 98.0
 POINT = re.compile(r"^C '(?P<keys>.*)' (?P<count>\d+)$")
 
@@ -98,7 +98,7 @@ def read_cpp(path: Path) -> dict[str, tuple[Counter, Counter]]:
 
 
 def explanations() -> set[tuple[str, str]]:
-    """File and text of each line that docs/testplan.md explains: rows "| `file` | `text` | why |"."""
+    """File and text of each line that docs/reference/testplan.md explains: rows "| `file` | `text` | why |"."""
     rows = re.findall(r"^\| `(hdl/[^`]*)` \| `([^`]*)` \| .+ \|$", TEST_PLAN.read_text(), re.MULTILINE)
     return set(rows)
 
@@ -149,7 +149,7 @@ def main() -> int:
         f"- {lines:.1f} % of the RTL's lines ran; the goal of {GOAL_PERCENT:.0f} % is "
         f"{'met' if reached else '**missed**'}.\n"
         f"- {len(holes)} lines did not run, {len(holes) - len(unexplained)} of them are explained in "
-        "docs/testplan.md.\n\n"
+        "docs/reference/testplan.md.\n\n"
         "## RTL\n\n" + table(["file", "lines", "branches", "toggles"], rows)
     )
     if holes:
@@ -160,7 +160,7 @@ def main() -> int:
     Path(sys.argv[3]).write_text(report)
     print(report)
     for name, line, text in unexplained:
-        print(f"{name}:{line}: did not run and is not explained in docs/testplan.md: {text}", file=sys.stderr)
+        print(f"{name}:{line}: did not run and is not explained in docs/reference/testplan.md: {text}", file=sys.stderr)
     return 0 if reached and not unexplained else 1
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the properties listed in hdl/formal/proofs.toml with Yosys and ABC (docs/formal.md).
+"""Proves the properties listed in hdl/formal/proofs.toml with Yosys and ABC (docs/reference/formal.md).
 
 Every proof is run for each of its parameter sets, then with each of its planted bugs, which must make it fail, and,
 where its harness has a goal, once more to reach that. Writes reports/formal.md unless only some proofs are run.
@@ -307,7 +307,8 @@ def write_report(rows: list[Row]) -> None:
     lines = [
         "# Proofs",
         "",
-        "From `make formal`; how it works, and what a bound leaves open, is in [docs/formal.md](../docs/formal.md).",
+        "From `make formal`; how it works, and what a bound leaves open, is in "
+        "[docs/reference/formal.md](../docs/reference/formal.md).",
         "Every planted bug was seen to break its proof; the assertion that failed is named beside it.",
         "Times are processor time of all parameter sets together, rounded up.",
         "",

@@ -132,7 +132,7 @@ def cpp_header(table: Table) -> str:
 
 namespace dtof {{
 
-/// The read-outs of spec section 3, and poolPointer (docs/poolpointer.md).
+/// The read-outs of spec section 3, and poolPointer (docs/reference/poolpointer.md).
 enum class Readout : int {{
 {chr(10).join(f"  k{readout.enumerator} = {i}," for i, readout in enumerate(readouts))}
 }};

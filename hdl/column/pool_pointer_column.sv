@@ -2,8 +2,8 @@
 // poolPointer: what each column has for itself. Its half of the words that pool_pointer_pair keeps in the SRAM
 // passes through here: a group's coarse histogram, the pixels' track words, their pointer words.
 //
-// Equations: docs/poolpointer.md, Timestamps, Coarse, Track, Point. What needs several pixels at once (decode,
-// choose, decide) is done by an engine that several columns share (pool_engine).
+// Equations: docs/reference/poolpointer.md, Timestamps, Coarse, Track, Point. What needs several pixels at once
+// (decode, choose, decide) is done by an engine that several columns share (pool_engine).
 //
 // A pixel uses one timestamp an acquisition, chosen while its slots pass. T2 and later count from its last slot:
 //   clock   coarse                          track and point (an SRAM word holds two pixels of each column)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which candidates of a group a timestamp supports. Combinational.
 //
-// Equation (docs/poolpointer.md, Track): hit[k] = (-5 <= (X >> 9) - cell[k] <= 4), for the candidates in use.
+// Equation (docs/reference/poolpointer.md, Track): hit[k] = (-5 <= (X >> 9) - cell[k] <= 4), for the candidates in use.
 // Cost: a 7-bit subtractor and a range check a candidate.
 module label_match #(
     parameter int LABELS = 6,

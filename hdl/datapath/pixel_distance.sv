@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a timestamp is from where a pixel's word points: what the word's update needs to know. Combinational.
 //
-// Equations (docs/poolpointer.md, Track and Point), distances floored to cells of 512 positions:
+// Equations (docs/reference/poolpointer.md, Track and Point), distances floored to cells of 512 positions:
 //   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
 //   point  d = (X - leader's position) >> 9: in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
 //          rival's hit if (X >> 9) - rival is -5 .. 4 (RIVAL_MOVES = 1) or candidate b is hit (0);

@@ -4,7 +4,7 @@
 // Equation (Eq. 3.12, modulo 2^(NP+F), F = FRACTION_BITS): d = (x << F) - p. d = 0: stay. 1 <= d <= half the
 // range: p + step, otherwise p - step, step = (POINTER_STEP << F) >> gear.
 // Confidence: near (the top five bits of d all equal) adds 1, far with x mod 8 = 0 subtracts 1; it saturates.
-// The low bits of a background timestamp are uniform, so a far one counts 1/8 (docs/readouts.md).
+// The low bits of a background timestamp are uniform, so a far one counts 1/8 (docs/reference/readouts.md).
 // Cost: a subtractor, two incrementers in its shadow, equality tests; about 25 gate delays.
 module pointer_update #(
     parameter int NP = 10,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's track word after one timestamp: scores of the candidates, leader, its offset. Combinational.
 //
-// Equation (docs/poolpointer.md, Track): the lowest candidate hit gains a point, or the others lose one if its
-// score is full; it leads if it is now ahead of the leader. The leader's offset follows the timestamp by one and
-// starts anew with a new leader.
+// Equation (docs/reference/poolpointer.md, Track): the lowest candidate hit gains a point, or the others lose one
+// if its score is full; it leads if it is now ahead of the leader. The leader's offset follows the timestamp by one
+// and starts anew with a new leader.
 // Cost: an incrementer or decrementer a score; about 20 gate delays.
 module track_update #(
     parameter int LABELS = 6,

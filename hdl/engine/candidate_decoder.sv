@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer: finds the candidate depths of a group of pixels in its coarse histogram and its neighbours'.
 //
-// Equations (docs/poolpointer.md, Decode): pair sums o of the group, w = 3 o + those of both neighbours; K times
-// the largest not taken, of w for the first three, of o for the others; its cell from its neighbours' tilt; a
+// Equations (docs/reference/poolpointer.md, Decode): pair sums o of the group, w = 3 o + those of both neighbours;
+// K times the largest not taken, of w for the first three, of o for the others; its cell from its neighbours' tilt; a
 // quarter of its excess over the background is taken from the pairs two away. B from the least of four octets.
 //
 // Schedule: engine_sequencer. The bins leave three shift registers one clock apart; pair sums enter a ring of 32,

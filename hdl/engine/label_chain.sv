@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Max-product messages along a chain of pixels, each with a few labels: one engine's arithmetic.
 //
-// Equations (docs/poolpointer.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
+// Equations (docs/reference/poolpointer.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
 // label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
 // message from the other side. Near: positions at most REACH apart.
 //

@@ -2,7 +2,7 @@
 // poolPointer: what needs several pixels of a column at once, shared by ENGINE_COLUMNS columns.
 //
 // Decode makes the groups' words of the coarse histogram, choose the first pointer words of the track words,
-// decide the results of the pointer words (docs/poolpointer.md). Messages of a chain's first pass wait in a
+// decide the results of the pointer words (docs/reference/poolpointer.md). Messages of a chain's first pass wait in a
 // scratch memory, one word a pixel.
 //
 // Schedule: engine_sequencer. line_i is the selected column's word, three clocks after its read command, and

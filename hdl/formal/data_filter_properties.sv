@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which timestamps each read-out counts and in which bin: the sentences of docs/readouts.md, in 32-bit integers.
+// Which timestamps each read-out counts and in which bin: docs/reference/readouts.md's sentences, in 32-bit integers.
 `include "properties.svh"
 
 module data_filter_properties #(

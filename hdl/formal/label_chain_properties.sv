@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two labels, three pixels, driven by engine_sequencer and with the messages in an SRAM, as in pool_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
-// of the one that is farther from the pixel in question (docs/poolpointer.md, Chain: lambda of the message's sender).
+// of the one that is farther from the pixel in question (docs/reference/poolpointer.md, Chain: the sender's lambda).
 `include "properties.svh"
 
 module label_chain_properties #(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit[k] = (-5 <= (X >> 9) - cell[k] <= 4), for the candidates in use (docs/poolpointer.md, Track).
+// hit[k] = (-5 <= (X >> 9) - cell[k] <= 4), for the candidates in use (docs/reference/poolpointer.md, Track).
 `include "properties.svh"
 
 module label_match_properties #(

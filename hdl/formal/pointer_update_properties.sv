@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step of a pointer and of its confidence: Eq. 3.12 and docs/readouts.md, in 32-bit integers.
+// One step of a pointer and of its confidence: Eq. 3.12 and docs/reference/readouts.md, in 32-bit integers.
 `include "properties.svh"
 
 module pointer_update_properties #(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the harnesses in this folder are written with (docs/formal.md). A harness declares `checking`, which is high
-// from the first clock on in which the design is out of reset.
+// What the harnesses in this folder are written with (docs/reference/formal.md). A harness declares `checking`,
+// which is high from the first clock on in which the design is out of reset.
 `ifndef PROPERTIES_SVH
 `define PROPERTIES_SVH
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's track word after one timestamp: docs/poolpointer.md, Track, step by step on integers.
+// A pixel's track word after one timestamp: docs/reference/poolpointer.md, Track, step by step on integers.
 `include "properties.svh"
 
 module track_update_properties #(

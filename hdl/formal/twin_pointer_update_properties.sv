@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's pointer word after one timestamp: docs/poolpointer.md, Point, on integers, from timestamp and word to the
-// next word. Distances come from pixel_distance and label_match, so that the three are proved together.
+// A pixel's pointer word after one timestamp: docs/reference/poolpointer.md, Point, on integers, from timestamp and
+// word to the next word. Distances come from pixel_distance and label_match, so that the three are proved together.
 `include "properties.svh"
 
 module twin_pointer_update_properties #(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Read-outs (dtof_readouts.svh) and the sizes that follow from the parameters of a read-out (docs/readouts.md).
+// Read-outs (dtof_readouts.svh) and the sizes that follow from a read-out's parameters (docs/reference/readouts.md).
 package dtof_pkg;
 
   // Values of state_o of dtof_array: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
@@ -73,7 +73,7 @@ package dtof_pkg;
         + confidence_width(readout, count_width, pointer_confidence_width);
   endfunction
 
-  // poolPointer (docs/poolpointer.md). Positions have 16 bits for the whole range; a cell is 512 of them.
+  // poolPointer (docs/reference/poolpointer.md). Positions have 16 bits for the whole range; a cell is 512 of them.
   localparam int POOL_COARSE_BINS = 32;
   localparam int POOL_CELL_WIDTH = 7;
   localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39

@@ -4,7 +4,7 @@
 // Everything that is common to the columns (state, counters, clear and scan addresses, result handshake) is
 // here once; a column holds its SRAM and its arithmetic.
 //
-// Frame: start_i samples acq_num_i (0 and 1 are legal) and the gate; busy_o until done_o. See docs/architecture.md.
+// Frame: start_i samples acq_num_i (0 and 1 are legal) and the gate; busy_o until done_o (docs/user/integration.md).
 // TDC stream: an acquisition starts in the clock in which tdc_valid_i and tdc_ready_o are high, which carries
 //   pixel 0, slot 0 of every column; the other PIXELS_PER_SRAM * SLOTS - 1 timestamps follow on consecutive
 //   clocks, valid and ready held high. Between acquisitions the source may pause. All ones: no detection.

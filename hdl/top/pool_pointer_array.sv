@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
-// (docs/poolpointer.md). Two columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and decides for
-// one after the other.
+// (docs/reference/poolpointer.md). Two columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and
+// decides for one after the other.
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= late_begin_i <= acq_num_i;
 //   busy_o until done_o. Recommended: A C >> 6, A (C + T) >> 6 and track_end + (A - track_end) 5 >> 3 with
@@ -9,7 +9,7 @@
 // TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine.
-// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/poolpointer.md's cycle budget says.
+// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer.md's cycle budget says.
 `include "dtof_macros.svh"
 
 module pool_pointer_array #(

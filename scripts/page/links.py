@@ -9,7 +9,9 @@ ELSEWHERE = ("http", "https", "mailto")
 RESOURCES = {"img": "src", "script": "src", "link": "href", "iframe": "src", "source": "src", "object": "data"}
 
 
-class _Page(HTMLParser):
+class Page(HTMLParser):
+    """What a page links to, and what can be linked to in it."""
+
     def __init__(self) -> None:
         super().__init__()
         self.anchors: set[str] = set()
@@ -31,7 +33,7 @@ def problems(folder: Path) -> list[str]:
     """A sentence for each link or resource that leads nowhere or out of the folder, and each anchor that is twice."""
     pages = {}
     for path in sorted(folder.rglob("*.html")):
-        pages[path] = _Page()
+        pages[path] = Page()
         pages[path].feed(path.read_text(encoding="utf-8"))
     found = []
     for path, page in pages.items():

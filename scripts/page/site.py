@@ -41,7 +41,7 @@ class Site:
 
     def document(self, path: Path) -> str:
         if path not in self.documents:
-            self.documents[path] = f"docs/{path.stem}.html"
+            self.documents[path] = f"documents/{path.relative_to(self.root).with_suffix('.html')}"
             self.waiting.append(path)
         return self.documents[path]
 

@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Synthesis, timing, power and area of the named configurations (docs/synthesis.md)."""
+"""Synthesis, timing, power and area of the named configurations (docs/reference/synthesis.md)."""

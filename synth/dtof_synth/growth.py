@@ -23,8 +23,8 @@ ENGINE_CLOCKS = 333_440 - 220  # of a frame of 33,333 acquisitions in 11.0e6 clo
 
 
 def engine_columns(configuration: Configuration) -> int:
-    """Columns that one engine of poolPointer has time for, evenly shared among the engines (docs/poolpointer.md,
-    Cycle budget)."""
+    """Columns that one engine of poolPointer has time for, evenly shared among the engines
+    (docs/reference/poolpointer.md, Cycle budget)."""
     columns, labels = configuration["SRAM_NUM"], configuration["DARK_LABELS"]
     groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
     chain = configuration["PIXELS_PER_SRAM"] + 3

@@ -2,7 +2,7 @@
 """Power of the whole array in the typical corner at 330 MHz, while a frame is being measured.
 
 Logic comes from OpenSTA's report of every cell; SRAM from access energies and access rates; the clock from the
-flip-flops' clock pins and an estimated clock tree. Activities are stated, not simulated (docs/synthesis.md).
+flip-flops' clock pins and an estimated clock tree. Activities are stated, not simulated (docs/reference/synthesis.md).
 """
 
 from __future__ import annotations

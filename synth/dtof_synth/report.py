@@ -33,7 +33,8 @@ def _provenance(library: str, digest: str) -> str:
     return (f"Written by `make synth`: library `{library}`, SRAM model `sram40`, {TARGET_MHZ:g} MHz, thesis's array "
             f"unless a row says otherwise; inputs `{digest[:12]}` (hash of RTL, constraints, scripts, "
             "libraries). Generated libraries from public figures, not sign-off: "
-            "[docs/technology.md](../docs/technology.md); method: [docs/synthesis.md](../docs/synthesis.md).\n")
+            "[docs/reference/technology.md](../docs/reference/technology.md); method: "
+            "[docs/reference/synthesis.md](../docs/reference/synthesis.md).\n")
 
 
 def _sram_text(result: Result) -> str:

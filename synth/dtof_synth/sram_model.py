@@ -5,7 +5,7 @@ Area: A = (Wp + w*C) * (Hp + h*R) with C = bits*mux columns and R = ceil(words/m
 minimises the area with 16 <= R <= 512 and an aspect ratio of at most 4. Nothing is fitted to the thesis.
 Time, energy and leakage grow with size as CACTI 7's 40 nm low-standby-power arrays do (power laws in
 words and bits); access time is anchored at 1.2 ns typical and 2.2 ns slow for the thesis's largest
-column memory. Sources and fit errors: docs/technology.md.
+column memory. Sources and fit errors: docs/reference/technology.md.
 """
 
 from __future__ import annotations

@@ -93,7 +93,7 @@ def text(uses: dict[Size, list[str]], named: set[str], pdk: Path) -> str:
     """The report. Without the public points only the list of macros."""
     lines = ["# SRAM macros", "",
              "Written by `make synth` from the physical model of `synth/dtof_synth/sram_model.py`; "
-             "[docs/technology.md](../docs/technology.md) has the sources. Not sign-off.", "",
+             "[docs/reference/technology.md](../docs/reference/technology.md) has the sources. Not sign-off.", "",
              "| macro | organisation | um x um | um2 | um2/bit | access typ ns | slow ns | read pJ | write pJ | used by |",
              "|---|---|---:|---:|---:|---:|---:|---:|---:|---|",
              *(_row(size, uses[size], named) for size in sorted(uses)), ""]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Generated 40 nm-class standard-cell Liberty.
 
-Every constant is a public figure or follows from one; docs/technology.md names the source of each.
+Every constant is a public figure or follows from one; docs/reference/technology.md names the source of each.
 Delay of a stage of drive k with input slew s into a load C (logical effort, tau = FO4 / 5):
 
     delay = STEP * tau * (p + C / (k * CINV)) + RAMP * s        slew = SLEW * tau * (p + C / (k * CINV))

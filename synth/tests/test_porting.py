@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""docs/porting.md's example: an array on a compiled single-port SRAM gives the results of the behavioural one."""
+"""The example of docs/user/integration.md: an array on a compiled single-port SRAM gives the behavioural one's results."""
 
 import subprocess
 import tempfile

@@ -13,8 +13,8 @@ namespace dtof {
 /// Throws InputError naming the legal names.
 Readout parse_readout(std::string_view name);
 
-/// Parameters of the pool read-outs beyond those they share with the others (docs/poolpointer.md). Lengths
-/// are fractions of a coarse bin, a 32nd of the range.
+/// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
+/// Lengths are fractions of a coarse bin, a 32nd of the range.
 struct PoolPointerParameters {
   int group_size = 8;       ///< G, pixels of a column that share a coarse histogram, a power of two, 4 .. 64
   int dark_labels = 5;      ///< candidate depths of a group with background below BRIGHT_FROM, 2 .. 8
@@ -64,7 +64,7 @@ struct CodeGate {
   bool operator==(const CodeGate&) const = default;
 };
 
-/// Parameters of a read-out, named as the RTL's (spec section 1; ranges in docs/readouts.md).
+/// Parameters of a read-out, named as the RTL's (spec section 1; ranges in docs/reference/readouts.md).
 struct ReadoutParameters {
   Readout readout = Readout::kEzPointer;
   int np = 10;               ///< NP, bits of a timestamp

@@ -8,7 +8,7 @@
 
 namespace dtof {
 
-/// The read-outs of spec section 3, and poolPointer (docs/poolpointer.md).
+/// The read-outs of spec section 3, and poolPointer (docs/reference/poolpointer.md).
 enum class Readout : int {
   kEzPointer = 0,
   kHisPointer1 = 1,

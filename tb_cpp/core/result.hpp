@@ -9,7 +9,7 @@ namespace dtof {
 struct PixelResult {
   std::uint16_t code = 0;        ///< integer bins, 0 .. 2^NP - 1
   std::uint16_t fraction = 0;    ///< units of 2^-FRACTION_BITS bin
-  std::uint16_t confidence = 0;  ///< 0 = none; the scale depends on the read-out (docs/readouts.md)
+  std::uint16_t confidence = 0;  ///< 0 = none; the scale depends on the read-out (docs/reference/readouts.md)
 
   bool operator==(const PixelResult&) const = default;
 };

@@ -15,7 +15,7 @@ namespace dtof {
 /// What the sensor delivered for one pixel of one frame.
 struct Measurement {
   double position;    ///< code axis, bins: code + fraction / 2^FRACTION_BITS
-  double confidence;  ///< on the read-out's own scale (docs/readouts.md)
+  double confidence;  ///< on the read-out's own scale (docs/reference/readouts.md)
 
   bool operator==(const Measurement&) const = default;
 };

@@ -18,7 +18,7 @@ struct HistogramPeak {
 };
 
 /// Height of the peak above the mean of the other bins of a histogram of 2^bin_bits bins, never negative
-/// (docs/readouts.md, "Histogram confidence").
+/// (docs/reference/readouts.md, "Histogram confidence").
 constexpr std::uint16_t histogram_confidence(const HistogramPeak& peak, int bin_bits) {
   const std::uint32_t mean_of_rest = (peak.sum - peak.count) >> static_cast<unsigned>(bin_bits);
   return static_cast<std::uint16_t>(peak.count - std::min(peak.count, mean_of_rest));

@@ -13,7 +13,8 @@
 
 namespace dtof {
 
-/// Bit-exact integer model of a read-out (docs/readouts.md). Not thread-safe: one instance per thread.
+/// Bit-exact integer model of a read-out (docs/reference/readouts.md). Not thread-safe: one instance per
+/// thread.
 class ReadoutModel {
  public:
   ReadoutModel() = default;

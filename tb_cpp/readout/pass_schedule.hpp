@@ -19,7 +19,8 @@ struct AcquisitionRange {
 };
 
 /// Part `index` (0 .. count - 1) of `acquisitions` cut at floor(acquisitions * index / count), as in
-/// docs/readouts.md: measurements are halves, the steps of three steps thirds, PiFH's runs 2^(NP-NB) parts.
+/// docs/reference/readouts.md: measurements are halves, the steps of three steps thirds, PiFH's runs
+/// 2^(NP-NB) parts.
 constexpr AcquisitionRange frame_part(std::uint32_t acquisitions, std::uint32_t index, std::uint32_t count) {
   const auto cut = [=](std::uint64_t position) {
     return static_cast<std::uint32_t>(acquisitions * position / count);

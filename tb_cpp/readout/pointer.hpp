@@ -58,7 +58,8 @@ struct CodeWindow {
   std::int32_t up_to;
 };
 
-/// Moves a pixel's pointer over one measurement: step schedule, move and confidence (docs/readouts.md).
+/// Moves a pixel's pointer over one measurement: step schedule, move and confidence
+/// (docs/reference/readouts.md).
 class PointerBuilder {
  public:
   explicit PointerBuilder(const ReadoutParameters& parameters)

@@ -13,8 +13,8 @@
 
 namespace dtof {
 
-// poolPointer, step by step (docs/poolpointer.md, which has the same names). Positions are in units of 2^-11
-// coarse bin: 16 bits for the whole range, whatever NP. A cell is a quarter of a coarse bin, 512 units.
+// poolPointer, step by step (docs/reference/poolpointer.md, which has the same names). Positions are in units
+// of 2^-11 coarse bin: 16 bits for the range, whatever NP. A cell is a quarter of a coarse bin, 512 units.
 
 inline constexpr std::size_t kCoarseBins = 32;
 inline constexpr std::size_t kMostLabels = 8;

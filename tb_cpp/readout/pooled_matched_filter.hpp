@@ -20,8 +20,9 @@ struct PoolingPrior {
 };
 
 /// The yardstick for read-outs that pool: every pixel's full histogram, and the same chain along the column
-/// that poolPointer has (docs/poolpointer.md, "Chain"), but with every bin as a label and the matched
-/// filter's log-likelihood ratio as its evidence. Max-product on a chain is exact: the positions maximise
+/// that poolPointer has (docs/reference/poolpointer.md, "Chain"), but with every bin as a label and the
+/// matched filter's log-likelihood ratio as its evidence. Max-product on a chain is exact: its positions have
+/// the largest
 ///
 ///     sum over pixels of score_r(tau_r) - sum over neighbours of (|tau_r - tau_r+1| > reach ? edge_penalty :
 ///     0)

@@ -34,7 +34,7 @@ struct RtlConfiguration {
   [[nodiscard]] std::vector<ResultAddress> result_order() const;
 };
 
-/// FSM state as `state_o` codes it (docs/architecture.md, "States").
+/// FSM state as `state_o` codes it (docs/reference/architecture.md, "States").
 enum class RtlState : int { kIdle = 0, kReset = 1, kM0 = 2, kM1 = 3, kM2 = 4, kM3 = 5, kM4 = 6, kM5 = 7 };
 
 inline constexpr std::size_t kRtlStateCount = 8;

@@ -9,10 +9,10 @@
 
 namespace dtof {
 
-/// Reads a sensor file (TOML, docs/sensor_file.md). What the file does not name is off or has the default of
-/// sensor_key_table(); the name defaults to the file's. Files that it names are looked for beside it.
-/// Throws InputError "<path>:<line>: <reason>" for text that is no TOML, a key that is not known (with the
-/// nearest known one), a value of a wrong type or outside its limits, and a key that is missing.
+/// Reads a sensor file (TOML, docs/user/sensor_file.md). What the file does not name is off or has the
+/// default of sensor_key_table(); the name defaults to the file's. Files that it names are looked for beside
+/// it. Throws InputError "<path>:<line>: <reason>" for text that is no TOML, a key that is not known (with
+/// the nearest known one), a value of a wrong type or outside its limits, and a key that is missing.
 SensorModel read_sensor_file(const std::filesystem::path& path);
 
 /// The same of a text; `path` is for messages and for the files that the text names.

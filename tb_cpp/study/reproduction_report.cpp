@@ -116,7 +116,8 @@ class Rendering {
         "were not seen, up to the sensor's range, where one to nine were seen; where none was, in so many "
         "frames "
         "that they are rarer than {:g} %, verdicts are about results without them "
-        "([docs/accuracy.md](../docs/accuracy.md)). An asterisk marks figures with fewer than ten "
+        "([docs/reference/accuracy.md](../docs/reference/accuracy.md)). An asterisk marks figures with "
+        "fewer than ten "
         "outliers.\n\n"
         "**{} statements agree, {} do not, {} stay open.**\n\n{}\n",
         r_.sensor.signal_events_1m, r_.sensor.background_events_per_klux * 14.0, r_.sensor.acquisitions,

@@ -487,7 +487,7 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       "scenes", "Read-outs, their strongest cheap rival and the matched filter compared on scenes");
   command
       ->add_option("--sensor,-p,--preset", options->sensors,
-                   "presets of `dtof list` or sensor files (docs/sensor_file.md), one or more")
+                   "presets of `dtof list` or sensor files (docs/user/sensor_file.md), one or more")
       ->capture_default_str();
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
       ->check(sensible_klux())

@@ -115,7 +115,8 @@ void add_sensor_effects_command(CLI::App& app, const std::string& command_line) 
   command
       ->add_option("--against", options->clean, "the clean sensor: a preset of `dtof list`, or a sensor file")
       ->capture_default_str();
-  command->add_option("sensors", options->others, "sensor files (docs/sensor_file.md) to compare with it")
+  command
+      ->add_option("sensors", options->others, "sensor files (docs/user/sensor_file.md) to compare with it")
       ->required();
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
       ->check(sensible_klux())

@@ -29,7 +29,7 @@ using testing::Each;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-// ---- An independent reference, as slow and as close to docs/poolpointer.md as possible -------------------
+// ---- An independent reference, as slow and as close to docs/reference/poolpointer.md as possible ---------
 
 struct Event {
   int acquisition;

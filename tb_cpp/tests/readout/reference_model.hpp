@@ -10,8 +10,8 @@
 
 namespace dtof {
 
-/// Slow reading of docs/readouts.md, sentence by sentence, sharing nothing with the models: timestamps are
-/// selected by predicates, counts live in a map, all arithmetic is signed 64 bit.
+/// Slow reading of docs/reference/readouts.md, sentence by sentence, sharing nothing with the models:
+/// timestamps are selected by predicates, counts live in a map, all arithmetic is signed 64 bit.
 PixelResult reference_result(const ReadoutParameters& parameters, const std::vector<Detection>& detections,
                              std::int64_t acquisitions);
 
