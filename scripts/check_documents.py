@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every relative link and anchor of the Markdown files leads somewhere, every page of docs/ stands in its index, whatever
+names a page of docs/ names one that is there, and every module of the RTL has its section on one page of the blocks."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+from page import links, render
+
+ROOT = Path(__file__).resolve().parent.parent
+INDEX = "docs/README.md"
+BLOCKS = "docs/reference/blocks/"
+# Folders of hdl/ whose modules are blocks; the others hold package, proofs, lint waivers and SRAM stand-ins.
+BLOCK_FOLDERS = ("top", "column", "control", "datapath", "engine", "memory")
+MODULE = re.compile(r"^module +(\w+)", re.MULTILINE)
+SECTION = re.compile(r"^## `(\w+)`$", re.MULTILINE)
+NAMED_PAGE = re.compile(r"(?<!\()\bdocs/[\w/-]+\.md\b")  # a link is checked as one
+
+
+def read(path: Path) -> str:
+    return path.read_text(encoding="utf-8", errors="replace")
+
+
+def parsed(text: str) -> links.Page:
+    page = links.Page()
+    page.feed(render.to_html(text, lambda address: address))
+    return page
+
+
+def broken_links(root: Path, files: set[str]) -> list[str]:
+    """`files`: what git keeps, from `root`. What is only built is no target: a reader of the tree does not have it."""
+    pages = {file: parsed(read(root / file)) for file in sorted(files) if file.endswith(".md")}
+    folders = {str(parent) for file in files for parent in Path(file).parents}
+    found = []
+    for file, page in pages.items():
+        for address in sorted(set(page.links + page.resources)):
+            parts = urlsplit(address)
+            if parts.scheme in links.ELSEWHERE:
+                continue
+            path = (root / file).parent / unquote(parts.path) if parts.path else root / file
+            target = path.resolve()
+            name = str(target.relative_to(root.resolve())) if target.is_relative_to(root.resolve()) else None
+            if parts.scheme or parts.netloc or name is None or parts.path.startswith("/"):
+                found.append(f"{file}: {address} leads out of the tree")
+            elif name not in files and name not in folders:
+                found.append(f"{file}: {address} does not exist")
+            elif parts.fragment and (name not in pages or unquote(parts.fragment) not in pages[name].anchors):
+                found.append(f"{file}: {address} has no such anchor")
+    if INDEX in pages:
+        listed = {(root / INDEX).parent.joinpath(unquote(urlsplit(address).path)).resolve() for address in pages[INDEX].links}
+        found += [f"{INDEX}: {file} is not listed" for file in pages
+                  if file.startswith("docs/") and file != INDEX and (root / file).resolve() not in listed]
+    return found
+
+
+def missing_pages(root: Path, files: set[str]) -> list[str]:
+    """Pages that comments, messages and scripts name. Tests name those of small trees of their own."""
+    found = []
+    for file in sorted(file for file in files if not file.startswith("scripts/tests/")):
+        for number, line in enumerate(read(root / file).splitlines(), 1):
+            found += [f"{file}:{number}: {name} does not exist" for name in NAMED_PAGE.findall(line) if name not in files]
+    return found
+
+
+def blocks(root: Path, files: set[str]) -> list[str]:
+    modules, sections = {}, {}
+    for file in sorted(files):
+        parts = Path(file).parts
+        if parts[0] == "hdl" and file.endswith(".sv") and parts[1] in BLOCK_FOLDERS:
+            modules |= dict.fromkeys(MODULE.findall(read(root / file)), file)
+        elif file.startswith(BLOCKS) and file.endswith(".md"):
+            for name in SECTION.findall(read(root / file)):
+                sections.setdefault(name, []).append(file)
+    found = [f"{modules[name]}: no page of {BLOCKS} has a section \"## `{name}`\"" for name in modules
+             if name not in sections]
+    for name, pages in sections.items():
+        if name not in modules:
+            found.append(f"{pages[0]}: {name} is no module of hdl/")
+        elif len(pages) > 1:
+            found.append(f"{', '.join(pages)}: {name} has more than one section")
+    return found
+
+
+def problems(root: Path, files: list[str]) -> list[str]:
+    kept = set(files)
+    return broken_links(root, kept) + missing_pages(root, kept) + blocks(root, kept)
+
+
+def main() -> int:
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, check=True,
+                            capture_output=True, text=True).stdout
+    found = problems(ROOT, [file for file in listed.split("\0") if file and (ROOT / file).is_file()])
+    for sentence in found:
+        print(f"error: {sentence}", file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What scripts/check_documents.py complains about, on small trees, and that it finds nothing in this one."""
+
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import check_documents
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+class Documents(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name) / "tree"
+        self.files: set[str] = set()
+        self.write("README.md", "# Read\n\n[index](docs/README.md), [a](docs/a.md#two-words)\n")
+        self.write("docs/README.md", "# Index\n\n[a](a.md), [up](../README.md#read), [out](https://example.org/#x)\n")
+        self.write("docs/a.md", "# A\n\n## Two words\n\n[here](#two-words), [code](../hdl/top), ![p](../reports/p.svg)\n")
+        self.write("hdl/top/array.sv", "module array (\n);\nendmodule\n")
+        self.write("reports/p.svg", "picture")
+
+    def write(self, name: str, text: str) -> None:
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, encoding="utf-8")
+        self.files.add(name)
+
+    def found(self) -> list[str]:
+        return check_documents.problems(self.root, sorted(self.files))
+
+    def block(self, page: str, *modules: str) -> None:
+        name = f"{check_documents.BLOCKS}{page}.md"
+        self.write(name, "# Blocks\n\n" + "".join(f"## `{module}`\n\ntext\n\n" for module in modules))
+        index = self.root / "docs/README.md"
+        index.write_text(index.read_text(encoding="utf-8") + f"\n[b](reference/blocks/{page}.md)\n", encoding="utf-8")
+
+    def test_what_resolves(self) -> None:
+        self.block("top", "array")
+        self.assertEqual(self.found(), [])
+
+    def test_links_that_lead_nowhere(self) -> None:
+        self.block("top", "array")
+        (self.root / "built.md").write_text("# Not kept by git\n", encoding="utf-8")
+        for address, sentence in {"docs/b.md": "does not exist", "docs/a.md#three": "has no such anchor",
+                                  "#write": "has no such anchor", "hdl/top/array.sv#L3": "has no such anchor",
+                                  "built.md": "does not exist", "../other/README.md": "leads out of the tree",
+                                  "/etc/passwd": "leads out of the tree", "docs/none": "does not exist"}.items():
+            for link in (f"[x]({address})", f"![x]({address})", f"| a |\n|---|\n| [x]({address}) |"):
+                self.write("CHANGELOG.md", f"# Changes\n\n{link}\n")
+                self.assertEqual(self.found(), [f"CHANGELOG.md: {address} {sentence}"])
+
+    def test_code_is_no_link(self) -> None:
+        self.block("top", "array")
+        self.write("CHANGELOG.md", "# Changes\n\n    [x](none.txt)\n\n`[x](none.txt)`\n\n```\n[x](none.txt)\n```\n")
+        self.assertEqual(self.found(), [])
+
+    def test_a_page_that_the_index_forgets(self) -> None:
+        self.block("top", "array")
+        self.write("docs/user/new.md", "# New\n")
+        self.assertEqual(self.found(), ["docs/README.md: docs/user/new.md is not listed"])
+
+    def test_a_page_that_a_comment_names(self) -> None:
+        self.block("top", "array")
+        self.write("hdl/top/array.sv", "// See docs/a.md.\nmodule array (\n);\nendmodule\n")
+        self.assertEqual(self.found(), [])
+        gone = "docs/" + "gone.md"
+        self.write("hdl/top/array.sv", f"// See\n// {gone}, Section.\nmodule array (\n);\nendmodule\n")
+        self.assertEqual(self.found(), [f"hdl/top/array.sv:2: {gone} does not exist"])
+
+    def test_every_module_has_one_section(self) -> None:
+        self.block("top", "array")
+        self.write("hdl/engine/new.sv", "module new_part #(\n    parameter int A = 1\n) (\n);\nendmodule\n")
+        self.write("hdl/formal/proof.sv", "module proof (\n);\nendmodule\n")
+        found, = self.found()
+        self.assertIn("hdl/engine/new.sv: no page of", found)
+        self.block("engine", "new_part")
+        self.assertEqual(self.found(), [])
+        self.block("again", "array")
+        found, = self.found()
+        self.assertIn("array has more than one section", found)
+        self.files.remove(f"{check_documents.BLOCKS}again.md")
+        (self.root / "docs/README.md").write_text("[a](a.md) [t](reference/blocks/top.md) [e](reference/blocks/engine.md)\n",
+                                                  encoding="utf-8")
+        self.write("README.md", "# Read\n")
+        self.write("hdl/engine/new.sv", "module renamed (\n);\nendmodule\n")
+        self.assertEqual(len(self.found()), 2)
+        self.assertIn("new_part is no module of hdl/", self.found()[1])
+
+    def test_this_tree(self) -> None:
+        ran = subprocess.run([ROOT / "scripts/check_documents.py"], capture_output=True, text=True)
+        self.assertEqual((ran.stderr, ran.returncode), ("", 0))
+
+
+if __name__ == "__main__":
+    unittest.main()
