@@ -18,7 +18,7 @@ BLOCKS = "docs/reference/blocks/"
 BLOCK_FOLDERS = ("top", "column", "control", "datapath", "engine", "memory")
 MODULE = re.compile(r"^module +(\w+)", re.MULTILINE)
 SECTION = re.compile(r"^## `(\w+)`$", re.MULTILINE)
-NAMED_PAGE = re.compile(r"(?<!\()\bdocs/[\w/-]+\.md\b")  # a link is checked as one
+NAMED_PAGE = re.compile(r"(?<!\]\()\bdocs/[\w/-]+\.md\b")  # a link is checked as one
 
 
 def read(path: Path) -> str:

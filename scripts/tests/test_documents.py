@@ -68,8 +68,9 @@ class Documents(unittest.TestCase):
         self.write("hdl/top/array.sv", "// See docs/a.md.\nmodule array (\n);\nendmodule\n")
         self.assertEqual(self.found(), [])
         gone = "docs/" + "gone.md"
-        self.write("hdl/top/array.sv", f"// See\n// {gone}, Section.\nmodule array (\n);\nendmodule\n")
-        self.assertEqual(self.found(), [f"hdl/top/array.sv:2: {gone} does not exist"])
+        for named in (f"{gone}, Section.", f"Equation ({gone}, Section): a", f"`{gone}`"):
+            self.write("hdl/top/array.sv", f"// See\n// {named}\nmodule array (\n);\nendmodule\n")
+            self.assertEqual(self.found(), [f"hdl/top/array.sv:2: {gone} does not exist"])
 
     def test_every_module_has_one_section(self) -> None:
         self.block("top", "array")
