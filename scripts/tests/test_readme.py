@@ -10,7 +10,8 @@ from pathlib import Path
 import update_readme
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-EXAMPLE = re.compile(r"^    (build/cpp/\S.*?)(?:\s+#.*)?$", re.MULTILINE)
+# A command may go on behind a backslash, and some make their input with Python.
+EXAMPLE = re.compile(r"^    ((?:build/cpp/|/usr/bin/python3 )(?:.*\\\n)*.*?)(?:\s+#.*)?$", re.MULTILINE)
 PROGRAMS = ROOT / "build" / "cpp"
 
 
