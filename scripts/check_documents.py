@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every relative link and anchor of the Markdown files leads somewhere, every page of docs/ stands in its index, whatever
-names a page of docs/ names one that is there, and every module of the RTL has its section on one page of the blocks."""
+"""Every relative link and anchor of the Markdown files leads somewhere, every page of docs/ stands in its index, and who
+names a page of docs/ names one that is there. Every module of the RTL has its section on one page of the blocks, which
+names only parameters and ports that the module has."""
 
 import re
 import subprocess
@@ -18,6 +19,7 @@ BLOCKS = "docs/reference/blocks/"
 BLOCK_FOLDERS = ("top", "column", "control", "datapath", "engine", "memory")
 MODULE = re.compile(r"^module +(\w+)", re.MULTILINE)
 SECTION = re.compile(r"^## `(\w+)`$", re.MULTILINE)
+OF_A_MODULE = re.compile(r"`([A-Z][A-Z_]+|[a-z]\w*_(?:i|o|ni))`")  # a parameter or a port
 NAMED_PAGE = re.compile(r"(?<!\]\()\bdocs/[\w/-]+\.md\b")  # a link is checked as one
 
 
@@ -51,7 +53,7 @@ def broken_links(root: Path, files: set[str]) -> list[str]:
             elif parts.fragment and (name not in pages or unquote(parts.fragment) not in pages[name].anchors):
                 found.append(f"{file}: {address} has no such anchor")
     if INDEX in pages:
-        listed = {(root / INDEX).parent.joinpath(unquote(urlsplit(address).path)).resolve() for address in pages[INDEX].links}
+        listed = {((root / INDEX).parent / unquote(urlsplit(address).path)).resolve() for address in pages[INDEX].links}
         found += [f"{INDEX}: {file} is not listed" for file in pages
                   if file.startswith("docs/") and file != INDEX and (root / file).resolve() not in listed]
     return found
@@ -62,7 +64,8 @@ def missing_pages(root: Path, files: set[str]) -> list[str]:
     found = []
     for file in sorted(file for file in files if not file.startswith("scripts/tests/")):
         for number, line in enumerate(read(root / file).splitlines(), 1):
-            found += [f"{file}:{number}: {name} does not exist" for name in NAMED_PAGE.findall(line) if name not in files]
+            found += [f"{file}:{number}: {name} does not exist" for name in NAMED_PAGE.findall(line)
+                      if name not in files]
     return found
 
 
@@ -73,15 +76,21 @@ def blocks(root: Path, files: set[str]) -> list[str]:
         if parts[0] == "hdl" and file.endswith(".sv") and parts[1] in BLOCK_FOLDERS:
             modules |= dict.fromkeys(MODULE.findall(read(root / file)), file)
         elif file.startswith(BLOCKS) and file.endswith(".md"):
-            for name in SECTION.findall(read(root / file)):
-                sections.setdefault(name, []).append(file)
+            parts = SECTION.split(read(root / file))
+            for name, text in zip(parts[1::2], parts[2::2]):
+                sections.setdefault(name, []).append((file, text))
     found = [f"{modules[name]}: no page of {BLOCKS} has a section \"## `{name}`\"" for name in modules
              if name not in sections]
-    for name, pages in sections.items():
+    for name, places in sections.items():
+        pages = [page for page, _ in places]
         if name not in modules:
             found.append(f"{pages[0]}: {name} is no module of hdl/")
         elif len(pages) > 1:
             found.append(f"{', '.join(pages)}: {name} has more than one section")
+        else:
+            has = set(re.findall(r"\w+", read(root / modules[name])))
+            found += [f"{pages[0]}: {part} of {name} is not in {modules[name]}"
+                      for part in sorted(set(OF_A_MODULE.findall(places[0][1])) - has)]
     return found
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; the README's table; the
-# pictures under reports/; links and pages of the documents.
+# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; the README's table;
+# the pictures under reports/; links and pages of the documents.
 # --static-analysis adds clang-tidy over all C++ (minutes; needs a configured build).
 set -euo pipefail
 /usr/bin/python3 scripts/lint_rtl.py
@@ -20,7 +20,7 @@ scripts/check_pictures.py
 echo "reports/: few and small pictures, each shown by a document"
 
 scripts/check_documents.py
-echo "documents: every link resolves, every module has its section"
+echo "documents: every link resolves, every module has its section, which names what it has"
 
 if [ "${1:-}" = "--static-analysis" ]; then
   mapfile -t units < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp')

@@ -19,7 +19,8 @@ class Documents(unittest.TestCase):
         self.files: set[str] = set()
         self.write("README.md", "# Read\n\n[index](docs/README.md), [a](docs/a.md#two-words)\n")
         self.write("docs/README.md", "# Index\n\n[a](a.md), [up](../README.md#read), [out](https://example.org/#x)\n")
-        self.write("docs/a.md", "# A\n\n## Two words\n\n[here](#two-words), [code](../hdl/top), ![p](../reports/p.svg)\n")
+        self.write("docs/a.md", "# A\n\n## Two words\n\n[here](#two-words), [code](../hdl/top), "
+                                "![p](../reports/p.svg)\n")
         self.write("hdl/top/array.sv", "module array (\n);\nendmodule\n")
         self.write("reports/p.svg", "picture")
 
@@ -84,12 +85,23 @@ class Documents(unittest.TestCase):
         found, = self.found()
         self.assertIn("array has more than one section", found)
         self.files.remove(f"{check_documents.BLOCKS}again.md")
-        (self.root / "docs/README.md").write_text("[a](a.md) [t](reference/blocks/top.md) [e](reference/blocks/engine.md)\n",
-                                                  encoding="utf-8")
+        self.write("docs/README.md", "[a](a.md) [t](reference/blocks/top.md) [e](reference/blocks/engine.md)\n")
         self.write("README.md", "# Read\n")
         self.write("hdl/engine/new.sv", "module renamed (\n);\nendmodule\n")
         self.assertEqual(len(self.found()), 2)
         self.assertIn("new_part is no module of hdl/", self.found()[1])
+
+    def test_a_section_names_what_the_module_has(self) -> None:
+        self.block("top", "array")
+        self.write("hdl/top/array.sv", "module array #(\n    parameter int WIDTH = 1\n) (\n    input start_i\n);\n"
+                                       "endmodule\n")
+        page = self.root / f"{check_documents.BLOCKS}top.md"
+        text = page.read_text(encoding="utf-8")
+        page.write_text(f"{text}`WIDTH`, `start_i`, `X`, IDLE, `hdl/x_i.sv`\n", encoding="utf-8")
+        self.assertEqual(self.found(), [])
+        page.write_text(f"{text}`DEPTH`, `stop_i`\n", encoding="utf-8")
+        self.assertEqual(self.found(), [f"{check_documents.BLOCKS}top.md: {part} of array is not in hdl/top/array.sv"
+                                        for part in ("DEPTH", "stop_i")])
 
     def test_this_tree(self) -> None:
         ran = subprocess.run([ROOT / "scripts/check_documents.py"], capture_output=True, text=True)
