@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -80,11 +79,15 @@ ReadoutParameters parse_variant(const std::string& text, const SensorModel& sens
     throw malformed();
   }
   ReadoutParameters parameters = default_parameters(parse_readout(text.substr(0, colon)), sensor);
-  std::istringstream changes(text.substr(colon + 1));
-  for (std::string change; std::getline(changes, change, ',');) {
+  std::string_view rest = std::string_view(text).substr(colon + 1);
+  for (bool more = true; more;) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view change = rest.substr(0, comma);
+    more = comma != std::string_view::npos;
+    rest.remove_prefix(more ? comma + 1 : rest.size());
     const std::size_t equals = change.find('=');
     int value = 0;
-    if (equals == std::string::npos || !parse_number(std::string_view(change).substr(equals + 1), value)) {
+    if (equals == std::string_view::npos || !parse_number(change.substr(equals + 1), value)) {
       throw malformed();
     }
     const auto parameter = std::ranges::find(kParameters, change.substr(0, equals), &Parameter::name);

@@ -625,7 +625,7 @@ TEST_F(Programs, TheVersionIsOneInTheWholeTree) {
 
 TEST_F(Programs, UnknownWordsSuggestTheNearest) {
   expect_refused("fram --klux 3", "unknown command 'fram'; did you mean 'frame'? Known are frame, replay,");
-  expect_refused("scnees", "did you mean 'scenes'?");
+  expect_refused("sensro", "did you mean 'sensor'?");
   expect_refused("frobnicate", "unknown command 'frobnicate'; known are frame,");
   expect_refused("frame --klxu 3",
                  "frame: unknown option '--klxu'; did you mean '--klux'? `dtof frame --help`");
@@ -645,7 +645,7 @@ TEST_F(Programs, WhatIsNoNumberIsSaidSo) {
   expect_refused("frame --np 100", "NP must be 3 to 16, not 100");
   expect_refused("frame --seed -1", "frame: --seed: '-1' is negative");
   expect_refused("frame --seed 99999999999999999999", "'99999999999999999999' is too large");
-  expect_refused("stability --seed -1", "stability: --seed: '-1' is negative");
+  expect_refused("walk --seed -1", "walk: --seed: '-1' is negative");
   expect_refused("frame --threads 010", "'010' begins with 0");
 }
 

@@ -43,7 +43,7 @@ TEST(ReadoutVariant, TitleNamesTheChanges) {
 TEST(ReadoutVariant, RefusesWhatItDoesNotKnow) {
   const auto parse = [](const std::string& text) { return [text] { (void)parse_variant(text); }; };
   for (const char* text : {"hispointer", "hispointer:", "hispointer:COUNT_WIDTH", "hispointer:COUNT_WIDTH=x",
-                           "hispointer:COUNT_WIDTH=8,FRACTION_BITS"}) {
+                           "hispointer:COUNT_WIDTH=8,FRACTION_BITS", "hispointer:COUNT_WIDTH=8,"}) {
     EXPECT_THAT(parse(text), ThrowsMessage<InputError>(HasSubstr("expected READOUT:PARAMETER=NUMBER")))
         << text;
   }
