@@ -153,6 +153,7 @@ endfunction()
 
 function(dtof_verilate_named kind top library)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_ROOT}/configurations.toml
+    ${PROJECT_ROOT}/readouts.toml
     ${PROJECT_ROOT}/scripts/list_models.py ${PROJECT_ROOT}/synth/dtof_synth/configuration.py)
   execute_process(COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_ROOT}/scripts/list_models.py ${kind} ${top}
     OUTPUT_VARIABLE models OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
