@@ -145,6 +145,9 @@ TEST_F(PhotonTimesTest, ShortElementsStandInTheirTag) {
   }
   ASSERT_EQ(whole.compare(kName, in_tag.size(), in_tag), 0);
   EXPECT_THAT(read_mat_matrix(write("s.mat", whole), "d").values, ElementsAre(1.5, 2.5, 3.5));
+  whole[kName + in_tag.size()] = 99;  // no type of numbers
+  test::expect_input_error([&] { (void)read_mat_matrix(write("s.mat", whole), "d"); },
+                           EndsWith("\"d\" is not a real numeric matrix, or damaged"));
 }
 
 TEST_F(PhotonTimesTest, TruncationAnywhereIsRefused) {

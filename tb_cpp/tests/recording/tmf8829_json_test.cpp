@@ -95,6 +95,16 @@ TEST_F(Tmf8829Test, RepeatedHistogramsBelongToRowZero) {
   EXPECT_NEAR(cube.true_distance[3], 1.001, 1e-12);
 }
 
+TEST_F(Tmf8829Test, EveryListMustRepeatItsHistogram) {
+  const auto only_row_zero = [&](int odd_list) {
+    const auto first_bin = [&](int i, int j) { return 10 * i + (i == odd_list ? j : 0); };
+    return read_tmf8829_json(write_log({frame(first_bin)})).at(0).only_row_zero();
+  };
+  EXPECT_FALSE(only_row_zero(0));
+  EXPECT_FALSE(only_row_zero(1));
+  EXPECT_TRUE(only_row_zero(2));
+}
+
 TEST_F(Tmf8829Test, Refusals) {
   const auto plain = [](int, int) { return 1; };
   const auto refused = [&](const nlohmann::json& broken, const std::string& reason) {
@@ -110,6 +120,9 @@ TEST_F(Tmf8829Test, Refusals) {
   json = frame(plain);
   json["mp_histo"].erase(1);
   refused(json, "Result_Set[0].mp_histo: 1 elements instead of 2");
+  json = frame(plain);
+  json["mp_histo"][1].push_back(json["mp_histo"][1][0]);
+  refused(json, "Result_Set[0].mp_histo[1]: 3 elements instead of 2");
   json = frame(plain);
   json["results"][0][1]["peaks"][0]["x"] = "left";
   refused(json, "Result_Set[0].results[0][1].peaks[0].x: \"left\" is not a number");
