@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # make coverage-study  whether the confidence intervals hold over 40 seeds: reports/coverage_study.md (minutes), with runs
-#                      of 10,000 frames coverage_study_long.md (half an hour), of poolPointer coverage_study_pool.md
+#                      of 10,000 frames coverage_study_long.md, of poolPointer coverage_study_pool.md
 .PHONY: coverage-study
 coverage-study: study
 	@$(DTOF_STUDY) coverage --frames 100 1000 --seed $(SEED) --out reports
