@@ -18,6 +18,7 @@
 #include "command_line/own_map.hpp"
 #include "core/error.hpp"
 #include "core/kept_streams.hpp"
+#include "core/pixel_sampler.hpp"
 #include "frame/flat_calibration.hpp"
 #include "frame/frame_maps.hpp"
 #include "host/range_converter.hpp"
@@ -192,14 +193,17 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
   return frame;
 }
 
-/// The first frame's photons. Streams are drawn once for all read-outs.
+/// The first frame's photons. Streams are drawn once and kept if they are read more than once.
 class FirstFrame {
  public:
-  FirstFrame(Fidelity fidelity, const PhotonSource& scene, const RunSettings& run)
-      : source_(make_source(fidelity, scene)), streams_(*source_), run_(run) {}
+  FirstFrame(Fidelity fidelity, const PhotonSource& scene, const RunSettings& run, std::size_t readouts)
+      : source_(make_source(fidelity, scene)),
+        streams_(*source_, readouts > 1 || run.verify ? KeptStreams::kMostBytes : 0),
+        run_(run) {}
 
   [[nodiscard]] const StreamSource& source(Readout readout) const {
-    if (reads_samples(readout, run_)) {
+    const bool sampled = dynamic_cast<const SampledSource*>(source_.get()) != nullptr;
+    if (sampled && reads_samples(readout, run_)) {
       return *source_;
     }
     return streams_;
@@ -377,7 +381,7 @@ void run_frame_command(const FrameOptions& options) {
   if (!options.record.empty()) {
     write_stream_csv(options.record, *make_source(fidelity, scene));
   }
-  const FirstFrame first(fidelity, scene, options.run);
+  const FirstFrame first(fidelity, scene, options.run, readouts.size());
   std::vector<MeasuredFrame> frames;
   for (const TabledReadout& readout : tabled) {
     frames.push_back(measure(scene, fidelity, first, readout, options, region, truth));

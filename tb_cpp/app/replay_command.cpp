@@ -355,12 +355,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       "--truth", options->truth_file,
       "true distances: a depth map (PNG of 8 or 16 bits, PFM or NPY) of the recording's or the\n"
       "region's size; errors are then in the summary");
-  command
-      ->add_option(
-          "--truth-scale", options->truth_scale,
-          "metres that one unit of the truth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
-          "for PFM and NPY; a PNG of 8 bits needs it)")
-      ->check(CLI::PositiveNumber);
+  add_truth_scale_option(*command, options->truth_scale);
   command->add_option("--offset", options->offset_mm,
                       "mm that the recording calls zero, taken from every distance (default: each\n"
                       "read-out's median difference to truth; 299.8 for a stream of preset thesis)");

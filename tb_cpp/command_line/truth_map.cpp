@@ -13,6 +13,14 @@
 
 namespace dtof {
 
+void add_truth_scale_option(CLI::App& command, std::optional<double>& metres_per_unit) {
+  command
+      .add_option("--truth-scale", metres_per_unit,
+                  "metres that one unit of the truth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
+                  "for PFM and NPY; a PNG of 8 bits needs it)")
+      ->check(CLI::PositiveNumber);
+}
+
 std::vector<double> read_truth_map(const std::string& file, std::optional<double> metres_per_unit,
                                    int columns, int rows, const Region& region) {
   const DepthImage map = read_depth_image(file, metres_per_unit);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "run/region.hpp"
 
 namespace dtof {
+
+/// --truth-scale, metres that one unit of the truth map stands for.
+void add_truth_scale_option(CLI::App& command, std::optional<double>& metres_per_unit);
 
 /// True distances of a recording of columns x rows from a depth map (io/depth_image.hpp), m; index = row *
 /// columns + column, NaN = unknown. The map has the size of the recording, or of the region that is read;

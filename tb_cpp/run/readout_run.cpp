@@ -21,6 +21,7 @@
 #include "scoreboard/scoreboard.hpp"
 
 namespace dtof {
+
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
                   const RunSettings& options, const Region& region) {
   if (!options.rtl()) {

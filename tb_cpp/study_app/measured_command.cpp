@@ -417,12 +417,7 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
       "--truth", options->truth_file,
       "true distances instead of the recording's own: a depth map (PNG of 8 or 16 bits, PFM or\n"
       "NPY) of the recording's size");
-  command
-      ->add_option(
-          "--truth-scale", options->truth_scale,
-          "metres that one unit of the truth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
-          "for PFM and NPY; a PNG of 8 bits needs it)")
-      ->check(CLI::PositiveNumber);
+  add_truth_scale_option(*command, options->truth_scale);
   command->add_option("--from-tick", options->from_tick, "photon times: leave earlier ones out")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
