@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "readout/pool_pointer.hpp"
+
+namespace dtof {
+
+// What poolPointer and poolPointer 2 share below the level of their phases.
+
+inline constexpr std::size_t kCoarsePairs = kCoarseBins - 1;
+inline constexpr int kFirstPenalisedLabel = 2;
+inline constexpr std::int32_t kHitCells = 5;    // a timestamp this near to a pointer supports it
+inline constexpr std::int32_t kReachCells = 8;  // farther timestamps move nothing
+inline constexpr std::int32_t kUnitsPerOffset = kUnitsPerCoarseBin / 32;
+inline constexpr std::int32_t kPoolPositions = 1 << 16;
+
+/// Sums over adjacent pairs of coarse bins, and which of them are taken by a candidate or beside one.
+using PairSums = std::array<int, kCoarsePairs>;
+using TakenPairs = std::array<bool, kCoarsePairs>;
+
+/// Distances are floored to whole cells: a window of n of them begins at -n and ends before n.
+constexpr bool within(std::int32_t distance, std::int32_t reach) {
+  return distance >= -reach && distance < reach;
+}
+constexpr std::int32_t in_cells(std::int32_t distance) { return distance >> 9; }
+
+/// B of a group from the emptiest octet of its histogram's bins.
+int group_background(const CoarseHistogram& histogram, int count_width);
+/// The largest sum not taken, the lowest on a tie; kCoarsePairs if all are taken.
+std::size_t highest_pair(const PairSums& sums, const TakenPairs& taken);
+void take_pairs(TakenPairs& taken, std::size_t peak);
+/// Takes `excess` from the pairs two before and two after the peak, where the peak's pulse leaks.
+void take_leakage(PairSums& sums, std::size_t peak, int excess);
+std::int32_t centre_cell(const PairSums& sums, std::size_t peak);
+
+/// Moves the leader's offset by `step` towards the timestamp.
+void move_offset(PoolTracks& word, const PoolGroup& group, std::int32_t position, int step, int offset_bits);
+/// Scores the first candidate whose window, `reach` cells either side, has the timestamp; it may become the
+/// leader if `leads`.
+void score_candidate(PoolTracks& word, const PoolGroup& group, std::int32_t position, std::int32_t reach,
+                     bool leads);
+
+struct BestLabels {
+  int best;    ///< lowest label on a tie
+  int second;  ///< of the others
+};
+BestLabels best_labels(std::span<const int> values);
+
+/// Windows of the pointer phase, in cells.
+struct PointerWindows {
+  std::array<std::int32_t, 8> weight;  ///< of a timestamp by its distance: a redescending M-estimator
+  std::int32_t rival_reach;            ///< a timestamp this near supports the rival
+};
+/// The word after a timestamp at `position` of acquisition `acquisition`; steps are at most `largest_step`.
+void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,
+                     std::uint32_t acquisition, std::int32_t largest_step, const PointerWindows& windows,
+                     const PoolPointerParameters& parameters);
+
+/// The result word of a winner at `position`; `half_bin` of the timestamps.
+PixelResult pool_result(std::int32_t position, int margin, unsigned fraction_bits);
+
+/// What two adjacent pixels of a column count in the coarse phase: a timestamp per acquisition, the even
+/// row's in even ones, the odd row's in odd ones, and the other's where that one has none. Both are ascending
+/// by their member `acquisition`.
+template <typename Timed, typename Count>
+void count_one_of_two_rows(std::span<const Timed> even, std::span<const Timed> odd, const Count& count) {
+  std::size_t e = 0;
+  std::size_t o = 0;
+  while (e < even.size() || o < odd.size()) {
+    const bool has_even = e < even.size() && (o == odd.size() || even[e].acquisition <= odd[o].acquisition);
+    const bool has_odd = o < odd.size() && (e == even.size() || odd[o].acquisition <= even[e].acquisition);
+    const bool takes_even = has_even && (!has_odd || even[e].acquisition % 2 == 0);
+    count(takes_even ? even[e] : odd[o]);
+    e += has_even ? 1 : 0;
+    o += has_odd ? 1 : 0;
+  }
+}
+
+}  // namespace dtof

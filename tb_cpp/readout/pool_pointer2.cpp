@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "readout/pool_pointer2.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+
+#include "core/error.hpp"
+#include "readout/pixelwise_model.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr int kPairColumns = 2;  // columns that share an SRAM, and so a group
+constexpr int kSmoothShift = 2;  // S1 moves by a quarter
+
+void require_range(const char* name, int value, int lowest, int highest) {
+  if (value < lowest || value > highest) {
+    throw InputError(fmt::format("{} must be {} to {}, not {}", name, lowest, highest, value));
+  }
+}
+
+/// The groups of an engine: of each pair of columns, from row 0 down.
+class Groups {
+ public:
+  Groups(std::span<const PoolColumn> columns, std::uint32_t coarse_end,
+         const PoolPointer2Parameters& parameters)
+      : parameters_(parameters), rows_(static_cast<std::size_t>(parameters.group_rows)) {
+    const std::size_t pairs = (columns.size() + kPairColumns - 1) / kPairColumns;
+    height_ = (columns.front().size() + rows_ - 1) / rows_;
+    histograms_.resize(pairs * height_);
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      count(columns[column], column, coarse_end);
+    }
+    groups_.reserve(histograms_.size());
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+      for (std::size_t g = 0; g < height_; ++g) {
+        groups_.push_back(decode(pair, g, pairs));
+      }
+    }
+  }
+
+  [[nodiscard]] const PoolGroup& at(std::size_t column, std::size_t row) const {
+    return groups_[index(column / kPairColumns, row / rows_)];
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(std::size_t pair, std::size_t g) const { return pair * height_ + g; }
+
+  void count(const PoolColumn& column, std::size_t number, std::uint32_t coarse_end) {
+    const auto coarse = [&](std::size_t row) {
+      const std::span<const PoolEvent> events(column[row]);
+      const auto end = std::ranges::partition_point(
+          events, [&](const PoolEvent& event) { return event.acquisition < coarse_end; });
+      return events.first(static_cast<std::size_t>(end - events.begin()));
+    };
+    const int limit = (1 << parameters_.count_width) - 1;
+    for (std::size_t row = 0; row < column.size(); row += 2) {
+      CoarseHistogram& histogram = histograms_[index(number / kPairColumns, row / rows_)];
+      count_one_of_two_rows(coarse(row),
+                            row + 1 < column.size() ? coarse(row + 1) : std::span<const PoolEvent>(),
+                            [&](const PoolEvent& event) {
+                              std::uint16_t& bin = histogram[event.preferred / kUnitsPerCoarseBin];
+                              bin = static_cast<std::uint16_t>(bin + (bin < limit ? 1 : 0));
+                            });
+    }
+  }
+
+  [[nodiscard]] PoolGroup decode(std::size_t pair, std::size_t g, std::size_t pairs) const {
+    const CoarseHistogram& own = histograms_[index(pair, g)];
+    // A group without a neighbour on a side takes itself.
+    const std::array<const CoarseHistogram*, 4> neighbours = {
+        &histograms_[index(pair, g > 0 ? g - 1 : g)], &histograms_[index(pair, g + 1 < height_ ? g + 1 : g)],
+        &histograms_[index(pair > 0 ? pair - 1 : pair, g)],
+        &histograms_[index(pair + 1 < pairs ? pair + 1 : pair, g)]};
+    PairSums sums{};
+    for (std::size_t i = 0; i < kCoarsePairs; ++i) {
+      sums[i] = parameters_.own_weight * (own[i] + own[i + 1]);
+      for (const CoarseHistogram* neighbour : neighbours) {
+        sums[i] += (*neighbour)[i] + (*neighbour)[i + 1];
+      }
+    }
+    PoolGroup group{};
+    group.labels = parameters_.labels;
+    group.score_limit = (1 << parameters_.score_bits) - 1;
+    group.background = group_background(own, parameters_.count_width);
+    const int least = std::ranges::min(sums);
+    TakenPairs taken{};
+    for (int label = 0; label < group.labels; ++label) {
+      const std::size_t peak = highest_pair(sums, taken);
+      group.centre_cell[static_cast<std::size_t>(label)] = centre_cell(sums, peak);
+      take_leakage(sums, peak, std::max(sums[peak] - least, 0) >> parameters_.leak_shift);
+      take_pairs(taken, peak);
+    }
+    return group;
+  }
+
+  const PoolPointer2Parameters& parameters_;
+  std::size_t rows_;    // of a group
+  std::size_t height_;  // groups of a pair
+  std::vector<CoarseHistogram> histograms_;
+  std::vector<PoolGroup> groups_;
+};
+
+/// The preferred timestamp, but the other one if only that is inside.
+template <typename Inside>
+std::int32_t better_of_two(const PoolEvent& event, const Inside& inside) {
+  return !inside(event.preferred) && inside(event.other) ? event.other : event.preferred;
+}
+
+void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
+           const PoolPointer2Parameters& parameters) {
+  const std::int32_t position = better_of_two(event, [&](std::int32_t x) {
+    return std::any_of(group.centre_cell.begin(), group.centre_cell.begin() + group.labels,
+                       [&](std::int32_t cell) { return within(in_cells(x) - cell, parameters.track_reach); });
+  });
+  const int score = word.score[static_cast<std::size_t>(word.leader)];
+  const int step = score < parameters.offset_gear[0] ? 4 : score < parameters.offset_gear[1] ? 2 : 1;
+  move_offset(word, group, position, step, parameters.offset_bits);
+  score_candidate(word, group, position, parameters.track_reach, true);
+}
+
+void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event,
+           const PoolPointer2Parameters& parameters) {
+  const std::int32_t position =
+      better_of_two(event, [&](std::int32_t x) { return within(in_cells(x - word.pointer), kReachCells); });
+  constexpr std::int32_t kNoLimit = std::numeric_limits<std::int32_t>::max();
+  PoolPointerParameters rules;
+  rules.count_bits = parameters.count_bits;
+  rules.pointer_shift = parameters.pointer_shift;
+  follow_pointers(word, group, position, event.acquisition, kNoLimit, parameters.windows, rules);
+}
+
+using Evidence = std::array<int, kMostLabels>;
+
+/// A pixel's own evidence in choose, before what the columns beside say.
+Evidence own_evidence(const PoolTracks& tracks, const PoolGroup& group,
+                      const PoolPointer2Parameters& parameters) {
+  Evidence evidence{};
+  for (int label = 0; label < group.labels; ++label) {
+    const auto k = static_cast<std::size_t>(label);
+    evidence[k] =
+        tracks.score[k] - (label >= kFirstPenalisedLabel ? parameters.label_cost.at(group.background) : 0);
+  }
+  return evidence;
+}
+
+bool agree(std::int32_t cell, std::int32_t other, const PoolPointer2Parameters& parameters) {
+  return std::abs(cell - other) <= parameters.lateral_reach;
+}
+
+/// What a pixel's candidates pay for being unlike the best two of the pixel to the right.
+Evidence cost_from_right(const PoolGroup& group, const PoolTracks& right_tracks, const PoolGroup& right,
+                         const PoolPointer2Parameters& parameters) {
+  const Evidence evidence = own_evidence(right_tracks, right, parameters);
+  const BestLabels labels = best_labels(std::span(evidence).first(static_cast<std::size_t>(right.labels)));
+  const auto best = static_cast<std::size_t>(labels.best);
+  const auto second = static_cast<std::size_t>(labels.second);
+  const int most = parameters.right_limit.at(group.background);
+  Evidence cost{};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
+    const std::int32_t cell = group.centre_cell[k];
+    cost[k] = agree(cell, right.centre_cell[best], parameters) ? 0
+              : agree(cell, right.centre_cell[second], parameters)
+                  ? std::min(evidence[best] - evidence[second], most)
+                  : most;
+  }
+  return cost;
+}
+
+PoolPointerWord first_word(const PoolTracks& tracks, const PoolGroup& group, std::span<const int> beliefs,
+                           const PoolPointer2Parameters& parameters) {
+  PoolPointerParameters rules;
+  rules.count_bits = parameters.count_bits;
+  return first_pointer_word(tracks, group, beliefs, rules);
+}
+
+/// Chooses in all columns from left to right; index: column, row.
+std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<PoolTracks>>& tracks,
+                                                 const Groups& groups,
+                                                 const PoolPointer2Parameters& parameters) {
+  std::vector<std::vector<PoolPointerWord>> words(tracks.size());
+  std::vector<std::int32_t> left;  // cells chosen in the column before
+  for (std::size_t column = 0; column < tracks.size(); ++column) {
+    std::vector<ChainNode> chain;
+    for (std::size_t row = 0; row < tracks[column].size(); ++row) {
+      const PoolGroup& group = groups.at(column, row);
+      Evidence evidence = own_evidence(tracks[column][row], group, parameters);
+      if (column > 0) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
+          evidence[k] -= agree(group.centre_cell[k], left[row], parameters)
+                             ? 0
+                             : parameters.left_cost.at(group.background);
+        }
+      }
+      if (column + 1 < tracks.size()) {
+        const Evidence cost =
+            cost_from_right(group, tracks[column + 1][row], groups.at(column + 1, row), parameters);
+        for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
+          evidence[k] -= cost[k];
+        }
+      }
+      ChainNode node{.labels = group.labels,
+                     .penalty = parameters.choose_penalty.at(group.background),
+                     .position = {},
+                     .evidence = evidence};
+      for (int label = 0; label < group.labels; ++label) {
+        node.position[static_cast<std::size_t>(label)] = group.centre(label);
+      }
+      chain.push_back(node);
+    }
+    const auto beliefs = chain_beliefs(chain);
+    left.resize(chain.size());
+    for (std::size_t row = 0; row < chain.size(); ++row) {
+      const PoolGroup& group = groups.at(column, row);
+      words[column].push_back(
+          first_word(tracks[column][row], group,
+                     std::span(beliefs[row]).first(static_cast<std::size_t>(group.labels)), parameters));
+      left[row] = group.centre_cell[static_cast<std::size_t>(words[column].back().leader)];
+    }
+  }
+  return words;
+}
+
+PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column, const Groups& groups,
+                   const PoolPointer2Parameters& parameters) {
+  std::vector<ChainNode> chain;
+  for (std::size_t row = 0; row < words.size(); ++row) {
+    const std::int32_t rival = words[row].rival * kUnitsPerCell + kUnitsPerCell / 2;
+    chain.push_back({.labels = 2,
+                     .penalty = parameters.decide_penalty.at(groups.at(column, row).background),
+                     .position = {words[row].pointer, rival},
+                     .evidence = {words[row].advantage, 0}});
+  }
+  const auto beliefs = chain_beliefs(chain);
+  PoolWinners winners;
+  for (std::size_t row = 0; row < words.size(); ++row) {
+    const int margin = beliefs[row][0] - beliefs[row][1];
+    winners.push_back({chain[row].position[margin >= 0 ? 0 : 1], margin, groups.at(column, row).background});
+  }
+  return winners;
+}
+
+}  // namespace
+
+void PoolPointer2Parameters::validate() const {
+  require_range("COUNT_WIDTH", count_width, 4, 8);
+  require_range("LABELS", labels, 2, 8);
+  require_range("SCORE_BITS", score_bits, 1, 4);
+  require_range("OFFSET_BITS", offset_bits, 2, 6);
+  require_range("ADVANTAGE_WIDTH", count_bits, 7, 7);
+  require_range("POINTER_SHIFT", pointer_shift, 0, 2);
+  require_range("COARSE_SHARE", coarse_share, 1, 62);
+  require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
+  if (group_rows < 2 || group_rows > 32 || (group_rows & (group_rows - 1)) != 0) {
+    throw InputError(fmt::format("GROUP_ROWS must be a power of two from 2 to 32, not {}", group_rows));
+  }
+  // The bins of a group lie in its pixels' words, as many in each, a power of two.
+  const auto bins =
+      static_cast<int>(std::bit_floor(static_cast<unsigned>(4 * track_word_bits() / count_width)));
+  if (bins * (group_rows / 2) < static_cast<int>(kCoarseBins)) {
+    throw InputError(fmt::format("32 bins of COUNT_WIDTH must fit the words of {} rows: {} bits do not",
+                                 group_rows, count_width));
+  }
+  if (engine_columns < 2 || engine_columns % kPairColumns != 0) {
+    throw InputError(fmt::format("ENGINE_COLUMNS must be even and at least 2, not {}", engine_columns));
+  }
+}
+
+int PoolPointer2Parameters::track_word_bits() const {
+  const int label_bits = labels > 4 ? 3 : labels > 2 ? 2 : 1;
+  return labels * score_bits + label_bits + offset_bits;
+}
+
+int PoolPointer2Parameters::pointer_word_bits() const { return 16 - pointer_shift + 7 + count_bits; }
+
+int PoolPointer2Parameters::group_word_bits() const { return 7 * labels + 6; }
+
+PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions) {
+  require_range("NP", np, 8, 16);
+  const auto fraction_bits = static_cast<unsigned>(16 - np);
+  ReadoutParameters limits;
+  limits.np = np;
+  PoolColumn events(static_cast<std::size_t>(column.rows()));
+  for (int row = 0; row < column.rows(); ++row) {
+    check_detections(column.row(row), row, limits, acquisitions);
+    std::vector<PoolEvent>& pixel = events[static_cast<std::size_t>(row)];
+    int seen = 0;
+    for (const Detection& detection : column.row(row)) {
+      if (detection.timestamp == limits.no_detection()) {
+        continue;
+      }
+      const auto position =
+          static_cast<std::uint16_t>((detection.timestamp << fraction_bits) + ((1U << fraction_bits) >> 1U));
+      if (pixel.empty() || pixel.back().acquisition != detection.acquisition) {
+        pixel.push_back({detection.acquisition, position, position});
+        seen = 1;
+      } else if (++seen == 2) {
+        (detection.acquisition % 2 == 1 ? pixel.back().preferred : pixel.back().other) = position;
+      }
+    }
+  }
+  return events;
+}
+
+std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::uint32_t acquisitions,
+                                     const PoolPointer2Parameters& parameters) {
+  if (columns.empty()) {
+    return {};
+  }
+  const auto share = [&](int share_64ths) {
+    return static_cast<std::uint32_t>(
+        (std::uint64_t{acquisitions} * static_cast<std::uint64_t>(share_64ths)) >> 6U);
+  };
+  const std::uint32_t coarse_end = share(parameters.coarse_share);
+  const std::uint32_t track_end = share(parameters.coarse_share + parameters.track_share);
+  const Groups groups(columns, coarse_end, parameters);
+  std::vector<std::vector<PoolTracks>> tracks(columns.size());
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    tracks[column].resize(columns[column].size());
+    for (std::size_t row = 0; row < columns[column].size(); ++row) {
+      for (const PoolEvent& event : columns[column][row]) {
+        if (event.acquisition >= coarse_end && event.acquisition < track_end) {
+          track(tracks[column][row], groups.at(column, row), event, parameters);
+        }
+      }
+    }
+  }
+  std::vector<std::vector<PoolPointerWord>> words = choose(tracks, groups, parameters);
+  std::vector<PoolWinners> winners;
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    for (std::size_t row = 0; row < columns[column].size(); ++row) {
+      for (const PoolEvent& event : columns[column][row]) {
+        if (event.acquisition >= track_end) {
+          point(words[column][row], groups.at(column, row), event, parameters);
+        }
+      }
+    }
+    winners.push_back(decide(words[column], column, groups, parameters));
+  }
+  return winners;
+}
+
+std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners,
+                                             const PoolPointer2Parameters& parameters) {
+  std::vector<std::int32_t> positions;
+  for (std::size_t row = 0; row < winners.size(); ++row) {
+    const std::int32_t own = winners[row].position;
+    const bool bright = winners[row].background >= parameters.smooth_bright_from;
+    const int reach = parameters.smooth_reach[bright ? 1 : 0];
+    std::int32_t sum = 0;
+    const auto add = [&](std::size_t neighbour) {
+      const std::int32_t distance = winners[neighbour].position - own;
+      sum += std::abs(distance) <= reach ? distance : 0;
+    };
+    if (row > 0) {
+      add(row - 1);
+    }
+    if (row + 1 < winners.size()) {
+      add(row + 1);
+    }
+    positions.push_back(own + sum / (1 << kSmoothShift));
+  }
+  return positions;
+}
+
+std::vector<std::vector<PixelResult>> run_pool_pointer2(std::span<const ColumnStream> array, int np,
+                                                        std::uint32_t acquisitions,
+                                                        const PoolPointer2Parameters& parameters) {
+  parameters.validate();
+  std::vector<std::vector<PixelResult>> results;
+  std::vector<PoolColumn> engine;
+  for (std::size_t column = 0; column < array.size(); ++column) {
+    if (array[column].rows() != array.front().rows()) {
+      throw InputError(fmt::format("column {} has {} rows, column 0 has {}", column, array[column].rows(),
+                                   array.front().rows()));
+    }
+    engine.push_back(pool_column_events(array[column], np, acquisitions));
+    if (engine.size() < static_cast<std::size_t>(parameters.engine_columns) && column + 1 < array.size()) {
+      continue;
+    }
+    for (const PoolWinners& winners : read_engine(engine, acquisitions, parameters)) {
+      const std::vector<std::int32_t> smoothed = smoothed_positions(winners, parameters);
+      std::vector<PixelResult>& pixels = results.emplace_back();
+      for (std::size_t row = 0; row < winners.size(); ++row) {
+        pixels.push_back(pool_result(parameters.smooth ? smoothed[row] : winners[row].position,
+                                     winners[row].margin, static_cast<unsigned>(16 - np)));
+      }
+    }
+    engine.clear();
+  }
+  return results;
+}
+
+}  // namespace dtof

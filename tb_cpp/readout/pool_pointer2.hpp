@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/result.hpp"
+#include "readout/pool_parts.hpp"
+
+namespace dtof {
+
+// poolPointer 2: pools over two columns and four rows, and from column to column within an engine
+// (docs/reference/poolpointer2.md, which has the same names).
+
+/// base + (slope * B >> 4), B the background of a group.
+struct PoolCost {
+  int base;
+  int slope;
+
+  [[nodiscard]] int at(int background) const { return base + ((slope * background) >> 4); }
+  bool operator==(const PoolCost&) const = default;
+};
+
+/// Numbers of poolPointer 2. Lengths in cells are a quarter of a coarse bin, units 2^-11 of one.
+struct PoolPointer2Parameters {
+  int count_width = 7;      ///< bits of a coarse bin
+  int group_rows = 4;       ///< of two columns
+  int labels = 5;           ///< candidates of a group
+  int score_bits = 4;       ///< of each
+  int offset_bits = 6;      ///< leader's offset in the track phase, 32nds of a coarse bin, signed
+  int count_bits = 7;       ///< n, the leader's advantage
+  int pointer_shift = 1;    ///< the leader's pointer has the unit 2^pointer_shift
+  int engine_columns = 34;  ///< columns that share an engine; even
+  int coarse_share = 16;    ///< 64ths of the frame: coarse phase
+  int track_share = 20;     ///< 64ths of the frame: track phase
+
+  int own_weight = 3;   ///< of a group's own histogram beside its four neighbours
+  int leak_shift = 3;   ///< of a candidate's height above the floor, what leaks into the pair two further on
+  int track_reach = 4;  ///< cells: window of a candidate
+  std::array<int, 2> offset_gear = {
+      3, 8};  ///< the offset moves by 4 below the first score, by 2 below the other
+
+  PoolCost label_cost = {0, 2};      ///< what the candidates from the third on pay in choose
+  PoolCost choose_penalty = {2, 5};  ///< lambda of choose
+  PoolCost left_cost = {2, 3};       ///< for a candidate unlike the column to the left's choice
+  PoolCost right_limit = {1, 3};     ///< largest message of the column to the right
+  int lateral_reach = 4;             ///< cells: as far apart columns still agree
+  PoolCost decide_penalty = {2, 0};  ///< lambda of decide
+
+  PointerWindows windows = {.weight = {1, 3, 4, 4, 4, 3, 2, 1}, .rival_reach = 6};
+
+  bool smooth = true;                              ///< S1
+  std::array<int, 2> smooth_reach = {1024, 1536};  ///< units: T of dark and of bright groups
+  int smooth_bright_from = 6;                      ///< B from which a group is bright there
+
+  /// Throws InputError.
+  void validate() const;
+  [[nodiscard]] int track_word_bits() const;
+  [[nodiscard]] int pointer_word_bits() const;
+  [[nodiscard]] int group_word_bits() const;
+  bool operator==(const PoolPointer2Parameters&) const = default;
+};
+
+/// What a pixel had in an acquisition: the timestamp it prefers and its other one, the same if it has none.
+/// The first two of an acquisition count; the first is preferred in even ones, the second in odd ones.
+struct PoolEvent {
+  std::uint32_t acquisition;
+  std::uint16_t preferred;  ///< units
+  std::uint16_t other;
+
+  bool operator==(const PoolEvent&) const = default;
+};
+/// A column's events, pixel by pixel.
+using PoolColumn = std::vector<std::vector<PoolEvent>>;
+/// Throws InputError for an NP outside 8 to 16, a timestamp above its largest code or an acquisition outside
+/// the frame.
+PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions);
+
+/// A pixel after decide, before S1.
+struct PoolWinner {
+  std::int32_t position;  ///< units
+  int margin;             ///< belief of the leader less the rival's
+  int background;         ///< B of its group
+};
+using PoolWinners = std::vector<PoolWinner>;
+
+/// Reads the columns of one engine, left to right, all with the same number of rows; index: column, row.
+std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::uint32_t acquisitions,
+                                     const PoolPointer2Parameters& parameters);
+
+/// Positions of a column's winners after S1: each moves by a quarter of the sum of its vertical neighbours'
+/// distances, as far as these are within T.
+std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners,
+                                             const PoolPointer2Parameters& parameters);
+
+/// Reads an array, column by column from left to right, engine by engine; index: column, row. Throws
+/// InputError for illegal parameters, malformed streams or columns of different lengths.
+std::vector<std::vector<PixelResult>> run_pool_pointer2(std::span<const ColumnStream> array, int np,
+                                                        std::uint32_t acquisitions,
+                                                        const PoolPointer2Parameters& parameters);
+
+}  // namespace dtof

@@ -1,0 +1,670 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "readout/pool_pointer2.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/parameters.hpp"
+#include "core/random.hpp"
+#include "tests/core/test_seed.hpp"
+#include "tests/readout/test_streams.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+// ---- An independent reference, as slow and as close to docs/reference/poolpointer2.md as possible --------
+//
+// A dictionary from (column, row) to a pixel, plain numbers where the model has named parameters, no cells
+// where positions do, and every chain solved anew for every label of every pixel.
+
+struct Place {
+  int column;
+  int row;
+  auto operator<=>(const Place&) const = default;
+};
+
+struct Pixel {
+  std::map<int, std::vector<int>> seen;  // acquisition: positions of the first one or two timestamps
+  std::vector<int> score = std::vector<int>(5, 0);
+  int leader = 0;
+  int offset = 0;
+  int chosen = 0;
+  int n = 0, pa = 0, pb = 0;
+  int winner = 0, margin = 0;
+};
+
+struct Group {
+  std::vector<int> h = std::vector<int>(32, 0);
+  std::vector<int> cell;
+  int b = 0;
+};
+
+int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
+
+class Reference {
+ public:
+  /// One engine: columns from left to right.
+  Reference(const std::vector<ColumnStream>& columns, int np, int acquisitions)
+      : columns_(static_cast<int>(columns.size())),
+        rows_(columns.front().rows()),
+        np_(np),
+        all_(acquisitions) {
+    const int scale = 1 << (16 - np);
+    for (int c = 0; c < columns_; ++c) {
+      for (int r = 0; r < rows_; ++r) {
+        Pixel& pixel = pixels_[{c, r}];
+        for (const Detection& d : columns[static_cast<std::size_t>(c)].row(r)) {
+          if (d.timestamp != (1 << np) - 1) {
+            std::vector<int>& times = pixel.seen[static_cast<int>(d.acquisition)];
+            if (times.size() < 2) {
+              times.push_back(d.timestamp * scale + scale / 2);
+            }
+          }
+        }
+      }
+    }
+  }
+
+  std::vector<std::vector<PixelResult>> run(bool smooth) {
+    coarse();
+    for (auto& [place, group] : groups_) {
+      decode(place, group);
+    }
+    for (auto& [place, pixel] : pixels_) {
+      for (const auto& [a, times] : pixel.seen) {
+        if (a >= all_ * 16 / 64 && a < all_ * 36 / 64) {
+          track(pixel, group(place), a, times);
+        }
+      }
+    }
+    for (int c = 0; c < columns_; ++c) {
+      choose(c);
+    }
+    for (auto& [place, pixel] : pixels_) {
+      for (const auto& [a, times] : pixel.seen) {
+        if (a >= all_ * 36 / 64) {
+          point(pixel, a, times);
+        }
+      }
+    }
+    for (int c = 0; c < columns_; ++c) {
+      decide(c);
+    }
+    std::vector<std::vector<PixelResult>> results(static_cast<std::size_t>(columns_));
+    for (const auto& [place, pixel] : pixels_) {
+      results[static_cast<std::size_t>(place.column)].push_back(result(place, smooth));
+    }
+    return results;
+  }
+
+ private:
+  Group& group(Place place) { return groups_[{place.column / 2, place.row / 4}]; }
+
+  static int preferred(int a, const std::vector<int>& times) {
+    return a % 2 == 1 && times.size() == 2 ? times[1] : times[0];
+  }
+
+  void coarse() {
+    for (int a = 0; a < all_ * 16 / 64; ++a) {
+      for (int c = 0; c < columns_; ++c) {
+        for (int r = 0; r < rows_; r += 2) {
+          // Even acquisitions are the even row's turn, if it has a timestamp.
+          for (const int row : {r + a % 2, r + 1 - a % 2}) {
+            const auto pixel = pixels_.find({c, row});
+            if (pixel != pixels_.end() && pixel->second.seen.contains(a)) {
+              int& bin =
+                  group({c, r}).h[static_cast<std::size_t>(preferred(a, pixel->second.seen[a]) / 2048)];
+              bin = bin == 127 ? 127 : bin + 1;
+              break;
+            }
+          }
+        }
+      }
+    }
+    for (const auto& [place, pixel] : pixels_) {
+      (void)group(place);  // one without a timestamp is a group, too
+    }
+  }
+
+  void decode(Place place, Group& own) {
+    std::vector<Group*> beside;
+    for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
+                           Place{place.column - 1, place.row}, Place{place.column + 1, place.row}}) {
+      const auto found = groups_.find(at);
+      beside.push_back(found == groups_.end() ? &own : &found->second);
+    }
+    std::array<int, 4> octets{};
+    std::vector<int> w;
+    for (std::size_t i = 0; i < 32; ++i) {
+      octets[i / 8] += own.h[i];
+      if (i < 31) {
+        w.push_back(3 * (own.h[i] + own.h[i + 1]));
+        for (const Group* other : beside) {
+          w.back() += other->h[i] + other->h[i + 1];
+        }
+      }
+    }
+    own.b = 5 * *std::min_element(octets.begin(), octets.end()) / 128;
+    const int least = *std::min_element(w.begin(), w.end());
+    std::vector<int> free_pairs;
+    for (int i = 0; i < 31; ++i) {
+      free_pairs.push_back(i);
+    }
+    const auto value = [&](int i) { return i < 0 || i > 30 ? 0 : w[static_cast<std::size_t>(i)]; };
+    for (int k = 0; k < 5; ++k) {
+      const int peak = *std::max_element(free_pairs.begin(), free_pairs.end(),
+                                         [&](int i, int j) { return value(i) < value(j); });
+      const int difference = value(peak + 1) - value(peak - 1);
+      const int height = value(peak) - std::min(value(peak + 1), value(peak - 1));
+      int cell = 4 * peak + 4;
+      if (height > 0 && 2 * difference > height) {
+        ++cell;
+      } else if (height > 0 && -2 * difference > height) {
+        --cell;
+      }
+      own.cell.push_back(cell);
+      const int leak = (value(peak) - least) / 8;
+      for (const int i : {peak - 2, peak + 2}) {
+        if (i >= 0 && i <= 30 && value(peak) > least) {
+          w[static_cast<std::size_t>(i)] = std::max(0, value(i) - leak);
+        }
+      }
+      std::erase_if(free_pairs, [&](int i) { return std::abs(i - peak) <= 1; });
+    }
+  }
+
+  /// Distance from a position in whole cells, towards minus infinity.
+  static int cells(int x, int from) { return floor_divide(x - from, 512); }
+
+  template <typename Test>
+  static int take(int a, const std::vector<int>& times, Test inside) {
+    const int first_choice = preferred(a, times);
+    for (const int x : times) {
+      if (!inside(first_choice) && inside(x)) {
+        return x;
+      }
+    }
+    return first_choice;
+  }
+
+  static void track(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) {
+    const auto label_of = [&](int x) {
+      for (int k = 0; k < 5; ++k) {
+        const int d = cells(x, 512 * g.cell[static_cast<std::size_t>(k)]);
+        if (d >= -4 && d <= 3) {
+          return k;
+        }
+      }
+      return -1;
+    };
+    const int x = take(a, times, [&](int time) { return label_of(time) >= 0; });
+    auto& score = pixel.score;
+    const auto lead = static_cast<std::size_t>(pixel.leader);
+    const int e = cells(x, 512 * g.cell[lead] + 64 * pixel.offset);
+    const int step = score[lead] < 3 ? 4 : score[lead] < 8 ? 2 : 1;
+    if (e >= 1 && e <= 7) {
+      pixel.offset = std::min(31, pixel.offset + step);
+    } else if (e >= -8 && e <= -2) {
+      pixel.offset = std::max(-32, pixel.offset - step);
+    }
+    const int label = label_of(x);
+    if (label < 0) {
+      return;
+    }
+    const auto k = static_cast<std::size_t>(label);
+    if (score[k] == 15) {
+      for (std::size_t other = 0; other < 5; ++other) {
+        score[other] = other == k ? 15 : std::max(0, score[other] - 1);
+      }
+    } else {
+      ++score[k];
+    }
+    if (score[k] > score[lead]) {
+      pixel.leader = label;
+      pixel.offset = 0;
+    }
+  }
+
+  /// Evidence of a pixel's scores alone.
+  std::vector<int> own_evidence(Place place) {
+    std::vector<int> e = pixels_.at(place).score;
+    for (std::size_t k = 2; k < 5; ++k) {
+      e[k] -= group(place).b / 8;
+    }
+    return e;
+  }
+
+  static std::pair<std::size_t, std::size_t> best_two(const std::vector<int>& values) {
+    std::vector<std::size_t> order;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      order.push_back(k);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t i, std::size_t j) { return values[i] > values[j]; });
+    return {order[0], order[1]};
+  }
+
+  /// Of every pixel and label the best sum over all assignments of the others, by walking outwards from it.
+  static std::vector<std::vector<int>> beliefs(const std::vector<std::vector<int>>& evidence,
+                                               const std::vector<std::vector<int>>& position,
+                                               const std::vector<int>& lambda) {
+    std::vector<std::vector<int>> best(evidence.size());
+    for (std::size_t fixed = 0; fixed < evidence.size(); ++fixed) {
+      for (std::size_t label = 0; label < evidence[fixed].size(); ++label) {
+        best[fixed].push_back(evidence[fixed][label] +
+                              beyond(evidence, position, lambda, static_cast<int>(fixed), label, -1) +
+                              beyond(evidence, position, lambda, static_cast<int>(fixed), label, +1));
+      }
+    }
+    return best;
+  }
+
+  /// Best sum of all pixels on one side of a pixel that has a label; they pay their own lambdas towards it.
+  static int beyond(const std::vector<std::vector<int>>& evidence,
+                    const std::vector<std::vector<int>>& position, const std::vector<int>& lambda, int pixel,
+                    std::size_t label, int direction) {
+    const int end = direction < 0 ? 0 : static_cast<int>(evidence.size()) - 1;
+    if (pixel == end) {
+      return 0;
+    }
+    std::vector<int> value(evidence[static_cast<std::size_t>(end)]);
+    for (int at = end; at != pixel + direction; at -= direction) {
+      const auto from = static_cast<std::size_t>(at);
+      const auto to = static_cast<std::size_t>(at - direction);
+      std::vector<int> next(evidence[to]);
+      for (std::size_t l = 0; l < next.size(); ++l) {
+        next[l] += best_step(value, position[from], position[to][l], lambda[from]);
+      }
+      value = next;
+    }
+    const auto next_to = static_cast<std::size_t>(pixel + direction);
+    return best_step(value, position[next_to], position[static_cast<std::size_t>(pixel)][label],
+                     lambda[next_to]);
+  }
+  static int best_step(const std::vector<int>& value, const std::vector<int>& from, int to, int lambda) {
+    int best = -1000000;
+    for (std::size_t k = 0; k < value.size(); ++k) {
+      best = std::max(best, value[k] - (std::abs(from[k] - to) > 2048 ? lambda : 0));
+    }
+    return best;
+  }
+
+  void choose(int c) {
+    std::vector<std::vector<int>> evidence;
+    std::vector<std::vector<int>> position;
+    std::vector<int> lambda;
+    for (int r = 0; r < rows_; ++r) {
+      const Group& g = group({c, r});
+      std::vector<int> e = own_evidence({c, r});
+      for (std::size_t k = 0; k < 5; ++k) {
+        if (c > 0 && std::abs(g.cell[k] - pixels_.at({c - 1, r}).chosen) > 4) {
+          e[k] -= 2 + 3 * g.b / 16;
+        }
+        if (c + 1 < columns_) {
+          const std::vector<int> told = own_evidence({c + 1, r});
+          const auto [p, q] = best_two(told);
+          const std::vector<int>& cell = group({c + 1, r}).cell;
+          const int most = 1 + 3 * g.b / 16;
+          if (std::abs(cell[p] - g.cell[k]) > 4) {
+            e[k] -= std::abs(cell[q] - g.cell[k]) > 4 ? most : std::min(told[p] - told[q], most);
+          }
+        }
+      }
+      evidence.push_back(e);
+      position.emplace_back();
+      for (const int cell : g.cell) {
+        position.back().push_back(512 * cell);
+      }
+      lambda.push_back(2 + 5 * g.b / 16);
+    }
+    const auto belief = beliefs(evidence, position, lambda);
+    for (int r = 0; r < rows_; ++r) {
+      Pixel& pixel = pixels_.at({c, r});
+      const Group& g = group({c, r});
+      const auto [a, b] = best_two(belief[static_cast<std::size_t>(r)]);
+      const auto start = [&](std::size_t k) {
+        return 512 * g.cell[k] + (static_cast<int>(k) == pixel.leader ? 64 * pixel.offset : 0);
+      };
+      pixel.chosen = g.cell[a];
+      pixel.n = std::min(63, belief[static_cast<std::size_t>(r)][a] - belief[static_cast<std::size_t>(r)][b]);
+      pixel.pa = start(a);
+      pixel.pb = floor_divide(start(b), 512);
+    }
+  }
+
+  static void point(Pixel& pixel, int a, const std::vector<int>& times) {
+    const auto near = [&](int time) { return time - pixel.pa >= -4096 && time - pixel.pa < 4096; };
+    const int x = take(a, times, near);
+    const int distance = x - pixel.pa;
+    const bool hit = distance >= -2560 && distance < 2560;
+    const int f = x / 512 - pixel.pb;
+    const bool rival = !hit && f >= -6 && f <= 5;
+    const int n = pixel.n;
+    if (rival && n == 0) {
+      const int old = pixel.pa;
+      pixel.pa = 512 * pixel.pb + 256;
+      pixel.pb = old / 512;
+      pixel.n = 1;
+      return;
+    }
+    if (near(x)) {
+      const std::map<int, int> gears = {{7, 256}, {15, 128}, {31, 64}, {63, 32}, {79, 16},
+                                        {99, 8},  {115, 4},  {123, 2}, {127, 1}};
+      static const std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
+      const int away = distance >= 0 ? distance / 512 : (-distance - 1) / 512;
+      const int product = gears.lower_bound(n)->second * kWeight[static_cast<std::size_t>(away)];
+      // Positions are even: what is below two of them is dithered by the acquisition's low bits.
+      const int move = (product + 2 * (a % 4) + a / 4 % 2) / 8 * 2;
+      pixel.pa = std::clamp(distance >= 0 ? pixel.pa + move : pixel.pa - move, 0, 65534);
+    }
+    if (rival && f != 0) {
+      pixel.pb += f > 0 ? 1 : -1;
+    }
+    const int every = n < 64 ? 1 : n < 96 ? 4 : 16;
+    if (a % every == 0) {
+      pixel.n = hit ? std::min(127, n + 1) : rival ? n - 1 : n;
+    }
+  }
+
+  void decide(int c) {
+    std::vector<std::vector<int>> evidence;
+    std::vector<std::vector<int>> position;
+    for (int r = 0; r < rows_; ++r) {
+      const Pixel& pixel = pixels_.at({c, r});
+      evidence.push_back({pixel.n, 0});
+      position.push_back({pixel.pa, 512 * pixel.pb + 256});
+    }
+    const auto belief = beliefs(evidence, position, std::vector<int>(static_cast<std::size_t>(rows_), 2));
+    for (int r = 0; r < rows_; ++r) {
+      Pixel& pixel = pixels_.at({c, r});
+      const auto i = static_cast<std::size_t>(r);
+      pixel.margin = belief[i][0] - belief[i][1];
+      pixel.winner = position[i][pixel.margin < 0 ? 1 : 0];
+    }
+  }
+
+  PixelResult result(Place place, bool smooth) {
+    const Pixel& pixel = pixels_.at(place);
+    int position = pixel.winner;
+    if (smooth) {
+      const int reach = group(place).b < 6 ? 1024 : 1536;
+      int sum = 0;
+      for (const int row : {place.row - 1, place.row + 1}) {
+        if (row >= 0 && row < rows_) {
+          const int d = pixels_.at({place.column, row}).winner - pixel.winner;
+          sum += d > reach || d < -reach ? 0 : d;
+        }
+      }
+      position += sum >= 0 ? sum / 4 : -(-sum / 4);
+    }
+    const int scale = 1 << (16 - np_);
+    const int word = std::clamp(position - scale / 2, 0, 65536 - scale - 1);
+    return {static_cast<std::uint16_t>(word / scale), static_cast<std::uint16_t>(word % scale),
+            static_cast<std::uint16_t>(std::abs(pixel.margin))};
+  }
+
+  int columns_;
+  int rows_;
+  int np_;
+  int all_;
+  std::map<Place, Pixel> pixels_;
+  std::map<Place, Group> groups_;
+};
+
+void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
+                         int engine_columns = 34) {
+  for (const bool smooth : {false, true}) {
+    PoolPointer2Parameters parameters;
+    parameters.engine_columns = engine_columns;
+    parameters.smooth = smooth;
+    const auto actual = run_pool_pointer2(array, np, static_cast<std::uint32_t>(acquisitions), parameters);
+    std::vector<std::vector<PixelResult>> expected;
+    for (std::size_t begin = 0; begin < array.size(); begin += static_cast<std::size_t>(engine_columns)) {
+      const std::size_t end = std::min(array.size(), begin + static_cast<std::size_t>(engine_columns));
+      const std::vector<ColumnStream> engine(array.begin() + static_cast<std::ptrdiff_t>(begin),
+                                             array.begin() + static_cast<std::ptrdiff_t>(end));
+      for (auto& column : Reference(engine, np, acquisitions).run(smooth)) {
+        expected.push_back(std::move(column));
+      }
+    }
+    ASSERT_EQ(actual.size(), expected.size());
+    for (std::size_t column = 0; column < expected.size(); ++column) {
+      ASSERT_EQ(actual[column].size(), expected[column].size());
+      for (std::size_t row = 0; row < expected[column].size(); ++row) {
+        const PixelResult& want = expected[column][row];
+        const PixelResult& got = actual[column][row];
+        ASSERT_EQ(got, want) << "NP " << np << ", S1 " << smooth << ", " << array.size()
+                             << " columns, engine of " << engine_columns << ", " << acquisitions
+                             << " acquisitions, column " << column << ", row " << row << ": expected "
+                             << want.code << '+' << want.fraction << " (" << want.confidence << "), got "
+                             << got.code << '+' << got.fraction << " (" << got.confidence << ')';
+      }
+    }
+  }
+}
+
+/// A pixel with a pulse at `code` (none: -1) over background in each of `slots` slots.
+std::vector<Detection> pulse(int np, int slots, int code, double signal, double background, int acquisitions,
+                             CounterRandom& random) {
+  const int codes = 1 << np;
+  std::vector<Detection> stream;
+  for (int a = 0; a < acquisitions; ++a) {
+    std::vector<int> times;
+    for (int slot = 0; slot < slots; ++slot) {
+      if (random.uniform() < background) {
+        times.push_back(pick(random, codes));
+      } else if (code >= 0 && random.uniform() < signal) {
+        double gauss = -6.0;
+        for (int i = 0; i < 12; ++i) {
+          gauss += random.uniform();
+        }
+        times.push_back(
+            std::clamp(static_cast<int>(std::lround(code + 0.019 * codes * gauss)), 0, codes - 1));
+      }
+    }
+    std::ranges::sort(times);
+    for (const int time : times) {
+      stream.push_back({static_cast<std::uint32_t>(a), static_cast<Timestamp>(time)});
+    }
+  }
+  return stream;
+}
+
+/// Patches of surfaces, slanted in both directions, with holes.
+std::vector<ColumnStream> surfaces(int np, int slots, int columns, int rows, double background,
+                                   int acquisitions, CounterRandom& random) {
+  const int codes = 1 << np;
+  struct Patch {
+    int left, top, right, bottom, base, across, down;
+  };
+  std::vector<Patch> patches = {
+      {0, 0, columns, rows, pick(random, codes), pick(random, 21) - 10, pick(random, 21) - 10}};
+  for (int i = 0; i < 4; ++i) {
+    const int left = pick(random, columns);
+    const int top = pick(random, rows);
+    patches.push_back({left, top, left + 1 + pick(random, columns), top + 1 + pick(random, rows),
+                       pick(random, codes), pick(random, 21) - 10, pick(random, 21) - 10});
+  }
+  const double signal = 0.01 + 0.2 * random.uniform();
+  std::vector<ColumnStream> array(static_cast<std::size_t>(columns));
+  for (int c = 0; c < columns; ++c) {
+    for (int r = 0; r < rows; ++r) {
+      int code = 0;
+      for (const Patch& patch : patches) {
+        if (c >= patch.left && c < patch.right && r >= patch.top && r < patch.bottom) {
+          code = std::clamp(patch.base + patch.across * c + patch.down * r, 0, codes - 1);
+        }
+      }
+      code = pick(random, 12) == 0 ? -1 : code;
+      array[static_cast<std::size_t>(c)].append_row(
+          pulse(np, slots, code, signal, background, acquisitions, random));
+    }
+  }
+  return array;
+}
+
+class PoolPointer2 : public testing::Test {
+ protected:
+  PoolPointer2() : trace_(__FILE__, __LINE__, test_seed_message()) {}
+  static CounterRandom random(std::uint32_t test) {
+    return {test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0x2000U + test, 0};
+  }
+
+ private:
+  testing::ScopedTrace trace_;
+};
+
+TEST_F(PoolPointer2, WordsFitTheMemory) {
+  const PoolPointer2Parameters parameters;
+  EXPECT_EQ(parameters.track_word_bits(), 29);
+  EXPECT_EQ(parameters.pointer_word_bits(), 29);
+  EXPECT_EQ(parameters.group_word_bits(), 41);
+  // A word of the pair's SRAM: two pixels of two columns, half of a group's histogram, or two group words.
+  constexpr int kWordBits = 4 * 29;
+  EXPECT_LE(16 * parameters.count_width, kWordBits);
+  EXPECT_LE(2 * parameters.group_word_bits(), kWordBits);
+  const int words = 160 / 2 + 160 / parameters.group_rows / 2;
+  EXPECT_EQ(words, 100);
+  EXPECT_LE(kWordBits * words, 40 * 2 * 160);
+}
+
+TEST_F(PoolPointer2, EveryKindOfStreamAsReference) {
+  CounterRandom draw = random(1);
+  ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer);
+  for (const StreamKind kind : kStreamKinds) {
+    SCOPED_TRACE(std::string(stream_name(kind)));
+    for (const auto& [columns, rows] :
+         {std::pair(1, 1), std::pair(2, 7), std::pair(3, 9), std::pair(5, 16)}) {
+      shape.slots = 2 + pick(draw, 3);
+      const int acquisitions = 1 + pick(draw, 500);
+      std::vector<ColumnStream> array(static_cast<std::size_t>(columns));
+      for (ColumnStream& column : array) {
+        for (int row = 0; row < rows; ++row) {
+          column.append_row(make_stream(kind, shape, static_cast<std::uint32_t>(acquisitions), draw));
+        }
+      }
+      expect_as_reference(array, 10, acquisitions);
+    }
+  }
+}
+
+TEST_F(PoolPointer2, SurfacesAsReference) {
+  CounterRandom draw = random(2);
+  constexpr std::array<double, 5> kBackgrounds = {0.0, 0.01, 0.07, 0.3, 0.6};
+  for (int trial = 0; trial < 40; ++trial) {
+    const int np = pick(draw, 2) == 0 ? 10 : 8 + pick(draw, 7);
+    const int engine = 2 * (1 + pick(draw, 3));  // often several engines, the last one narrower
+    expect_as_reference(surfaces(np, 2 + pick(draw, 3), 1 + pick(draw, 9), 1 + pick(draw, 24),
+                                 kBackgrounds[static_cast<std::size_t>(pick(draw, 5))], 900, draw),
+                        np, 900, engine);
+  }
+}
+
+// All gears, the dither below a position's unit and the counts that are slowed down.
+TEST_F(PoolPointer2, LongFramesAsReference) {
+  CounterRandom draw = random(3);
+  std::vector<ColumnStream> array(3);
+  for (ColumnStream& column : array) {
+    for (int row = 0; row < 6; ++row) {
+      column.append_row(pulse(10, 2, 300 + 20 * row, 0.8, 0.1, 3333, draw));
+    }
+  }
+  expect_as_reference(array, 10, 3333);
+  for (const auto& column : run_pool_pointer2(array, 10, 3333, {})) {
+    for (const PixelResult& result : column) {
+      EXPECT_GE(result.confidence, 116) << "the finest gears were not reached";
+    }
+  }
+}
+
+TEST_F(PoolPointer2, ShortFramesAsReference) {
+  CounterRandom draw = random(4);
+  const ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer);
+  for (const int acquisitions : {1, 2, 3, 4, 5, 8, 9}) {
+    std::vector<ColumnStream> array(5);
+    for (ColumnStream& column : array) {
+      for (int row = 0; row < 10; ++row) {
+        column.append_row(
+            make_stream(StreamKind::kUniform, shape, static_cast<std::uint32_t>(acquisitions), draw));
+      }
+    }
+    expect_as_reference(array, 10, acquisitions);
+  }
+}
+
+TEST_F(PoolPointer2, NothingDetected) {
+  std::vector<ColumnStream> array(3);
+  for (ColumnStream& column : array) {
+    for (int row = 0; row < 20; ++row) {
+      column.finish_row();
+    }
+  }
+  // Every candidate is as good, and the lowest is the border of the first two coarse bins. The first column
+  // is sure of nothing; those after it follow its choice.
+  for (const std::uint32_t acquisitions : {0U, 1U, 3333U}) {
+    const auto results = run_pool_pointer2(array, 10, acquisitions, {});
+    EXPECT_THAT(results[0], testing::Each(PixelResult{31, 32, 0}));
+    for (const PixelResult& result : results[2]) {
+      EXPECT_EQ(result.code, 31);
+      EXPECT_EQ(result.fraction, 32);
+    }
+  }
+  EXPECT_TRUE(run_pool_pointer2({}, 10, 100, {}).empty());
+}
+
+// A column's results depend on its engine's columns only.
+TEST_F(PoolPointer2, EnginesAreIndependent) {
+  CounterRandom draw = random(5);
+  const auto array = surfaces(10, 2, 8, 16, 0.2, 900, draw);
+  PoolPointer2Parameters parameters;
+  parameters.engine_columns = 4;
+  const auto together = run_pool_pointer2(array, 10, 900, parameters);
+  for (const std::size_t begin : {0U, 4U}) {
+    const auto alone = run_pool_pointer2(std::span(array).subspan(begin, 4), 10, 900, parameters);
+    for (std::size_t column = 0; column < 4; ++column) {
+      EXPECT_EQ(alone[column], together[begin + column]);
+    }
+  }
+  parameters.engine_columns = 8;
+  EXPECT_NE(run_pool_pointer2(array, 10, 900, parameters), together) << "the border made no difference";
+}
+
+TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
+  std::vector<ColumnStream> array(2);
+  array[0].append_row(std::vector<Detection>{{5, 3}});
+  array[1].finish_row();
+  EXPECT_THAT([&] { (void)run_pool_pointer2(array, 10, 5, {}); },
+              ThrowsMessage<InputError>(HasSubstr("row 0: acquisition 5 is outside")));
+  EXPECT_THAT([&] { (void)run_pool_pointer2(array, 7, 6, {}); },
+              ThrowsMessage<InputError>(HasSubstr("NP must be 8 to 16, not 7")));
+  array[1].finish_row();
+  EXPECT_THAT([&] { (void)run_pool_pointer2(array, 10, 6, {}); },
+              ThrowsMessage<InputError>(HasSubstr("column 1 has 2 rows, column 0 has 1")));
+  const auto refused = [&](auto spoil, const char* message) {
+    PoolPointer2Parameters parameters;
+    spoil(parameters);
+    EXPECT_THAT([&] { parameters.validate(); }, ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  refused([](PoolPointer2Parameters& p) { p.engine_columns = 3; },
+          "ENGINE_COLUMNS must be even and at least 2, not 3");
+  refused([](PoolPointer2Parameters& p) { p.group_rows = 3; },
+          "GROUP_ROWS must be a power of two from 2 to 32, not 3");
+  refused([](PoolPointer2Parameters& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
+  refused([](PoolPointer2Parameters& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 47, not 60");
+}
+
+}  // namespace
+}  // namespace dtof
