@@ -9,6 +9,7 @@
 # make lint       RTL in three tools, C++ format and static analysis
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
+# make wave       READOUT's waveform (scripts/wave.mk)
 # make bench      speed of RTL, models and photon model
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
 # make playground the C++ models in a page (scripts/playground.mk)
@@ -83,3 +84,4 @@ clean:
 -include scripts/mutate.mk
 -include scripts/hostile.mk
 -include scripts/playground.mk
+-include scripts/wave.mk

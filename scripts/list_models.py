@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the models of a top module to Verilate, one per line: name, then names and values for dtof_verilate() of CMake.
 
-`list_models.py readouts dtof_array`: the read-outs of configurations.toml, each with many columns and with one.
+`list_models.py readouts dtof_array`: the read-outs of configurations.toml, with many columns.
+`list_models.py waveforms dtof_array`: the same to look at: with waveforms.
 `list_models.py variants dtof_array`: its variants, with one column.
 The same with pool_pointer_array.
 """
@@ -29,7 +30,7 @@ def line(name: str, configuration: Configuration, **size: int) -> str:
 
 
 def main() -> int:
-    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "variants"):
+    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "waveforms", "variants"):
         print(__doc__, file=sys.stderr)
         return 2
     try:
@@ -39,9 +40,14 @@ def main() -> int:
             if sys.argv[1] == "variants":
                 if configuration.variant_of:
                     print(line(f"variant_{name}", configuration, SRAM_NUM=1))
-            elif not configuration.variant_of:
-                print(line(name, configuration))
-                print(line(f"{name}_single", configuration, SRAM_NUM=1))
+            elif configuration.variant_of:
+                continue
+            elif sys.argv[1] == "waveforms":
+                # Columns of pool_pointer_array look at each other; of the others, one shows everything.
+                columns = {} if configuration.top == "pool_pointer_array" else {"SRAM_NUM": 1}
+                print(line(f"{name}_waveform", configuration, **columns))
+            else:
+                print(line(name, configuration), "NO_WAVEFORM")
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
 #include "command_line/command_line.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace dtof {
 

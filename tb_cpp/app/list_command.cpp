@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "app/commands.hpp"
 #include "core/parameters.hpp"
 #include "photon/sensor_model.hpp"

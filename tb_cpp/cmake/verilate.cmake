@@ -5,12 +5,12 @@
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
 #                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [PROBE] [WRITABLE_SRAMS]
-#                 TARGET <library>)
+#                 [NO_WAVEFORM] TARGET <library>)
 #   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [GROUP_SIZE n] [DARK_LABELS n] [DARK_SCORE_BITS n] [BRIGHT_LABELS n]
 #                 [BRIGHT_SCORE_BITS n] [BRIGHT_FROM n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
 #                 [RIVAL_MOVES 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
-#                 TARGET <library>)
+#                 [NO_WAVEFORM] TARGET <library>)
 #
 # adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
 # finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
@@ -19,11 +19,13 @@
 #
 #   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
 #
-#   dtof_verilate_named(readouts|variants <top module> <library>)
+#   dtof_verilate_named(readouts|waveforms|variants <top module> <library>)
 #
 # adds configurations of configurations.toml (scripts/list_models.py).
 #
 # WRITABLE_SRAMS makes the SRAMs' contents writable from C++ (rtl/sram.hpp).
+#
+# NO_WAVEFORM leaves out what records waveforms: half of a model's code and a quarter of its time.
 #
 # BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers.
 
@@ -46,16 +48,20 @@ endif()
 # Verilator's runtime, compiled once. Stop, finish, fatal and printing are ours (rtl/verilated_hooks.cpp).
 add_library(verilated_runtime STATIC
   ${VERILATOR_INCLUDE}/verilated.cpp
-  ${VERILATOR_INCLUDE}/verilated_cov.cpp
-  ${VERILATOR_INCLUDE}/verilated_threads.cpp
-  ${VERILATOR_INCLUDE}/verilated_fst_c.cpp)
+  $<$<BOOL:${DTOF_COVERAGE}>:${VERILATOR_INCLUDE}/verilated_cov.cpp>
+  ${VERILATOR_INCLUDE}/verilated_threads.cpp)
 target_include_directories(verilated_runtime SYSTEM PUBLIC ${VERILATOR_INCLUDE} ${VERILATOR_INCLUDE}/vltstd)
 target_compile_definitions(verilated_runtime
   PUBLIC VM_COVERAGE=$<BOOL:${DTOF_COVERAGE}> VM_SC=0 VM_TRACE=1 VM_TRACE_FST=1
   PRIVATE VL_USER_STOP VL_USER_FINISH VL_USER_FATAL VL_PRINTF=dtof_verilated_printf)
 target_compile_options(verilated_runtime PRIVATE -w
   -include ${CMAKE_CURRENT_LIST_DIR}/../rtl/verilated_printf.h)
-target_link_libraries(verilated_runtime PUBLIC ZLIB::ZLIB Threads::Threads)
+target_link_libraries(verilated_runtime PUBLIC Threads::Threads)
+
+# The part that writes waveforms.
+add_library(verilated_waveform STATIC ${VERILATOR_INCLUDE}/verilated_fst_c.cpp)
+target_compile_options(verilated_waveform PRIVATE -w)
+target_link_libraries(verilated_waveform PUBLIC verilated_runtime ZLIB::ZLIB)
 
 # -Wno-SYNCASYNCNET: the assertions look at the asynchronous reset in a clocked block.
 include(${CMAKE_CURRENT_LIST_DIR}/readouts.cmake)
@@ -74,7 +80,7 @@ function(dtof_rtl_models library)
 endfunction()
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS" "READOUT;TARGET;${DTOF_PARAMETERS}" "" ${ARGN})
+  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;NO_WAVEFORM" "READOUT;TARGET;${DTOF_PARAMETERS}" "" ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
   endif()
@@ -123,6 +129,18 @@ function(dtof_verilate name)
       list(APPEND overrides -G${parameter}=${P_${parameter}})
     endif()
   endforeach()
+  if(P_NO_WAVEFORM)
+    set(P_WAVEFORM false)
+    set(P_ARRAY verilated_array)
+    set(P_ARRAY_CLASS VerilatedArray)
+    set(waveform "")
+  else()
+    set(P_WAVEFORM true)
+    set(P_ARRAY waveform_array)
+    set(P_ARRAY_CLASS WaveformArray)
+    set(waveform --trace-fst)
+    target_link_libraries(${P_TARGET} PUBLIC verilated_waveform)
+  endif()
   set(P_CLASS V${name})
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name})
   set(registration ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_registration.cpp)
@@ -138,7 +156,7 @@ function(dtof_verilate name)
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${directory}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${directory}
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
-            --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET --trace-fst --timescale 1ns/1ps
+            --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET ${waveform} --timescale 1ns/1ps
             ${DTOF_COVERAGE_FLAGS}
             ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/package ${hdl}/package/dtof_pkg.sv ${modules} ${access}
             ${relative_wrapper}

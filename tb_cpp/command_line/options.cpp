@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -133,7 +134,9 @@ void add_run_options(CLI::App& command, RunSettings& settings) {
       ->check(CLI::IsMember({"model", "rtl"}))
       ->capture_default_str();
   group->add_flag("--verify", settings.verify, "with --engine rtl: compare every pixel with the model");
-  group->add_option("--trace", settings.trace, "with --engine rtl and one read-out: waveform file (FST)")
+  group
+      ->add_option("--trace", settings.trace,
+                   "with --engine rtl and one read-out, in dtof-wave: waveform file (FST)")
       ->take_last();
   group->add_option("-s,--seed", settings.seed, "seed of everything random")->capture_default_str();
   group->add_option("-j,--threads", settings.threads, "threads, 0 = all processors")

@@ -12,9 +12,7 @@
 #include "core/error.hpp"
 
 namespace dtof {
-namespace {
-
-std::vector<std::string_view> split(std::string_view text) {
+std::vector<std::string_view> split_at_commas(std::string_view text) {
   std::vector<std::string_view> parts;
   while (true) {
     const std::size_t comma = text.find(',');
@@ -26,15 +24,13 @@ std::vector<std::string_view> split(std::string_view text) {
   }
 }
 
-}  // namespace
-
 void fail_at_line(std::string_view file_name, std::size_t line, std::string_view reason) {
   throw InputError(fmt::format("{}:{}: {}", file_name, line, reason));
 }
 
 void parse_integer_csv(std::string_view file_name, std::string_view text, std::string_view header,
                        const CsvLineHandler& handler) {
-  const std::vector<std::string_view> names = split(header);
+  const std::vector<std::string_view> names = split_at_commas(header);
   std::vector<std::uint64_t> fields(names.size());
   std::size_t line_number = 0;
   while (!text.empty()) {
@@ -61,7 +57,7 @@ void parse_integer_csv(std::string_view file_name, std::string_view text, std::s
       const bool last = i + 1 == fields.size();
       const bool complete = last ? next == line_end : next != line_end && *next == ',';
       if (error != std::errc() || !complete) {
-        const std::vector<std::string_view> parts = split(line);
+        const std::vector<std::string_view> parts = split_at_commas(line);
         if (parts.size() != fields.size()) {
           fail_at_line(file_name, line_number,
                        fmt::format("{} fields instead of {} ({})", parts.size(), fields.size(), header));

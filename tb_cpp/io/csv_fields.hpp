@@ -7,8 +7,12 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace dtof {
+
+/// The fields of a line; a comma separates two.
+std::vector<std::string_view> split_at_commas(std::string_view text);
 
 /// Called for each line with its number (the header is line 1) and its unsigned decimal fields.
 using CsvLineHandler = std::function<void(std::size_t line, std::span<const std::uint64_t> fields)>;

@@ -13,22 +13,6 @@
 #include "io/input_file.hpp"
 
 namespace dtof {
-namespace {
-
-std::vector<std::string> split(std::string_view line) {
-  std::vector<std::string> fields;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    fields.emplace_back(line.substr(0, comma));
-    if (comma == std::string_view::npos) {
-      return fields;
-    }
-    line.remove_prefix(comma + 1);
-  }
-}
-
-}  // namespace
-
 CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) {
   const std::string contents = read_file_or_gzip(path_);
   std::string_view text(contents);
@@ -39,7 +23,8 @@ CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) {
     if (line.ends_with('\r')) {
       line.remove_suffix(1);
     }
-    lines_.push_back(split(line));
+    const std::vector<std::string_view> fields = split_at_commas(line);
+    lines_.emplace_back(fields.begin(), fields.end());
     if (lines_.back().size() != lines_.front().size()) {
       fail_at_line(
           path_.string(), lines_.size(),

@@ -34,10 +34,6 @@ constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;
 constexpr std::uint64_t kBestPacking = 1032;
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
 
-[[noreturn]] void fail(const std::filesystem::path& path, std::string_view reason) {
-  throw InputError(fmt::format("{}: {}", path.string(), reason));
-}
-
 const char* colour_type_name(int type) {
   switch (type) {
     case PNG_COLOR_TYPE_GRAY:
@@ -149,7 +145,7 @@ struct GreyImage {
 GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, const char* purpose) {
   const std::string file = read_file(path);
   if (!std::string_view(file).starts_with(kPngSignature)) {
-    fail(path, "not a PNG file");
+    fail_in_file(path, "not a PNG file");
   }
   PngReader reader;
   reader.rest = file;
@@ -159,11 +155,11 @@ GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, cons
   png_set_read_fn(reader.png, &reader, on_png_read);
   png_set_user_limits(reader.png, kLargestExtent, kLargestExtent);
   if (!decode_png(reader, wanted)) {
-    fail(path, fmt::format("damaged PNG: {}", reader.error));
+    fail_in_file(path, fmt::format("damaged PNG: {}", reader.error));
   }
   if (reader.rows.empty()) {
-    fail(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale PNG", reader.bit_depth,
-                           colour_type_name(reader.colour_type), purpose, describe(wanted)));
+    fail_in_file(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale PNG", reader.bit_depth,
+                                   colour_type_name(reader.colour_type), purpose, describe(wanted)));
   }
   GreyImage image{
       .width = reader.width, .height = reader.height, .bit_depth = reader.bit_depth, .values = {}};
@@ -199,7 +195,7 @@ float read_float(const char* bytes, bool little_endian) {
 std::string_view next_token(const std::filesystem::path& path, std::string_view& rest) {
   const std::size_t end = rest.substr(0, 64).find_first_of(" \t\r\n");
   if (end == std::string_view::npos || end == 0) {
-    fail(path, "the PFM header is damaged");
+    fail_in_file(path, "the PFM header is damaged");
   }
   const std::string_view token = rest.substr(0, end);
   rest.remove_prefix(end + 1);
@@ -211,7 +207,7 @@ T parse_token(const std::filesystem::path& path, std::string_view token, const c
   T value{};
   const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
   if (error != std::errc() || end != token.data() + token.size()) {
-    fail(path, fmt::format("PFM {} \"{}\" is not a number", what, token));
+    fail_in_file(path, fmt::format("PFM {} \"{}\" is not a number", what, token));
   }
   return value;
 }
@@ -220,23 +216,24 @@ NumberMap read_pfm(const std::filesystem::path& path, std::string_view file) {
   std::string_view rest = file;
   const std::string_view magic = next_token(path, rest);
   if (magic == "PF") {
-    fail(path, "colour PFM: a map must be a greyscale PFM (\"Pf\")");
+    fail_in_file(path, "colour PFM: a map must be a greyscale PFM (\"Pf\")");
   }
   NumberMap image;
   image.width = parse_token<int>(path, next_token(path, rest), "width");
   image.height = parse_token<int>(path, next_token(path, rest), "height");
   const auto scale = parse_token<double>(path, next_token(path, rest), "scale");
   if (image.width < 1 || image.height < 1 || image.width > kLargestExtent || image.height > kLargestExtent) {
-    fail(path, fmt::format("{} x {} pixels: each must be 1..{}", image.width, image.height, kLargestExtent));
+    fail_in_file(
+        path, fmt::format("{} x {} pixels: each must be 1..{}", image.width, image.height, kLargestExtent));
   }
   if (std::abs(scale) != 1.0) {
-    fail(path, fmt::format("PFM scale {} is not 1 or -1: the values are scaled", scale));
+    fail_in_file(path, fmt::format("PFM scale {} is not 1 or -1: the values are scaled", scale));
   }
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   if (rest.size() != width * height * sizeof(float)) {
-    fail(path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height,
-                           width * height * sizeof(float), rest.size()));
+    fail_in_file(path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height,
+                                   width * height * sizeof(float), rest.size()));
   }
   image.values.resize(width * height);
   for (std::size_t y = 0; y < height; ++y) {
@@ -252,8 +249,8 @@ NumberMap read_pfm(const std::filesystem::path& path, std::string_view file) {
 NumberMap read_npy_map(const std::filesystem::path& path) {
   NpyArray array = read_npy(path);
   if (array.shape.size() != 2 || array.shape[0] > kLargestExtent || array.shape[1] > kLargestExtent) {
-    fail(path, fmt::format("NPY shape ({}): a map has rows and columns, each 1..{}",
-                           fmt::join(array.shape, ", "), kLargestExtent));
+    fail_in_file(path, fmt::format("NPY shape ({}): a map has rows and columns, each 1..{}",
+                                   fmt::join(array.shape, ", "), kLargestExtent));
   }
   return {.width = static_cast<int>(array.shape[1]),
           .height = static_cast<int>(array.shape[0]),
@@ -265,7 +262,7 @@ NumberMap read_npy_map(const std::filesystem::path& path) {
 NumberMap read_number_map(const std::filesystem::path& path, const char* purpose,
                           std::optional<double> scale) {
   if (scale && (!std::isfinite(*scale) || *scale <= 0.0)) {
-    fail(path, fmt::format("the scale of {} is {}, must be a positive number", purpose, *scale));
+    fail_in_file(path, fmt::format("the scale of {} is {}, must be a positive number", purpose, *scale));
   }
   const std::string file = read_file(path);
   const std::string_view start(file);
@@ -282,7 +279,7 @@ NumberMap read_number_map(const std::filesystem::path& path, const char* purpose
   if (start.starts_with("\x93NUMPY")) {
     return read_npy_map(path);
   }
-  fail(path, "neither a PNG, a PFM nor an NPY file");
+  fail_in_file(path, "neither a PNG, a PFM nor an NPY file");
 }
 
 std::string pixel_name(const NumberMap& map, std::size_t index) {
@@ -309,7 +306,8 @@ void no_flush(png_structp /*png*/) {}
 DepthImage read_depth_image(const std::filesystem::path& path, std::optional<double> metres_per_unit) {
   const NumberMap map = read_number_map(path, "a depth map", metres_per_unit);
   if (map.png_bits == 8 && !metres_per_unit) {
-    fail(path, "8-bit PNG: a depth map of 8 bits needs its scale, the metres that one unit stands for");
+    fail_in_file(path,
+                 "8-bit PNG: a depth map of 8 bits needs its scale, the metres that one unit stands for");
   }
   constexpr double kMillimetre = 1e-3;
   const double scale = metres_per_unit.value_or(map.png_bits == 16 ? kMillimetre : 1.0);
@@ -318,7 +316,7 @@ DepthImage read_depth_image(const std::filesystem::path& path, std::optional<dou
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     const double metres = map.values[i] * scale;
     if (metres < 0.0) {
-      fail(path, fmt::format("{}: negative depth {} m", pixel_name(map, i), metres));
+      fail_in_file(path, fmt::format("{}: negative depth {} m", pixel_name(map, i), metres));
     }
     image.metres.push_back(std::isfinite(metres) ? static_cast<float>(metres) : 0.0F);
   }
@@ -335,8 +333,8 @@ ReflectivityImage read_reflectivity_image(const std::filesystem::path& path, std
   for (std::size_t i = 0; i < map.values.size(); ++i) {
     const double reflectivity = map.values[i] * scale;
     if (!std::isfinite(reflectivity) || reflectivity < 0.0) {
-      fail(path, fmt::format("{}: a reflectivity of {} is not a finite number of at least 0",
-                             pixel_name(map, i), reflectivity));
+      fail_in_file(path, fmt::format("{}: a reflectivity of {} is not a finite number of at least 0",
+                                     pixel_name(map, i), reflectivity));
     }
     image.values.push_back(static_cast<float>(reflectivity));
   }
@@ -345,7 +343,8 @@ ReflectivityImage read_reflectivity_image(const std::filesystem::path& path, std
 
 DepthImage read_disparity_png(const std::filesystem::path& path, double metres_at_one) {
   if (!std::isfinite(metres_at_one) || metres_at_one <= 0.0) {
-    fail(path, fmt::format("depth at disparity 1 is {}, must be a positive number of metres", metres_at_one));
+    fail_in_file(
+        path, fmt::format("depth at disparity 1 is {}, must be a positive number of metres", metres_at_one));
   }
   const GreyImage grey = read_grey_png(path, GreyBits::k8, "a disparity map");
   DepthImage image{.width = grey.width, .height = grey.height};
@@ -364,8 +363,8 @@ void write_depth_png(const std::filesystem::path& path, const DepthImage& image)
   for (std::size_t i = 0; i < image.metres.size(); ++i) {
     const double millimetres = image.metres[i] > 0.0F ? std::round(double{image.metres[i]} * 1000.0) : 0.0;
     if (millimetres > std::numeric_limits<std::uint16_t>::max()) {
-      fail(path, fmt::format("column {}, row {}: a depth of {} m does not fit 16 bits of millimetres",
-                             i % width, i / width, image.metres[i]));
+      fail_in_file(path, fmt::format("column {}, row {}: a depth of {} m does not fit 16 bits of millimetres",
+                                     i % width, i / width, image.metres[i]));
     }
     const auto value = static_cast<std::uint16_t>(millimetres);
     pixels.push_back(static_cast<png_byte>(value >> 8U));

@@ -32,6 +32,10 @@ void check_length(const std::filesystem::path& path, std::size_t bytes, std::siz
 
 }  // namespace
 
+void fail_in_file(const std::filesystem::path& path, std::string_view reason) {
+  throw InputError(fmt::format("{}: {}", path.string(), reason));
+}
+
 std::string read_file(const std::filesystem::path& path, std::size_t longest) {
   if (std::error_code error; std::filesystem::is_directory(path, error)) {
     throw InputError(fmt::format("{}: cannot read: it is a directory", path.string()));

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace dtof {
 
@@ -11,6 +12,9 @@ namespace dtof {
 /// terabytes.
 inline constexpr std::size_t kLongestFile = std::size_t{1} << (sizeof(std::size_t) > 4 ? 32U : 31U);
 inline constexpr std::size_t kLongestUnpacked = std::size_t{1} << 28U;
+
+/// Throws InputError "<path>: <reason>".
+[[noreturn]] void fail_in_file(const std::filesystem::path& path, std::string_view reason);
 
 /// Whole contents of a file. Throws InputError "<path>: <reason>" when it is missing, unreadable, a
 /// directory, empty or longer than `longest` bytes.

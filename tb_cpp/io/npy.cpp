@@ -17,7 +17,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/input_file.hpp"
 
@@ -50,12 +49,8 @@ constexpr std::array<Dtype, 7> kDtypes = {{{"u1", 1, element<std::uint8_t>},
                                            {"f4", 4, element<float>},
                                            {"f8", 8, element<double>}}};
 
-[[noreturn]] void fail(const std::filesystem::path& path, std::string_view reason) {
-  throw InputError(fmt::format("{}: {}", path.string(), reason));
-}
-
 [[noreturn]] void fail_header(const std::filesystem::path& path, std::string_view key) {
-  fail(path, fmt::format("the NPY header has no readable '{}'", key));
+  fail_in_file(path, fmt::format("the NPY header has no readable '{}'", key));
 }
 
 /// Text behind "'key':" in the header, a Python dict that numpy writes with its three keys.
@@ -104,7 +99,7 @@ std::vector<std::size_t> parse_shape(const std::filesystem::path& path, std::str
     const std::size_t end = std::min(text.find_first_of(", ", begin), text.size());
     std::size_t value = 0;
     if (std::from_chars(text.data() + begin, text.data() + end, value).ec != std::errc()) {
-      fail(path, fmt::format("the NPY shape ({}) is too large", text));
+      fail_in_file(path, fmt::format("the NPY shape ({}) is too large", text));
     }
     shape.push_back(value);
     begin = text.find_first_not_of(", ", end);
@@ -123,7 +118,7 @@ const Dtype& find_dtype(const std::filesystem::path& path, std::string_view head
       return dtype;
     }
   }
-  fail(path, fmt::format("dtype '{}' is not one of little-endian u1, u2, u4, i4, i8, f4, f8", descr));
+  fail_in_file(path, fmt::format("dtype '{}' is not one of little-endian u1, u2, u4, i4, i8, f4, f8", descr));
 }
 
 }  // namespace
@@ -131,24 +126,24 @@ const Dtype& find_dtype(const std::filesystem::path& path, std::string_view head
 NpyArray read_npy(const std::filesystem::path& path) {
   const std::string file = read_file(path);
   if (!std::string_view(file).starts_with(kMagic)) {
-    fail(path, "not an NPY file");
+    fail_in_file(path, "not an NPY file");
   }
   if (file.size() < 10) {
-    fail(path, "the NPY header ends early");
+    fail_in_file(path, "the NPY header ends early");
   }
   const int version = static_cast<unsigned char>(file[6]);
   if (version != 1 && version != 2) {
-    fail(path, fmt::format("NPY format {}.{} is not 1.0 or 2.0", version, static_cast<int>(file[7])));
+    fail_in_file(path, fmt::format("NPY format {}.{} is not 1.0 or 2.0", version, static_cast<int>(file[7])));
   }
   const std::size_t length_size = version == 1 ? 2 : 4;
   const std::size_t header_begin = 8 + length_size;
   if (file.size() < header_begin) {
-    fail(path, "the NPY header ends early");
+    fail_in_file(path, "the NPY header ends early");
   }
   const auto header_length = static_cast<std::size_t>(version == 1 ? element<std::uint16_t>(&file[8])
                                                                    : element<std::uint32_t>(&file[8]));
   if (file.size() - header_begin < header_length) {
-    fail(path, "the NPY header ends early");
+    fail_in_file(path, "the NPY header ends early");
   }
   const std::string_view header = std::string_view(file).substr(header_begin, header_length);
   const Dtype& dtype = find_dtype(path, header);
@@ -160,21 +155,22 @@ NpyArray read_npy(const std::filesystem::path& path) {
   std::size_t count = 1;
   for (const std::size_t extent : array.shape) {
     if (extent != 0 && count > available / extent) {
-      fail(path, fmt::format("shape ({}) of {} needs more than the file's {} elements: truncated",
-                             fmt::join(array.shape, ", "), dtype.name, available));
+      fail_in_file(path, fmt::format("shape ({}) of {} needs more than the file's {} elements: truncated",
+                                     fmt::join(array.shape, ", "), dtype.name, available));
     }
     count *= extent;
   }
   const std::size_t data_begin = header_begin + header_length;
   if (file.size() - data_begin != count * dtype.size) {
-    fail(path, fmt::format("shape ({}) of {} needs {} bytes, the file has {}", fmt::join(array.shape, ", "),
-                           dtype.name, count * dtype.size, file.size() - data_begin));
+    fail_in_file(path,
+                 fmt::format("shape ({}) of {} needs {} bytes, the file has {}", fmt::join(array.shape, ", "),
+                             dtype.name, count * dtype.size, file.size() - data_begin));
   }
   if (count > kMostElements) {
-    fail(path, fmt::format("shape ({}) holds more than 2^27 elements", fmt::join(array.shape, ", ")));
+    fail_in_file(path, fmt::format("shape ({}) holds more than 2^27 elements", fmt::join(array.shape, ", ")));
   }
   if (count == 0) {
-    fail(path, fmt::format("shape ({}) holds nothing", fmt::join(array.shape, ", ")));
+    fail_in_file(path, fmt::format("shape ({}) holds nothing", fmt::join(array.shape, ", ")));
   }
 
   array.values.resize(count);

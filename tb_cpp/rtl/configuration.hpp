@@ -26,6 +26,7 @@ struct RtlConfiguration {
   int pointer_ports = 2;             ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
   bool signalled_clear = false;      ///< SIGNALLED_CLEAR (histogram read-outs)
   int engine_columns = 34;           ///< ENGINE_COLUMNS, columns that share an engine (pool read-outs)
+  bool records_waveform = true;      ///< not a parameter: whether a waveform of the model can be written
 
   /// E.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".
   [[nodiscard]] std::string to_string() const;

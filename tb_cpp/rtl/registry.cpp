@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <string>
@@ -67,7 +68,12 @@ std::vector<RtlConfiguration> compiled_rtl_configurations() {
   return configurations;
 }
 
-RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns) {
+RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns,
+                                        bool waveform) {
+  const auto records = [](const auto& entry) { return entry.second.configuration.records_waveform; };
+  if (waveform && std::ranges::none_of(registry(), records)) {
+    throw InputError("this program's arrays record no waveforms, those of dtof-wave do (make wave)");
+  }
   const std::string wanted = compiled_parameters(parameters).to_string();
   std::optional<RtlConfiguration> best;
   const auto cost = [columns](const RtlConfiguration& candidate) {
@@ -78,7 +84,8 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   for (const auto& [text, entry] : registry()) {
     const RtlConfiguration& candidate = entry.configuration;
     if (compiled_parameters(candidate.parameters).to_string() == wanted &&
-        candidate.pixels_per_sram >= rows && (!best.has_value() || cost(candidate) < cost(*best))) {
+        candidate.pixels_per_sram >= rows && (candidate.records_waveform || !waveform) &&
+        (!best.has_value() || cost(candidate) < cost(*best))) {
       best = candidate;
     }
   }

@@ -85,8 +85,10 @@ RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters
                              std::span<const int> columns, const RtlRunOptions& options, Progress* progress) {
   parameters.validate();
   const std::size_t count = columns.empty() ? static_cast<std::size_t>(source.columns()) : columns.size();
-  return run_frame_rtl(source, find_rtl_configuration(parameters, source.rows(), static_cast<int>(count)),
-                       threads, columns, options, progress);
+  return run_frame_rtl(
+      source,
+      find_rtl_configuration(parameters, source.rows(), static_cast<int>(count), !options.trace.empty()),
+      threads, columns, options, progress);
 }
 
 }  // namespace dtof

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -20,6 +21,8 @@ constexpr std::uint32_t kNever = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kLongestPause = 8;
 // Detections ahead in each pixel's list: too many lists in turn for the processor to guess.
 constexpr std::ptrdiff_t kPrefetchDistance = 8;
+// Columns compared in one go: one byte each says whether the column has a detection.
+constexpr std::size_t kBlock = 8;
 constexpr int kNoDetectionByte = 0xFF;
 constexpr int kDetectionOfCode0Byte = 0x00;
 
@@ -80,19 +83,20 @@ TdcDriver::TdcDriver(const RtlConfiguration& configuration, const ArrayModel::Po
     }
   }
   lines_.resize(slots_ * line_);
+  stride_ = (columns.size() + kBlock - 1) / kBlock * kBlock;
 }
 
 void TdcDriver::rewind(double pause_probability, CounterRandom random) {
   pause_probability_ = pause_probability;
   random_ = random;
-  cursors_.clear();
-  next_acquisition_.assign(pixels_per_sram_, kNever);
+  cursors_.resize(rows_ * stride_);
+  next_acquisition_.assign(pixels_per_sram_ * stride_, kNever);
   for (std::size_t row = 0; row < rows_; ++row) {
-    for (const ColumnStream& column : columns_) {
-      const std::span<const Detection> detections = column.row(static_cast<int>(row));
-      cursors_.push_back({detections.data(), detections.data() + detections.size()});
+    for (std::size_t column = 0; column < columns_.size(); ++column) {
+      const std::span<const Detection> detections = columns_[column].row(static_cast<int>(row));
       if (!detections.empty()) {
-        next_acquisition_[row] = std::min(next_acquisition_[row], detections.front().acquisition);
+        cursors_[row * stride_ + column] = {detections.data(), detections.data() + detections.size()};
+        next_acquisition_[row * stride_ + column] = detections.front().acquisition;
       }
     }
   }
@@ -114,27 +118,32 @@ void TdcDriver::maybe_pause() {
 }
 
 void TdcDriver::load_pixel() {
-  empty_pixel_ = next_acquisition_[row_] != acquisition_;
-  if (empty_pixel_) {
-    return;
-  }
-  std::memset(lines_.data(), kNoDetectionByte, lines_.size() * sizeof(std::uint16_t));
-  std::uint32_t next = kNever;
-  Cursor* cursor = &cursors_[row_ * columns_.size()];
-  for (std::size_t column = 0; column < columns_.size(); ++column, ++cursor) {
-    std::uint16_t* slot = &lines_[column];
-    while (cursor->next != cursor->end) {
-      if (cursor->next->acquisition != acquisition_) {
-        next = std::min(next, cursor->next->acquisition);
-        break;
+  empty_pixel_ = true;
+  for (std::size_t first = 0; first < stride_; first += kBlock) {
+    // Which columns have a detection is random: a loop over those that have is guessed wrong less often than
+    // a question to each.
+    std::uint32_t* next = &next_acquisition_[row_ * stride_ + first];
+    std::array<std::uint8_t, kBlock> detects{};
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      detects[i] = next[i] == acquisition_ ? 1 : 0;
+    }
+    for (auto left = std::bit_cast<std::uint64_t>(detects); left != 0; left &= left - 1) {
+      if (empty_pixel_) {
+        std::memset(lines_.data(), kNoDetectionByte, lines_.size() * sizeof(std::uint16_t));
+        empty_pixel_ = false;
       }
-      *slot = cursor->next->timestamp;
-      slot += line_;
-      ++cursor->next;
-      __builtin_prefetch(cursor->next + kPrefetchDistance);
+      const std::size_t i = static_cast<std::size_t>(std::countr_zero(left)) / 8;
+      Cursor& cursor = cursors_[row_ * stride_ + first + i];
+      std::uint16_t* slot = &lines_[first + i];
+      do {
+        *slot = cursor.next->timestamp;
+        slot += line_;
+        ++cursor.next;
+      } while (cursor.next != cursor.end && cursor.next->acquisition == acquisition_);
+      next[i] = cursor.next != cursor.end ? cursor.next->acquisition : kNever;
+      __builtin_prefetch(cursor.next + kPrefetchDistance);
     }
   }
-  next_acquisition_[row_] = next;
 }
 
 void TdcDriver::fill_bus(int byte) { std::memset(ports_.timestamps, byte, line_ * sizeof(std::uint16_t)); }

@@ -54,8 +54,9 @@ class TdcDriver {
   std::size_t slots_;
   std::size_t pixels_per_sram_;
 
-  std::vector<Cursor> cursors_;                  // [row * columns + column]
-  std::vector<std::uint32_t> next_acquisition_;  // [row]: the next with a detection in any column
+  std::vector<Cursor> cursors_;                  // [row * stride + column]
+  std::vector<std::uint32_t> next_acquisition_;  // [row * stride + column]: that of the next detection
+  std::size_t stride_;                           // columns, rounded up to whole blocks
   std::vector<std::uint16_t> lines_;             // [slot * line + column], the bus contents of a pixel
   std::size_t line_;                             // 16-bit words on the bus
 

@@ -3,23 +3,22 @@
 
 #include <fmt/format.h>
 #include <verilated.h>
-#include <verilated_fst_c.h>
 
+#include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <memory>
 
 #include "core/error.hpp"
 #include "rtl/array_model.hpp"
 
 namespace dtof {
 
-/// ArrayModel over the class that Verilator generated for one configuration.
+/// ArrayModel over the class that Verilator generated for one configuration. It records no waveform:
+/// open_trace() throws InputError (waveform_array.hpp has one that does).
 template <typename Model>
-class VerilatedArray final : public ArrayModel {
+class VerilatedArray : public ArrayModel {
  public:
   explicit VerilatedArray(VerilatedContext& context) : model_(&context, "array") {}
-  ~VerilatedArray() override { close_trace(); }
+  ~VerilatedArray() override = default;
   VerilatedArray(const VerilatedArray&) = delete;
   VerilatedArray& operator=(const VerilatedArray&) = delete;
   VerilatedArray(VerilatedArray&&) = delete;
@@ -66,21 +65,13 @@ class VerilatedArray final : public ArrayModel {
   void eval() override { model_.eval(); }
 
   void open_trace(const std::filesystem::path& file) override {
-    // Verilator's writer says nothing about a file it cannot create.
-    if (!std::ofstream(file).is_open()) {
-      throw InputError(fmt::format("cannot write trace file '{}'", file.string()));
-    }
-    trace_ = std::make_unique<VerilatedFstC>();
-    model_.trace(trace_.get(), kAllLevels);
-    trace_->open(file.c_str());
+    throw InputError(fmt::format("cannot write '{}': this array was built without waveforms", file.string()));
   }
-  void dump_trace(std::uint64_t time) override { trace_->dump(time); }
-  void close_trace() override {
-    if (trace_ != nullptr) {
-      trace_->close();
-      trace_.reset();
-    }
-  }
+  void dump_trace(std::uint64_t /*time*/) override {}
+  void close_trace() override {}
+
+ protected:
+  [[nodiscard]] Model& model() { return model_; }
 
  private:
   // Those that only one of the arrays has.
@@ -92,9 +83,7 @@ class VerilatedArray final : public ArrayModel {
     std::uint16_t* late_begin = nullptr;
   };
 
-  static constexpr int kAllLevels = 99;
   Model model_;
-  std::unique_ptr<VerilatedFstC> trace_;
 };
 
 }  // namespace dtof

@@ -34,8 +34,8 @@ void check_engine(const StreamSource& source, std::span<const ReadoutParameters>
   }
   for (const ReadoutParameters& parameters : readouts) {
     const ArrayRows array = array_rows(source, region.rows, parameters.readout);
-    const RtlConfiguration configuration =
-        find_rtl_configuration(parameters, array.source->rows(), static_cast<int>(region.columns.size()));
+    const RtlConfiguration configuration = find_rtl_configuration(
+        parameters, array.source->rows(), static_cast<int>(region.columns.size()), !options.trace.empty());
     if (!options.trace.empty() && region.columns.size() > static_cast<std::size_t>(configuration.sram_num)) {
       throw InputError(
           fmt::format("--trace: a waveform holds at most SRAM_NUM = {} columns, not {}; choose some",

@@ -88,6 +88,15 @@ std::string columns_to_trace(std::span<const int> columns, std::size_t index,
   return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
 }
 
+/// The arrays of `dtof` record no waveforms, those of `dtof-wave` do.
+std::string waveform_command(std::string command) {
+  constexpr std::string_view kProgram = "dtof ";
+  if (command.starts_with(kProgram)) {
+    command.replace(0, kProgram.size(), "dtof-wave ");
+  }
+  return command;
+}
+
 }  // namespace
 
 ColumnStream with_dark_rows(ColumnStream column, const RtlConfiguration& configuration) {
@@ -168,14 +177,15 @@ std::string check_source_frame(const StreamSource& source, const ReadoutParamete
       find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
   const auto index =
       static_cast<std::size_t>(std::ranges::find(columns, mismatches.front().column) - columns.begin());
-  return describe_mismatches(mismatches, expected.size(),
-                             {.configuration = configuration,
-                              .acquisitions = source.acquisitions(),
-                              .seed = frame.seed,
-                              .reproduce = fmt::format("{} --readout {} --columns {} --trace mismatch.fst",
-                                                       frame.command, readout_name(parameters.readout),
-                                                       columns_to_trace(columns, index, configuration)),
-                              .shortest_failing_frame = std::nullopt});
+  return describe_mismatches(
+      mismatches, expected.size(),
+      {.configuration = configuration,
+       .acquisitions = source.acquisitions(),
+       .seed = frame.seed,
+       .reproduce =
+           fmt::format("{} --readout {} --columns {} --trace mismatch.fst", waveform_command(frame.command),
+                       readout_name(parameters.readout), columns_to_trace(columns, index, configuration)),
+       .shortest_failing_frame = std::nullopt});
 }
 
 }  // namespace dtof

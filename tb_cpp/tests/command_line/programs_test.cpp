@@ -58,8 +58,11 @@ class Programs : public ::testing::Test {
   }
 
   [[nodiscard]] Outcome dtof(const std::string& arguments) const {
-    const std::string command =
-        fmt::format("cd '{}' && {} {} 2>&1", folder_.string(), program_of(arguments), arguments);
+    return run(program_of(arguments), arguments);
+  }
+
+  [[nodiscard]] Outcome run(std::string_view program, const std::string& arguments) const {
+    const std::string command = fmt::format("cd '{}' && {} {} 2>&1", folder_.string(), program, arguments);
     std::FILE* pipe = popen(command.c_str(), "r");
     Outcome outcome{-1, ""};
     std::array<char, 4096> buffer{};
@@ -89,6 +92,14 @@ class Programs : public ::testing::Test {
 };
 
 const std::string kSmallScene = "--array-columns 6 --array-rows 5 --acquisitions 300";
+
+TEST_F(Programs, RecordAWaveform) {
+  const Outcome outcome =
+      run(DTOF_WAVE_PROGRAM, "frame -r fifh -e rtl --columns 0 --acquisitions 5 --trace x.fst --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  ASSERT_TRUE(std::filesystem::exists(path("x.fst")));
+  EXPECT_GT(std::filesystem::file_size(path("x.fst")), 10'000U);
+}
 
 TEST_F(Programs, HelpTeaches) {
   const Outcome outcome = dtof("--help");
@@ -356,6 +367,8 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --engine rtl --readout ezpointer --np 9 --out out", "compiled");
   expect_refused("frame --verify --out out", "--engine rtl");
   expect_refused("frame --trace x.fst --engine rtl --out out", "one read-out");
+  expect_refused("frame -r ezpointer --trace x.fst --engine rtl --columns 0 --out out",
+                 "record no waveforms");
   expect_refused("frame --frobnicate --out out", "--frobnicate");
   expect_refused("accuracy --distances 0 --out out", "distances");
   expect_refused("", "no command is given; known are frame,");
@@ -701,7 +714,11 @@ TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
   expect_refused("frame -r ezpointer --engine rtl -a 65536 --array-columns 1 --array-rows 1 --out out",
                  "the RTL counts 16 bits of them, to 65535");
   expect_refused("frame -r ezpointer --engine rtl --trace x.fst --record stream.csv --out out",
-                 "a waveform holds at most SRAM_NUM");
+                 "record no waveforms");
+  const Outcome wide =
+      run(DTOF_WAVE_PROGRAM, "frame -r ezpointer --engine rtl --trace x.fst --record stream.csv --out out");
+  EXPECT_EQ(wide.exit_code, 1);
+  EXPECT_THAT(wide.output, HasSubstr("a waveform holds at most SRAM_NUM"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));
   EXPECT_FALSE(std::filesystem::exists(path("stream.csv")));
 }

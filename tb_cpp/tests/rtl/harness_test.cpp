@@ -81,6 +81,24 @@ TEST(Registry, PrefersTheThesisVariantAndTheSizeThatSimulatesLeast) {
   }
 }
 
+TEST(Registry, FindsTheArrayThatRecordsAWaveform) {
+  for (const Readout readout : kAllReadouts) {
+    SCOPED_TRACE(readout_name(readout));
+    const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
+    EXPECT_FALSE(find_rtl_configuration(parameters, 160, 200).records_waveform);
+    EXPECT_TRUE(find_rtl_configuration(parameters, 160, 200, true).records_waveform);
+  }
+}
+
+TEST(RtlReadout, RefusesATraceOfAnArrayThatRecordsNone) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kEzPointer);
+  RtlReadout rtl(find_rtl_configuration(parameters, 160, 200));
+  RtlRunOptions options;
+  options.trace = "trace.fst";
+  EXPECT_THAT([&] { rtl.run({}, 1, options); },
+              ThrowsMessage<InputError>(HasSubstr("built without waveforms")));
+}
+
 TEST(RtlConfiguration, ResultsComeRowByRowOrEngineByEngine) {
   const auto order = [](Readout readout) {
     RtlConfiguration configuration{.parameters = ReadoutParameters::defaults(readout)};
