@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """The photon model as a vectorised NumPy script: the side-by-side baseline of the C++ one.
 
@@ -6,14 +6,15 @@ Same work as the exact model of tb_cpp/photon: a pixel's signal (Gaussian) and b
 frame, Poisson numbers, sorted in time, at most SLOTS kept per acquisition, TDC codes. Preset "thesis", a plane
 from 0.8 to 5 m, 14 klux. Two scripts: "by acquisition" draws Poisson numbers for every acquisition, as the
 model is defined; "by frame" knows that a frame's number is Poisson too and spreads its events over the
-acquisitions, so that empty ones cost nothing. NumPy draws on one core. Prints its detections per second of
-processor time; with --bench FILE also the C++ figures of a Google Benchmark JSON file and their ratios to both
-scripts: of one core (processor time on both sides) and, for runs of several threads, of the whole run (wall
-time of all threads against the script's one core, whatever else the machine did).
+acquisitions, so that empty ones cost nothing. NumPy draws on one core. Writes its detections per second of
+processor time beside the C++ figures of a Google Benchmark JSON file and their ratios to both scripts: of one
+core (processor time on both sides) and, for runs of several threads, of the whole run (wall time of all threads
+against the script's one core, whatever else the machine did).
 """
 import argparse
 import json
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -78,32 +79,53 @@ def measure(pixel_detections, pixels, seed):
     return best
 
 
-def print_ratios(label, rate, baselines):
-    ratios = ", ".join(f"{rate / value:.1f} x {name}" for name, value in baselines.items())
-    print(f"{label:44s} {rate / 1e6:8.2f} million detections/s   {ratios}")
+def rows_of(runs, baselines):
+    """Table rows: what ran, milliseconds of a whole frame (None: not measured), detections per second (None: not counted)."""
+    for name, rate in baselines.items():
+        yield f"NumPy {np.__version__}, {name}, a core", None, rate
+    for run in runs:
+        label = run["name"].removesuffix("/process_time/real_time")
+        rate = run.get("detections/s")
+        if rate is None:
+            yield label, run["real_time"], None
+            continue
+        if label.endswith("threads:1"):
+            yield label, run["real_time"], rate * run["real_time"] / run["cpu_time"]
+        else:
+            yield label + ", a core", None, rate * run["real_time"] / run["cpu_time"]
+            yield label + ", all", run["real_time"], rate
+
+
+def report(runs, baselines):
+    lines = ["# Photon models: speed beside NumPy", "",
+             "A frame of the benchmark's plane (200 x 160 pixels, 3,333 acquisitions, 14 klux) by the clock on the wall, detections per "
+             "second, and these as multiples of two vectorised NumPy scripts that do the work of the exact model: one draws every "
+             "acquisition, as the model is defined, the other spreads a frame's events over its acquisitions. `exact` and `fast_stream` "
+             "draw streams, `fast_sampler` what a read-out asks for, `frame` photons and hisPointer's model together; `a core`: "
+             "processor time, `all`: the threads of a run together. Everything was measured in one run on one machine, whatever else "
+             "it did: compare the ratios. Command: `make photon-bench`", "",
+             "| what | frame, ms | million detections/s | " + " | ".join(f"x {name}" for name in baselines) + " |",
+             "|---|--:|--:|" + "--:|" * len(baselines)]
+    for label, milliseconds, rate in rows_of(runs, baselines):
+        cells = ["-" if milliseconds is None else f"{milliseconds:.0f}", "-" if rate is None else f"{rate / 1e6:.2f}"]
+        cells += ["-" if rate is None else f"{rate / value:.1f}" for value in baselines.values()]
+        lines.append(f"| {label} | " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("bench", type=Path, help="Google Benchmark JSON of photon_bench")
+    parser.add_argument("report", type=Path, help="Markdown file to write")
     parser.add_argument("--pixels", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--bench", help="Google Benchmark JSON of photon_bench to compare with")
     arguments = parser.parse_args()
-    baselines = {}
-    for script in (by_acquisition, by_frame):
-        name = script.__name__.replace("_", " ")
-        baselines[name] = measure(script, arguments.pixels, arguments.seed)
-        print(f"{f'NumPy {np.__version__}, {name}':44s} {baselines[name] / 1e6:8.2f} million detections/s")
-    if arguments.bench:
-        with open(arguments.bench, encoding="utf-8") as file:
-            runs = json.load(file)["benchmarks"]
-        for run in runs:
-            if "detections/s" in run and run.get("run_type") != "aggregate":
-                label = run["name"].removesuffix("/process_time/real_time")
-                one_core = run["detections/s"] * run["real_time"] / run["cpu_time"]
-                print_ratios(label + ", a core", one_core, baselines)
-                if not label.endswith("threads:1"):
-                    print_ratios(label + ", all", run["detections/s"], baselines)
+    runs = json.loads(arguments.bench.read_text(encoding="utf-8"))["benchmarks"]
+    baselines = {script.__name__.replace("_", " "): measure(script, arguments.pixels, arguments.seed)
+                 for script in (by_acquisition, by_frame)}
+    text = report(runs, baselines)
+    arguments.report.write_text(text, encoding="utf-8")
+    print(text, end="")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # make photon-report  speed against error of the photon models, what auto may take (reports/)
-# make photon-bench   speed of the photon models beside NumPy
+# make photon-bench   speed of the photon models beside NumPy (reports/photon_speed.md)
 .PHONY: photon-report photon-bench
 
 photon-report: study
@@ -9,5 +9,6 @@ photon-report: study
 
 photon-bench: configure
 	@ninja -C $(BUILD) photon_bench
-	@$(BUILD)/bench/photon_bench --benchmark_out=build/photon_bench.json --benchmark_out_format=json
-	@/usr/bin/python3 scripts/photon_baseline.py --seed $(SEED) --bench build/photon_bench.json
+	@$(BUILD)/bench/photon_bench --benchmark_filter='plane/(threads|hispointer)' --benchmark_out=build/photon_bench.json \
+	  --benchmark_out_format=json
+	@scripts/photon_baseline.py build/photon_bench.json reports/photon_speed.md --seed $(SEED)

@@ -81,6 +81,8 @@ LISTED = (
            says="the cheapest model for a stream, a sampler and a sweep"),
     Report("fidelity", "Photon models: what the fast one changes", "photon-report", "fidelity.md",
            says="figures that `--fidelity auto` chooses by"),
+    Report("photon_speed", "Photon models: speed beside NumPy", "photon-bench", "photon_speed.md",
+           says="detections per second, as multiples of two NumPy scripts"),
     Report("mutants", "Mutants", "mutate", "mutants.md", says="whether the tests notice small changes"),
     Report("coverage", "Coverage of the tests", "coverage", "coverage.md",
            says="lines, branches and toggles that the tests reach"),
