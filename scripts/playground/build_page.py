@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes build/playground/index.html: page, style, worker and WebAssembly module in one file that opens without a server.
 
-Area and power are those of the committed reports (`make synth`).
+Area and power are those of the committed reports (`make synth`), colours those of all pictures.
 """
 
 import csv
@@ -14,8 +14,9 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 PARTS = ROOT / "scripts" / "playground"
 OUT = ROOT / "build" / "playground"
 MODULE = OUT / "cmake" / "playground" / "playground_module.js"
-sys.path.insert(0, str(ROOT / "synth"))
+sys.path[:0] = [str(ROOT / "synth"), str(ROOT / "scripts")]
 
+import plot_style  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 
 THESIS_PIXELS = 32000
@@ -32,6 +33,7 @@ def cost() -> dict[str, object]:
     typical = {row["configuration"]: row for row in rows("reports/timing.csv") if row["corner"] == "typical"}
     readouts: dict[str, dict[str, object]] = {}
     smaller = []
+    styles = plot_style.load()
     for name, configuration in load(ROOT / "configurations.toml").items():
         if configuration.variant_of or name not in area:
             continue
@@ -44,6 +46,7 @@ def cost() -> dict[str, object]:
             "mw": f"{sum(float(typical[name][part]) for part in ('logic_mw', 'sram_mw', 'clock_mw')):.0f}",
             "bits": area[name]["bits_per_pixel"],
             "note": size != THESIS_PIXELS,
+            "colour": plot_style.style(configuration.title, styles).colour,
         }
     note = ("Area and power are those of an array of 200 x 160 pixels at 330 MHz in a generated 40 nm library, whatever "
             "is chosen above (reports/area.md, reports/timing.md); no sign-off. " + " ".join(smaller))

@@ -287,7 +287,7 @@ function show() {
       make("p", summary, [], { class: "hint" }),
       make("div", "", [depthMap(frame.depth, describe), map(frame.error, errorColour, "error", describe)], { class: "maps" }),
       make("dl", "", figures.map(([name, value]) => make("div", "", [make("dt", name), make("dd", value)]))),
-    ], { "data-readout": frame.readout }));
+    ], { "data-readout": frame.readout, style: `border-top: 0.3rem solid ${cost.readouts[frame.readout]?.colour ?? "var(--line)"}` }));
     const bits = cost.readouts[frame.readout]?.bits ?? "-";
     rows.push(make("tr", "", [make("th", title, [], { scope: "row" }),
       ...[...figures.map(([, value]) => value), bits].map((value) => make("td", value))]));

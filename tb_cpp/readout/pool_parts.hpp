@@ -55,6 +55,7 @@ BestLabels best_labels(std::span<const int> values);
 struct PointerWindows {
   std::array<std::int32_t, 8> weight;  ///< of a timestamp by its distance: a redescending M-estimator
   std::int32_t rival_reach;            ///< a timestamp this near supports the rival
+  bool operator==(const PointerWindows&) const = default;
 };
 /// The word after a timestamp at `position` of acquisition `acquisition`; steps are at most `largest_step`.
 void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,

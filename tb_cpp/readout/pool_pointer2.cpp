@@ -294,8 +294,8 @@ PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t 
       if (detection.timestamp == limits.no_detection()) {
         continue;
       }
-      const auto position =
-          static_cast<std::uint16_t>((detection.timestamp << fraction_bits) + ((1U << fraction_bits) >> 1U));
+      const auto position = static_cast<std::uint16_t>((std::uint32_t{detection.timestamp} << fraction_bits) +
+                                                       ((1U << fraction_bits) >> 1U));
       if (pixel.empty() || pixel.back().acquisition != detection.acquisition) {
         pixel.push_back({detection.acquisition, position, position});
         seen = 1;
