@@ -100,12 +100,14 @@ bool are_few(std::span<const double> values, const Outliers& outliers) {
 /// an outlier can bring.
 Estimate root_with_rare_outliers(double value, const Estimate& others, const RareOutliers& rare,
                                  double mean_added, double farthest) {
-  const double added = std::max(mean_added, 0.0);
-  const double square = squared(others.value) + rare.share * added;
-  const double low = square - std::hypot(squared(others.value) - squared(others.interval.low),
-                                         (rare.share - rare.share_interval.low) * added);
-  const double high = square + std::hypot(squared(others.interval.high) - squared(others.value),
-                                          (rare.share_interval.high - rare.share) * added);
+  // Outliers that lie nearer to 0 than the others make the square smaller.
+  const double of_more = (rare.share_interval.high - rare.share) * mean_added;
+  const double of_fewer = (rare.share_interval.low - rare.share) * mean_added;
+  const double square = squared(others.value) + rare.share * mean_added;
+  const double low =
+      square - std::hypot(squared(others.value) - squared(others.interval.low), std::min(of_more, of_fewer));
+  const double high =
+      square + std::hypot(squared(others.interval.high) - squared(others.value), std::max(of_more, of_fewer));
   const Interval seen{std::sqrt(std::max(low, 0.0)), std::sqrt(high)};
   // The few outliers seen may be bad luck, so that the others alone are right; those unseen may be farther
   // away.

@@ -102,6 +102,16 @@ TEST(ConfidenceInterval, CoverageOfStandardDeviationAndRootMeanSquare) {
               0.015);
 }
 
+TEST(ConfidenceInterval, HoldsTheFigureWhereOutliersMakeItSmaller) {
+  std::vector<double> values(1000, -0.2);  // a bin that all detections but one fall into
+  values.back() = 0.0;
+  const Estimate rms = estimate_root_mean_square(values, find_outliers(values), {-1.0, 1.0});
+  EXPECT_NEAR(rms.value, 0.2 * std::sqrt(0.999), 1e-12);
+  EXPECT_LT(rms.interval.low, rms.value);
+  EXPECT_GE(rms.interval.high, rms.value);
+  EXPECT_LE(rms.interval.high, 0.2 + 1e-12);
+}
+
 TEST(ConfidenceInterval, CoverageWithRareOutliers) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = make_random(4);
