@@ -12,6 +12,7 @@ control/pass_sequencer.sv
 control/pixel_sequencer.sv
 control/scan_sequencer.sv
 control/controller.sv
+control/column_rules.sv
 control/stream_rules.sv
 control/result_output.sv
 control/pair_sequencer.sv
@@ -21,7 +22,9 @@ control/pool_result_output.sv
 datapath/data_filter.sv
 datapath/histogram_builder.sv
 datapath/peak_detector.sv
+datapath/peak_histogram.sv
 datapath/pointer_update.sv
+datapath/word_builder.sv
 datapath/pointer_builder.sv
 datapath/result_register.sv
 datapath/status_bits.sv

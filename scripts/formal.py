@@ -31,8 +31,9 @@ ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in th
 SEARCH_FRAMES = 120  # for a planted bug or a goal where the proof itself has no bound
 SIMULATE_SECONDS = 60
 
-# An instance of a module, or something of a package.
-USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::", re.MULTILINE)
+# An instance of a module, perhaps by a macro of dtof_array, or something of a package.
+USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::|^\s*`DTOF_COLUMN\((\w+)\)", re.MULTILINE)
+INCLUDED = re.compile(r'^\s*`include "(\w+\.svh)"', re.MULTILINE)
 
 YOSYS_SCRIPT = """
 read_verilog -formal -sv {defines} -I{hdl}/package -I{hdl}/formal -defer {sources}
@@ -162,7 +163,10 @@ def needed_files(harness: Path) -> list[Path]:
     needed = {harness}
     found = {harness}
     while found:
-        names = {name for file in found for match in USED_NAME.findall(file.read_text()) for name in match}
+        texts = [file.read_text() for file in found]
+        texts += [(HDL / "package" / name).read_text() for text in texts for name in INCLUDED.findall(text)
+                  if (HDL / "package" / name).exists()]
+        names = {name for text in texts for match in USED_NAME.findall(text) for name in match}
         found = {file for file in design if file.stem in names} - needed
         needed |= found
     return [file for file in design if file in needed] + [harness]

@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
 from dtof_synth.errors import FlowError  # noqa: E402
-from dtof_synth.readouts import Expression, Table, evaluate, load  # noqa: E402
+from dtof_synth.readouts import Expression, Readout, Table, evaluate, load  # noqa: E402
 
 WRITTEN = "Written by scripts/generate.py from readouts.toml."
 FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
@@ -55,22 +55,37 @@ def matching(text: str) -> int:
 
 def systemverilog(table: Table) -> str:
     readouts = [readout for readout in table.readouts.values() if readout.number is not None]
-    translate = lambda expression: translated(expression, str.lower, lambda name: f"{name}_of")  # noqa: E731
+    own = {"CONFIDENCE_WIDTH": "pointer_confidence_width"}  # beside the result's
+    translate = lambda expression: translated(  # noqa: E731
+        expression, lambda name: own.get(name, name.lower()), lambda name: f"{name}_of")  # fmt: skip
 
-    def cases(function: str, by_text: dict[str, list[str]]) -> list[str]:
-        lines = []
-        for text, names in by_text.items():
-            lines.append(f"      {', '.join(names)}: {function} = {text};")
-        return lines
+    def choice(kind: str, name: str, arguments: str, values: dict[str, Expression], default: str) -> list[str]:
+        """A function of the read-out; read-outs of one value share a line."""
+        by_text: dict[str, list[str]] = {}
+        for constant, expression in values.items():
+            by_text.setdefault(translate(expression), []).append(constant)
+        return [
+            "",
+            f"  function automatic {kind} {name}(input int readout{arguments});",
+            "    case (readout)",
+            *(f"      {', '.join(constants)}: {name} = {text};" for text, constants in by_text.items()),
+            f"      default: {name} = {default};",
+            "    endcase",
+            "  endfunction",
+        ]
 
-    def grouped(expressions: dict[str, Expression]) -> dict[str, list[str]]:
-        found: dict[str, list[str]] = {}
-        for name, expression in expressions.items():
-            found.setdefault(translate(expression), []).append(name)
-        return found
+    def question(name: str, yes: Callable[[Readout], bool]) -> list[str]:
+        found = [readout.constant for readout in readouts if yes(readout)]
+        lines = choice("bit", name, "", {", ".join(found): 1} if found else {}, "1'b0")
+        return [line.replace(f"{name} = 1;", f"{name} = 1'b1;") for line in lines]
 
-    pointers = [readout.constant for readout in readouts if readout.kind == POINTER]
-    histograms = [readout.constant for readout in readouts if readout.bin_width is not None]
+    def of(attribute: str, chosen: list[Readout] = readouts) -> dict[str, Expression]:
+        values = {readout.constant: getattr(readout, attribute) for readout in chosen}
+        return {constant: value for constant, value in values.items() if value is not None}
+
+    sizes = ", input int np, input int nb"
+    scanned = {readout.constant: readout.scan_width if readout.scan_width is not None else readout.bin_width or 0
+               for readout in readouts}  # fmt: skip
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
         f"// {WRITTEN} A part of dtof_pkg.",
@@ -82,39 +97,46 @@ def systemverilog(table: Table) -> str:
         "  function automatic bit is_readout(input int readout);",
         f"    is_readout = readout >= 0 && readout < {len(readouts)};",
         "  endfunction",
+        *question("has_histogram", lambda readout: readout.bin_width is not None),
         "",
-        "  // Whether the result is a pointer.",
-        "  function automatic bit has_pointer(input int readout);",
-        "    case (readout)",
-        f"      {', '.join(pointers)}: has_pointer = 1'b1;",
-        "      default: has_pointer = 1'b0;",
-        "    endcase",
-        "  endfunction",
-        "",
-        "  function automatic bit has_histogram(input int readout);",
-        "    case (readout)",
-        f"      {', '.join(histograms)}: has_histogram = 1'b1;",
-        "      default: has_histogram = 1'b0;",
-        "    endcase",
-        "  endfunction",
+        "  // A word a pixel beside its histogram, which timestamps move, or which is read ahead of them.",
+        *question("has_word", lambda readout: readout.word != "")[1:],
+        *question("is_word_moved", lambda readout: readout.word == "moved"),
+        *question("is_word_read_ahead", lambda readout: readout.word in ("moved", "ahead")),
         "",
         "  // Passes over the stream before the final one.",
-        "  function automatic int coarse_passes(input int readout, input int np, input int nb);",
-        "    case (readout)",
-        *cases("coarse_passes", grouped({readout.constant: readout.passes for readout in readouts})),
-        "      default: coarse_passes = 0;",
-        "    endcase",
-        "  endfunction",
+        *choice("int", "coarse_passes", sizes, of("passes"), "0")[1:],
         "",
         "  // log2 of the bins that the histogram SRAM holds for a pixel; 1 without one.",
-        "  function automatic int bin_width(input int readout, input int np, input int nb);",
-        "    case (readout)",
-        *cases("bin_width", grouped({readout.constant: readout.bin_width for readout in readouts
-                                     if readout.bin_width is not None})),
-        "      default: bin_width = 1;",
-        "    endcase",
-        "  endfunction",
+        *choice("int", "bin_width", sizes, of("bin_width"), "1")[1:],
+        "",
+        "  // log2 of the bins that the result is searched in.",
+        *choice("int", "scan_width", sizes, scanned, "0")[1:],
+        "",
+        "  // Bits of a result's fields beside its code.",
+        *choice("int", "fraction_width", ", input int fraction_bits", of("fraction_width"), "0")[1:],
+        *choice("int", "confidence_width", ", input int count_width,\n                                          "
+                "input int pointer_confidence_width", of("confidence_width"), "0"),
     ]  # fmt: skip
+    return "\n".join(lines) + "\n"
+
+
+def columns(table: Table) -> str:
+    """The column of each read-out of dtof_array."""
+    users: dict[str, list[str]] = {}
+    for readout in table.readouts.values():
+        if readout.column:
+            users.setdefault(readout.column, []).append(f"dtof_pkg::{readout.constant}")
+    lines = [
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// {WRITTEN} A part of dtof_array: column c.",
+        "      case (READOUT)",
+    ]
+    for column, constants in users.items():
+        lines += [f"        {', '.join(constants)}: begin : g_{column.removesuffix('_column')}",
+                  f"          `DTOF_COLUMN({column})",
+                  "        end"]  # fmt: skip
+    lines += ["        default: begin : g_no_readout", "        end", "      endcase"]
     return "\n".join(lines) + "\n"
 
 
@@ -353,6 +375,7 @@ def main() -> int:
                    ("hdl/dtof.core", "hdl/Bender.yml", "README.md")}  # fmt: skip
         files = {
             "hdl/package/dtof_readouts.svh": systemverilog(table),
+            "hdl/package/dtof_columns.svh": columns(table),
             "tb_cpp/core/readout.hpp": cpp_header(table),
             "tb_cpp/core/readout.cpp": cpp_source(table),
             "tb_cpp/cmake/readouts.cmake": cmake(table),

@@ -1,32 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// The histograms of a column in one two-port SRAM: counts one timestamp per clock, is scanned and cleared
-// (thesis 4.4, Fig. 4.9 to 4.11).
+// The histograms of a column in one two-port SRAM, which counts one timestamp a clock (thesis 4.4, Fig. 4.9 to 4.11).
 //
-// Equation: count[pixel, bin] = min(count + 1, 2^COUNT_WIDTH - 1) for every kept timestamp.
-// Schedule: T1 bin and hit arrive; T2 SRAM read; T3 data registered; T4 +1; T5 SRAM write. A scan reads at S0,
-// shows the count at S2 (count_s2_o) and clears the address at S1.
-// Hazard: timestamps up to three clocks apart may meet in one address before it is written. Pending counts
-// are forwarded at T4; only distances at which two timestamps can be of one pixel have a comparator.
-// Latency: 5 clocks from T0 to the write. Reset of the columns is not needed: beat_t5_i masks every write.
-// Cost at the defaults: 46 flip-flops, an incrementer, one bin comparator.
+// 1. Counting. A timestamp's address {pixel, bin} is read, one is added, and the count is written back: count = min(
+//    count + 1, 2^COUNT_WIDTH - 1). That takes five clocks, and a new timestamp starts in every one of them.
+// 2. Timestamps up to three clocks apart may meet in one address before it is written. Then the pending count is
+//    forwarded at T4 instead of what the SRAM returned. Only distances at which two timestamps can be of one pixel have
+//    a comparator.
+// 3. Scanning. The control reads the addresses one after the other; count_s2_o shows each count, and the address is
+//    cleared behind the read. With SIGNALLED_CLEAR a status bit an address says whether it was written since the last
+//    clear_all_i, and nothing is cleared by writing.
+//
+//   clock    counting                              scanning
+//   T1       bin and hit arrive
+//   T2 / S0  SRAM read                             SRAM read
+//   T3 / S1  data registered, bins compared        data registered, the address cleared
+//   T4 / S2  + 1                                   the count is at count_s2_o
+//   T5       SRAM write
+//
+// The registers need no reset: beat_t5_i masks every write.
+// Cost at the defaults: 46 flip-flops, an incrementer, one bin comparator; block RAM on an FPGA.
 `include "dtof_macros.svh"
 
 module histogram_builder #(
-    parameter int PIXELS_PER_SRAM = 160,
-    parameter int BIN_WIDTH = 5,  // log2 of the bins a pixel
-    parameter int SLOTS = 2,
-    parameter int COUNT_WIDTH = 10,
-    parameter int SIGNALLED_CLEAR = 0,
+    parameter int PIXELS_PER_SRAM = 160,  // histograms
+    parameter int BIN_WIDTH = 5,         // log2 of the bins of each
+    parameter int SLOTS = 2,             // timestamps of a pixel one after the other
+    parameter int COUNT_WIDTH = 10,      // bits of a count
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
     input  logic                   clk_i,
-    input  logic                   rst_ni,
+    input  logic                   rst_ni,          // of the assertions alone
     // timestamp at T1
-    input  logic                   hit_t1_i,
+    input  logic                   hit_t1_i,        // it counts
     input  logic [  BIN_WIDTH-1:0] bin_t1_i,
-    // schedule, common to all columns
-    input  logic [          3:1]   same_pixel_t3_i,
-    input  logic                   beat_t5_i,
+    // schedule, common to all columns; neither scan nor clear with a timestamp in the pipeline
+    input  logic [          3:1]   same_pixel_t3_i,  // [d]: the timestamp d clocks ahead is of the same pixel
+    input  logic                   beat_t5_i,       // a timestamp is at T5
     input  logic                   scan_s0_i,       // read for the scan instead of T2
     input  logic [  BIN_WIDTH-1:0] scan_bin_s0_i,
     input  logic [  ROW_WIDTH-1:0] read_pixel_i,    // pixel of T2 or S0
@@ -34,7 +44,7 @@ module histogram_builder #(
     input  logic [  BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [  ROW_WIDTH-1:0] write_pixel_i,   // pixel of T5 or S1
     input  logic                   clear_all_i,     // signalled clear
-    output logic [COUNT_WIDTH-1:0] count_s2_o
+    output logic [COUNT_WIDTH-1:0] count_s2_o       // of the address of S0
 );
 
   localparam int BINS = 1 << BIN_WIDTH;

@@ -52,18 +52,9 @@ package dtof_pkg;
     peak_width = (readout == READOUT_THREESTEPS) ? np - step_shift(np, 2) : nb;
   endfunction
 
-  function automatic int fraction_width(input int readout, input int fraction_bits);
-    fraction_width = has_pointer(readout) ? fraction_bits : 0;
-  endfunction
-
   // Bits of a pointer's full step in units of 2^-FRACTION_BITS bin.
   function automatic int step_width(input int pointer_step, input int fraction_bits);
     step_width = $clog2(pointer_step + 1) + fraction_bits;
-  endfunction
-
-  function automatic int confidence_width(input int readout, input int count_width,
-                                          input int pointer_confidence_width);
-    confidence_width = has_pointer(readout) ? pointer_confidence_width : count_width;
   endfunction
 
   // Bits of {code, fraction, confidence}.

@@ -16,18 +16,32 @@
     is_readout = readout >= 0 && readout < 8;
   endfunction
 
-  // Whether the result is a pointer.
-  function automatic bit has_pointer(input int readout);
-    case (readout)
-      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: has_pointer = 1'b1;
-      default: has_pointer = 1'b0;
-    endcase
-  endfunction
-
   function automatic bit has_histogram(input int readout);
     case (readout)
       READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM: has_histogram = 1'b1;
       default: has_histogram = 1'b0;
+    endcase
+  endfunction
+
+  // A word a pixel beside its histogram, which timestamps move, or which is read ahead of them.
+  function automatic bit has_word(input int readout);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH: has_word = 1'b1;
+      default: has_word = 1'b0;
+    endcase
+  endfunction
+
+  function automatic bit is_word_moved(input int readout);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: is_word_moved = 1'b1;
+      default: is_word_moved = 1'b0;
+    endcase
+  endfunction
+
+  function automatic bit is_word_read_ahead(input int readout);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS: is_word_read_ahead = 1'b1;
+      default: is_word_read_ahead = 1'b0;
     endcase
   endfunction
 
@@ -50,5 +64,35 @@
       READOUT_THREESTEPS: bin_width = 4;
       READOUT_HISTOGRAM: bin_width = np;
       default: bin_width = 1;
+    endcase
+  endfunction
+
+  // log2 of the bins that the result is searched in.
+  function automatic int scan_width(input int readout, input int np, input int nb);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: scan_width = 0;
+      READOUT_SIFH, READOUT_PIFH: scan_width = nb;
+      READOUT_FIFH: scan_width = np - nb;
+      READOUT_THREESTEPS: scan_width = 4;
+      READOUT_HISTOGRAM: scan_width = np;
+      default: scan_width = 0;
+    endcase
+  endfunction
+
+  // Bits of a result's fields beside its code.
+  function automatic int fraction_width(input int readout, input int fraction_bits);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: fraction_width = fraction_bits;
+      READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM: fraction_width = 0;
+      default: fraction_width = 0;
+    endcase
+  endfunction
+
+  function automatic int confidence_width(input int readout, input int count_width,
+                                          input int pointer_confidence_width);
+    case (readout)
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: confidence_width = pointer_confidence_width;
+      READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM: confidence_width = count_width;
+      default: confidence_width = 0;
     endcase
   endfunction

@@ -1,8 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Read-out of a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out.
 //
-// Everything that is common to the columns (state, counters, clear and scan addresses, result handshake) is
-// here once; a column holds its SRAM and its arithmetic.
+// 1. start_i begins a frame: the number of acquisitions and the time gate are sampled, and the memories are cleared.
+// 2. Timestamps stream in, acquisition by acquisition, the same pixel of all columns in a clock. Every column counts
+//    them in its histogram, or moves its pointer.
+// 3. Where a read-out takes several passes, the histograms are scanned for their peaks and cleared after each but the
+//    last, and the peaks tell the columns what to look at in the next.
+// 4. Behind the last pass the pixels are scanned row by row for their results, which leave through a chain of one
+//    register a column, column 0 first, while the next row is scanned.
+//
+// Everything that is common to the columns (state, counters, clear and scan addresses, result handshake) is here once;
+// a column holds its SRAMs and its arithmetic. READOUT picks the column (dtof_columns.svh); what a read-out needs of the
+// control, how many passes and bins and whether there is a word a pixel, comes from dtof_readouts.svh. Both are written
+// from readouts.toml.
 //
 // Frame: start_i samples acq_num_i (0 and 1 are legal) and the gate; busy_o until done_o (docs/user/integration.md).
 // TDC stream: an acquisition starts in the clock in which tdc_valid_i and tdc_ready_o are high, which carries
@@ -11,6 +21,7 @@
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; rows in order, columns in a row.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of 2 SRAM_NUM and the bins to scan in M4.
+// Cost at the defaults: ezPointer 490 um2 of logic and 2240 bits of SRAM a column, 1970 um2 in common.
 `include "dtof_macros.svh"
 
 module dtof_array #(
@@ -37,20 +48,23 @@ module dtof_array #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic                   start_i,  // ignored while busy_o, also in the clock of done_o
-    input  logic [  ACQ_WIDTH-1:0] acq_num_i,
-    input  logic [         NP-1:0] gate_begin_i,
+    // frame
+    input  logic                   start_i,          // ignored while busy_o, also in the clock of done_o
+    input  logic [  ACQ_WIDTH-1:0] acq_num_i,        // acquisitions of the frame, sampled with start_i
+    input  logic [         NP-1:0] gate_begin_i,     // time gate of the frame, sampled with start_i
     input  logic [         NP-1:0] gate_end_i,
-    output logic                   busy_o,
-    output logic                   done_o,
-    output logic [            2:0] state_o,
-    input  logic                   tdc_valid_i,
-    output logic                   tdc_ready_o,
-    input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
+    output logic                   busy_o,           // from the clock behind start_i to that of done_o
+    output logic                   done_o,           // the last result was taken; one clock
+    output logic [            2:0] state_o,          // dtof_pkg::STATE_*
+    // TDC stream
+    input  logic                   tdc_valid_i,      // high for a whole acquisition
+    output logic                   tdc_ready_o,      // an acquisition may start, or is under way
+    input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,  // column 0 in the lowest bits
+    // results, AXI4-Stream
     output logic                   result_tvalid_o,
     input  logic                   result_tready_i,
     output logic [TDATA_WIDTH-1:0] result_tdata_o,
-    output logic                   result_tlast_o
+    output logic                   result_tlast_o    // the last column of a row
 );
 
   `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT), `DTOF_READOUT_RANGE)
@@ -73,14 +87,16 @@ module dtof_array #(
                 "dtof_array: POINTER_PORTS must be 2, or 1 with SLOTS of at least 2")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 1 && ACQ_WIDTH <= 24, "dtof_array: ACQ_WIDTH must be 1 to 24")
 
-  localparam int POINTER = dtof_pkg::has_pointer(READOUT) ? 1 : 0;
   localparam int HISTOGRAM = dtof_pkg::has_histogram(READOUT) ? 1 : 0;
+  localparam int WORD = dtof_pkg::has_word(READOUT) ? 1 : 0;  // a word a pixel beside the histogram
+  localparam int WORD_MOVED = dtof_pkg::is_word_moved(READOUT) ? 1 : 0;  // timestamps change it
+  localparam int WORD_AHEAD = dtof_pkg::is_word_read_ahead(READOUT) ? 1 : 0;  // timestamps need it
   localparam int THREE_STEPS = (READOUT == dtof_pkg::READOUT_THREESTEPS) ? 1 : 0;
   localparam int COARSE_PASSES = dtof_pkg::coarse_passes(READOUT, NP, NB);
   localparam int PASS_WIDTH = dtof_pkg::index_width(COARSE_PASSES + 1);
   localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB);
   localparam int BINS = 1 << BIN_WIDTH;
-  localparam int FINE_BINS = (READOUT == dtof_pkg::READOUT_FIFH) ? (1 << (NP - NB)) : BINS;
+  localparam int FINAL_BINS = 1 << dtof_pkg::scan_width(READOUT, NP, NB);
   localparam int GEARS = dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
   localparam int GEAR_WIDTH = dtof_pkg::index_width(GEARS + 1);
   localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, GEARS);
@@ -173,7 +189,7 @@ module dtof_array #(
   pixel_sequencer #(
       .PIXELS_PER_SRAM    (PIXELS_PER_SRAM),
       .SLOTS              (SLOTS),
-      .FETCH_ON_FIRST_SLOT(POINTER)
+      .FETCH_ON_FIRST_SLOT(WORD_MOVED)
   ) u_pixel_sequencer (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -204,7 +220,7 @@ module dtof_array #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .BIN_WIDTH      (BIN_WIDTH),
       .RESET_BINS     ((HISTOGRAM != 0) ? BINS : 1),
-      .FINAL_BINS     ((POINTER != 0) ? 1 : FINE_BINS),
+      .FINAL_BINS     (FINAL_BINS),
       .SKIP_RESET     ((HISTOGRAM != 0) ? SIGNALLED_CLEAR : 0)
   ) u_scan_sequencer (
       .clk_i        (clk_i),
@@ -230,34 +246,31 @@ module dtof_array #(
       .pixel_s3_o   (pixel_s3)
   );
 
-  // Schedule of the columns' SRAMs.
+  // What the columns do with their memories, the same for all of them.
 
-  logic peak_write, result_load;
+  logic result_load;
   logic [ROW_WIDTH-1:0] histogram_read_pixel, histogram_write_pixel;
-  logic word_read, word_read_done_q;  // the pointer word, coarse peak or best peak of a pixel
-  logic [ROW_WIDTH-1:0] word_read_pixel;
-  logic pointer_write;
+  logic word_read, word_read_done_q, word_set, word_write;
+  logic [ROW_WIDTH-1:0] word_read_pixel, word_set_pixel;
   logic [STEP_WIDTH-1:0] step_t0;
 
   assign histogram_read_pixel = scan_s0 ? pixel_s0 : pixel_t2;
   assign histogram_write_pixel = clear_s1 ? pixel_s1 : pixel_t5;
-  assign peak_write = last_s3 && coarse_scan;
   assign result_load = last_s3 && final_scan;
-  assign pointer_write = last_slot_t2 && final_pass;
-  assign step_t0 = STEP_WIDTH'(POINTER_STEP << GEARS) >> gear;
-  assign word_read_pixel = scan_s0 ? pixel_s0 : fetch_pixel;
 
-  generate
-    if (POINTER != 0) begin : g_pointer_read
-      assign word_read = (fetch || scan_s0) && final_pass;
-    end else if (READOUT == dtof_pkg::READOUT_SIFH || READOUT == dtof_pkg::READOUT_FIFH) begin : g_peak_read
-      assign word_read = (fetch || last_s0) && final_pass;
-    end else if (THREE_STEPS != 0) begin : g_every_pass_read
-      assign word_read = (fetch || last_s0) && !first_pass;
-    end else begin : g_best_read
-      assign word_read = last_s0 && !first_pass;
-    end
-  endgenerate
+  // A pixel's word: read ahead of its timestamps and for its scan, in the passes in which it is known.
+  logic word_known, word_read_ahead, word_read_scan;
+  assign word_known = (COARSE_PASSES <= 1) ? final_pass : !first_pass;
+  assign word_read_ahead = (WORD_AHEAD != 0) && fetch;
+  assign word_read_scan = (WORD_MOVED != 0) ? scan_s0 : last_s0;
+  assign word_read = (WORD != 0) && word_known && (word_read_ahead || word_read_scan);
+  assign word_read_pixel = ((WORD_AHEAD == 0) || scan_s0) ? pixel_s0 : fetch_pixel;
+
+  // It is set before the timestamps that it serves, and written behind those that move it.
+  assign word_set = (WORD != 0) && ((COARSE_PASSES == 0) ? clear_s1 : last_s3 && coarse_scan);
+  assign word_set_pixel = (COARSE_PASSES == 0) ? pixel_s1 : pixel_s3;
+  assign word_write = (WORD_MOVED != 0) && last_slot_t2 && final_pass;
+  assign step_t0 = STEP_WIDTH'(POINTER_STEP << GEARS) >> gear;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -267,184 +280,132 @@ module dtof_array #(
     end
   end
 
+  column_rules #(
+      .COARSE_PASSES(COARSE_PASSES),
+      .WORD_MOVED   (WORD_MOVED)
+  ) u_column_rules (
+      .clk_i           (clk_i),
+      .rst_ni          (rst_ni),
+      .first_pass_i    (first_pass),
+      .final_pass_i    (final_pass),
+      .beat_t1_i       (beat_t1),
+      .visit_t1_i      (visit_t1),
+      .beat_t5_i       (beat_t5),
+      .scan_s0_i       (scan_s0),
+      .clear_s1_i      (clear_s1),
+      .scan_s2_i       (scan_s2),
+      .word_read_i     (word_read),
+      .word_read_done_i(word_read_done_q),
+      .word_set_i      (word_set),
+      .word_write_i    (word_write),
+      .result_load_i   (result_load),
+      .result_shift_i  (result_shift)
+  );
+
   // Columns and their result chain: chain[c] is column c's result, column SRAM_NUM - 1 shifts zeros in.
 
   logic [(SRAM_NUM+1)*RESULT_WIDTH-1:0] chain;
   assign chain[SRAM_NUM*RESULT_WIDTH+:RESULT_WIDTH] = '0;
 
+  // What the columns are told. What the read-out has no use for is zero: synthesis keeps the columns as modules, and
+  // with their ports what drives them.
+
+  logic [PASS_WIDTH-1:0] column_pass;
+  logic column_first_pass, column_final_pass, column_first_slot_t0, column_visit_t1, column_first_acq_t1,
+      column_beat_t5, column_scan_s0, column_clear_s1, column_clear_all, column_scan_s2, column_first_s2;
+  logic [STEP_WIDTH-1:0] column_step_t0;
+  logic [3:1] column_same_pixel_t3;
+  logic [ROW_WIDTH-1:0] column_histogram_read_pixel, column_histogram_write_pixel, column_word_read_pixel,
+      column_word_set_pixel, column_word_write_pixel;
+  logic [BIN_WIDTH-1:0] column_scan_bin_s0, column_clear_bin_s1, column_bin_s2;
+
+  assign column_pass = (COARSE_PASSES != 0) ? pass : '0;
+  assign column_first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
+  assign column_final_pass = (COARSE_PASSES != 0) ? final_pass : 1'b1;
+  assign column_first_slot_t0 = (WORD_MOVED != 0) ? first_slot_t0 : 1'b0;
+  assign column_visit_t1 = (WORD_MOVED != 0) ? visit_t1 : 1'b0;
+  assign column_first_acq_t1 = (WORD_MOVED != 0) ? first_acq_t1 : 1'b0;
+  assign column_step_t0 = (WORD_MOVED != 0) ? step_t0 : '0;
+  assign column_same_pixel_t3 = (HISTOGRAM != 0) ? same_pixel_t3 : '0;
+  assign column_beat_t5 = (HISTOGRAM != 0) ? beat_t5 : 1'b0;
+  assign column_histogram_read_pixel = (HISTOGRAM != 0) ? histogram_read_pixel : '0;
+  assign column_histogram_write_pixel = (HISTOGRAM != 0) ? histogram_write_pixel : '0;
+  assign column_scan_s0 = (HISTOGRAM != 0) ? scan_s0 : 1'b0;
+  assign column_scan_bin_s0 = (HISTOGRAM != 0) ? bin_s0 : '0;
+  assign column_clear_s1 = (HISTOGRAM != 0) ? clear_s1 : 1'b0;
+  assign column_clear_bin_s1 = (HISTOGRAM != 0) ? bin_s1 : '0;
+  assign column_clear_all = (HISTOGRAM != 0) ? clear_all : 1'b0;
+  assign column_scan_s2 = (HISTOGRAM != 0) ? scan_s2 : 1'b0;
+  assign column_first_s2 = (HISTOGRAM != 0) ? first_s2 : 1'b0;
+  assign column_bin_s2 = (HISTOGRAM != 0) ? bin_s2 : '0;
+  assign column_word_read_pixel = (WORD != 0) ? word_read_pixel : '0;
+  assign column_word_set_pixel = (WORD != 0) ? word_set_pixel : '0;
+  assign column_word_write_pixel = (WORD_MOVED != 0) ? pixel_t2 : '0;
+
+  // Column c, of whatever read-out: all have the same ports. (Signals alone are connected: Yosys 0.23 stops at an
+  // expression that takes its width from a port of a module with included ports.)
+`define DTOF_COLUMN(MODULE) \
+  MODULE #( \
+      .READOUT         (READOUT), \
+      .NP              (NP), \
+      .NB              (NB), \
+      .PIXELS_PER_SRAM (PIXELS_PER_SRAM), \
+      .SLOTS           (SLOTS), \
+      .COUNT_WIDTH     (COUNT_WIDTH), \
+      .POINTER_STEP    (POINTER_STEP), \
+      .FRACTION_BITS   (FRACTION_BITS), \
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH), \
+      .GUARD           (GUARD), \
+      .WINDOW_CENTRED  (WINDOW_CENTRED), \
+      .POINTER_PORTS   (POINTER_PORTS), \
+      .SIGNALLED_CLEAR (SIGNALLED_CLEAR), \
+      .TIME_GATE       (TIME_GATE) \
+  ) u_column ( \
+      .clk_i                  (clk_i), \
+      .rst_ni                 (rst_ni), \
+      .timestamp_i            (tdc_timestamp_i[c*NP+:NP]), \
+      .gate_begin_i           (gate_begin), \
+      .gate_end_i             (gate_end), \
+      .pass_i                 (column_pass), \
+      .first_pass_i           (column_first_pass), \
+      .final_pass_i           (column_final_pass), \
+      .first_slot_t0_i        (column_first_slot_t0), \
+      .beat_t1_i              (beat_t1), \
+      .visit_t1_i             (column_visit_t1), \
+      .first_acq_t1_i         (column_first_acq_t1), \
+      .step_t0_i              (column_step_t0), \
+      .same_pixel_t3_i        (column_same_pixel_t3), \
+      .beat_t5_i              (column_beat_t5), \
+      .histogram_read_pixel_i (column_histogram_read_pixel), \
+      .histogram_write_pixel_i(column_histogram_write_pixel), \
+      .scan_s0_i              (column_scan_s0), \
+      .scan_bin_s0_i          (column_scan_bin_s0), \
+      .clear_s1_i             (column_clear_s1), \
+      .clear_bin_s1_i         (column_clear_bin_s1), \
+      .clear_all_i            (column_clear_all), \
+      .scan_s2_i              (column_scan_s2), \
+      .first_s2_i             (column_first_s2), \
+      .bin_s2_i               (column_bin_s2), \
+      .word_read_i            (word_read), \
+      .word_read_pixel_i      (column_word_read_pixel), \
+      .word_read_done_i       (word_read_done_q), \
+      .word_set_i             (word_set), \
+      .word_set_pixel_i       (column_word_set_pixel), \
+      .word_write_i           (word_write), \
+      .word_write_pixel_i     (column_word_write_pixel), \
+      .result_load_i          (result_load), \
+      .result_shift_i         (result_shift), \
+      .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]), \
+      .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH]) \
+  );
+
   genvar c;
   generate
     for (c = 0; c < SRAM_NUM; c = c + 1) begin : g_column
-      if (READOUT == dtof_pkg::READOUT_EZPOINTER) begin : g_ez_pointer
-        ez_pointer_column #(
-            .NP              (NP),
-            .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
-            .SLOTS           (SLOTS),
-            .POINTER_STEP    (POINTER_STEP),
-            .FRACTION_BITS   (FRACTION_BITS),
-            .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
-            .POINTER_PORTS   (POINTER_PORTS),
-            .TIME_GATE       (TIME_GATE)
-        ) u_column (
-            .clk_i                (clk_i),
-            .rst_ni               (rst_ni),
-            .timestamp_i          (tdc_timestamp_i[c*NP+:NP]),
-            .gate_begin_i         (gate_begin),
-            .gate_end_i           (gate_end),
-            .beat_t1_i            (beat_t1),
-            .pointer_read_i       (word_read),
-            .pointer_read_pixel_i (word_read_pixel),
-            .pointer_read_done_i  (word_read_done_q),
-            .first_slot_t0_i      (first_slot_t0),
-            .visit_t1_i           (visit_t1),
-            .first_acq_t1_i       (first_acq_t1),
-            .pointer_write_i      (pointer_write),
-            .pointer_write_pixel_i(pixel_t2),
-            .step_t0_i            (step_t0),
-            .clear_s1_i           (clear_s1),
-            .clear_pixel_s1_i     (pixel_s1),
-            .result_load_i        (result_load),
-            .result_shift_i       (result_shift),
-            .next_column_i        (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
-            .result_o             (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
-        );
-      end else if (POINTER != 0) begin : g_his_pointer
-        his_pointer_column #(
-            .READOUT         (READOUT),
-            .NP              (NP),
-            .NB              (NB),
-            .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
-            .SLOTS           (SLOTS),
-            .COUNT_WIDTH     (COUNT_WIDTH),
-            .POINTER_STEP    (POINTER_STEP),
-            .FRACTION_BITS   (FRACTION_BITS),
-            .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
-            .GUARD           (GUARD),
-            .POINTER_PORTS   (POINTER_PORTS),
-            .SIGNALLED_CLEAR (SIGNALLED_CLEAR),
-            .TIME_GATE       (TIME_GATE)
-        ) u_column (
-            .clk_i                  (clk_i),
-            .rst_ni                 (rst_ni),
-            .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
-            .gate_begin_i           (gate_begin),
-            .gate_end_i             (gate_end),
-            .final_pass_i           (final_pass),
-            .beat_t1_i              (beat_t1),
-            .same_pixel_t3_i        (same_pixel_t3),
-            .beat_t5_i              (beat_t5),
-            .scan_s0_i              (scan_s0),
-            .scan_bin_s0_i          (bin_s0),
-            .histogram_read_pixel_i (histogram_read_pixel),
-            .clear_s1_i             (clear_s1),
-            .clear_bin_s1_i         (bin_s1),
-            .histogram_write_pixel_i(histogram_write_pixel),
-            .clear_all_i            (clear_all),
-            .scan_s2_i              (scan_s2),
-            .first_s2_i             (first_s2),
-            .bin_s2_i               (bin_s2),
-            .pointer_read_i         (word_read),
-            .pointer_read_pixel_i   (word_read_pixel),
-            .pointer_read_done_i    (word_read_done_q),
-            .first_slot_t0_i        (first_slot_t0),
-            .visit_t1_i             (visit_t1),
-            .first_acq_t1_i         (first_acq_t1),
-            .pointer_write_i        (pointer_write),
-            .pointer_write_pixel_i  (pixel_t2),
-            .step_t0_i              (step_t0),
-            .start_write_s3_i       (peak_write),
-            .start_pixel_s3_i       (pixel_s3),
-            .result_load_i          (result_load),
-            .result_shift_i         (result_shift),
-            .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
-            .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
-        );
-      end else if (READOUT == dtof_pkg::READOUT_PIFH || READOUT == dtof_pkg::READOUT_HISTOGRAM) begin : g_partitioned
-        partitioned_histogram_column #(
-            .READOUT        (READOUT),
-            .NP             (NP),
-            .NB             (NB),
-            .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
-            .SLOTS          (SLOTS),
-            .COUNT_WIDTH    (COUNT_WIDTH),
-            .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
-            .TIME_GATE      (TIME_GATE)
-        ) u_column (
-            .clk_i                  (clk_i),
-            .rst_ni                 (rst_ni),
-            .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
-            .gate_begin_i           (gate_begin),
-            .gate_end_i             (gate_end),
-            .pass_i                 (pass),
-            .first_pass_i           (first_pass),
-            .beat_t1_i              (beat_t1),
-            .same_pixel_t3_i        (same_pixel_t3),
-            .beat_t5_i              (beat_t5),
-            .scan_s0_i              (scan_s0),
-            .scan_bin_s0_i          (bin_s0),
-            .histogram_read_pixel_i (histogram_read_pixel),
-            .clear_s1_i             (clear_s1),
-            .clear_bin_s1_i         (bin_s1),
-            .histogram_write_pixel_i(histogram_write_pixel),
-            .clear_all_i            (clear_all),
-            .scan_s2_i              (scan_s2),
-            .first_s2_i             (first_s2),
-            .bin_s2_i               (bin_s2),
-            .best_read_i            (word_read),
-            .best_read_pixel_i      (word_read_pixel),
-            .best_read_done_i       (word_read_done_q),
-            .best_write_s3_i        (peak_write),
-            .best_write_pixel_s3_i  (pixel_s3),
-            .result_load_i          (result_load),
-            .result_shift_i         (result_shift),
-            .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
-            .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
-        );
-      end else begin : g_interframe
-        interframe_histogram_column #(
-            .READOUT        (READOUT),
-            .NP             (NP),
-            .NB             (NB),
-            .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
-            .SLOTS          (SLOTS),
-            .COUNT_WIDTH    (COUNT_WIDTH),
-            .WINDOW_CENTRED (WINDOW_CENTRED),
-            .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
-            .TIME_GATE      (TIME_GATE)
-        ) u_column (
-            .clk_i                  (clk_i),
-            .rst_ni                 (rst_ni),
-            .timestamp_i            (tdc_timestamp_i[c*NP+:NP]),
-            .gate_begin_i           (gate_begin),
-            .gate_end_i             (gate_end),
-            .pass_i                 (pass),
-            .final_pass_i           (final_pass),
-            .beat_t1_i              (beat_t1),
-            .same_pixel_t3_i        (same_pixel_t3),
-            .beat_t5_i              (beat_t5),
-            .scan_s0_i              (scan_s0),
-            .scan_bin_s0_i          (bin_s0),
-            .histogram_read_pixel_i (histogram_read_pixel),
-            .clear_s1_i             (clear_s1),
-            .clear_bin_s1_i         (bin_s1),
-            .histogram_write_pixel_i(histogram_write_pixel),
-            .clear_all_i            (clear_all),
-            .scan_s2_i              (scan_s2),
-            .first_s2_i             (first_s2),
-            .bin_s2_i               (bin_s2),
-            .peak_read_i            (word_read),
-            .peak_read_pixel_i      (word_read_pixel),
-            .peak_read_done_i       (word_read_done_q),
-            .peak_write_s3_i        (peak_write),
-            .peak_write_pixel_s3_i  (pixel_s3),
-            .result_load_i          (result_load),
-            .result_shift_i         (result_shift),
-            .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
-            .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
-        );
-      end
+      `include "dtof_columns.svh"
     end
   endgenerate
+`undef DTOF_COLUMN
 
   result_output #(
       .SRAM_NUM    (SRAM_NUM),

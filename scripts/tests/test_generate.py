@@ -14,6 +14,7 @@ TEXT = readouts.PATH.read_text(encoding="utf-8")
 FIRST_PHOTON = """
 [readout.firstphoton]
 number = 8
+column = "first_photon_column"
 title = "first photon"
 enumerator = "FirstPhoton"
 summary = "the code of the first detection"
@@ -64,7 +65,8 @@ class Descriptions(unittest.TestCase):
             (('kind = "pool"', 'kind = "puddle"'), "kind 'puddle'"),
             (('choices = ["COUNT_WIDTH"]', 'choices = ["COUNTS"]'), "unknown parameter COUNTS"),
             (('top = "pool_pointer_array"', 'top = "nowhere"'), "no top 'nowhere'"),
-            (('top = "pool_pointer_array"', ""), "have a number"),
+            (('column = "ez_pointer_column"\n', ""), "have a number and a column"),
+            (('word = "moved"', 'word = "stirred"'), "the word 'stirred'"),
             (("passes = 0", "passages = 0"), "passages"),
             (('"NP / 2"', '"NQ / 2"'), "no expression"),
         ):

@@ -14,6 +14,8 @@ from .errors import FlowError
 
 PATH = Path(__file__).resolve().parents[2] / "readouts.toml"
 KINDS = ("pointer", "histogram", "pool")
+WORDS = ("moved", "ahead", "scanned")
+ARRAY = "dtof_array"
 OPERATORS = {
     ast.Add: lambda a, b: a + b,
     ast.Sub: lambda a, b: a - b,
@@ -65,13 +67,22 @@ class Readout:
     summary: str
     kind: str
     choices: list[str]
-    top: str = "dtof_array"
+    top: str = ""  # that of a column; none without RTL
     number: int | None = None
+    column: str = ""
     thesis: bool = False
     defaults: dict[str, Expression] = field(default_factory=dict)
+    fraction_width: Expression = 0
+    confidence_width: Expression = 0
     passes: Expression = 0
     bin_width: Expression | None = None
+    scan_width: Expression | None = None
+    word: str = ""
     memories: dict[str, list[Expression]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.column and not self.top:
+            object.__setattr__(self, "top", ARRAY)
 
     @property
     def constant(self) -> str:
@@ -115,13 +126,15 @@ def parse(text: str) -> Table:
         where = f"readouts.toml: {readout.name}"
         if readout.kind not in KINDS:
             raise FlowError(f"{where}: the kind '{readout.kind}' is none of {', '.join(KINDS)}")
-        if readout.top not in tops:
+        if readout.top and readout.top not in tops:
             raise FlowError(f"{where}: there is no top '{readout.top}'")
+        if readout.word and readout.word not in WORDS:
+            raise FlowError(f"{where}: the word '{readout.word}' is none of {', '.join(WORDS)}")
         unknown = [name for name in [*readout.choices, *readout.defaults] if name not in parameters]
         if unknown:
             raise FlowError(f"{where}: unknown parameter {unknown[0]}")
-        if (readout.number is None) == (readout.top == "dtof_array"):
-            raise FlowError(f"{where}: read-outs of dtof_array have a number, others none")
+        if len({readout.number is not None, bool(readout.column), readout.top == ARRAY}) > 1:
+            raise FlowError(f"{where}: read-outs of {ARRAY} have a number and a column, others neither")
     numbers = [readout.number for readout in readouts.values() if readout.number is not None]
     if sorted(numbers) != list(range(len(numbers))):
         raise FlowError("readouts.toml: the numbers must be 0, 1, 2, ..., each once")

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, SramKind>, 6> kInstances = {{
     {"u_histogram_sram", SramKind::kHistogram},
-    {"u_pointer_sram", SramKind::kPointer},
+    {"u_word_sram", SramKind::kPointer},
     {"u_peak_sram", SramKind::kCoarsePeak},
     {"u_best_sram", SramKind::kBestPeak},
     {"u_sram", SramKind::kPoolPair},

@@ -126,9 +126,9 @@ module dtof_array_testbench #(
     assign probe_address_o = '0;
     assign probe_data_o = '0;
   end else if (READOUT == dtof_pkg::READOUT_EZPOINTER) begin : gen_pointer_probe
-    `DTOF_PROBE(u_array.g_column[0].g_ez_pointer.u_column.u_pointer_builder.u_pointer_sram)
+    `DTOF_PROBE(u_array.g_column[0].g_ez_pointer.u_column.u_pointer_builder.u_word_builder.u_word_sram)
   end else begin : gen_histogram_probe
-    `DTOF_PROBE(u_array.g_column[0].g_interframe.u_column.u_histogram_builder.u_histogram_sram)
+    `DTOF_PROBE(u_array.g_column[0].g_interframe_histogram.u_column.u_peak_histogram.u_histogram_builder.u_histogram_sram)
   end
 
   // The padding of the timestamp bus and of the gate.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parameters of every column of dtof_array, which are the array's own: each column includes this file in its
+// parameter list. What the read-out has no use for is ignored. Limits are the array's (hdl/lint/parameter_limits.csv).
+    parameter int READOUT = dtof_pkg::READOUT_SIFH,  // which one of those that share the column
+    parameter int NP = 10,               // bits of a timestamp
+    parameter int NB = 5,                // bits of the coarse index
+    parameter int PIXELS_PER_SRAM = 160,  // pixels that the column serves
+    parameter int SLOTS = 2,             // timestamps per pixel and acquisition
+    parameter int COUNT_WIDTH = 10,      // bits of a histogram bin; counters saturate
+    parameter int POINTER_STEP = 1,      // bins that a pointer moves
+    parameter int FRACTION_BITS = 0,     // fractional bits of a pointer
+    parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none
+    parameter int GUARD = 46,            // hisPointer v2: window beyond half a coarse bin
+    parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
+    parameter int POINTER_PORTS = 2,     // ports of an SRAM whose words timestamps move
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
+    localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),  // log2 of the bins of a pixel
+    localparam int PASS_WIDTH = dtof_pkg::index_width(dtof_pkg::coarse_passes(READOUT, NP, NB) + 1),
+    localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, dtof_pkg::fraction_width(READOUT, FRACTION_BITS)),
+    localparam int RESULT_WIDTH = dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, FRACTION_BITS, CONFIDENCE_WIDTH)
