@@ -19,6 +19,8 @@ from .power import ClockTree, Power
 
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
+# Namings to map with (synth/yosys/4_map.tcl), 0 for the names as they are. poolPointer's parts take ABC too long for more.
+NAMING_SEEDS = list(range(16))
 KEPT_COLUMNS = 3
 BOTH_CORNERS = ("typical", "slow")
 
@@ -155,7 +157,9 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     tools.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / TARGET_MHZ * effort.share:.0f}",
-        "abc_script": effort.script, "tie_low": list(library.tie.get("0", ())),
+        "abc_script": effort.script, "naming_seeds": NAMING_SEEDS[:1] if configuration.is_pool else NAMING_SEEDS,
+        "area_log": folder / "area.log",
+        "tie_low": list(library.tie.get("0", ())),
         "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
     tools.run_yosys(scripts / "map.tcl", settings, folder / "map.log", configuration.name)
     design = json.loads((folder / "mapped.json").read_text(encoding="utf-8"))

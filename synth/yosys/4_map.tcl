@@ -1,8 +1,40 @@
 # SPDX-License-Identifier: Apache-2.0
 # Maps to the library: flip-flops, then logic with buffering and sizing against the clock period, constants last.
-dfflibmap -liberty $liberty
-opt_clean -purge
-abc -liberty $liberty -constr $abc_constraints -D $abc_period_ps -script $abc_script
+#
+# ABC's result depends by up to ten per cent on private names, on which nothing else depends. So the column, which the
+# array has many times, and what the columns share are each mapped with several namings, and the smallest is kept.
+proc area_of_selection {} {
+  global liberty area_log
+  tee -q -o $area_log stat -liberty $liberty
+  set log [open $area_log]
+  set areas [regexp -all -inline {Chip area for module [^\n]*: *([0-9.]+)} [read $log]]
+  close $log
+  set sum 0
+  foreach {line area} $areas { set sum [expr {$sum + $area}] }
+  return $sum
+}
+proc map_smallest {selection} {
+  global liberty abc_constraints abc_period_ps abc_script naming_seeds
+  design -save unmapped
+  set smallest Inf
+  foreach seed $naming_seeds {
+    design -load unmapped
+    yosys select {*}$selection
+    if {$seed != 0} { yosys rename -scramble-name -seed $seed % w:\$* c:\$* %u %i }
+    dfflibmap -liberty $liberty
+    opt_clean -purge
+    abc -liberty $liberty -constr $abc_constraints -D $abc_period_ps -script $abc_script
+    set area [area_of_selection]
+    yosys select -clear
+    if {$area < $smallest} {
+      set smallest $area
+      design -save smallest
+    }
+  }
+  design -load smallest
+}
+map_smallest {*_column *_pair}
+map_smallest {* *_column %d *_pair %d}
 setundef -zero
 if {$tie_low ne "" && $tie_high ne ""} { hilomap -singleton -hicell {*}$tie_high -locell {*}$tie_low }
 splitnets
