@@ -12,6 +12,7 @@
 # make wave       READOUT's waveform (scripts/wave.mk)
 # make bench      speed of RTL, models and photon model
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
+# make test-adding the worked example of docs/user/adding_a_readout.md, in a fresh clone (scripts/adding.mk)
 # make playground the C++ models in a page (scripts/playground.mk)
 # make mutate     small changes of RTL and models: which of them the tests notice (long)
 # make clean      remove build/
@@ -83,5 +84,6 @@ clean:
 -include scripts/sensor_effects.mk
 -include scripts/mutate.mk
 -include scripts/hostile.mk
+-include scripts/adding.mk
 -include scripts/playground.mk
 -include scripts/wave.mk

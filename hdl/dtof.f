@@ -37,10 +37,12 @@ datapath/twin_pointer_update.sv
 engine/candidate_decoder.sv
 engine/label_chain.sv
 engine/pool_engine.sv
+// Columns of dtof_array: written by scripts/generate.py
 column/ez_pointer_column.sv
 column/his_pointer_column.sv
 column/interframe_histogram_column.sv
 column/partitioned_histogram_column.sv
+// end of columns
 column/pool_pointer_column.sv
 column/pool_pointer_pair.sv
 top/dtof_array.sv

@@ -20,6 +20,8 @@ FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
 POINTER = "pointer"
 PARAMETERS_BEGIN = "<!-- parameters of {}: written by scripts/generate.py -->\n"
 PARAMETERS_END = "<!-- end of parameters -->\n"
+COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
+COLUMNS_END = "// end of columns\n"
 
 
 def translated(expression: Expression, name: Callable[[str], str], function: Callable[[str], str]) -> str:
@@ -143,6 +145,7 @@ def columns(table: Table) -> str:
 def cpp_header(table: Table) -> str:
     readouts = list(table.readouts.values())
     thesis = [readout for readout in readouts if readout.thesis]
+    hardware = [readout for readout in readouts if readout.top]
     array = lambda chosen: ",\n    ".join(f"Readout::k{readout.enumerator}" for readout in chosen)  # noqa: E731
     return f"""// SPDX-License-Identifier: Apache-2.0
 // {WRITTEN}
@@ -163,6 +166,10 @@ enum class Readout : int {{
 inline constexpr std::array<Readout, {len(thesis)}> kAllReadouts = {{
     {array(thesis)}}};
 
+/// Those that have RTL, in dtof_array or an array of their own.
+inline constexpr std::array<Readout, {len(hardware)}> kRtlReadouts = {{
+    {array(hardware)}}};
+
 /// All of them.
 inline constexpr std::array<Readout, {len(readouts)}> kModelReadouts = {{
     {array(readouts)}}};
@@ -177,6 +184,10 @@ std::string_view readout_summary(Readout readout);
 bool is_pointer_readout(Readout readout);
 /// The pixels of a column help each other.
 bool is_pool_readout(Readout readout);
+/// A histogram is scanned on the way to the result.
+bool has_histogram(Readout readout);
+/// There is RTL of it.
+bool has_rtl(Readout readout);
 /// Whether a parameter of the RTL can be chosen for the read-out and changes its result, beside NP and SLOTS;
 /// false for an unknown name.
 bool has_parameter(Readout readout, std::string_view parameter);
@@ -193,7 +204,8 @@ def cpp_source(table: Table) -> str:
     translate = lambda expression: translated(expression, str.lower, lambda name: f"std::{name}")  # noqa: E731
     rows = ",\n".join(
         f'    {{"{readout.name}", "{readout.title}",\n     "{readout.summary}",\n'
-        f"     {str(readout.kind == POINTER).lower()}, {str(readout.kind == 'pool').lower()},\n"
+        f"     {str(readout.kind == POINTER).lower()}, {str(readout.kind == 'pool').lower()}, "
+        f"{str(readout.bin_width is not None).lower()}, {str(bool(readout.top)).lower()},\n"
         f"     {{{', '.join(quoted(readout.choices))}}}}}"
         for readout in readouts
     )
@@ -223,6 +235,8 @@ struct Description {{
   std::string_view summary;
   bool pointer;
   bool pool;
+  bool histogram;
+  bool rtl;
   std::array<std::string_view, {most}> choices;  // empty ones are none
 }};
 
@@ -239,6 +253,8 @@ std::string_view readout_title(Readout readout) {{ return description(readout).t
 std::string_view readout_summary(Readout readout) {{ return description(readout).summary; }}
 bool is_pointer_readout(Readout readout) {{ return description(readout).pointer; }}
 bool is_pool_readout(Readout readout) {{ return description(readout).pool; }}
+bool has_histogram(Readout readout) {{ return description(readout).histogram; }}
+bool has_rtl(Readout readout) {{ return description(readout).rtl; }}
 
 bool has_parameter(Readout readout, std::string_view parameter) {{
   const auto& choices = description(readout).choices;
@@ -249,6 +265,35 @@ int default_value(Readout readout, std::string_view parameter, int np) {{
 {special}
 {common}
   throw std::logic_error("no parameter of this name");
+}}
+
+}}  // namespace dtof
+"""
+
+
+def model_table(table: Table) -> str:
+    users: dict[str, list[str]] = {}
+    for readout in table.readouts.values():
+        users.setdefault(readout.model, []).append(readout.enumerator)
+    declarations = "\n".join(f"std::unique_ptr<ReadoutModel> make_{model}(const ReadoutParameters& parameters);"
+                             for model in users)  # fmt: skip
+    cases = "\n".join("\n".join(f"    case Readout::k{name}:" for name in names) + f"\n      return make_{model}(parameters);"
+                      for model, names in users.items())  # fmt: skip
+    return f"""// SPDX-License-Identifier: Apache-2.0
+// {WRITTEN}
+// clang-format off
+#include "core/error.hpp"
+#include "readout/pixelwise_model.hpp"
+
+namespace dtof {{
+
+{declarations}
+
+std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parameters) {{
+  switch (parameters.readout) {{
+{cases}
+  }}
+  throw InputError("unknown read-out number");
 }}
 
 }}  // namespace dtof
@@ -278,7 +323,8 @@ def cmake(table: Table) -> str:
         f"set(DTOF_POOL_SCHEDULE {' '.join(pool.schedule)})  # the driver's, not the RTL's",
         *(f"set(DTOF_NUMBER_{readout.name} {readout.number})" for readout in table.readouts.values()
           if readout.number is not None),
-        *(f"set(DTOF_TOP_{readout.name} {readout.top})" for readout in table.readouts.values()),
+        *(f"set(DTOF_TOP_{readout.name} {readout.top})" for readout in table.readouts.values() if readout.top),
+        f"set(DTOF_MODELS {' '.join(dict.fromkeys(readout.model for readout in table.readouts.values()))})  # of readout/",
         *(f"set(DTOF_DEFAULT_{name} {values(parameter.default)})" for name, parameter in table.parameters.items()),
         *(f"set(DTOF_DEFAULT_{name}_{readout.name} {values(value)})" for readout in table.readouts.values()
           for name, value in readout.defaults.items()),
@@ -286,9 +332,18 @@ def cmake(table: Table) -> str:
     return "\n".join(lines) + "\n"
 
 
-def file_list() -> tuple[list[str], list[str], list[str]]:
-    """hdl/dtof.f: package, technology, the rest."""
-    files = [line for line in (ROOT / "hdl/dtof.f").read_text().splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
+def column_files(text: str, table: Table) -> str:
+    """hdl/dtof.f with the columns of dtof_array between their marks."""
+    columns = dict.fromkeys(f"column/{readout.column}.sv" for readout in table.readouts.values() if readout.column)
+    if text.count(COLUMNS_BEGIN) != 1 or text.count(COLUMNS_END) != 1:
+        raise FlowError("hdl/dtof.f has no place for the columns of dtof_array")
+    head, rest = text.split(COLUMNS_BEGIN)
+    return head + COLUMNS_BEGIN + "".join(f"{column}\n" for column in columns) + COLUMNS_END + rest.split(COLUMNS_END)[1]
+
+
+def file_list(text: str) -> tuple[list[str], list[str], list[str]]:
+    """Of hdl/dtof.f: package, technology, the rest."""
+    files = [line for line in text.splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
     part = lambda folder: [name for name in files if name.startswith(folder)]  # noqa: E731
     rest = [name for name in files if not name.startswith(("package/", "technology/"))]
     return part("package/"), part("technology/"), rest
@@ -311,13 +366,13 @@ def replaced_lists(text: str, lists: dict[str, list[str]]) -> str:
     return "\n".join(out) + "\n"
 
 
-def fusesoc(text: str) -> str:
-    package, technology, rest = file_list()
+def fusesoc(text: str, listing: str) -> str:
+    package, technology, rest = file_list(listing)
     return replaced_lists(text, {"technology": technology, "package": [*package, *rest]})
 
 
-def bender(text: str) -> str:
-    package, technology, rest = file_list()
+def bender(text: str, listing: str) -> str:
+    package, technology, rest = file_list(listing)
     return replaced_lists(text, {"technology": technology, "package": package, rest[0].split("/")[0]: rest})
 
 
@@ -372,15 +427,18 @@ def main() -> int:
     try:
         table = load()
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
-                   ("hdl/dtof.core", "hdl/Bender.yml", "README.md")}  # fmt: skip
+                   ("hdl/dtof.f", "hdl/dtof.core", "hdl/Bender.yml", "README.md")}  # fmt: skip
+        listing = column_files(current["hdl/dtof.f"], table)
         files = {
+            "hdl/dtof.f": listing,
             "hdl/package/dtof_readouts.svh": systemverilog(table),
             "hdl/package/dtof_columns.svh": columns(table),
             "tb_cpp/core/readout.hpp": cpp_header(table),
             "tb_cpp/core/readout.cpp": cpp_source(table),
+            "tb_cpp/readout/model_table.cpp": model_table(table),
             "tb_cpp/cmake/readouts.cmake": cmake(table),
-            "hdl/dtof.core": fusesoc(current["hdl/dtof.core"]),
-            "hdl/Bender.yml": bender(current["hdl/Bender.yml"]),
+            "hdl/dtof.core": fusesoc(current["hdl/dtof.core"], listing),
+            "hdl/Bender.yml": bender(current["hdl/Bender.yml"], listing),
             "README.md": readme(current["README.md"], table),
         }
         differences = [difference for top in table.tops

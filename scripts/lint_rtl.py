@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 sys.path.insert(0, str(ROOT / "synth"))
 
+from dtof_synth import readouts  # noqa: E402
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 
 SIZE = {  # enough to see every connection between columns, and between engines
@@ -130,11 +131,13 @@ def check_block_rams() -> list[str]:
 
 
 def parameter_limits() -> list[tuple[str, dict[str, int], str]]:
-    """(top, settings, sentence; empty if they are legal) of every line of the table."""
+    """(top, settings, sentence; empty if they are legal) of every line of the table, and READOUT beyond its limits."""
     lines = [line for line in PARAMETER_LIMITS.read_text().splitlines() if not line.startswith("#")]
     rows = [line.split(",", 2) for line in lines[1:]]
-    return [(top, {name: int(value) for name, value in re.findall(r"(\w+)=(-?\d+)", settings)}, sentence)
-            for top, settings, sentence in rows]
+    most = max(readout.number for readout in readouts.load().readouts.values() if readout.number is not None)
+    return [*(("dtof_array", {"READOUT": number}, f"READOUT must be 0 to {most}") for number in (-1, most + 1)),
+            *((top, {name: int(value) for name, value in re.findall(r"(\w+)=(-?\d+)", settings)}, sentence)
+              for top, settings, sentence in rows)]
 
 
 def check_limit(top: str, settings: dict[str, int], sentence: str) -> list[str]:

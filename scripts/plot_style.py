@@ -1,14 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""How a read-out looks in every picture (plot_styles.toml). As a program: the styles as elements of a C++ array, for
+"""How a read-out (readouts.toml) or reference (plot_styles.toml) looks in every picture. As a program: the styles as elements of a C++ array, for
 CMake."""
 
 import json
+import sys
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
 FILE = Path(__file__).resolve().parent / "plot_styles.toml"
+sys.path.insert(0, str(FILE.parent.parent / "synth"))
+
+from dtof_synth import readouts  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -26,8 +30,10 @@ class Style:
 
 
 def load(file: Path = FILE) -> list[Style]:
+    """Read-outs first, then what `file` has."""
+    of_readouts = [Style(readout.title, **readout.style) for readout in readouts.load().readouts.values()]
     with file.open("rb") as opened:
-        return [Style(**entry) for entry in tomllib.load(opened)["style"]]
+        return of_readouts + [Style(**entry) for entry in tomllib.load(opened)["style"]]
 
 
 def style(label: str, styles: list[Style]) -> Style:
@@ -35,7 +41,7 @@ def style(label: str, styles: list[Style]) -> Style:
     found = [one for one in styles if label == one.title
              or label.startswith(one.title) and not label[len(one.title)].isalnum()]
     if not found:
-        raise SystemExit(f"error: {label} has no style in scripts/{FILE.name}")
+        raise SystemExit(f"error: {label} has no style in readouts.toml or scripts/{FILE.name}")
     return max(found, key=lambda one: len(one.title))
 
 

@@ -10,18 +10,8 @@ import generate  # noqa: E402
 from dtof_synth import readouts  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
-TEXT = readouts.PATH.read_text(encoding="utf-8")
-FIRST_PHOTON = """
-[readout.firstphoton]
-number = 8
-column = "first_photon_column"
-title = "first photon"
-enumerator = "FirstPhoton"
-summary = "the code of the first detection"
-kind = "histogram"
-choices = []
-passes = "NP - NB"
-"""
+FIRST_PHOTON = (ROOT / "docs/user/adding_a_readout/readouts.toml").read_text(encoding="utf-8")
+TEXT = readouts.PATH.read_text(encoding="utf-8").replace(FIRST_PHOTON, "")  # make test-adding adds it
 
 
 class Expressions(unittest.TestCase):
@@ -47,11 +37,31 @@ class Descriptions(unittest.TestCase):
         table = readouts.parse(TEXT + FIRST_PHOTON)
         self.assertIn("localparam int READOUT_FIRSTPHOTON = 8;", generate.systemverilog(table))
         self.assertIn("READOUT must be 0 to 8", generate.systemverilog(table))
-        self.assertIn("READOUT_FIRSTPHOTON: coarse_passes = np - nb;", generate.systemverilog(table))
+        self.assertIn("READOUT_HISTOGRAM, READOUT_FIRSTPHOTON: coarse_passes = 0;", generate.systemverilog(table))
+        self.assertIn("READOUT_FIRSTPHOTON: is_word_moved = 1'b1;", generate.systemverilog(table))
+        self.assertIn("READOUT_FIRSTPHOTON: begin : g_first_photon\n          `DTOF_COLUMN(first_photon_column)",
+                      generate.columns(table))
+        self.assertIn("column/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
+        self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
+                      generate.model_table(table))
+        self.assertIn("partitioned_histogram pool_pointer first_photon)", generate.cmake(table))
         self.assertIn("kFirstPhoton = 10,", generate.cpp_header(table))
         self.assertIn('"first photon"', generate.cpp_source(table))
         self.assertIn("set(DTOF_NUMBER_firstphoton 8)", generate.cmake(table))
         self.assertIn("8 first photon |", generate.readme((ROOT / "README.md").read_text(), table))
+
+    def test_a_read_out_without_rtl_is_in_the_lists_of_models_alone(self):
+        model_only = "\n".join(line for line in FIRST_PHOTON.splitlines() if not line.startswith(("number", "column")))
+        table = readouts.parse(TEXT + model_only)
+        self.assertIn("return make_first_photon(parameters);", generate.model_table(table))
+        self.assertIn("kFirstPhoton = 10,", generate.cpp_header(table))
+        hardware, models = generate.cpp_header(table).split("kRtlReadouts")[1].split("kModelReadouts")
+        self.assertNotIn("kFirstPhoton", hardware)
+        self.assertIn("kFirstPhoton", models)
+        for text in (generate.systemverilog(table), generate.columns(table)):
+            self.assertNotIn("FIRSTPHOTON", text)
+        self.assertNotIn("DTOF_TOP_firstphoton", generate.cmake(table))
+        self.assertNotIn("first photon", generate.readme((ROOT / "README.md").read_text(), table))
 
     def test_a_changed_default_is_in_every_list(self):
         table = readouts.parse(TEXT.replace('defaults.NB = "min(NP, 6)"', 'defaults.NB = "min(NP, 7)"'))
@@ -66,6 +76,7 @@ class Descriptions(unittest.TestCase):
             (('choices = ["COUNT_WIDTH"]', 'choices = ["COUNTS"]'), "unknown parameter COUNTS"),
             (('top = "pool_pointer_array"', 'top = "nowhere"'), "no top 'nowhere'"),
             (('column = "ez_pointer_column"\n', ""), "have a number and a column"),
+            (("number = 0\n", ""), "have a number and a column"),
             (('word = "moved"', 'word = "stirred"'), "the word 'stirred'"),
             (("passes = 0", "passages = 0"), "passages"),
             (('"NP / 2"', '"NQ / 2"'), "no expression"),
@@ -87,6 +98,15 @@ class Descriptions(unittest.TestCase):
         )
 
 
+class Guide(unittest.TestCase):
+    def test_the_guide_shows_the_files_that_are_added(self):
+        guide = (ROOT / "docs/user/adding_a_readout.md").read_text(encoding="utf-8")
+        files = sorted((ROOT / "docs/user/adding_a_readout").iterdir())
+        self.assertEqual(len(files), 3)
+        for file in files:
+            self.assertIn("\n" + file.read_text(encoding="utf-8").strip("\n") + "\n```\n", guide, file.name)
+
+
 class FileLists(unittest.TestCase):
     def test_lists_are_replaced_and_nothing_else(self):
         lists = {"a": ["a/x.sv", "a/y.sv"], "b": ["b/z.sv"]}
@@ -97,7 +117,7 @@ class FileLists(unittest.TestCase):
             generate.replaced_lists("  - c/q.sv\n", lists)
 
     def test_core_and_bender_have_every_file(self):
-        package, technology, rest = generate.file_list()
+        package, technology, rest = generate.file_list((ROOT / "hdl/dtof.f").read_text())
         self.assertEqual(len(package), 1)
         for name in ("hdl/dtof.core", "hdl/Bender.yml"):
             text = (ROOT / name).read_text()

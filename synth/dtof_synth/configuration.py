@@ -116,13 +116,18 @@ def bits_per_pixel(configuration: Configuration) -> float:
 
 
 def load(path: Path) -> dict[str, Configuration]:
-    """All configurations in the order of the file."""
+    """All configurations in the order of the file; if it is `complete`, then those of the read-outs that it leaves out."""
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise FlowError(f"{path}: {error}") from None
     found: dict[str, Configuration] = {}
-    for name, entry in table.get("configuration", {}).items():
+    entries = dict(table.get("configuration", {}))
+    if table.get("complete", False):
+        named = {entry.get("readout") for entry in entries.values()}
+        entries |= {name.replace("-", "_"): {"readout": name} for name, readout in readouts.load().readouts.items()
+                    if readout.top and name not in named}
+    for name, entry in entries.items():
         base = found.get(entry.get("variant_of", ""))
         if entry.get("variant_of") and base is None:
             raise FlowError(f"{path}: {name} is a variant of '{entry['variant_of']}', which is not above it")
@@ -130,6 +135,8 @@ def load(path: Path) -> dict[str, Configuration]:
         known_readouts = readouts.load().readouts
         if readout not in known_readouts:
             raise FlowError(f"{path}: {name} has the unknown read-out '{readout}'; known: {', '.join(known_readouts)}")
+        if not known_readouts[readout].top:
+            raise FlowError(f"{path}: {name}: there is no RTL of {readout}")
         defaults = readouts.load().defaults(readout)
         parameters = {**(base.parameters if base else defaults), **entry.get("parameters", {})}
         simulation = {**(base.simulation if base else table.get("simulation", {})), **entry.get("simulation", {})}

@@ -13,7 +13,7 @@ from pathlib import Path
 from .errors import FlowError
 
 PATH = Path(__file__).resolve().parents[2] / "readouts.toml"
-KINDS = ("pointer", "histogram", "pool")
+KINDS = ("pointer", "histogram", "pool", "code")
 WORDS = ("moved", "ahead", "scanned")
 ARRAY = "dtof_array"
 OPERATORS = {
@@ -65,6 +65,8 @@ class Readout:
     title: str
     enumerator: str
     summary: str
+    style: dict[str, str | int]
+    model: str
     kind: str
     choices: list[str]
     top: str = ""  # that of a column; none without RTL

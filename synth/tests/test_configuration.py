@@ -24,7 +24,9 @@ class Configurations(unittest.TestCase):
             return configuration.load(path)
 
     def test_all_read_outs_are_there(self):
-        self.assertEqual({item.readout for item in self.named.values()}, set(readouts.load().readouts))
+        with_rtl = {name for name, readout in readouts.load().readouts.items() if readout.top}
+        self.assertEqual({item.readout for item in self.named.values()}, with_rtl)
+        self.assertEqual(set(self.load("complete = true")), {name.replace("-", "_") for name in with_rtl})
 
     def test_bits_of_the_thesis(self):
         # Spec section 6: 10, 640 and 320 bits per pixel; peak and pointer memories come on top.

@@ -106,6 +106,9 @@ class ReadoutDistribution {
       case Readout::kPoolPointer:
       case Readout::kPoolPointerLean:
         throw InputError("the analytic model knows no read-out that pools pixels");
+      default:
+        throw InputError(
+            fmt::format("the analytic model does not know {}", readout_title(parameters_.readout)));
     }
     return std::move(positions_);
   }

@@ -353,7 +353,7 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
 void run_frame_command(const FrameOptions& options) {
   check_run_options(options.run);
   const std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(kModelReadouts, options.sensor.described());
+      options.readout.parameters(options.run.readouts(), options.sensor.described());
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }

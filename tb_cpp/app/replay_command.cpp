@@ -262,7 +262,7 @@ void run_replay_command(const ReplayOptions& options) {
   if (options.truth_scale && options.truth_file.empty()) {
     throw InputError("--truth-scale needs --truth");
   }
-  const std::vector<ReadoutParameters> readouts = options.readout.parameters(kModelReadouts);
+  const std::vector<ReadoutParameters> readouts = options.readout.parameters(options.run.readouts());
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }

@@ -53,7 +53,7 @@ void run_array(benchmark::State& state, Readout readout) {
 }  // namespace dtof
 
 int main(int argc, char** argv) {
-  for (const dtof::Readout readout : dtof::kModelReadouts) {
+  for (const dtof::Readout readout : dtof::kRtlReadouts) {
     benchmark::RegisterBenchmark(std::string("rtl/").append(dtof::readout_name(readout)).c_str(),
                                  dtof::run_array, readout)
         ->Threads(1)

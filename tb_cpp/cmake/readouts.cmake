@@ -24,6 +24,7 @@ set(DTOF_TOP_pifh dtof_array)
 set(DTOF_TOP_histogram dtof_array)
 set(DTOF_TOP_poolpointer pool_pointer_array)
 set(DTOF_TOP_poolpointer-lean pool_pointer_array)
+set(DTOF_MODELS pointer_readouts interframe_histogram partitioned_histogram pool_pointer)  # of readout/
 set(DTOF_DEFAULT_NP 10)
 set(DTOF_DEFAULT_NB 1 2 2 3 3 4 4 5 5 6 6 7 7 8)
 set(DTOF_DEFAULT_SRAM_NUM 200)

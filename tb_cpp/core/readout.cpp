@@ -15,49 +15,51 @@ struct Description {
   std::string_view summary;
   bool pointer;
   bool pool;
+  bool histogram;
+  bool rtl;
   std::array<std::string_view, 6> choices;  // empty ones are none
 };
 
 constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{
     {"ezpointer", "ezPointer",
      "one pointer a pixel steps towards each timestamp: a circular median",
-     true, false,
+     true, false, false, true,
      {"POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH"}},
     {"hispointer1", "hisPointer v1",
      "coarse histogram, then the pointer starts at its peak",
-     true, false,
+     true, false, true, true,
      {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH"}},
     {"hispointer", "hisPointer",
      "coarse histogram, then the pointer sees only a window around its peak",
-     true, false,
+     true, false, true, true,
      {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH", "GUARD"}},
     {"sifh", "SiFH",
      "coarse histogram, then a fine histogram shifted onto its peak",
-     false, false,
+     false, false, true, true,
      {"NB", "COUNT_WIDTH", "WINDOW_CENTRED"}},
     {"fifh", "FiFH",
      "coarse histogram, then a fine histogram of exactly its peak bin",
-     false, false,
+     false, false, true, true,
      {"NB", "COUNT_WIDTH"}},
     {"threesteps", "three steps",
      "three coarse histograms of 8 bins zoom in, then 16 fine bins",
-     false, false,
+     false, false, true, true,
      {"COUNT_WIDTH"}},
     {"pifh", "PiFH",
      "the range is scanned partition by partition in one small histogram",
-     false, false,
+     false, false, true, true,
      {"NB", "COUNT_WIDTH"}},
     {"histogram", "histogram",
      "all 2^NP bins of every pixel, the classical baseline",
-     false, false,
+     false, false, true, true,
      {"COUNT_WIDTH"}},
     {"poolpointer", "poolPointer",
      "neighbours share a coarse histogram; each pixel picks and refines a candidate",
-     false, true,
+     false, true, false, true,
      {"COUNT_WIDTH"}},
     {"poolpointer-lean", "poolPointer lean",
      "poolPointer in half the memory: larger groups, shorter words",
-     false, true,
+     false, true, false, true,
      {"COUNT_WIDTH"}},
 }};
 
@@ -70,6 +72,8 @@ std::string_view readout_title(Readout readout) { return description(readout).ti
 std::string_view readout_summary(Readout readout) { return description(readout).summary; }
 bool is_pointer_readout(Readout readout) { return description(readout).pointer; }
 bool is_pool_readout(Readout readout) { return description(readout).pool; }
+bool has_histogram(Readout readout) { return description(readout).histogram; }
+bool has_rtl(Readout readout) { return description(readout).rtl; }
 
 bool has_parameter(Readout readout, std::string_view parameter) {
   const auto& choices = description(readout).choices;

@@ -33,6 +33,19 @@ inline constexpr std::array<Readout, 8> kAllReadouts = {
     Readout::kPifh,
     Readout::kHistogram};
 
+/// Those that have RTL, in dtof_array or an array of their own.
+inline constexpr std::array<Readout, 10> kRtlReadouts = {
+    Readout::kEzPointer,
+    Readout::kHisPointer1,
+    Readout::kHisPointer,
+    Readout::kSifh,
+    Readout::kFifh,
+    Readout::kThreeSteps,
+    Readout::kPifh,
+    Readout::kHistogram,
+    Readout::kPoolPointer,
+    Readout::kPoolPointerLean};
+
 /// All of them.
 inline constexpr std::array<Readout, 10> kModelReadouts = {
     Readout::kEzPointer,
@@ -56,6 +69,10 @@ std::string_view readout_summary(Readout readout);
 bool is_pointer_readout(Readout readout);
 /// The pixels of a column help each other.
 bool is_pool_readout(Readout readout);
+/// A histogram is scanned on the way to the result.
+bool has_histogram(Readout readout);
+/// There is RTL of it.
+bool has_rtl(Readout readout);
 /// Whether a parameter of the RTL can be chosen for the read-out and changes its result, beside NP and SLOTS;
 /// false for an unknown name.
 bool has_parameter(Readout readout, std::string_view parameter);

@@ -47,7 +47,7 @@ struct FaultCaseResult {
 };
 
 struct FaultStudyOptions {
-  std::vector<Readout> readouts = {kModelReadouts.begin(), kModelReadouts.end()};
+  std::vector<Readout> readouts = {kRtlReadouts.begin(), kRtlReadouts.end()};
   std::uint32_t acquisitions = 3333;
   int flips = 300;  ///< per kind of SRAM; a third as many of each pixel's fault, a twelfth of each column's
   std::uint64_t seed = 1;

@@ -29,30 +29,6 @@ void check_detections(std::span<const Detection> detections, int row, const Read
   }
 }
 
-namespace {
-
-std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parameters) {
-  switch (parameters.readout) {
-    case Readout::kEzPointer:
-    case Readout::kHisPointer1:
-    case Readout::kHisPointer:
-      return make_pointer_readout(parameters);
-    case Readout::kSifh:
-    case Readout::kFifh:
-    case Readout::kThreeSteps:
-      return make_interframe_histogram(parameters);
-    case Readout::kPifh:
-    case Readout::kHistogram:
-      return make_partitioned_histogram(parameters);
-    case Readout::kPoolPointer:
-    case Readout::kPoolPointerLean:
-      return make_pool_pointer(parameters);
-  }
-  throw InputError("unknown read-out number");
-}
-
-}  // namespace
-
 std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {
   parameters.validate();
   std::unique_ptr<ReadoutModel> model = make_ungated_model(parameters);

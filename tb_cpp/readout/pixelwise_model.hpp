@@ -54,10 +54,9 @@ class PixelwiseModel final : public ReadoutModel {
   Pixel pixel_;
 };
 
-std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters& parameters);
-std::unique_ptr<ReadoutModel> make_partitioned_histogram(const ReadoutParameters& parameters);
-std::unique_ptr<ReadoutModel> make_pointer_readout(const ReadoutParameters& parameters);
-std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters);
+/// The read-out's model, without a time gate (model_table.cpp, written from readouts.toml). Throws InputError
+/// for an unknown number.
+std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parameters);
 /// `model`, and the time gate of `parameters` before it.
 std::unique_ptr<ReadoutModel> make_gated_model(const ReadoutParameters& parameters,
                                                std::unique_ptr<ReadoutModel> model);

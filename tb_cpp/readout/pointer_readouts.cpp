@@ -60,7 +60,7 @@ class HisPointerPixel {
 
 }  // namespace
 
-std::unique_ptr<ReadoutModel> make_pointer_readout(const ReadoutParameters& parameters) {
+std::unique_ptr<ReadoutModel> make_pointer_readouts(const ReadoutParameters& parameters) {
   if (parameters.readout == Readout::kEzPointer) {
     return std::make_unique<PixelwiseModel<EzPointerPixel>>(parameters);
   }

@@ -31,7 +31,7 @@ struct PlotLayout {
   bool panels = false;  ///< each series in a panel of its own, with the same axes
 };
 
-/// How a read-out or reference looks in every picture (scripts/plot_styles.toml).
+/// How a read-out (readouts.toml) or reference (scripts/plot_styles.toml) looks in every picture.
 struct PlotStyle {
   std::string_view title;
   std::string_view colour;  ///< "#rrggbb"

@@ -14,7 +14,7 @@ std::string RtlConfiguration::to_string() const {
   if (is_pointer_readout(parameters.readout)) {
     out += fmt::format(" POINTER_PORTS={}", pointer_ports);
   }
-  if (parameters.readout != Readout::kEzPointer) {
+  if (has_histogram(parameters.readout)) {
     out += fmt::format(" SIGNALLED_CLEAR={}", signalled_clear ? 1 : 0);
   }
   return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={}", pixels_per_sram, sram_num);

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+
+#include "core/readout.hpp"
 
 namespace dtof {
 
@@ -18,6 +21,10 @@ struct RunSettings {
   bool streams_only = false;    ///< read streams even from a source that could be sampled
 
   [[nodiscard]] bool rtl() const { return engine == "rtl"; }
+  /// What the engine can read out.
+  [[nodiscard]] std::span<const Readout> readouts() const {
+    return rtl() ? std::span<const Readout>(kRtlReadouts) : std::span<const Readout>(kModelReadouts);
+  }
 };
 
 }  // namespace dtof

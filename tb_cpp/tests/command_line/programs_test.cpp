@@ -218,7 +218,7 @@ TEST_F(Programs, BothEnginesGiveTheSameFilesOnEverySensorAndRegion) {
     ASSERT_EQ(model.exit_code, 0) << model.output;
     const Outcome rtl = dtof(frame + "--engine rtl --out rtl");
     ASSERT_EQ(rtl.exit_code, 0) << rtl.output;
-    for (const Readout readout : kModelReadouts) {
+    for (const Readout readout : kRtlReadouts) {
       const std::string csv = fmt::format("/{}.csv", readout_name(readout));
       EXPECT_EQ(read_file(path("model") + csv), read_file(path("rtl") + csv)) << csv;
     }
@@ -237,7 +237,7 @@ TEST_F(Programs, BothEnginesReplayARegionToTheSameFiles) {
         engine));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   }
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kRtlReadouts) {
     const std::string csv = fmt::format("/{}.csv", readout_name(readout));
     EXPECT_EQ(read_file(path("model") + csv), read_file(path("rtl") + csv)) << csv;
   }
@@ -762,7 +762,7 @@ TEST_F(Programs, EmptyAndDarkRecordingsAreReplayed) {
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr("3 columns x 2 rows, 100 acquisitions"));
   }
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kRtlReadouts) {
     const std::string csv = fmt::format("/{}.csv", readout_name(readout));
     EXPECT_EQ(read_file(path("model") + csv), read_file(path("rtl") + csv)) << csv;
   }

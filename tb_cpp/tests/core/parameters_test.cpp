@@ -71,7 +71,7 @@ TEST(ReadoutNames, PointerReadouts) {
   }
 }
 
-TEST(ReadoutNames, PoolReadoutsAreModelsOnly) {
+TEST(ReadoutNames, EveryReadoutHasItsOwn) {
   std::set<std::string_view> names;
   for (const Readout readout : kModelReadouts) {
     EXPECT_EQ(parse_readout(readout_name(readout)), readout);
@@ -79,7 +79,8 @@ TEST(ReadoutNames, PoolReadoutsAreModelsOnly) {
     EXPECT_FALSE(readout_summary(readout).empty());
     names.insert(readout_name(readout));
     const bool thesis = std::ranges::find(kAllReadouts, readout) != kAllReadouts.end();
-    EXPECT_EQ(is_pool_readout(readout), !thesis);
+    EXPECT_FALSE(is_pool_readout(readout) && thesis);
+    EXPECT_EQ(has_rtl(readout), std::ranges::find(kRtlReadouts, readout) != kRtlReadouts.end());
     EXPECT_FALSE(is_pool_readout(readout) && is_pointer_readout(readout));
   }
   EXPECT_EQ(names.size(), kModelReadouts.size());

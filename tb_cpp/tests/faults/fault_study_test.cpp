@@ -19,7 +19,7 @@ FaultStudyOptions small_study(std::vector<Readout> readouts) {
 
 // Every read-out, every kind of fault and state: the frame after is right, other columns are untouched.
 TEST(FaultStudy, FaultsStayWhereTheyAre) {
-  const FaultStudyOptions options = small_study({kModelReadouts.begin(), kModelReadouts.end()});
+  const FaultStudyOptions options = small_study({kRtlReadouts.begin(), kRtlReadouts.end()});
   const std::vector<FaultCaseResult> results = study_faults(options);
   EXPECT_TRUE(faults_stay_where_they_are(results)) << report_faults(results, options, "test").markdown;
   for (const FaultCaseResult& result : results) {

@@ -153,7 +153,7 @@ TEST_P(PlantedPoolFlip, StaysInItsColumn) {
 }
 
 class SramsOfReadout : public testing::TestWithParam<Readout> {};
-INSTANTIATE_TEST_SUITE_P(All, SramsOfReadout, testing::ValuesIn(kModelReadouts), readout_test_name);
+INSTANTIATE_TEST_SUITE_P(All, SramsOfReadout, testing::ValuesIn(kRtlReadouts), readout_test_name);
 
 TEST_P(SramsOfReadout, EveryColumnHasItsOwn) {
   const FaultScene scene = make_fault_scene(2, 1);

@@ -84,8 +84,8 @@ TEST_P(EveryConfiguration, SurvivesResetInAnyState) {
 std::vector<RtlConfiguration> histogram_configurations() {
   std::vector<RtlConfiguration> configurations = compiled_rtl_configurations();
   std::erase_if(configurations, [](const RtlConfiguration& configuration) {
-    return is_pointer_readout(configuration.parameters.readout) ||
-           is_pool_readout(configuration.parameters.readout);
+    const Readout readout = configuration.parameters.readout;
+    return is_pointer_readout(readout) || !has_histogram(readout);
   });
   return configurations;
 }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// First photon: the code of the first detection of the frame.
+//
+// 1. RESET sets every pixel's word {code, found} to zero.
+// 2. The first timestamp of a pixel that is a detection takes the word's place; later ones change nothing.
+// 3. In M4 the word is read, and is the result: found stands in the place of the confidence.
+//
+//   clock     what happens
+//   T0        timestamp registered, gated
+//   T1        it becomes the word, or does not
+//   T2        written, behind a pixel's last slot
+//   S3 of M4  result loaded
+//
+// Cost at the defaults: PIXELS_PER_SRAM x 11 bits, and little more than the registers of word_builder.
+module first_photon_column #(
+    `include "column_parameters.svh"
+) (
+    `include "column_ports.svh"
+);
+
+  localparam int WORD_WIDTH = NP + 1;
+
+  logic [NP-1:0] timestamp_t1;
+  logic [WORD_WIDTH-1:0] word_t1, next_t1, word;
+  logic found, hit;
+
+  time_gate #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_time_gate (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .timestamp_t1_o(timestamp_t1)
+  );
+
+  assign found = word_t1[0];
+  assign hit = beat_t1_i && timestamp_t1 != '1;
+  assign next_t1 = (hit && !found) ? {timestamp_t1, 1'b1} : word_t1;
+
+  word_builder #(
+      .WIDTH          (WORD_WIDTH),
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .SLOTS          (SLOTS),
+      .PORTS          (POINTER_PORTS)
+  ) u_word_builder (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .read_i         (word_read_i),
+      .read_pixel_i   (word_read_pixel_i),
+      .read_done_i    (word_read_done_i),
+      .first_slot_t0_i(first_slot_t0_i),
+      .visit_t1_i     (visit_t1_i),
+      .first_acq_t1_i (first_acq_t1_i),
+      .write_i        (word_write_i),
+      .write_pixel_i  (word_write_pixel_i),
+      .word_t1_o      (word_t1),
+      .next_t1_i      (next_t1),
+      .start_write_i  (word_set_i),
+      .start_pixel_i  (word_set_pixel_i),
+      .start_word_i   (WORD_WIDTH'(0)),
+      .word_o         (word)
+  );
+
+  result_register #(
+      .WIDTH(RESULT_WIDTH)
+  ) u_result_register (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .load_i       (result_load_i),
+      .shift_i      (result_shift_i),
+      .result_i     (word),
+      .next_column_i(next_column_i),
+      .result_o     (result_o)
+  );
+
+endmodule
