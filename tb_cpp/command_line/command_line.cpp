@@ -145,6 +145,12 @@ std::unique_ptr<CLI::App> make_command_line(const Program& program, const std::s
 }
 
 void run_command_line(CLI::App& app, int count, const char* const* arguments) {
+  // CLI11 passes over an empty argument, or never returns from one that follows an unknown option.
+  for (int i = 1; i < count; ++i) {
+    if (*arguments[i] == '\0') {
+      throw InputError(fmt::format("argument {} is empty", i));
+    }
+  }
   if (count > 1) {
     check_command_name(app, arguments[1]);
   }

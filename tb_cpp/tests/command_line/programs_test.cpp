@@ -372,6 +372,8 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --frobnicate --out out", "--frobnicate");
   expect_refused("accuracy --distances 0 --out out", "distances");
   expect_refused("", "no command is given; known are frame,");
+  expect_refused("frame --frobnicate '' -a 3 --out out", "argument 3 is empty");
+  expect_refused("frame '' --out out", "argument 2 is empty");
 }
 
 TEST_F(Programs, RefusesBadImages) {
