@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; the README's table;
-# the pictures under reports/; links and pages of the documents.
+# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; what is written from
+# readouts.toml; the engine's schedule; the README's table; the pictures under reports/; links and pages of the documents.
 # --static-analysis adds clang-tidy over all C++ (minutes; needs a configured build).
 set -euo pipefail
 /usr/bin/python3 scripts/lint_rtl.py
@@ -12,6 +12,9 @@ echo "clang-format: ${#sources[@]} files clean"
 
 scripts/generate.py --check
 echo "readouts.toml: everything written from it is up to date"
+
+scripts/schedule.py --check
+echo "engine's schedule: the page is that of the RTL"
 
 scripts/update_readme.py --check
 echo "README.md: the results table is that of reports/"

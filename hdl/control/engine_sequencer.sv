@@ -1,189 +1,154 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: drives all engines in lockstep, column by column, once per array.
+// poolPointer: tells all engines and their columns what to do in each clock, in lockstep, once per array.
 //
-// Operations: decode (each group's candidates), choose and decide (a chain of pixels, once from the last to the
-// first and once back). ENGINE_COLUMNS columns one after the other; engine e works on column
-// e ENGINE_COLUMNS + send_column_o.
+// 1. The controller starts one of three operations. The engines take their columns one after the other; a column has as
+//    many steps as it needs, and every step takes the same number of clocks.
+// 2. Decode: a step is a group. The bins of the group and of its neighbours above and below are read, word by word, and
+//    run into the decoder's ring one a clock. The ring then turns once for each candidate, and the group's word is
+//    written.
+// 3. Choose and decide: a step is a pixel of a chain. A first pass goes from a column's last pixel to its first, keeping
+//    the messages, and a second one goes back. Pixels are fetched two steps before they become this pixel. When all
+//    labels of the next pixel have passed, this one's best two labels are known, early in the next step. Choose writes
+//    two pixels' first pointer words together; decide gives each pixel's result to the output, and stands still at the
+//    beginning of a step while the output has not taken the last one.
 //
-// Decode of a group, clock t (the bins of the groups above, itself and below leave their word one clock apart):
-//   t = q BINS_PER_WORD + 0, 1, 2   read word q of the group above, the group, the group below
-//   + 4, 5, 6 (end)                 words captured            t = bin + 8   pair sums enter the ring
-//   40 + 32 k + i                   search k sees pair i - 1  41 + 32 K     last candidate, then write
-//   40 + 32 K                       read the group's word, with which the pair's other column gets its own back
-// A step of a chain, clock s of PERIOD = max(labels + 4, 6); steps begin two pixels early to fetch:
-//   s = 0                           evidence + message; scratch write (first pass)
-//   s = 1, 2, 3                     largest sum, differences  s = 4 ..      one label of the next pixel a clock
-//   PERIOD - 5, PERIOD - 4          read the word and the group of the pixel two steps on
-//   PERIOD - 3                      choose, second pass: read what is to be written if a pair is complete
-//   PERIOD - 2                      word captured; scratch read (second pass)
-//   PERIOD - 1                      the pixel is prepared; the chain moves on
-//   s = 1 of the next step          choose: pointer word, written with PERIOD - 1 if the pair is complete. decide:
-//                                   results handed out, as soon as those of the step before are sent
-// SRAM commands are given one clock early (_d); the engine has a word four clocks after its command. Its own commands
-// leave a clock after s, results another one later.
-// Latency, K labels: a column's groups x (32 K + 43), (pixels + 3) x PERIOD a pass.
-// Cost: counters, per array.
+// Schedule: the table below. A line says in which clocks t of a step a command is given. Columns and engines have it in
+//   the next clock, and what takes longer takes the clocks that the module in question states (dtof_pkg). The clocks of
+//   the two products stand in docs/reference/blocks/pool_control.md.
+// Latency, K labels: a column's groups x (32 K + 43), (pixels + 3) x max(K + 4, 6) a pass, decide's (pixels + 3) x 6.
+// Cost: counters and a register of the commands, per array.
 `include "dtof_macros.svh"
+`include "engine_command.svh"
 
 module engine_sequencer #(
-    parameter int PIXELS_PER_SRAM = 160,
-    parameter int GROUP_SIZE = 8,
-    parameter int LABELS = 8,
-    parameter int BINS_PER_WORD = 8,
-    parameter int ENGINE_COLUMNS = 25,
+    parameter int PIXELS_PER_SRAM = 160,  // rows of a column
+    parameter int GROUP_SIZE = 8,         // rows of a group
+    parameter int LABELS = 8,             // candidates of a group, 2 to 8
+    parameter int BINS_PER_WORD = 8,      // coarse bins of a word, a power of two
+    parameter int ENGINE_COLUMNS = 25,    // columns of an engine
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUPS),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS),
-    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS)
 ) (
     input  logic                      clk_i,
     input  logic                      rst_ni,
-    input  logic                      decode_i,            // start
+    // a clock that starts an operation; one at a time, and none before done_o of the one before
+    input  logic                      decode_i,
     input  logic                      choose_i,
     input  logic                      decide_i,
-    output logic                      done_o,
-    // columns
-    output logic [ENGINE_COLUMNS-1:0] select_o,
+    output logic                      done_o,         // the operation's last clock; its results are sent
+    // columns: one clock early (_d), for the array to register and spread; at most one access a clock
     output logic                      read_d_o,
     output logic                      write_d_o,
-    output logic [ADDR_WIDTH-1:0]     address_d_o,
-    output logic                      load_d_o,
-    // candidate decoder
-    output logic                      capture_above_o,
-    output logic                      capture_own_o,
-    output logic                      capture_below_o,
-    output logic                      fill_o,
-    output logic                      search_o,
-    output logic [4:0]                pair_o,              // bin while filling, pair + 1 while searching
-    output logic                      first_label_o,
-    output logic                      pooled_o,            // the search is over pooled sums
-    output logic                      candidate_o,         // a candidate is known
-    // chains
-    output logic                      deciding_o,
-    output logic                      clear_message_o,
-    output logic                      begin_o,             // s = 0
-    output logic                      spread_o,            // s = 3
-    output logic                      pass_label_o,        // s = 4 ..
-    output logic [LABEL_WIDTH-1:0]    target_label_o,      // the label two clocks later
-    output logic                      capture_word_o,
-    output logic                      advance_o,           // s = PERIOD - 1
-    output logic                      odd_pixel_o,         // of the word to capture, valid with capture_word_o
-    output logic                      result_o,            // results of a pixel are ready (second pass, s = 1)
-    output logic                      result_odd_o,        // its place in the pair
-    output logic                      scratch_read_o,
-    output logic                      scratch_write_o,
-    output logic [ROW_WIDTH-1:0]      scratch_address_o,
-    // results
-    output logic                      send_o,
-    output logic [COLUMN_WIDTH-1:0]   send_column_o,       // held until the next
-    output logic [ROW_WIDTH-1:0]      send_row_o,
-    output logic                      send_last_o,         // the frame's last pixel
-    input  logic                      send_waits_i,        // the results given last have not been taken
-    input  logic                      send_busy_i
+    output logic [    ADDR_WIDTH-1:0] address_d_o,
+    output logic                      load_d_o,       // the SRAM's data are registered, a clock after read_d_o
+    output logic [ENGINE_COLUMNS-1:0] select_o,       // not early; exactly one, the column of what _d has just commanded
+    // engines, in step with what the columns get
+    output engine_command_t           command_o,
+    output logic [     ROW_WIDTH-1:0] message_row_o,  // of write_message and read_message
+    // results of all engines: column e ENGINE_COLUMNS + send_column_o of engine e, column by column, row by row
+    output logic                      send_o,         // only while send_waits_i is low
+    output logic [  COLUMN_WIDTH-1:0] send_column_o,  // held until the next
+    output logic [     ROW_WIDTH-1:0] send_row_o,
+    output logic                      send_last_o,    // the frame's last pixel
+    input  logic                      send_waits_i,   // the results given last have not been taken
+    input  logic                      send_busy_i     // results are still being sent
 );
 
   localparam int POOLED_LABELS = 3;
+  localparam int DECIDE_LABELS = 2;
+  localparam int LEAD = 2;  // steps a pixel is fetched ahead
+  localparam int BINS = dtof_pkg::POOL_COARSE_BINS;
   localparam int BIN_WIDTH = $clog2(BINS_PER_WORD);
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
-  localparam int LINE_CLOCKS = dtof_pkg::POOL_LINE_CLOCKS;
-  localparam int FILL_BEGIN = LINE_CLOCKS + dtof_pkg::POOL_FILL_CLOCKS;
-  localparam int SEARCH_BEGIN = FILL_BEGIN + dtof_pkg::POOL_COARSE_BINS;
-  localparam int SEARCH_END = SEARCH_BEGIN + 32 * LABELS;
-  localparam int LAST_T = SEARCH_END + dtof_pkg::POOL_CANDIDATE_CLOCKS;
-  localparam int T_WIDTH = $clog2(LAST_T + 1);
-  localparam int SPREAD = dtof_pkg::POOL_SPREAD_CLOCKS;
-  localparam int DECIDE_LABELS = 2;
-  localparam int DECIDE_PERIOD = SPREAD + 1 + DECIDE_LABELS;
-  localparam int CHOOSE_PERIOD = dtof_pkg::max_of(SPREAD + 1 + LABELS, DECIDE_PERIOD);
-  localparam int S_WIDTH = $clog2(CHOOSE_PERIOD);
-  localparam int FIRST_TARGET = SPREAD + 1 - dtof_pkg::POOL_TARGET_CLOCKS;  // clock of label 0
-  localparam int LEAD = 2;  // steps a pixel is fetched ahead
-  localparam int N_WIDTH = $clog2(PIXELS_PER_SRAM + LEAD + 1);
-  localparam int GROUP_WIDTH = dtof_pkg::index_width(GROUPS);
 
-  localparam logic [1:0] IDLE = 2'd0;
-  localparam logic [1:0] DECODE = 2'd1;
-  localparam logic [1:0] CHAIN = 2'd2;
-  localparam logic [1:0] FINISH = 2'd3;
+  // Clocks of a step, from the modules' latencies.
 
-  logic [1:0] state_q;
-  logic deciding_q, back_q;
+  localparam int READ_CLOCKS = dtof_pkg::POOL_PAIR_READ_CLOCKS;
+  localparam int LINE_CLOCKS = READ_CLOCKS + dtof_pkg::POOL_ENGINE_LINE_CLOCKS;  // from a read to a command that uses it
+
+  localparam int FILL = LINE_CLOCKS + dtof_pkg::POOL_DECODER_FILL_CLOCKS;
+  localparam int SEARCH = FILL + BINS;  // the ring is full; a turn takes BINS clocks
+  localparam int FIRST_CANDIDATE = SEARCH + BINS - 1 + dtof_pkg::POOL_DECODER_CANDIDATE_CLOCKS;
+  localparam int LAST_CANDIDATE = FIRST_CANDIDATE + BINS * (LABELS - 1);
+  localparam int LAST_OF_DECODE = LAST_CANDIDATE + READ_CLOCKS;
+
+  localparam int SPREAD = dtof_pkg::POOL_CHAIN_SPREAD_CLOCKS;
+  localparam int PASS = SPREAD + 1;  // label 0; the last one passes in the last clock of the step
+  localparam int TARGET = PASS - dtof_pkg::POOL_CHAIN_TARGET_CLOCKS;
+  localparam int BELIEF = dtof_pkg::POOL_CHAIN_BELIEF_CLOCKS - 1;  // of the next step
+  localparam int SEND = BELIEF + dtof_pkg::POOL_ENGINE_RESULT_CLOCKS;
+  localparam int LAST_OF_DECIDE = PASS + DECIDE_LABELS - 1;
+  localparam int LAST_OF_CHOOSE = dtof_pkg::max_of(PASS + LABELS - 1, LAST_OF_DECIDE);
+
+  localparam int T_WIDTH = $clog2(LAST_OF_DECODE + 1);
+  localparam int STEP_WIDTH = $clog2(PIXELS_PER_SRAM + LEAD + 1);
+
+  // Where the operation is: column, pass, step, and clock of the step.
+
+  localparam logic [2:0] IDLE = 3'd0;
+  localparam logic [2:0] DECODE = 3'd1;
+  localparam logic [2:0] CHOOSE = 3'd2;
+  localparam logic [2:0] DECIDE = 3'd3;
+  localparam logic [2:0] FINISH = 3'd4;
+
+  logic [2:0] state_q;
   logic [COLUMN_WIDTH-1:0] column_q;
-  logic [ENGINE_COLUMNS-1:0] select_q;
-  logic [GROUP_WIDTH-1:0] group_q;
-  logic [T_WIDTH-1:0] t_q;
-  logic [S_WIDTH-1:0] s_q, last_s;
-  logic [N_WIDTH-1:0] n_q;  // pixel of the step + LEAD, counted in the pass's direction
-  logic last_column, last_t, last_group, stall, step_end, pass_end;
+  logic [ENGINE_COLUMNS-1:0] select_q, select_delayed_q;
+  logic back_q;                     // the second pass of a chain
+  logic [STEP_WIDTH-1:0] step_q;    // of decode the group; of a chain the pixel in its pass's direction, + LEAD
+  logic [T_WIDTH-1:0] t_q, last_t;
+  logic decoding, choosing, deciding, chaining, last_column, last_step, step_end, pass_end, stall;
 
+  assign decoding = (state_q == DECODE);
+  assign choosing = (state_q == CHOOSE);
+  assign deciding = (state_q == DECIDE);
+  assign chaining = choosing || deciding;
+  assign last_t = decoding ? T_WIDTH'(LAST_OF_DECODE) : choosing ? T_WIDTH'(LAST_OF_CHOOSE) : T_WIDTH'(LAST_OF_DECIDE);
+  assign last_step = (step_q == (decoding ? STEP_WIDTH'(GROUPS - 1) : STEP_WIDTH'(PIXELS_PER_SRAM + LEAD)));
   assign last_column = (column_q == COLUMN_WIDTH'(ENGINE_COLUMNS - 1));
-  assign last_group = (group_q == GROUP_WIDTH'(GROUPS - 1));
-  assign last_t = (t_q == T_WIDTH'(LAST_T));
-  assign last_s = deciding_q ? S_WIDTH'(DECIDE_PERIOD - 1) : S_WIDTH'(CHOOSE_PERIOD - 1);
-  assign step_end = (state_q == CHAIN) && (s_q == last_s);
-  assign pass_end = step_end && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
-
-  // Pixel p of a pass in work has n = p + LEAD; results of pixel p are known at s = 1 of n = p + LEAD + 1. Before, with
-  // nothing under way, the chain waits until those of the pixel before have been taken.
-  logic results_step, give_results;
-  assign results_step = (state_q == CHAIN) && back_q && (n_q >= N_WIDTH'(LEAD + 1));
-  assign stall = results_step && deciding_q && (s_q == '0) && send_waits_i;
+  assign step_end = (decoding || chaining) && (t_q == last_t);
+  assign pass_end = step_end && last_step;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= IDLE;
-      deciding_q <= 1'b0;
-      back_q <= 1'b0;
       column_q <= '0;
       select_q <= ENGINE_COLUMNS'(1);
-      group_q <= '0;
+      back_q <= 1'b0;
+      step_q <= '0;
       t_q <= '0;
-      s_q <= '0;
-      n_q <= '0;
     end else begin
       case (state_q)
         IDLE: begin
           column_q <= '0;
           select_q <= ENGINE_COLUMNS'(1);
-          group_q <= '0;
-          t_q <= '0;
-          s_q <= '0;
-          n_q <= '0;
-          back_q <= 1'b0;
-          deciding_q <= decide_i;
           if (decode_i) begin
             state_q <= DECODE;
-          end else if (choose_i || decide_i) begin
-            state_q <= CHAIN;
+          end else if (choose_i) begin
+            state_q <= CHOOSE;
+          end else if (decide_i) begin
+            state_q <= DECIDE;
           end
         end
-        DECODE: begin
-          t_q <= last_t ? '0 : t_q + 1'b1;
-          if (last_t) begin
-            group_q <= last_group ? '0 : group_q + 1'b1;
-            if (last_group) begin
-              state_q <= last_column ? FINISH : DECODE;
-              column_q <= column_q + 1'b1;
-              select_q <= select_q << 1;
-            end
-          end
-        end
-        CHAIN: begin
+        DECODE, CHOOSE, DECIDE: begin
           if (!stall) begin
-            s_q <= step_end ? '0 : s_q + 1'b1;
+            t_q <= step_end ? '0 : t_q + 1'b1;
+          end
+          if (step_end) begin
+            step_q <= last_step ? '0 : step_q + 1'b1;
           end
           if (pass_end) begin
-            n_q <= '0;
-            back_q <= !back_q;
-            if (back_q) begin
-              state_q <= last_column ? FINISH : CHAIN;
-              column_q <= column_q + 1'b1;
-              select_q <= select_q << 1;
+            back_q <= chaining && !back_q;
+          end
+          if (pass_end && (decoding || back_q)) begin
+            column_q <= column_q + 1'b1;
+            select_q <= select_q << 1;
+            if (last_column) begin
+              state_q <= FINISH;
             end
-          end else if (step_end) begin
-            n_q <= n_q + 1'b1;
           end
         end
         // The last command reaches the columns; the last results are sent.
@@ -197,147 +162,169 @@ module engine_sequencer #(
 
   assign done_o = (state_q == FINISH) && !send_busy_i;
 
-  // A command given in the last clock of a column reaches it one clock later.
-  logic [ENGINE_COLUMNS-1:0] select_delayed_q;
-  always_ff @(posedge clk_i) begin
-    select_delayed_q <= select_q;
-  end
-  assign select_o = select_delayed_q;
+  // Which pixels a chain's step is about.
 
-  // The columns' words are combined by OR.
-  `DTOF_ASSERT(a_one_column, (select_delayed_q & (select_delayed_q - 1'b1)) == '0, "several columns are selected")
+  logic to_fetch, in_pass, next_in_pass, done_before, pair_done;
+  logic [ROW_WIDTH-1:0] fetch_row, next_row, row, row_before;
 
-  // Decode.
-
-  logic decoding;
-  logic [T_WIDTH-1:0] since_search;
-  logic [BIN_WIDTH-1:0] phase;
-  logic read_bins, read_back, write_group;
-  logic [GROUP_WIDTH-1:0] read_group;
-
-  assign decoding = (state_q == DECODE);
-  assign phase = t_q[BIN_WIDTH-1:0];
-  assign read_bins = decoding && (t_q < T_WIDTH'(dtof_pkg::POOL_COARSE_BINS)) && (32'(phase) < 3);
-  assign read_back = decoding && (t_q == T_WIDTH'(SEARCH_END));
-  assign write_group = decoding && last_t;
-  assign since_search = t_q - T_WIDTH'(SEARCH_BEGIN - 1);
-
-  always_comb begin
-    read_group = group_q;
-    if (phase == BIN_WIDTH'(0) && group_q != '0) begin
-      read_group = group_q - 1'b1;
-    end else if (phase == BIN_WIDTH'(2) && !last_group) begin
-      read_group = group_q + 1'b1;
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    capture_above_o <= decoding && (phase == BIN_WIDTH'(LINE_CLOCKS - 1));
-    capture_own_o <= decoding && (phase == BIN_WIDTH'(LINE_CLOCKS % BINS_PER_WORD));
-    capture_below_o <= decoding && (phase == BIN_WIDTH'((LINE_CLOCKS + 1) % BINS_PER_WORD));
-    fill_o <= decoding && (t_q >= T_WIDTH'(FILL_BEGIN - 1)) && (t_q < T_WIDTH'(SEARCH_BEGIN - 1));
-    search_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN - 1));
-    pair_o <= (t_q < T_WIDTH'(SEARCH_BEGIN - 1)) ? 5'(t_q - T_WIDTH'(FILL_BEGIN - 1)) : since_search[4:0];
-    first_label_o <= (since_search < T_WIDTH'(32));
-    pooled_o <= (since_search < T_WIDTH'(32 * POOLED_LABELS));
-    candidate_o <= decoding && (t_q >= T_WIDTH'(SEARCH_BEGIN + 32)) && (since_search[4:0] == 5'd1);
-  end
-
-  // Chains.
-
-  logic chaining, first_pass, second_pass, in_pass, to_fetch;
-  logic read_word, read_cells, pair_complete, read_pair, write_pair;
-  logic [ROW_WIDTH-1:0] row, next_row, fetch_row, result_row;
-
-  function automatic logic [ROW_WIDTH-1:0] row_of(input logic [N_WIDTH-1:0] position, input logic back);
+  function automatic logic [ROW_WIDTH-1:0] row_of(input logic [STEP_WIDTH-1:0] position, input logic back);
     row_of = ROW_WIDTH'(back ? 32'(position) : PIXELS_PER_SRAM - 1 - 32'(position));
   endfunction
 
-  assign chaining = (state_q == CHAIN);
-  assign first_pass = chaining && !back_q;
-  assign second_pass = chaining && back_q;
-  assign in_pass = (n_q >= N_WIDTH'(LEAD)) && (n_q < N_WIDTH'(PIXELS_PER_SRAM + LEAD));
-  assign to_fetch = (n_q < N_WIDTH'(PIXELS_PER_SRAM));
-  assign fetch_row = row_of(n_q, back_q);
-  assign row = row_of(n_q - N_WIDTH'(LEAD), back_q);
-  assign next_row = row_of(n_q - N_WIDTH'(LEAD - 1), back_q);
-  assign result_row = row_of(n_q - N_WIDTH'(LEAD + 1), back_q);
+  assign fetch_row = row_of(step_q, back_q);
+  assign next_row = row_of(step_q - STEP_WIDTH'(LEAD - 1), back_q);
+  assign row = row_of(step_q - STEP_WIDTH'(LEAD), back_q);
+  assign row_before = row_of(step_q - STEP_WIDTH'(LEAD + 1), back_q);
+  assign to_fetch = (step_q < STEP_WIDTH'(PIXELS_PER_SRAM));
+  assign next_in_pass = (step_q >= STEP_WIDTH'(LEAD - 1)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD - 1));
+  assign in_pass = (step_q >= STEP_WIDTH'(LEAD)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD));
+  assign done_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 1));  // the pixel before has its best labels
+  assign pair_done = done_before && (row_before[0] || last_step);
 
-  // The word is captured in the step's last clock, the group's word is there a clock later, when the chain moves on. A
-  // pair's word reaches its column in the clock in which what is written with it reaches the SRAM.
-  assign read_word = chaining && to_fetch && (s_q == last_s - S_WIDTH'(LINE_CLOCKS));
-  assign read_cells = chaining && to_fetch && (s_q == last_s - S_WIDTH'(LINE_CLOCKS - 1));
-  assign pair_complete = second_pass && !deciding_q && (n_q >= N_WIDTH'(LEAD + 1))
-      && (result_row[0] || n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
-  assign read_pair = pair_complete && (s_q == last_s - S_WIDTH'(dtof_pkg::POOL_WORD_CLOCKS - 1));
-  assign write_pair = pair_complete && (s_q == last_s);
+  assign stall = deciding && done_before && (t_q == '0) && send_waits_i;
 
-  assign read_d_o = read_bins || read_back || read_word || read_cells || read_pair;
-  assign write_d_o = write_group || write_pair;
+  // The schedule.
+
+  function automatic logic at(input int t, input int clock);
+    at = (t == clock);
+  endfunction
+
+  function automatic logic during(input int t, input int first, input int last);
+    during = (t >= first) && (t <= last);
+  endfunction
+
+  // `times` times from `first` on, `period` clocks apart, a power of two.
+  function automatic logic every(input int t, input int first, input int period, input int times);
+    every = (t >= first) && (t < first + period * times) && (((t - first) & (period - 1)) == 0);
+  endfunction
+
+  column_command_t columns;
+  decode_command_t decode;
+  chain_command_t chain;
+  engine_command_t command;
+  int t, last;
+  assign t = 32'(t_q);
+  assign last = 32'(last_t);
 
   always_comb begin
-    address_d_o = '0;
-    if (read_bins) begin
-      address_d_o = ADDR_WIDTH'(32'(read_group) * GROUP_PAIRS + (32'(t_q) >> BIN_WIDTH));
-    end else if (read_back || write_group) begin
-      address_d_o = ADDR_WIDTH'(PIXEL_WORDS + 32'(group_q));
-    end else if (read_word) begin
-      address_d_o = ADDR_WIDTH'(32'(fetch_row) >> 1);
-    end else if (read_cells) begin
-      address_d_o = ADDR_WIDTH'(PIXEL_WORDS + 32'(fetch_row) / GROUP_SIZE);
-    end else if (read_pair || write_pair) begin
-      address_d_o = ADDR_WIDTH'(32'(result_row) >> 1);
+    columns = '0;
+    decode = '0;
+    chain = '0;
+    command = '0;
+
+    // A group. A neighbour's word is read and captured a clock after the group's before it, for so its bins come one
+    // clock later, and are added to a sum under way.
+    if (decoding) begin
+      columns.read_above    = every(t, 0, BINS_PER_WORD, BINS / BINS_PER_WORD);
+      columns.read_own      = every(t, 1, BINS_PER_WORD, BINS / BINS_PER_WORD);
+      columns.read_below    = every(t, 2, BINS_PER_WORD, BINS / BINS_PER_WORD);
+      decode.capture_above  = every(t, LINE_CLOCKS, BINS_PER_WORD, BINS / BINS_PER_WORD);
+      decode.capture_own    = every(t, LINE_CLOCKS + 1, BINS_PER_WORD, BINS / BINS_PER_WORD);
+      decode.capture_below  = every(t, LINE_CLOCKS + 2, BINS_PER_WORD, BINS / BINS_PER_WORD);
+      decode.fill           = during(t, FILL, SEARCH - 1);
+      decode.search         = during(t, SEARCH, LAST_OF_DECODE);
+      decode.first_label    = during(t, SEARCH, SEARCH + BINS - 1);
+      decode.pooled         = during(t, SEARCH, SEARCH + POOLED_LABELS * BINS - 1);
+      decode.candidate      = every(t, FIRST_CANDIDATE, BINS, LABELS);
+      columns.read_group    = at(t, LAST_CANDIDATE);
+      columns.write_group   = at(t, LAST_OF_DECODE);
+    end
+
+    // A pixel. Its best labels are known in the next step, when it is the pixel before.
+    if (chaining) begin
+      chain.begin_step      = at(t, 0);
+      command.write_message = at(t, 0) && !back_q && in_pass;
+      command.take_choice   = at(t, BELIEF) && choosing && done_before;
+      command.take_result   = at(t, BELIEF) && deciding && done_before;
+      columns.send          = at(t, SEND) && deciding && done_before;
+      chain.spread          = at(t, SPREAD);
+      chain.pass_label      = during(t, PASS, choosing ? PASS + LABELS - 1 : LAST_OF_DECIDE);
+      columns.fetch_pixel   = at(t, last - 1 - LINE_CLOCKS) && to_fetch;
+      columns.fetch_group   = at(t, last - LINE_CLOCKS) && to_fetch;
+      columns.read_pair     = at(t, last - READ_CLOCKS) && choosing && pair_done;
+      command.take_pixel    = at(t, last - 1);
+      command.read_message  = at(t, last - dtof_pkg::POOL_ENGINE_MESSAGE_CLOCKS) && back_q && next_in_pass;
+      columns.write_pair    = at(t, last) && choosing && pair_done;
+      chain.advance         = at(t, last);
+    end
+
+    // What goes with the commands.
+    decode.pair = 5'(t - FILL);
+    chain.target = 3'(t - TARGET);
+    chain.clear_message = (step_q < STEP_WIDTH'(LEAD));
+    command.odd_pixel = 1'(fetch_row);
+    command.odd_result = 1'(row_before);
+    command.decoding = decoding;
+    command.deciding = deciding;
+    command.decode = decode;
+    if (choosing) begin
+      command.choose = chain;
+    end
+    if (deciding) begin
+      command.decide = chain;
     end
   end
+
+  // The columns' part.
+
+  logic read_bins, group_word;
+  logic [STEP_WIDTH-1:0] read_group;
+
+  assign read_bins = columns.read_above || columns.read_own || columns.read_below;
+  assign group_word = columns.read_group || columns.write_group;
+  assign read_d_o = read_bins || columns.read_group || columns.fetch_pixel || columns.fetch_group || columns.read_pair;
+  assign write_d_o = columns.write_group || columns.write_pair;
+
+  // The first and the last group are their own missing neighbours.
+  assign read_group = (columns.read_above && step_q != '0) ? step_q - 1'b1
+      : (columns.read_below && !last_step) ? step_q + 1'b1
+      : step_q;
+
+  assign address_d_o = read_bins ? ADDR_WIDTH'(32'(read_group) * GROUP_PAIRS + (32'(t_q) >> BIN_WIDTH))
+      : group_word ? ADDR_WIDTH'(PIXEL_WORDS + 32'(step_q))
+      : columns.fetch_pixel ? ADDR_WIDTH'(32'(fetch_row) >> 1)
+      : columns.fetch_group ? ADDR_WIDTH'(PIXEL_WORDS + 32'(fetch_row) / GROUP_SIZE)
+      : ADDR_WIDTH'(32'(row_before) >> 1);
+
+  // What is given in a clock leaves in the next.
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       load_d_o <= 1'b0;
+      send_o <= 1'b0;
+      command_o <= '0;
     end else begin
       load_d_o <= read_d_o;
+      send_o <= columns.send;
+      command_o <= command;
     end
   end
-
-  // What the engines get, a clock later.
-
-  logic send_q;
-
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      scratch_write_o <= 1'b0;
-      scratch_read_o <= 1'b0;
-      send_q <= 1'b0;
-      send_o <= 1'b0;
-    end else begin
-      scratch_write_o <= first_pass && in_pass && (s_q == '0);
-      scratch_read_o <= second_pass && (s_q == last_s - S_WIDTH'(1)) && (n_q >= N_WIDTH'(LEAD - 1))
-          && (n_q < N_WIDTH'(PIXELS_PER_SRAM + LEAD - 1));
-      send_q <= give_results && deciding_q;
-      send_o <= send_q;
-    end
-  end
-
-  assign give_results = results_step && (s_q == S_WIDTH'(dtof_pkg::POOL_BELIEF_CLOCKS - 1));
 
   always_ff @(posedge clk_i) begin
-    deciding_o <= deciding_q;
-    clear_message_o <= (n_q < N_WIDTH'(LEAD));
-    begin_o <= chaining && (s_q == '0);
-    spread_o <= chaining && (s_q == S_WIDTH'(SPREAD));
-    pass_label_o <= chaining && (s_q > S_WIDTH'(SPREAD))
-        && (32'(s_q) <= SPREAD + (deciding_q ? DECIDE_LABELS : LABELS));
-    target_label_o <= (s_q > S_WIDTH'(FIRST_TARGET)) ? LABEL_WIDTH'(s_q - S_WIDTH'(FIRST_TARGET)) : '0;
-    capture_word_o <= chaining && (s_q == last_s - S_WIDTH'(1));
-    advance_o <= step_end;
-    odd_pixel_o <= fetch_row[0];
-    result_o <= give_results;
-    result_odd_o <= result_row[0];
-    scratch_address_o <= (first_pass && (s_q == '0)) ? row : next_row;
-    if (give_results) begin
+    select_delayed_q <= select_q;
+    message_row_o <= command.write_message ? row : next_row;
+    if (columns.send) begin
       send_column_o <= column_q;
-      send_row_o <= result_row;
-      send_last_o <= last_column && (n_q == N_WIDTH'(PIXELS_PER_SRAM + LEAD));
+      send_row_o <= row_before;
+      send_last_o <= last_column && last_step;
     end
   end
+
+  assign select_o = select_delayed_q;
+
+  // What the table must keep to, and who starts operations.
+
+  logic [8:0] accesses;
+  assign accesses = {columns.read_above, columns.read_own, columns.read_below, columns.read_group, columns.write_group,
+                     columns.fetch_pixel, columns.fetch_group, columns.read_pair, columns.write_pair};
+
+  `DTOF_ASSERT(a_one_access, (accesses & (accesses - 1'b1)) == '0, "the schedule has two SRAM accesses in a clock")
+  `DTOF_ASSERT(a_one_message, !(command.write_message && command.read_message),
+               "the schedule has two accesses of the scratch memory in a clock")
+  `DTOF_ASSERT(a_one_column, (select_delayed_q & (select_delayed_q - 1'b1)) == '0,
+               "several columns are selected, whose words are combined by OR")
+  `DTOF_ASSERT(a_start, !(decode_i || choose_i || decide_i)
+               || (state_q == IDLE && 32'(decode_i) + 32'(choose_i) + 32'(decide_i) == 1),
+               "an operation is started together with another one, or while one is in work")
 
 endmodule

@@ -37,7 +37,6 @@ module pool_controller #(
     output logic                  clear_o,
     output logic [ADDR_WIDTH-1:0] clear_address_o,
     // engines
-    output logic                  decoding_o,    // the engines work for decode, from its start to its end
     output logic                  decode_o,
     output logic                  choose_o,
     output logic                  decide_o,
@@ -166,7 +165,6 @@ module pool_controller #(
   assign late_o = late_q;
   assign clear_o = (state_q == dtof_pkg::STATE_RESET);
   assign clear_address_o = address_q;
-  assign decoding_o = (state_q == dtof_pkg::POOL_STATE_DECODE);
   assign decode_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECODE);
   assign choose_o = entered_q && (state_q == dtof_pkg::POOL_STATE_CHOOSE);
   assign decide_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECIDE);

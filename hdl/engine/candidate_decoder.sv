@@ -5,10 +5,18 @@
 // K times the largest not taken, of w for the first three, of o for the others; its cell from its neighbours' tilt; a
 // quarter of its excess over the background is taken from the pairs two away. B from the least of four octets.
 //
-// Schedule: engine_sequencer. The bins leave three shift registers one clock apart; pair sums enter a ring of 32,
-//   pair -1 (nothing, taken) first, and turn once a candidate. A candidate is known two clocks after its turn
-//   (pair_i = 1) and takes its part away during the next.
-// Cost at the defaults: 704 flip-flops of ring, 192 of shift registers, per engine.
+// 1. The words of three groups, each captured a clock after the one before it, shift out bin by bin; a bin's sum over
+//    the groups is added up on the way.
+// 2. Sums of two adjacent bins enter a ring of 32: pair -1 first, which holds nothing and counts as taken.
+// 3. The ring turns once a candidate. While it passes its head, the largest pair that is not taken is kept, with its two
+//    neighbours.
+// 4. In the next turn's first two clocks the candidate's tilt and then its cell are found; during that turn what it
+//    takes away leaves the pairs on their way to the head.
+//
+// Schedule: the table of engine_sequencer, with this module's POOL_DECODER_*_CLOCKS (dtof_pkg).
+// Cost with 8 candidates and counts of 8 bits: 704 flip-flops of ring, 192 of shift registers, per engine.
+`include "engine_command.svh"
+
 module candidate_decoder #(
     parameter int COUNT_WIDTH = 8,
     parameter int LABELS = 8,
@@ -18,18 +26,11 @@ module candidate_decoder #(
     localparam int LINE_WIDTH = BINS_PER_WORD * COUNT_WIDTH
 ) (
     input  logic                         clk_i,
-    input  logic [       LINE_WIDTH-1:0] line_i,           // bins, lowest first
-    input  logic                         capture_above_i,
-    input  logic                         capture_own_i,
-    input  logic                         capture_below_i,
-    input  logic                         fill_i,
-    input  logic                         search_i,
-    input  logic [                  4:0] pair_i,           // bin while filling, pair + 1 while searching
-    input  logic                         first_label_i,
-    input  logic                         pooled_i,
-    input  logic                         candidate_i,
+    input  decode_command_t              command_i,
+    input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture: a word's bins, lowest first
+    // the newest candidate is the last cell; both valid from a clock after command_i.candidate until the next one
     output logic [LABELS*CELL_WIDTH-1:0] cells_o,
-    output logic [ BACKGROUND_WIDTH-1:0] background_o
+    output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group fills the ring
 );
 
   localparam int OWN_WIDTH = COUNT_WIDTH + 1;
@@ -47,9 +48,9 @@ module candidate_decoder #(
   logic [BIN_SUM_WIDTH-1:0] partial_q, bin_sum_q, last_sum_q;
 
   always_ff @(posedge clk_i) begin
-    above_q <= capture_above_i ? line_i : above_q >> COUNT_WIDTH;
-    own_q <= capture_own_i ? line_i : own_q >> COUNT_WIDTH;
-    below_q <= capture_below_i ? line_i : below_q >> COUNT_WIDTH;
+    above_q <= command_i.capture_above ? line_i : above_q >> COUNT_WIDTH;
+    own_q <= command_i.capture_own ? line_i : own_q >> COUNT_WIDTH;
+    below_q <= command_i.capture_below ? line_i : below_q >> COUNT_WIDTH;
     above_bin_q <= above_q[COUNT_WIDTH-1:0];
     own_bin_q <= own_q[COUNT_WIDTH-1:0];
     partial_q <= BIN_SUM_WIDTH'(above_bin_q) + BIN_SUM_WIDTH'(own_q[COUNT_WIDTH-1:0])
@@ -72,14 +73,14 @@ module candidate_decoder #(
   assign pooled_pair = POOLED_WIDTH'(bin_sum_q) + POOLED_WIDTH'(last_sum_q);
 
   always_ff @(posedge clk_i) begin
-    octet_full_q <= fill_i && (pair_i[2:0] == 3'd7);
-    first_octet_q <= (pair_i[4:3] == 2'd0);
+    octet_full_q <= command_i.fill && (command_i.pair[2:0] == 3'd7);
+    first_octet_q <= (command_i.pair[4:3] == 2'd0);
     if (octet_full_q && (first_octet_q || octet_q < least_octet_q)) begin
       least_octet_q <= octet_q;
     end
-    octet_q <= fill_i ? (octet_full_q ? '0 : octet_q) + OCTET_WIDTH'(summed_bin_q) : '0;
-    if (fill_i) begin
-      if (pair_i == 5'd1 || (pair_i != 5'd0 && own_pair < least_pair_q)) begin
+    octet_q <= command_i.fill ? (octet_full_q ? '0 : octet_q) + OCTET_WIDTH'(summed_bin_q) : '0;
+    if (command_i.fill) begin
+      if (command_i.pair == 5'd1 || (command_i.pair != 5'd0 && own_pair < least_pair_q)) begin
         least_pair_q <= own_pair;
       end
     end
@@ -91,7 +92,7 @@ module candidate_decoder #(
   // The ring: {taken, own, pooled}. What the last candidate takes away leaves an entry on its way to the head.
 
   logic [ENTRIES*ENTRY_WIDTH-1:0] ring_q;
-  logic [ENTRY_WIDTH-1:0] next_head, entry;
+  logic [ENTRY_WIDTH-1:0] next_head, empty_pair, entry;
   logic head_taken, taken;
   logic [OWN_WIDTH-1:0] head_own, next_own, own, own_part, own_part_q, own_excess, own_excess_q;
   logic [POOLED_WIDTH-1:0] head_pooled, next_pooled, pooled, pooled_part, pooled_part_q;
@@ -110,11 +111,11 @@ module candidate_decoder #(
 
   // With pair 0 at the head the peak is new: what is registered is still of the one before. Its excess was
   // registered a clock after it was found, in time for pair 1, which only an early peak reaches.
-  assign beside = new_peak_q ? !first_label_i && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
-  assign two_away = new_peak_q ? !first_label_i && (best_pair_q == 5'd3) : two_away_q;
+  assign beside = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
+  assign two_away = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd3) : two_away_q;
   assign own_part = new_peak_q ? own_excess_q >> 2 : own_part_q;
   assign pooled_part = new_peak_q ? pooled_excess_q >> 2 : pooled_part_q;
-  assign from_peak = {1'b0, pair_i} + 6'd2 - peak_q;
+  assign from_peak = {1'b0, command_i.pair} + 6'd2 - peak_q;
 
   always_comb begin
     taken = next_taken || beside;
@@ -124,20 +125,18 @@ module candidate_decoder #(
       own = (next_own > own_part) ? next_own - own_part : '0;
       pooled = (next_pooled > pooled_part) ? next_pooled - pooled_part : '0;
     end
-    entry = '0;
-    if (fill_i) begin
-      entry = (pair_i == 5'd0) ? {1'b1, {(ENTRY_WIDTH - 1) {1'b0}}} : {1'b0, own_pair, pooled_pair};
-    end else if (search_i) begin
-      entry = {head_taken, head_own, head_pooled};
-    end
   end
+
+  assign empty_pair = {1'b1, {(ENTRY_WIDTH - 1) {1'b0}}};
+  assign entry = command_i.fill ? ((command_i.pair == 5'd0) ? empty_pair : {1'b0, own_pair, pooled_pair})
+      : command_i.search ? {head_taken, head_own, head_pooled} : '0;
 
   always_ff @(posedge clk_i) begin
     ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:2*ENTRY_WIDTH], taken, own, pooled};
-    new_peak_q <= (pair_i == 5'd31);
+    new_peak_q <= (command_i.pair == 5'd31);
     if (new_peak_q) begin  // for pair 2
-      beside_q <= !first_label_i && (best_pair_q <= 5'd3);
-      two_away_q <= !first_label_i && (best_pair_q == 5'd4);
+      beside_q <= !command_i.first_label && (best_pair_q <= 5'd3);
+      two_away_q <= !command_i.first_label && (best_pair_q == 5'd4);
     end else begin
       beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
       two_away_q <= (from_peak == 6'd2) || (from_peak == 6'd62);
@@ -152,19 +151,19 @@ module candidate_decoder #(
   logic [OWN_WIDTH-1:0] best_own_q;
   logic [POOLED_WIDTH-1:0] value, best_pooled_q, best_q, before_q, after_q, last_value_q;
 
-  assign value = pooled_i ? head_pooled : POOLED_WIDTH'(head_own);
+  assign value = command_i.pooled ? head_pooled : POOLED_WIDTH'(head_own);
   assign better = !head_taken && (!found_q || value > best_q);
 
   always_ff @(posedge clk_i) begin
     last_value_q <= value;
-    if (pair_i == 5'd0) begin
+    if (command_i.pair == 5'd0) begin
       found_q <= 1'b0;
       next_pending_q <= 1'b0;
     end else begin
       next_pending_q <= better;
       if (better) begin
         found_q <= 1'b1;
-        best_pair_q <= pair_i;
+        best_pair_q <= command_i.pair;
         best_q <= value;
         best_own_q <= head_own;
         best_pooled_q <= head_pooled;
@@ -176,7 +175,7 @@ module candidate_decoder #(
     end
   end
 
-  // A turn later (pair_i = 0): what the candidate takes away, and its tilt; then (pair_i = 1) its cell.
+  // A turn later (pair = 0): what the candidate takes away, and its tilt; then (pair = 1) its cell.
 
   logic [POOLED_WIDTH-1:0] tilt_q, height, lower_q, five_least;
   logic tilted, upwards, upwards_q;
@@ -195,12 +194,12 @@ module candidate_decoder #(
     upwards_q <= upwards;
     tilt_q <= upwards ? after_q - before_q : before_q - after_q;
     lower_q <= upwards ? before_q : after_q;
-    if (search_i && new_peak_q) begin
-      peak_q <= first_label_i ? NOWHERE : {1'b0, best_pair_q};
+    if (command_i.search && new_peak_q) begin
+      peak_q <= command_i.first_label ? NOWHERE : {1'b0, best_pair_q};
       own_part_q <= own_excess >> 2;
       pooled_part_q <= pooled_excess >> 2;
     end
-    if (candidate_i) begin
+    if (command_i.candidate) begin
       cells_q <= {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
     end
   end

@@ -5,11 +5,17 @@
 // label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
 // message from the other side. Near: positions at most REACH apart.
 //
-// Schedule: engine_sequencer. begin_i: T; its largest, in two clocks; spread_i: differences to it; then a label l of
-//   the next pixel a clock with pass_label_i, which also computes the belief of this pixel's label l, ranked one clock later;
-//   advance_i: the next pixel becomes this one and the prepared one the next. The two best beliefs are valid from the
-//   second clock after the last label until the next pixel's labels pass.
+// 1. Two pixels are held, this one and the next. When a step begins, this pixel's T are added up, and the largest is
+//    found in two clocks.
+// 2. The differences to the largest say what each label is behind.
+// 3. The labels of the next pixel pass, one a clock: each gets its message, and in the same clock this pixel's label of
+//    the same number its belief, which is ranked a clock later.
+// 4. The chain advances: the next pixel becomes this one, the one at the port the next.
+//
+// Schedule: the table of engine_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
 // Cost: LABELS comparators of positions and of differences.
+`include "engine_command.svh"
+
 module label_chain #(
     parameter int LABELS = 8,
     parameter int POSITION_WIDTH = 8,   // signed
@@ -20,21 +26,17 @@ module label_chain #(
     localparam int BELIEF_WIDTH = EVIDENCE_WIDTH + 2
 ) (
     input  logic                             clk_i,
-    input  logic                             begin_i,
-    input  logic                             spread_i,
-    input  logic                             pass_label_i,
-    input  logic [          LABEL_WIDTH-1:0] target_label_i,   // the label two clocks later
-    input  logic                             advance_i,
-    input  logic                             clear_message_i,  // with advance_i: this pixel begins the chain
-    // a pixel prepared
+    input  chain_command_t                   command_i,
+    // the pixel prepared, taken with command_i.advance; label 0 is always in use
     input  logic [               LABELS-1:0] in_use_i,
     input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
     input  logic [LABELS*POSITION_WIDTH-1:0] position_i,
     input  logic [        PENALTY_WIDTH-1:0] penalty_i,
-    // messages: received, and of the other side
+    // messages to this pixel: of the pass in work, complete from the last label on until the next step's first one;
+    // from the other side, taken with command_i.advance
     output logic [ LABELS*PENALTY_WIDTH-1:0] message_o,
-    input  logic [ LABELS*PENALTY_WIDTH-1:0] other_message_i,  // with advance_i
-    // result
+    input  logic [ LABELS*PENALTY_WIDTH-1:0] other_message_i,
+    // the best two beliefs, valid from POOL_CHAIN_BELIEF_CLOCKS after the last label until the next labels pass
     output logic [          LABEL_WIDTH-1:0] best_label_o,
     output logic [          LABEL_WIDTH-1:0] second_label_o,
     output logic [       POSITION_WIDTH-1:0] best_position_o,
@@ -51,7 +53,7 @@ module label_chain #(
   logic [LABELS*PENALTY_WIDTH-1:0] message_q, other_q;
 
   always_ff @(posedge clk_i) begin
-    if (advance_i) begin
+    if (command_i.advance) begin
       in_use_q <= next_in_use_q;
       evidence_q <= next_evidence_q;
       position_q <= next_position_q;
@@ -120,13 +122,13 @@ module label_chain #(
   assign smallest_complement = (smallest_lower_q < smallest_upper_q) ? smallest_lower_q : smallest_upper_q;
 
   always_ff @(posedge clk_i) begin
-    if (begin_i) begin
+    if (command_i.begin_step) begin
       sum_q <= sum;
     end
     smallest_lower_q <= smallest_lower;
     smallest_upper_q <= smallest_upper;
     largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
-    if (spread_i) begin
+    if (command_i.spread) begin
       behind_q <= behind;
     end
   end
@@ -135,6 +137,7 @@ module label_chain #(
   // it found one clock ahead.
 
   logic [LABELS-1:0] near, near_q;
+  logic [LABEL_WIDTH-1:0] target;
   logic [POSITION_WIDTH-1:0] target_q;
   logic [PENALTY_WIDTH-1:0] cheapest;
 
@@ -146,6 +149,8 @@ module label_chain #(
       assign near[k] = (distance <= FAR) && (distance >= -FAR);
     end
   endgenerate
+
+  assign target = LABEL_WIDTH'(command_i.target);
 
   logic [LABELS*PENALTY_WIDTH-1:0] reachable;
   generate
@@ -163,11 +168,11 @@ module label_chain #(
   );
 
   always_ff @(posedge clk_i) begin
-    target_q <= next_position_q[target_label_i*POSITION_WIDTH+:POSITION_WIDTH];
+    target_q <= next_position_q[target*POSITION_WIDTH+:POSITION_WIDTH];
     near_q <= near;
-    if (advance_i && clear_message_i) begin
+    if (command_i.advance && command_i.clear_message) begin
       message_q <= '0;
-    end else if (pass_label_i) begin
+    end else if (command_i.pass_label) begin
       message_q <= {cheapest, message_q[LABELS*PENALTY_WIDTH-1:PENALTY_WIDTH]};
     end
   end
@@ -185,8 +190,8 @@ module label_chain #(
   assign runner_up = (label_q == LABEL_WIDTH'(1)) || (passed_in_use_q && belief_q > second_q);
 
   always_ff @(posedge clk_i) begin
-    passing_q <= spread_i ? '0 : passing_q + 1'b1;
-    passed_q <= pass_label_i;
+    passing_q <= command_i.spread ? '0 : passing_q + 1'b1;
+    passed_q <= command_i.pass_label;
     label_q <= passing_q;
     passed_in_use_q <= in_use_q[passing_q];
     passed_position_q <= position_q[passing_q*POSITION_WIDTH+:POSITION_WIDTH];

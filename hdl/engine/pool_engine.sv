@@ -5,9 +5,18 @@
 // decide the results of the pointer words (docs/reference/poolpointer.md). Messages of a chain's first pass wait in a
 // scratch memory, one word a pixel.
 //
-// Schedule: engine_sequencer. line_i is the selected column's word, three clocks after its read command, and
-//   registered; word_o is what is written: a group's word or a pair of pointer words.
+// 1. The line, the selected column's word, is registered. Decode hands it to the candidate decoder, whose group word is
+//    written back.
+// 2. Choose and decide take from it first a pixel's word and then its group's, which together make the pixel that is
+//    prepared for the chain: labels with evidence and position, and the penalty.
+// 3. The chain of the operation in work steps on, and its messages of the first pass wait in the scratch memory.
+// 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write; decide makes
+//    the result.
+//
+// Schedule: the table of engine_sequencer, with this module's POOL_ENGINE_*_CLOCKS (dtof_pkg).
 // Cost: candidate_decoder, two label_chains, a single-port SRAM of PIXELS_PER_SRAM words, per engine.
+`include "engine_command.svh"
+
 module pool_engine #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
@@ -35,36 +44,11 @@ module pool_engine #(
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
-    input  logic [  WORD_WIDTH-1:0] line_i,
-    output logic [  WORD_WIDTH-1:0] word_o,
-    // decode
-    input  logic                    decoding_i,
-    input  logic                    capture_above_i,
-    input  logic                    capture_own_i,
-    input  logic                    capture_below_i,
-    input  logic                    fill_i,
-    input  logic                    search_i,
-    input  logic [             4:0] pair_i,
-    input  logic                    first_label_i,
-    input  logic                    pooled_i,
-    input  logic                    candidate_i,
-    // chains
-    input  logic                    deciding_i,
-    input  logic                    clear_message_i,
-    input  logic                    begin_i,
-    input  logic                    spread_i,
-    input  logic                    pass_label_i,
-    input  logic [ LABEL_WIDTH-1:0] target_label_i,
-    input  logic                    capture_word_i,
-    input  logic                    advance_i,
-    input  logic                    odd_pixel_i,
-    input  logic                    result_i,
-    input  logic                    result_odd_i,
-    input  logic                    scratch_read_i,
-    input  logic                    scratch_write_i,
-    input  logic [   ROW_WIDTH-1:0] scratch_address_i,
-    // {code, fraction, confidence} of decide, from a clock after result_i on
-    output logic [RESULT_WIDTH-1:0] result_o
+    input  engine_command_t         command_i,
+    input  logic [  WORD_WIDTH-1:0] line_i,         // the selected column's word, POOL_PAIR_READ_CLOCKS after its read
+    output logic [  WORD_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
+    input  logic [   ROW_WIDTH-1:0] message_row_i,  // of command_i.write_message and read_message
+    output logic [RESULT_WIDTH-1:0] result_o        // {code, fraction, confidence}, held from one take_result to the next
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
@@ -102,19 +86,11 @@ module pool_engine #(
       .LABELS       (LABELS),
       .BINS_PER_WORD(BINS_PER_WORD)
   ) u_candidate_decoder (
-      .clk_i          (clk_i),
-      .line_i         (line_q[BINS_PER_WORD*COUNT_WIDTH-1:0]),
-      .capture_above_i(capture_above_i),
-      .capture_own_i  (capture_own_i),
-      .capture_below_i(capture_below_i),
-      .fill_i         (fill_i),
-      .search_i       (search_i),
-      .pair_i         (pair_i),
-      .first_label_i  (first_label_i),
-      .pooled_i       (pooled_i),
-      .candidate_i    (candidate_i),
-      .cells_o        (new_cells),
-      .background_o   (new_background)
+      .clk_i       (clk_i),
+      .command_i   (command_i.decode),
+      .line_i      (line_q[BINS_PER_WORD*COUNT_WIDTH-1:0]),
+      .cells_o     (new_cells),
+      .background_o(new_background)
   );
 
   // A pixel prepared for the chains: its word was captured, its group's is on the line.
@@ -125,8 +101,8 @@ module pool_engine #(
   logic bright;
 
   always_ff @(posedge clk_i) begin
-    if (capture_word_i) begin
-      pixel_q <= odd_pixel_i ? line_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
+    if (command_i.take_pixel) begin
+      pixel_q <= command_i.odd_pixel ? line_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
     end
   end
 
@@ -183,7 +159,7 @@ module pool_engine #(
   logic [DECIDE_MESSAGE_WIDTH-1:0] decide_message;
   logic [MESSAGE_WIDTH-1:0] scratch_in, scratch_out;
 
-  assign scratch_in = deciding_i ? MESSAGE_WIDTH'(decide_message) : MESSAGE_WIDTH'(choose_message);
+  assign scratch_in = command_i.deciding ? MESSAGE_WIDTH'(decide_message) : MESSAGE_WIDTH'(choose_message);
 
   dtof_sram #(
       .PORTS(1),
@@ -192,11 +168,11 @@ module pool_engine #(
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
-      .read_en_i   (scratch_read_i),
-      .read_addr_i (scratch_address_i),
+      .read_en_i   (command_i.read_message),
+      .read_addr_i (message_row_i),
       .read_data_o (scratch_out),
-      .write_en_i  (scratch_write_i),
-      .write_addr_i(scratch_address_i),
+      .write_en_i  (command_i.write_message),
+      .write_addr_i(message_row_i),
       .write_data_i(scratch_in)
   );
 
@@ -212,12 +188,7 @@ module pool_engine #(
       .PENALTY_WIDTH (CHOOSE_PENALTY_WIDTH)
   ) u_choose (
       .clk_i            (clk_i),
-      .begin_i          (begin_i && !deciding_i),
-      .spread_i         (spread_i && !deciding_i),
-      .pass_label_i     (pass_label_i && !deciding_i),
-      .target_label_i   (target_label_i),
-      .advance_i        (advance_i && !deciding_i),
-      .clear_message_i  (clear_message_i),
+      .command_i        (command_i.choose),
       .in_use_i         (in_use),
       .evidence_i       (choose_evidence),
       .position_i       (choose_position),
@@ -243,12 +214,7 @@ module pool_engine #(
       .PENALTY_WIDTH (DECIDE_PENALTY_WIDTH)
   ) u_decide (
       .clk_i            (clk_i),
-      .begin_i          (begin_i && deciding_i),
-      .spread_i         (spread_i && deciding_i),
-      .pass_label_i     (pass_label_i && deciding_i),
-      .target_label_i   (target_label_i[0]),
-      .advance_i        (advance_i && deciding_i),
-      .clear_message_i  (clear_message_i),
+      .command_i        (command_i.decide),
       .in_use_i         (2'b11),
       .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, pixel_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
       .position_i       ({rival_position, leader_position}),
@@ -275,7 +241,7 @@ module pool_engine #(
       logic [LEAD_WIDTH-1:0] next_lead_q, lead_q, last_lead_q;
       logic [15:0] offset;
       always_ff @(posedge clk_i) begin
-        if (advance_i) begin
+        if (command_i.choose.advance) begin
           next_lead_q <= pixel_q[SCORES_WIDTH+:LEAD_WIDTH];
           lead_q <= next_lead_q;
           last_lead_q <= lead_q;
@@ -309,14 +275,14 @@ module pool_engine #(
   endgenerate
 
   always_ff @(posedge clk_i) begin
-    if (result_i && result_odd_i) begin
+    if (command_i.take_choice && command_i.odd_result) begin
       new_pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] <= first_word;
-    end else if (result_i) begin
+    end else if (command_i.take_choice) begin
       new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
     end
   end
 
-  assign word_o = decoding_i ? WORD_WIDTH'({new_background, new_cells}) : WORD_WIDTH'(new_pair_q);
+  assign word_o = command_i.decoding ? WORD_WIDTH'({new_background, new_cells}) : WORD_WIDTH'(new_pair_q);
 
   // Decide: a position counts from its bin's low end, a timestamp stands for the middle of its bin.
 
@@ -330,7 +296,7 @@ module pool_engine #(
   assign limited = (shifted < 0) ? '0 : (shifted > LAST_POSITION) ? 16'(LAST_POSITION) : shifted[15:0];
 
   always_ff @(posedge clk_i) begin
-    if (result_i) begin
+    if (command_i.take_result) begin
       result_o <= {limited, decide_margin[CONFIDENCE_WIDTH-1:0]};
     end
   end

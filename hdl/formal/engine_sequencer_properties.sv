@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // engine_sequencer with pool_result_output: one column selected, one access a clock, addresses, labels and scratch rows
 // in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
+`include "engine_command.svh"
 `include "properties.svh"
 
 module engine_sequencer_properties #(
@@ -13,8 +14,7 @@ module engine_sequencer_properties #(
     localparam int WORDS = GROUPS * (GROUP_SIZE / 2) + GROUPS,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS),
-    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS),
-    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS)
 ) (
     input logic clk_i,
     input logic decode_i,
@@ -28,13 +28,12 @@ module engine_sequencer_properties #(
     checking <= 1'b1;
   end
 
-  logic done, read, write, load, pass_label, deciding, scratch_read, scratch_write, send, send_last, waits, busy;
+  engine_command_t command;
+  logic done, read, write, load, send, send_last, waits, busy;
   logic [ENGINE_COLUMNS-1:0] select;
   logic [ADDR_WIDTH-1:0] address;
-  logic [LABEL_WIDTH-1:0] target_label;
-  logic [ROW_WIDTH-1:0] scratch_address, send_row;
+  logic [ROW_WIDTH-1:0] message_row, send_row;
   logic [COLUMN_WIDTH-1:0] send_column;
-  logic [18:0] unused;
   logic tvalid, tlast;
   logic [COLUMN_WIDTH+ROW_WIDTH:0] tdata;
 
@@ -45,46 +44,25 @@ module engine_sequencer_properties #(
       .BINS_PER_WORD  (BINS_PER_WORD),
       .ENGINE_COLUMNS (ENGINE_COLUMNS)
   ) u_dut (
-      .clk_i            (clk_i),
-      .rst_ni           (checking),
-      .decode_i         (decode_i),
-      .choose_i         (choose_i),
-      .decide_i         (decide_i),
-      .done_o           (done),
-      .select_o         (select),
-      .read_d_o         (read),
-      .write_d_o        (write),
-      .address_d_o      (address),
-      .load_d_o         (load),
-      .capture_above_o  (unused[0]),
-      .capture_own_o    (unused[1]),
-      .capture_below_o  (unused[2]),
-      .fill_o           (unused[3]),
-      .search_o         (unused[4]),
-      .pair_o           (unused[9:5]),
-      .first_label_o    (unused[10]),
-      .pooled_o         (unused[11]),
-      .candidate_o      (unused[12]),
-      .deciding_o       (deciding),
-      .clear_message_o  (unused[13]),
-      .begin_o          (unused[14]),
-      .spread_o         (unused[15]),
-      .pass_label_o     (pass_label),
-      .target_label_o   (target_label),
-      .capture_word_o   (unused[16]),
-      .advance_o        (unused[17]),
-      .odd_pixel_o      (unused[18]),
-      .result_o         (),
-      .result_odd_o     (),
-      .scratch_read_o   (scratch_read),
-      .scratch_write_o  (scratch_write),
-      .scratch_address_o(scratch_address),
-      .send_o           (send),
-      .send_column_o    (send_column),
-      .send_row_o       (send_row),
-      .send_last_o      (send_last),
-      .send_waits_i     (waits),
-      .send_busy_i      (busy)
+      .clk_i        (clk_i),
+      .rst_ni       (checking),
+      .decode_i     (decode_i),
+      .choose_i     (choose_i),
+      .decide_i     (decide_i),
+      .done_o       (done),
+      .read_d_o     (read),
+      .write_d_o    (write),
+      .address_d_o  (address),
+      .load_d_o     (load),
+      .select_o     (select),
+      .command_o    (command),
+      .message_row_o(message_row),
+      .send_o       (send),
+      .send_column_o(send_column),
+      .send_row_o   (send_row),
+      .send_last_o  (send_last),
+      .send_waits_i (waits),
+      .send_busy_i  (busy)
   );
 
   pool_result_output #(
@@ -116,8 +94,10 @@ module engine_sequencer_properties #(
 
   logic working_q, sending_q;
   logic [15:0] clocks_q, sent_q, passed_q;
-  logic [LABEL_WIDTH-1:0] target_q, target_before_q;
+  logic [2:0] target_q, target_before_q;
+  logic pass_label;
   logic start;
+  assign pass_label = command.choose.pass_label || command.decide.pass_label;
   assign start = decode_i || choose_i || decide_i;
 
   always_ff @(posedge clk_i) begin
@@ -138,7 +118,7 @@ module engine_sequencer_properties #(
       end
       passed_q <= pass_label ? passed_q + 1'b1 : '0;
     end
-    target_q <= target_label;
+    target_q <= command.choose.target | command.decide.target;  // one operation at a time
     target_before_q <= target_q;
   end
 
@@ -147,8 +127,8 @@ module engine_sequencer_properties #(
   `PROVE(a_one_column_at_most, (select & (select - 1'b1)) == '0)
   `PROVE(a_one_access, !(read && write))
   `PROVE(a_address, !(read || write) || 32'(address) < WORDS)
-  `PROVE(a_scratch_one_access, !(scratch_read && scratch_write))
-  `PROVE(a_scratch_row, !(scratch_read || scratch_write) || 32'(scratch_address) < PIXELS)
+  `PROVE(a_scratch_one_access, !(command.read_message && command.write_message))
+  `PROVE(a_scratch_row, !(command.read_message || command.write_message) || 32'(message_row) < PIXELS)
   `PROVE(a_label, !pass_label || 16'(target_before_q) == passed_q)
   `PROVE(a_labels, 32'(passed_q) <= LABELS)
   `PROVE(a_send_when_free, !(send && waits))

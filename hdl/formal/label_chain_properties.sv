@@ -2,6 +2,7 @@
 // Two labels, three pixels, driven by engine_sequencer and with the messages in an SRAM, as in pool_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
 // of the one that is farther from the pixel in question (docs/reference/poolpointer.md, Chain: the sender's lambda).
+`include "engine_command.svh"
 `include "properties.svh"
 
 module label_chain_properties #(
@@ -27,12 +28,11 @@ module label_chain_properties #(
   (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
   (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
 
-  logic done, clear_message, begin_step, spread, pass_label, target_label, advance, result;
-  logic scratch_read, scratch_write, send, send_last;
-  logic [1:0] scratch_address, send_row;
-  logic unused_select, unused_read, unused_write, unused_load, unused_column;
+  engine_command_t command;
+  logic [1:0] message_row;
+  logic unused_done, unused_select, unused_read, unused_write, unused_load, unused_column, unused_send, unused_last;
+  logic [1:0] unused_row;
   logic [2:0] unused_address;
-  logic [15:0] unused;
 
   engine_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
@@ -41,46 +41,25 @@ module label_chain_properties #(
       .BINS_PER_WORD  (8),
       .ENGINE_COLUMNS (1)
   ) u_engine_sequencer (
-      .clk_i            (clk_i),
-      .rst_ni           (checking),
-      .decode_i         (1'b0),
-      .choose_i         (1'b0),
-      .decide_i         (checking && !begun_q),
-      .done_o           (done),
-      .select_o         (unused_select),
-      .read_d_o         (unused_read),
-      .write_d_o        (unused_write),
-      .address_d_o      (unused_address),
-      .load_d_o         (unused_load),
-      .capture_above_o  (unused[0]),
-      .capture_own_o    (unused[1]),
-      .capture_below_o  (unused[2]),
-      .fill_o           (unused[3]),
-      .search_o         (unused[4]),
-      .pair_o           (unused[9:5]),
-      .first_label_o    (unused[10]),
-      .pooled_o         (unused[11]),
-      .candidate_o      (unused[12]),
-      .deciding_o       (unused[13]),
-      .clear_message_o  (clear_message),
-      .begin_o          (begin_step),
-      .spread_o         (spread),
-      .pass_label_o     (pass_label),
-      .target_label_o   (target_label),
-      .capture_word_o   (unused[14]),
-      .advance_o        (advance),
-      .odd_pixel_o      (unused[15]),
-      .result_o         (result),
-      .result_odd_o     (),
-      .scratch_read_o   (scratch_read),
-      .scratch_write_o  (scratch_write),
-      .scratch_address_o(scratch_address),
-      .send_o           (send),
-      .send_column_o    (unused_column),
-      .send_row_o       (send_row),
-      .send_last_o      (send_last),
-      .send_waits_i     (1'b0),
-      .send_busy_i      (1'b0)
+      .clk_i        (clk_i),
+      .rst_ni       (checking),
+      .decode_i     (1'b0),
+      .choose_i     (1'b0),
+      .decide_i     (checking && !begun_q),
+      .done_o       (unused_done),
+      .read_d_o     (unused_read),
+      .write_d_o    (unused_write),
+      .address_d_o  (unused_address),
+      .load_d_o     (unused_load),
+      .select_o     (unused_select),
+      .command_o    (command),
+      .message_row_o(message_row),
+      .send_o       (unused_send),
+      .send_column_o(unused_column),
+      .send_row_o   (unused_row),
+      .send_last_o  (unused_last),
+      .send_waits_i (1'b0),
+      .send_busy_i  (1'b0)
   );
 
   // The pixel prepared: from the last to the first, then back.
@@ -100,8 +79,8 @@ module label_chain_properties #(
       steps_q <= '0;
       results_q <= '0;
     end else begin
-      if (advance) steps_q <= steps_q + 1'b1;
-      if (result) results_q <= results_q + 1'b1;
+      if (command.decide.advance) steps_q <= steps_q + 1'b1;
+      if (command.take_result) results_q <= results_q + 1'b1;
     end
   end
 
@@ -112,11 +91,11 @@ module label_chain_properties #(
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (checking),
-      .read_en_i   (scratch_read),
-      .read_addr_i (scratch_address),
+      .read_en_i   (command.read_message),
+      .read_addr_i (message_row),
       .read_data_o (other_message),
-      .write_en_i  (scratch_write),
-      .write_addr_i(scratch_address),
+      .write_en_i  (command.write_message),
+      .write_addr_i(message_row),
       .write_data_i(message)
   );
 
@@ -128,12 +107,7 @@ module label_chain_properties #(
       .PENALTY_WIDTH (PENALTY_WIDTH)
   ) u_dut (
       .clk_i            (clk_i),
-      .begin_i          (begin_step),
-      .spread_i         (spread),
-      .pass_label_i     (pass_label),
-      .target_label_i   (target_label),
-      .advance_i        (advance),
-      .clear_message_i  (clear_message),
+      .command_i        (command.decide),
       .in_use_i         (2'b11),
       .evidence_i       ((LABELS*EVIDENCE_WIDTH)'(evidence >> (prepared * LABELS * EVIDENCE_WIDTH))),
       .position_i       ((LABELS*POSITION_WIDTH)'(position >> (prepared * LABELS * POSITION_WIDTH))),
@@ -187,11 +161,11 @@ module label_chain_properties #(
   logic expected_label;
   assign expected_label = (best1 > best0);
 
-  `PROVE(a_label, !result || best_label == expected_label)
-  `PROVE(a_other_label, !result || second_label == !expected_label)
-  `PROVE(a_margin, !result || 32'(margin) == (expected_label ? best1 - best0 : best0 - best1))
-  `PROVE(a_position, !result || best_position
+  `PROVE(a_label, !command.take_result || best_label == expected_label)
+  `PROVE(a_other_label, !command.take_result || second_label == !expected_label)
+  `PROVE(a_margin, !command.take_result || 32'(margin) == (expected_label ? best1 - best0 : best0 - best1))
+  `PROVE(a_position, !command.take_result || best_position
          == POSITION_WIDTH'(position >> ((32'(results_q) * LABELS + 32'(best_label)) * POSITION_WIDTH)))
-  `GOAL(result && results_q == 2'd2 && margin != '0 && best_label)
+  `GOAL(command.take_result && results_q == 2'd2 && margin != '0 && best_label)
 
 endmodule

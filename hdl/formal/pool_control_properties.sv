@@ -43,7 +43,7 @@ module pool_control_properties #(
     checking <= 1'b1;
   end
 
-  logic busy, done, stream, coarse, point, more, late, acq_done, stream_idle, clear, decoding, decode, choose, decide;
+  logic busy, done, stream, coarse, point, more, late, acq_done, stream_idle, clear, decode, choose, decide;
   logic [2:0] state;
   logic [3:0] acquisition;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address;
@@ -73,7 +73,6 @@ module pool_control_properties #(
       .stream_idle_i  (stream_idle),
       .clear_o        (clear),
       .clear_address_o(clear_address),
-      .decoding_o     (decoding),
       .decode_o       (decode),
       .choose_o       (choose),
       .decide_o       (decide),

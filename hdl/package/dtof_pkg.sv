@@ -20,16 +20,18 @@ package dtof_pkg;
   localparam logic [2:0] POOL_STATE_POINT = STATE_M4;
   localparam logic [2:0] POOL_STATE_DECIDE = STATE_M5;
 
-  // Clocks that a module takes, for the sequencer that drives it.
-  localparam int HISTOGRAM_WRITE_STAGE = 5;    // histogram_builder: a timestamp of T0 is written at T5
-  localparam int POOL_LAST_COMMAND_STAGE = 6;  // pair_sequencer: the write of a second column's count, given at T6
-  localparam int POOL_WORD_CLOCKS = 3;         // pool_pointer_pair: from a read command (_d) to the column's word
-  localparam int POOL_LINE_CLOCKS = POOL_WORD_CLOCKS + 1;  // pool_engine: ... to the engine's register
-  localparam int POOL_FILL_CLOCKS = 4;         // candidate_decoder: from capture_above_i to the first pair sum
-  localparam int POOL_CANDIDATE_CLOCKS = 2;    // candidate_decoder: from a search's last pair to its candidate
-  localparam int POOL_SPREAD_CLOCKS = 3;       // label_chain: from begin_i to spread_i; the first label passes next
-  localparam int POOL_TARGET_CLOCKS = 2;       // label_chain: from target_label_i to its pass_label_i
-  localparam int POOL_BELIEF_CLOCKS = 2;       // label_chain: from the last pass_label_i to the two best beliefs
+  // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
+  localparam int HISTOGRAM_WRITE_STAGE = 5;          // histogram_builder: a timestamp of T0 is written at T5
+  localparam int POOL_LAST_COMMAND_STAGE = 6;        // pair_sequencer: the write of a second column's count, given at T6
+  localparam int POOL_PAIR_READ_CLOCKS = 2;          // pool_pointer_pair: from read_i to word_o, and to a write with it
+  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // pool_engine: from line_i to what its commands find on the line
+  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // pool_engine: from read_message to the message
+  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // pool_engine: from take_result to result_o
+  localparam int POOL_DECODER_FILL_CLOCKS = 4;       // candidate_decoder: from capture_above to the first pair sum
+  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // candidate_decoder: from a turn's last pair to its candidate
+  localparam int POOL_CHAIN_SPREAD_CLOCKS = 3;       // label_chain: from begin_step to spread; then the labels pass
+  localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // label_chain: from a label's target to its pass_label
+  localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // label_chain: from the last pass_label to the two best beliefs
 
   function automatic int max_of(input int a, input int b);
     max_of = (a > b) ? a : b;

@@ -11,6 +11,7 @@
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer.md's cycle budget says.
 `include "dtof_macros.svh"
+`include "engine_command.svh"
 
 module pool_pointer_array #(
     parameter int NP = 10,                // bits of a timestamp, 8 to 16
@@ -106,7 +107,7 @@ module pool_pointer_array #(
 
   logic stream, coarse, point, more, late, acq_done, stream_idle, clear;
   logic [3:0] acquisition;
-  logic decoding, decode, choose, decide, engine_done;
+  logic decode, choose, decide, engine_done;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
 
   pool_controller #(
@@ -134,7 +135,6 @@ module pool_pointer_array #(
       .stream_idle_i  (stream_idle),
       .clear_o        (clear),
       .clear_address_o(clear_address),
-      .decoding_o     (decoding),
       .decode_o       (decode),
       .choose_o       (choose),
       .decide_o       (decide),
@@ -184,12 +184,9 @@ module pool_pointer_array #(
   logic [STEP_WIDTH-1:0] engine_column;
   logic [STEPS-1:0] engine_select;
   logic engine_read, engine_write, engine_load;
-  logic capture_above, capture_own, capture_below, fill, search, first_label, pooled, candidate;
-  logic [4:0] pair;
-  logic [dtof_pkg::index_width(LABELS)-1:0] target_label;
-  logic deciding, clear_message, begin_step, spread, pass_label, capture_word, advance, odd_pixel;
-  logic result, result_odd, scratch_read, scratch_write, send, send_last, send_waits, send_busy;
-  logic [ROW_WIDTH-1:0] scratch_address, send_row;
+  engine_command_t command;
+  logic [ROW_WIDTH-1:0] message_row, send_row;
+  logic send, send_last, send_waits, send_busy;
 
   engine_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -198,51 +195,30 @@ module pool_pointer_array #(
       .BINS_PER_WORD  (BINS_PER_WORD),
       .ENGINE_COLUMNS (STEPS)
   ) u_engine_sequencer (
-      .clk_i            (clk_i),
-      .rst_ni           (rst_ni),
-      .decode_i         (decode),
-      .choose_i         (choose),
-      .decide_i         (decide),
-      .done_o           (engine_done),
-      .select_o         (engine_select),
-      .read_d_o         (engine_read),
-      .write_d_o        (engine_write),
-      .address_d_o      (engine_address),
-      .load_d_o         (engine_load),
-      .capture_above_o  (capture_above),
-      .capture_own_o    (capture_own),
-      .capture_below_o  (capture_below),
-      .fill_o           (fill),
-      .search_o         (search),
-      .pair_o           (pair),
-      .first_label_o    (first_label),
-      .pooled_o         (pooled),
-      .candidate_o      (candidate),
-      .deciding_o       (deciding),
-      .clear_message_o  (clear_message),
-      .begin_o          (begin_step),
-      .spread_o         (spread),
-      .pass_label_o     (pass_label),
-      .target_label_o   (target_label),
-      .capture_word_o   (capture_word),
-      .advance_o        (advance),
-      .odd_pixel_o      (odd_pixel),
-      .result_o         (result),
-      .result_odd_o     (result_odd),
-      .scratch_read_o   (scratch_read),
-      .scratch_write_o  (scratch_write),
-      .scratch_address_o(scratch_address),
-      .send_o           (send),
-      .send_column_o    (engine_column),
-      .send_row_o       (send_row),
-      .send_last_o      (send_last),
-      .send_waits_i     (send_waits),
-      .send_busy_i      (send_busy)
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .decode_i     (decode),
+      .choose_i     (choose),
+      .decide_i     (decide),
+      .done_o       (engine_done),
+      .read_d_o     (engine_read),
+      .write_d_o    (engine_write),
+      .address_d_o  (engine_address),
+      .load_d_o     (engine_load),
+      .select_o     (engine_select),
+      .command_o    (command),
+      .message_row_o(message_row),
+      .send_o       (send),
+      .send_column_o(engine_column),
+      .send_row_o   (send_row),
+      .send_last_o  (send_last),
+      .send_waits_i (send_waits),
+      .send_busy_i  (send_busy)
   );
 
   // What every column gets, registered to spread it.
 
-  logic coarse_q, point_q, engine_q, clear_q, decoding_q, read_q, write_q, word_load_q, group_load_q;
+  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, word_load_q, group_load_q;
   logic [ADDR_WIDTH-1:0] address_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -260,7 +236,6 @@ module pool_pointer_array #(
     point_q <= point;
     engine_q <= !stream;
     clear_q <= clear;
-    decoding_q <= decoding;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
     word_load_q <= stream_word_load || engine_load;
     group_load_q <= group_load;
@@ -353,35 +328,13 @@ module pool_pointer_array #(
           .POINTER_SHIFT    (POINTER_SHIFT),
           .RIVAL_MOVES      (RIVAL_MOVES)
       ) u_engine (
-          .clk_i            (clk_i),
-          .rst_ni           (rst_ni),
-          .line_i           (line),
-          .word_o           (word),
-          .decoding_i       (decoding_q),
-          .capture_above_i  (capture_above),
-          .capture_own_i    (capture_own),
-          .capture_below_i  (capture_below),
-          .fill_i           (fill),
-          .search_i         (search),
-          .pair_i           (pair),
-          .first_label_i    (first_label),
-          .pooled_i         (pooled),
-          .candidate_i      (candidate),
-          .deciding_i       (deciding),
-          .clear_message_i  (clear_message),
-          .begin_i          (begin_step),
-          .spread_i         (spread),
-          .pass_label_i     (pass_label),
-          .target_label_i   (target_label),
-          .capture_word_i   (capture_word),
-          .advance_i        (advance),
-          .odd_pixel_i      (odd_pixel),
-          .result_i         (result),
-          .result_odd_i     (result_odd),
-          .scratch_read_i   (scratch_read),
-          .scratch_write_i  (scratch_write),
-          .scratch_address_i(scratch_address),
-          .result_o         (results[e*RESULT_WIDTH+:RESULT_WIDTH])
+          .clk_i        (clk_i),
+          .rst_ni       (rst_ni),
+          .command_i    (command),
+          .line_i       (line),
+          .word_o       (word),
+          .message_row_i(message_row),
+          .result_o     (results[e*RESULT_WIDTH+:RESULT_WIDTH])
       );
     end
   endgenerate
