@@ -18,9 +18,9 @@
 `include "engine_command.svh"
 
 module candidate_decoder #(
-    parameter int COUNT_WIDTH = 8,
-    parameter int LABELS = 8,
-    parameter int BINS_PER_WORD = 8,
+    parameter int COUNT_WIDTH = 8,    // bits of a coarse bin
+    parameter int LABELS = 8,         // candidates of a group
+    parameter int BINS_PER_WORD = 8,  // coarse bins of a word
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
     localparam int LINE_WIDTH = BINS_PER_WORD * COUNT_WIDTH

@@ -17,11 +17,11 @@
 `include "engine_command.svh"
 
 module label_chain #(
-    parameter int LABELS = 8,
-    parameter int POSITION_WIDTH = 8,   // signed
-    parameter int REACH = 4,
-    parameter int EVIDENCE_WIDTH = 6,   // signed
-    parameter int PENALTY_WIDTH = 5,
+    parameter int LABELS = 8,           // of a pixel
+    parameter int POSITION_WIDTH = 8,   // bits of a label's position, signed
+    parameter int REACH = 4,            // labels at most so far apart are near
+    parameter int EVIDENCE_WIDTH = 6,   // bits of a label's evidence, signed
+    parameter int PENALTY_WIDTH = 5,    // bits of the penalty and of messages, unsigned
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int BELIEF_WIDTH = EVIDENCE_WIDTH + 2
 ) (

@@ -13,6 +13,8 @@
 // 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write; decide makes
 //    the result.
 //
+// It knows neither rows nor columns nor clocks: in each clock it does what the command says, and nothing else.
+//
 // Schedule: the table of engine_sequencer, with this module's POOL_ENGINE_*_CLOCKS (dtof_pkg).
 // Cost: candidate_decoder, two label_chains, a single-port SRAM of PIXELS_PER_SRAM words, per engine.
 `include "engine_command.svh"
