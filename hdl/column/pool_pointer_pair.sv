@@ -48,12 +48,11 @@ module pool_pointer_pair #(
     input  logic                  beat_t1_i,
     input  logic                  first_slot_t1_i,
     input  logic                  odd_t1_i,
-    input  logic                  odd_t2_i,
     input  logic                  first_row_t2_i,
     input  logic                  second_row_t2_i,
     input  logic                  late_t2_i,
     input  logic                  update_t3_i,
-    input  logic [           3:0] acquisition_t3_i,
+    input  logic [           3:0] acquisition_t2_i,  // registered here: it reaches all columns
     // coarse
     input  logic                  second_column_i,  // with read_i: it is the second column's turn
     input  logic                  fresh_i,          // with read_i: the first count of a group
@@ -147,6 +146,12 @@ module pool_pointer_pair #(
 
   // Columns.
 
+  logic [3:0] acquisition_t3_q;
+
+  always_ff @(posedge clk_i) begin
+    acquisition_t3_q <= acquisition_t2_i;
+  end
+
   assign word_load = word_load_i || (load_i && load_q);
 
   genvar c;
@@ -174,12 +179,12 @@ module pool_pointer_pair #(
           .beat_t1_i       (beat_t1_i),
           .first_slot_t1_i (first_slot_t1_i),
           .odd_t1_i        (odd_t1_i),
-          .odd_t2_i        (odd_t2_i),
+          .odd_t2_i        (acquisition_t2_i[0]),
           .first_row_t2_i  (first_row_t2_i),
           .second_row_t2_i (second_row_t2_i),
           .late_t2_i       (late_t2_i),
           .update_t3_i     (update_t3_i),
-          .acquisition_t3_i(acquisition_t3_i),
+          .acquisition_t3_i(acquisition_t3_q),
           .valid_t2_o      (valid_t2[c]),
           .bin_t2_o        (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),
           .held_valid_o    (held_valid[c]),

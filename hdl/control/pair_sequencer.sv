@@ -39,12 +39,11 @@ module pair_sequencer #(
     output logic                  beat_t1_o,
     output logic                  first_slot_t1_o,
     output logic                  odd_t1_o,
-    output logic                  odd_t2_o,
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
     output logic                  second_row_t2_o,   // coarse: its second one is
     output logic                  late_t2_o,
     output logic                  update_t3_o,
-    output logic [           3:0] acquisition_t3_o,
+    output logic [           3:0] acquisition_t2_o,
     // coarse, both columns' turns
     output logic                  second_column_o,   // with a read
     output logic                  fresh_o,           // with the read of a group's first count
@@ -197,7 +196,6 @@ module pair_sequencer #(
     pair_tn_q <= {pair_tn_q[4*PAIR_WIDTH-1:0], pair_t1_q};
     acquisition_t2_q <= acquisition_t1_q;
     late_t2_o <= late_t1_q;
-    acquisition_t3_o <= acquisition_t2_q;
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
     fresh_o <= fetch_t1 && (GROUPS > 1) && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
   end
@@ -209,7 +207,7 @@ module pair_sequencer #(
   assign first_slot_t1_o = first_slot_t1_q;
   assign odd_t1_o = acquisition_t1_q[0];
   assign update_t3_o = update_t3_q;
-  assign odd_t2_o = acquisition_t2_q[0];
+  assign acquisition_t2_o = acquisition_t2_q;
   assign second_row_t2_o = fetch_tn_q[2];
   assign second_column_o = fetch_tn_q[4];
   assign pair_t2 = pair_tn_q[PAIR_WIDTH-1:0];

@@ -141,9 +141,9 @@ module pool_pointer_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, odd_t2, first_row_t2, second_row_t2, late_t2, update_t3;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t3;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
-  logic [3:0] acquisition_t3;
+  logic [3:0] acquisition_t2;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -164,12 +164,11 @@ module pool_pointer_array #(
       .beat_t1_o        (beat_t1),
       .first_slot_t1_o  (first_slot_t1),
       .odd_t1_o         (odd_t1),
-      .odd_t2_o         (odd_t2),
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (late_t2),
       .update_t3_o      (update_t3),
-      .acquisition_t3_o (acquisition_t3),
+      .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
       .fresh_o          (fresh),
       .load_o           (load),
@@ -291,12 +290,11 @@ module pool_pointer_array #(
             .beat_t1_i        (beat_t1),
             .first_slot_t1_i  (first_slot_t1),
             .odd_t1_i         (odd_t1),
-            .odd_t2_i         (odd_t2),
             .first_row_t2_i   (first_row_t2),
             .second_row_t2_i  (second_row_t2),
             .late_t2_i        (late_t2),
             .update_t3_i      (update_t3),
-            .acquisition_t3_i (acquisition_t3),
+            .acquisition_t2_i (acquisition_t2),
             .second_column_i  (second_column),
             .fresh_i          (fresh),
             .load_i           (load),
