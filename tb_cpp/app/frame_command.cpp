@@ -164,6 +164,7 @@ struct TabledReadout {
 std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& readouts, TableRule rule,
                                        const PhotonSource& scene, Fidelity fidelity, const RunSettings& run) {
   std::vector<TabledReadout> tabled;
+  tabled.reserve(readouts.size());
   for (const ReadoutParameters& parameters : readouts) {
     tabled.push_back({parameters, std::nullopt});
   }

@@ -144,6 +144,7 @@ std::vector<std::vector<std::size_t>> groups_of_distance(const std::vector<doubl
     groups[std::min(static_cast<int>((true_m[i] - lowest) / width), count - 1)].push_back(i);
   }
   std::vector<std::vector<std::size_t>> found;
+  found.reserve(groups.size());
   for (auto& [group, members] : groups) {
     found.push_back(std::move(members));
   }
@@ -160,12 +161,14 @@ Table distances_against_truth(const std::vector<TruthComparison>& comparisons) {
   Table table(header);
   for (const std::vector<std::size_t>& members : groups_of_distance(comparisons.front().true_m, kGroups)) {
     std::vector<double> truths;
+    truths.reserve(members.size());
     for (const std::size_t i : members) {
       truths.push_back(comparisons.front().true_m[i]);
     }
     std::vector<std::string> row = {fmt::format("{:.0f}", median(truths) * 1e3)};
     for (const TruthComparison& comparison : comparisons) {
       std::vector<double> errors;
+      errors.reserve(members.size());
       for (const std::size_t i : members) {
         errors.push_back(comparison.measured_m[i] - comparison.true_m[i]);
       }
@@ -185,7 +188,9 @@ std::vector<PlotSeries> errors_over_truth(const std::vector<TruthComparison>& co
     PlotSeries& line = series.emplace_back(PlotSeries{comparison.title, {}, {}});
     for (const std::vector<std::size_t>& members : groups_of_distance(comparison.true_m, kGroups)) {
       std::vector<double> truths;
+      truths.reserve(members.size());
       std::vector<double> errors;
+      errors.reserve(members.size());
       for (const std::size_t i : members) {
         truths.push_back(comparison.true_m[i] * 1e3);
         errors.push_back((comparison.measured_m[i] - comparison.true_m[i]) * 1e3);

@@ -66,7 +66,7 @@ std::string number_error(const std::string& text, const std::string& type) {
 CLI::Validator within(double lowest, double highest, const std::string& reason) {
   return {[lowest, highest, reason](std::string& text) {
             double value = 0.0;
-            if (const std::string error = number_error(text, "FLOAT"); !error.empty()) {
+            if (std::string error = number_error(text, "FLOAT"); !error.empty()) {
               return error;
             }
             (void)parse(text, value);
