@@ -15,8 +15,9 @@
 namespace dtof {
 namespace {
 
-constexpr int kPairColumns = 2;  // columns that share an SRAM, and so a group
-constexpr int kSmoothShift = 2;  // S1 moves by a quarter
+constexpr int kPairColumns = 2;         // columns that share an SRAM, and so a group
+constexpr int kSmoothShift = 2;         // S1 moves by a quarter
+constexpr std::int32_t kNoOpinion = 0;  // no candidate has this cell
 
 void require_range(const char* name, int value, int lowest, int highest) {
   if (value < lowest || value > highest) {
@@ -192,7 +193,7 @@ std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<P
       Evidence evidence = own_evidence(tracks[column][row], group, parameters);
       if (column > 0) {
         for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
-          evidence[k] -= agree(group.centre_cell[k], left[row], parameters)
+          evidence[k] -= left[row] == kNoOpinion || agree(group.centre_cell[k], left[row], parameters)
                              ? 0
                              : parameters.left_cost.at(group.background);
         }
@@ -220,7 +221,10 @@ std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<P
       words[column].push_back(
           first_word(tracks[column][row], group,
                      std::span(beliefs[row]).first(static_cast<std::size_t>(group.labels)), parameters));
-      left[row] = group.centre_cell[static_cast<std::size_t>(words[column].back().leader)];
+      const PoolPointerWord& word = words[column].back();
+      left[row] = parameters.left_needs_margin != 0 && word.advantage == 0
+                      ? kNoOpinion
+                      : group.centre_cell[static_cast<std::size_t>(word.leader)];
     }
   }
   return words;
@@ -254,6 +258,8 @@ void PoolPointer2Parameters::validate() const {
   require_range("OFFSET_BITS", offset_bits, 2, 6);
   require_range("ADVANTAGE_WIDTH", count_bits, 7, 7);
   require_range("POINTER_SHIFT", pointer_shift, 0, 2);
+  require_range("LEFT_NEEDS_MARGIN", left_needs_margin, 0, 1);
+  require_range("SMOOTH_LEFT", smooth_left, 0, 1);
   require_range("COARSE_SHARE", coarse_share, 1, 62);
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
   if (group_rows < 2 || group_rows > 32 || (group_rows & (group_rows - 1)) != 0) {
@@ -346,6 +352,7 @@ std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::u
 }
 
 std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners,
+                                             std::span<const PoolWinner> left,
                                              const PoolPointer2Parameters& parameters) {
   std::vector<std::int32_t> positions;
   for (std::size_t row = 0; row < winners.size(); ++row) {
@@ -353,15 +360,18 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
     const bool bright = winners[row].background >= parameters.smooth_bright_from;
     const int reach = parameters.smooth_reach[bright ? 1 : 0];
     std::int32_t sum = 0;
-    const auto add = [&](std::size_t neighbour) {
-      const std::int32_t distance = winners[neighbour].position - own;
+    const auto add = [&](const PoolWinner& neighbour) {
+      const std::int32_t distance = neighbour.position - own;
       sum += std::abs(distance) <= reach ? distance : 0;
     };
     if (row > 0) {
-      add(row - 1);
+      add(winners[row - 1]);
     }
     if (row + 1 < winners.size()) {
-      add(row + 1);
+      add(winners[row + 1]);
+    }
+    if (parameters.smooth_left != 0 && !left.empty()) {
+      add(left[row]);
     }
     positions.push_back(own + sum / (1 << kSmoothShift));
   }
@@ -383,8 +393,12 @@ std::vector<std::vector<PixelResult>> run_pool_pointer2(std::span<const ColumnSt
     if (engine.size() < static_cast<std::size_t>(parameters.engine_columns) && column + 1 < array.size()) {
       continue;
     }
-    for (const PoolWinners& winners : read_engine(engine, acquisitions, parameters)) {
-      const std::vector<std::int32_t> smoothed = smoothed_positions(winners, parameters);
+    const std::vector<PoolWinners> columns = read_engine(engine, acquisitions, parameters);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const PoolWinners& winners = columns[i];
+      const std::vector<std::int32_t> smoothed = smoothed_positions(
+          winners, i > 0 ? std::span<const PoolWinner>(columns[i - 1]) : std::span<const PoolWinner>(),
+          parameters);
       std::vector<PixelResult>& pixels = results.emplace_back();
       for (std::size_t row = 0; row < winners.size(); ++row) {
         pixels.push_back(pool_result(parameters.smooth ? smoothed[row] : winners[row].position,

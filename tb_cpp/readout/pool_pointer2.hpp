@@ -52,7 +52,11 @@ struct PoolPointer2Parameters {
 
   PointerWindows windows = {.weight = {1, 3, 4, 4, 4, 3, 2, 1}, .rival_reach = 6};
 
+  int left_needs_margin =
+      0;  ///< 1: a pixel whose best two labels are equal tells the column to the right nothing
+
   bool smooth = true;                              ///< S1
+  int smooth_left = 0;                             ///< 1: S1 takes the pixel to the left, too
   std::array<int, 2> smooth_reach = {1024, 1536};  ///< units: T of dark and of bright groups
   int smooth_bright_from = 6;                      ///< B from which a group is bright there
 
@@ -91,9 +95,11 @@ using PoolWinners = std::vector<PoolWinner>;
 std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::uint32_t acquisitions,
                                      const PoolPointer2Parameters& parameters);
 
-/// Positions of a column's winners after S1: each moves by a quarter of the sum of its vertical neighbours'
-/// distances, as far as these are within T.
+/// Positions of a column's winners after S1: each moves by a quarter of the sum of its neighbours' distances,
+/// as far as these are within T: those above and below and, with smooth_left, the one to the left. `left`:
+/// the winners of the column to the left, empty for an engine's first column.
 std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners,
+                                             std::span<const PoolWinner> left,
                                              const PoolPointer2Parameters& parameters);
 
 /// Reads an array, column by column from left to right, engine by engine; index: column, row. Throws

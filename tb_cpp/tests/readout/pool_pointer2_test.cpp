@@ -42,6 +42,7 @@ struct Pixel {
   int leader = 0;
   int offset = 0;
   int chosen = 0;
+  bool sure = false;
   int n = 0, pa = 0, pb = 0;
   int winner = 0, margin = 0;
 };
@@ -56,12 +57,22 @@ int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
 class Reference {
  public:
+  /// What the definition leaves open.
+  struct Open {
+    int coarse = 16;  // 64ths
+    int track = 20;
+    bool left_needs_margin = false;
+    bool smooth = true;
+    bool smooth_left = false;
+  };
+
   /// One engine: columns from left to right.
-  Reference(const std::vector<ColumnStream>& columns, int np, int acquisitions)
+  Reference(const std::vector<ColumnStream>& columns, int np, int acquisitions, Open open)
       : columns_(static_cast<int>(columns.size())),
         rows_(columns.front().rows()),
         np_(np),
-        all_(acquisitions) {
+        all_(acquisitions),
+        open_(open) {
     const int scale = 1 << (16 - np);
     for (int c = 0; c < columns_; ++c) {
       for (int r = 0; r < rows_; ++r) {
@@ -78,14 +89,14 @@ class Reference {
     }
   }
 
-  std::vector<std::vector<PixelResult>> run(bool smooth) {
+  std::vector<std::vector<PixelResult>> run() {
     coarse();
     for (auto& [place, group] : groups_) {
       decode(place, group);
     }
     for (auto& [place, pixel] : pixels_) {
       for (const auto& [a, times] : pixel.seen) {
-        if (a >= all_ * 16 / 64 && a < all_ * 36 / 64) {
+        if (a >= coarse_end() && a < track_end()) {
           track(pixel, group(place), a, times);
         }
       }
@@ -95,7 +106,7 @@ class Reference {
     }
     for (auto& [place, pixel] : pixels_) {
       for (const auto& [a, times] : pixel.seen) {
-        if (a >= all_ * 36 / 64) {
+        if (a >= track_end()) {
           point(pixel, a, times);
         }
       }
@@ -105,12 +116,15 @@ class Reference {
     }
     std::vector<std::vector<PixelResult>> results(static_cast<std::size_t>(columns_));
     for (const auto& [place, pixel] : pixels_) {
-      results[static_cast<std::size_t>(place.column)].push_back(result(place, smooth));
+      results[static_cast<std::size_t>(place.column)].push_back(result(place));
     }
     return results;
   }
 
  private:
+  [[nodiscard]] int coarse_end() const { return all_ * open_.coarse / 64; }
+  [[nodiscard]] int track_end() const { return all_ * (open_.coarse + open_.track) / 64; }
+
   Group& group(Place place) { return groups_[{place.column / 2, place.row / 4}]; }
 
   static int preferred(int a, const std::vector<int>& times) {
@@ -118,7 +132,7 @@ class Reference {
   }
 
   void coarse() {
-    for (int a = 0; a < all_ * 16 / 64; ++a) {
+    for (int a = 0; a < coarse_end(); ++a) {
       for (int c = 0; c < columns_; ++c) {
         for (int r = 0; r < rows_; r += 2) {
           // Even acquisitions are the even row's turn, if it has a timestamp.
@@ -310,7 +324,8 @@ class Reference {
       const Group& g = group({c, r});
       std::vector<int> e = own_evidence({c, r});
       for (std::size_t k = 0; k < 5; ++k) {
-        if (c > 0 && std::abs(g.cell[k] - pixels_.at({c - 1, r}).chosen) > 4) {
+        const bool heard = c > 0 && (pixels_.at({c - 1, r}).sure || !open_.left_needs_margin);
+        if (heard && std::abs(g.cell[k] - pixels_.at({c - 1, r}).chosen) > 4) {
           e[k] -= 2 + 3 * g.b / 16;
         }
         if (c + 1 < columns_) {
@@ -340,6 +355,7 @@ class Reference {
       };
       pixel.chosen = g.cell[a];
       pixel.n = std::min(63, belief[static_cast<std::size_t>(r)][a] - belief[static_cast<std::size_t>(r)][b]);
+      pixel.sure = pixel.n > 0;
       pixel.pa = start(a);
       pixel.pb = floor_divide(start(b), 512);
     }
@@ -396,15 +412,19 @@ class Reference {
     }
   }
 
-  PixelResult result(Place place, bool smooth) {
+  PixelResult result(Place place) {
     const Pixel& pixel = pixels_.at(place);
     int position = pixel.winner;
-    if (smooth) {
+    if (open_.smooth) {
       const int reach = group(place).b < 6 ? 1024 : 1536;
       int sum = 0;
-      for (const int row : {place.row - 1, place.row + 1}) {
-        if (row >= 0 && row < rows_) {
-          const int d = pixels_.at({place.column, row}).winner - pixel.winner;
+      std::vector<Place> beside = {{place.column, place.row - 1}, {place.column, place.row + 1}};
+      if (open_.smooth_left) {
+        beside.push_back({place.column - 1, place.row});
+      }
+      for (const Place at : beside) {
+        if (pixels_.contains(at)) {
+          const int d = pixels_.at(at).winner - pixel.winner;
           sum += d > reach || d < -reach ? 0 : d;
         }
       }
@@ -420,23 +440,29 @@ class Reference {
   int rows_;
   int np_;
   int all_;
+  Open open_;
   std::map<Place, Pixel> pixels_;
   std::map<Place, Group> groups_;
 };
 
 void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
-                         int engine_columns = 34) {
+                         int engine_columns = 34, Reference::Open open = {}) {
   for (const bool smooth : {false, true}) {
+    open.smooth = smooth;
     PoolPointer2Parameters parameters;
     parameters.engine_columns = engine_columns;
     parameters.smooth = smooth;
+    parameters.smooth_left = open.smooth_left ? 1 : 0;
+    parameters.left_needs_margin = open.left_needs_margin ? 1 : 0;
+    parameters.coarse_share = open.coarse;
+    parameters.track_share = open.track;
     const auto actual = run_pool_pointer2(array, np, static_cast<std::uint32_t>(acquisitions), parameters);
     std::vector<std::vector<PixelResult>> expected;
     for (std::size_t begin = 0; begin < array.size(); begin += static_cast<std::size_t>(engine_columns)) {
       const std::size_t end = std::min(array.size(), begin + static_cast<std::size_t>(engine_columns));
       const std::vector<ColumnStream> engine(array.begin() + static_cast<std::ptrdiff_t>(begin),
                                              array.begin() + static_cast<std::ptrdiff_t>(end));
-      for (auto& column : Reference(engine, np, acquisitions).run(smooth)) {
+      for (auto& column : Reference(engine, np, acquisitions, open).run()) {
         expected.push_back(std::move(column));
       }
     }
@@ -570,6 +596,36 @@ TEST_F(PoolPointer2, SurfacesAsReference) {
     expect_as_reference(surfaces(np, 2 + pick(draw, 3), 1 + pick(draw, 9), 1 + pick(draw, 24),
                                  kBackgrounds[static_cast<std::size_t>(pick(draw, 5))], 900, draw),
                         np, 900, engine);
+  }
+}
+
+// The numbers and switches that are still being chosen.
+TEST_F(PoolPointer2, OtherSharesAndSwitchesAsReference) {
+  CounterRandom draw = random(6);
+  for (int trial = 0; trial < 24; ++trial) {
+    const Reference::Open open{.coarse = 8 + pick(draw, 16),
+                               .track = 8 + pick(draw, 24),
+                               .left_needs_margin = trial % 2 == 1,
+                               .smooth = true,
+                               .smooth_left = trial / 2 % 2 == 1};
+    const double background = trial % 3 == 0 ? 0.02 : 0.3;
+    expect_as_reference(surfaces(10, 2, 1 + pick(draw, 9), 1 + pick(draw, 24), background, 700, draw), 10,
+                        700, 2 * (1 + pick(draw, 3)), open);
+  }
+}
+
+// A pixel that is sure of nothing may be kept from telling the next column something.
+TEST_F(PoolPointer2, NothingDetectedIsNoConfidence) {
+  std::vector<ColumnStream> array(3);
+  for (ColumnStream& column : array) {
+    for (int row = 0; row < 8; ++row) {
+      column.finish_row();
+    }
+  }
+  PoolPointer2Parameters parameters;
+  parameters.left_needs_margin = 1;
+  for (const auto& column : run_pool_pointer2(array, 10, 3333, parameters)) {
+    EXPECT_THAT(column, testing::Each(PixelResult{31, 32, 0}));
   }
 }
 
