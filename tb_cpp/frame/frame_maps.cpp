@@ -65,7 +65,8 @@ std::vector<std::string> figure_names(bool table) {
 std::vector<std::string> figure_values(const ErrorStatistics& statistics, const RunningMoments& before,
                                        bool table) {
   if (statistics.count() == 0) {
-    return std::vector<std::string>(figure_names(table).size(), "-");
+    std::vector<std::string> unknown(figure_names(table).size(), "-");
+    return unknown;
   }
   const ErrorSummary summary = statistics.summary();
   std::vector<std::string> values = {fmt::format("{:.0f}", summary.rmse_m * 1e3),
