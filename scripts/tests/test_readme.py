@@ -13,6 +13,8 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 # A command may go on behind a backslash, and some make their input with Python.
 EXAMPLE = re.compile(r"^    ((?:build/cpp/|/usr/bin/python3 )(?:.*\\\n)*.*?)(?:\s+#.*)?$", re.MULTILINE)
 PROGRAMS = ROOT / "build" / "cpp"
+# Its commands need the files that it adds: make test-adding runs them in a clone that has these.
+ADDING = ROOT / "docs" / "user" / "adding_a_readout.md"
 
 
 def examples(document: Path) -> list[str]:
@@ -36,7 +38,8 @@ class Examples(unittest.TestCase):
         self.assertGreaterEqual(self.run_examples(ROOT / "README.md"), 8)
 
     def test_documents(self) -> None:
-        self.assertGreater(sum(self.run_examples(document) for document in sorted(ROOT.glob("docs/**/*.md"))), 0)
+        documents = sorted(set(ROOT.glob("docs/**/*.md")) - {ADDING})
+        self.assertGreater(sum(self.run_examples(document) for document in documents), 0)
 
 
 class Results(unittest.TestCase):
