@@ -1,15 +1,23 @@
 # SPDX-License-Identifier: Apache-2.0
 # make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
+# make pool       poolPointer 2 with and without S1 beside poolPointer and the matched filters, four seeds (half an hour)
+# make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: scenes pareto trade real-data walk-error
+.PHONY: scenes pool pool-search pareto trade real-data walk-error
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
   hispointer:COUNT_WIDTH=12 sifh:WINDOW_CENTRED=1 sifh:COUNT_WIDTH=8 sifh:COUNT_WIDTH=12 \
   fifh:COUNT_WIDTH=8 fifh:COUNT_WIDTH=12
+# A map is for training or for tests, never for both.
+POOL_TRAINING_MAP := $(addprefix --disparity ,$(wildcard $(SHARED_DATA)/middlebury_Laundry_disp1.png))
+POOL_NUMBERS := COARSE_SHARE=12,14,16,18 TRACK_SHARE=16,18,20,22,24 OWN_WEIGHT LEAK_SHIFT TRACK_REACH OFFSET_GEAR_0 \
+  OFFSET_GEAR_1 LABEL_COST LABEL_COST_SLOPE CHOOSE_PENALTY CHOOSE_PENALTY_SLOPE LEFT_COST LEFT_COST_SLOPE RIGHT_LIMIT \
+  RIGHT_LIMIT_SLOPE LATERAL_REACH RIVAL_REACH DECIDE_PENALTY DECIDE_PENALTY_SLOPE SMOOTH_DARK=768,1280 \
+  SMOOTH_BRIGHT=1280,2048 SMOOTH_BRIGHT_FROM WEIGHT_0 WEIGHT_1 WEIGHT_5 WEIGHT_6 WEIGHT_7
 PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
   --surfaces $(SHARED_DATA)/shin2016_two_layer_obj.mat --shift -20
 
@@ -25,6 +33,17 @@ scenes: study
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/scenes_synthetic"; \
 	  $(DTOF_STUDY) scenes --held-out --seed $(SEED) --out build/scenes_synthetic; \
 	fi
+
+pool: study
+	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
+	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --seed $(SEED) --out build/pool; \
+	else \
+	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/pool_synthetic"; \
+	  $(DTOF_STUDY) pool --held-out --seed $(SEED) --out build/pool_synthetic; \
+	fi
+
+pool-search: study
+	@$(DTOF_STUDY) pool-search $(POOL_TRAINING_MAP) --vary $(POOL_NUMBERS) --seeds 2 --rounds 2 --out build/pool_search
 
 pareto:
 	@/usr/bin/python3 scripts/pareto.py

@@ -15,6 +15,8 @@ Program study_program() {
       .add_commands = [](CLI::App& app, const std::string& command_line) {
         add_accuracy_command(app, command_line);
         add_scenes_command(app, command_line);
+        add_pool_command(app, command_line);
+        add_pool_search_command(app, command_line);
         add_measured_command(app, command_line);
         add_reproduce_command(app, command_line);
         add_coverage_command(app, command_line);

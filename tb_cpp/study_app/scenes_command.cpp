@@ -32,161 +32,22 @@
 #include "study/readout_variant.hpp"
 #include "study/scene_study.hpp"
 #include "study_app/commands.hpp"
+#include "study_app/scene_list.hpp"
 
 namespace dtof {
 namespace {
 
-struct ScenesOptions {
+struct ScenesOptions : SceneChoice {
   std::vector<std::string> sensors = {"thesis", "phone"};
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
   std::string readouts =
       "ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,poolpointer,poolpointer-lean";
   std::vector<std::string> variants;
-  std::vector<std::string> scenes = {"flat", "room", "planes", "clutter", "poles", "isolated"};
-  std::vector<std::string> maps;
-  MapScales map_scales;
-  std::string disparity_file;
-  double nearest_m = 1.0;
-  std::string surface_file;
-  std::string surface_variable = "T_second";
-  bool held_out = false;
   std::string table = "flat";
-  int columns = 200;
-  std::uint64_t seed = 1;
   int threads = 0;
   std::string out = "build/scenes";
   std::string command_line;
 };
-
-constexpr std::array kFlatDistances = {0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
-constexpr int kFlatColumns = 10;
-
-/// Surfaces have no reflectivity in a depth map: each block of 20 x 20 pixels gets its own.
-void vary_reflectivity(TargetMap& targets, double reflectivity, std::uint64_t seed) {
-  constexpr int kBlock = 20;
-  for (int column = 0; column < targets.columns(); ++column) {
-    for (int row = 0; row < targets.rows(); ++row) {
-      const auto block = static_cast<std::uint32_t>(column / kBlock + (row / kBlock << 8));
-      CounterRandom random(seed, static_cast<std::uint32_t>(RandomPurpose::kScene), 0, block);
-      targets.at(column, row).reflectivity = reflectivity * std::lerp(0.1, 0.9, random.uniform());
-    }
-  }
-}
-
-/// Scenes of the study, and how maps among them were resampled.
-struct SceneList {
-  std::vector<StudyScene> scenes;
-  std::vector<std::string> notes;
-
-  void add_map(const std::string& name, const std::string& note, TargetMap targets, int columns) {
-    scenes.push_back({name, std::move(targets), columns});
-    notes.push_back(fmt::format("Scene {}: {}", name, note));
-  }
-};
-
-/// The map scaled to its nearest point's distance.
-void add_depth_map(SceneList& list, const std::string& name, DepthImage image, double nearest_m,
-                   const SensorModel& sensor, const ScenesOptions& options) {
-  float nearest = std::numeric_limits<float>::infinity();
-  for (const float metres : image.metres) {
-    nearest = metres > 0.0F ? std::min(nearest, metres) : nearest;
-  }
-  if (!std::isfinite(nearest)) {
-    throw InputError(fmt::format("{}: no known depth", name));
-  }
-  for (float& metres : image.metres) {
-    metres *= static_cast<float>(nearest_m) / nearest;
-  }
-  TargetMap targets =
-      scene_from_depth_image(image.width, image.height, image.metres, sensor.columns, sensor.rows);
-  vary_reflectivity(targets, sensor.default_reflectivity, options.seed);
-  const std::string note = resampling_sentence(fmt::format("nearest point put at {:g} m", nearest_m),
-                                               image.width, image.height, targets);
-  list.add_map(name, note, std::move(targets), std::min(options.columns, sensor.columns));
-}
-
-/// Rows become columns.
-DepthImage turned(const DepthImage& image) {
-  DepthImage turned{image.height, image.width, {}};
-  for (int row = 0; row < turned.height; ++row) {
-    for (int column = 0; column < turned.width; ++column) {
-      turned.metres.push_back(image.at(row, column));
-    }
-  }
-  return turned;
-}
-
-DepthImage read_surface(const ScenesOptions& options) {
-  const MatMatrix matrix = read_mat_matrix(options.surface_file, options.surface_variable);
-  DepthImage image{matrix.columns, matrix.rows, {}};
-  for (const double value : matrix.values) {
-    image.metres.push_back(static_cast<float>(value));
-  }
-  return image;
-}
-
-/// Scenes that poolPointer's parameters were not chosen on.
-void add_held_out(const ScenesOptions& options, const SensorModel& sensor, SceneList& list) {
-  constexpr std::uint64_t kOtherShapes = 1000;
-  SceneParameters parameters;
-  parameters.columns = sensor.columns;
-  parameters.rows = sensor.rows;
-  parameters.reflectivity = sensor.default_reflectivity;
-  parameters.seed = options.seed + kOtherShapes;
-  const int columns = std::min(options.columns, sensor.columns);
-  for (const Scene scene : {Scene::kPlanes, Scene::kClutter, Scene::kPoles, Scene::kStaircase}) {
-    list.scenes.push_back(
-        {fmt::format("held {}", scene_name(scene)), make_scene(scene, parameters), columns});
-  }
-  if (!options.disparity_file.empty()) {
-    constexpr double kNearer = 0.6;
-    add_depth_map(list, "held disparity map", turned(read_disparity_png(options.disparity_file, 1.0)),
-                  kNearer * options.nearest_m, sensor, options);
-  }
-  if (!options.surface_file.empty()) {
-    add_depth_map(list, "held surface", read_surface(options), options.nearest_m, sensor, options);
-  }
-}
-
-SceneList make_scenes(const ScenesOptions& options, const SensorModel& sensor) {
-  SceneList list;
-  std::vector<StudyScene>& scenes = list.scenes;
-  for (const std::string& name : options.scenes) {
-    const Scene scene = parse_scene(name);
-    SceneParameters parameters;
-    parameters.columns = sensor.columns;
-    parameters.rows = sensor.rows;
-    parameters.reflectivity = sensor.default_reflectivity;
-    parameters.seed = options.seed;
-    if (scene == Scene::kFlat) {
-      parameters.columns = kFlatColumns;
-      for (const double distance : kFlatDistances) {
-        parameters.distance_m = distance;
-        scenes.push_back({fmt::format("flat {:g} m", distance), make_scene(scene, parameters), kFlatColumns});
-      }
-    } else {
-      scenes.push_back({name, make_scene(scene, parameters), std::min(options.columns, sensor.columns)});
-    }
-  }
-  if (!options.disparity_file.empty()) {
-    add_depth_map(list, "disparity map", read_disparity_png(options.disparity_file, 1.0), options.nearest_m,
-                  sensor, options);
-  }
-  for (const std::string& text : options.maps) {
-    const NamedMap named = parse_named_map(text);
-    if (std::ranges::find(scenes, named.name, &StudyScene::name) != scenes.end()) {
-      throw InputError(fmt::format("--map '{}': another map has this name", text));
-    }
-    OwnMap map = read_own_map(named.files, options.map_scales, sensor.columns, sensor.rows,
-                              sensor.default_reflectivity);
-    list.add_map(named.name, map.description, std::move(map.targets),
-                 std::min(options.columns, sensor.columns));
-  }
-  if (options.held_out) {
-    add_held_out(options, sensor, list);
-  }
-  return list;
-}
 
 struct EstimatorResult {
   SceneScore score;
@@ -265,8 +126,6 @@ PlotSeries confidence_curve(const std::vector<SceneResult>& results, std::size_t
   }
   return series;
 }
-
-bool is_flat(const std::string& scene) { return scene.starts_with("flat "); }
 
 bool shows_pooled_gain(const std::string& scene) {
   return is_flat(scene) || scene == "planes" || scene == "held planes";

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "study_app/scene_list.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/random.hpp"
+#include "io/depth_image.hpp"
+#include "recording/photon_times_mat.hpp"
+#include "scene/scene.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr std::array kFlatDistances = {0.2, 0.5, 1.0, 2.0, 3.0, 4.0, 5.0};
+constexpr int kFlatColumns = 10;
+
+/// Surfaces have no reflectivity in a depth map: each block of 20 x 20 pixels gets its own.
+void vary_reflectivity(TargetMap& targets, double reflectivity, std::uint64_t seed) {
+  constexpr int kBlock = 20;
+  for (int column = 0; column < targets.columns(); ++column) {
+    for (int row = 0; row < targets.rows(); ++row) {
+      const auto block = static_cast<std::uint32_t>(column / kBlock + (row / kBlock << 8));
+      CounterRandom random(seed, static_cast<std::uint32_t>(RandomPurpose::kScene), 0, block);
+      targets.at(column, row).reflectivity = reflectivity * std::lerp(0.1, 0.9, random.uniform());
+    }
+  }
+}
+
+/// The map scaled to its nearest point's distance.
+void add_depth_map(SceneList& list, const std::string& name, DepthImage image, double nearest_m,
+                   const SensorModel& sensor, const SceneChoice& options) {
+  float nearest = std::numeric_limits<float>::infinity();
+  for (const float metres : image.metres) {
+    nearest = metres > 0.0F ? std::min(nearest, metres) : nearest;
+  }
+  if (!std::isfinite(nearest)) {
+    throw InputError(fmt::format("{}: no known depth", name));
+  }
+  for (float& metres : image.metres) {
+    metres *= static_cast<float>(nearest_m) / nearest;
+  }
+  TargetMap targets =
+      scene_from_depth_image(image.width, image.height, image.metres, sensor.columns, sensor.rows);
+  vary_reflectivity(targets, sensor.default_reflectivity, options.seed);
+  const std::string note = resampling_sentence(fmt::format("nearest point put at {:g} m", nearest_m),
+                                               image.width, image.height, targets);
+  list.add_map(name, note, std::move(targets), std::min(options.columns, sensor.columns));
+}
+
+/// Rows become columns.
+DepthImage turned(const DepthImage& image) {
+  DepthImage turned{image.height, image.width, {}};
+  for (int row = 0; row < turned.height; ++row) {
+    for (int column = 0; column < turned.width; ++column) {
+      turned.metres.push_back(image.at(row, column));
+    }
+  }
+  return turned;
+}
+
+DepthImage read_surface(const SceneChoice& options) {
+  const MatMatrix matrix = read_mat_matrix(options.surface_file, options.surface_variable);
+  DepthImage image{matrix.columns, matrix.rows, {}};
+  for (const double value : matrix.values) {
+    image.metres.push_back(static_cast<float>(value));
+  }
+  return image;
+}
+
+/// Scenes that poolPointer's parameters were not chosen on.
+void add_held_out(const SceneChoice& options, const SensorModel& sensor, SceneList& list) {
+  constexpr std::uint64_t kOtherShapes = 1000;
+  SceneParameters parameters;
+  parameters.columns = sensor.columns;
+  parameters.rows = sensor.rows;
+  parameters.reflectivity = sensor.default_reflectivity;
+  parameters.seed = options.seed + kOtherShapes;
+  const int columns = std::min(options.columns, sensor.columns);
+  for (const Scene scene : {Scene::kPlanes, Scene::kClutter, Scene::kPoles, Scene::kStaircase}) {
+    list.scenes.push_back(
+        {fmt::format("held {}", scene_name(scene)), make_scene(scene, parameters), columns});
+  }
+  if (!options.disparity_file.empty()) {
+    constexpr double kNearer = 0.6;
+    add_depth_map(list, "held disparity map", turned(read_disparity_png(options.disparity_file, 1.0)),
+                  kNearer * options.nearest_m, sensor, options);
+  }
+  if (!options.surface_file.empty()) {
+    add_depth_map(list, "held surface", read_surface(options), options.nearest_m, sensor, options);
+  }
+}
+
+}  // namespace
+
+SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor) {
+  SceneList list;
+  std::vector<StudyScene>& scenes = list.scenes;
+  for (const std::string& name : options.scenes) {
+    const Scene scene = parse_scene(name);
+    SceneParameters parameters;
+    parameters.columns = sensor.columns;
+    parameters.rows = sensor.rows;
+    parameters.reflectivity = sensor.default_reflectivity;
+    parameters.seed = options.seed;
+    if (scene == Scene::kFlat) {
+      parameters.columns = kFlatColumns;
+      for (const double distance : kFlatDistances) {
+        parameters.distance_m = distance;
+        scenes.push_back({fmt::format("flat {:g} m", distance), make_scene(scene, parameters), kFlatColumns});
+      }
+    } else {
+      scenes.push_back({name, make_scene(scene, parameters), std::min(options.columns, sensor.columns)});
+    }
+  }
+  if (!options.disparity_file.empty()) {
+    add_depth_map(list, "disparity map", read_disparity_png(options.disparity_file, 1.0), options.nearest_m,
+                  sensor, options);
+  }
+  for (const std::string& text : options.maps) {
+    const NamedMap named = parse_named_map(text);
+    if (std::ranges::find(scenes, named.name, &StudyScene::name) != scenes.end()) {
+      throw InputError(fmt::format("--map '{}': another map has this name", text));
+    }
+    OwnMap map = read_own_map(named.files, options.map_scales, sensor.columns, sensor.rows,
+                              sensor.default_reflectivity);
+    list.add_map(named.name, map.description, std::move(map.targets),
+                 std::min(options.columns, sensor.columns));
+  }
+  if (options.held_out) {
+    add_held_out(options, sensor, list);
+  }
+  return list;
+}
+
+}  // namespace dtof

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command_line/own_map.hpp"
+#include "photon/sensor_model.hpp"
+#include "study/scene_study.hpp"
+
+namespace dtof {
+
+/// Which scenes a study reads.
+struct SceneChoice {
+  std::vector<std::string> scenes = {"flat", "room", "planes", "clutter", "poles", "isolated"};
+  std::vector<std::string> maps;
+  MapScales map_scales;
+  std::string disparity_file;
+  double nearest_m = 1.0;
+  std::string surface_file;
+  std::string surface_variable = "T_second";
+  bool held_out = false;
+  int columns = 200;
+  std::uint64_t seed = 1;
+};
+
+/// Scenes of the study, and how maps among them were resampled.
+struct SceneList {
+  std::vector<StudyScene> scenes;
+  std::vector<std::string> notes;
+
+  void add_map(const std::string& name, const std::string& note, TargetMap targets, int columns) {
+    scenes.push_back({name, std::move(targets), columns});
+    notes.push_back(fmt::format("Scene {}: {}", name, note));
+  }
+};
+
+/// One of the scenes "flat".
+inline bool is_flat(const std::string& scene) { return scene.starts_with("flat "); }
+SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor);
+
+}  // namespace dtof
