@@ -2,8 +2,9 @@
 // What every column of dtof_array may rely on, as assertions on the signals that all columns share: alive in
 // simulation, proved in the array (proof dtof_array); synthesis leaves it out.
 //
-// Timestamps and scans never meet in a column, so that they share its memories; a pixel's word has one access a clock
-// more than its SRAM has ports for; and the result chain loads or shifts.
+// Timestamps and scans never meet in a column, so that they share its memories. A pixel's word is not set in the clock in
+// which one is written, nor, where timestamps do not move it and its SRAM has one port, in the clock in which one is read.
+// The result chain either loads or shifts.
 // Cost: none in silicon.
 `include "dtof_macros.svh"
 

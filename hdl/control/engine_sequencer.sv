@@ -212,8 +212,8 @@ module engine_sequencer #(
     chain = '0;
     command = '0;
 
-    // A group. A neighbour's word is read and captured a clock after the group's before it, for so its bins come one
-    // clock later, and are added to a sum under way.
+    // A group. The words of the group above, of the group itself and of the group below are read one clock after the other,
+    // so that a bin's three counts arrive one after the other, too, and one adder makes their sum.
     if (decoding) begin
       columns.read_above    = every(t, 0, BINS_PER_WORD, BINS / BINS_PER_WORD);
       columns.read_own      = every(t, 1, BINS_PER_WORD, BINS / BINS_PER_WORD);

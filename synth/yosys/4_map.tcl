@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Maps to the library: flip-flops, then logic with buffering and sizing against the clock period, constants last.
 #
-# ABC's result depends by up to ten per cent on private names, on which nothing else depends. So the column, which the
+# ABC's result depends on private names, on which nothing else depends. So the column, which the
 # array has many times, and what the columns share are each mapped with several namings, and the smallest is kept.
 proc area_of_selection {} {
   global liberty area_log

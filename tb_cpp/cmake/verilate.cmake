@@ -25,7 +25,7 @@
 #
 # WRITABLE_SRAMS makes the SRAMs' contents writable from C++ (rtl/sram.hpp).
 #
-# NO_WAVEFORM leaves out what records waveforms: half of a model's code and a quarter of its time.
+# NO_WAVEFORM leaves out what records waveforms, which takes longer to compile than the rest of a model.
 #
 # BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers.
 
