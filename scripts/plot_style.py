@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""How a read-out (readouts.toml) or reference (plot_styles.toml) looks in every picture. As a program: the styles as elements of a C++ array, for
-CMake."""
+"""How a read-out (readouts.toml) or reference (plot_styles.toml) looks in every picture. As a program: the styles as
+elements of a C++ array, for CMake."""
 
 import json
 import sys

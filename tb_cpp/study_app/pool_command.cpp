@@ -256,6 +256,15 @@ void run_pool_command(PoolOptions options) {
   const TableRule rule = parse_table_rule(options.table);
   const SensorModel sensor = find_sensor(options.sensor);
   options.columns = sensor.columns;
+  for (auto klux = options.klux.begin(); klux != options.klux.end(); ++klux) {
+    if (std::find(options.klux.begin(), klux, *klux) != klux) {
+      throw InputError(fmt::format("--klux: {:g} is named twice", *klux));
+    }
+  }
+  for (const std::string& design : options.designs) {
+    (void)parse_pool_design(design);
+  }
+  (void)make_scenes(options, sensor);  // what cannot be read is refused before anything is written
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   const std::uint64_t first_seed = options.seed;
@@ -372,17 +381,7 @@ void add_pool_command(CLI::App& app, const std::string& command_line) {
                           fmt::format("{}", fmt::join(pool_design_names(), ", ")));
   command->add_flag("!--no-references", options->references,
                     "leave out today's poolPointer and the matched filters");
-  command->add_option("--scene", options->scenes, "scenes from `dtof list`, one or more")
-      ->capture_default_str();
-  command->add_option("--disparity", options->disparity_file,
-                      "also a disparity map (8-bit PNG, 0 = unknown), its reflectivity varied in blocks");
-  command->add_option("--nearest", options->nearest_m, "distance of the disparity map's nearest point, m")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option("--surface", options->surface_file,
-                      "with --held-out: also a measured surface (matrix of a MATLAB file)");
-  command->add_option("--variable", options->surface_variable, "name of the matrix")->capture_default_str();
-  command->add_flag("--held-out", options->held_out, "also scenes that no parameter was chosen on");
+  add_scene_options(*command, *options);
   command->add_option("--table", options->table, "host look-up table: flat or none (Eq. 3.11 alone)")
       ->check(CLI::IsMember({"none", "flat"}))
       ->capture_default_str();
@@ -396,15 +395,7 @@ void add_pool_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->callback([options, command] {
-    if (options->disparity_file.empty()) {
-      refuse_without_effect(*command, "--nearest", "it places the map of --disparity");
-    }
-    if (options->surface_file.empty()) {
-      refuse_without_effect(*command, "--variable", "it is in the file of --surface");
-    }
-    if (!options->held_out) {
-      refuse_without_effect(*command, "--surface", "it is one of the scenes of --held-out");
-    }
+    check_scene_options(*command, *options);
     run_pool_command(*options);
   });
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "study_app/scene_list.hpp"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "command_line/option_checks.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "io/depth_image.hpp"
@@ -134,6 +136,49 @@ SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor) {
     add_held_out(options, sensor, list);
   }
   return list;
+}
+
+void add_scene_options(CLI::App& command, SceneChoice& choice) {
+  command
+      .add_option("--scene", choice.scenes,
+                  "scenes from `dtof list`, one or more (with --map the default is none)")
+      ->capture_default_str();
+  command.add_option("--map", choice.maps,
+                     "also your own scene: NAME=DEPTH or NAME=DEPTH,REFLECTIVITY, files as PNG of 8 or 16\n"
+                     "bits, PFM or NPY, resampled to the sensor's pixels by nearest neighbour; one or more");
+  choice.map_scales.add_to(command);
+  command.add_option("--disparity", choice.disparity_file,
+                     "also a disparity map (8-bit PNG, 0 = unknown), its reflectivity varied in blocks");
+  command.add_option("--nearest", choice.nearest_m, "distance of the disparity map's nearest point, m")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.add_option(
+      "--surface", choice.surface_file,
+      "with --held-out: also a measured surface (matrix of a MATLAB file, any unit, scaled like\n"
+      "the disparity map)");
+  command.add_option("--variable", choice.surface_variable, "name of the matrix")->capture_default_str();
+  command.add_flag(
+      "--held-out", choice.held_out,
+      "also scenes that no parameter was chosen on: planes, clutter and poles of other shapes, a\n"
+      "staircase, the disparity map turned and nearer");
+}
+
+void check_scene_options(const CLI::App& command, SceneChoice& choice) {
+  if (!choice.maps.empty() && command.count("--scene") == 0) {
+    choice.scenes.clear();
+  } else if (choice.maps.empty() &&
+             (choice.map_scales.metres_per_unit || choice.map_scales.reflectivity_per_unit)) {
+    throw InputError("--depth-scale and --reflectivity-scale need --map");
+  }
+  if (choice.disparity_file.empty()) {
+    refuse_without_effect(command, "--nearest", "it places the map of --disparity");
+  }
+  if (choice.surface_file.empty()) {
+    refuse_without_effect(command, "--variable", "it is in the file of --surface");
+  }
+  if (!choice.held_out) {
+    refuse_without_effect(command, "--surface", "it is one of the scenes of --held-out");
+  }
 }
 
 }  // namespace dtof

@@ -28,6 +28,13 @@ struct SceneChoice {
   std::uint64_t seed = 1;
 };
 
+/// Adds the options that name scenes: --scene, --map and its scales, --disparity, --nearest, --surface,
+/// --variable and --held-out.
+void add_scene_options(CLI::App& command, SceneChoice& choice);
+/// To be called when they are parsed: own maps alone need no other scene. Throws InputError for options
+/// without effect.
+void check_scene_options(const CLI::App& command, SceneChoice& choice);
+
 /// Scenes of the study, and how maps among them were resampled.
 struct SceneList {
   std::vector<StudyScene> scenes;

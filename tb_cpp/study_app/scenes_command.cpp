@@ -357,28 +357,7 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("--variant", options->variants,
                       "also READOUT:PARAMETER=NUMBER,...\nparameters: " + variant_parameters_help());
-  command
-      ->add_option("--scene", options->scenes,
-                   "scenes from `dtof list`, one or more (with --map the default is none)")
-      ->capture_default_str();
-  command->add_option("--map", options->maps,
-                      "also your own scene: NAME=DEPTH or NAME=DEPTH,REFLECTIVITY, files as PNG of 8 or 16\n"
-                      "bits, PFM or NPY, resampled to the sensor's pixels by nearest neighbour; one or more");
-  options->map_scales.add_to(*command);
-  command->add_option("--disparity", options->disparity_file,
-                      "also a disparity map (8-bit PNG, 0 = unknown), its reflectivity varied in blocks");
-  command->add_option("--nearest", options->nearest_m, "distance of the disparity map's nearest point, m")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  command->add_option(
-      "--surface", options->surface_file,
-      "with --held-out: also a measured surface (matrix of a MATLAB file, any unit, scaled like\n"
-      "the disparity map)");
-  command->add_option("--variable", options->surface_variable, "name of the matrix")->capture_default_str();
-  command->add_flag(
-      "--held-out", options->held_out,
-      "also scenes that no parameter was chosen on: planes, clutter and poles of other shapes, a\n"
-      "staircase, the disparity map turned and nearer");
+  add_scene_options(*command, *options);
   command
       ->add_option("--table", options->table,
                    "host look-up table: flat (each read-out's own, fitted on flat targets of the sensor's\n"
@@ -394,21 +373,7 @@ void add_scenes_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->callback([options, command] {
-    if (!options->maps.empty() && command->count("--scene") == 0) {
-      options->scenes.clear();
-    } else if (options->maps.empty() &&
-               (options->map_scales.metres_per_unit || options->map_scales.reflectivity_per_unit)) {
-      throw InputError("--depth-scale and --reflectivity-scale need --map");
-    }
-    if (options->disparity_file.empty()) {
-      refuse_without_effect(*command, "--nearest", "it places the map of --disparity");
-    }
-    if (options->surface_file.empty()) {
-      refuse_without_effect(*command, "--variable", "it is in the file of --surface");
-    }
-    if (!options->held_out) {
-      refuse_without_effect(*command, "--surface", "it is one of the scenes of --held-out");
-    }
+    check_scene_options(*command, *options);
     run_scenes_command(*options);
   });
 }

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -94,6 +95,29 @@ TEST(PoolStudy, EveryEstimatorFindsTwoWalls) {
       EXPECT_EQ(measured[7].distance_m, measured[6].distance_m);
     }
   }
+}
+
+// T is 0.105 m in dark groups: a step of 0.15 m between rows stays, whatever the smoothing.
+TEST(PoolStudy, TheMatchedFiltersS1KeepsStepsBeyondItsReach) {
+  TargetMap targets(6, 24, {2.0, 0.7});
+  for (int column = 0; column < 6; ++column) {
+    for (int row = 12; row < 24; ++row) {
+      targets.at(column, row).depth_m = 2.15;
+    }
+  }
+  const PoolStudy study(short_frames(), 2.0, std::vector<std::string>{""}, true, 5, 1, TableRule::kNone);
+  const std::vector<SceneMeasurement> measured = study.measure({"step", targets, 6});
+  double approach_m = 0.0;  // of the two rows at the step, mean of the columns
+  double largest_m = 0.0;
+  for (std::size_t column = 0; column < 6; ++column) {
+    const auto moved = [&](std::size_t row) {
+      return measured[2].distance_m[row * 6 + column] - measured[1].distance_m[row * 6 + column];
+    };
+    approach_m += (moved(11) - moved(12)) / 6.0;
+    largest_m = std::max(largest_m, std::abs(moved(5)));
+  }
+  EXPECT_GT(largest_m, 0.0);
+  EXPECT_LT(approach_m, 0.035) << "a quarter of the step from both sides would be 0.075";
 }
 
 TEST(PoolStudy, ReadsWholeMapsOnly) {
