@@ -5,6 +5,7 @@
 //   yosys -q -p "read_verilog -sv -Ipackage $(grep '[.]sv$' dtof.f | xargs); hierarchy -check -top dtof_array"
 +incdir+package
 package/dtof_pkg.sv
+package/dtof_registers_pkg.sv
 technology/behavioural/sram_1r1w.sv
 technology/behavioural/sram_1rw.sv
 memory/dtof_sram.sv
@@ -47,3 +48,10 @@ column/pool_pointer_column.sv
 column/pool_pointer_pair.sv
 top/dtof_array.sv
 top/pool_pointer_array.sv
+subsystem/line_buffer.sv
+subsystem/line_filter.sv
+subsystem/stream_output.sv
+subsystem/frame_control.sv
+subsystem/apb_registers.sv
+subsystem/axi_lite_to_apb.sv
+subsystem/dtof_subsystem.sv

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and the README
-need, from readouts.toml and hdl/dtof.f. --check only says which are stale."""
+need, from readouts.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C and the page on integration, from
+hdl/subsystem/registers.toml. --check only says which are stale."""
 
 import ast
 import re
@@ -12,8 +13,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
+import registers  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
-from dtof_synth.readouts import Expression, Readout, Table, evaluate, load  # noqa: E402
+from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load  # noqa: E402
 
 WRITTEN = "Written by scripts/generate.py from readouts.toml."
 FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
@@ -22,6 +24,7 @@ PARAMETERS_BEGIN = "<!-- parameters of {}: written by scripts/generate.py -->\n"
 PARAMETERS_END = "<!-- end of parameters -->\n"
 COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
 COLUMNS_END = "// end of columns\n"
+INTEGRATION = "docs/user/integration.md"
 
 
 def translated(expression: Expression, name: Callable[[str], str], function: Callable[[str], str]) -> str:
@@ -94,6 +97,8 @@ def systemverilog(table: Table) -> str:
         "",
         "  // Values of the parameter READOUT.",
         *(f"  localparam int {readout.constant} = {readout.number};" for readout in readouts),
+        *(f"  localparam int {top_constant(top)} = {top.readout};  // of dtof_subsystem alone: {top.name}"
+          for top in table.tops.values() if top.readout is not None),
         f'`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to {len(readouts) - 1}"',
         "",
         "  function automatic bit is_readout(input int readout);",
@@ -121,6 +126,57 @@ def systemverilog(table: Table) -> str:
                 "input int pointer_confidence_width", of("confidence_width"), "0"),
     ]  # fmt: skip
     return "\n".join(lines) + "\n"
+
+
+def top_constant(top: Top) -> str:
+    """Name of a top's number in SystemVerilog."""
+    return f"READOUT_{top.name.upper().removesuffix('_ARRAY').replace('_', '')}"
+
+
+def subsystem_number(table: Table, readout: Readout) -> int | None:
+    """dtof_subsystem's READOUT for it."""
+    return readout.number if readout.number is not None else table.tops[readout.top].readout
+
+
+def subsystem_parameters(table: Table) -> str:
+    """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
+    translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
+    names = dict.fromkeys(name for top in table.tops.values() for name in top.parameters)
+    lines = [
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// {WRITTEN} A part of dtof_subsystem: its arrays' parameters.",
+    ]
+    for name in names:
+        parameter = table.parameters[name]
+        values: dict[str, list[str]] = {}  # by expression, those that have it
+        for top in table.tops.values():
+            users = [readout for readout in table.readouts.values() if readout.top == top.name]
+            for readout in users if top.readout is None else users[:1]:
+                if name in readout.defaults and name in top.parameters:
+                    constant = readout.constant if top.readout is None else top_constant(top)
+                    values.setdefault(translate(readout.defaults[name]), []).append(constant)
+        choices = [f"({' || '.join(f'READOUT == dtof_pkg::{constant}' for constant in constants)}) ? {text}"
+                   for text, constants in values.items()]  # fmt: skip
+        default = "\n        : ".join([*choices, translate(parameter.default)])
+        lines += [f"    // {parameter.help}", f"    parameter int {name} = {default},"]
+    return "\n".join(lines) + "\n"
+
+
+def connections(module: str, place: str, names: list[str]) -> str:
+    """A module's parameters connected to those of the same names."""
+    return "\n".join(["// SPDX-License-Identifier: Apache-2.0",
+                      f"// {WRITTEN} A part of {place}: the parameters of {module}.",
+                      ",\n".join(f"          .{name}({name})" for name in names)]) + "\n"  # fmt: skip
+
+
+def all_connections(table: Table) -> dict[str, str]:
+    """The arrays in dtof_subsystem, which has a time gate of its own for all of them, and dtof_subsystem in its benches."""
+    lists = {f"hdl/package/{top.name}_parameters.svh":
+             connections(top.name, "dtof_subsystem", [name for name in top.parameters if name != "TIME_GATE"])
+             for top in table.tops.values()}  # fmt: skip
+    union = list(dict.fromkeys(name for top in table.tops.values() for name in top.parameters))
+    lists["hdl/package/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", union)
+    return lists
 
 
 def columns(table: Table) -> str:
@@ -323,6 +379,8 @@ def cmake(table: Table) -> str:
         f"set(DTOF_POOL_SCHEDULE {' '.join(pool.schedule)})  # the driver's, not the RTL's",
         *(f"set(DTOF_NUMBER_{readout.name} {readout.number})" for readout in table.readouts.values()
           if readout.number is not None),
+        *(f"set(DTOF_SUBSYSTEM_NUMBER_{readout.name} {subsystem_number(table, readout)})"
+          for readout in table.readouts.values() if readout.top),
         *(f"set(DTOF_TOP_{readout.name} {readout.top})" for readout in table.readouts.values() if readout.top),
         f"set(DTOF_MODELS {' '.join(dict.fromkeys(readout.model for readout in table.readouts.values()))})  # of readout/",
         *(f"set(DTOF_DEFAULT_{name} {values(parameter.default)})" for name, parameter in table.parameters.items()),
@@ -427,7 +485,8 @@ def main() -> int:
     try:
         table = load()
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
-                   ("hdl/dtof.f", "hdl/dtof.core", "hdl/Bender.yml", "README.md")}  # fmt: skip
+                   ("hdl/dtof.f", "hdl/dtof.core", "hdl/Bender.yml", "README.md", INTEGRATION)}  # fmt: skip
+        whole = registers.load()
         listing = column_files(current["hdl/dtof.f"], table)
         files = {
             "hdl/dtof.f": listing,
@@ -440,6 +499,11 @@ def main() -> int:
             "hdl/dtof.core": fusesoc(current["hdl/dtof.core"], listing),
             "hdl/Bender.yml": bender(current["hdl/Bender.yml"], listing),
             "README.md": readme(current["README.md"], table),
+            "hdl/package/subsystem_parameters.svh": subsystem_parameters(table),
+            **all_connections(table),
+            "hdl/package/dtof_registers_pkg.sv": registers.systemverilog(whole),
+            "driver/dtof_registers.h": registers.c_header(whole),
+            INTEGRATION: registers.page(current[INTEGRATION], whole),
         }
         differences = [difference for top in table.tops
                        for difference in check_top(top, (ROOT / f"hdl/top/{top}.sv").read_text(encoding="utf-8"), table)]

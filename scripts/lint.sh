@@ -6,12 +6,12 @@
 set -euo pipefail
 /usr/bin/python3 scripts/lint_rtl.py
 
-mapfile -t sources < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp' 'tb_cpp/*.hpp')
+mapfile -t sources < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp' 'tb_cpp/*.hpp' driver/dtof.h driver/dtof.c)
 clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files clean"
 
 scripts/generate.py --check
-echo "readouts.toml: everything written from it is up to date"
+echo "readouts.toml, registers.toml: everything written from them is up to date"
 
 scripts/schedule.py --check
 echo "engine's schedule: the page is that of the RTL"

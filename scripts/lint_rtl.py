@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the RTL of every named configuration with Verilator -Wall, Yosys and Icarus Verilog.
+"""Reads the RTL of every named configuration, and the subsystem around every read-out, with Verilator -Wall, Yosys and
+Icarus Verilog.
 
 Also checks that illegal parameters stop elaboration with their sentence and the last legal ones do not
 (hdl/lint/parameter_limits.csv), that no construct is used which a tool is known
@@ -24,7 +25,10 @@ from dtof_synth.configuration import Configuration, load  # noqa: E402
 SIZE = {  # enough to see every connection between columns, and between engines
     "dtof_array": {"SRAM_NUM": 2},
     "pool_pointer_array": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
+    "dtof_subsystem": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
 }
+SUBSYSTEM = "dtof_subsystem"
+ADAPTER = "axi_lite_to_apb"  # stands in front of it
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
@@ -79,6 +83,14 @@ def check_read(what: str, top: str, parameters: dict[str, int]) -> list[str]:
 def check_configuration(configuration: Configuration) -> list[str]:
     return check_read(f"configuration {configuration.name}", configuration.top,
                       configuration.rtl_parameters() | SIZE[configuration.top])
+
+
+def check_subsystem(readout: int) -> list[str]:
+    """The subsystem around a read-out, with what is optional and, around one of them, without as much as possible."""
+    smallest = {"PIXELS_PER_SRAM": 1, "SRAM_NUM": 1, "BUFFER_LINES": 2, "CONFIDENCE_WIDTH": 0}
+    chosen = [SIZE[SUBSYSTEM] | {"TIME_GATE": 1}, *([smallest] if readout == 0 else [])]
+    return [failure for settings in chosen
+            for failure in check_read(f"{SUBSYSTEM} of READOUT {readout}", SUBSYSTEM, {"READOUT": readout} | settings)]
 
 
 def sorry(output: str) -> list[str]:
@@ -140,6 +152,13 @@ def parameter_limits() -> list[tuple[str, dict[str, int], str]]:
               for top, settings, sentence in rows)]
 
 
+def subsystem_numbers() -> list[int]:
+    """The values of the subsystem's READOUT."""
+    table = readouts.load()
+    arrays = [readout.number for readout in table.readouts.values() if readout.number is not None]
+    return arrays + [top.readout for top in table.tops.values() if top.readout is not None]
+
+
 def check_limit(top: str, settings: dict[str, int], sentence: str) -> list[str]:
     if not sentence:
         return check_read(f"the legal {settings} of {top}", top, SIZE[top] | settings)
@@ -153,7 +172,8 @@ def check_sentences(limits: list[tuple[str, dict[str, int], str]]) -> list[str]:
     """Every requirement of the tops is in the table of limits."""
     failures = []
     for top in SIZE:
-        required = set(re.findall(rf'"{top}: ([^"]+)"', (HDL / "top" / f"{top}.sv").read_text()))
+        folder = "subsystem" if top == SUBSYSTEM else "top"
+        required = set(re.findall(rf'"{top}: ([^"]+)"', (HDL / folder / f"{top}.sv").read_text()))
         tried = {sentence for name, _, sentence in limits if name == top}
         failures += [f"{PARAMETER_LIMITS.name} has no settings against '{text}' of {top}" for text in required - tried]
     return failures
@@ -169,12 +189,15 @@ def main() -> int:
         block_ram = pool.submit(check_block_rams)
         legal = pool.map(check_configuration, configurations)
         limit = pool.map(lambda row: check_limit(*row), limits)
-        failures += [text for group in (*legal, *limit, block_ram.result()) for text in group]
+        subsystem = pool.map(check_subsystem, subsystem_numbers())
+        adapter = check_read(ADAPTER, ADAPTER, {"ADDR_WIDTH": 12})
+        failures += [text for group in (*legal, *limit, *subsystem, adapter, block_ram.result()) for text in group]
     for text in failures:
         print(text, file=sys.stderr)
     if not failures:
         print(
-            f"RTL lint: {len(configurations)} configurations clean in Verilator, Yosys and Icarus Verilog; "
+            f"RTL lint: {len(configurations)} configurations and the subsystem of {len(subsystem_numbers())} read-outs clean "
+            "in Verilator, Yosys and Icarus Verilog; "
             f"{len(illegal)} illegal parameters refused, {len(limits) - len(illegal)} legal extremes taken; "
             f"stand-ins become block RAM ({', '.join(BLOCK_RAM)})"
         )

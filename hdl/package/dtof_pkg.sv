@@ -37,6 +37,10 @@ package dtof_pkg;
     max_of = (a > b) ? a : b;
   endfunction
 
+  function automatic int min_of(input int a, input int b);
+    min_of = (a < b) ? a : b;
+  endfunction
+
   // Bits that index `count` things, at least one.
   function automatic int index_width(input int count);
     index_width = (count <= 2) ? 1 : $clog2(count);

@@ -10,6 +10,7 @@
   localparam int READOUT_THREESTEPS = 5;
   localparam int READOUT_PIFH = 6;
   localparam int READOUT_HISTOGRAM = 7;
+  localparam int READOUT_POOLPOINTER = 64;  // of dtof_subsystem alone: pool_pointer_array
 `define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to 7"
 
   function automatic bit is_readout(input int readout);

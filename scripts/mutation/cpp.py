@@ -20,7 +20,7 @@ from mutation.verdict import MutationError, Verdict
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-TREE = ["tb_cpp", "hdl", "scripts", "synth", "configurations.toml", "readouts.toml"]  # what CMake reads
+TREE = ["tb_cpp", "hdl", "driver", "scripts", "synth", "configurations.toml", "readouts.toml"]  # what CMake reads
 READOUT_SHARE = 0.6
 # Other libraries on whose figures the models rest; of io, the readers and what writes results.
 OTHERS = [

@@ -97,6 +97,7 @@ class Top:
     name: str
     parameters: list[str]
     schedule: list[str] = field(default_factory=list)  # the driver's, not the RTL's
+    readout: int | None = None  # dtof_subsystem's READOUT for the whole top, where its read-outs have none of their own
 
 
 @dataclass(frozen=True)

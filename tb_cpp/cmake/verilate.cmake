@@ -12,6 +12,8 @@
 #                 [RIVAL_MOVES 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
 #                 [NO_WAVEFORM] TARGET <library>)
 #
+# and, with SUBSYSTEM [BUFFER_LINES n] [AXI_LITE 0|1] instead of PROBE and what follows it, dtof_subsystem around either,
+#
 # adds the model to the object library <library> made by dtof_rtl_models(<library> ...). A program that links it
 # finds the configuration in the registry of rtl/registry.hpp. Left-out parameters take
 # ReadoutParameters::defaults(); <read-out> is the command-line name. Verilator finds the modules by their names, and
@@ -37,7 +39,7 @@ set(VERILATOR_INCLUDE ${VERILATOR_ROOT}/include)
 find_package(Threads REQUIRED)
 
 set(DTOF_HDL_DIR ${PROJECT_ROOT}/hdl CACHE PATH "Folder that holds dtof.f and the SystemVerilog sources")
-set(DTOF_HDL_FOLDERS top column engine datapath control memory technology/behavioural)
+set(DTOF_HDL_FOLDERS subsystem top column engine datapath control memory technology/behavioural)
 
 # Coverage (make coverage): each simulation writes the counts of its RTL (rtl/write_coverage.cpp).
 set(DTOF_COVERAGE_FLAGS "")
@@ -81,7 +83,8 @@ function(dtof_rtl_models library)
 endfunction()
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;NO_WAVEFORM" "READOUT;TARGET;${DTOF_PARAMETERS}" "" ${ARGN})
+  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;NO_WAVEFORM;SUBSYSTEM" "READOUT;TARGET;BUFFER_LINES;AXI_LITE;${DTOF_PARAMETERS}" ""
+    ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
   endif()
@@ -90,7 +93,16 @@ function(dtof_verilate name)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown read-out '${P_READOUT}'")
   endif()
 
-  if(DTOF_TOP_${P_READOUT} STREQUAL pool_pointer_array)
+  if(P_SUBSYSTEM)
+    set(top subsystem_testbench)
+    set(top_parameters ${DTOF_COMMON_PARAMETERS} ${DTOF_ARRAY_PARAMETERS} ${DTOF_POOL_PARAMETERS})
+    set(overrides -GREADOUT=${DTOF_SUBSYSTEM_NUMBER_${P_READOUT}})
+    foreach(parameter BUFFER_LINES AXI_LITE)
+      if(DEFINED P_${parameter})
+        list(APPEND overrides -G${parameter}=${P_${parameter}})
+      endif()
+    endforeach()
+  elseif(DTOF_TOP_${P_READOUT} STREQUAL pool_pointer_array)
     set(top pool_pointer_testbench)
     set(top_parameters ${DTOF_COMMON_PARAMETERS} ${DTOF_POOL_PARAMETERS})
     set(overrides "")
@@ -130,14 +142,27 @@ function(dtof_verilate name)
       list(APPEND overrides -G${parameter}=${P_${parameter}})
     endif()
   endforeach()
-  if(P_NO_WAVEFORM)
+  set(P_REGISTRY rtl/registry)
+  set(P_REGISTER register_rtl_configuration)
+  set(P_BASE ArrayModel)
+  set(folder rtl)
+  if(P_SUBSYSTEM)
     set(P_WAVEFORM false)
-    set(P_ARRAY verilated_array)
+    set(P_REGISTRY subsystem/registry)
+    set(P_REGISTER register_subsystem)
+    set(P_BASE SubsystemModel)
+    set(P_ARRAY subsystem/verilated_subsystem)
+    set(P_ARRAY_CLASS VerilatedSubsystem)
+    set(folder subsystem)
+    set(waveform "")
+  elseif(P_NO_WAVEFORM)
+    set(P_WAVEFORM false)
+    set(P_ARRAY rtl/verilated_array)
     set(P_ARRAY_CLASS VerilatedArray)
     set(waveform "")
   else()
     set(P_WAVEFORM true)
-    set(P_ARRAY waveform_array)
+    set(P_ARRAY rtl/waveform_array)
     set(P_ARRAY_CLASS WaveformArray)
     set(waveform --trace-fst)
     target_link_libraries(${P_TARGET} PUBLIC verilated_waveform)
@@ -146,7 +171,7 @@ function(dtof_verilate name)
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name})
   set(registration ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_registration.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/rtl/registration.cpp.in ${registration} @ONLY)
-  set(wrapper ${PROJECT_SOURCE_DIR}/rtl/${top}.sv)
+  set(wrapper ${PROJECT_SOURCE_DIR}/${folder}/${top}.sv)
   # Relative paths: the model's messages name its sources, and its C++ is to be the same in every checkout.
   file(RELATIVE_PATH hdl ${CMAKE_CURRENT_BINARY_DIR} ${DTOF_HDL_DIR})
   list(TRANSFORM DTOF_HDL_FOLDERS PREPEND ${hdl}/ OUTPUT_VARIABLE modules)
@@ -159,7 +184,8 @@ function(dtof_verilate name)
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
             --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET ${waveform} --timescale 1ns/1ps
             ${DTOF_COVERAGE_FLAGS}
-            ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/package ${hdl}/package/dtof_pkg.sv ${modules} ${access}
+            ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/package ${hdl}/package/dtof_pkg.sv ${hdl}/package/dtof_registers_pkg.sv
+            ${modules} ${access}
             ${relative_wrapper}
     COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
             -P ${DTOF_VERILATE_DIR}/unity.cmake

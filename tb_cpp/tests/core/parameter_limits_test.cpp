@@ -106,6 +106,9 @@ TEST(ParameterLimits, ModelAndRtlRefuseTheSameWithTheSameSentence) {
   int taken = 0;
   for (const Row& row : parameter_limits()) {
     SCOPED_TRACE(row.top + " " + testing::PrintToString(row.settings));
+    if (row.top == "dtof_subsystem") {
+      continue;  // what is around an array is none of a model's
+    }
     if (kOfTheArray.contains(row.sentence.substr(0, row.sentence.find(' ')))) {
       continue;
     }

@@ -1,0 +1,251 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+#include "dtof.h"
+
+#define SHARES 64U    /* a frame in 64ths */
+#define LATE_SHARE 5U /* eighths of the pointer phase before its small steps */
+#define LIGHT_MM_PER_PS 0.299792458
+#define COLUMNS_OF_A_WORD 32U
+
+static dtof_status read_register(const dtof_device *device, uint32_t offset, uint32_t *value) {
+  return device->bus.read(device->bus.context, offset, value) ? DTOF_OK : DTOF_BUS;
+}
+
+static dtof_status write_register(const dtof_device *device, uint32_t offset, uint32_t value) {
+  return device->bus.write(device->bus.context, offset, value) ? DTOF_OK : DTOF_BUS;
+}
+
+static uint32_t most_lines(const dtof_device *device) {
+  return device->buffer_lines < device->acquisition_lines ? device->buffer_lines : device->acquisition_lines;
+}
+
+#define FIELD(value, name) (((value)&name##_MASK) >> name##_LSB)
+
+dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
+  static const uint32_t offsets[] = {DTOF_ID,     DTOF_VERSION, DTOF_READOUT, DTOF_SIZE,
+                                     DTOF_WIDTHS, DTOF_LINES,   DTOF_SLOTS};
+  enum { ID, VERSION, READOUT, SIZE, WIDTHS, LINES, SLOTS, REGISTERS };
+  uint32_t values[REGISTERS];
+
+  device->bus = bus;
+  for (size_t i = 0; i < REGISTERS; ++i) {
+    dtof_status status = read_register(device, offsets[i], &values[i]);
+    if (status != DTOF_OK) {
+      return status;
+    }
+    if (i == ID && values[ID] != DTOF_ID_EXPECTED) {
+      return DTOF_NOT_FOUND;
+    }
+    if (i == VERSION && FIELD(values[VERSION], DTOF_VERSION_MAJOR) != DTOF_VERSION_MAJOR_EXPECTED) {
+      return DTOF_VERSION_UNKNOWN;
+    }
+  }
+  device->readout = (uint8_t)FIELD(values[READOUT], DTOF_READOUT_NUMBER);
+  device->has_schedule = FIELD(values[READOUT], DTOF_READOUT_SCHEDULE) != 0;
+  device->has_gate = FIELD(values[READOUT], DTOF_READOUT_TIME_GATE) != 0;
+  device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
+  device->rows = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_ROWS);
+  device->timestamp_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_TIMESTAMP);
+  device->fraction_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_FRACTION);
+  device->confidence_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_CONFIDENCE);
+  device->acquisition_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_ACQUISITIONS);
+  device->acquisition_lines = (uint16_t)FIELD(values[LINES], DTOF_LINES_ACQUISITION);
+  device->buffer_lines = (uint16_t)FIELD(values[LINES], DTOF_LINES_BUFFER);
+  device->slots = (uint8_t)FIELD(values[SLOTS], DTOF_SLOTS_VALUE);
+  return DTOF_OK;
+}
+
+dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions) {
+  dtof_settings settings = {0};
+  settings.acquisitions = acquisitions;
+  settings.coarse_share = 16;
+  settings.track_share = 16;
+  settings.gate_end = (uint16_t)((UINT32_C(1) << device->timestamp_bits) - 1U);
+  return settings;
+}
+
+dtof_status dtof_configure(const dtof_device *device, const dtof_settings *settings) {
+  uint32_t codes = (UINT32_C(1) << device->timestamp_bits) - 1U;
+  uint32_t confidences = UINT32_C(1) << device->confidence_bits;
+  uint32_t release = settings->release == 0 ? most_lines(device) : settings->release;
+  uint32_t shares = (uint32_t)settings->coarse_share + settings->track_share;
+
+  if (settings->acquisitions >> device->acquisition_bits != 0 || release > most_lines(device) ||
+      settings->weak_below > confidences ||
+      (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
+      (device->has_schedule && shares > SHARES)) {
+    return DTOF_ARGUMENT;
+  }
+
+  struct {
+    uint32_t offset;
+    uint32_t value;
+    bool there;
+  } writes[] = {
+      {DTOF_ACQUISITIONS, settings->acquisitions, true},
+      {DTOF_COARSE_END, 0, device->has_schedule},
+      {DTOF_TRACK_END, 0, device->has_schedule},
+      {DTOF_LATE_BEGIN, 0, device->has_schedule},
+      {DTOF_GATE,
+       (uint32_t)settings->gate_begin << DTOF_GATE_BEGIN_LSB | (uint32_t)settings->gate_end
+                                                                   << DTOF_GATE_END_LSB,
+       device->has_gate},
+      {DTOF_RELEASE, release, true},
+      {DTOF_WEAK_BELOW, settings->weak_below, true},
+  };
+  uint32_t track_end = (uint32_t)((uint64_t)settings->acquisitions * shares / SHARES);
+  writes[1].value = (uint32_t)((uint64_t)settings->acquisitions * settings->coarse_share / SHARES);
+  writes[2].value = track_end;
+  writes[3].value = track_end + (uint32_t)((uint64_t)(settings->acquisitions - track_end) * LATE_SHARE / 8U);
+
+  for (size_t i = 0; i < sizeof writes / sizeof writes[0]; ++i) {
+    if (writes[i].there) {
+      dtof_status status = write_register(device, writes[i].offset, writes[i].value);
+      if (status != DTOF_OK) {
+        return status;
+      }
+    }
+  }
+  return DTOF_OK;
+}
+
+dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask) {
+  for (uint32_t word = 0; word * COLUMNS_OF_A_WORD < device->columns; ++word) {
+    dtof_status status = write_register(device, DTOF_COLUMN_ENABLE + 4U * word, mask[word]);
+    if (status != DTOF_OK) {
+      return status;
+    }
+  }
+  return DTOF_OK;
+}
+
+dtof_status dtof_enable_interrupts(const dtof_device *device, bool frame, bool error) {
+  return write_register(
+      device, DTOF_IRQ_ENABLE,
+      (frame ? DTOF_IRQ_ENABLE_FRAME_MASK : 0U) | (error ? DTOF_IRQ_ENABLE_ERROR_MASK : 0U));
+}
+
+dtof_status dtof_busy(const dtof_device *device, bool *busy) {
+  uint32_t value = 0;
+  dtof_status status = read_register(device, DTOF_STATUS, &value);
+  *busy = FIELD(value, DTOF_STATUS_BUSY) != 0;
+  return status;
+}
+
+/* A command, unless a frame is under way. */
+static dtof_status command(const dtof_device *device, uint32_t value) {
+  bool busy = false;
+  dtof_status status = dtof_busy(device, &busy);
+  if (status != DTOF_OK) {
+    return status;
+  }
+  return busy ? DTOF_BUSY : write_register(device, DTOF_CONTROL, value);
+}
+
+dtof_status dtof_start(const dtof_device *device, bool continuous) {
+  return command(device, DTOF_CONTROL_START_MASK | (continuous ? DTOF_CONTROL_CONTINUOUS_MASK : 0U));
+}
+
+dtof_status dtof_stop(const dtof_device *device) { return write_register(device, DTOF_CONTROL, 0); }
+
+dtof_status dtof_flush(const dtof_device *device) { return command(device, DTOF_CONTROL_FLUSH_MASK); }
+
+dtof_status dtof_frames(const dtof_device *device, uint32_t *frames, uint32_t *cycles) {
+  dtof_status status = read_register(device, DTOF_FRAME_COUNT, frames);
+  return status == DTOF_OK ? read_register(device, DTOF_FRAME_CYCLES, cycles) : status;
+}
+
+/* Reads sticky bits and clears those that were read: one that comes meanwhile stays. */
+static dtof_status take(const dtof_device *device, uint32_t offset, uint32_t *bits) {
+  dtof_status status = read_register(device, offset, bits);
+  return status == DTOF_OK && *bits != 0 ? write_register(device, offset, *bits) : status;
+}
+
+dtof_status dtof_take_errors(const dtof_device *device, uint32_t *errors) {
+  return take(device, DTOF_ERROR, errors);
+}
+
+dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes) {
+  return take(device, DTOF_IRQ_STATUS, causes);
+}
+
+dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *result) {
+  result->row = (uint16_t)FIELD(word, DTOF_RESULT_ROW);
+  result->column = (uint16_t)FIELD(word, DTOF_RESULT_COLUMN);
+  result->position = (uint16_t)FIELD(word, DTOF_RESULT_POSITION);
+  result->confidence = (uint16_t)FIELD(word, DTOF_RESULT_CONFIDENCE);
+  result->valid = FIELD(word, DTOF_RESULT_VALID) != 0;
+  result->weak = FIELD(word, DTOF_RESULT_WEAK) != 0;
+  result->empty = FIELD(word, DTOF_RESULT_EMPTY) != 0;
+  result->masked = FIELD(word, DTOF_RESULT_MASKED) != 0;
+  return result->row < device->rows && result->column < device->columns ? DTOF_OK : DTOF_STREAM;
+}
+
+dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                              dtof_result *results) {
+  size_t pixels = (size_t)device->rows * device->columns;
+  if (count != pixels) {
+    return DTOF_STREAM;
+  }
+  /* A place that is still free has a row that no array has. */
+  for (size_t i = 0; i < pixels; ++i) {
+    results[i].row = UINT16_MAX;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    dtof_result result;
+    dtof_status status = dtof_unpack(device, words[i], &result);
+    if (status != DTOF_OK) {
+      return status;
+    }
+    dtof_result *place = &results[(size_t)result.row * device->columns + result.column];
+    if (place->row != UINT16_MAX) {
+      return DTOF_STREAM;
+    }
+    *place = result;
+  }
+  return DTOF_OK;
+}
+
+static double code_of(const dtof_device *device, const dtof_result *result) {
+  return (double)result->position / (double)(UINT32_C(1) << device->fraction_bits);
+}
+
+static double line(dtof_point from, double slope, double position) {
+  return from.distance_mm + slope * (position - from.position);
+}
+
+static double slope_between(dtof_point from, dtof_point to) {
+  return (to.distance_mm - from.distance_mm) / (to.position - from.position);
+}
+
+double dtof_distance_mm(const dtof_device *device, const dtof_result *result, const dtof_point *table,
+                        size_t count) {
+  double position = code_of(device, result);
+  dtof_point first = table[0];
+  dtof_point last = table[count - 1];
+  if (count == 1) {
+    return first.distance_mm;
+  }
+  if (position <= first.position) {
+    return line(first, slope_between(first, last), position);
+  }
+  if (position >= last.position) {
+    return line(last, slope_between(first, last), position);
+  }
+  /* The last point that is not above lies in [low, high). */
+  size_t low = 0;
+  size_t high = count - 1;
+  while (high - low > 1) {
+    size_t middle = low + (high - low) / 2;
+    if (table[middle].position <= position) {
+      low = middle;
+    } else {
+      high = middle;
+    }
+  }
+  return line(table[low], slope_between(table[low], table[high]), position);
+}
+
+double dtof_time_of_flight_mm(const dtof_device *device, const dtof_result *result, double code_ps,
+                              double fwhm_ps) {
+  return LIGHT_MM_PER_PS / 2.0 * (code_ps * (code_of(device, result) + 0.5) - fwhm_ps);
+}

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: Apache-2.0
+ * Driver of dtof_subsystem (docs/user/integration.md): finds it, sets it up, starts frames, reads its result
+ * stream and turns positions into millimetres. C99, no dependencies, no memory of its own; a device is a
+ * structure of the caller's.
+ */
+#ifndef DTOF_H
+#define DTOF_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "dtof_registers.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What a function returns: 0, or what is wrong. */
+typedef enum {
+  DTOF_OK = 0,
+  DTOF_BUS = -1,             /* an access of the bus failed */
+  DTOF_NOT_FOUND = -2,       /* ID is another one */
+  DTOF_VERSION_UNKNOWN = -3, /* registers that this driver does not know */
+  DTOF_ARGUMENT = -4,        /* a value that the hardware cannot take */
+  DTOF_BUSY = -5,            /* a frame is under way */
+  DTOF_STREAM = -6           /* a result's row or column is not the array's */
+} dtof_status;
+
+/* How registers are reached. Both return false if the access failed; `offset` is in bytes. */
+typedef struct {
+  void *context;
+  bool (*read)(void *context, uint32_t offset, uint32_t *value);
+  bool (*write)(void *context, uint32_t offset, uint32_t value);
+} dtof_bus;
+
+/* What the hardware is, as its registers say. */
+typedef struct {
+  dtof_bus bus;
+  uint16_t columns;
+  uint16_t rows;
+  uint8_t slots;
+  uint8_t readout; /* the parameter READOUT */
+  uint8_t timestamp_bits;
+  uint8_t fraction_bits;   /* of a position */
+  uint8_t confidence_bits; /* 0: the read-out has none */
+  uint8_t acquisition_bits;
+  bool has_schedule; /* poolPointer */
+  bool has_gate;
+  uint16_t acquisition_lines;
+  uint16_t buffer_lines;
+} dtof_device;
+
+/* What a frame uses. */
+typedef struct {
+  uint32_t acquisitions;
+  uint8_t coarse_share; /* poolPointer: 64ths of the frame for the coarse and the track phase, at most 64
+                           together */
+  uint8_t track_share;
+  uint16_t gate_begin; /* a timestamp from begin to below end counts; ignored where there is no gate */
+  uint16_t gate_end;
+  uint16_t weak_below; /* a confidence below is weak */
+  uint16_t release;    /* lines in the buffer before an acquisition begins; 0: as many as possible */
+} dtof_settings;
+
+/* One pixel's result. */
+typedef struct {
+  uint16_t row;
+  uint16_t column;
+  uint16_t position; /* code and below it the fraction: units of 2^-fraction_bits code */
+  uint16_t confidence;
+  bool valid; /* none of the three below */
+  bool weak;
+  bool empty;  /* confidence 0 */
+  bool masked; /* the column is not enabled */
+} dtof_result;
+
+/* A point of a look-up table: the distance at a position in codes. */
+typedef struct {
+  double position;
+  double distance_mm;
+} dtof_point;
+
+/* Finds the subsystem and reads what it is. */
+dtof_status dtof_probe(dtof_device *device, dtof_bus bus);
+
+/* What suits the device: everything counts, shares of poolPointer 16 and 16. */
+dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions);
+
+/* Writes the settings of the next frame. DTOF_ARGUMENT, with nothing written, for what the hardware cannot
+ * take. */
+dtof_status dtof_configure(const dtof_device *device, const dtof_settings *settings);
+
+/* Enables the columns whose bit in `mask` is set, column 0 lowest, 32 a word; (columns + 31) / 32 words. */
+dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask);
+
+/* Raises the interrupt when a frame's results were taken, when something went wrong, both or neither. */
+dtof_status dtof_enable_interrupts(const dtof_device *device, bool frame, bool error);
+
+/* Begins a frame, or frames that follow each other. DTOF_BUSY while one is under way. */
+dtof_status dtof_start(const dtof_device *device, bool continuous);
+
+/* Ends continuous mode; the frame that is under way is the last. */
+dtof_status dtof_stop(const dtof_device *device);
+
+/* Empties the line buffer. DTOF_BUSY while a frame is under way. */
+dtof_status dtof_flush(const dtof_device *device);
+
+/* Whether a frame is under way. */
+dtof_status dtof_busy(const dtof_device *device, bool *busy);
+
+/* Frames since reset, modulo 2^32, and clocks of the last one. */
+dtof_status dtof_frames(const dtof_device *device, uint32_t *frames, uint32_t *cycles);
+
+/* DTOF_ERROR_*_MASK of what went wrong since the last call, and forgets it; the interrupt's causes, too. */
+dtof_status dtof_take_errors(const dtof_device *device, uint32_t *errors);
+dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes);
+
+/* A word of the result stream. DTOF_STREAM if its place is not one of the array's. */
+dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *result);
+
+/* A frame's words in any order, placed at row * columns + column of `results`, which holds rows x columns.
+ * DTOF_STREAM if they are not each pixel once. */
+dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                              dtof_result *results);
+
+/* Distance of a result by a table of `count` points, at least one, positions strictly ascending: linear
+ * between points, and beyond both ends along the line of the whole table's slope. */
+double dtof_distance_mm(const dtof_device *device, const dtof_result *result, const dtof_point *table,
+                        size_t count);
+
+/* Distance without a table: half the way of light until the middle of the position's code, codes of `code_ps`
+ * picoseconds, less the sensor's pulse width. */
+double dtof_time_of_flight_mm(const dtof_device *device, const dtof_result *result, double code_ps,
+                              double fwhm_ps);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// line_buffer: an acquisition that has begun is never interrupted, and every line reaches the array in its place or, behind
+// an underrun, as no detection, whatever the source's and the array's pace and from reset at any time. One arbitrary line
+// of every fourth acquisition is watched.
+`include "properties.svh"
+
+module line_buffer_properties #(
+    parameter int ACQUISITION_LINES = 2,
+    parameter int LINES = 2,
+    parameter int WIDTH = 1,
+    parameter int WHOLE = 0,  // 1: an acquisition is whole when it begins
+    localparam int LEVEL_WIDTH = $clog2(LINES + 2)
+) (
+    input logic                   clk_i,
+    input logic                   reset_i,
+    input logic                   flush_i,
+    input logic [LEVEL_WIDTH-1:0] release_i,
+    input logic                   s_tvalid_i,
+    input logic [      WIDTH-1:0] s_tdata_i,
+    input logic                   s_tlast_i,
+    input logic                   line_ready_i
+);
+
+  logic checking = 1'b0;
+  logic rst_n;
+  assign rst_n = checking && !reset_i;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic [LEVEL_WIDTH-1:0] level;
+  logic underrun, misframed, s_tready, line_valid;
+  logic [WIDTH-1:0] line;
+
+  line_buffer #(
+      .ACQUISITION_LINES(ACQUISITION_LINES),
+      .LINES            (LINES),
+      .WIDTH            (WIDTH)
+  ) u_dut (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_n),
+      .flush_i     (flush_i),
+      .release_i   (release_i),
+      .level_o     (level),
+      .underrun_o  (underrun),
+      .misframed_o (misframed),
+      .s_tvalid_i  (s_tvalid_i),
+      .s_tready_o  (s_tready),
+      .s_tdata_i   (s_tdata_i),
+      .s_tlast_i   (s_tlast_i),
+      .line_valid_o(line_valid),
+      .line_ready_i(line_ready_i),
+      .line_o      (line)
+  );
+
+  // Both sides count acquisitions, modulo 4, and lines. At most LINES + 1 lines lie between them.
+  (* anyconst *) logic [1:0] watched_acquisition;
+  (* anyconst *) logic [3:0] watched_line;
+  logic [1:0] in_acquisition_q, out_acquisition_q;
+  logic [3:0] in_line_q, out_line_q;
+  logic lost_q, come_q, push, step, at_watched;
+  logic [WIDTH-1:0] expected_q;
+  logic [3:0] wait_q;  // clocks that the memory is full and nothing is offered
+
+  assign push = s_tvalid_i && s_tready;
+  assign step = line_valid && line_ready_i;
+  assign at_watched = (out_acquisition_q == watched_acquisition) && (out_line_q == watched_line);
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_n) begin
+      in_acquisition_q <= '0;
+      out_acquisition_q <= '0;
+      in_line_q <= '0;
+      out_line_q <= '0;
+      lost_q <= 1'b0;
+      come_q <= 1'b0;
+      wait_q <= '0;
+    end else begin
+      if (push) begin
+        in_line_q <= (32'(in_line_q) == ACQUISITION_LINES - 1) ? '0 : in_line_q + 1'b1;
+        if (32'(in_line_q) == ACQUISITION_LINES - 1) in_acquisition_q <= in_acquisition_q + 1'b1;
+        if (in_acquisition_q == watched_acquisition && in_line_q == watched_line) begin
+          come_q <= 1'b1;
+          expected_q <= s_tdata_i;
+        end
+      end
+      if (step) begin
+        out_line_q <= (32'(out_line_q) == ACQUISITION_LINES - 1) ? '0 : out_line_q + 1'b1;
+        if (32'(out_line_q) == ACQUISITION_LINES - 1) out_acquisition_q <= out_acquisition_q + 1'b1;
+        lost_q <= (lost_q || underrun) && (32'(out_line_q) != ACQUISITION_LINES - 1);
+        if (at_watched && !lost_q && !underrun) come_q <= 1'b0;
+      end
+      wait_q <= (32'(level) >= LINES && !line_valid) ? wait_q + 1'b1 : '0;
+      if (flush_i) begin
+        in_acquisition_q <= '0;
+        out_acquisition_q <= '0;
+        in_line_q <= '0;
+        come_q <= 1'b0;
+        wait_q <= '0;
+      end
+    end
+  end
+
+  logic inside;
+  assign inside = (out_line_q != '0);
+
+  `ASSUME(m_release, release_i != '0 && 32'(release_i) <= ACQUISITION_LINES && 32'(release_i) <= LINES
+                     && (WHOLE == 0 || 32'(release_i) == ACQUISITION_LINES))
+  `ASSUME(m_flush_between, !flush_i || (!inside && !line_ready_i))
+  `ASSUME(m_watched, 32'(watched_line) < ACQUISITION_LINES)
+  `PROVE(a_uninterrupted, !rst_n || !inside || line_valid)
+  `PROVE(a_released, !rst_n || inside || !line_valid || level >= release_i)
+  `PROVE(a_line, !rst_n || !step || !at_watched || lost_q || underrun || (come_q && line == expected_q))
+  `PROVE(a_lost, !rst_n || !step || !(lost_q || underrun) || line == {WIDTH{1'b1}})
+  `PROVE(a_underrun_inside, !rst_n || !underrun || (step && inside && !lost_q && level <= 1))
+  `PROVE(a_whole_never_runs_empty, !rst_n || WHOLE == 0 || !underrun)
+  `PROVE(a_takes_lines, !rst_n || s_tready || flush_i || 32'(level) >= LINES)
+  `PROVE(a_level, !rst_n || 32'(level) <= LINES + 1)
+  `PROVE(a_misframed, !rst_n || misframed == (push && (s_tlast_i != (32'(in_line_q) == ACQUISITION_LINES - 1))))
+  `PROVE(a_goes_on, !rst_n || 32'(wait_q) <= ACQUISITION_LINES + 1)
+  `GOAL(rst_n && step && at_watched && watched_acquisition == 2'd1 && !lost_q && !underrun
+        && 32'(watched_line) == ACQUISITION_LINES - 1)
+
+endmodule

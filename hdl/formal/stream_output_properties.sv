@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time.
+`include "properties.svh"
+
+module stream_output_properties #(
+    parameter int SRAM_NUM = 3,
+    parameter int ROW_WIDTH = 2,
+    parameter int POSITION_WIDTH = 3,
+    parameter int CONFIDENCE_WIDTH = 2,
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int CONFIDENCE_BITS = (CONFIDENCE_WIDTH > 0) ? CONFIDENCE_WIDTH : 1,
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
+    localparam int ENTRY_WIDTH = 66
+) (
+    input logic                       clk_i,
+    input logic                       reset_i,
+    input logic [               15:0] weak_below_i,
+    input logic [       SRAM_NUM-1:0] enable_i,
+    input logic                       result_tvalid_i,
+    input logic [   COLUMN_WIDTH-1:0] column_i,
+    input logic [      ROW_WIDTH-1:0] row_i,
+    input logic [ POSITION_WIDTH-1:0] position_i,
+    input logic [CONFIDENCE_BITS-1:0] confidence_i,
+    input logic                       result_tlast_i,
+    input logic                       m_axis_tready_i
+);
+
+  logic checking = 1'b0;
+  logic rst_n;
+  assign rst_n = checking && !reset_i;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic [TDATA_WIDTH-1:0] result;
+  logic [15:0] confidence;
+  generate
+    if (CONFIDENCE_WIDTH > 0) begin : g_confidence
+      assign result = {column_i, row_i, position_i, confidence_i};
+      assign confidence = 16'(confidence_i);
+    end else begin : g_no_confidence
+      assign result = {column_i, row_i, position_i};
+      assign confidence = '0;
+    end
+  endgenerate
+
+  logic result_tready, tvalid, tuser, tlast, frame;
+  logic [63:0] tdata;
+
+  stream_output #(
+      .SRAM_NUM        (SRAM_NUM),
+      .ROW_WIDTH       (ROW_WIDTH),
+      .POSITION_WIDTH  (POSITION_WIDTH),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+  ) u_dut (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_n),
+      .weak_below_i   (weak_below_i),
+      .enable_i       (enable_i),
+      .result_tvalid_i(result_tvalid_i),
+      .result_tready_o(result_tready),
+      .result_tdata_i (result),
+      .result_tlast_i (result_tlast_i),
+      .m_axis_tvalid_o(tvalid),
+      .m_axis_tready_i(m_axis_tready_i),
+      .m_axis_tdata_o (tdata),
+      .m_axis_tuser_o (tuser),
+      .m_axis_tlast_o (tlast),
+      .frame_o        (frame)
+  );
+
+  // What must come, in a queue: {first, last, word}, the oldest in slot 0.
+  logic [ENTRY_WIDTH-1:0] slot0_q, slot1_q, entry;
+  logic [1:0] count_q;
+  logic begins_q, weak, empty, masked, push, pop;
+
+  assign weak = (CONFIDENCE_WIDTH > 0) && (confidence < weak_below_i);
+  assign empty = (CONFIDENCE_WIDTH > 0) && (confidence == 16'd0);
+  assign masked = ((enable_i >> column_i) & 1'b1) == '0;
+  assign entry = {begins_q, result_tlast_i, 4'd0, masked, empty, weak, !weak && !empty && !masked, 12'(column_i),
+                  12'(row_i), confidence, 16'(position_i)};
+  assign push = result_tvalid_i && result_tready;
+  assign pop = tvalid && m_axis_tready_i;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_n) begin
+      count_q <= '0;
+      begins_q <= 1'b1;
+    end else begin
+      count_q <= count_q + 2'(push) - 2'(pop);
+      if (push) begins_q <= result_tlast_i;
+    end
+    if (pop) slot0_q <= (count_q == 2'd2) ? slot1_q : entry;
+    else if (push && count_q == 2'd0) slot0_q <= entry;
+    if (push) slot1_q <= entry;
+  end
+
+  `ASSUME(m_column, 32'(column_i) < SRAM_NUM)
+  `PROVE(a_tvalid, !rst_n || tvalid == (count_q != 2'd0))
+  `PROVE(a_tready, !rst_n || result_tready == (count_q != 2'd2))
+  `PROVE(a_word, !(rst_n && tvalid) || tdata == slot0_q[63:0])
+  `PROVE(a_tlast, !(rst_n && tvalid) || tlast == slot0_q[64])
+  `PROVE(a_tuser, !(rst_n && tvalid) || tuser == slot0_q[65])
+  `PROVE(a_frame, !rst_n || frame == (pop && tlast))
+  `GOAL(rst_n && frame && count_q == 2'd2 && tdata[57] && !tuser)
+
+endmodule

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by scripts/generate.py from hdl/subsystem/registers.toml.
+// Offsets of the registers, and of each field the lowest bit and the number of bits.
+package dtof_registers_pkg;
+
+  localparam logic [31:0] ID_VALUE = 32'h444f4650;
+  localparam logic [31:0] VERSION_VALUE = 32'h00010000;
+
+  // says that this is the subsystem
+  localparam logic [11:0] ID = 12'h000;
+  localparam int ID_VALUE_LSB = 0;
+  localparam int ID_VALUE_WIDTH = 32;
+
+  // of the registers and the result stream
+  localparam logic [11:0] VERSION = 12'h004;
+  localparam int VERSION_MINOR_LSB = 0;
+  localparam int VERSION_MINOR_WIDTH = 16;
+  localparam int VERSION_MAJOR_LSB = 16;
+  localparam int VERSION_MAJOR_WIDTH = 16;
+
+  // what the array is
+  localparam logic [11:0] READOUT = 12'h008;
+  localparam int READOUT_NUMBER_LSB = 0;
+  localparam int READOUT_NUMBER_WIDTH = 8;
+  localparam int READOUT_SCHEDULE_LSB = 8;
+  localparam int READOUT_SCHEDULE_WIDTH = 1;
+  localparam int READOUT_TIME_GATE_LSB = 9;
+  localparam int READOUT_TIME_GATE_WIDTH = 1;
+
+  // of the array
+  localparam logic [11:0] SIZE = 12'h00c;
+  localparam int SIZE_COLUMNS_LSB = 0;
+  localparam int SIZE_COLUMNS_WIDTH = 16;
+  localparam int SIZE_ROWS_LSB = 16;
+  localparam int SIZE_ROWS_WIDTH = 16;
+
+  // bits of what goes in and out
+  localparam logic [11:0] WIDTHS = 12'h010;
+  localparam int WIDTHS_TIMESTAMP_LSB = 0;
+  localparam int WIDTHS_TIMESTAMP_WIDTH = 8;
+  localparam int WIDTHS_FRACTION_LSB = 8;
+  localparam int WIDTHS_FRACTION_WIDTH = 8;
+  localparam int WIDTHS_CONFIDENCE_LSB = 16;
+  localparam int WIDTHS_CONFIDENCE_WIDTH = 8;
+  localparam int WIDTHS_ACQUISITIONS_LSB = 24;
+  localparam int WIDTHS_ACQUISITIONS_WIDTH = 8;
+
+  // lines of timestamps
+  localparam logic [11:0] LINES = 12'h014;
+  localparam int LINES_ACQUISITION_LSB = 0;
+  localparam int LINES_ACQUISITION_WIDTH = 16;
+  localparam int LINES_BUFFER_LSB = 16;
+  localparam int LINES_BUFFER_WIDTH = 16;
+
+  // timestamps of a pixel in an acquisition
+  localparam logic [11:0] SLOTS = 12'h018;
+  localparam int SLOTS_VALUE_LSB = 0;
+  localparam int SLOTS_VALUE_WIDTH = 8;
+
+  // begins frames
+  localparam logic [11:0] CONTROL = 12'h040;
+  localparam int CONTROL_START_LSB = 0;
+  localparam int CONTROL_START_WIDTH = 1;
+  localparam int CONTROL_CONTINUOUS_LSB = 1;
+  localparam int CONTROL_CONTINUOUS_WIDTH = 1;
+  localparam int CONTROL_FLUSH_LSB = 2;
+  localparam int CONTROL_FLUSH_WIDTH = 1;
+
+  // what goes on
+  localparam logic [11:0] STATUS = 12'h044;
+  localparam int STATUS_BUSY_LSB = 0;
+  localparam int STATUS_BUSY_WIDTH = 1;
+  localparam int STATUS_STATE_LSB = 4;
+  localparam int STATUS_STATE_WIDTH = 3;
+  localparam int STATUS_LEVEL_LSB = 16;
+  localparam int STATUS_LEVEL_WIDTH = 16;
+
+  // what went wrong since it was last cleared
+  localparam logic [11:0] ERROR = 12'h048;
+  localparam int ERROR_UNDERRUN_LSB = 0;
+  localparam int ERROR_UNDERRUN_WIDTH = 1;
+  localparam int ERROR_START_IGNORED_LSB = 1;
+  localparam int ERROR_START_IGNORED_WIDTH = 1;
+  localparam int ERROR_ILLEGAL_SCHEDULE_LSB = 2;
+  localparam int ERROR_ILLEGAL_SCHEDULE_WIDTH = 1;
+  localparam int ERROR_OVERRUN_LSB = 3;
+  localparam int ERROR_OVERRUN_WIDTH = 1;
+  localparam int ERROR_MISFRAMED_LSB = 4;
+  localparam int ERROR_MISFRAMED_WIDTH = 1;
+
+  // what raises `irq_o`
+  localparam logic [11:0] IRQ_ENABLE = 12'h04c;
+  localparam int IRQ_ENABLE_FRAME_LSB = 0;
+  localparam int IRQ_ENABLE_FRAME_WIDTH = 1;
+  localparam int IRQ_ENABLE_ERROR_LSB = 1;
+  localparam int IRQ_ENABLE_ERROR_WIDTH = 1;
+
+  // `irq_o` is high while an enabled one is set
+  localparam logic [11:0] IRQ_STATUS = 12'h050;
+  localparam int IRQ_STATUS_FRAME_LSB = 0;
+  localparam int IRQ_STATUS_FRAME_WIDTH = 1;
+  localparam int IRQ_STATUS_ERROR_LSB = 1;
+  localparam int IRQ_STATUS_ERROR_WIDTH = 1;
+
+  // frames whose last result was taken, since reset; begins again at 0 behind 2^32 - 1, so that differences hold
+  localparam logic [11:0] FRAME_COUNT = 12'h054;
+  localparam int FRAME_COUNT_VALUE_LSB = 0;
+  localparam int FRAME_COUNT_VALUE_WIDTH = 32;
+
+  // how long the last frame took, from the clock of its start to that of the array's `done_o`
+  localparam logic [11:0] FRAME_CYCLES = 12'h058;
+  localparam int FRAME_CYCLES_VALUE_LSB = 0;
+  localparam int FRAME_CYCLES_VALUE_WIDTH = 32;
+
+  // of a frame; 0 is legal
+  localparam logic [11:0] ACQUISITIONS = 12'h060;
+  localparam int ACQUISITIONS_VALUE_LSB = 0;
+  localparam int ACQUISITIONS_VALUE_WIDTH = 24;
+
+  // poolPointer: the coarse phase ends before this acquisition
+  localparam logic [11:0] COARSE_END = 12'h064;
+  localparam int COARSE_END_VALUE_LSB = 0;
+  localparam int COARSE_END_VALUE_WIDTH = 24;
+
+  // poolPointer: the track phase ends before this acquisition
+  localparam logic [11:0] TRACK_END = 12'h068;
+  localparam int TRACK_END_VALUE_LSB = 0;
+  localparam int TRACK_END_VALUE_WIDTH = 24;
+
+  // poolPointer: the pointers' small steps begin with this acquisition
+  localparam logic [11:0] LATE_BEGIN = 12'h06c;
+  localparam int LATE_BEGIN_VALUE_LSB = 0;
+  localparam int LATE_BEGIN_VALUE_WIDTH = 24;
+
+  // with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all of them
+  localparam logic [11:0] GATE = 12'h070;
+  localparam int GATE_BEGIN_LSB = 0;
+  localparam int GATE_BEGIN_WIDTH = 16;
+  localparam int GATE_END_LSB = 16;
+  localparam int GATE_END_WIDTH = 16;
+
+  // lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller, LINES.BUFFER
+  localparam logic [11:0] RELEASE = 12'h074;
+  localparam int RELEASE_VALUE_LSB = 0;
+  localparam int RELEASE_VALUE_WIDTH = 16;
+
+  // a result whose confidence is below is weak
+  localparam logic [11:0] WEAK_BELOW = 12'h078;
+  localparam int WEAK_BELOW_VALUE_LSB = 0;
+  localparam int WEAK_BELOW_VALUE_WIDTH = 16;
+
+  // register k: columns 32 k and up; at reset all are enabled
+  localparam logic [11:0] COLUMN_ENABLE = 12'h080;
+  localparam int COLUMN_ENABLE_NUMBER = 32;
+  localparam int COLUMN_ENABLE_MASK_LSB = 0;
+  localparam int COLUMN_ENABLE_MASK_WIDTH = 32;
+
+  // A result.
+  localparam int RESULT_WIDTH = 64;
+  localparam int RESULT_POSITION_LSB = 0;
+  localparam int RESULT_POSITION_WIDTH = 16;
+  localparam int RESULT_CONFIDENCE_LSB = 16;
+  localparam int RESULT_CONFIDENCE_WIDTH = 16;
+  localparam int RESULT_ROW_LSB = 32;
+  localparam int RESULT_ROW_WIDTH = 12;
+  localparam int RESULT_COLUMN_LSB = 44;
+  localparam int RESULT_COLUMN_WIDTH = 12;
+  localparam int RESULT_VALID_LSB = 56;
+  localparam int RESULT_VALID_WIDTH = 1;
+  localparam int RESULT_WEAK_LSB = 57;
+  localparam int RESULT_WEAK_WIDTH = 1;
+  localparam int RESULT_EMPTY_LSB = 58;
+  localparam int RESULT_EMPTY_WIDTH = 1;
+  localparam int RESULT_MASKED_LSB = 59;
+  localparam int RESULT_MASKED_WIDTH = 1;
+
+  function automatic bit is_register(input logic [11:0] offset);
+    is_register = (offset <= 12'h018)
+        || (offset >= 12'h040 && offset <= 12'h058)
+        || (offset >= 12'h060 && offset <= 12'h078)
+        || (offset >= 12'h080 && offset <= 12'h0fc);
+  endfunction
+
+  function automatic bit is_writable(input logic [11:0] offset);
+    is_writable = offset == 12'h040
+        || (offset >= 12'h048 && offset <= 12'h050)
+        || (offset >= 12'h060 && offset <= 12'h078)
+        || (offset >= 12'h080 && offset <= 12'h0fc);
+  endfunction
+
+endpackage

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by scripts/generate.py from readouts.toml. A part of dtof_subsystem: the parameters of pool_pointer_array.
+          .NP(NP),
+          .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+          .SRAM_NUM(SRAM_NUM),
+          .SLOTS(SLOTS),
+          .COUNT_WIDTH(COUNT_WIDTH),
+          .GROUP_SIZE(GROUP_SIZE),
+          .DARK_LABELS(DARK_LABELS),
+          .DARK_SCORE_BITS(DARK_SCORE_BITS),
+          .BRIGHT_LABELS(BRIGHT_LABELS),
+          .BRIGHT_SCORE_BITS(BRIGHT_SCORE_BITS),
+          .BRIGHT_FROM(BRIGHT_FROM),
+          .OFFSET_BITS(OFFSET_BITS),
+          .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+          .POINTER_SHIFT(POINTER_SHIFT),
+          .RIVAL_MOVES(RIVAL_MOVES),
+          .ENGINE_COLUMNS(ENGINE_COLUMNS),
+          .ACQ_WIDTH(ACQ_WIDTH)

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Written by scripts/generate.py from readouts.toml. A part of dtof_subsystem: its arrays' parameters.
+    // bits of a TDC timestamp
+    parameter int NP = 10,
+    // bits of the coarse histogram index
+    parameter int NB = (READOUT == dtof_pkg::READOUT_SIFH) ? (NP / 2) + 1
+        : (READOUT == dtof_pkg::READOUT_PIFH) ? dtof_pkg::min_of(NP, 6)
+        : (READOUT == dtof_pkg::READOUT_HISTOGRAM) ? NP
+        : NP / 2,
+    // pixels a column serves
+    parameter int PIXELS_PER_SRAM = 160,
+    // columns working in parallel
+    parameter int SRAM_NUM = 200,
+    // timestamps per pixel and acquisition
+    parameter int SLOTS = 2,
+    // bits of a histogram bin; counters saturate
+    parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 7
+        : 10,
+    // bins a pointer moves per timestamp
+    parameter int POINTER_STEP = 1,
+    // fractional bits of the pointer
+    parameter int FRACTION_BITS = 0,
+    // bits of a pointer's confidence, 0 for none
+    parameter int CONFIDENCE_WIDTH = 4,
+    // hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns
+    parameter int GUARD = ((2 << NP) + 44) / 45,
+    // SiFH: window centred on the coarse bin (Fig. 3.8) instead of Eq. 2.5
+    parameter int WINDOW_CENTRED = 0,
+    // ports of the pointer SRAM; 1 halves its cell
+    parameter int POINTER_PORTS = 2,
+    // one status bit an address instead of clearing
+    parameter int SIGNALLED_CLEAR = 0,
+    // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
+    parameter int TIME_GATE = 0,
+    // bits of the run-time number of acquisitions
+    parameter int ACQ_WIDTH = 16,
+    // pixels that share a coarse histogram
+    parameter int GROUP_SIZE = 8,
+    // candidates of a group in little light
+    parameter int DARK_LABELS = 5,
+    // bits of their scores
+    parameter int DARK_SCORE_BITS = 4,
+    // candidates of a group in much light
+    parameter int BRIGHT_LABELS = 5,
+    // bits of their scores
+    parameter int BRIGHT_SCORE_BITS = 4,
+    // background of a group from which there is much light
+    parameter int BRIGHT_FROM = 6,
+    // bits of a leader's offset in the track phase, 0 for none
+    parameter int OFFSET_BITS = 5,
+    // bits of the leader's advantage
+    parameter int ADVANTAGE_WIDTH = 7,
+    // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins
+    parameter int POINTER_SHIFT = 1,
+    // 1: the rival has a pointer of its own
+    parameter int RIVAL_MOVES = 1,
+    // columns that share an engine
+    parameter int ENGINE_COLUMNS = 34,

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: Apache-2.0
+// An array of any read-out with everything around it: registers behind APB4, lines of timestamps in and results out as
+// AXI4-Streams of whole bytes, an interrupt (docs/user/integration.md). AXI4-Lite: axi_lite_to_apb in front.
+//
+// 1. Software writes the registers and CONTROL.START. What a frame uses is sampled when it begins.
+// 2. Lines of timestamps come from the source at its own pace, before and during frames. The line buffer offers an
+//    acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
+// 3. Columns that are not enabled and timestamps outside the time gate count as no detection.
+// 4. Results leave as words of 64 bits with a status, in the array's order; the array waits for a sink that waits.
+// 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
+//
+// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER is pool_pointer_array. The parameters
+// that follow (package/subsystem_parameters.svh) are the arrays'; each has the default of the read-out.
+// Latency: two clocks from a line to the array, one from the array to a result.
+// Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and some 300 flip-flops.
+`include "dtof_macros.svh"
+
+module dtof_subsystem #(
+    parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
+`include "subsystem_parameters.svh"
+    // Lines that the line buffer holds: at least two. With those of an acquisition and four the source is never held up.
+    parameter int BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
+    localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
+    localparam int M_TDATA_WIDTH = dtof_registers_pkg::RESULT_WIDTH
+) (
+    input  logic                     clk_i,
+    input  logic                     rst_ni,
+    // APB4, registers
+    input  logic                     psel_i,
+    input  logic                     penable_i,
+    input  logic                     pwrite_i,
+    input  logic [             11:0] paddr_i,
+    input  logic [             31:0] pwdata_i,
+    input  logic [              3:0] pstrb_i,
+    output logic                     pready_o,
+    output logic [             31:0] prdata_o,
+    output logic                     pslverr_o,
+    output logic                     irq_o,
+    // AXI4-Stream, lines of timestamps
+    input  logic                     s_axis_tvalid_i,
+    output logic                     s_axis_tready_o,
+    input  logic [S_TDATA_WIDTH-1:0] s_axis_tdata_i,   // a timestamp of every column, column 0 in the lowest bits
+    input  logic                     s_axis_tlast_i,   // the last line of an acquisition; only checked
+    // AXI4-Stream, results
+    output logic                     m_axis_tvalid_o,
+    input  logic                     m_axis_tready_i,
+    output logic [M_TDATA_WIDTH-1:0] m_axis_tdata_o,
+    output logic                     m_axis_tuser_o,   // a frame's first
+    output logic                     m_axis_tlast_o    // a frame's last
+);
+
+  localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0;
+  localparam int ACQUISITION_LINES = PIXELS_PER_SRAM * SLOTS;
+  localparam int MOST_RELEASE = dtof_pkg::min_of(ACQUISITION_LINES, BUFFER_LINES);
+  localparam int LEVEL_WIDTH = $clog2(BUFFER_LINES + 2);
+  localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM);
+  localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
+  localparam int FRACTION_WIDTH = (POOL != 0) ? 16 - NP : dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
+  localparam int RESULT_CONFIDENCE_WIDTH = (POOL != 0) ? dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH)
+      : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, CONFIDENCE_WIDTH);
+  localparam int RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + NP + FRACTION_WIDTH + RESULT_CONFIDENCE_WIDTH;
+
+  `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT) || POOL != 0,
+                "dtof_subsystem: READOUT must be one of dtof_pkg::READOUT_*")
+  `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1 && SRAM_NUM <= 1024, "dtof_subsystem: SRAM_NUM must be 1 to 1024")
+  `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1 && PIXELS_PER_SRAM <= 4096,
+                "dtof_subsystem: PIXELS_PER_SRAM must be 1 to 4096")
+  `DTOF_REQUIRE(g_illegal_acquisition, ACQUISITION_LINES <= 65535,
+                "dtof_subsystem: PIXELS_PER_SRAM times SLOTS must be at most 65535")
+  `DTOF_REQUIRE(g_illegal_buffer, BUFFER_LINES >= 2 && BUFFER_LINES <= 65534,
+                "dtof_subsystem: BUFFER_LINES must be 2 to 65534")
+
+  // Registers and frames.
+
+  logic start, flush, continuous, begin_frame, busy, done, frame;
+  logic start_ignored, illegal_schedule, underrun, misframed, overrun;
+  logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end, late_begin;
+  logic [NP-1:0] gate_begin, gate_end;
+  logic [15:0] release_lines, weak_below;
+  logic [SRAM_NUM-1:0] enable;
+  logic [2:0] state;
+  logic [LEVEL_WIDTH-1:0] level;
+  logic [31:0] frame_count, frame_cycles;
+
+  apb_registers #(
+      .READOUT         (READOUT),
+      .HAS_SCHEDULE    (POOL),
+      .TIME_GATE       (TIME_GATE),
+      .NP              (NP),
+      .SRAM_NUM        (SRAM_NUM),
+      .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
+      .SLOTS           (SLOTS),
+      .FRACTION_WIDTH  (FRACTION_WIDTH),
+      .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH),
+      .ACQ_WIDTH       (ACQ_WIDTH),
+      .BUFFER_LINES    (BUFFER_LINES),
+      .MOST_RELEASE    (MOST_RELEASE)
+  ) u_registers (
+      .clk_i             (clk_i),
+      .rst_ni            (rst_ni),
+      .psel_i            (psel_i),
+      .penable_i         (penable_i),
+      .pwrite_i          (pwrite_i),
+      .paddr_i           (paddr_i),
+      .pwdata_i          (pwdata_i),
+      .pstrb_i           (pstrb_i),
+      .pready_o          (pready_o),
+      .prdata_o          (prdata_o),
+      .pslverr_o         (pslverr_o),
+      .start_o           (start),
+      .flush_o           (flush),
+      .continuous_o      (continuous),
+      .acquisitions_o    (acquisitions),
+      .coarse_end_o      (coarse_end),
+      .track_end_o       (track_end),
+      .late_begin_o      (late_begin),
+      .gate_begin_o      (gate_begin),
+      .gate_end_o        (gate_end),
+      .release_o         (release_lines),
+      .weak_below_o      (weak_below),
+      .enable_o          (enable),
+      .busy_i            (busy),
+      .state_i           (state),
+      .level_i           (16'(level)),
+      .frame_count_i     (frame_count),
+      .frame_cycles_i    (frame_cycles),
+      .frame_i           (frame),
+      .underrun_i        (underrun),
+      .start_ignored_i   (start_ignored),
+      .illegal_schedule_i(illegal_schedule),
+      .overrun_i         (overrun),
+      .misframed_i       (misframed),
+      .irq_o             (irq_o)
+  );
+
+  frame_control #(
+      .HAS_SCHEDULE(POOL),
+      .ACQ_WIDTH   (ACQ_WIDTH),
+      .MOST_RELEASE(MOST_RELEASE)
+  ) u_frame_control (
+      .clk_i             (clk_i),
+      .rst_ni            (rst_ni),
+      .start_i           (start),
+      .continuous_i      (continuous),
+      .acquisitions_i    (acquisitions),
+      .coarse_end_i      (coarse_end),
+      .track_end_i       (track_end),
+      .late_begin_i      (late_begin),
+      .release_i         (release_lines),
+      .begin_o           (begin_frame),
+      .done_i            (done),
+      .frame_i           (frame),
+      .busy_o            (busy),
+      .start_ignored_o   (start_ignored),
+      .illegal_schedule_o(illegal_schedule),
+      .frame_count_o     (frame_count),
+      .frame_cycles_o    (frame_cycles)
+  );
+
+  // What this frame uses; the array samples its own.
+
+  logic [SRAM_NUM-1:0] frame_enable_q;
+  logic [NP-1:0] frame_gate_begin_q, frame_gate_end_q;
+  logic [LEVEL_WIDTH-1:0] frame_release_q;
+  logic [15:0] frame_weak_below_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      frame_release_q <= LEVEL_WIDTH'(MOST_RELEASE);
+    end else if (begin_frame) begin
+      frame_release_q <= LEVEL_WIDTH'(release_lines);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (begin_frame) begin
+      frame_enable_q <= enable;
+      frame_gate_begin_q <= gate_begin;
+      frame_gate_end_q <= gate_end;
+      frame_weak_below_q <= weak_below;
+    end
+  end
+
+  // Lines in.
+
+  logic tdc_valid, tdc_ready;
+  logic [SRAM_NUM*NP-1:0] line, timestamps;
+
+  line_buffer #(
+      .ACQUISITION_LINES(ACQUISITION_LINES),
+      .LINES            (BUFFER_LINES),
+      .WIDTH            (SRAM_NUM * NP)
+  ) u_line_buffer (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .flush_i     (flush && !busy),
+      .release_i   (frame_release_q),
+      .level_o     (level),
+      .underrun_o  (underrun),
+      .misframed_o (misframed),
+      .s_tvalid_i  (s_axis_tvalid_i),
+      .s_tready_o  (s_axis_tready_o),
+      .s_tdata_i   (s_axis_tdata_i[SRAM_NUM*NP-1:0]),
+      .s_tlast_i   (s_axis_tlast_i),
+      .line_valid_o(tdc_valid),
+      .line_ready_i(tdc_ready),
+      .line_o      (line)
+  );
+
+  generate
+    if (S_TDATA_WIDTH > SRAM_NUM * NP) begin : g_padding
+      logic unused_padding;
+      assign unused_padding = ^s_axis_tdata_i[S_TDATA_WIDTH-1:SRAM_NUM*NP];
+    end
+  endgenerate
+
+  line_filter #(
+      .NP       (NP),
+      .SRAM_NUM (SRAM_NUM),
+      .TIME_GATE(TIME_GATE)
+  ) u_line_filter (
+      .line_i      (line),
+      .enable_i    (frame_enable_q),
+      .gate_begin_i(frame_gate_begin_q),
+      .gate_end_i  (frame_gate_end_q),
+      .line_o      (timestamps)
+  );
+
+  // The array.
+
+  logic result_tvalid, result_tready, result_tlast;
+  logic [RESULT_WIDTH-1:0] result_tdata;
+  logic array_busy;
+
+  generate
+    if (POOL != 0) begin : g_pool
+      pool_pointer_array #(
+`include "pool_pointer_array_parameters.svh"
+      ) u_array (
+          .clk_i          (clk_i),
+          .rst_ni         (rst_ni),
+          .start_i        (begin_frame),
+          .acq_num_i      (acquisitions),
+          .coarse_end_i   (coarse_end),
+          .track_end_i    (track_end),
+          .late_begin_i   (late_begin),
+          .busy_o         (array_busy),
+          .done_o         (done),
+          .state_o        (state),
+          .tdc_valid_i    (tdc_valid),
+          .tdc_ready_o    (tdc_ready),
+          .tdc_timestamp_i(timestamps),
+          .result_tvalid_o(result_tvalid),
+          .result_tready_i(result_tready),
+          .result_tdata_o (result_tdata),
+          .result_tlast_o (result_tlast)
+      );
+    end else begin : g_array
+      dtof_array #(
+          .READOUT(READOUT),
+`include "dtof_array_parameters.svh"
+      ) u_array (
+          .clk_i          (clk_i),
+          .rst_ni         (rst_ni),
+          .start_i        (begin_frame),
+          .acq_num_i      (acquisitions),
+          .gate_begin_i   ({NP{1'b0}}),
+          .gate_end_i     ({NP{1'b0}}),
+          .busy_o         (array_busy),
+          .done_o         (done),
+          .state_o        (state),
+          .tdc_valid_i    (tdc_valid),
+          .tdc_ready_o    (tdc_ready),
+          .tdc_timestamp_i(timestamps),
+          .result_tvalid_o(result_tvalid),
+          .result_tready_i(result_tready),
+          .result_tdata_o (result_tdata),
+          .result_tlast_o (result_tlast)
+      );
+    end
+  endgenerate
+
+  `DTOF_ASSERT(a_begin_when_idle, !(begin_frame && array_busy), "a frame begins while another is under way")
+
+  // Results out.
+
+  stream_output #(
+      .SRAM_NUM        (SRAM_NUM),
+      .ROW_WIDTH       (ROW_WIDTH),
+      .POSITION_WIDTH  (NP + FRACTION_WIDTH),
+      .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
+  ) u_stream_output (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .weak_below_i   (frame_weak_below_q),
+      .enable_i       (frame_enable_q),
+      .result_tvalid_i(result_tvalid),
+      .result_tready_o(result_tready),
+      .result_tdata_i (result_tdata),
+      .result_tlast_i (result_tlast),
+      .m_axis_tvalid_o(m_axis_tvalid_o),
+      .m_axis_tready_i(m_axis_tready_i),
+      .m_axis_tdata_o (m_axis_tdata_o),
+      .m_axis_tuser_o (m_axis_tuser_o),
+      .m_axis_tlast_o (m_axis_tlast_o),
+      .frame_o        (frame)
+  );
+
+  assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
+
+endmodule

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results of an array as words of 64 bits, the same for every array, with a status for each pixel. Two words wait here,
+// so that no path leads from the sink's ready to the array.
+//
+// Word: {status, column, row, confidence, position}, at the places of dtof_registers_pkg. Of a result's status, `weak` is
+// confidence < weak_below_i; `empty` is confidence = 0, where the read-out has one; `masked` says that the column is not
+// enabled; `valid` that none of the three holds.
+// tuser: a frame's first word. tlast: its last.
+// Latency: one clock. A word a clock while tready stays high. tvalid never falls before tready.
+// Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
+`include "dtof_macros.svh"
+
+module stream_output #(
+    parameter int SRAM_NUM = 200,
+    parameter int ROW_WIDTH = 8,
+    parameter int POSITION_WIDTH = 10,    // code and fraction, at most 16
+    parameter int CONFIDENCE_WIDTH = 4,   // at most 16; 0: none
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
+    localparam int WORD_WIDTH = dtof_registers_pkg::RESULT_WIDTH
+) (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic [           15:0] weak_below_i,   // these two do not change during a frame
+    input  logic [   SRAM_NUM-1:0] enable_i,
+    // from the array
+    input  logic                   result_tvalid_i,
+    output logic                   result_tready_o,
+    input  logic [TDATA_WIDTH-1:0] result_tdata_i,  // {column, row, code, fraction, confidence}
+    input  logic                   result_tlast_i,  // the frame's last
+    // AXI4-Stream
+    output logic                   m_axis_tvalid_o,
+    input  logic                   m_axis_tready_i,
+    output logic [ WORD_WIDTH-1:0] m_axis_tdata_o,
+    output logic                   m_axis_tuser_o,  // the frame's first
+    output logic                   m_axis_tlast_o,
+    output logic                   frame_o          // a frame's last word is taken
+);
+
+  logic [COLUMN_WIDTH-1:0] column;
+  logic [ROW_WIDTH-1:0] row;
+  logic [POSITION_WIDTH-1:0] position;
+  logic [15:0] confidence;
+  logic low, empty, masked;
+
+  assign column = result_tdata_i[TDATA_WIDTH-1-:COLUMN_WIDTH];
+  assign row = result_tdata_i[POSITION_WIDTH+CONFIDENCE_WIDTH+:ROW_WIDTH];
+  assign position = result_tdata_i[CONFIDENCE_WIDTH+:POSITION_WIDTH];
+
+  generate
+    if (CONFIDENCE_WIDTH > 0) begin : g_confidence
+      assign confidence = 16'(result_tdata_i[CONFIDENCE_WIDTH-1:0]);
+      assign low = (confidence < weak_below_i);
+      assign empty = (confidence == '0);
+    end else begin : g_no_confidence
+      logic unused_weak_below;
+      assign unused_weak_below = ^weak_below_i;
+      assign confidence = '0;
+      assign low = 1'b0;
+      assign empty = 1'b0;
+    end
+  endgenerate
+
+  assign masked = !enable_i[column];
+
+  logic [WORD_WIDTH-1:0] word;
+
+  always_comb begin
+    word = '0;
+    word[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
+    word[dtof_registers_pkg::RESULT_CONFIDENCE_LSB+:16] = confidence;
+    word[dtof_registers_pkg::RESULT_ROW_LSB+:ROW_WIDTH] = row;
+    word[dtof_registers_pkg::RESULT_COLUMN_LSB+:COLUMN_WIDTH] = column;
+    word[dtof_registers_pkg::RESULT_VALID_LSB] = !low && !empty && !masked;
+    word[dtof_registers_pkg::RESULT_WEAK_LSB] = low;
+    word[dtof_registers_pkg::RESULT_EMPTY_LSB] = empty;
+    word[dtof_registers_pkg::RESULT_MASKED_LSB] = masked;
+  end
+
+  // The word at the port, and one behind it for the clock in which the array learns that the sink waits.
+
+  logic valid_q, last_q, first_q, behind_q, behind_last_q, behind_first_q, begins_q;
+  logic [WORD_WIDTH-1:0] word_q, behind_word_q;
+  logic accepted, moves;
+
+  assign accepted = result_tvalid_i && !behind_q;
+  assign moves = !valid_q || m_axis_tready_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      valid_q <= 1'b0;
+      behind_q <= 1'b0;
+      begins_q <= 1'b1;
+    end else begin
+      if (accepted) begin
+        begins_q <= result_tlast_i;
+      end
+      if (moves) begin
+        valid_q <= behind_q || accepted;
+        behind_q <= 1'b0;
+      end else if (accepted) begin
+        behind_q <= 1'b1;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (accepted) begin
+      behind_word_q <= word;
+      behind_last_q <= result_tlast_i;
+      behind_first_q <= begins_q;
+    end
+    if (moves) begin
+      word_q <= behind_q ? behind_word_q : word;
+      last_q <= behind_q ? behind_last_q : result_tlast_i;
+      first_q <= behind_q ? behind_first_q : begins_q;
+    end
+  end
+
+  assign result_tready_o = !behind_q;
+  assign m_axis_tvalid_o = valid_q;
+  assign m_axis_tdata_o = word_q;
+  assign m_axis_tuser_o = first_q;
+  assign m_axis_tlast_o = last_q;
+  assign frame_o = valid_q && m_axis_tready_i && last_q;
+
+`ifndef SYNTHESIS
+  stream_rules #(
+      .WIDTH(WORD_WIDTH + 1)
+  ) u_stream_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_ni),
+      .tvalid_i(m_axis_tvalid_o),
+      .tready_i(m_axis_tready_i),
+      .tdata_i ({m_axis_tuser_o, m_axis_tdata_o}),
+      .tlast_i (m_axis_tlast_o)
+  );
+`endif
+
+endmodule

@@ -1,0 +1,211 @@
+# SPDX-License-Identifier: Apache-2.0
+"""hdl/subsystem/registers.toml: the registers of dtof_subsystem and its result word, as the constants of the RTL, a C
+header and tables of Markdown. scripts/generate.py writes them."""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from dtof_synth.errors import FlowError
+
+ROOT = Path(__file__).resolve().parent.parent
+PATH = ROOT / "hdl/subsystem/registers.toml"
+WRITTEN = "Written by scripts/generate.py from hdl/subsystem/registers.toml."
+ACCESS = {"constant": "read", "status": "read", "setting": "read, write", "command": "write 1",
+          "sticky": "read, write 1 clears"}  # fmt: skip
+READ_ONLY = ("constant", "status")
+REGISTER_BITS, RESULT_BITS, ADDRESS_BITS = 32, 64, 12
+
+
+@dataclass(frozen=True)
+class Field:
+    name: str
+    bits: list[int]  # lowest, highest
+    help: str
+    access: str = ""
+
+    @property
+    def lowest(self) -> int:
+        return self.bits[0]
+
+    @property
+    def width(self) -> int:
+        return self.bits[1] - self.bits[0] + 1
+
+    @property
+    def place(self) -> str:
+        return str(self.bits[0]) if self.width == 1 else f"{self.bits[1]}:{self.bits[0]}"
+
+
+@dataclass(frozen=True)
+class Register:
+    name: str
+    offset: int
+    help: str
+    fields: list[Field]
+    number: int = 1
+
+    @property
+    def last(self) -> int:
+        return self.offset + 4 * (self.number - 1)
+
+    @property
+    def writable(self) -> bool:
+        return any(field.access not in READ_ONLY for field in self.fields)
+
+    @property
+    def place(self) -> str:
+        return f"0x{self.offset:03X}" if self.number == 1 else f"0x{self.offset:03X} to 0x{self.last:03X}"
+
+
+@dataclass(frozen=True)
+class Map:
+    id: int
+    major: int
+    minor: int
+    registers: list[Register]
+    result: list[Field]
+
+
+def checked_fields(where: str, entries: dict, bits: int, access: bool) -> list[Field]:
+    fields = [Field(name, **entry) for name, entry in entries.items()]
+    taken: set[int] = set()
+    for field in fields:
+        place = f"{where}.{field.name}"
+        if len(field.bits) != 2 or not 0 <= field.lowest <= field.bits[1] < bits:
+            raise FlowError(f"{place}: bits must be the lowest and the highest of 0 to {bits - 1}")
+        mine = set(range(field.lowest, field.bits[1] + 1))
+        if taken & mine:
+            raise FlowError(f"{place}: another field has its bits")
+        taken |= mine
+        if access != (field.access in ACCESS):
+            raise FlowError(f"{place}: access must be one of {', '.join(ACCESS)}" if access else f"{place}: has no access")
+        if field.access in ("command", "sticky") and field.width != 1:
+            raise FlowError(f"{place}: a {field.access} has one bit")
+    return fields
+
+
+def parse(text: str) -> Map:
+    where = "registers.toml"
+    try:
+        table = tomllib.loads(text)
+        registers = []
+        for name, entry in table["register"].items():
+            fields = checked_fields(f"{where}: {name}", entry.pop("fields"), REGISTER_BITS, access=True)
+            registers.append(Register(name, fields=fields, **entry))
+        result = checked_fields(f"{where}: result", table["result"], RESULT_BITS, access=False)
+        whole = Map(table["id"], table["major"], table["minor"], registers, result)
+    except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
+        raise FlowError(f"{where}: {error}") from None
+    taken: dict[int, str] = {}
+    for register in registers:
+        if register.offset % 4 or not 0 <= register.offset <= register.last < 1 << ADDRESS_BITS:
+            raise FlowError(f"{where}: {register.name}: the offset must be a multiple of 4 below {1 << ADDRESS_BITS}")
+        for offset in range(register.offset, register.last + 4, 4):
+            if offset in taken:
+                raise FlowError(f"{where}: {register.name} has the offset of {taken[offset]}")
+            taken[offset] = register.name
+    return whole
+
+
+def load() -> Map:
+    return parse(PATH.read_text(encoding="utf-8"))
+
+
+def systemverilog(whole: Map) -> str:
+    def within(registers: list[Register]) -> str:
+        """A condition of `offset`: neighbours share a comparison."""
+        spans: list[list[int]] = []
+        for register in sorted(registers, key=lambda register: register.offset):
+            if spans and spans[-1][1] + 4 == register.offset:
+                spans[-1][1] = register.last
+            else:
+                spans.append([register.offset, register.last])
+        texts = [f"offset == 12'h{first:03x}" if first == last
+                 else f"(offset >= 12'h{first:03x} && offset <= 12'h{last:03x})" for first, last in spans]  # fmt: skip
+        return "\n        || ".join(texts).replace("(offset >= 12'h000 && ", "(")
+
+    lines = [
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// {WRITTEN}",
+        "// Offsets of the registers, and of each field the lowest bit and the number of bits.",
+        "package dtof_registers_pkg;",
+        "",
+        f"  localparam logic [31:0] ID_VALUE = 32'h{whole.id:08x};",
+        f"  localparam logic [31:0] VERSION_VALUE = 32'h{whole.major:04x}{whole.minor:04x};",
+    ]
+    for register in whole.registers:
+        lines += ["", f"  // {register.help}", f"  localparam logic [11:0] {register.name} = 12'h{register.offset:03x};"]
+        if register.number > 1:
+            lines.append(f"  localparam int {register.name}_NUMBER = {register.number};")
+        for field in register.fields:
+            lines.append(f"  localparam int {register.name}_{field.name}_LSB = {field.lowest};")
+            lines.append(f"  localparam int {register.name}_{field.name}_WIDTH = {field.width};")
+    lines += ["", "  // A result.", f"  localparam int RESULT_WIDTH = {RESULT_BITS};"]
+    for field in whole.result:
+        lines.append(f"  localparam int RESULT_{field.name}_LSB = {field.lowest};")
+        lines.append(f"  localparam int RESULT_{field.name}_WIDTH = {field.width};")
+    for name, chosen in (("is_register", whole.registers),
+                         ("is_writable", [register for register in whole.registers if register.writable])):  # fmt: skip
+        lines += ["", f"  function automatic bit {name}(input logic [11:0] offset);",
+                  f"    {name} = {within(chosen)};", "  endfunction"]  # fmt: skip
+    return "\n".join([*lines, "", "endpackage"]) + "\n"
+
+
+def c_header(whole: Map) -> str:
+    lines = [
+        "/* SPDX-License-Identifier: Apache-2.0",
+        f" * {WRITTEN}",
+        " * Offsets in bytes; of each field the lowest bit and the mask of its bits at their place. */",
+        "#ifndef DTOF_REGISTERS_H",
+        "#define DTOF_REGISTERS_H",
+        "",
+        f"#define DTOF_ID_EXPECTED UINT32_C(0x{whole.id:08X})",
+        f"#define DTOF_VERSION_MAJOR_EXPECTED UINT32_C({whole.major})",
+        f"#define DTOF_VERSION_MINOR_EXPECTED UINT32_C({whole.minor})",
+    ]
+
+    def field_lines(prefix: str, field: Field, bits: int) -> list[str]:
+        mask = ((1 << field.width) - 1) << field.lowest
+        return [f"#define {prefix}_{field.name}_LSB {field.lowest}",
+                f"#define {prefix}_{field.name}_MASK UINT{bits}_C(0x{mask:0{bits // 4}X})"]  # fmt: skip
+
+    for register in whole.registers:
+        lines += ["", f"/* {register.help} */", f"#define DTOF_{register.name} UINT32_C(0x{register.offset:03X})"]
+        if register.number > 1:
+            lines.append(f"#define DTOF_{register.name}_NUMBER {register.number}")
+        for field in register.fields:
+            lines += field_lines(f"DTOF_{register.name}", field, REGISTER_BITS)
+    lines += ["", "/* A result: a word of 64 bits. */"]
+    for field in whole.result:
+        lines += field_lines("DTOF_RESULT", field, RESULT_BITS)
+    return "\n".join([*lines, "", "#endif"]) + "\n"
+
+
+def register_table(whole: Map) -> str:
+    lines = ["| offset | register | bits | field | access | meaning |", "|---|---|---|---|---|---|"]
+    for register in whole.registers:
+        lines.append(f"| {register.place} | `{register.name}` | | | | {register.help} |")
+        for field in register.fields:
+            lines.append(f"| | | {field.place} | `{field.name}` | {ACCESS[field.access]} | {field.help} |")
+    return "\n".join(lines) + "\n"
+
+
+def result_table(whole: Map) -> str:
+    lines = ["| bits | field | meaning |", "|---|---|---|"]
+    lines += [f"| {field.place} | `{field.name}` | {field.help} |" for field in whole.result]
+    return "\n".join(lines) + "\n"
+
+
+def page(text: str, whole: Map) -> str:
+    """The page with both tables between their marks."""
+    for name, table in (("registers", register_table(whole)), ("result word", result_table(whole))):
+        begin = f"<!-- {name}: written by scripts/generate.py -->\n"
+        end = f"<!-- end of {name} -->\n"
+        if text.count(begin) != 1 or text.count(end) != 1:
+            raise FlowError(f"docs/user/integration.md has no place for the table of {name}")
+        head, rest = text.split(begin)
+        text = head + begin + "\n" + table + "\n" + end + rest.split(end)[1]
+    return text

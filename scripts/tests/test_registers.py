@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: Apache-2.0
+import re
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
+
+import registers  # noqa: E402
+from dtof_synth.errors import FlowError  # noqa: E402
+
+TEXT = registers.PATH.read_text(encoding="utf-8")
+SMALL = """
+id = 0x1234
+major = 2
+minor = 3
+[register.SPEED]
+offset = 0x00C
+help = "how fast"
+fields.NOW = { bits = [0, 7], access = "status", help = "now" }
+fields.WANTED = { bits = [8, 15], access = "setting", help = "wanted" }
+[register.DOOR]
+offset = 0x010
+number = 2
+help = "who is in"
+fields.COUNT = { bits = [4, 31], access = "constant", help = "people" }
+[result]
+WORD = { bits = [8, 63], help = "all" }
+"""
+
+
+class Descriptions(unittest.TestCase):
+    def test_bad_descriptions_are_refused(self):
+        for change, message in (
+            (("offset = 0x010", "offset = 0x012"), "multiple of 4"),
+            (("offset = 0x010", "offset = 0x1000"), "below 4096"),
+            (("offset = 0x010", "offset = 0x008"), "DOOR has the offset of SPEED"),
+            (("bits = [8, 15]", "bits = [7, 15]"), "another field has its bits"),
+            (("bits = [8, 15]", "bits = [8, 32]"), "highest of 0 to 31"),
+            (("bits = [8, 15]", "bits = [15, 8]"), "lowest and the highest"),
+            (("bits = [8, 63]", "bits = [8, 64]"), "highest of 0 to 63"),
+            (('"setting"', '"command"'), "a command has one bit"),
+            (('"setting"', '"wish"'), "access must be one of"),
+            (('help = "all"', 'help = "all", access = "status"'), "has no access"),
+            (('help = "who is in"', 'helps = "who is in"'), "helps"),
+            (("major = 2", ""), "major"),
+            (("id = 0x1234", "id ="), "registers.toml"),
+        ):
+            with self.subTest(change=change), self.assertRaisesRegex(FlowError, message):
+                registers.parse(SMALL.replace(*change, 1))
+
+    def test_constants_of_the_rtl(self):
+        text = registers.systemverilog(registers.parse(SMALL))
+        for line in ("localparam logic [31:0] VERSION_VALUE = 32'h00020003;",
+                     "localparam logic [11:0] DOOR = 12'h010;", "localparam int DOOR_NUMBER = 2;",
+                     "localparam int SPEED_WANTED_LSB = 8;", "localparam int SPEED_WANTED_WIDTH = 8;",
+                     "localparam int RESULT_WORD_WIDTH = 56;",
+                     "is_register = (offset >= 12'h00c && offset <= 12'h014);",
+                     "is_writable = offset == 12'h00c;"):  # fmt: skip
+            self.assertIn(line, text)
+
+    def test_c_header(self):
+        text = registers.c_header(registers.parse(SMALL))
+        for line in ("#define DTOF_SPEED UINT32_C(0x00C)", "#define DTOF_SPEED_WANTED_MASK UINT32_C(0x0000FF00)",
+                     "#define DTOF_DOOR_COUNT_LSB 4", "#define DTOF_RESULT_WORD_MASK UINT64_C(0xFFFFFFFFFFFFFF00)"):  # fmt: skip
+            self.assertIn(line, text)
+
+    def test_tables(self):
+        whole = registers.parse(SMALL)
+        self.assertIn("| 0x010 to 0x014 | `DOOR` | | | | who is in |", registers.register_table(whole))
+        self.assertIn("| | | 15:8 | `WANTED` | read, write | wanted |", registers.register_table(whole))
+        self.assertIn("| 63:8 | `WORD` | all |", registers.result_table(whole))
+        with self.assertRaisesRegex(FlowError, "no place for the table of registers"):
+            registers.page("# A page\n", whole)
+
+    def test_offsets_of_the_project_do_not_move_without_a_new_version(self):
+        """Software is compiled with them: who moves one raises `major` and renews this list."""
+        whole = registers.parse(TEXT)
+        self.assertEqual(whole.major, 1)
+        offsets = {register.name: register.offset for register in whole.registers}
+        self.assertEqual(re.sub(r"\s", "", " ".join(f"{name}={offset:x}" for name, offset in offsets.items())),
+                         "ID=0VERSION=4READOUT=8SIZE=cWIDTHS=10LINES=14SLOTS=18CONTROL=40STATUS=44ERROR=48IRQ_ENABLE=4c"
+                         "IRQ_STATUS=50FRAME_COUNT=54FRAME_CYCLES=58ACQUISITIONS=60COARSE_END=64TRACK_END=68LATE_BEGIN=6c"
+                         "GATE=70RELEASE=74WEAK_BELOW=78COLUMN_ENABLE=80")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "subsystem/axi_stream.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "rtl/error.hpp"
+
+namespace dtof {
+
+void LineSource::drive() {
+  offered_ = !waiting_.empty() && (offered_ || random_.uniform() >= gap_probability);
+  *ports_.line_valid = offered_ ? 1 : 0;
+  if (!offered_) {
+    // Nobody may look at the line.
+    std::generate_n(ports_.line_data, ports_.line_words, [this] { return random_(); });
+    *ports_.line_last = static_cast<std::uint8_t>(random_() % 2);
+    return;
+  }
+  std::fill_n(ports_.line_data, ports_.line_words, 0);
+  const auto width = static_cast<std::size_t>(np_);
+  const Line& line = waiting_.front().line;
+  for (std::size_t column = 0; column < line.size(); ++column) {
+    const std::size_t bit = column * width;
+    const std::uint64_t value = std::uint64_t{line[column]} << (bit % 32);
+    ports_.line_data[bit / 32] |= static_cast<std::uint32_t>(value);
+    if (bit % 32 + width > 32) {
+      ports_.line_data[bit / 32 + 1] |= static_cast<std::uint32_t>(value >> 32U);
+    }
+  }
+  *ports_.line_last = waiting_.front().last ? 1 : 0;
+}
+
+const Line* LineSource::observe(bool* last) {
+  if (!offered_ || *ports_.line_ready == 0) {
+    return nullptr;
+  }
+  accepted_ = std::move(waiting_.front());
+  waiting_.pop_front();
+  offered_ = false;
+  *last = accepted_.last;
+  return &accepted_.line;
+}
+
+void ResultSink::drive() { *ports_.result_ready = blocked || random_.uniform() < stall_probability ? 0 : 1; }
+
+void ResultSink::observe() {
+  const bool valid = *ports_.result_valid != 0;
+  const std::uint64_t word = *ports_.result_data;
+  const bool first = *ports_.result_first != 0;
+  const bool last = *ports_.result_last != 0;
+  const auto refuse = [&](const char* what) {
+    return RtlError(fmt::format("results: {}, frame {} word {}", what, frames_.size(), current_.size()));
+  };
+  if (held_ && !valid) {
+    throw refuse("tvalid fell before tready");
+  }
+  if (held_ && (word != held_word_ || first != held_first_ || last != held_last_)) {
+    throw refuse("a word changed before tready");
+  }
+  if (valid && first != current_.empty()) {
+    throw refuse("tuser is not on the first word");
+  }
+  if (valid && last != (current_.size() + 1 == words_)) {
+    throw refuse("tlast is not on the last word");
+  }
+  held_ = valid && *ports_.result_ready == 0;
+  held_word_ = word;
+  held_first_ = first;
+  held_last_ = last;
+  if (valid && !held_) {
+    current_.push_back(word);
+    if (last) {
+      frames_.push_back(std::move(current_));
+      current_.clear();
+    }
+  }
+}
+
+}  // namespace dtof

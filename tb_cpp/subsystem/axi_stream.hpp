@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "core/random.hpp"
+#include "rtl/configuration.hpp"
+#include "subsystem/subsystem_model.hpp"
+
+namespace dtof {
+
+/// A timestamp of every column.
+using Line = std::vector<Timestamp>;
+
+/// Source of an AXI4-Stream of lines with gaps anywhere.
+class LineSource {
+ public:
+  LineSource(const SubsystemModel::Ports& ports, int np, CounterRandom random)
+      : ports_(ports), np_(np), random_(random) {}
+
+  double gap_probability = 0.0;  ///< per clock without a line offered
+
+  void push(Line line, bool last) { waiting_.push_back({std::move(line), last}); }
+  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
+  void reset() {
+    waiting_.clear();
+    offered_ = false;
+  }
+
+  void drive();
+  /// The line that was accepted in this clock, or null.
+  [[nodiscard]] const Line* observe(bool* last);
+
+ private:
+  struct Entry {
+    Line line;
+    bool last;
+  };
+
+  SubsystemModel::Ports ports_;
+  int np_;
+  CounterRandom random_;
+  std::deque<Entry> waiting_;
+  Entry accepted_{};
+  bool offered_ = false;
+};
+
+/// Sink of the results' AXI4-Stream that checks the protocol in every clock: what is offered stays until it
+/// is taken; the first and the last word of a frame are marked, and no others.
+class ResultSink {
+ public:
+  /// `words`: those of a frame.
+  ResultSink(const SubsystemModel::Ports& ports, std::size_t words, CounterRandom random)
+      : ports_(ports), words_(words), random_(random) {}
+
+  double stall_probability = 0.0;  ///< per clock
+  bool blocked = false;            ///< takes nothing
+
+  /// Frames that were received whole, and the words of the one that is under way.
+  [[nodiscard]] const std::vector<std::vector<std::uint64_t>>& frames() const { return frames_; }
+  [[nodiscard]] const std::vector<std::uint64_t>& current() const { return current_; }
+  void reset() {
+    current_.clear();
+    held_ = false;
+  }
+
+  void drive();
+  /// Throws RtlError if the stream breaks its protocol.
+  void observe();
+
+ private:
+  SubsystemModel::Ports ports_;
+  std::size_t words_;
+  CounterRandom random_;
+  std::vector<std::vector<std::uint64_t>> frames_;
+  std::vector<std::uint64_t> current_;
+  bool held_ = false;  // a word was offered and not taken
+  std::uint64_t held_word_ = 0;
+  bool held_first_ = false;
+  bool held_last_ = false;
+};
+
+}  // namespace dtof

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "subsystem/subsystem_bench.hpp"
+
+#include <fmt/format.h>
+#include <verilated.h>
+
+#include <algorithm>
+
+#include "dtof_registers.h"
+#include "rtl/error.hpp"
+#include "rtl/write_coverage.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr std::uint64_t kTransferClocks = 1000;
+
+enum class Stream : std::uint32_t { kBus = 101, kSource = 102, kSink = 103 };
+
+CounterRandom stream(std::uint64_t seed, Stream which) {
+  return {seed, static_cast<std::uint32_t>(RandomPurpose::kTestControl), static_cast<std::uint32_t>(which),
+          0};
+}
+
+}  // namespace
+
+SubsystemBench::SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t seed)
+    : configuration_(subsystem.configuration),
+      context_(std::make_unique<VerilatedContext>()),
+      model_([&] {
+        Verilated::threadContextp(context_.get());
+        context_->randReset(2);  // memories and uninitialised registers start random
+        context_->randSeed(static_cast<int>(seed % 0x7FFFFFFFU) + 1);
+        const char* program = "dtof";  // the RTL looks for +sram_report
+        context_->commandArgs(1, &program);
+        return subsystem.factory(*context_);
+      }()),
+      ports_(model_->ports()),
+      bus_(ports_, stream(seed, Stream::kBus)),
+      source_(ports_, configuration_.parameters.np, stream(seed, Stream::kSource)),
+      sink_(ports_,
+            static_cast<std::size_t>(configuration_.pixels_per_sram) *
+                static_cast<std::size_t>(configuration_.sram_num),
+            stream(seed, Stream::kSink)),
+      acquisition_lines_(static_cast<std::size_t>(configuration_.pixels_per_sram) *
+                         static_cast<std::size_t>(configuration_.parameters.slots)) {
+  reset();
+  buffer_lines_ = (get(DTOF_LINES) & DTOF_LINES_BUFFER_MASK) >> DTOF_LINES_BUFFER_LSB;
+  release_next_ = std::min(buffer_lines_, acquisition_lines_);
+}
+
+SubsystemBench::~SubsystemBench() {
+  Verilated::threadContextp(context_.get());
+  write_coverage(*context_);
+}
+
+void SubsystemBench::reset() {
+  source_.reset();
+  sink_.reset();
+  bus_.reset();
+  forget_lines();
+  array_index_ = 0;
+  lost_ = false;
+  any_lost_ = false;
+  array_held_ = false;
+  events_ = {};
+  release_next_ = std::min(buffer_lines_, acquisition_lines_);
+  *ports_.reset_n = 0;
+  for (int i = 0; i < 2; ++i) {
+    source_.drive();
+    bus_.drive();
+    *ports_.clock = 0;
+    model_->eval();
+    *ports_.clock = 1;
+    model_->eval();
+  }
+  *ports_.reset_n = 1;
+}
+
+void SubsystemBench::forget_lines() {
+  accepted_.clear();
+  consumed_ = 0;
+  array_held_ = false;
+}
+
+void SubsystemBench::clock() {
+  source_.drive();
+  sink_.drive();
+  bus_.drive();
+  *ports_.clock = 0;
+  context_->time(2 * cycle_);
+  model_->eval();
+  bus_.observe();
+  observe_lines();
+  sink_.observe();
+  *ports_.clock = 1;
+  context_->time(2 * cycle_ + 1);
+  model_->eval();
+  ++cycle_;
+}
+
+void SubsystemBench::clocks(std::uint64_t count) {
+  for (std::uint64_t i = 0; i < count; ++i) {
+    clock();
+  }
+}
+
+void SubsystemBench::wait_for_frames(std::size_t frames, std::uint64_t limit) {
+  const std::size_t goal = sink_.frames().size() + frames;
+  for (std::uint64_t i = 0; sink_.frames().size() < goal; ++i) {
+    if (i >= limit) {
+      throw RtlError(fmt::format("{}: {} of {} frames within {} clocks, {} words of the next, {} lines wait",
+                                 configuration_.to_string(), sink_.frames().size(), goal, limit,
+                                 sink_.current().size(), source_.waiting()));
+    }
+    clock();
+  }
+}
+
+void SubsystemBench::run_transfer() {
+  for (std::uint64_t i = 0; bus_.busy(); ++i) {
+    if (i >= kTransferClocks) {
+      throw RtlError("a register's transfer does not end");
+    }
+    clock();
+  }
+}
+
+BusResponse SubsystemBench::read(std::uint32_t offset) {
+  bus_.read(offset);
+  run_transfer();
+  return bus_.response();
+}
+
+BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe) {
+  bus_.write(offset, data, strobe);
+  run_transfer();
+  if (offset == DTOF_RELEASE && strobe == RegisterBus::kAllBytes) {
+    release_next_ = data;
+  }
+  return bus_.response();
+}
+
+std::uint32_t SubsystemBench::get(std::uint32_t offset) {
+  const BusResponse response = read(offset);
+  if (response.error) {
+    throw RtlError(fmt::format("register 0x{:03x} does not read", offset));
+  }
+  return response.data;
+}
+
+void SubsystemBench::set(std::uint32_t offset, std::uint32_t data) {
+  if (write(offset, data).error) {
+    throw RtlError(fmt::format("register 0x{:03x} does not write", offset));
+  }
+}
+
+Line SubsystemBench::array_line() const {
+  const auto width = static_cast<std::size_t>(configuration_.parameters.np);
+  Line line(static_cast<std::size_t>(configuration_.sram_num));
+  for (std::size_t column = 0; column < line.size(); ++column) {
+    const std::size_t bit = column * width;
+    std::uint64_t bits = ports_.array_line[bit / 32];
+    if (bit % 32 + width > 32) {
+      bits |= std::uint64_t{ports_.array_line[bit / 32 + 1]} << 32U;
+    }
+    line[column] = static_cast<Timestamp>((bits >> (bit % 32)) & ((std::uint64_t{1} << width) - 1));
+  }
+  return line;
+}
+
+void SubsystemBench::take_array_line() {
+  const Line line = array_line();
+  const bool dark = std::ranges::all_of(
+      line, [this](Timestamp timestamp) { return timestamp == configuration_.parameters.no_detection(); });
+  const bool inside = array_index_ > 0;
+  const std::size_t here = accepted_.size() - std::min(accepted_.size(), consumed_);
+  if (!inside && here < release_) {
+    throw RtlError(fmt::format("an acquisition begins with {} lines instead of {}", here, release_));
+  }
+  if (!lost_ && here > 0 && line == accepted_[consumed_]) {
+    ++consumed_;
+  } else if (!dark) {
+    throw RtlError(fmt::format("line {} of an acquisition is not the source's", array_index_));
+  } else if (!lost_) {
+    // A line is at the buffer's output two clocks behind its acceptance.
+    if (!inside || here > 1) {
+      throw RtlError(fmt::format("an underrun with {} lines in the buffer", here));
+    }
+    lost_ = true;
+    any_lost_ = true;
+    events_.underrun = true;
+    consumed_ += acquisition_lines_ - array_index_;
+    ++frames_.back().lost;
+  }
+  frames_.back().lines.push_back(line);
+  if (++array_index_ == acquisition_lines_) {
+    array_index_ = 0;
+    lost_ = false;
+  }
+}
+
+void SubsystemBench::observe_lines() {
+  if (*ports_.begin != 0) {
+    frames_.emplace_back();
+    begin_cycle_ = cycle_;
+    release_ = release_next_;
+  }
+  if (*ports_.done != 0) {
+    frames_.back().cycles = cycle_ + 1 - begin_cycle_;
+  }
+  const bool offered = *ports_.array_line_valid != 0;
+  if (!offered && (array_held_ || array_index_ > 0)) {
+    throw RtlError("an acquisition was interrupted");
+  }
+  if (offered && *ports_.array_line_ready != 0) {
+    take_array_line();
+  }
+  // A frame that begins may ask for more lines than the one before.
+  array_held_ = offered && *ports_.array_line_ready == 0 && *ports_.begin == 0;
+
+  const bool refused = *ports_.line_valid != 0 && *ports_.line_ready == 0;
+  if (refused && !any_lost_ && accepted_.size() - consumed_ < buffer_lines_) {
+    throw RtlError(fmt::format("a line is refused with {} of {} lines in the buffer",
+                               accepted_.size() - consumed_, buffer_lines_));
+  }
+  events_.overrun = events_.overrun || (refused && *ports_.result_valid != 0 && *ports_.result_ready == 0);
+  bool last = false;
+  if (const Line* line = source_.observe(&last); line != nullptr) {
+    events_.misframed =
+        events_.misframed || last != (accepted_.size() % acquisition_lines_ == acquisition_lines_ - 1);
+    accepted_.push_back(*line);
+  }
+}
+
+}  // namespace dtof

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/random.hpp"
+#include "subsystem/axi_stream.hpp"
+#include "subsystem/register_bus.hpp"
+#include "subsystem/registry.hpp"
+
+class VerilatedContext;
+
+namespace dtof {
+
+/// What the array in the subsystem took in a frame.
+struct ArrayFrame {
+  std::vector<Line> lines;   ///< all acquisitions' one behind the other, before mask and gate
+  std::uint64_t cycles = 0;  ///< from its start to done, both included; 0 while it is under way
+  std::uint32_t lost = 0;    ///< acquisitions in which the line buffer ran empty
+};
+
+/// What happened, clock by clock at the ports: what ERROR must say.
+struct SubsystemEvents {
+  bool underrun = false;
+  bool overrun = false;
+  bool misframed = false;
+};
+
+/// A subsystem with masters at all its ports, which checks in every clock that
+/// - the results keep their stream's protocol (ResultSink);
+/// - an acquisition begins when as many lines are here as `release` says, and is never interrupted;
+/// - each line reaches the array in its place, or, behind an underrun, as no detection;
+/// - a line is refused only when the buffer is full.
+class SubsystemBench {
+ public:
+  /// Everything random follows from `seed`.
+  SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t seed);
+  ~SubsystemBench();
+  SubsystemBench(const SubsystemBench&) = delete;
+  SubsystemBench& operator=(const SubsystemBench&) = delete;
+  SubsystemBench(SubsystemBench&&) = delete;
+  SubsystemBench& operator=(SubsystemBench&&) = delete;
+
+  [[nodiscard]] const RtlConfiguration& configuration() const { return configuration_; }
+  [[nodiscard]] std::size_t acquisition_lines() const { return acquisition_lines_; }
+  [[nodiscard]] LineSource& source() { return source_; }
+  [[nodiscard]] ResultSink& sink() { return sink_; }
+  [[nodiscard]] const ResultSink& sink() const { return sink_; }
+  [[nodiscard]] const std::vector<ArrayFrame>& frames() const { return frames_; }
+  [[nodiscard]] SubsystemEvents& events() { return events_; }
+  [[nodiscard]] bool interrupt() const { return *ports_.irq != 0; }
+
+  /// Two clocks of reset; the source forgets its lines.
+  void reset();
+  /// Throws RtlError for whatever the bench checks.
+  void clock();
+  void clocks(std::uint64_t count);
+  /// Until `frames` frames more were received; throws RtlError after `limit` clocks.
+  void wait_for_frames(std::size_t frames, std::uint64_t limit = 200000);
+
+  BusResponse read(std::uint32_t offset);
+  BusResponse write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe = RegisterBus::kAllBytes);
+  /// The same for a register that must be there: throws RtlError for an error response.
+  std::uint32_t get(std::uint32_t offset);
+  void set(std::uint32_t offset, std::uint32_t data);
+  /// The line buffer was told to empty itself; the source must have no line waiting.
+  void forget_lines();
+
+ private:
+  void run_transfer();
+  void observe_lines();
+  void take_array_line();
+  [[nodiscard]] Line array_line() const;
+
+  RtlConfiguration configuration_;
+  std::unique_ptr<VerilatedContext> context_;
+  std::unique_ptr<SubsystemModel> model_;
+  SubsystemModel::Ports ports_;
+  RegisterBus bus_;
+  LineSource source_;
+  ResultSink sink_;
+  std::size_t acquisition_lines_;
+  std::size_t buffer_lines_ = 0;
+  std::size_t release_ = 0;       // of the frame that is under way
+  std::size_t release_next_ = 0;  // what the register says
+  std::vector<ArrayFrame> frames_;
+  SubsystemEvents events_;
+  std::uint64_t cycle_ = 0;
+  std::uint64_t begin_cycle_ = 0;
+  std::vector<Line> accepted_;   // lines since the buffer was empty
+  std::size_t consumed_ = 0;     // of these; behind an underrun those that are still to come, too
+  std::size_t array_index_ = 0;  // line of the acquisition
+  bool lost_ = false;            // the acquisition ran empty
+  bool any_lost_ = false;
+  bool array_held_ = false;  // a line was offered to the array and not taken
+};
+
+}  // namespace dtof

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace dtof {
+
+/// One Verilated subsystem_testbench with its type erased: the ports by address, and eval().
+class SubsystemModel {
+ public:
+  /// Where the model keeps its ports. Inputs are written before eval(), outputs read after it.
+  struct Ports {
+    std::uint8_t* clock;
+    std::uint8_t* reset_n;
+    const std::uint8_t* axi_lite;  ///< the registers are behind AXI4-Lite instead of APB4
+
+    std::uint8_t* psel;
+    std::uint8_t* penable;
+    std::uint8_t* pwrite;
+    std::uint16_t* paddr;
+    std::uint32_t* pwdata;
+    std::uint8_t* pstrb;
+    const std::uint8_t* pready;
+    const std::uint32_t* prdata;
+    const std::uint8_t* pslverr;
+
+    std::uint8_t* awvalid;
+    const std::uint8_t* awready;
+    std::uint16_t* awaddr;
+    std::uint8_t* wvalid;
+    const std::uint8_t* wready;
+    std::uint32_t* wdata;
+    std::uint8_t* wstrb;
+    const std::uint8_t* bvalid;
+    std::uint8_t* bready;
+    const std::uint8_t* bresp;
+    std::uint8_t* arvalid;
+    const std::uint8_t* arready;
+    std::uint16_t* araddr;
+    const std::uint8_t* rvalid;
+    std::uint8_t* rready;
+    const std::uint32_t* rdata;
+    const std::uint8_t* rresp;
+
+    const std::uint8_t* irq;
+
+    std::uint8_t* line_valid;
+    const std::uint8_t* line_ready;
+    std::uint32_t* line_data;  ///< NP bits a column, column 0 lowest
+    std::size_t line_words;
+    std::uint8_t* line_last;
+
+    const std::uint8_t* result_valid;
+    std::uint8_t* result_ready;
+    const std::uint64_t* result_data;
+    const std::uint8_t* result_first;
+    const std::uint8_t* result_last;
+
+    const std::uint8_t* begin;             ///< the array's frame begins
+    const std::uint8_t* done;              ///< and ends
+    const std::uint8_t* array_line_valid;  ///< at the array's port
+    const std::uint8_t* array_line_ready;
+    const std::uint32_t* array_line;  ///< as line_data, before mask and gate
+  };
+
+  SubsystemModel() = default;
+  SubsystemModel(const SubsystemModel&) = delete;
+  SubsystemModel& operator=(const SubsystemModel&) = delete;
+  SubsystemModel(SubsystemModel&&) = delete;
+  SubsystemModel& operator=(SubsystemModel&&) = delete;
+  virtual ~SubsystemModel() = default;
+
+  [[nodiscard]] virtual Ports ports() = 0;
+  virtual void eval() = 0;
+};
+
+}  // namespace dtof

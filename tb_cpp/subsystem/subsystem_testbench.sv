@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/// dtof_subsystem behind ports whose C++ types are the same for every configuration: 512 bits of lines, APB4 or, with
+/// AXI_LITE = 1, AXI4-Lite. The probes show what the array takes, and when its frames begin and end.
+module subsystem_testbench #(
+    parameter READOUT = 0,
+    parameter AXI_LITE = 0,
+`include "subsystem_parameters.svh"
+    parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4
+) (
+    input  logic         clk_i,
+    input  logic         rst_ni,
+    output logic         axi_lite_o,
+    input  logic         psel_i,
+    input  logic         penable_i,
+    input  logic         pwrite_i,
+    input  logic [ 15:0] paddr_i,
+    input  logic [ 31:0] pwdata_i,
+    input  logic [  7:0] pstrb_i,
+    output logic         pready_o,
+    output logic [ 31:0] prdata_o,
+    output logic         pslverr_o,
+    input  logic         s_axi_awvalid_i,
+    output logic         s_axi_awready_o,
+    input  logic [ 15:0] s_axi_awaddr_i,
+    input  logic         s_axi_wvalid_i,
+    output logic         s_axi_wready_o,
+    input  logic [ 31:0] s_axi_wdata_i,
+    input  logic [  7:0] s_axi_wstrb_i,
+    output logic         s_axi_bvalid_o,
+    input  logic         s_axi_bready_i,
+    output logic [  1:0] s_axi_bresp_o,
+    input  logic         s_axi_arvalid_i,
+    output logic         s_axi_arready_o,
+    input  logic [ 15:0] s_axi_araddr_i,
+    output logic         s_axi_rvalid_o,
+    input  logic         s_axi_rready_i,
+    output logic [ 31:0] s_axi_rdata_o,
+    output logic [  1:0] s_axi_rresp_o,
+    output logic         irq_o,
+    input  logic         s_axis_tvalid_i,
+    output logic         s_axis_tready_o,
+    input  logic [511:0] s_axis_tdata_i,
+    input  logic         s_axis_tlast_i,
+    output logic         m_axis_tvalid_o,
+    input  logic         m_axis_tready_i,
+    output logic [ 63:0] m_axis_tdata_o,
+    output logic         m_axis_tuser_o,
+    output logic         m_axis_tlast_o,
+    output logic         probe_begin_o,
+    output logic         probe_done_o,
+    output logic         probe_line_valid_o,
+    output logic         probe_line_ready_o,
+    output logic [511:0] probe_line_o
+);
+
+  localparam S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8);
+
+  logic psel, penable, pwrite, pready, pslverr;
+  logic [11:0] paddr;
+  logic [31:0] pwdata, prdata;
+  logic [3:0] pstrb;
+
+  if (AXI_LITE != 0) begin : gen_axi_lite
+    axi_lite_to_apb u_axi_lite_to_apb (
+        .clk_i,
+        .rst_ni,
+        .s_axi_awvalid_i,
+        .s_axi_awready_o,
+        .s_axi_awaddr_i(s_axi_awaddr_i[11:0]),
+        .s_axi_wvalid_i,
+        .s_axi_wready_o,
+        .s_axi_wdata_i,
+        .s_axi_wstrb_i(s_axi_wstrb_i[3:0]),
+        .s_axi_bvalid_o,
+        .s_axi_bready_i,
+        .s_axi_bresp_o,
+        .s_axi_arvalid_i,
+        .s_axi_arready_o,
+        .s_axi_araddr_i(s_axi_araddr_i[11:0]),
+        .s_axi_rvalid_o,
+        .s_axi_rready_i,
+        .s_axi_rdata_o,
+        .s_axi_rresp_o,
+        .psel_o(psel),
+        .penable_o(penable),
+        .pwrite_o(pwrite),
+        .paddr_o(paddr),
+        .pwdata_o(pwdata),
+        .pstrb_o(pstrb),
+        .pready_i(pready),
+        .prdata_i(prdata),
+        .pslverr_i(pslverr)
+    );
+    assign {pready_o, prdata_o, pslverr_o} = '0;
+  end else begin : gen_apb
+    assign {psel, penable, pwrite} = {psel_i, penable_i, pwrite_i};
+    assign {paddr, pwdata, pstrb} = {paddr_i[11:0], pwdata_i, pstrb_i[3:0]};
+    assign {pready_o, prdata_o, pslverr_o} = {pready, prdata, pslverr};
+    assign {s_axi_awready_o, s_axi_wready_o, s_axi_bvalid_o, s_axi_bresp_o} = '0;
+    assign {s_axi_arready_o, s_axi_rvalid_o, s_axi_rdata_o, s_axi_rresp_o} = '0;
+  end
+
+  // The port that is not used, and the upper bits of the one that is.
+  logic unused;
+  assign unused = &{1'b0, psel_i, penable_i, pwrite_i, paddr_i, pwdata_i, pstrb_i, s_axi_awvalid_i, s_axi_awaddr_i,
+                    s_axi_wvalid_i, s_axi_wdata_i, s_axi_wstrb_i, s_axi_bready_i, s_axi_arvalid_i, s_axi_araddr_i,
+                    s_axi_rready_i, s_axis_tdata_i};
+
+  dtof_subsystem #(
+      .READOUT(READOUT),
+      .BUFFER_LINES(BUFFER_LINES),
+`include "dtof_subsystem_parameters.svh"
+  ) u_subsystem (
+      .clk_i,
+      .rst_ni,
+      .psel_i(psel),
+      .penable_i(penable),
+      .pwrite_i(pwrite),
+      .paddr_i(paddr),
+      .pwdata_i(pwdata),
+      .pstrb_i(pstrb),
+      .pready_o(pready),
+      .prdata_o(prdata),
+      .pslverr_o(pslverr),
+      .irq_o,
+      .s_axis_tvalid_i,
+      .s_axis_tready_o,
+      .s_axis_tdata_i(s_axis_tdata_i[S_TDATA_WIDTH-1:0]),
+      .s_axis_tlast_i,
+      .m_axis_tvalid_o,
+      .m_axis_tready_i,
+      .m_axis_tdata_o,
+      .m_axis_tuser_o,
+      .m_axis_tlast_o
+  );
+
+  assign axi_lite_o = (AXI_LITE != 0);
+  assign probe_begin_o = u_subsystem.begin_frame;
+  assign probe_done_o = u_subsystem.done;
+  assign probe_line_valid_o = u_subsystem.tdc_valid;
+  assign probe_line_ready_o = u_subsystem.tdc_ready;
+  assign probe_line_o = 512'(u_subsystem.line);
+
+endmodule

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// The C driver on the Verilated subsystem, and alone on a bus that lies.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+
+#include "dtof.h"
+#include "metrics/depth.hpp"
+#include "metrics/lookup_table.hpp"
+#include "tests/subsystem/subsystem_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+bool bench_read(void* context, std::uint32_t offset, std::uint32_t* value) {
+  const BusResponse response = static_cast<SubsystemBench*>(context)->read(offset);
+  *value = response.data;
+  return !response.error;
+}
+
+bool bench_write(void* context, std::uint32_t offset, std::uint32_t value) {
+  return !static_cast<SubsystemBench*>(context)->write(offset, value).error;
+}
+
+class Driver : public Subsystem {
+ protected:
+  void SetUp() override { ASSERT_EQ(dtof_probe(&device_, {&bench_, bench_read, bench_write}), DTOF_OK); }
+
+  dtof_device device_{};
+};
+
+INSTANTIATE_TEST_SUITE_P(All, Driver, testing::ValuesIn(compiled_subsystems()), subsystem_test_name);
+
+TEST_P(Driver, FindsWhatIsThere) {
+  const RtlConfiguration& configuration = bench_.configuration();
+  EXPECT_EQ(device_.columns, configuration.sram_num);
+  EXPECT_EQ(device_.rows, configuration.pixels_per_sram);
+  EXPECT_EQ(device_.slots, configuration.parameters.slots);
+  EXPECT_EQ(device_.timestamp_bits, configuration.parameters.np);
+  EXPECT_EQ(device_.fraction_bits, configuration.parameters.fraction_bits);
+  EXPECT_EQ(device_.acquisition_bits, 16);
+  EXPECT_EQ(device_.acquisition_lines, bench_.acquisition_lines());
+  EXPECT_EQ(device_.has_schedule, is_pool_readout(configuration.parameters.readout));
+  EXPECT_EQ(device_.has_gate, configuration.parameters.time_gate.has_value());
+}
+
+TEST_P(Driver, ReadsFramesInMillimetres) {
+  CounterRandom random = this->random(20);
+  const RtlConfiguration& configuration = bench_.configuration();
+  const auto columns = static_cast<std::size_t>(configuration.sram_num);
+  const LookupTable table = LookupTable::fit(
+      std::array<CalibrationPoint, 4>{{{10.0, 0.4}, {40.0, 1.5}, {90.5, 4.0}, {200.0, 9.0}}});
+  std::vector<dtof_point> points;
+  points.reserve(table.knots().size());
+  for (const CalibrationPoint& knot : table.knots()) {
+    points.push_back({knot.position, 1000.0 * knot.distance_m});
+  }
+  constexpr double kCodePicoseconds = 45.0;
+  constexpr double kPulsePicoseconds = 2000.0;
+  const DepthScale scale(kCodePicoseconds * 1e-12 * configuration.parameters.code_count(),
+                         configuration.parameters.np, kPulsePicoseconds * 1e-12);
+
+  for (std::size_t frame = 0; frame < 8; ++frame) {
+    const FrameSettings settings{
+        .acquisitions = random() % 30,
+        .gate = {pick(random, 4), configuration.parameters.no_detection() - pick(random, 4)},
+        .weak_below = random() % 4,
+        .enabled = [&] {
+          std::vector<bool> enabled(columns);
+          for (std::size_t i = 0; i < columns; ++i) {
+            enabled[i] = pick(random, 5) != 0;
+          }
+          return enabled;
+        }()};
+    dtof_settings chosen = dtof_default_settings(&device_, settings.acquisitions);
+    chosen.gate_begin = static_cast<std::uint16_t>(settings.gate.begin);
+    chosen.gate_end = static_cast<std::uint16_t>(settings.gate.end);
+    chosen.weak_below = static_cast<std::uint16_t>(settings.weak_below);
+    std::vector<std::uint32_t> mask((columns + 31) / 32);
+    for (std::size_t i = 0; i < columns; ++i) {
+      mask[i / 32] |= settings.enabled[i] ? 1U << (i % 32) : 0U;
+    }
+    ASSERT_EQ(dtof_configure(&device_, &chosen), DTOF_OK);
+    ASSERT_EQ(dtof_enable_columns(&device_, mask.data()), DTOF_OK);
+    ASSERT_EQ(dtof_enable_interrupts(&device_, true, false), DTOF_OK);
+    const std::vector<Line> lines = make_lines(configuration, settings.acquisitions, random);
+    push_lines(bench_, lines);
+    ASSERT_EQ(dtof_start(&device_, false), DTOF_OK);
+    bench_.wait_for_frames(1);
+    EXPECT_TRUE(bench_.interrupt());
+    std::uint32_t causes = 0;
+    ASSERT_EQ(dtof_take_interrupts(&device_, &causes), DTOF_OK);
+    EXPECT_EQ(causes, DTOF_IRQ_STATUS_FRAME_MASK);
+    EXPECT_FALSE(bench_.interrupt());
+    std::uint32_t frames = 0;
+    std::uint32_t cycles = 0;
+    ASSERT_EQ(dtof_frames(&device_, &frames, &cycles), DTOF_OK);
+    EXPECT_EQ(frames, frame + 1);
+    EXPECT_EQ(cycles, bench_.frames().back().cycles);
+
+    const std::vector<std::uint64_t>& words = bench_.sink().frames().back();
+    std::vector<dtof_result> results(words.size());
+    ASSERT_EQ(dtof_unpack_frame(&device_, words.data(), words.size(), results.data()), DTOF_OK);
+    for (const ResultFields& expected : expected_results(configuration, settings, lines)) {
+      const dtof_result& result = results[static_cast<std::size_t>(expected.row) * columns +
+                                          static_cast<std::size_t>(expected.column)];
+      const ResultFields fields{.position = result.position,
+                                .confidence = result.confidence,
+                                .row = result.row,
+                                .column = result.column,
+                                .valid = result.valid,
+                                .weak = result.weak,
+                                .empty = result.empty,
+                                .masked = result.masked};
+      ASSERT_EQ(fields, expected);
+      const double position = expected.position / static_cast<double>(1 << device_.fraction_bits);
+      EXPECT_NEAR(dtof_distance_mm(&device_, &result, points.data(), points.size()),
+                  1000.0 * table.distance(position), 1e-6);
+      EXPECT_NEAR(dtof_time_of_flight_mm(&device_, &result, kCodePicoseconds, kPulsePicoseconds),
+                  1000.0 * scale.depth(position), 1e-6);
+    }
+  }
+}
+
+TEST_P(Driver, StopsContinuousFramesAndTakesErrors) {
+  dtof_settings settings = dtof_default_settings(&device_, 0);
+  ASSERT_EQ(dtof_configure(&device_, &settings), DTOF_OK);
+  ASSERT_EQ(dtof_start(&device_, true), DTOF_OK);
+  bool busy = false;
+  ASSERT_EQ(dtof_busy(&device_, &busy), DTOF_OK);
+  EXPECT_TRUE(busy);
+  EXPECT_EQ(dtof_start(&device_, false), DTOF_BUSY);
+  EXPECT_EQ(dtof_flush(&device_), DTOF_BUSY);
+  bench_.wait_for_frames(3);
+  ASSERT_EQ(dtof_stop(&device_), DTOF_OK);
+  bench_.clocks(5000);
+  ASSERT_EQ(dtof_busy(&device_, &busy), DTOF_OK);
+  EXPECT_FALSE(busy);
+  std::uint32_t errors = 1;
+  ASSERT_EQ(dtof_take_errors(&device_, &errors), DTOF_OK);
+  EXPECT_EQ(errors, 0U) << "the driver did not start a frame while another was under way";
+  ASSERT_EQ(bench_.write(DTOF_RELEASE, 0).error, false);
+  ASSERT_EQ(dtof_start(&device_, false), DTOF_OK);
+  ASSERT_EQ(dtof_take_errors(&device_, &errors), DTOF_OK);
+  EXPECT_EQ(errors, DTOF_ERROR_ILLEGAL_SCHEDULE_MASK);
+  ASSERT_EQ(dtof_take_errors(&device_, &errors), DTOF_OK);
+  EXPECT_EQ(errors, 0U);
+  EXPECT_EQ(dtof_flush(&device_), DTOF_OK);
+}
+
+TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
+  const dtof_settings good = dtof_default_settings(&device_, 5);
+  const auto refused = [&](auto change) {
+    EXPECT_EQ(dtof_configure(&device_, &good), DTOF_OK);
+    dtof_settings settings = good;
+    settings.acquisitions = 6;
+    change(settings);
+    return dtof_configure(&device_, &settings) == DTOF_ARGUMENT && bench_.get(DTOF_ACQUISITIONS) == 5;
+  };
+  EXPECT_TRUE(refused([](dtof_settings& settings) { settings.acquisitions = 65536; }));
+  EXPECT_TRUE(refused([](dtof_settings& settings) { settings.release = 1000; }));
+  EXPECT_TRUE(refused([](dtof_settings& settings) { settings.weak_below = 5000; }));
+  EXPECT_EQ(refused([](dtof_settings& settings) { settings.gate_end = 5000; }), device_.has_gate);
+  EXPECT_EQ(refused([](dtof_settings& settings) { settings.track_share = 49; }), device_.has_schedule);
+}
+
+// Registers without hardware behind them.
+struct Memory {
+  std::map<std::uint32_t, std::uint32_t> values = {{DTOF_ID, DTOF_ID_EXPECTED},
+                                                   {DTOF_VERSION, DTOF_VERSION_MAJOR_EXPECTED << 16U},
+                                                   {DTOF_SIZE, 3U << 16U | 2U}};
+  int accesses_left = 1000;
+};
+
+bool memory_read(void* context, std::uint32_t offset, std::uint32_t* value) {
+  auto& memory = *static_cast<Memory*>(context);
+  *value = memory.values[offset];
+  return memory.accesses_left-- > 0;
+}
+
+bool memory_write(void* context, std::uint32_t offset, std::uint32_t value) {
+  auto& memory = *static_cast<Memory*>(context);
+  memory.values[offset] = value;
+  return memory.accesses_left-- > 0;
+}
+
+TEST(DriverAlone, TellsWhatItDoesNotFind) {
+  Memory memory;
+  dtof_device device{};
+  const dtof_bus bus = {&memory, memory_read, memory_write};
+  EXPECT_EQ(dtof_probe(&device, bus), DTOF_OK);
+  memory.values[DTOF_VERSION] = (DTOF_VERSION_MAJOR_EXPECTED + 1) << 16U;
+  EXPECT_EQ(dtof_probe(&device, bus), DTOF_VERSION_UNKNOWN);
+  memory.values[DTOF_ID] = 0xFFFFFFFF;
+  EXPECT_EQ(dtof_probe(&device, bus), DTOF_NOT_FOUND);
+}
+
+TEST(DriverAlone, TellsWhenTheBusFails) {
+  Memory memory;
+  dtof_device device{};
+  const dtof_bus bus = {&memory, memory_read, memory_write};
+  memory.accesses_left = 3;
+  EXPECT_EQ(dtof_probe(&device, bus), DTOF_BUS);
+  memory.accesses_left = 1000;
+  ASSERT_EQ(dtof_probe(&device, bus), DTOF_OK);
+  memory.accesses_left = 0;
+  std::uint32_t value = 0;
+  bool busy = false;
+  dtof_settings settings = dtof_default_settings(&device, 0);
+  EXPECT_EQ(dtof_configure(&device, &settings), DTOF_BUS);
+  EXPECT_EQ(dtof_enable_columns(&device, &value), DTOF_BUS);
+  EXPECT_EQ(dtof_start(&device, false), DTOF_BUS);
+  EXPECT_EQ(dtof_busy(&device, &busy), DTOF_BUS);
+  EXPECT_EQ(dtof_frames(&device, &value, &value), DTOF_BUS);
+  EXPECT_EQ(dtof_take_errors(&device, &value), DTOF_BUS);
+}
+
+TEST(DriverAlone, TellsWhenAFrameIsNotWhole) {
+  Memory memory;
+  dtof_device device{};
+  ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);  // 2 columns of 3 rows
+  std::vector<std::uint64_t> words;
+  for (std::uint64_t row = 0; row < 3; ++row) {
+    for (std::uint64_t column = 0; column < 2; ++column) {
+      words.push_back(row << DTOF_RESULT_ROW_LSB | column << DTOF_RESULT_COLUMN_LSB | (10 * row + column));
+    }
+  }
+  std::swap(words[0], words[5]);
+  std::vector<dtof_result> results(words.size());
+  ASSERT_EQ(dtof_unpack_frame(&device, words.data(), words.size(), results.data()), DTOF_OK);
+  EXPECT_EQ(results[5].position, 21);
+  EXPECT_EQ(dtof_unpack_frame(&device, words.data(), words.size() - 1, results.data()), DTOF_STREAM);
+  std::vector<std::uint64_t> twice = words;
+  twice[1] = twice[2];
+  EXPECT_EQ(dtof_unpack_frame(&device, twice.data(), twice.size(), results.data()), DTOF_STREAM);
+  words[3] = std::uint64_t{3} << DTOF_RESULT_ROW_LSB;
+  EXPECT_EQ(dtof_unpack_frame(&device, words.data(), words.size(), results.data()), DTOF_STREAM);
+}
+
+TEST(DriverAlone, ATableOfOnePointIsThatDistance) {
+  const dtof_device device{};
+  const dtof_result result{};
+  const dtof_point point = {7.0, 1234.0};
+  EXPECT_EQ(dtof_distance_mm(&device, &result, &point, 1), 1234.0);
+}
+
+}  // namespace
+}  // namespace dtof

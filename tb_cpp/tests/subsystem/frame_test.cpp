@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames of dtof_subsystem against the C++ models, with gaps and back-pressure anywhere.
+#include <gtest/gtest.h>
+
+#include "tests/subsystem/subsystem_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+class SubsystemFrames : public Subsystem {};
+
+INSTANTIATE_TEST_SUITE_P(All, SubsystemFrames, testing::ValuesIn(compiled_subsystems()), subsystem_test_name);
+
+FrameSettings random_settings(const RtlConfiguration& configuration, CounterRandom& random) {
+  const int codes = configuration.parameters.code_count();
+  FrameSettings settings{.acquisitions = static_cast<std::uint32_t>(pick(random, 24)),
+                         .gate = {pick(random, codes), pick(random, codes)},
+                         .weak_below = static_cast<std::uint32_t>(pick(random, 6)),
+                         .enabled = {}};
+  if (pick(random, 3) == 0) {
+    settings.gate = {0, codes - 1};
+  }
+  for (int column = 0; column < configuration.sram_num; ++column) {
+    settings.enabled.push_back(pick(random, 4) != 0);
+  }
+  return settings;
+}
+
+TEST_P(SubsystemFrames, AreTheModelsUnderGapsAndBackPressure) {
+  CounterRandom random = this->random(2);
+  const bool whole = bench_.get(DTOF_RELEASE) == bench_.acquisition_lines();
+  for (std::size_t frame = 0; frame < 30; ++frame) {
+    SCOPED_TRACE(testing::Message() << "frame " << frame);
+    const FrameSettings settings = random_settings(bench_.configuration(), random);
+    // An acquisition that is not whole in the buffer must come without gaps (error_test.cpp has the others).
+    bench_.source().gap_probability = whole ? 0.9 * random.uniform() : 0.0;
+    bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
+    write_settings(bench_, settings);
+    const std::vector<Line> lines = make_lines(bench_.configuration(), settings.acquisitions, random);
+    push_lines(bench_, lines);
+    bench_.clocks(random() % 20);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    // Settings are the frame's from here on.
+    write_settings(bench_, random_settings(bench_.configuration(), random));
+    bench_.wait_for_frames(1);
+    EXPECT_EQ(bench_.frames().back().lines, lines);
+    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_.configuration(), settings, lines));
+    EXPECT_EQ(bench_.get(DTOF_FRAME_COUNT), frame + 1);
+    EXPECT_EQ(bench_.get(DTOF_FRAME_CYCLES), bench_.frames().back().cycles);
+    EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
+    EXPECT_EQ(bench_.get(DTOF_ERROR), bench_.events().overrun ? DTOF_ERROR_OVERRUN_MASK : 0U);
+  }
+}
+
+TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
+  CounterRandom random = this->random(3);
+  constexpr std::size_t kFrames = 6;
+  FrameSettings settings = random_settings(bench_.configuration(), random);
+  settings.acquisitions = 5;
+  write_settings(bench_, settings);
+  const std::vector<Line> lines =
+      make_lines(bench_.configuration(), static_cast<std::uint32_t>(kFrames * settings.acquisitions), random);
+  push_lines(bench_, lines);
+  bench_.sink().stall_probability = 0.3;
+  bench_.set(DTOF_IRQ_ENABLE, DTOF_IRQ_ENABLE_FRAME_MASK);
+  bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
+  const std::size_t frame_lines = lines.size() / kFrames;
+  for (std::size_t frame = 0; frame < kFrames; ++frame) {
+    SCOPED_TRACE(testing::Message() << "frame " << frame);
+    EXPECT_FALSE(bench_.interrupt());
+    bench_.wait_for_frames(1);
+    EXPECT_TRUE(bench_.interrupt()) << "from the clock behind the last result on";
+    bench_.set(DTOF_IRQ_STATUS, DTOF_IRQ_STATUS_FRAME_MASK);
+    const auto first = lines.begin() + static_cast<std::ptrdiff_t>(frame * frame_lines);
+    const std::vector<Line> own(first, first + static_cast<std::ptrdiff_t>(frame_lines));
+    EXPECT_EQ(bench_.frames().at(frame).lines, own);
+    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_.configuration(), settings, own));
+    if (frame + 2 == kFrames) {
+      bench_.set(DTOF_CONTROL, 0);
+    }
+  }
+  bench_.clocks(1000);
+  EXPECT_EQ(bench_.frames().size(), kFrames)
+      << "the frame that was under way when the mode ended is the last";
+  EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
+  EXPECT_EQ(bench_.get(DTOF_FRAME_COUNT), kFrames);
+}
+
+TEST_P(SubsystemFrames, AreWholeBehindAResetAtAnyTime) {
+  CounterRandom random = this->random(4);
+  for (int round = 0; round < 10; ++round) {
+    SCOPED_TRACE(testing::Message() << "round " << round);
+    FrameSettings settings = random_settings(bench_.configuration(), random);
+    write_settings(bench_, settings);
+    push_lines(bench_, make_lines(bench_.configuration(), settings.acquisitions, random));
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.clocks(random() % 400);
+    bench_.reset();
+    const std::size_t before = bench_.sink().frames().size();
+    settings.enabled.clear();
+    write_settings(bench_, settings);
+    const std::vector<Line> lines = make_lines(bench_.configuration(), settings.acquisitions, random);
+    push_lines(bench_, lines);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    ASSERT_EQ(received_results(bench_, before), expected_results(bench_.configuration(), settings, lines));
+    EXPECT_EQ(bench_.get(DTOF_FRAME_COUNT), 1U);
+  }
+}
+
+}  // namespace
+}  // namespace dtof

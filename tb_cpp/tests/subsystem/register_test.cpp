@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "tests/subsystem/subsystem_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+INSTANTIATE_TEST_SUITE_P(Registers, Subsystem, testing::ValuesIn(compiled_subsystems()), subsystem_test_name);
+
+std::uint32_t field(std::uint32_t value, std::uint32_t mask, int lsb) { return (value & mask) >> lsb; }
+
+TEST_P(Subsystem, SaysWhatItIs) {
+  const RtlConfiguration& configuration = bench_.configuration();
+  const ReadoutParameters& parameters = configuration.parameters;
+  const bool pool = is_pool_readout(parameters.readout);
+  EXPECT_EQ(bench_.get(DTOF_ID), DTOF_ID_EXPECTED);
+  EXPECT_EQ(bench_.get(DTOF_VERSION) >> DTOF_VERSION_MAJOR_LSB, DTOF_VERSION_MAJOR_EXPECTED);
+  const std::uint32_t readout = bench_.get(DTOF_READOUT);
+  EXPECT_EQ(field(readout, DTOF_READOUT_SCHEDULE_MASK, DTOF_READOUT_SCHEDULE_LSB), pool ? 1U : 0U);
+  EXPECT_EQ(field(readout, DTOF_READOUT_TIME_GATE_MASK, DTOF_READOUT_TIME_GATE_LSB),
+            parameters.time_gate ? 1U : 0U);
+  const std::uint32_t size = bench_.get(DTOF_SIZE);
+  EXPECT_EQ(field(size, DTOF_SIZE_COLUMNS_MASK, DTOF_SIZE_COLUMNS_LSB),
+            static_cast<std::uint32_t>(configuration.sram_num));
+  EXPECT_EQ(field(size, DTOF_SIZE_ROWS_MASK, DTOF_SIZE_ROWS_LSB),
+            static_cast<std::uint32_t>(configuration.pixels_per_sram));
+  const std::uint32_t widths = bench_.get(DTOF_WIDTHS);
+  EXPECT_EQ(field(widths, DTOF_WIDTHS_TIMESTAMP_MASK, DTOF_WIDTHS_TIMESTAMP_LSB),
+            static_cast<std::uint32_t>(parameters.np));
+  EXPECT_EQ(field(widths, DTOF_WIDTHS_FRACTION_MASK, DTOF_WIDTHS_FRACTION_LSB),
+            static_cast<std::uint32_t>(parameters.fraction_bits));
+  EXPECT_EQ(field(widths, DTOF_WIDTHS_ACQUISITIONS_MASK, DTOF_WIDTHS_ACQUISITIONS_LSB), 16U);
+  EXPECT_EQ(bench_.get(DTOF_LINES) & DTOF_LINES_ACQUISITION_MASK, bench_.acquisition_lines());
+  EXPECT_EQ(bench_.get(DTOF_SLOTS), static_cast<std::uint32_t>(parameters.slots));
+  EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
+  EXPECT_EQ(bench_.get(DTOF_RELEASE),
+            std::min<std::uint32_t>(static_cast<std::uint32_t>(bench_.acquisition_lines()),
+                                    bench_.get(DTOF_LINES) >> DTOF_LINES_BUFFER_LSB));
+}
+
+// Bits of a setting that the configuration has.
+std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offset) {
+  const ReadoutParameters& parameters = configuration.parameters;
+  const bool pool = is_pool_readout(parameters.readout);
+  const auto codes = static_cast<std::uint32_t>(parameters.no_detection());
+  if (offset == DTOF_CONTROL) {
+    return DTOF_CONTROL_CONTINUOUS_MASK;
+  }
+  if (offset == DTOF_IRQ_ENABLE) {
+    return DTOF_IRQ_ENABLE_FRAME_MASK | DTOF_IRQ_ENABLE_ERROR_MASK;
+  }
+  if (offset == DTOF_ACQUISITIONS || offset == DTOF_RELEASE) {
+    return 0xFFFF;
+  }
+  if (offset == DTOF_COARSE_END || offset == DTOF_TRACK_END || offset == DTOF_LATE_BEGIN) {
+    return pool ? 0xFFFF : 0;
+  }
+  if (offset == DTOF_GATE) {
+    return parameters.time_gate ? codes << DTOF_GATE_BEGIN_LSB | codes << DTOF_GATE_END_LSB : 0;
+  }
+  const std::uint32_t first = (offset - DTOF_COLUMN_ENABLE) * 8;
+  const auto columns = static_cast<std::uint32_t>(configuration.sram_num);
+  if (offset < DTOF_COLUMN_ENABLE || columns <= first) {
+    return 0;
+  }
+  return columns - first >= 32 ? 0xFFFFFFFFU : (1U << (columns - first)) - 1;
+}
+
+TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
+  CounterRandom random = this->random(1);
+  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END, DTOF_TRACK_END,
+                                        DTOF_LATE_BEGIN, DTOF_GATE,         DTOF_RELEASE};
+  for (std::uint32_t i = 0; i < DTOF_COLUMN_ENABLE_NUMBER; ++i) {
+    offsets.push_back(DTOF_COLUMN_ENABLE + 4 * i);
+  }
+  std::vector<std::uint32_t> values;
+  values.reserve(offsets.size());
+  for (const std::uint32_t offset : offsets) {
+    values.push_back(bench_.get(offset));
+  }
+  for (int round = 0; round < 200; ++round) {
+    const std::size_t i = random() % offsets.size();
+    const std::uint32_t data = random();
+    const auto strobe = static_cast<std::uint8_t>(random() % 16);
+    std::uint32_t mask = 0;
+    for (unsigned byte = 0; byte < 4; ++byte) {
+      mask |= ((strobe >> byte) & 1U) != 0 ? 0xFFU << (8 * byte) : 0U;
+    }
+    mask &= existing(bench_.configuration(), offsets[i]);
+    values[i] = (values[i] & ~mask) | (data & mask);
+    EXPECT_FALSE(bench_.write(offsets[i], data, strobe).error);
+    for (std::size_t k = 0; k < offsets.size(); ++k) {
+      ASSERT_EQ(bench_.get(offsets[k]), values[k])
+          << "register " << offsets[k] << " after writing " << offsets[i];
+    }
+  }
+}
+
+TEST_P(Subsystem, RefusesWhatIsNotThere) {
+  for (const std::uint32_t offset : {0x01CU, 0x03CU, 0x05CU, 0x07CU, 0x100U, 0x800U, 0xFFCU}) {
+    EXPECT_TRUE(bench_.read(offset).error) << offset;
+    EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
+  }
+  for (const std::uint32_t offset :
+       {DTOF_ID, DTOF_VERSION, DTOF_SIZE, DTOF_STATUS, DTOF_FRAME_COUNT, DTOF_FRAME_CYCLES}) {
+    const std::uint32_t value = bench_.get(offset);
+    EXPECT_TRUE(bench_.write(offset, ~value).error) << offset;
+    EXPECT_EQ(bench_.get(offset), value) << offset;
+  }
+}
+
+}  // namespace
+}  // namespace dtof

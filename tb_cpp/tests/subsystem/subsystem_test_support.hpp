@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/random.hpp"
+#include "dtof_registers.h"
+#include "readout/model.hpp"
+#include "subsystem/subsystem_bench.hpp"
+#include "tests/core/test_seed.hpp"
+#include "tests/readout/test_streams.hpp"
+
+namespace dtof {
+
+/// A result word's fields.
+struct ResultFields {
+  int position = 0;
+  int confidence = 0;
+  int row = 0;
+  int column = 0;
+  bool valid = false;
+  bool weak = false;
+  bool empty = false;
+  bool masked = false;
+
+  bool operator==(const ResultFields&) const = default;
+};
+
+inline void PrintTo(const ResultFields& fields, std::ostream* stream) {
+  *stream << "row " << fields.row << " column " << fields.column << " position " << fields.position
+          << " confidence " << fields.confidence << (fields.valid ? " valid" : "")
+          << (fields.weak ? " weak" : "") << (fields.empty ? " empty" : "")
+          << (fields.masked ? " masked" : "");
+}
+
+inline ResultFields fields_of(std::uint64_t word) {
+  const auto field = [&](std::uint64_t mask, int lsb) { return static_cast<int>((word & mask) >> lsb); };
+  return {.position = field(DTOF_RESULT_POSITION_MASK, DTOF_RESULT_POSITION_LSB),
+          .confidence = field(DTOF_RESULT_CONFIDENCE_MASK, DTOF_RESULT_CONFIDENCE_LSB),
+          .row = field(DTOF_RESULT_ROW_MASK, DTOF_RESULT_ROW_LSB),
+          .column = field(DTOF_RESULT_COLUMN_MASK, DTOF_RESULT_COLUMN_LSB),
+          .valid = (word & DTOF_RESULT_VALID_MASK) != 0,
+          .weak = (word & DTOF_RESULT_WEAK_MASK) != 0,
+          .empty = (word & DTOF_RESULT_EMPTY_MASK) != 0,
+          .masked = (word & DTOF_RESULT_MASKED_MASK) != 0};
+}
+
+/// What a frame's registers say.
+struct FrameSettings {
+  std::uint32_t acquisitions = 0;
+  CodeGate gate{};  ///< without effect where there is none
+  std::uint32_t weak_below = 0;
+  std::vector<bool> enabled;  ///< columns; empty: all
+};
+
+inline void write_settings(SubsystemBench& bench, const FrameSettings& settings) {
+  const RtlConfiguration& configuration = bench.configuration();
+  bench.set(DTOF_ACQUISITIONS, settings.acquisitions);
+  if (is_pool_readout(configuration.parameters.readout)) {
+    const PoolSchedule schedule(settings.acquisitions, configuration.parameters.pool);
+    bench.set(DTOF_COARSE_END, schedule.coarse_end);
+    bench.set(DTOF_TRACK_END, schedule.track_end);
+    bench.set(DTOF_LATE_BEGIN, schedule.late_begin);
+  }
+  bench.set(DTOF_GATE, static_cast<std::uint32_t>(settings.gate.begin) << DTOF_GATE_BEGIN_LSB |
+                           static_cast<std::uint32_t>(settings.gate.end) << DTOF_GATE_END_LSB);
+  bench.set(DTOF_WEAK_BELOW, settings.weak_below);
+  for (std::size_t first = 0; first < settings.enabled.size(); first += 32) {
+    std::uint32_t mask = 0;
+    for (std::size_t i = first; i < std::min(first + 32, settings.enabled.size()); ++i) {
+      mask |= settings.enabled[i] ? 1U << (i - first) : 0U;
+    }
+    bench.set(static_cast<std::uint32_t>(DTOF_COLUMN_ENABLE + first / 8), mask);
+  }
+}
+
+/// The words of a frame whose array took `lines`: the C++ model of every column, and the status.
+inline std::vector<ResultFields> expected_results(const RtlConfiguration& configuration,
+                                                  const FrameSettings& settings,
+                                                  const std::vector<Line>& lines) {
+  ReadoutParameters parameters = configuration.parameters;
+  if (parameters.time_gate) {
+    parameters.time_gate = settings.gate;
+  }
+  const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
+  const auto slots = static_cast<std::size_t>(parameters.slots);
+  std::vector<std::vector<PixelResult>> results;
+  for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
+    const bool enabled = settings.enabled.empty() || settings.enabled[column];
+    ColumnStream stream;
+    for (std::size_t row = 0; row < rows; ++row) {
+      for (std::size_t i = row * slots; enabled && i < lines.size(); i += rows * slots) {
+        for (std::size_t slot = 0; slot < slots; ++slot) {
+          stream.append({static_cast<std::uint32_t>(i / (rows * slots)), lines[i + slot][column]});
+        }
+      }
+      stream.finish_row();
+    }
+    results.push_back(make_readout_model(parameters)->run_column(stream, settings.acquisitions));
+  }
+  const bool has_confidence = !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
+  std::vector<ResultFields> expected;
+  for (const ResultAddress& address : configuration.result_order()) {
+    const auto column = static_cast<std::size_t>(address.column);
+    const PixelResult& result = results[column][static_cast<std::size_t>(address.row)];
+    ResultFields fields{.position = (result.code << parameters.fraction_bits) + result.fraction,
+                        .confidence = result.confidence,
+                        .row = address.row,
+                        .column = address.column};
+    fields.weak = has_confidence && result.confidence < settings.weak_below;
+    fields.empty = has_confidence && result.confidence == 0;
+    fields.masked = !settings.enabled.empty() && !settings.enabled[column];
+    fields.valid = !fields.weak && !fields.empty && !fields.masked;
+    expected.push_back(fields);
+  }
+  return expected;
+}
+
+inline std::vector<ResultFields> received_results(const SubsystemBench& bench, std::size_t frame) {
+  std::vector<ResultFields> received;
+  for (const std::uint64_t word : bench.sink().frames().at(frame)) {
+    received.push_back(fields_of(word));
+  }
+  return received;
+}
+
+/// Lines of whole acquisitions: every pixel another kind of stream.
+inline std::vector<Line> make_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,
+                                    CounterRandom& random) {
+  const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
+  const auto slots = static_cast<std::size_t>(configuration.parameters.slots);
+  const auto none = static_cast<Timestamp>(configuration.parameters.no_detection());
+  std::vector<Line> lines(acquisitions * rows * slots,
+                          Line(static_cast<std::size_t>(configuration.sram_num), none));
+  std::size_t kind = random() % kStreamKinds.size();
+  for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
+    for (std::size_t row = 0; row < rows; ++row) {
+      std::uint32_t acquisition = acquisitions;
+      std::size_t slot = 0;
+      for (const Detection& detection : make_stream(kStreamKinds[kind++ % kStreamKinds.size()],
+                                                    configuration.parameters, acquisitions, random)) {
+        slot = detection.acquisition == acquisition ? slot + 1 : 0;
+        acquisition = detection.acquisition;
+        lines[(acquisition * rows + row) * slots + slot][column] = detection.timestamp;
+      }
+    }
+  }
+  return lines;
+}
+
+inline void push_lines(SubsystemBench& bench, const std::vector<Line>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    bench.source().push(lines[i], i % bench.acquisition_lines() == bench.acquisition_lines() - 1);
+  }
+}
+
+/// Each compiled subsystem.
+class Subsystem : public testing::TestWithParam<CompiledSubsystem> {
+ protected:
+  [[nodiscard]] CounterRandom random(std::uint32_t which) const {
+    return {test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), which, 0};
+  }
+
+  SubsystemBench bench_{GetParam(), test_seed()};
+  testing::ScopedTrace trace_{__FILE__, __LINE__, test_seed_message()};
+};
+
+inline std::string subsystem_test_name(const testing::TestParamInfo<CompiledSubsystem>& subsystem) {
+  return std::string(readout_name(subsystem.param.configuration.parameters.readout));
+}
+
+inline void PrintTo(const CompiledSubsystem& subsystem, std::ostream* stream) {
+  *stream << subsystem.configuration.to_string();
+}
+
+}  // namespace dtof
