@@ -51,6 +51,7 @@ top/pool_pointer_array.sv
 subsystem/line_buffer.sv
 subsystem/line_filter.sv
 subsystem/stream_output.sv
+subsystem/raster_buffer.sv
 subsystem/frame_control.sv
 subsystem/apb_registers.sv
 subsystem/axi_lite_to_apb.sv

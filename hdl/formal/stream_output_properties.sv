@@ -44,7 +44,7 @@ module stream_output_properties #(
     end
   endgenerate
 
-  logic result_tready, tvalid, tuser, tlast, frame;
+  logic result_tready, tvalid, tuser, tlast;
   logic [63:0] tdata;
 
   stream_output #(
@@ -65,8 +65,7 @@ module stream_output_properties #(
       .m_axis_tready_i(m_axis_tready_i),
       .m_axis_tdata_o (tdata),
       .m_axis_tuser_o (tuser),
-      .m_axis_tlast_o (tlast),
-      .frame_o        (frame)
+      .m_axis_tlast_o (tlast)
   );
 
   // What must come, in a queue: {first, last, word}, the oldest in slot 0.
@@ -101,7 +100,6 @@ module stream_output_properties #(
   `PROVE(a_word, !(rst_n && tvalid) || tdata == slot0_q[63:0])
   `PROVE(a_tlast, !(rst_n && tvalid) || tlast == slot0_q[64])
   `PROVE(a_tuser, !(rst_n && tvalid) || tuser == slot0_q[65])
-  `PROVE(a_frame, !rst_n || frame == (pop && tlast))
-  `GOAL(rst_n && frame && count_q == 2'd2 && tdata[57] && !tuser)
+  `GOAL(rst_n && pop && tlast && count_q == 2'd2 && tdata[57] && !tuser)
 
 endmodule

@@ -26,6 +26,8 @@ package dtof_registers_pkg;
   localparam int READOUT_SCHEDULE_WIDTH = 1;
   localparam int READOUT_TIME_GATE_LSB = 9;
   localparam int READOUT_TIME_GATE_WIDTH = 1;
+  localparam int READOUT_RASTER_ORDER_LSB = 10;
+  localparam int READOUT_RASTER_ORDER_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;

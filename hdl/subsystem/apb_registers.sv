@@ -13,6 +13,7 @@ module apb_registers #(
     parameter int READOUT = 0,
     parameter int HAS_SCHEDULE = 0,
     parameter int TIME_GATE = 0,
+    parameter int RASTER_ORDER = 0,
     parameter int NP = 10,
     parameter int SRAM_NUM = 200,
     parameter int PIXELS_PER_SRAM = 160,
@@ -254,6 +255,7 @@ module apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_NUMBER_LSB+:8] = 8'(READOUT);
         prdata_o[dtof_registers_pkg::READOUT_SCHEDULE_LSB] = (HAS_SCHEDULE != 0);
         prdata_o[dtof_registers_pkg::READOUT_TIME_GATE_LSB] = (TIME_GATE != 0);
+        prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
       end
       dtof_registers_pkg::SIZE: begin
         prdata_o[dtof_registers_pkg::SIZE_COLUMNS_LSB+:16] = 16'(SRAM_NUM);

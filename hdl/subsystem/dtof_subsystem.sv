@@ -6,13 +6,14 @@
 // 2. Lines of timestamps come from the source at its own pace, before and during frames. The line buffer offers an
 //    acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
 // 3. Columns that are not enabled and timestamps outside the time gate count as no detection.
-// 4. Results leave as words of 64 bits with a status, in the array's order; the array waits for a sink that waits.
+// 4. Results leave as words of 64 bits with a status, in the array's order or row by row; the array waits for a sink that
+//    waits.
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
 //
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER is pool_pointer_array. The parameters
 // that follow (package/subsystem_parameters.svh) are the arrays'; each has the default of the read-out.
 // Latency: two clocks from a line to the array, one from the array to a result.
-// Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and some 300 flip-flops.
+// Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts'.
 `include "dtof_macros.svh"
 
 module dtof_subsystem #(
@@ -20,6 +21,7 @@ module dtof_subsystem #(
 `include "subsystem_parameters.svh"
     // Lines that the line buffer holds: at least two. With those of an acquisition and four the source is never held up.
     parameter int BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
+    parameter int RASTER_ORDER = 0,  // 1: a memory of all results brings them into the order of rows and columns
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
     localparam int M_TDATA_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
@@ -86,6 +88,7 @@ module dtof_subsystem #(
       .READOUT         (READOUT),
       .HAS_SCHEDULE    (POOL),
       .TIME_GATE       (TIME_GATE),
+      .RASTER_ORDER    (RASTER_ORDER),
       .NP              (NP),
       .SRAM_NUM        (SRAM_NUM),
       .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
@@ -284,6 +287,9 @@ module dtof_subsystem #(
 
   // Results out.
 
+  logic word_tvalid, word_tready, word_tuser, word_tlast;
+  logic [M_TDATA_WIDTH-1:0] word_tdata;
+
   stream_output #(
       .SRAM_NUM        (SRAM_NUM),
       .ROW_WIDTH       (ROW_WIDTH),
@@ -298,14 +304,74 @@ module dtof_subsystem #(
       .result_tready_o(result_tready),
       .result_tdata_i (result_tdata),
       .result_tlast_i (result_tlast),
-      .m_axis_tvalid_o(m_axis_tvalid_o),
-      .m_axis_tready_i(m_axis_tready_i),
-      .m_axis_tdata_o (m_axis_tdata_o),
-      .m_axis_tuser_o (m_axis_tuser_o),
-      .m_axis_tlast_o (m_axis_tlast_o),
-      .frame_o        (frame)
+      .m_axis_tvalid_o(word_tvalid),
+      .m_axis_tready_i(word_tready),
+      .m_axis_tdata_o (word_tdata),
+      .m_axis_tuser_o (word_tuser),
+      .m_axis_tlast_o (word_tlast)
   );
 
+  generate
+    if (RASTER_ORDER != 0) begin : g_raster_order
+      localparam int COLUMN_LSB = dtof_registers_pkg::RESULT_COLUMN_LSB;
+      localparam int ROW_LSB = dtof_registers_pkg::RESULT_ROW_LSB;
+      localparam int STATUS_LSB = dtof_registers_pkg::RESULT_VALID_LSB;
+      localparam int STATUS_WIDTH = dtof_registers_pkg::RESULT_MASKED_LSB + 1 - STATUS_LSB;
+      localparam int CONFIDENCE_LSB = dtof_registers_pkg::RESULT_CONFIDENCE_LSB;
+      localparam int KEPT_CONFIDENCE = dtof_pkg::max_of(RESULT_CONFIDENCE_WIDTH, 1);
+      localparam int POSITION_WIDTH = NP + FRACTION_WIDTH;
+      localparam int KEPT_WIDTH = STATUS_WIDTH + KEPT_CONFIDENCE + POSITION_WIDTH;
+
+      logic [STATUS_WIDTH-1:0] status;
+      logic [KEPT_CONFIDENCE-1:0] confidence;
+      logic [POSITION_WIDTH-1:0] position;
+      logic [COLUMN_WIDTH-1:0] column;
+      logic [ROW_WIDTH-1:0] row;
+
+      raster_buffer #(
+          .SRAM_NUM       (SRAM_NUM),
+          .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+          .WIDTH          (KEPT_WIDTH)
+      ) u_raster_buffer (
+          .clk_i     (clk_i),
+          .rst_ni    (rst_ni),
+          .s_tvalid_i(word_tvalid),
+          .s_tready_o(word_tready),
+          .s_result_i({word_tdata[STATUS_LSB+:STATUS_WIDTH], word_tdata[CONFIDENCE_LSB+:KEPT_CONFIDENCE],
+                       word_tdata[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH]}),
+          .s_column_i(word_tdata[COLUMN_LSB+:COLUMN_WIDTH]),
+          .s_row_i   (word_tdata[ROW_LSB+:ROW_WIDTH]),
+          .s_tlast_i (word_tlast),
+          .m_tvalid_o(m_axis_tvalid_o),
+          .m_tready_i(m_axis_tready_i),
+          .m_result_o({status, confidence, position}),
+          .m_column_o(column),
+          .m_row_o   (row),
+          .m_tlast_o (m_axis_tlast_o)
+      );
+
+      always_comb begin
+        m_axis_tdata_o = '0;
+        m_axis_tdata_o[STATUS_LSB+:STATUS_WIDTH] = status;
+        m_axis_tdata_o[CONFIDENCE_LSB+:KEPT_CONFIDENCE] = confidence;
+        m_axis_tdata_o[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
+        m_axis_tdata_o[COLUMN_LSB+:COLUMN_WIDTH] = column;
+        m_axis_tdata_o[ROW_LSB+:ROW_WIDTH] = row;
+      end
+      assign m_axis_tuser_o = (column == '0) && (row == '0);
+
+      logic unused_word;
+      assign unused_word = ^{word_tuser, word_tdata};
+    end else begin : g_array_order
+      assign word_tready = m_axis_tready_i;
+      assign m_axis_tvalid_o = word_tvalid;
+      assign m_axis_tdata_o = word_tdata;
+      assign m_axis_tuser_o = word_tuser;
+      assign m_axis_tlast_o = word_tlast;
+    end
+  endgenerate
+
+  assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule

@@ -33,8 +33,7 @@ module stream_output #(
     input  logic                   m_axis_tready_i,
     output logic [ WORD_WIDTH-1:0] m_axis_tdata_o,
     output logic                   m_axis_tuser_o,  // the frame's first
-    output logic                   m_axis_tlast_o,
-    output logic                   frame_o          // a frame's last word is taken
+    output logic                   m_axis_tlast_o
 );
 
   logic [COLUMN_WIDTH-1:0] column;
@@ -122,7 +121,6 @@ module stream_output #(
   assign m_axis_tdata_o = word_q;
   assign m_axis_tuser_o = first_q;
   assign m_axis_tlast_o = last_q;
-  assign frame_o = valid_q && m_axis_tready_i && last_q;
 
 `ifndef SYNTHESIS
   stream_rules #(

@@ -460,7 +460,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   options->sensor.add_to(*command);
   options->readout.add_to(*command);
-  add_run_options(*command, options->run);
+  add_run_options(*command, options->run, true);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->add_option("--record", options->record,
                       "also write the TDC stream of the whole array as CSV, for `dtof replay`");

@@ -9,6 +9,7 @@
 #include "rtl/registry.hpp"
 #include "scene/scene.hpp"
 #include "sensor/preset.hpp"
+#include "subsystem/registry.hpp"
 
 namespace dtof {
 
@@ -34,6 +35,10 @@ void add_list_command(CLI::App& app) {
     fmt::print("\nHardware compiled into this program (--engine rtl):\n");
     for (const RtlConfiguration& configuration : compiled_rtl_configurations()) {
       fmt::print("  {}\n", configuration.to_string());
+    }
+    fmt::print("\nSubsystems compiled into this program (--engine subsystem):\n");
+    for (const CompiledSubsystem& subsystem : compiled_subsystems()) {
+      fmt::print("  {}\n", subsystem.configuration.to_string());
     }
   });
 }

@@ -366,7 +366,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
                       "mm that the recording calls zero, taken from every distance (default: each\n"
                       "read-out's median difference to truth; 299.8 for a stream of preset thesis)");
   options->readout.add_to(*command);
-  add_run_options(*command, options->run);
+  add_run_options(*command, options->run, true);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->callback([options, command] {
     check_recording_options(*command, options->recording);

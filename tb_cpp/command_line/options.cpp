@@ -128,12 +128,22 @@ void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std
   command.add_option("-o,--out", out, "output folder")->capture_default_str();
 }
 
-void add_run_options(CLI::App& command, RunSettings& settings) {
+void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsystem) {
   auto* group = command.add_option_group("run");
-  group->add_option("-e,--engine", settings.engine, "model (C++) or rtl (the Verilated hardware)")
-      ->check(CLI::IsMember({"model", "rtl"}))
+  std::vector<std::string> engines = {"model", "rtl"};
+  if (with_subsystem) {
+    engines.emplace_back("subsystem");
+  }
+  group
+      ->add_option("-e,--engine", settings.engine,
+                   with_subsystem
+                       ? "model (C++), rtl (the Verilated hardware) or subsystem (the hardware with\n"
+                         "registers and streams, run by its C driver)"
+                       : "model (C++) or rtl (the Verilated hardware)")
+      ->check(CLI::IsMember(engines))
       ->capture_default_str();
-  group->add_flag("--verify", settings.verify, "with --engine rtl: compare every pixel with the model");
+  group->add_flag("--verify", settings.verify,
+                  "with an engine that is hardware: compare every pixel with the model");
   group
       ->add_option("--trace", settings.trace,
                    "with --engine rtl and one read-out, in dtof-wave: waveform file (FST)")
@@ -158,7 +168,7 @@ void add_run_options(CLI::App& command, RunSettings& settings) {
 }
 
 void check_run_options(const RunSettings& settings) {
-  if (!settings.rtl() && (settings.verify || !settings.trace.empty())) {
+  if ((!settings.hardware() && settings.verify) || (!settings.rtl() && !settings.trace.empty())) {
     throw InputError("--verify and --trace need --engine rtl");
   }
 }

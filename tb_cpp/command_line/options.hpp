@@ -43,7 +43,7 @@ void add_sensor_option(CLI::App& command, std::string& sensor);
 void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out);
 
 /// --engine, --verify, --trace, --seed, --threads, --columns and --rows.
-void add_run_options(CLI::App& command, RunSettings& settings);
+void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsystem = false);
 /// Throws InputError for contradictory options.
 void check_run_options(const RunSettings& settings);
 

@@ -20,9 +20,8 @@ constexpr std::size_t kLeastGroups = 4;
 
 /// Columns of the source that share a column of the array, one below the other. Pixels of a pool read-out
 /// look at their neighbours and keep their place, as those of a trace do.
-std::size_t columns_to_stack(const RtlConfiguration& configuration, std::size_t rows, std::size_t columns,
-                             const RtlRunOptions& options) {
-  if (rows == 0 || is_pool_readout(configuration.parameters.readout) || !options.trace.empty()) {
+std::size_t columns_to_stack(const RtlConfiguration& configuration, std::size_t rows, std::size_t columns) {
+  if (rows == 0 || is_pool_readout(configuration.parameters.readout)) {
     return 1;
   }
   const std::size_t room = static_cast<std::size_t>(configuration.pixels_per_sram) / rows;
@@ -33,18 +32,14 @@ std::size_t columns_to_stack(const RtlConfiguration& configuration, std::size_t 
 
 }  // namespace
 
-RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration, int threads,
-                             std::span<const int> columns, const RtlRunOptions& options, Progress* progress) {
+RtlSourceFrame run_frame_in_groups(const StreamSource& source, const RtlConfiguration& configuration,
+                                   int threads, std::span<const int> columns, bool stack_columns,
+                                   const RunGroup& run, Progress* progress) {
   const std::vector<int> selected = select_columns(source, columns);
   const auto sram_num = static_cast<std::size_t>(configuration.sram_num);
-  if (!options.trace.empty() && selected.size() > sram_num) {
-    throw InputError(fmt::format("a trace holds at most SRAM_NUM = {} columns, not {}; choose some", sram_num,
-                                 selected.size()));
-  }
-
   const auto rows = static_cast<std::size_t>(source.rows());
   const std::size_t width = selected.size();
-  const std::size_t stack = columns_to_stack(configuration, rows, width, options);
+  const std::size_t stack = stack_columns ? columns_to_stack(configuration, rows, width) : 1;
   const std::size_t group_size = sram_num * stack;
   RtlSourceFrame frame;
   frame.results.resize(rows * width);
@@ -63,7 +58,7 @@ RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration&
                                                : std::span<const Detection>());
       }
     }
-    const RtlFrame part = RtlReadout(configuration).run(streams, source.acquisitions(), options);
+    const RtlFrame part = run(streams, source.acquisitions());
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t row = 0; row < rows; ++row) {
         const std::size_t from = (i / used * rows + row) * used + i % used;
@@ -79,6 +74,21 @@ RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration&
     }
   });
   return frame;
+}
+
+RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration, int threads,
+                             std::span<const int> columns, const RtlRunOptions& options, Progress* progress) {
+  const std::size_t width = select_columns(source, columns).size();
+  if (!options.trace.empty() && width > static_cast<std::size_t>(configuration.sram_num)) {
+    throw InputError(fmt::format("a trace holds at most SRAM_NUM = {} columns, not {}; choose some",
+                                 configuration.sram_num, width));
+  }
+  return run_frame_in_groups(
+      source, configuration, threads, columns, options.trace.empty(),
+      [&](std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
+        return RtlReadout(configuration).run(streams, acquisitions, options);
+      },
+      progress);
 }
 
 RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters& parameters, int threads,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,6 +31,15 @@ struct RtlSourceFrame {
 RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration,
                              int threads = 0, std::span<const int> columns = {},
                              const RtlRunOptions& options = {}, Progress* progress = nullptr);
+
+/// Reads `columns` streams, of as many rows as the array has or fewer.
+using RunGroup = std::function<RtlFrame(std::span<const ColumnStream> columns, std::uint32_t acquisitions)>;
+
+/// The same frame by groups, each of which `run` reads, from several threads at a time. `stack`: where pixels
+/// are independent, short columns may share a column of the array.
+RtlSourceFrame run_frame_in_groups(const StreamSource& source, const RtlConfiguration& configuration,
+                                   int threads, std::span<const int> columns, bool stack, const RunGroup& run,
+                                   Progress* progress = nullptr);
 
 /// The same with the compiled configuration that suits (find_rtl_configuration).
 RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters& parameters, int threads = 0,

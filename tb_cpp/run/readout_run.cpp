@@ -8,7 +8,11 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/pixel_sampler.hpp"
@@ -19,21 +23,48 @@
 #include "rtl/registry.hpp"
 #include "rtl/run_frame.hpp"
 #include "scoreboard/scoreboard.hpp"
+#include "subsystem/registry.hpp"
+#include "subsystem/subsystem_frame.hpp"
 
 namespace dtof {
+namespace {
+
+// Throws RtlError that describes every pixel in which the frame differs from the model's.
+void verify_subsystem(const StreamSource& source, const ReadoutParameters& parameters,
+                      const RunSettings& options, std::span<const int> columns, const RtlSourceFrame& frame,
+                      const std::string& command) {
+  const std::vector<PixelResult> expected = run_frame(source, parameters, options.threads, columns);
+  const std::vector<Mismatch> mismatches =
+      compare_frames(columns, expected, frame.results, frame.result_cycles);
+  if (!mismatches.empty()) {
+    throw RtlError(
+        describe_mismatches(mismatches, expected.size(),
+                            {.configuration = find_subsystem(parameters, source.rows()).configuration,
+                             .acquisitions = source.acquisitions(),
+                             .seed = options.seed,
+                             .reproduce = command,
+                             .shortest_failing_frame = std::nullopt}));
+  }
+}
+
+}  // namespace
 
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
                   const RunSettings& options, const Region& region) {
-  if (!options.rtl()) {
+  if (!options.hardware()) {
     return;
   }
   constexpr std::uint32_t kMostRtlAcquisitions = std::numeric_limits<std::uint16_t>::max();
   if (source.acquisitions() > kMostRtlAcquisitions) {
-    throw InputError(fmt::format("--engine rtl: {} acquisitions; the RTL counts 16 bits of them, to {}",
-                                 source.acquisitions(), kMostRtlAcquisitions));
+    throw InputError(fmt::format("--engine {}: {} acquisitions; the RTL counts 16 bits of them, to {}",
+                                 options.engine, source.acquisitions(), kMostRtlAcquisitions));
   }
   for (const ReadoutParameters& parameters : readouts) {
     const ArrayRows array = array_rows(source, region.rows, parameters.readout);
+    if (options.subsystem()) {
+      find_subsystem(parameters, array.source->rows());
+      continue;
+    }
     const RtlConfiguration configuration = find_rtl_configuration(
         parameters, array.source->rows(), static_cast<int>(region.columns.size()), !options.trace.empty());
     if (!options.trace.empty() && region.columns.size() > static_cast<std::size_t>(configuration.sram_num)) {
@@ -45,7 +76,7 @@ void check_engine(const StreamSource& source, std::span<const ReadoutParameters>
 }
 
 bool reads_samples(Readout readout, const RunSettings& options) {
-  return !options.rtl() && !options.streams_only && !is_pool_readout(readout);
+  return !options.hardware() && !options.streams_only && !is_pool_readout(readout);
 }
 
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
@@ -60,6 +91,16 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
     run.results = array.read(std::move(results));
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
+  if (options.subsystem()) {
+    const RtlSourceFrame frame =
+        run_frame_subsystem(*array.source, parameters, options.threads, columns, &progress);
+    run.cycles = frame.statistics.cycles;
+    if (options.verify) {
+      verify_subsystem(*array.source, parameters, options, columns, frame, command);
+    }
+    finish(frame.results);
+    return run;
+  }
   if (options.rtl()) {
     RtlRunOptions rtl_options;
     rtl_options.trace = options.trace;

@@ -21,20 +21,21 @@ struct ReadoutRun {
   double seconds = 0.0;              ///< wall time, photon generation included
 };
 
-/// Throws InputError for what `run_readout` would refuse with --engine rtl: a read-out that is not compiled
-/// for so many rows, more acquisitions than the RTL's 16 bits count, or more columns than a trace holds. To
-/// be asked before anything is written.
+/// Throws InputError for what `run_readout` would refuse of an engine that is hardware: a read-out that is
+/// not compiled for so many rows, more acquisitions than the RTL's 16 bits count, or more columns than a
+/// trace holds. To be asked before anything is written.
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
                   const RunSettings& options, const Region& region);
 
 /// True if run_readout asks a photon source that can be sampled (SampledSource) for the photons of one
-/// measurement at a time; false if it reads streams: the RTL, the pool read-outs, --record.
+/// measurement at a time; false if it reads streams: hardware, the pool read-outs, --record.
 bool reads_samples(Readout readout, const RunSettings& options);
 
 /// Reads a region of `source` out with the engine of `options`, which does not change a result. A pool
 /// read-out's array has the sensor's rows, at least the 160 of the compiled arrays, and those outside the
-/// region are dark. With --verify the RTL's pixels are compared with the model's, and a difference is thrown
-/// as RtlError that describes it. `command` is the command line to reproduce the run, without --columns and
+/// region are dark. With --verify the hardware's pixels are compared with the model's, and a difference is
+/// thrown as RtlError that describes it. `command` is the command line to reproduce the run, without
+/// --columns and
 /// --trace. Throws InputError for a region outside the source.
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunSettings& options, const Region& region, const std::string& command);

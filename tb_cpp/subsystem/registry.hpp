@@ -26,4 +26,9 @@ bool register_subsystem(const RtlConfiguration& configuration, SubsystemModelFac
 /// Subsystems linked into this program, by their read-outs' numbers.
 std::vector<CompiledSubsystem> compiled_subsystems();
 
+/// The one with these parameters (parameters that the read-out does not use are not compared) and at least so
+/// many rows. Its configuration has the gate and the shares of `parameters`. Throws InputError naming what is
+/// compiled.
+CompiledSubsystem find_subsystem(const ReadoutParameters& parameters, int rows);
+
 }  // namespace dtof

@@ -6,7 +6,8 @@ module subsystem_testbench #(
     parameter READOUT = 0,
     parameter AXI_LITE = 0,
 `include "subsystem_parameters.svh"
-    parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4
+    parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
+    parameter RASTER_ORDER = 0
 ) (
     input  logic         clk_i,
     input  logic         rst_ni,
@@ -110,6 +111,7 @@ module subsystem_testbench #(
   dtof_subsystem #(
       .READOUT(READOUT),
       .BUFFER_LINES(BUFFER_LINES),
+      .RASTER_ORDER(RASTER_ORDER),
 `include "dtof_subsystem_parameters.svh"
   ) u_subsystem (
       .clk_i,

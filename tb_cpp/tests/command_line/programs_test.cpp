@@ -126,6 +126,23 @@ TEST_F(Programs, FrameThroughTheRtlEqualsTheModelAndIsWritten) {
   }
 }
 
+TEST_F(Programs, FrameThroughTheSubsystemIsThatOfTheBareArray) {
+  const std::string frame =
+      fmt::format("frame -r ezpointer,hispointer,poolpointer --verify {} ", kSmallScene);
+  for (const char* engine : {"rtl", "subsystem"}) {
+    const Outcome outcome = dtof(frame + fmt::format("--engine {0} --out {0}", engine));
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr(fmt::format("engine {} (every pixel equal to the model)", engine)));
+  }
+  for (const char* name : {"ezpointer", "hispointer", "poolpointer"}) {
+    EXPECT_EQ(read_file(path("subsystem") + "/" + name + ".csv"),
+              read_file(path("rtl") + "/" + name + ".csv"));
+  }
+  // Its time gate is there, its array's is not.
+  const Outcome gated = dtof(frame + "--engine subsystem --code-gate 200 600 --out gated");
+  EXPECT_EQ(gated.exit_code, 0) << gated.output;
+}
+
 TEST_F(Programs, ThreadsAndChosenColumnsDoNotChangeAResult) {
   ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 1 --out one", kSmallScene)).exit_code, 0);
   ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 2 --out two", kSmallScene)).exit_code, 0);
@@ -365,6 +382,10 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("accuracy --rows 0-3 --distances 2 --out out", "--rows");
   expect_refused("scenes --rows 0-3 --out out", "--rows");
   expect_refused("frame --engine rtl --readout ezpointer --np 9 --out out", "compiled");
+  expect_refused("frame --engine subsystem --readout sifh --out out", "no subsystem is compiled for sifh");
+  expect_refused("frame --engine subsystem -r ezpointer -a 65536 --out out", "to 65535");
+  expect_refused("frame --engine subsystem -r ezpointer --trace x.fst --out out", "--engine rtl");
+  expect_refused("accuracy --engine subsystem --distances 2 --out out", "subsystem");
   expect_refused("frame --verify --out out", "--engine rtl");
   expect_refused("frame --trace x.fst --engine rtl --out out", "one read-out");
   expect_refused("frame -r ezpointer --trace x.fst --engine rtl --columns 0 --out out",

@@ -102,7 +102,7 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     const std::vector<std::uint64_t>& words = bench_.sink().frames().back();
     std::vector<dtof_result> results(words.size());
     ASSERT_EQ(dtof_unpack_frame(&device_, words.data(), words.size(), results.data()), DTOF_OK);
-    for (const ResultFields& expected : expected_results(configuration, settings, lines)) {
+    for (const ResultFields& expected : expected_results(bench_, settings, lines)) {
       const dtof_result& result = results[static_cast<std::size_t>(expected.row) * columns +
                                           static_cast<std::size_t>(expected.column)];
       const ResultFields fields{.position = result.position,

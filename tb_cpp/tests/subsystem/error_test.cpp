@@ -24,7 +24,7 @@ class SubsystemErrors : public Subsystem {
     push_lines(bench_, lines);
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     bench_.wait_for_frames(1);
-    ASSERT_EQ(received_results(bench_, before), expected_results(bench_.configuration(), settings, lines));
+    ASSERT_EQ(received_results(bench_, before), expected_results(bench_, settings, lines));
   }
 
   // Reads what went wrong since the last time, and forgets it.
@@ -60,8 +60,7 @@ TEST_P(SubsystemErrors, AnUnderrunLosesTheRestOfItsAcquisitionAlone) {
     bench_.clocks(10);
     const ArrayFrame& taken = bench_.frames().back();
     ASSERT_EQ(taken.lines.size(), lines.size());
-    ASSERT_EQ(received_results(bench_, frame),
-              expected_results(bench_.configuration(), settings, taken.lines));
+    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, taken.lines));
     EXPECT_EQ(bench_.get(DTOF_STATUS), 0U) << "nothing of a lost acquisition stays in the buffer";
     EXPECT_EQ(take_errors(), taken.lost > 0 ? DTOF_ERROR_UNDERRUN_MASK : 0U);
     lost += taken.lost;
@@ -170,7 +169,7 @@ TEST_P(SubsystemErrors, AnOverrunIsTold) {
   for (std::size_t frame = 0; frame < 7; ++frame) {
     const auto first = lines.begin() + static_cast<std::ptrdiff_t>(frame * lines.size() / 7);
     const std::vector<Line> own(first, first + static_cast<std::ptrdiff_t>(lines.size() / 7));
-    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_.configuration(), settings, own))
+    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, own))
         << "nothing is lost where the source can wait";
   }
 }
@@ -202,7 +201,7 @@ TEST_P(SubsystemErrors, AMissingLastLineIsTold) {
   }
   bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
   bench_.wait_for_frames(1);
-  EXPECT_EQ(received_results(bench_, 0), expected_results(bench_.configuration(), settings, lines));
+  EXPECT_EQ(received_results(bench_, 0), expected_results(bench_, settings, lines));
   EXPECT_EQ(take_errors(), DTOF_ERROR_MISFRAMED_MASK);
 }
 

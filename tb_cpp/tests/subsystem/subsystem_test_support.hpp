@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/random.hpp"
@@ -80,9 +82,9 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
 }
 
 /// The words of a frame whose array took `lines`: the C++ model of every column, and the status.
-inline std::vector<ResultFields> expected_results(const RtlConfiguration& configuration,
-                                                  const FrameSettings& settings,
+inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const FrameSettings& settings,
                                                   const std::vector<Line>& lines) {
+  const RtlConfiguration& configuration = bench.configuration();
   ReadoutParameters parameters = configuration.parameters;
   if (parameters.time_gate) {
     parameters.time_gate = settings.gate;
@@ -117,6 +119,10 @@ inline std::vector<ResultFields> expected_results(const RtlConfiguration& config
     fields.masked = !settings.enabled.empty() && !settings.enabled[column];
     fields.valid = !fields.weak && !fields.empty && !fields.masked;
     expected.push_back(fields);
+  }
+  if ((bench.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0) {
+    std::ranges::sort(expected, {},
+                      [](const ResultFields& fields) { return std::pair(fields.row, fields.column); });
   }
   return expected;
 }
@@ -171,7 +177,8 @@ class Subsystem : public testing::TestWithParam<CompiledSubsystem> {
 };
 
 inline std::string subsystem_test_name(const testing::TestParamInfo<CompiledSubsystem>& subsystem) {
-  return std::string(readout_name(subsystem.param.configuration.parameters.readout));
+  return fmt::format("{}_{}x{}", readout_name(subsystem.param.configuration.parameters.readout),
+                     subsystem.param.configuration.sram_num, subsystem.param.configuration.pixels_per_sram);
 }
 
 inline void PrintTo(const CompiledSubsystem& subsystem, std::ostream* stream) {

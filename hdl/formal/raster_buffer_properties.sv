@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// raster_buffer: every result leaves once, in raster order, under any pace of both sides and from reset at any time. One
+// arbitrary pixel is watched.
+`include "properties.svh"
+
+module raster_buffer_properties #(
+    parameter int SRAM_NUM = 2,
+    parameter int PIXELS_PER_SRAM = 2,
+    parameter int WIDTH = 1,
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
+) (
+    input logic                    clk_i,
+    input logic                    reset_i,
+    input logic                    s_tvalid_i,
+    input logic [       WIDTH-1:0] s_result_i,
+    input logic [COLUMN_WIDTH-1:0] s_column_i,
+    input logic [   ROW_WIDTH-1:0] s_row_i,
+    input logic                    s_tlast_i,
+    input logic                    m_tready_i
+);
+
+  logic checking = 1'b0;
+  logic rst_n;
+  assign rst_n = checking && !reset_i;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic s_tready, tvalid, tlast;
+  logic [WIDTH-1:0] result;
+  logic [COLUMN_WIDTH-1:0] column;
+  logic [ROW_WIDTH-1:0] row;
+
+  raster_buffer #(
+      .SRAM_NUM       (SRAM_NUM),
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .WIDTH          (WIDTH)
+  ) u_dut (
+      .clk_i     (clk_i),
+      .rst_ni    (rst_n),
+      .s_tvalid_i(s_tvalid_i),
+      .s_tready_o(s_tready),
+      .s_result_i(s_result_i),
+      .s_column_i(s_column_i),
+      .s_row_i   (s_row_i),
+      .s_tlast_i (s_tlast_i),
+      .m_tvalid_o(tvalid),
+      .m_tready_i(m_tready_i),
+      .m_result_o(result),
+      .m_column_o(column),
+      .m_row_o   (row),
+      .m_tlast_o (tlast)
+  );
+
+  (* anyconst *) logic [COLUMN_WIDTH-1:0] watched_column;
+  (* anyconst *) logic [ROW_WIDTH-1:0] watched_row;
+  logic [7:0] in_q, out_q;  // results of the frame
+  logic come_q, held_q, whole_q, is_watched, push, pop;
+  logic [1:0] pause_q;
+  logic [WIDTH-1:0] expected_q, result_q;
+
+  assign is_watched = (s_column_i == watched_column) && (s_row_i == watched_row);
+  assign push = s_tvalid_i && s_tready;
+  assign pop = tvalid && m_tready_i;
+
+  always_ff @(posedge clk_i) begin
+    if (!rst_n) begin
+      in_q <= '0;
+      out_q <= '0;
+      come_q <= 1'b0;
+      held_q <= 1'b0;
+      whole_q <= 1'b0;
+      pause_q <= '0;
+    end else begin
+      if (push) begin
+        in_q <= s_tlast_i ? '0 : in_q + 1'b1;
+        if (s_tlast_i) whole_q <= 1'b1;
+        if (is_watched) begin
+          come_q <= 1'b1;
+          expected_q <= s_result_i;
+        end
+      end
+      if (pop) begin
+        out_q <= out_q + 1'b1;
+        if (32'(out_q) == SRAM_NUM * PIXELS_PER_SRAM - 1) begin
+          out_q <= '0;
+          whole_q <= 1'b0;
+          come_q <= 1'b0;
+        end
+      end
+      held_q <= tvalid && !m_tready_i;
+      pause_q <= (whole_q && !tvalid) ? pause_q + 1'b1 : '0;
+    end
+    result_q <= result;
+  end
+
+  // Each pixel of a frame once, which tlast ends.
+  `ASSUME(m_in_array, 32'(s_column_i) < SRAM_NUM && 32'(s_row_i) < PIXELS_PER_SRAM)
+  `ASSUME(m_watched, 32'(watched_column) < SRAM_NUM && 32'(watched_row) < PIXELS_PER_SRAM)
+  `ASSUME(m_once, !s_tvalid_i || !is_watched || !come_q || whole_q)
+  `ASSUME(m_last, s_tlast_i == (32'(in_q) == SRAM_NUM * PIXELS_PER_SRAM - 1))
+  `ASSUME(m_all, !s_tvalid_i || !s_tlast_i || come_q || is_watched)
+  `PROVE(a_only_whole_frames, !(rst_n && tvalid) || whole_q)
+  `PROVE(a_no_mixing, !(rst_n && push) || !whole_q)
+  `PROVE(a_order, !(rst_n && tvalid) || 32'(row) * SRAM_NUM + 32'(column) == 32'(out_q))
+  `PROVE(a_result, !(rst_n && tvalid && column == watched_column && row == watched_row) || result == expected_q)
+  `PROVE(a_tlast, !(rst_n && tvalid) || tlast == (32'(out_q) == SRAM_NUM * PIXELS_PER_SRAM - 1))
+  `PROVE(a_valid_holds, !(rst_n && held_q) || (tvalid && result == result_q))
+  `PROVE(a_takes_results, !rst_n || whole_q || s_tready)
+  `PROVE(a_goes_on, !rst_n || pause_q < 3)
+  `GOAL(rst_n && pop && tlast && column == watched_column && row == watched_row)
+
+endmodule
