@@ -13,7 +13,7 @@
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER is pool_pointer_array. The parameters
 // that follow (package/subsystem_parameters.svh) are the arrays'; each has the default of the read-out.
 // Latency: two clocks from a line to the array, one from the array to a result.
-// Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts'.
+// Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts' (reports/fpga_check.md).
 `include "dtof_macros.svh"
 
 module dtof_subsystem #(
