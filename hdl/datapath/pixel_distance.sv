@@ -4,8 +4,8 @@
 // Equations (docs/reference/poolpointer.md, Track and Point), distances floored to cells of 512 positions:
 //   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
 //   point  d = (X - leader's position) >> 9: in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
-//          rival's hit if (X >> 9) - rival is -5 .. 4 (RIVAL_MOVES = 1) or candidate b is hit (0);
-//          weight W[d] = 1 2 3 4 4 3 2 1, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
+//          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
+//          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
 // Cost: a subtractor of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
 module pixel_distance #(
     parameter int LABELS = 5,
@@ -14,7 +14,9 @@ module pixel_distance #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
-    parameter int PIXEL_WIDTH = 32
+    parameter int PIXEL_WIDTH = 32,
+    parameter int RIVAL_REACH = 5,                      // cells to either side of the rival
+    parameter logic [23:0] WEIGHTS = 24'o12344321       // of the distances 0 to 7, one octal digit each, 0 lowest
 ) (
     input  logic                                        valid_i,         // there is a timestamp
     input  logic [                                15:0] position_i,      // X
@@ -101,14 +103,7 @@ module pixel_distance #(
   assign up_o = !cells[CELLS_WIDTH-1];
   assign cells_away = cells[2:0] ^ {3{cells[CELLS_WIDTH-1]}};
 
-  always_comb begin
-    case (cells_away)
-      3'd0, 3'd7: weight_o = 3'd1;
-      3'd1, 3'd6: weight_o = 3'd2;
-      3'd2, 3'd5: weight_o = 3'd3;
-      default: weight_o = 3'd4;
-    endcase
-  end
+  assign weight_o = WEIGHTS[3*cells_away+:3];
 
   // 64 units of 2^-11 coarse bin.
   localparam logic [3:0] LATE_GEAR = 4'(6 - ((ADVANTAGE_WIDTH == 4) ? POINTER_SHIFT : 0));
@@ -146,11 +141,12 @@ module pixel_distance #(
   generate
     if (RIVAL_MOVES != 0) begin : g_moving_rival
       logic [RIVAL_WIDTH-1:0] rival;
+      localparam logic signed [RIVAL_WIDTH:0] RIVAL_CELLS = (RIVAL_WIDTH + 1)'(RIVAL_REACH);
       logic signed [RIVAL_WIDTH:0] rival_distance;
       assign rival = word_i[POINTER_WIDTH+:RIVAL_WIDTH];
       assign distance = $signed({2'b00, position_i[15:POINTER_SHIFT]}) - $signed({2'b00, pointer});
       assign rival_distance = $signed({1'b0, position_i[15:9]}) - $signed({1'b0, rival});
-      assign rival_hit_o = valid_i && !hit_o && (rival_distance >= -8'sd5) && (rival_distance < 8'sd5);
+      assign rival_hit_o = valid_i && !hit_o && (rival_distance >= -RIVAL_CELLS) && (rival_distance < RIVAL_CELLS);
       assign rival_up_o = (rival_distance > 8'sd0);
       assign rival_down_o = (rival_distance < 8'sd0);
     end else begin : g_resting_rival

@@ -115,7 +115,8 @@ module pool_control_properties #(
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
       .word_load_d_o    (stream_word_load),
-      .group_load_d_o   (group_load)
+      .group_load_d_o   (group_load),
+      .group_place_d_o  ()
   );
 
   // As in pool_pointer_array.

@@ -33,6 +33,11 @@ package dtof_pkg;
   localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // label_chain: from a label's target to its pass_label
   localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // label_chain: from the last pass_label to the two best beliefs
 
+  localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // pool2_candidate_decoder: from capture_above to the first pair sum
+  localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // pool2_candidate_decoder: from capture_above to count_own
+  localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // pool2_engine: from take_winner to take_distances
+  localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // pool2_engine: from take_distances to take_result
+
   function automatic int max_of(input int a, input int b);
     max_of = (a > b) ? a : b;
   endfunction
@@ -78,6 +83,9 @@ package dtof_pkg;
   // Largest penalties along a column: 2 + (39 >> 2) in choose, 4 + (39 >> 3) in decide.
   localparam int POOL_CHOOSE_PENALTY_WIDTH = 4;
   localparam int POOL_DECIDE_PENALTY_WIDTH = 4;
+
+  localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins in half an SRAM word of a pair of columns (poolPointer 2)
+  localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
   function automatic int pool_pointer_width(input int pointer_shift, input int rival_moves);

@@ -144,6 +144,7 @@ module pool_pointer_array #(
   logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t3;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
   logic [3:0] acquisition_t2;
+  logic unused_group_place;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -177,7 +178,8 @@ module pool_pointer_array #(
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
       .word_load_d_o    (stream_word_load),
-      .group_load_d_o   (group_load)
+      .group_load_d_o   (group_load),
+      .group_place_d_o  (unused_group_place)
   );
 
   logic [STEP_WIDTH-1:0] engine_column;

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: one or two columns and their single-port SRAM. A word has two halves: those of the two columns, each with
+// two pixels; or two groups; or, in the coarse phase, two octets of a group's bins, for both columns count in one
+// histogram.
+//
+// All accesses are common to all pairs but those of the coarse phase, where each pair counts in a word of its own
+// choice. Each column counts one timestamp of two pixels, the second column two clocks behind the first:
+//   clock (T0: last slot of the pair of pixels)   T2     T3          T4            T5            T6       T7
+//   first column                                  read   registered  counted       written
+//   second column                                                    read          registered    counted  written
+// A count in the word of the count before goes on with the register, whose write may be still to come.
+//
+// Engine: what was read is on word_o two clocks after read_i, in the selected half; at all other times word_o is 0. The
+// engine writes one half; the other half is written with it, so that the word must have been read before.
+// Cost at the defaults: see reports/area.md.
+`include "dtof_macros.svh"
+
+module pool2_pair #(
+    parameter int COLUMNS = 2,  // 1 for the last one of an odd number
+    parameter int NP = 10,
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int COUNT_WIDTH = 7,
+    parameter int GROUP_SIZE = 4,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int POINTER_SHIFT = 1,
+    localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
+    localparam int PIXEL_WIDTH = dtof_pkg::max_of(
+        dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
+        dtof_pkg::pool_point_width(LABELS, 7, POINTER_SHIFT, 1)),
+    localparam int HALF_WIDTH = 2 * PIXEL_WIDTH,
+    localparam int WORD_WIDTH = 2 * HALF_WIDTH,
+    localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
+    localparam int DEPTH = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
+    localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH)
+) (
+    input  logic                  clk_i,
+    input  logic                  rst_ni,
+    input  logic [COLUMNS*NP-1:0] timestamp_i,
+    // phase, common to all pairs
+    input  logic                  coarse_i,
+    input  logic                  point_i,
+    // timestamps
+    input  logic                  beat_t1_i,
+    input  logic                  first_slot_t1_i,
+    input  logic                  first_row_t2_i,
+    input  logic                  second_row_t2_i,
+    input  logic                  update_t3_i,
+    input  logic [           3:0] acquisition_t2_i,  // registered here: it reaches all columns
+    // coarse
+    input  logic                  second_column_i,   // with read_i: it is the second column's turn
+    input  logic                  fresh_i,           // with read_i: the first count of a group
+    input  logic                  load_i,            // a clock after read_i
+    input  logic                  count_i,           // two clocks after read_i
+    // SRAM
+    input  logic                  read_i,
+    input  logic                  write_i,
+    input  logic [ADDR_WIDTH-1:0] address_i,
+    input  logic                  word_load_i,       // the word read last clock
+    input  logic                  group_load_i,      // the group read last clock
+    input  logic                  group_upper_i,     // with group_load_i: it is the word's upper half
+    // engine
+    input  logic                  engine_i,          // no timestamps: engine, or clear
+    input  logic                  clear_i,           // all pairs' words are cleared
+    input  logic                  select_i,          // with read_i and write_i: this pair
+    input  logic                  upper_i,           // with read_i and write_i: the word's upper half
+    input  logic [HALF_WIDTH-1:0] engine_word_i,
+    output logic [HALF_WIDTH-1:0] word_o
+);
+
+  localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
+  localparam int OCTET = dtof_pkg::POOL2_BINS_PER_LINE;
+  localparam int PLACE_WIDTH = $clog2(2 * OCTET);  // of a bin in a word
+  localparam int LAST = COLUMNS - 1;
+  localparam int CELLS_WIDTH = LABELS * dtof_pkg::POOL_CELL_WIDTH;
+
+  logic [WORD_WIDTH-1:0] read_data, write_data, word_q, updated, counted;
+  logic [COLUMNS-1:0] valid_t2, held_valid;
+  logic [COLUMNS*COARSE_WIDTH-1:0] bin_t2, held_bin;
+  logic read, write, word_load;
+  logic [ADDR_WIDTH-1:0] address;
+
+  dtof_sram #(
+      .PORTS(1),
+      .DEPTH(DEPTH),
+      .WIDTH(WORD_WIDTH)
+  ) u_sram (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .read_en_i   (read),
+      .read_addr_i (address),
+      .read_data_o (read_data),
+      .write_en_i  (write),
+      .write_addr_i(address),
+      .write_data_i(write_data)
+  );
+
+  // Coarse: the count under way.
+
+  logic [COARSE_WIDTH-1:0] bin;
+  logic bin_valid, same_line, fetch, pending_q, load_q, counted_q, write_q, line, line_q, write_line_q;
+  logic [PLACE_WIDTH-1:0] place_q;
+  logic [COUNT_WIDTH-1:0] count, next_count;
+
+  assign bin = second_column_i ? held_bin[LAST*COARSE_WIDTH+:COARSE_WIDTH] : bin_t2[COARSE_WIDTH-1:0];
+  assign bin_valid = second_column_i ? (COLUMNS > 1) && held_valid[LAST] : valid_t2[0];
+  assign same_line = counted_q && !fresh_i && (bin[COARSE_WIDTH-1] == line_q);
+  assign fetch = coarse_i && read_i && bin_valid;
+
+  always_ff @(posedge clk_i) begin
+    if (read_i || engine_i) begin
+      pending_q <= fetch;
+      load_q <= fetch && !same_line;
+      counted_q <= coarse_i && (fetch || (counted_q && !fresh_i));
+    end
+    if (fetch) begin
+      {line_q, place_q} <= bin;
+    end
+    if (count_i) begin
+      write_q <= pending_q;
+      write_line_q <= line_q;
+    end
+  end
+
+  assign next_count = (&count) ? count : count + 1'b1;
+
+  integer b;
+  always_comb begin
+    count = '0;
+    counted = word_q;
+    for (b = 0; b < 2 * OCTET; b = b + 1) begin
+      if (place_q == PLACE_WIDTH'(b)) begin
+        count = word_q[(b/OCTET)*HALF_WIDTH+(b%OCTET)*COUNT_WIDTH+:COUNT_WIDTH];
+      end
+    end
+    for (b = 0; b < 2 * OCTET; b = b + 1) begin
+      if (count_i && pending_q && place_q == PLACE_WIDTH'(b)) begin
+        counted[(b/OCTET)*HALF_WIDTH+(b%OCTET)*COUNT_WIDTH+:COUNT_WIDTH] = next_count;
+      end
+    end
+  end
+
+  // The word in work, and the group of its pixels.
+
+  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q;
+  logic [CELLS_WIDTH-1:0] cells_q;
+  logic [3:0] acquisition_t3_q;
+
+  assign word_load = engine_i ? read_selected_q : (word_load_i || (load_i && load_q));
+
+  always_ff @(posedge clk_i) begin
+    acquisition_t3_q <= acquisition_t2_i;
+    word_q <= word_load ? read_data : (update_t3_i ? updated : counted);
+    if (group_load_i) begin
+      cells_q <= group_upper_i ? read_data[HALF_WIDTH+:CELLS_WIDTH] : read_data[CELLS_WIDTH-1:0];
+    end
+    read_selected_q <= engine_i && read_i && select_i;
+    upper_q <= upper_i;
+    drives_lower_q <= read_selected_q && !upper_q;
+    drives_upper_q <= read_selected_q && upper_q;
+  end
+
+  assign word_o = (word_q[HALF_WIDTH-1:0] & {HALF_WIDTH{drives_lower_q}})
+      | (word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_upper_q}});
+
+  // Columns.
+
+  genvar c;
+  generate
+    for (c = 0; c < 2; c = c + 1) begin : g_half
+      logic [HALF_WIDTH-1:0] half;
+      assign half = word_q[c*HALF_WIDTH+:HALF_WIDTH];
+
+      if (c < COLUMNS) begin : g_column
+        pool2_column #(
+            .NP           (NP),
+            .LABELS       (LABELS),
+            .SCORE_BITS   (SCORE_BITS),
+            .OFFSET_BITS  (OFFSET_BITS),
+            .POINTER_SHIFT(POINTER_SHIFT)
+        ) u_column (
+            .clk_i           (clk_i),
+            .timestamp_i     (timestamp_i[c*NP+:NP]),
+            .point_i         (point_i),
+            .beat_t1_i       (beat_t1_i),
+            .first_slot_t1_i (first_slot_t1_i),
+            .odd_t2_i        (acquisition_t2_i[0]),
+            .first_row_t2_i  (first_row_t2_i),
+            .second_row_t2_i (second_row_t2_i),
+            .acquisition_t3_i(acquisition_t3_q),
+            .valid_t2_o      (valid_t2[c]),
+            .bin_t2_o        (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),
+            .held_valid_o    (held_valid[c]),
+            .held_bin_o      (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH]),
+            .cells_i         (cells_q),
+            .half_i          (half),
+            .updated_o       (updated[c*HALF_WIDTH+:HALF_WIDTH])
+        );
+      end else begin : g_no_column
+        assign updated[c*HALF_WIDTH+:HALF_WIDTH] = half;
+      end
+
+      assign write_data[c*HALF_WIDTH+:HALF_WIDTH] =
+          engine_i ? (((upper_i == (c == 1)) ? engine_word_i : half) & {HALF_WIDTH{!clear_i}})
+          : (coarse_i ? half : updated[c*HALF_WIDTH+:HALF_WIDTH]);
+    end
+  endgenerate
+
+  // SRAM. In the coarse phase the common address is a group's first word.
+
+  assign read = read_i && (engine_i ? select_i : (!coarse_i || (bin_valid && !same_line)));
+  assign write = write_i && (engine_i ? clear_i || select_i : (!coarse_i || write_q));
+  assign line = write_i ? write_line_q : bin[COARSE_WIDTH-1];
+  assign address = address_i | (coarse_i ? ADDR_WIDTH'(line) : '0);
+
+  logic unused;
+  assign unused = ^{1'b0, valid_t2, held_valid, bin_t2, held_bin, GROUP_WIDTH'(0)};
+
+endmodule

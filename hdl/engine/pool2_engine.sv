@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: what needs several pixels at once, shared by ENGINE_COLUMNS columns.
+//
+// Decode makes the groups' words of the coarse histograms, choose the first pointer words of the track words, decide the
+// results of the pointer words (docs/reference/poolpointer2.md). The scratch memory has a word for each row: the messages
+// of a chain's first pass, and in choose the cell chosen in the column to the left.
+//
+// 1. The line, what a pair of columns has read, is registered. Decode hands it to the candidate decoder, whose group word
+//    is written back.
+// 2. Choose and decide take from it first a pixel's word and then its group's: the pixel is prepared. In choose what the
+//    columns beside say becomes part of its evidence before the chain takes it.
+// 3. The chain of the operation in work steps on, and its messages of the first pass wait in the scratch memory.
+// 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write. Decide hands
+//    the winners of three rows to S1, whose result leaves.
+//
+// It knows neither rows nor columns nor clocks: in each clock it does what the command says, and nothing else.
+//
+// Schedule: the table of pool2_sequencer, with this module's POOL2_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
+// Cost: pool2_candidate_decoder, beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
+`include "pool2_command.svh"
+
+module pool2_engine #(
+    parameter int NP = 10,
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int COUNT_WIDTH = 7,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int POINTER_SHIFT = 1,
+    localparam int ADVANTAGE_WIDTH = 7,
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
+    localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
+    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, 1),
+    localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
+    localparam int LINE_WIDTH = 2 * PIXEL_WIDTH,
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
+    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
+    localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH
+) (
+    input  logic                    clk_i,
+    input  logic                    rst_ni,
+    input  logic                    smooth_i,       // S1 is on
+    input  logic                    has_right_i,    // in choose: the column in work has one to its right
+    input  pool2_engine_command_t   command_i,
+    input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS after its read
+    output logic [  LINE_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
+    input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of command_i.write_scratch and read_scratch
+    output logic [RESULT_WIDTH-1:0] result_o        // {code, fraction, confidence}, held from one take_result to the next
+);
+
+  localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
+  localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH;
+  localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
+  localparam int LEAD_WIDTH = LABEL_WIDTH + OFFSET_BITS;  // {offset, leader}
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, 1);
+  localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
+  localparam int BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH;
+  localparam int SMOOTH_BRIGHT_FROM = 6;
+  localparam int CHOOSE_PENALTY_WIDTH = 4;  // 2 + (5 * 39 >> 4) at most
+  localparam int DECIDE_PENALTY_WIDTH = 2;
+  localparam int CHOOSE_EVIDENCE_WIDTH = dtof_pkg::POOL2_EVIDENCE_WIDTH;
+  localparam int DECIDE_EVIDENCE_WIDTH = ADVANTAGE_WIDTH + 1;
+  localparam int CELL_POSITION_WIDTH = CELL_WIDTH + 1;
+  localparam int POSITION_WIDTH = 17;
+  localparam int CHOOSE_MESSAGE_WIDTH = LABELS * CHOOSE_PENALTY_WIDTH;
+  localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
+  localparam int MESSAGE_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH, DECIDE_MESSAGE_WIDTH);
+
+  logic [LINE_WIDTH-1:0] line_q;
+  always_ff @(posedge clk_i) begin
+    line_q <= line_i;
+  end
+
+  // Decode.
+
+  logic [LABELS*CELL_WIDTH-1:0] new_cells;
+  logic [BACKGROUND_WIDTH-1:0] new_background;
+
+  pool2_candidate_decoder #(
+      .COUNT_WIDTH(COUNT_WIDTH),
+      .LABELS     (LABELS)
+  ) u_candidate_decoder (
+      .clk_i       (clk_i),
+      .command_i   (command_i.decode),
+      .line_i      (line_q[BINS_WIDTH-1:0]),
+      .cells_o     (new_cells),
+      .background_o(new_background)
+  );
+
+  // A pixel is prepared: its word was captured, its group's is on the line. It passes on with each step of the chain.
+
+  logic advance;
+  logic [PIXEL_WIDTH-1:0] line_pixel, captured_q, prepared_q;
+  logic [LABELS*CHOOSE_EVIDENCE_WIDTH-1:0] choose_evidence;
+  logic [LABELS*CELL_WIDTH-1:0] cells;
+  logic [BACKGROUND_WIDTH-1:0] background;
+  logic [LEAD_WIDTH-1:0] next_lead_q, lead_q, last_lead_q;
+  logic prepared_bright_q, next_bright_q, bright_q, last_bright_q;
+  logic [CELL_WIDTH-1:0] left_cell, next_left_q, left_q;
+
+  assign advance = command_i.choose.advance || command_i.decide.advance;
+  assign line_pixel = command_i.odd_pixel ? line_q[LINE_WIDTH-1:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
+
+  always_ff @(posedge clk_i) begin
+    if (command_i.take_pixel) begin
+      captured_q <= line_pixel;
+    end
+    if (advance) begin
+      prepared_q <= captured_q;
+      prepared_bright_q <= (line_q[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH] >= BACKGROUND_WIDTH'(SMOOTH_BRIGHT_FROM));
+      {next_lead_q, next_bright_q, next_left_q} <= {prepared_q[SCORES_WIDTH+:LEAD_WIDTH], prepared_bright_q, left_cell};
+      {lead_q, bright_q, left_q} <= {next_lead_q, next_bright_q, next_left_q};
+      {last_lead_q, last_bright_q} <= {lead_q, bright_q};
+    end
+  end
+
+  beside_evidence #(
+      .LABELS    (LABELS),
+      .SCORE_BITS(SCORE_BITS)
+  ) u_beside_evidence (
+      .clk_i         (clk_i),
+      .command_i     (command_i.beside),
+      .right_scores_i(line_pixel[SCORES_WIDTH-1:0]),
+      .has_right_i   (has_right_i),
+      .advance_i     (advance),
+      .scores_i      (captured_q[SCORES_WIDTH-1:0]),
+      .group_i       (line_q[GROUP_WIDTH-1:0]),
+      .left_cell_i   (left_cell),
+      .evidence_o    (choose_evidence),
+      .cells_o       (cells),
+      .background_o  (background)
+  );
+
+  // Chains and their scratch memory: {cell chosen to the left, messages}.
+
+  logic [LABELS*CELL_POSITION_WIDTH-1:0] choose_position;
+  logic [BACKGROUND_WIDTH+2:0] five_backgrounds;
+  logic [CHOOSE_PENALTY_WIDTH-1:0] choose_penalty;
+  logic [CHOOSE_MESSAGE_WIDTH-1:0] choose_message;
+  logic [DECIDE_MESSAGE_WIDTH-1:0] decide_message;
+  logic [MESSAGE_WIDTH-1:0] message_in, message_out;
+  logic [LABEL_WIDTH-1:0] best_label, second_label;
+  logic [CELL_POSITION_WIDTH-1:0] best_cell, second_cell;
+  logic [CHOOSE_EVIDENCE_WIDTH+1:0] choose_margin;
+
+  genvar k;
+  generate
+    for (k = 0; k < LABELS; k = k + 1) begin : g_label
+      assign choose_position[k*CELL_POSITION_WIDTH+:CELL_POSITION_WIDTH] = {1'b0, cells[k*CELL_WIDTH+:CELL_WIDTH]};
+    end
+  endgenerate
+
+  assign five_backgrounds = (BACKGROUND_WIDTH + 3)'(background) + ((BACKGROUND_WIDTH + 3)'(background) << 2);
+  assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
+  assign message_in = command_i.deciding ? MESSAGE_WIDTH'(decide_message) : MESSAGE_WIDTH'(choose_message);
+
+  dtof_sram #(
+      .PORTS(1),
+      .DEPTH(PIXELS_PER_SRAM),
+      .WIDTH(CELL_WIDTH + MESSAGE_WIDTH)
+  ) u_scratch_sram (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .read_en_i   (command_i.read_scratch),
+      .read_addr_i (scratch_row_i),
+      .read_data_o ({left_cell, message_out}),
+      .write_en_i  (command_i.write_scratch),
+      .write_addr_i(scratch_row_i),
+      .write_data_i({command_i.back ? best_cell[CELL_WIDTH-1:0] : left_q, message_in})
+  );
+
+  label_chain #(
+      .LABELS        (LABELS),
+      .POSITION_WIDTH(CELL_POSITION_WIDTH),
+      .REACH         (4),
+      .EVIDENCE_WIDTH(CHOOSE_EVIDENCE_WIDTH),
+      .PENALTY_WIDTH (CHOOSE_PENALTY_WIDTH)
+  ) u_choose (
+      .clk_i            (clk_i),
+      .command_i        (command_i.choose),
+      .in_use_i         ({LABELS{1'b1}}),
+      .evidence_i       (choose_evidence),
+      .position_i       (choose_position),
+      .penalty_i        (choose_penalty),
+      .message_o        (choose_message),
+      .other_message_i  (message_out[CHOOSE_MESSAGE_WIDTH-1:0]),
+      .best_label_o     (best_label),
+      .second_label_o   (second_label),
+      .best_position_o  (best_cell),
+      .second_position_o(second_cell),
+      .margin_o         (choose_margin)
+  );
+
+  logic decided_rival, unused_loser;
+  logic [POSITION_WIDTH-1:0] leader_position, rival_position, position, unused_position;
+  logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
+
+  assign leader_position = POSITION_WIDTH'(prepared_q[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
+  assign rival_position = POSITION_WIDTH'({prepared_q[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
+
+  label_chain #(
+      .LABELS        (2),
+      .POSITION_WIDTH(POSITION_WIDTH),
+      .REACH         (2048),
+      .EVIDENCE_WIDTH(DECIDE_EVIDENCE_WIDTH),
+      .PENALTY_WIDTH (DECIDE_PENALTY_WIDTH)
+  ) u_decide (
+      .clk_i            (clk_i),
+      .command_i        (command_i.decide),
+      .in_use_i         (2'b11),
+      .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
+      .position_i       ({rival_position, leader_position}),
+      .penalty_i        (DECIDE_PENALTY_WIDTH'(2)),
+      .message_o        (decide_message),
+      .other_message_i  (message_out[DECIDE_MESSAGE_WIDTH-1:0]),
+      .best_label_o     (decided_rival),
+      .second_label_o   (unused_loser),
+      .best_position_o  (position),
+      .second_position_o(unused_position),
+      .margin_o         (decide_margin)
+  );
+
+  // Choose: the first pointer word. The leader's offset has come along with its pixel.
+
+  logic [LABEL_WIDTH-1:0] leader;
+  logic [15:0] offset, best_start, second_start;
+  logic [PIXEL_WIDTH-1:0] first_word;
+  logic [ADVANTAGE_WIDTH-1:0] start_advantage;
+  logic [LINE_WIDTH-1:0] new_pair_q;
+
+  assign leader = last_lead_q[LABEL_WIDTH-1:0];
+  assign offset = {{(10 - OFFSET_BITS) {last_lead_q[LEAD_WIDTH-1]}}, last_lead_q[LABEL_WIDTH+:OFFSET_BITS], 6'd0};
+  assign best_start = {best_cell[CELL_WIDTH-1:0], 9'd0} + ((leader == best_label) ? offset : '0);
+  assign second_start = {second_cell[CELL_WIDTH-1:0], 9'd0} + ((leader == second_label) ? offset : '0);
+
+  localparam int HALF_ADVANTAGE = 1 << (ADVANTAGE_WIDTH - 1);
+  assign start_advantage = (32'(choose_margin) >= HALF_ADVANTAGE) ? ADVANTAGE_WIDTH'(HALF_ADVANTAGE - 1)
+      : ADVANTAGE_WIDTH'(choose_margin);
+  assign first_word = PIXEL_WIDTH'({start_advantage, second_start[15:9], best_start[15:POINTER_SHIFT]});
+
+  always_ff @(posedge clk_i) begin
+    if (command_i.take_choice && command_i.odd_result) begin
+      new_pair_q[LINE_WIDTH-1:PIXEL_WIDTH] <= first_word;
+    end else if (command_i.take_choice) begin
+      new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
+    end
+  end
+
+  assign word_o = command_i.decoding ? LINE_WIDTH'({new_background, new_cells}) : new_pair_q;
+
+  // Decide: S1 and the result.
+
+  smoothing #(
+      .NP              (NP),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+  ) u_smoothing (
+      .clk_i           (clk_i),
+      .rst_ni          (rst_ni),
+      .smooth_i        (smooth_i),
+      .take_winner_i   (command_i.take_winner),
+      .has_winner_i    (command_i.has_winner),
+      .position_i      (position[15:0]),
+      .margin_i        (decide_margin[CONFIDENCE_WIDTH-1:0]),
+      .bright_i        (last_bright_q),
+      .take_distances_i(command_i.take_distances),
+      .take_result_i   (command_i.take_result),
+      .result_o        (result_o)
+  );
+
+  logic unused;
+  assign unused = ^{decided_rival, unused_loser, unused_position, position, decide_margin, best_cell[CELL_WIDTH],
+                    second_cell[CELL_WIDTH], second_start, line_q, message_out, best_start};
+
+endmodule

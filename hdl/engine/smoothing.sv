@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: S1, the smoothing of a column's winners, and the result word.
+//
+// Equations (docs/reference/poolpointer2.md, Decide): with c the winner's position in a row and x, y those in the rows
+// above and below, c + ((|x - c| <= T ? x - c : 0) + (|y - c| <= T ? y - c : 0)) / 4, rounded towards zero; T is 1024 in
+// dark groups, 1536 in bright ones. The result is that less half a bin, limited to what a code and a fraction can say.
+//
+// 1. Winners of a column enter from its first row on, after the last one an entry that is none: the row in the middle is
+//    the one whose result is made.
+// 2. The distances to both neighbours are found, then a quarter of their sum, then the result.
+//
+// Schedule: take_distances_i a clock after take_winner_i or later, take_result_i two clocks after that; result_o from a
+//   clock after take_result_i until the next one.
+// Cost: three positions with confidences, four adders, per engine.
+module smoothing #(
+    parameter int NP = 10,
+    parameter int CONFIDENCE_WIDTH = 8
+) (
+    input  logic                           clk_i,
+    input  logic                           rst_ni,
+    input  logic                           smooth_i,          // 0: winners stay where they are
+    input  logic                           take_winner_i,
+    input  logic                           has_winner_i,      // with take_winner_i; 0 ends the column
+    input  logic [                   15:0] position_i,
+    input  logic [   CONFIDENCE_WIDTH-1:0] margin_i,
+    input  logic                           bright_i,          // its group is bright
+    input  logic                           take_distances_i,
+    input  logic                           take_result_i,
+    output logic [16+CONFIDENCE_WIDTH-1:0] result_o           // {code, fraction, confidence}
+);
+
+  localparam int F = 16 - NP;
+  localparam int DISTANCE_WIDTH = 12;  // within T
+  localparam logic signed [16:0] DARK_REACH = 17'd1024;
+  localparam logic signed [16:0] BRIGHT_REACH = 17'd1536;
+  localparam logic signed [17:0] HALF_BIN = 18'((1 << F) / 2);
+  localparam logic signed [17:0] LAST_POSITION = 18'(65536 - (1 << F) - 1);
+
+  logic above_valid_q, centre_valid_q, below_valid_q, centre_bright_q, below_bright_q;
+  logic [15:0] above_q, centre_q, below_q;
+  logic [CONFIDENCE_WIDTH-1:0] centre_margin_q, below_margin_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      above_valid_q <= 1'b0;
+      centre_valid_q <= 1'b0;
+      below_valid_q <= 1'b0;
+    end else if (take_winner_i) begin
+      above_valid_q <= centre_valid_q;
+      centre_valid_q <= below_valid_q;
+      below_valid_q <= has_winner_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (take_winner_i) begin
+      above_q <= centre_q;
+      centre_q <= below_q;
+      below_q <= position_i;
+      {centre_margin_q, centre_bright_q} <= {below_margin_q, below_bright_q};
+      {below_margin_q, below_bright_q} <= {margin_i, bright_i};
+    end
+  end
+
+  // What a neighbour contributes.
+
+  logic signed [16:0] reach;
+  logic [DISTANCE_WIDTH-1:0] from_above, from_below;
+
+  assign reach = centre_bright_q ? BRIGHT_REACH : DARK_REACH;
+
+  function automatic logic [DISTANCE_WIDTH-1:0] contribution(input logic counts, input logic [15:0] neighbour,
+                                                             input logic [15:0] centre, input logic signed [16:0] most);
+    logic signed [16:0] distance;
+    distance = $signed({1'b0, neighbour}) - $signed({1'b0, centre});
+    contribution = (counts && distance <= most && distance >= -most) ? distance[DISTANCE_WIDTH-1:0] : '0;
+  endfunction
+
+  assign from_above = contribution(smooth_i && above_valid_q, above_q, centre_q, reach);
+  assign from_below = contribution(smooth_i && below_valid_q, below_q, centre_q, reach);
+
+  // A quarter of the sum, rounded towards zero.
+
+  logic signed [DISTANCE_WIDTH-1:0] from_above_q, from_below_q;
+  logic signed [DISTANCE_WIDTH:0] sum, rounded;
+  logic signed [DISTANCE_WIDTH-2:0] quarter_q;
+  logic signed [17:0] position_q, smoothed;
+  logic [15:0] limited;
+
+  assign sum = $signed({from_above_q[DISTANCE_WIDTH-1], from_above_q})
+      + $signed({from_below_q[DISTANCE_WIDTH-1], from_below_q});
+  assign rounded = sum + $signed({{(DISTANCE_WIDTH - 1) {1'b0}}, {2{sum[DISTANCE_WIDTH]}}});
+  assign smoothed = position_q + $signed({{(19 - DISTANCE_WIDTH) {quarter_q[DISTANCE_WIDTH-2]}}, quarter_q});
+  assign limited = (smoothed < 0) ? '0 : (smoothed > LAST_POSITION) ? 16'(LAST_POSITION) : smoothed[15:0];
+
+  always_ff @(posedge clk_i) begin
+    if (take_distances_i) begin
+      from_above_q <= $signed(from_above);
+      from_below_q <= $signed(from_below);
+      position_q <= $signed({2'b00, centre_q}) - HALF_BIN;
+    end
+    quarter_q <= rounded[DISTANCE_WIDTH:2];
+    if (take_result_i) begin
+      result_o <= {limited, centre_margin_q};
+    end
+  end
+
+  logic unused;
+  assign unused = ^{1'b0, centre_valid_q, rounded[1:0]};
+
+endmodule

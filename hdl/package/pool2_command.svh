@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What pool2_sequencer commands in a clock, with what each command means to who gets it. In which clocks it is given
+// stands in the table in pool2_sequencer.
+//
+// Types of the compilation unit, included at the head of a file: Icarus Verilog 11 takes none of a package.
+`ifndef POOL2_COMMAND_SVH
+`define POOL2_COMMAND_SVH
+`include "engine_command.svh"
+
+// What the columns and the output do for the engines: at most one access of the columns' SRAMs a clock.
+typedef struct packed {
+  logic read_above;         // read the next bins of the group above
+  logic read_own;           // read the next bins of the group
+  logic read_below;         // read the next bins of the group below
+  logic read_left;          // read the next bins of the group to the left
+  logic read_right;         // read the next bins of the group to the right
+  logic read_group;         // read the group's word, so that the group beside it in the word stays as it is
+  logic write_group;        // write the group's word: its candidates and its background
+  logic fetch_right_pixel;  // read the word of the pixel to the right of the one to be fetched
+  logic fetch_right_group;  // read the word of that pixel's group
+  logic fetch_pixel;        // read the word of the pixel to be fetched
+  logic fetch_group;        // read the word of that pixel's group
+  logic read_pair;          // read the words of two pixels done, so that the pair's other column keeps its own
+  logic write_pair;         // write the first pointer words of these two pixels
+  logic send;               // the engines' results go to the output
+} pool2_column_command_t;
+
+// To pool2_candidate_decoder.
+typedef struct packed {
+  logic capture_above;  // the line has bins of the group above
+  logic capture_own;    // the line has bins of the group
+  logic capture_below;  // the line has bins of the group below
+  logic capture_left;   // the line has bins of the group to the left
+  logic capture_right;  // the line has bins of the group to the right
+  logic count_own;      // a bin of the group itself is added to its octet
+  logic [4:0] own_bin;  // with count_own: which bin
+  logic fill;           // a pair sum enters the ring
+  logic search;         // the ring turns, a pair a clock, a turn a candidate
+  logic [4:0] pair;     // with fill the bin, with search the pair at the ring's head + 1
+  logic first_label;    // with search: for the first candidate
+  logic candidate;      // the turn before has found its candidate
+} pool2_decode_command_t;
+
+// To beside_evidence.
+typedef struct packed {
+  logic take_right_pixel;  // the line is the word of the pixel to the right
+  logic rank;              // the next candidate of the pixel to the right is ranked
+  logic first_rank;        // with rank: the first candidate, while the line is the word of its group
+  logic take_ranks;        // the best two candidates of the pixel to the right are known
+  logic compare;           // the next candidate of the pixel prepared is compared with those of the columns beside
+  logic late_rank;         // with rank: this candidate pays for being a late one
+  logic late_compare;      // with compare: this candidate pays for being a late one
+  logic has_left;          // there is a column to the left
+} beside_command_t;
+
+// To pool2_engine.
+typedef struct packed {
+  logic decoding;       // with write_group, in all of decode: the engine's word is the group's
+  logic deciding;       // with write_message, in all of decide: the message is decide's
+  logic back;           // the second pass of a chain
+  pool2_decode_command_t decode;
+  beside_command_t beside;
+  logic take_pixel;     // the line is the word of the pixel to prepare, in the next clock that of its group
+  logic odd_pixel;      // with take_pixel and take_right_pixel: the word's second pixel
+  chain_command_t choose;
+  chain_command_t decide;
+  logic write_scratch;  // this pixel's message of the first pass, or the candidate chosen, goes to the scratch memory
+  logic read_scratch;   // the message of the first pass, or the candidate chosen to the left, comes back
+  logic take_choice;    // the two best labels of the pixel before are known: its first pointer word
+  logic odd_result;     // with take_choice: the word's second pixel
+  logic take_winner;    // the better label of the pixel before is known, or the column has ended
+  logic has_winner;     // with take_winner: it is known
+  logic take_distances; // the winner in the middle is compared with those above and below
+  logic take_result;    // the result of the winner in the middle is known
+} pool2_engine_command_t;
+
+`endif

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2 for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
+// (docs/reference/poolpointer2.md). Two columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and
+// decides for one after the other.
+//
+// Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
+//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (16, 20). smooth_i switches S1 and
+//   is to be held while busy_o.
+// TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
+// Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
+//   each engine: column engine * ENGINE_COLUMNS + column of the engine.
+// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
+`include "dtof_macros.svh"
+`include "pool2_command.svh"
+
+module pool_pointer2_array #(
+    parameter int NP = 10,                // bits of a timestamp, 8 to 16
+    parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
+    parameter int SRAM_NUM = 200,         // columns
+    parameter int SLOTS = 2,              // timestamps per pixel and acquisition, 2 to 4: the SRAM has one port
+    parameter int COUNT_WIDTH = 7,        // bits of a coarse bin, 4 to 8
+    parameter int GROUP_SIZE = 4,         // rows of two columns that share a coarse histogram, a power of two, 4 to 32
+    parameter int LABELS = 5,             // candidates of a group, 2 to 8
+    parameter int SCORE_BITS = 4,         // bits of their scores, 1 to 4
+    parameter int OFFSET_BITS = 6,        // bits of a leader's offset in the track phase, 2 to 6
+    parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2
+    parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
+    parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
+    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(7),
+    localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH,
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
+) (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   start_i,  // ignored while busy_o, also in the clock of done_o
+    input  logic [  ACQ_WIDTH-1:0] acq_num_i,
+    input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
+    input  logic [  ACQ_WIDTH-1:0] track_end_i,
+    input  logic                   smooth_i,
+    output logic                   busy_o,
+    output logic                   done_o,
+    output logic [            2:0] state_o,
+    input  logic                   tdc_valid_i,
+    output logic                   tdc_ready_o,
+    input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
+    output logic                   result_tvalid_o,
+    input  logic                   result_tready_i,
+    output logic [TDATA_WIDTH-1:0] result_tdata_o,
+    output logic                   result_tlast_o
+);
+
+  localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS);
+  localparam int PIXEL_WIDTH = dtof_pkg::max_of(
+      dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
+      dtof_pkg::pool_point_width(LABELS, 7, POINTER_SHIFT, 1));
+  localparam int HALF_WIDTH = 2 * PIXEL_WIDTH;
+  localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
+  localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2);
+  localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + (GROUPS + 1) / 2);
+  localparam int STEPS = dtof_pkg::max_of((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS, 1);  // of an engine
+  localparam int STEP_WIDTH = dtof_pkg::index_width(STEPS);
+  localparam int STEP_PAIRS = (STEPS + 1) / 2;
+  localparam int ENGINES = (SRAM_NUM + STEPS - 1) / STEPS;
+
+  `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "pool_pointer2_array: NP must be 8 to 16")
+  `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "pool_pointer2_array: PIXELS_PER_SRAM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1, "pool_pointer2_array: SRAM_NUM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_slots, SLOTS >= 2 && SLOTS <= 4, "pool_pointer2_array: SLOTS must be 2 to 4")
+  `DTOF_REQUIRE(g_illegal_count, COUNT_WIDTH >= 4 && COUNT_WIDTH <= 8,
+                "pool_pointer2_array: COUNT_WIDTH must be 4 to 8")
+  `DTOF_REQUIRE(g_illegal_group, GROUP_SIZE >= 4 && GROUP_SIZE <= 32 && (1 << $clog2(GROUP_SIZE)) == GROUP_SIZE,
+                "pool_pointer2_array: GROUP_SIZE must be a power of two from 4 to 32")
+  `DTOF_REQUIRE(g_illegal_labels, LABELS >= 2 && LABELS <= 8, "pool_pointer2_array: LABELS must be 2 to 8")
+  `DTOF_REQUIRE(g_illegal_score, SCORE_BITS >= 1 && SCORE_BITS <= 4, "pool_pointer2_array: SCORE_BITS must be 1 to 4")
+  `DTOF_REQUIRE(g_illegal_offset, OFFSET_BITS >= 2 && OFFSET_BITS <= 6,
+                "pool_pointer2_array: OFFSET_BITS must be 2 to 6")
+  `DTOF_REQUIRE(g_illegal_shift, POINTER_SHIFT >= 0 && POINTER_SHIFT <= 2,
+                "pool_pointer2_array: POINTER_SHIFT must be 0 to 2")
+  `DTOF_REQUIRE(g_illegal_histogram, dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH <= HALF_WIDTH,
+                "pool_pointer2_array: 8 bins of COUNT_WIDTH must fit the words of two pixels")
+  `DTOF_REQUIRE(g_illegal_group_word, GROUP_WIDTH <= HALF_WIDTH,
+                "pool_pointer2_array: LABELS candidates of a group must fit the words of two pixels")
+  `DTOF_REQUIRE(g_illegal_engine, ENGINE_COLUMNS >= 2 && ENGINE_COLUMNS % 2 == 0,
+                "pool_pointer2_array: ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM")
+  `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 4 && ACQ_WIDTH <= 24,
+                "pool_pointer2_array: ACQ_WIDTH must be 4 to 24")
+
+  // Control, once per array.
+
+  logic stream, coarse, point, more, unused_late, acq_done, stream_idle, clear;
+  logic [3:0] acquisition;
+  logic decode, choose, decide, engine_done;
+  logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
+
+  pool_controller #(
+      .CLEAR_WORDS(PIXEL_WORDS),
+      .ADDR_WIDTH (ADDR_WIDTH),
+      .ACQ_WIDTH  (ACQ_WIDTH)
+  ) u_controller (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_ni),
+      .start_i        (start_i),
+      .acq_num_i      (acq_num_i),
+      .coarse_end_i   (coarse_end_i),
+      .track_end_i    (track_end_i),
+      .late_begin_i   (acq_num_i),  // there is no late part
+      .busy_o         (busy_o),
+      .done_o         (done_o),
+      .state_o        (state_o),
+      .stream_o       (stream),
+      .coarse_o       (coarse),
+      .point_o        (point),
+      .more_o         (more),
+      .acquisition_o  (acquisition),
+      .late_o         (unused_late),
+      .acq_done_i     (acq_done),
+      .stream_idle_i  (stream_idle),
+      .clear_o        (clear),
+      .clear_address_o(clear_address),
+      .decode_o       (decode),
+      .choose_o       (choose),
+      .decide_o       (decide),
+      .engine_done_i  (engine_done)
+  );
+
+  logic beat_t1, first_slot_t1, unused_odd_t1, first_row_t2, second_row_t2, unused_late_t2, update_t3;
+  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
+  logic [3:0] acquisition_t2;
+
+  pair_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .SLOTS          (SLOTS),
+      .GROUP_SIZE     (GROUP_SIZE),
+      .GROUPS_PER_WORD(2)
+  ) u_pair_sequencer (
+      .clk_i            (clk_i),
+      .rst_ni           (rst_ni),
+      .stream_i         (stream),
+      .coarse_i         (coarse),
+      .more_i           (more),
+      .acquisition_i    (acquisition),
+      .late_i           (1'b0),
+      .tdc_valid_i      (tdc_valid_i),
+      .tdc_ready_o      (tdc_ready_o),
+      .acq_done_o       (acq_done),
+      .idle_o           (stream_idle),
+      .beat_t1_o        (beat_t1),
+      .first_slot_t1_o  (first_slot_t1),
+      .odd_t1_o         (unused_odd_t1),
+      .first_row_t2_o   (first_row_t2),
+      .second_row_t2_o  (second_row_t2),
+      .late_t2_o        (unused_late_t2),
+      .update_t3_o      (update_t3),
+      .acquisition_t2_o (acquisition_t2),
+      .second_column_o  (second_column),
+      .fresh_o          (fresh),
+      .load_o           (load),
+      .count_o          (count),
+      .read_d_o         (stream_read),
+      .write_d_o        (stream_write),
+      .address_d_o      (stream_address),
+      .word_load_d_o    (stream_word_load),
+      .group_load_d_o   (group_load),
+      .group_place_d_o  (group_place)
+  );
+
+  logic [STEP_WIDTH-1:0] engine_column, send_column;
+  logic [STEP_PAIRS-1:0] engine_select;
+  logic engine_read, engine_write, engine_upper, engine_neighbour;
+  pool2_engine_command_t command;
+  logic [ROW_WIDTH-1:0] scratch_row, send_row;
+  logic send, send_last, send_waits, send_busy;
+
+  pool2_sequencer #(
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .GROUP_SIZE     (GROUP_SIZE),
+      .LABELS         (LABELS),
+      .ENGINE_COLUMNS (STEPS)
+  ) u_sequencer (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .decode_i     (decode),
+      .choose_i     (choose),
+      .decide_i     (decide),
+      .done_o       (engine_done),
+      .read_d_o     (engine_read),
+      .write_d_o    (engine_write),
+      .address_d_o  (engine_address),
+      .select_o     (engine_select),
+      .upper_o      (engine_upper),
+      .neighbour_o  (engine_neighbour),
+      .command_o    (command),
+      .scratch_row_o(scratch_row),
+      .column_o     (engine_column),
+      .send_o       (send),
+      .send_column_o(send_column),
+      .send_row_o   (send_row),
+      .send_last_o  (send_last),
+      .send_waits_i (send_waits),
+      .send_busy_i  (send_busy)
+  );
+
+  // What every pair gets, registered to spread it.
+
+  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, word_load_q, group_load_q, group_upper_q;
+  logic [ADDR_WIDTH-1:0] address_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      read_q <= 1'b0;
+      write_q <= 1'b0;
+    end else begin
+      read_q <= stream_read || engine_read;
+      write_q <= stream_write || engine_write || clear;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    coarse_q <= coarse;
+    point_q <= point;
+    engine_q <= !stream;
+    clear_q <= clear;
+    address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
+    word_load_q <= stream_word_load;
+    group_load_q <= group_load;
+    group_upper_q <= group_place;
+  end
+
+  // Engines with their pairs of columns.
+
+  logic [ENGINES*RESULT_WIDTH-1:0] results;
+
+  genvar e, p;
+  generate
+    for (e = 0; e < ENGINES; e = e + 1) begin : g_engine
+      localparam int FIRST = e * STEPS;
+      localparam int COLUMNS = (SRAM_NUM - FIRST < STEPS) ? SRAM_NUM - FIRST : STEPS;
+      localparam int PAIRS = (COLUMNS + 1) / 2;
+
+      logic [HALF_WIDTH-1:0] word;
+      logic [PAIRS*HALF_WIDTH-1:0] pair_words;
+      logic [HALF_WIDTH-1:0] line;
+      logic [PAIRS-1:0] select;
+      logic has_right;
+      integer i;
+
+      always_comb begin
+        line = '0;
+        for (i = 0; i < PAIRS; i = i + 1) begin
+          line = line | pair_words[i*HALF_WIDTH+:HALF_WIDTH];
+        end
+      end
+
+      // The last pair is its own missing neighbour, in an engine with fewer columns, too.
+      if (PAIRS < STEP_PAIRS) begin : g_fewer
+        assign select = engine_select[PAIRS-1:0] | (PAIRS'(engine_neighbour && engine_select[PAIRS]) << (PAIRS - 1));
+      end else begin : g_all
+        assign select = engine_select;
+        logic unused_neighbour;
+        assign unused_neighbour = engine_neighbour;
+      end
+
+      assign has_right = (engine_column != STEP_WIDTH'(COLUMNS - 1));
+
+      for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
+        localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
+
+        pool2_pair #(
+            .COLUMNS        (PAIR_COLUMNS),
+            .NP             (NP),
+            .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+            .COUNT_WIDTH    (COUNT_WIDTH),
+            .GROUP_SIZE     (GROUP_SIZE),
+            .LABELS         (LABELS),
+            .SCORE_BITS     (SCORE_BITS),
+            .OFFSET_BITS    (OFFSET_BITS),
+            .POINTER_SHIFT  (POINTER_SHIFT)
+        ) u_pair (
+            .clk_i           (clk_i),
+            .rst_ni          (rst_ni),
+            .timestamp_i     (tdc_timestamp_i[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
+            .coarse_i        (coarse_q),
+            .point_i         (point_q),
+            .beat_t1_i       (beat_t1),
+            .first_slot_t1_i (first_slot_t1),
+            .first_row_t2_i  (first_row_t2),
+            .second_row_t2_i (second_row_t2),
+            .update_t3_i     (update_t3),
+            .acquisition_t2_i(acquisition_t2),
+            .second_column_i (second_column),
+            .fresh_i         (fresh),
+            .load_i          (load),
+            .count_i         (count),
+            .read_i          (read_q),
+            .write_i         (write_q),
+            .address_i       (address_q),
+            .word_load_i     (word_load_q),
+            .group_load_i    (group_load_q),
+            .group_upper_i   (group_upper_q),
+            .engine_i        (engine_q),
+            .clear_i         (clear_q),
+            .select_i        (select[p]),
+            .upper_i         (engine_upper),
+            .engine_word_i   (word),
+            .word_o          (pair_words[p*HALF_WIDTH+:HALF_WIDTH])
+        );
+      end
+
+      pool2_engine #(
+          .NP             (NP),
+          .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+          .COUNT_WIDTH    (COUNT_WIDTH),
+          .LABELS         (LABELS),
+          .SCORE_BITS     (SCORE_BITS),
+          .OFFSET_BITS    (OFFSET_BITS),
+          .POINTER_SHIFT  (POINTER_SHIFT)
+      ) u_engine (
+          .clk_i        (clk_i),
+          .rst_ni       (rst_ni),
+          .smooth_i     (smooth_i),
+          .has_right_i  (has_right),
+          .command_i    (command),
+          .line_i       (line),
+          .word_o       (word),
+          .scratch_row_i(scratch_row),
+          .result_o     (results[e*RESULT_WIDTH+:RESULT_WIDTH])
+      );
+    end
+  endgenerate
+
+  pool_result_output #(
+      .ENGINES       (ENGINES),
+      .ENGINE_COLUMNS(STEPS),
+      .SRAM_NUM      (SRAM_NUM),
+      .ROW_WIDTH     (ROW_WIDTH),
+      .RESULT_WIDTH  (RESULT_WIDTH)
+  ) u_result_output (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_ni),
+      .send_i   (send),
+      .column_i (send_column),
+      .row_i    (send_row),
+      .last_i   (send_last),
+      .results_i(results),
+      .waits_o  (send_waits),
+      .busy_o   (send_busy),
+      .tvalid_o (result_tvalid_o),
+      .tready_i (result_tready_i),
+      .tdata_o  (result_tdata_o),
+      .tlast_o  (result_tlast_o)
+  );
+
+endmodule
