@@ -20,6 +20,7 @@ control/pair_sequencer.sv
 control/pool_controller.sv
 control/engine_sequencer.sv
 control/pool_result_output.sv
+control/pool2_sequencer.sv
 datapath/data_filter.sv
 datapath/histogram_builder.sv
 datapath/peak_detector.sv
@@ -32,12 +33,17 @@ datapath/status_bits.sv
 datapath/label_match.sv
 datapath/minimum.sv
 datapath/pixel_distance.sv
+datapath/pool2_track_update.sv
 datapath/time_gate.sv
 datapath/track_update.sv
 datapath/twin_pointer_update.sv
 engine/candidate_decoder.sv
 engine/label_chain.sv
 engine/pool_engine.sv
+engine/beside_evidence.sv
+engine/smoothing.sv
+engine/pool2_candidate_decoder.sv
+engine/pool2_engine.sv
 // Columns of dtof_array: written by scripts/generate.py
 column/ez_pointer_column.sv
 column/his_pointer_column.sv
@@ -46,8 +52,11 @@ column/partitioned_histogram_column.sv
 // end of columns
 column/pool_pointer_column.sv
 column/pool_pointer_pair.sv
+column/pool2_column.sv
+column/pool2_pair.sv
 top/dtof_array.sv
 top/pool_pointer_array.sv
+top/pool_pointer2_array.sv
 subsystem/line_buffer.sv
 subsystem/line_filter.sv
 subsystem/stream_output.sv

@@ -201,7 +201,9 @@ def columns(table: Table) -> str:
 def cpp_header(table: Table) -> str:
     readouts = list(table.readouts.values())
     thesis = [readout for readout in readouts if readout.thesis]
-    hardware = [readout for readout in readouts if readout.top]
+    offered = [readout for readout in readouts if not readout.trial]
+    trial = [readout for readout in readouts if readout.trial]
+    hardware = [readout for readout in offered if readout.top]
     array = lambda chosen: ",\n    ".join(f"Readout::k{readout.enumerator}" for readout in chosen)  # noqa: E731
     return f"""// SPDX-License-Identifier: Apache-2.0
 // {WRITTEN}
@@ -222,15 +224,19 @@ enum class Readout : int {{
 inline constexpr std::array<Readout, {len(thesis)}> kAllReadouts = {{
     {array(thesis)}}};
 
-/// Those that have RTL, in dtof_array or an array of their own.
+/// Those that `dtof` offers and that have RTL, in dtof_array or an array of their own.
 inline constexpr std::array<Readout, {len(hardware)}> kRtlReadouts = {{
     {array(hardware)}}};
 
-/// All of them.
-inline constexpr std::array<Readout, {len(readouts)}> kModelReadouts = {{
-    {array(readouts)}}};
+/// All that `dtof` offers.
+inline constexpr std::array<Readout, {len(offered)}> kModelReadouts = {{
+    {array(offered)}}};
 
-/// Command-line name: {", ".join(table.readouts)}.
+/// Those that are on trial: they have models and RTL, but `dtof` does not offer them.
+inline constexpr std::array<Readout, {len(trial)}> kTrialReadouts = {{
+    {array(trial)}}};
+
+/// Command-line name: {", ".join(readout.name for readout in offered)}.
 std::string_view readout_name(Readout readout);
 /// Display name as the thesis writes it, e.g. "hisPointer v1".
 std::string_view readout_title(Readout readout);
@@ -296,7 +302,7 @@ struct Description {{
   std::array<std::string_view, {most}> choices;  // empty ones are none
 }};
 
-constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{{{
+constexpr std::array<Description, kModelReadouts.size() + kTrialReadouts.size()> kDescriptions = {{{{
 {rows},
 }}}};
 
@@ -365,18 +371,14 @@ def cmake(table: Table) -> str:
         by_np = [evaluate(expression, {"NP": np}) for np in range(FEWEST_BITS, MOST_BITS + 1)]
         return str(by_np[0]) if len(set(by_np)) == 1 else " ".join(map(str, by_np))
 
-    array, pool = table.tops["dtof_array"], table.tops["pool_pointer_array"]
-    common = [name for name in array.parameters if name in pool.parameters and name != "ACQ_WIDTH"]
-    own = lambda top: [name for name in top.parameters if name not in [*common, "ACQ_WIDTH"]]  # noqa: E731
     lines = [
         "# SPDX-License-Identifier: Apache-2.0",
         f"# {WRITTEN}",
         "# Defaults: one value, or one for each NP from 3 to 16.",
         f"set(DTOF_READOUTS {' '.join(table.readouts)})",
-        f"set(DTOF_COMMON_PARAMETERS {' '.join(common)})",
-        f"set(DTOF_ARRAY_PARAMETERS {' '.join(own(array))})",
-        f"set(DTOF_POOL_PARAMETERS {' '.join(own(pool))})",
-        f"set(DTOF_POOL_SCHEDULE {' '.join(pool.schedule)})  # the driver's, not the RTL's",
+        f"set(DTOF_PARAMETERS {' '.join(name for name in table.parameters if name != 'ACQ_WIDTH')})",
+        *(f"set(DTOF_PARAMETERS_{top.name} {' '.join(name for name in top.parameters if name != 'ACQ_WIDTH')})"
+          for top in table.tops.values()),
         *(f"set(DTOF_NUMBER_{readout.name} {readout.number})" for readout in table.readouts.values()
           if readout.number is not None),
         *(f"set(DTOF_SUBSYSTEM_NUMBER_{readout.name} {subsystem_number(table, readout)})"
@@ -435,12 +437,13 @@ def bender(text: str, listing: str) -> str:
 
 
 def readme(text: str, table: Table) -> str:
-    for top in table.tops.values():
+    trials = {readout.top for readout in table.readouts.values() if readout.trial}
+    for top in [top for top in table.tops.values() if top.name not in trials]:
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
             raise FlowError(f"README.md has no place for the parameters of {top.name}")
         head, rest = text.split(begin)
-        users = [name for name, readout in table.readouts.items() if readout.top == top.name]
+        users = [name for name, readout in table.readouts.items() if readout.top == top.name and not readout.trial]
         lines = ["| parameter | default | meaning |", "|---|---|---|"]
         if top.name == "dtof_array":
             numbers = ", ".join(f"{table.readouts[name].number} {table.readouts[name].title}" for name in users)

@@ -4,8 +4,8 @@
 // decides for one after the other.
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
-//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (16, 20). smooth_i switches S1 and
-//   is to be held while busy_o.
+//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (16, 20). smooth_i, sampled with
+//   start_i, too, switches S1.
 // TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine.
@@ -38,7 +38,7 @@ module pool_pointer2_array #(
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,
     input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [  ACQ_WIDTH-1:0] track_end_i,
-    input  logic                   smooth_i,
+    input  logic                   smooth_i,  // S1
     output logic                   busy_o,
     output logic                   done_o,
     output logic [            2:0] state_o,
@@ -202,6 +202,14 @@ module pool_pointer2_array #(
       .send_busy_i  (send_busy)
   );
 
+  logic smooth_q;
+
+  always_ff @(posedge clk_i) begin
+    if (start_i && !busy_o) begin
+      smooth_q <= smooth_i;
+    end
+  end
+
   // What every pair gets, registered to spread it.
 
   logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, word_load_q, group_load_q, group_upper_q;
@@ -319,7 +327,7 @@ module pool_pointer2_array #(
       ) u_engine (
           .clk_i        (clk_i),
           .rst_ni       (rst_ni),
-          .smooth_i     (smooth_i),
+          .smooth_i     (smooth_q),
           .has_right_i  (has_right),
           .command_i    (command),
           .line_i       (line),

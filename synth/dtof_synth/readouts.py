@@ -73,6 +73,7 @@ class Readout:
     number: int | None = None
     column: str = ""
     thesis: bool = False
+    trial: bool = False
     defaults: dict[str, Expression] = field(default_factory=dict)
     fraction_width: Expression = 0
     confidence_width: Expression = 0

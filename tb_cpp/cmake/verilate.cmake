@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 #
-# Verilated models of dtof_array and pool_pointer_array.
+# Verilated models of dtof_array, pool_pointer_array and pool_pointer2_array.
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
@@ -11,6 +11,9 @@
 #                 [BRIGHT_SCORE_BITS n] [BRIGHT_FROM n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
 #                 [RIVAL_MOVES 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
 #                 [NO_WAVEFORM] TARGET <library>)
+#   dtof_verilate(<name> READOUT poolpointer2 [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
+#                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [POINTER_SHIFT n] [ENGINE_COLUMNS n]
+#                 [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
 #
 # and, with SUBSYSTEM [BUFFER_LINES n] [RASTER_ORDER 0|1] [AXI_LITE 0|1] instead of PROBE and what follows it, dtof_subsystem around either,
 #
@@ -68,7 +71,6 @@ target_link_libraries(verilated_waveform PUBLIC verilated_runtime ZLIB::ZLIB)
 
 # -Wno-SYNCASYNCNET: the assertions look at the asynchronous reset in a clocked block.
 include(${CMAKE_CURRENT_LIST_DIR}/readouts.cmake)
-set(DTOF_PARAMETERS ${DTOF_COMMON_PARAMETERS} ${DTOF_ARRAY_PARAMETERS} ${DTOF_POOL_PARAMETERS} ${DTOF_POOL_SCHEDULE})
 set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
 function(dtof_rtl_models library)
@@ -93,23 +95,33 @@ function(dtof_verilate name)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown read-out '${P_READOUT}'")
   endif()
 
+  set(array ${DTOF_TOP_${P_READOUT}})
+  set(top_parameters ${DTOF_PARAMETERS_${array}})
+  set(overrides "")
   if(P_SUBSYSTEM)
     set(top subsystem_testbench)
-    set(top_parameters ${DTOF_COMMON_PARAMETERS} ${DTOF_ARRAY_PARAMETERS} ${DTOF_POOL_PARAMETERS})
+    set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_pool_pointer_array})
     set(overrides -GREADOUT=${DTOF_SUBSYSTEM_NUMBER_${P_READOUT}})
     foreach(parameter BUFFER_LINES RASTER_ORDER AXI_LITE)
       if(DEFINED P_${parameter})
         list(APPEND overrides -G${parameter}=${P_${parameter}})
       endif()
     endforeach()
-  elseif(DTOF_TOP_${P_READOUT} STREQUAL pool_pointer_array)
-    set(top pool_pointer_testbench)
-    set(top_parameters ${DTOF_COMMON_PARAMETERS} ${DTOF_POOL_PARAMETERS})
-    set(overrides "")
-  else()
+  elseif(array STREQUAL dtof_array)
     set(top dtof_array_testbench)
-    set(top_parameters ${DTOF_COMMON_PARAMETERS} ${DTOF_ARRAY_PARAMETERS})
     set(overrides -GREADOUT=${DTOF_NUMBER_${P_READOUT}})
+  elseif(array STREQUAL pool_pointer2_array)
+    set(top pool_pointer2_testbench)
+    # The model has one format for all groups.
+    foreach(light DARK BRIGHT)
+      foreach(what LABELS SCORE_BITS)
+        if(DEFINED P_${what})
+          set(P_${light}_${what} ${P_${what}})
+        endif()
+      endforeach()
+    endforeach()
+  else()
+    set(top pool_pointer_testbench)
   endif()
 
   if(NOT DEFINED P_NP)

@@ -50,6 +50,18 @@ Readout parse_readout(std::string_view name) {
 PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
   constexpr int kAnyBits = 10;  // none of these depends on NP
   const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, kAnyBits); };
+  if (readout == Readout::kPoolPointer2) {
+    return {.group_size = value("GROUP_SIZE"),
+            .dark_labels = value("LABELS"),
+            .dark_score_bits = value("SCORE_BITS"),
+            .bright_labels = value("LABELS"),
+            .bright_score_bits = value("SCORE_BITS"),
+            .offset_bits = value("OFFSET_BITS"),
+            .pointer_shift = value("POINTER_SHIFT"),
+            .coarse_share = value("COARSE_SHARE"),
+            .track_share = value("TRACK_SHARE"),
+            .engine_columns = value("ENGINE_COLUMNS")};
+  }
   return {.group_size = value("GROUP_SIZE"),
           .dark_labels = value("DARK_LABELS"),
           .dark_score_bits = value("DARK_SCORE_BITS"),
@@ -61,7 +73,8 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
           .pointer_shift = value("POINTER_SHIFT"),
           .rival_moves = value("RIVAL_MOVES") != 0,
           .coarse_share = value("COARSE_SHARE"),
-          .track_share = value("TRACK_SHARE")};
+          .track_share = value("TRACK_SHARE"),
+          .engine_columns = value("ENGINE_COLUMNS")};
 }
 
 void PoolPointerParameters::validate() const {
@@ -79,6 +92,23 @@ void PoolPointerParameters::validate() const {
           "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4", pointer_shift);
   require_range("COARSE_SHARE", coarse_share, 1, 62);
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
+}
+
+void PoolPointerParameters::validate_two(int count_width) const {
+  require(group_size >= 4 && group_size <= 32 && std::has_single_bit(static_cast<unsigned>(group_size)),
+          "GROUP_SIZE must be a power of two from 4 to 32", group_size);
+  require_range("LABELS", dark_labels, 2, 8);
+  require_range("SCORE_BITS", dark_score_bits, 1, 4);
+  require_range("OFFSET_BITS", offset_bits, 2, 6);
+  require_range("POINTER_SHIFT", pointer_shift, 0, 2);
+  require_range("COARSE_SHARE", coarse_share, 1, 62);
+  require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
+  require(8 * count_width <= 2 * word_bits(), "8 bins of COUNT_WIDTH must fit the words of two pixels",
+          count_width);
+  require(kPoolCellBits * dark_labels + kPoolBackgroundBits <= 2 * word_bits(),
+          "LABELS candidates of a group must fit the words of two pixels", dark_labels);
+  require(engine_columns >= 2 && engine_columns % 2 == 0,
+          "ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM", engine_columns);
 }
 
 int PoolPointerParameters::word_bits() const {
@@ -133,6 +163,10 @@ void ReadoutParameters::validate() const {
     require_range("SLOTS", slots, 2, 4);
     require_range("COUNT_WIDTH", count_width, 4, 8);
     require(fraction_bits == kPoolPositionBits - np, "FRACTION_BITS must be 16 - NP", fraction_bits);
+    if (readout == Readout::kPoolPointer2) {
+      pool.validate_two(count_width);
+      return;
+    }
     pool.validate();
     if (!pool.histogram_fits(count_width)) {
       throw InputError(
@@ -162,6 +196,14 @@ std::string ReadoutParameters::to_string() const {
   std::string out = fmt::format("{} NP={} SLOTS={}", readout_name(readout), np, slots);
   if (time_gate) {
     out += fmt::format(" TIME_GATE=1 GATE={}-{}", time_gate->begin, time_gate->end);
+  }
+  if (readout == Readout::kPoolPointer2) {
+    return out +
+           fmt::format(
+               " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} SHIFT={} ENGINE_COLUMNS={} SHARES={},{} S1={}",
+               count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.offset_bits,
+               pool.pointer_shift, pool.engine_columns, pool.coarse_share, pool.track_share,
+               pool.smooth ? 1 : 0);
   }
   if (is_pool_readout(readout)) {
     out += fmt::format(

@@ -31,10 +31,16 @@ struct PoolPointerParameters {
   bool rival_moves = true;  ///< the rival has a pointer of 7 bits; else it stays at its candidate
   int coarse_share = 16;    ///< 64ths of the frame: coarse phase
   int track_share = 16;     ///< 64ths of the frame: track phase
+  /// ENGINE_COLUMNS, columns that share an engine, even; it changes no result of poolPointer, but some of
+  /// poolPointer 2, where nothing crosses an engine's border.
+  int engine_columns = 34;
+  bool smooth = true;  ///< poolPointer 2: S1 is on
 
   static PoolPointerParameters defaults(Readout readout);
   /// Throws InputError.
   void validate() const;
+  /// The same for poolPointer 2, which has no labels of its own for bright groups.
+  void validate_two(int count_width) const;
   /// Bits of a pixel word.
   [[nodiscard]] int word_bits() const;
   /// Whether a group's coarse histogram fits the words of its pixels, bins in powers of two, at least 4.

@@ -20,7 +20,7 @@ struct Description {
   std::array<std::string_view, 6> choices;  // empty ones are none
 };
 
-constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{
+constexpr std::array<Description, kModelReadouts.size() + kTrialReadouts.size()> kDescriptions = {{
     {"ezpointer", "ezPointer",
      "one pointer a pixel steps towards each timestamp: a circular median",
      true, false, false, true,
@@ -59,6 +59,10 @@ constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{
      {"COUNT_WIDTH"}},
     {"poolpointer-lean", "poolPointer lean",
      "poolPointer in half the memory: larger groups, shorter words",
+     false, true, false, true,
+     {"COUNT_WIDTH"}},
+    {"poolpointer2", "poolPointer 2",
+     "poolPointer whose pixels help each other in two dimensions",
      false, true, false, true,
      {"COUNT_WIDTH"}},
 }};
@@ -138,6 +142,24 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (readout == Readout::kPoolPointerLean && parameter == "COARSE_SHARE") {
     return 12;
   }
+  if (readout == Readout::kPoolPointer2 && parameter == "NB") {
+    return 5;
+  }
+  if (readout == Readout::kPoolPointer2 && parameter == "COUNT_WIDTH") {
+    return 7;
+  }
+  if (readout == Readout::kPoolPointer2 && parameter == "FRACTION_BITS") {
+    return 16 - np;
+  }
+  if (readout == Readout::kPoolPointer2 && parameter == "GROUP_SIZE") {
+    return 4;
+  }
+  if (readout == Readout::kPoolPointer2 && parameter == "OFFSET_BITS") {
+    return 6;
+  }
+  if (readout == Readout::kPoolPointer2 && parameter == "TRACK_SHARE") {
+    return 20;
+  }
   if (parameter == "NP") {
     return 10;
   }
@@ -197,6 +219,12 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   }
   if (parameter == "BRIGHT_FROM") {
     return 6;
+  }
+  if (parameter == "LABELS") {
+    return 5;
+  }
+  if (parameter == "SCORE_BITS") {
+    return 4;
   }
   if (parameter == "OFFSET_BITS") {
     return 5;

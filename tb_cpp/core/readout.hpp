@@ -20,6 +20,7 @@ enum class Readout : int {
   kHistogram = 7,
   kPoolPointer = 8,
   kPoolPointerLean = 9,
+  kPoolPointer2 = 10,
 };
 
 /// Those of the thesis.
@@ -33,7 +34,7 @@ inline constexpr std::array<Readout, 8> kAllReadouts = {
     Readout::kPifh,
     Readout::kHistogram};
 
-/// Those that have RTL, in dtof_array or an array of their own.
+/// Those that `dtof` offers and that have RTL, in dtof_array or an array of their own.
 inline constexpr std::array<Readout, 10> kRtlReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
@@ -46,7 +47,7 @@ inline constexpr std::array<Readout, 10> kRtlReadouts = {
     Readout::kPoolPointer,
     Readout::kPoolPointerLean};
 
-/// All of them.
+/// All that `dtof` offers.
 inline constexpr std::array<Readout, 10> kModelReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
@@ -58,6 +59,10 @@ inline constexpr std::array<Readout, 10> kModelReadouts = {
     Readout::kHistogram,
     Readout::kPoolPointer,
     Readout::kPoolPointerLean};
+
+/// Those that are on trial: they have models and RTL, but `dtof` does not offer them.
+inline constexpr std::array<Readout, 1> kTrialReadouts = {
+    Readout::kPoolPointer2};
 
 /// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram, poolpointer, poolpointer-lean.
 std::string_view readout_name(Readout readout);

@@ -44,8 +44,8 @@ ColumnRange columns_of(SramKind kind, const std::string& path, const RtlConfigur
     return ColumnRange{first, std::min(count, configuration.sram_num - first)};
   };
   if (kind == SramKind::kPoolPair || kind == SramKind::kEngineScratch) {
-    const int first = block_index(path, "g_engine") * configuration.engine_columns;
-    return kind == SramKind::kEngineScratch ? clipped(first, configuration.engine_columns)
+    const int first = block_index(path, "g_engine") * configuration.parameters.pool.engine_columns;
+    return kind == SramKind::kEngineScratch ? clipped(first, configuration.parameters.pool.engine_columns)
                                             : clipped(first + 2 * block_index(path, "g_pair"), 2);
   }
   return {block_index(path, "g_column"), 1};

@@ -31,18 +31,17 @@ class GatedModel final : public ReadoutModel {
 
   [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
                                                     std::uint32_t acquisitions) override {
-    kept_.clear();
-    for (int row = 0; row < column.rows(); ++row) {
-      const std::span<const Detection> detections = column.row(row);
-      check_detections(detections, row, parameters_, acquisitions);
-      for (const Detection& detection : detections) {
-        if (gate_.contains(detection.timestamp)) {
-          kept_.append(detection);
-        }
-      }
-      kept_.finish_row();
-    }
+    keep(column, acquisitions, kept_);
     return model_->run_column(kept_, acquisitions);
+  }
+
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(std::span<const ColumnStream> columns,
+                                                                  std::uint32_t acquisitions) override {
+    std::vector<ColumnStream> kept(columns.size());
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      keep(columns[column], acquisitions, kept[column]);
+    }
+    return model_->run_columns(kept, acquisitions);
   }
 
   void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,
@@ -52,6 +51,20 @@ class GatedModel final : public ReadoutModel {
   }
 
  private:
+  void keep(const ColumnStream& column, std::uint32_t acquisitions, ColumnStream& kept) const {
+    kept.clear();
+    for (int row = 0; row < column.rows(); ++row) {
+      const std::span<const Detection> detections = column.row(row);
+      check_detections(detections, row, parameters_, acquisitions);
+      for (const Detection& detection : detections) {
+        if (gate_.contains(detection.timestamp)) {
+          kept.append(detection);
+        }
+      }
+      kept.finish_row();
+    }
+  }
+
   ReadoutParameters parameters_;
   CodeGate gate_;
   std::unique_ptr<ReadoutModel> model_;

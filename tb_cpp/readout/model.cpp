@@ -29,6 +29,20 @@ void check_detections(std::span<const Detection> detections, int row, const Read
   }
 }
 
+std::vector<std::vector<PixelResult>> ReadoutModel::run_columns(std::span<const ColumnStream> columns,
+                                                                std::uint32_t acquisitions) {
+  std::vector<std::vector<PixelResult>> results;
+  results.reserve(columns.size());
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    if (columns[column].rows() != columns.front().rows()) {
+      throw InputError(fmt::format("column {} has {} rows, column 0 has {}", column, columns[column].rows(),
+                                   columns.front().rows()));
+    }
+    results.push_back(run_column(columns[column], acquisitions));
+  }
+  return results;
+}
+
 std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {
   parameters.validate();
   std::unique_ptr<ReadoutModel> model = make_ungated_model(parameters);

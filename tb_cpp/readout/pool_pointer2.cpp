@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 
 #include "core/error.hpp"
 #include "readout/pixelwise_model.hpp"
@@ -262,15 +262,17 @@ void PoolPointer2Parameters::validate() const {
   require_range("SMOOTH_LEFT", smooth_left, 0, 1);
   require_range("COARSE_SHARE", coarse_share, 1, 62);
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-  if (group_rows < 2 || group_rows > 32 || (group_rows & (group_rows - 1)) != 0) {
-    throw InputError(fmt::format("GROUP_ROWS must be a power of two from 2 to 32, not {}", group_rows));
+  if (group_rows < 4 || group_rows > 32 || (group_rows & (group_rows - 1)) != 0) {
+    throw InputError(fmt::format("GROUP_SIZE must be a power of two from 4 to 32, not {}", group_rows));
   }
-  // The bins of a group lie in its pixels' words, as many in each, a power of two.
-  const auto bins =
-      static_cast<int>(std::bit_floor(static_cast<unsigned>(4 * track_word_bits() / count_width)));
-  if (bins * (group_rows / 2) < static_cast<int>(kCoarseBins)) {
-    throw InputError(fmt::format("32 bins of COUNT_WIDTH must fit the words of {} rows: {} bits do not",
-                                 group_rows, count_width));
+  const int pair_bits = 2 * std::max(track_word_bits(), pointer_word_bits());
+  if (8 * count_width > pair_bits) {
+    throw InputError(
+        fmt::format("8 bins of COUNT_WIDTH must fit the words of two pixels: {} bits do not", count_width));
+  }
+  if (group_word_bits() > pair_bits) {
+    throw InputError(
+        fmt::format("LABELS candidates of a group must fit the words of two pixels: {} do not", labels));
   }
   if (engine_columns < 2 || engine_columns % kPairColumns != 0) {
     throw InputError(fmt::format("ENGINE_COLUMNS must be even and at least 2, not {}", engine_columns));
@@ -408,6 +410,53 @@ std::vector<std::vector<PixelResult>> run_pool_pointer2(std::span<const ColumnSt
     engine.clear();
   }
   return results;
+}
+
+namespace {
+
+class PoolPointer2Model final : public ReadoutModel {
+ public:
+  explicit PoolPointer2Model(const ReadoutParameters& parameters)
+      : np_(parameters.np),
+        parameters_({.count_width = parameters.count_width,
+                     .group_rows = parameters.pool.group_size,
+                     .labels = parameters.pool.dark_labels,
+                     .score_bits = parameters.pool.dark_score_bits,
+                     .offset_bits = parameters.pool.offset_bits,
+                     .count_bits = parameters.pool.count_bits,
+                     .pointer_shift = parameters.pool.pointer_shift,
+                     .engine_columns = parameters.pool.engine_columns,
+                     .coarse_share = parameters.pool.coarse_share,
+                     .track_share = parameters.pool.track_share,
+                     .smooth = parameters.pool.smooth}) {
+    parameters_.validate();
+  }
+
+  /// An engine of one column.
+  [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
+                                                    std::uint32_t acquisitions) override {
+    return run_columns(std::span(&column, 1), acquisitions).front();
+  }
+
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(std::span<const ColumnStream> columns,
+                                                                  std::uint32_t acquisitions) override {
+    return run_pool_pointer2(columns, np_, acquisitions, parameters_);
+  }
+
+  void run_sampled_column(PixelSampler& /*sampler*/, int /*column*/, std::uint32_t /*acquisitions*/,
+                          std::span<PixelResult> /*results*/) override {
+    throw InputError("poolPointer 2 needs the exact photon model");
+  }
+
+ private:
+  int np_;
+  PoolPointer2Parameters parameters_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReadoutModel> make_pool_pointer2(const ReadoutParameters& parameters) {
+  return std::make_unique<PoolPointer2Model>(parameters);
 }
 
 }  // namespace dtof

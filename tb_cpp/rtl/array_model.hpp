@@ -7,7 +7,7 @@
 
 namespace dtof {
 
-/// One Verilated dtof_array_testbench or pool_pointer_testbench with its type erased: the ports by address,
+/// One Verilated testbench of an array with its type erased: the ports by address,
 /// and eval().
 class ArrayModel {
  public:
@@ -17,11 +17,12 @@ class ArrayModel {
     std::uint8_t* reset_n;
     std::uint8_t* start;
     std::uint16_t* acquisitions;
-    std::uint16_t* gate_begin;  ///< these two are null in pool_pointer_array
+    std::uint16_t* gate_begin;  ///< these two are of dtof_array only
     std::uint16_t* gate_end;
-    std::uint16_t* coarse_end;  ///< schedule; these three are null in dtof_array
+    std::uint16_t* coarse_end;  ///< schedule; these are null in dtof_array
     std::uint16_t* track_end;
-    std::uint16_t* late_begin;
+    std::uint16_t* late_begin;  ///< of pool_pointer_array only
+    std::uint8_t* smooth;       ///< of pool_pointer2_array only
     std::uint8_t* tdc_valid;
     std::uint32_t* timestamps;  ///< 16 bits per column, column 0 in the low half of word 0
     std::size_t timestamp_words;

@@ -8,8 +8,11 @@ namespace dtof {
 std::string RtlConfiguration::to_string() const {
   std::string out = parameters.to_string();
   if (is_pool_readout(parameters.readout)) {
-    return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={} ENGINE_COLUMNS={}", pixels_per_sram, sram_num,
-                             engine_columns);
+    // poolPointer 2 has it among what changes its results.
+    const std::string engine = parameters.readout == Readout::kPoolPointer2
+                                   ? ""
+                                   : fmt::format(" ENGINE_COLUMNS={}", parameters.pool.engine_columns);
+    return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={}{}", pixels_per_sram, sram_num, engine);
   }
   if (is_pointer_readout(parameters.readout)) {
     out += fmt::format(" POINTER_PORTS={}", pointer_ports);
@@ -22,7 +25,7 @@ std::string RtlConfiguration::to_string() const {
 
 std::vector<ResultAddress> RtlConfiguration::result_order() const {
   // Without engines every column is one of its own.
-  const int turns = is_pool_readout(parameters.readout) ? engine_columns : 1;
+  const int turns = is_pool_readout(parameters.readout) ? parameters.pool.engine_columns : 1;
   std::vector<ResultAddress> order;
   for (int turn = 0; turn < turns; ++turn) {
     for (int row = 0; row < pixels_per_sram; ++row) {

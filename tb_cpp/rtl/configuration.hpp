@@ -20,12 +20,11 @@ struct ResultAddress {
 /// Parameters of one compiled array: pool_pointer_array for the pool read-outs, dtof_array for the others.
 struct RtlConfiguration {
   ReadoutParameters
-      parameters;  ///< a pool read-out's shares are not compiled: the driver writes the schedule
+      parameters;  ///< a pool read-out's shares and S1 are not compiled: the driver writes these registers
   int pixels_per_sram = kArrayRows;  ///< PIXELS_PER_SRAM, rows of a column
   int sram_num = 8;                  ///< SRAM_NUM, columns
   int pointer_ports = 2;             ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
   bool signalled_clear = false;      ///< SIGNALLED_CLEAR (histogram read-outs)
-  int engine_columns = 34;           ///< ENGINE_COLUMNS, columns that share an engine (pool read-outs)
   bool records_waveform = true;      ///< not a parameter: whether a waveform of the model can be written
 
   /// E.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".

@@ -29,11 +29,12 @@ std::map<std::string, Entry>& registry() {
   return entries;
 }
 
-// The gate's ends and a pool read-out's schedule are set with every frame.
+// The gate's ends, a pool read-out's schedule and S1 are set with every frame.
 ReadoutParameters compiled_parameters(ReadoutParameters parameters) {
   const PoolPointerParameters defaults = PoolPointerParameters::defaults(parameters.readout);
   parameters.pool.coarse_share = defaults.coarse_share;
   parameters.pool.track_share = defaults.track_share;
+  parameters.pool.smooth = defaults.smooth;
   if (parameters.time_gate) {
     parameters.time_gate = CodeGate{0, parameters.no_detection()};
   }
@@ -93,7 +94,9 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
     throw not_compiled(fmt::format("{} with at least {} rows", wanted, rows));
   }
   best->parameters.time_gate = parameters.time_gate;
+  const int engine_columns = best->parameters.pool.engine_columns;
   best->parameters.pool = parameters.pool;
+  best->parameters.pool.engine_columns = engine_columns;
   return *best;
 }
 

@@ -164,7 +164,7 @@ class RtlReadout::Simulation {
     // An engine takes its columns one after the other: decoding a group takes longest.
     const std::uint64_t engine =
         is_pool_readout(configuration_.parameters.readout)
-            ? 1000 * pixels * static_cast<std::uint64_t>(configuration_.engine_columns)
+            ? 1000 * pixels * static_cast<std::uint64_t>(configuration_.parameters.pool.engine_columns)
             : 0;
     // Every code of every pixel cleared and scanned, and the results, with room for latencies.
     return 2 * stream + 8 * pixels * codes + 8 * expected_beats_ + 100 * codes + engine + 10000;
@@ -180,7 +180,11 @@ class RtlReadout::Simulation {
       const PoolSchedule schedule(acquisitions, configuration_.parameters.pool);
       *ports_.coarse_end = static_cast<std::uint16_t>(schedule.coarse_end);
       *ports_.track_end = static_cast<std::uint16_t>(schedule.track_end);
-      *ports_.late_begin = static_cast<std::uint16_t>(schedule.late_begin);
+      if (ports_.late_begin != nullptr) {
+        *ports_.late_begin = static_cast<std::uint16_t>(schedule.late_begin);
+      } else {
+        *ports_.smooth = configuration_.parameters.pool.smooth == (acquisitions == acquisitions_) ? 1 : 0;
+      }
     }
   }
 

@@ -26,7 +26,10 @@ class VerilatedArray : public ArrayModel {
 
   [[nodiscard]] Ports ports() override {
     Registers registers;
-    if constexpr (requires { model_.coarse_end_i; }) {
+    if constexpr (requires { model_.smooth_i; }) {
+      registers = {
+          .coarse_end = &model_.coarse_end_i, .track_end = &model_.track_end_i, .smooth = &model_.smooth_i};
+    } else if constexpr (requires { model_.coarse_end_i; }) {
       registers = {.coarse_end = &model_.coarse_end_i,
                    .track_end = &model_.track_end_i,
                    .late_begin = &model_.late_begin_i};
@@ -42,6 +45,7 @@ class VerilatedArray : public ArrayModel {
             .coarse_end = registers.coarse_end,
             .track_end = registers.track_end,
             .late_begin = registers.late_begin,
+            .smooth = registers.smooth,
             .tdc_valid = &model_.tdc_valid_i,
             .timestamps = model_.tdc_timestamp_i.data(),
             .timestamp_words = sizeof(model_.tdc_timestamp_i) / sizeof(std::uint32_t),
@@ -81,6 +85,7 @@ class VerilatedArray : public ArrayModel {
     std::uint16_t* coarse_end = nullptr;
     std::uint16_t* track_end = nullptr;
     std::uint16_t* late_begin = nullptr;
+    std::uint8_t* smooth = nullptr;
   };
 
   Model model_;

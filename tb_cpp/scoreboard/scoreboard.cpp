@@ -27,12 +27,16 @@ std::vector<PixelResult> run_model(const RtlConfiguration& configuration,
                                    std::span<const ColumnStream> columns, std::uint32_t acquisitions) {
   const std::size_t rows = columns.empty() ? 0 : static_cast<std::size_t>(columns.front().rows());
   std::vector<PixelResult> results(rows * columns.size());
-  const std::unique_ptr<ReadoutModel> model = make_readout_model(configuration.parameters);
+  // The array has all its columns and rows; those that are not given are dark.
+  std::vector<ColumnStream> array(static_cast<std::size_t>(configuration.sram_num));
+  for (std::size_t column = 0; column < array.size(); ++column) {
+    array[column] = with_dark_rows(column < columns.size() ? columns[column] : ColumnStream(), configuration);
+  }
+  const std::vector<std::vector<PixelResult>> expected =
+      make_readout_model(configuration.parameters)->run_columns(array, acquisitions);
   for (std::size_t column = 0; column < columns.size(); ++column) {
-    const std::vector<PixelResult> expected =
-        model->run_column(with_dark_rows(columns[column], configuration), acquisitions);
     for (std::size_t row = 0; row < rows; ++row) {
-      results[row * columns.size() + column] = expected[row];
+      results[row * columns.size() + column] = expected[column][row];
     }
   }
   return results;

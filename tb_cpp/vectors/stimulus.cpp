@@ -113,11 +113,8 @@ void write_timestamps(fmt::ostream& file, const ArrayParameters& array, std::spa
 
 void write_results(fmt::ostream& file, const ArrayParameters& array, std::span<const ColumnStream> columns,
                    std::uint32_t acquisitions) {
-  std::vector<std::vector<PixelResult>> results;
-  results.reserve(columns.size());
-  for (const ColumnStream& column : columns) {
-    results.push_back(make_readout_model(array.readout)->run_column(column, acquisitions));
-  }
+  const std::vector<std::vector<PixelResult>> results =
+      make_readout_model(array.readout)->run_columns(columns, acquisitions);
   for (int row = 0; row < array.rows; ++row) {
     for (const std::vector<PixelResult>& column : results) {
       const PixelResult& result = column[static_cast<std::size_t>(row)];

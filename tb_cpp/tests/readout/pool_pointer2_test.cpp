@@ -717,7 +717,11 @@ TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
   refused([](PoolPointer2Parameters& p) { p.engine_columns = 3; },
           "ENGINE_COLUMNS must be even and at least 2, not 3");
   refused([](PoolPointer2Parameters& p) { p.group_rows = 3; },
-          "GROUP_ROWS must be a power of two from 2 to 32, not 3");
+          "GROUP_SIZE must be a power of two from 4 to 32, not 3");
+  refused([](PoolPointer2Parameters& p) { p.count_width = 8; },
+          "8 bins of COUNT_WIDTH must fit the words of two pixels: 8 bits do not");
+  refused([](PoolPointer2Parameters& p) { p.labels = 8; },
+          "LABELS candidates of a group must fit the words of two pixels: 8 do not");
   refused([](PoolPointer2Parameters& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
   refused([](PoolPointer2Parameters& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 47, not 60");
 }

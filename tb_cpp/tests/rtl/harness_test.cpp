@@ -104,7 +104,7 @@ TEST(RtlConfiguration, ResultsComeRowByRowOrEngineByEngine) {
     RtlConfiguration configuration{.parameters = ReadoutParameters::defaults(readout)};
     configuration.pixels_per_sram = 2;
     configuration.sram_num = 5;
-    configuration.engine_columns = 2;
+    configuration.parameters.pool.engine_columns = 2;
     std::string text;
     for (const ResultAddress& pixel : configuration.result_order()) {
       text += fmt::format("{}{}{} ", pixel.begins_row ? "|" : "", pixel.row, pixel.column);

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+
+/// pool_pointer2_array behind the ports of dtof_array_testbench and the schedule's: 16 bits per column of timestamp
+/// on a bus of at least 128 bits, each field of the result on its own 16-bit port.
+module pool_pointer2_testbench #(
+    parameter NP = 10,
+    parameter PIXELS_PER_SRAM = 160,
+    parameter SRAM_NUM = 8,
+    parameter SLOTS = 2,
+    parameter COUNT_WIDTH = 7,
+    parameter GROUP_SIZE = 4,
+    parameter LABELS = 5,
+    parameter SCORE_BITS = 4,
+    parameter OFFSET_BITS = 6,
+    parameter POINTER_SHIFT = 1,
+    parameter ENGINE_COLUMNS = 34,
+    localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
+) (
+    input  logic                 clk_i,
+    input  logic                 rst_ni,
+    input  logic                 start_i,
+    input  logic [         15:0] acq_num_i,
+    input  logic [         15:0] coarse_end_i,
+    input  logic [         15:0] track_end_i,
+    input  logic                 smooth_i,
+    output logic                 busy_o,
+    output logic                 done_o,
+    output logic [          2:0] state_o,
+    input  logic                 tdc_valid_i,
+    output logic                 tdc_ready_o,
+    input  logic [BUS_WIDTH-1:0] tdc_timestamp_i,
+    output logic                 result_tvalid_o,
+    input  logic                 result_tready_i,
+    output logic                 result_tlast_o,
+    output logic [         15:0] result_column_o,
+    output logic [         15:0] result_row_o,
+    output logic [         15:0] result_code_o,
+    output logic [         15:0] result_fraction_o,
+    output logic [         15:0] result_confidence_o,
+    output logic                 probe_write_o,
+    output logic [         15:0] probe_address_o,
+    output logic [         15:0] probe_data_o
+);
+
+  localparam COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM);
+  localparam ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
+  localparam POSITION_WIDTH = 16;  // code and fraction
+  localparam CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(7);
+  localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH;
+
+  localparam POSITION_LSB = CONFIDENCE_WIDTH;
+  localparam CODE_LSB = POSITION_LSB + POSITION_WIDTH - NP;
+  localparam ROW_LSB = POSITION_LSB + POSITION_WIDTH;
+  localparam COLUMN_LSB = ROW_LSB + ROW_WIDTH;
+
+  logic [SRAM_NUM*NP-1:0] timestamp;
+  logic [RESULT_WIDTH-1:0] result;
+
+  for (genvar column = 0; column < SRAM_NUM; ++column) begin : gen_timestamp
+    assign timestamp[column*NP+:NP] = tdc_timestamp_i[column*16+:NP];
+  end
+
+  pool_pointer2_array #(
+      .NP(NP),
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .SRAM_NUM(SRAM_NUM),
+      .SLOTS(SLOTS),
+      .COUNT_WIDTH(COUNT_WIDTH),
+      .GROUP_SIZE(GROUP_SIZE),
+      .LABELS(LABELS),
+      .SCORE_BITS(SCORE_BITS),
+      .OFFSET_BITS(OFFSET_BITS),
+      .POINTER_SHIFT(POINTER_SHIFT),
+      .ENGINE_COLUMNS(ENGINE_COLUMNS),
+      .ACQ_WIDTH(16)
+  ) u_array (
+      .clk_i,
+      .rst_ni,
+      .start_i,
+      .acq_num_i,
+      .coarse_end_i,
+      .track_end_i,
+      .smooth_i,
+      .busy_o,
+      .done_o,
+      .state_o,
+      .tdc_valid_i,
+      .tdc_ready_o,
+      .tdc_timestamp_i(timestamp),
+      .result_tvalid_o,
+      .result_tready_i,
+      .result_tdata_o(result),
+      .result_tlast_o
+  );
+
+  assign result_column_o = 16'(result[COLUMN_LSB+:COLUMN_WIDTH]);
+  assign result_row_o = 16'(result[ROW_LSB+:ROW_WIDTH]);
+  assign result_code_o = 16'(result[CODE_LSB+:NP]);
+  if (NP < POSITION_WIDTH) begin : gen_fraction
+    assign result_fraction_o = 16'(result[POSITION_LSB+:POSITION_WIDTH-NP]);
+  end else begin : gen_no_fraction
+    assign result_fraction_o = '0;
+  end
+  assign result_confidence_o = 16'(result[0+:CONFIDENCE_WIDTH]);
+
+  assign probe_write_o = 1'b0;
+  assign probe_address_o = '0;
+  assign probe_data_o = '0;
+
+  // The padding of the timestamp bus.
+  logic unused;
+  assign unused = &{1'b0, tdc_timestamp_i};
+
+endmodule

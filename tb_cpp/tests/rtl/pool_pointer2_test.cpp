@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2's RTL against its model where pixels belong together: surfaces, light, phases, schedules,
+// engines' borders. What every read-out must stand is in every_configuration_test and disturbance_test.
+#include "readout/pool_pointer2.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "photon/photon_source.hpp"
+#include "photon/sensor_model.hpp"
+#include "scene/scene.hpp"
+#include "sensor/preset.hpp"
+#include "tests/rtl/pool_surfaces.hpp"
+#include "tests/rtl/rtl_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+/// Surfaces that some neighbouring columns share, as the pixels of a scene do.
+std::vector<ColumnStream> shared_surfaces(const RtlConfiguration& configuration, std::uint32_t acquisitions,
+                                          View view, CounterRandom& random) {
+  std::vector<ColumnStream> columns = surface_columns(configuration, acquisitions, view, random);
+  for (std::size_t column = 1; column < columns.size(); ++column) {
+    if (pick(random, 2) == 0) {
+      columns[column] = columns[column - 1];
+    }
+  }
+  return columns;
+}
+
+class EveryPoolPointer2 : public testing::TestWithParam<RtlConfiguration> {
+ protected:
+  // Acquisitions so many that no phase is empty and every gear of the smallest array turns.
+  static std::uint32_t frame_length() { return GetParam().pixels_per_sram > 100 ? 70 : 260; }
+};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, EveryPoolPointer2, testing::ValuesIn(compiled_rtl_configurations()),
+                         configuration_test_name);
+
+class SmallPoolPointer2 : public EveryPoolPointer2 {};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, SmallPoolPointer2,
+                         testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
+                           return configuration.pixels_per_sram <= 40;
+                         })),
+                         configuration_test_name);
+
+TEST_P(EveryPoolPointer2, EndsAFrameWithoutDetections) {
+  RtlReadout rtl(GetParam());
+  for (const std::uint32_t acquisitions : {0U, 1U, 40U}) {
+    SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
+    RtlFrame frame;
+    const std::vector<ColumnStream> columns(1);
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, default_options(1), &frame));
+  }
+}
+
+TEST_P(EveryPoolPointer2, AgreesWithModelWhateverItSees) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 41);
+  RtlRunOptions options = default_options(test_seed());
+  for (const bool smooth : {true, false}) {
+    RtlConfiguration configuration = GetParam();
+    configuration.parameters.pool.smooth = smooth;
+    RtlReadout rtl(configuration);
+    options.reset_first = true;
+    for (const View view : kViews) {
+      const std::uint32_t acquisitions = frame_length() + random() % 16;
+      SCOPED_TRACE(testing::Message()
+                   << view_name(view) << ", " << acquisitions << " acquisitions, S1 " << smooth);
+      ASSERT_TRUE(agrees_with_model(rtl, shared_surfaces(GetParam(), acquisitions, view, random),
+                                    acquisitions, options));
+      options.reset_first = false;
+    }
+  }
+}
+
+// Every short frame, and schedules whose ends coincide or leave a phase a single acquisition.
+TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheSchedule) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 42);
+  RtlRunOptions options = default_options(test_seed());
+  constexpr std::array<std::array<int, 2>, 5> kShares = {{{1, 1}, {62, 1}, {1, 62}, {31, 1}, {1, 31}}};
+  for (const auto& [coarse, track] : kShares) {
+    RtlConfiguration configuration = GetParam();
+    configuration.parameters.pool.coarse_share = coarse;
+    configuration.parameters.pool.track_share = track;
+    RtlReadout rtl(configuration);
+    for (const std::uint32_t acquisitions : {0U, 1U, 2U, 3U, 5U, 7U, 31U, 64U, 65U}) {
+      const View view = kViews[static_cast<std::size_t>(pick(random, kViews.size()))];
+      SCOPED_TRACE(testing::Message() << view_name(view) << ", " << acquisitions << " acquisitions, shares "
+                                      << coarse << ", " << track);
+      ASSERT_TRUE(agrees_with_model(rtl, shared_surfaces(configuration, acquisitions, view, random),
+                                    acquisitions, options));
+      options.reset_first = false;
+    }
+  }
+}
+
+// Frames as long as a sensor's in strong light, so that pointers settle and move by the fine gears' dithered
+// steps.
+TEST_P(SmallPoolPointer2, AgreesWithModelInTheFineGears) {
+  SCOPED_TRACE(test_seed_message());
+  constexpr std::uint32_t kAcquisitions = 3333;
+  CounterRandom random = test_random(test_seed(), 43);
+  const int codes = GetParam().parameters.code_count();
+  const int width = codes / 16;  // of a pulse
+  std::vector<ColumnStream> columns(static_cast<std::size_t>(std::min(GetParam().sram_num, 2)));
+  for (ColumnStream& column : columns) {
+    const int begin = pick(random, codes - width);
+    for (int row = 0; row < GetParam().pixels_per_sram; ++row) {
+      for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+        const int code = pick(random, 10) == 0 ? pick(random, codes - 1)
+                                               : begin + (pick(random, width) + pick(random, width)) / 2;
+        column.append({acquisition, static_cast<Timestamp>(code)});
+      }
+      column.finish_row();
+    }
+  }
+  RtlReadout rtl(GetParam());
+  RtlFrame frame;
+  ASSERT_TRUE(agrees_with_model(rtl, columns, kAcquisitions, default_options(test_seed()), &frame));
+  // Where a group's counts saturate, not every pixel finds the surface.
+  const auto surest = std::ranges::max_element(frame.results, {}, &PixelResult::confidence);
+  EXPECT_GE(surest->confidence, 116);
+}
+
+// The sweep in CMakeLists.txt holds every promised value.
+TEST(PoolPointer2Sweep, EveryValueOccurs) {
+  using C = RtlConfiguration;
+  using testing::IsSupersetOf;
+  const auto values = [](const std::function<int(const C&)>& field) {
+    std::set<int> found;
+    for (const C& configuration : compiled_rtl_configurations()) {
+      found.insert(field(configuration));
+    }
+    return found;
+  };
+  const auto columns_of_last_engine = [](const C& c) {
+    return c.sram_num % c.parameters.pool.engine_columns;
+  };
+  EXPECT_THAT(values([](const C& c) { return c.parameters.np; }), IsSupersetOf({8, 9, 10, 12, 16}));
+  EXPECT_THAT(values([](const C& c) { return c.pixels_per_sram; }), IsSupersetOf({1, 3, 9, 13, 37, 160}));
+  EXPECT_THAT(values([](const C& c) { return c.sram_num; }), IsSupersetOf({1, 2, 3, 7, 10}));
+  EXPECT_THAT(values(columns_of_last_engine), IsSupersetOf({0, 1, 2, 3}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.slots; }), IsSupersetOf({2, 3, 4}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.count_width; }), IsSupersetOf({4, 5, 6, 7, 8}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.group_size; }), IsSupersetOf({4, 8, 16, 32}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.dark_labels; }),
+              IsSupersetOf({2, 3, 4, 5, 6, 7}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.dark_score_bits; }), IsSupersetOf({1, 3, 4}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.offset_bits; }), IsSupersetOf({2, 4, 6}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }), IsSupersetOf({0, 1, 2}));
+}
+
+// Clocks of a frame of 200 columns. An engine takes its pairs one after the other, so that one pair and two
+// tell how long an engine of 34 columns takes; the sink is as slow as the other engines' results. What is not
+// streaming does not depend on the frame's length, so that short frames do.
+TEST(PoolPointer2Cycles, AFrameStaysBelowTheLimit) {
+  constexpr int kRows = 160;
+  constexpr int kColumns = 200;
+  constexpr std::uint64_t kAcquisitions = 33'333;
+  constexpr std::uint64_t kCycleLimit = 11'000'000;
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  const auto engine_columns = static_cast<std::uint64_t>(parameters.pool.engine_columns);
+  const std::uint64_t engines = (kColumns + engine_columns - 1) / engine_columns;
+  const auto stream = static_cast<std::uint64_t>(kRows) * static_cast<std::uint64_t>(parameters.slots);
+  const std::vector<ColumnStream> dark(1);
+  RtlRunOptions options = default_options(1);
+  options.row_stall = engines - 1;
+  const auto overhead_of = [&](int columns, std::uint32_t acquisitions) {
+    const std::vector<RtlConfiguration> found =
+        configurations_with([&](const RtlConfiguration& configuration) {
+          return configuration.pixels_per_sram == kRows && configuration.sram_num == columns &&
+                 configuration.parameters.pool.engine_columns >= columns;
+        });
+    EXPECT_EQ(found.size(), 1U) << columns;
+    return RtlReadout(found.front()).run(dark, acquisitions, options).statistics.cycles -
+           acquisitions * stream;
+  };
+  const std::uint64_t two = overhead_of(2, 16);
+  EXPECT_EQ(overhead_of(2, 64), two);
+  const std::uint64_t overhead = two + (overhead_of(10, 16) - two) / 4 * (engine_columns / 2 - 1);
+  EXPECT_EQ((overhead_of(10, 16) - two) % 4, 0U);
+  const std::uint64_t cycles = kAcquisitions * stream + overhead;
+  fmt::print("poolPointer 2: {} clocks per frame of {} acquisitions, {} of them not streaming, {} engines\n",
+             cycles, kAcquisitions, overhead, engines);
+  EXPECT_LE(cycles, kCycleLimit);
+}
+
+// Photons of the thesis's sensor.
+TEST(PoolPointer2, AgreesWithModelOnModelledPhotons) {
+  SCOPED_TRACE(test_seed_message());
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  const std::vector<RtlConfiguration> found = configurations_with([&](const RtlConfiguration& configuration) {
+    return configuration.pixels_per_sram == 160 && configuration.sram_num == 10;
+  });
+  ASSERT_EQ(found.size(), 1U);
+  for (const double klux : {2.0, 14.0, 100.0}) {
+    SCOPED_TRACE(testing::Message() << klux << " klux");
+    SensorModel sensor = parse_preset("thesis");
+    sensor.np = parameters.np;
+    sensor.slots = parameters.slots;
+    sensor.acquisitions = 700;
+    SceneParameters scene;
+    scene.reflectivity = sensor.default_reflectivity;
+    const PhotonSource source(sensor, make_scene(Scene::kRoom, scene), klux, test_seed());
+    std::vector<ColumnStream> columns;
+    for (int column = 0; column < 10; ++column) {
+      columns.push_back(source.column(95 + column));
+    }
+    RtlReadout rtl(found.front());
+    ASSERT_TRUE(agrees_with_model(rtl, columns, sensor.acquisitions, default_options(test_seed())));
+  }
+}
+
+}  // namespace
+}  // namespace dtof
