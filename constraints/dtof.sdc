@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Timing constraints of dtof_array and pool_pointer_array. The flow sets `period` (ns) and reads this file anew for each period.
+# Timing constraints of dtof_array, pool_pointer_array and pool_pointer2_array. The flow sets `period` (ns) and reads this file anew for each period.
 #
 # Ports: every budget is the share of the clock period that the outside uses. The TDC's timestamps and the
 # result stream come from and go to registers; the handshakes have some logic outside.
@@ -16,9 +16,9 @@ set_clock_uncertainty -hold $hold_uncertainty [get_clocks clk]
 set_input_delay [expr {$tdc_share * $period}] -clock clk [get_ports {tdc_valid_i tdc_timestamp_i*}]
 set_output_delay [expr {$tdc_share * $period}] -clock clk [get_ports tdc_ready_o]
 set_input_delay [expr {$control_share * $period}] -clock clk [get_ports {start_i acq_num_i*}]
-# dtof_array has the gate, pool_pointer_array the schedule.
+# dtof_array has the gate, the pool read-outs' arrays the schedule and S1.
 set_input_delay [expr {$control_share * $period}] -clock clk \
-  [get_ports -quiet {gate_begin_i* gate_end_i* coarse_end_i* track_end_i* late_begin_i*}]
+  [get_ports -quiet {gate_begin_i* gate_end_i* coarse_end_i* track_end_i* late_begin_i* smooth_i}]
 set_output_delay [expr {$control_share * $period}] -clock clk [get_ports {busy_o done_o state_o*}]
 set_input_delay [expr {$stream_share * $period}] -clock clk [get_ports result_tready_i]
 set_output_delay [expr {$stream_share * $period}] -clock clk [get_ports {result_tvalid_o result_tdata_o* result_tlast_o}]

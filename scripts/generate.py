@@ -133,6 +133,12 @@ def top_constant(top: Top) -> str:
     return f"READOUT_{top.name.upper().removesuffix('_ARRAY').replace('_', '')}"
 
 
+def offered_tops(table: Table) -> list[Top]:
+    """Without those of read-outs on trial."""
+    trials = {readout.top for readout in table.readouts.values() if readout.trial}
+    return [top for top in table.tops.values() if top.name not in trials]
+
+
 def subsystem_number(table: Table, readout: Readout) -> int | None:
     """dtof_subsystem's READOUT for it."""
     return readout.number if readout.number is not None else table.tops[readout.top].readout
@@ -141,7 +147,8 @@ def subsystem_number(table: Table, readout: Readout) -> int | None:
 def subsystem_parameters(table: Table) -> str:
     """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
-    names = dict.fromkeys(name for top in table.tops.values() for name in top.parameters)
+    tops = offered_tops(table)
+    names = dict.fromkeys(name for top in tops for name in top.parameters)
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
         f"// {WRITTEN} A part of dtof_subsystem: its arrays' parameters.",
@@ -149,7 +156,7 @@ def subsystem_parameters(table: Table) -> str:
     for name in names:
         parameter = table.parameters[name]
         values: dict[str, list[str]] = {}  # by expression, those that have it
-        for top in table.tops.values():
+        for top in tops:
             users = [readout for readout in table.readouts.values() if readout.top == top.name]
             for readout in users if top.readout is None else users[:1]:
                 if name in readout.defaults and name in top.parameters:
@@ -173,8 +180,8 @@ def all_connections(table: Table) -> dict[str, str]:
     """The arrays in dtof_subsystem, which has a time gate of its own for all of them, and dtof_subsystem in its benches."""
     lists = {f"hdl/package/{top.name}_parameters.svh":
              connections(top.name, "dtof_subsystem", [name for name in top.parameters if name != "TIME_GATE"])
-             for top in table.tops.values()}  # fmt: skip
-    union = list(dict.fromkeys(name for top in table.tops.values() for name in top.parameters))
+             for top in offered_tops(table)}  # fmt: skip
+    union = list(dict.fromkeys(name for top in offered_tops(table) for name in top.parameters))
     lists["hdl/package/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", union)
     return lists
 
@@ -382,7 +389,7 @@ def cmake(table: Table) -> str:
         *(f"set(DTOF_NUMBER_{readout.name} {readout.number})" for readout in table.readouts.values()
           if readout.number is not None),
         *(f"set(DTOF_SUBSYSTEM_NUMBER_{readout.name} {subsystem_number(table, readout)})"
-          for readout in table.readouts.values() if readout.top),
+          for readout in table.readouts.values() if readout.top and not readout.trial),
         *(f"set(DTOF_TOP_{readout.name} {readout.top})" for readout in table.readouts.values() if readout.top),
         f"set(DTOF_MODELS {' '.join(dict.fromkeys(readout.model for readout in table.readouts.values()))})  # of readout/",
         *(f"set(DTOF_DEFAULT_{name} {values(parameter.default)})" for name, parameter in table.parameters.items()),
@@ -437,8 +444,7 @@ def bender(text: str, listing: str) -> str:
 
 
 def readme(text: str, table: Table) -> str:
-    trials = {readout.top for readout in table.readouts.values() if readout.trial}
-    for top in [top for top in table.tops.values() if top.name not in trials]:
+    for top in offered_tops(table):
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
             raise FlowError(f"README.md has no place for the parameters of {top.name}")

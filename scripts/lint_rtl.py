@@ -26,6 +26,7 @@ SIZE = {  # enough to see every connection between columns, and between engines
     "dtof_array": {"SRAM_NUM": 2},
     "pool_pointer_array": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
     "dtof_subsystem": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
+    "pool_pointer2_array": {"SRAM_NUM": 7, "ENGINE_COLUMNS": 4},
 }
 SUBSYSTEM = "dtof_subsystem"
 ADAPTER = "axi_lite_to_apb"  # stands in front of it

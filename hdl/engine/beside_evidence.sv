@@ -8,10 +8,10 @@
 //
 // 1. The word of the pixel to the right is taken, then its group's cells; its candidates are ranked, one a clock.
 // 2. The pixel itself is taken with advance_i.
-// 3. Its candidates pass, one a clock, are compared with the three cells and leave their evidence.
+// 3. Its candidates pass, one a clock, are compared with the three cells, and leave their evidence in the next clock.
 //
-// Schedule: the table of pool2_sequencer; evidence_o and cells_o hold from a clock after the last comparison until
-//   advance_i.
+// Schedule: the table of pool2_sequencer; evidence_o and cells_o hold from the clock after the last comparison until
+//   advance_i, which may come in that clock.
 // Cost: three comparators of cells, some 150 flip-flops at the defaults, per engine.
 `include "pool2_command.svh"
 
@@ -117,16 +117,16 @@ module beside_evidence #(
   logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_q;
   logic [CELL_WIDTH-1:0] own_cell;
   logic [COST_WIDTH-1:0] from_left, from_right;
-  logic signed [EVIDENCE_WIDTH-1:0] evidence, own, costs;
+  logic signed [EVIDENCE_WIDTH-1:0] evidence, own_q, costs;
+  logic [LABELS*EVIDENCE_WIDTH-1:0] evidences;
+  logic compared_q, far_left_q, far_best_q, far_second_q;
 
   assign own_cell = cells_q[CELL_WIDTH-1:0];
-  assign from_left = (command_i.has_left && far(own_cell, left_cell_i)) ? left_cost_q : '0;
-  assign from_right = (!has_right_i || !far(own_cell, right_best_cell_q)) ? '0
-      : far(own_cell, right_second_cell_q) ? right_limit_q : right_margin_q;
-  assign own = $signed(EVIDENCE_WIDTH'(scores_q[SCORE_BITS-1:0]))
-      - (command_i.late_compare ? $signed(EVIDENCE_WIDTH'(background_q >> LATENESS_SHIFT)) : '0);
+  assign from_left = far_left_q ? left_cost_q : '0;
+  assign from_right = !far_best_q ? '0 : far_second_q ? right_limit_q : right_margin_q;
   assign costs = $signed(EVIDENCE_WIDTH'(from_left)) + $signed(EVIDENCE_WIDTH'(from_right));
-  assign evidence = own - costs;
+  assign evidence = own_q - costs;
+  assign evidences = compared_q ? {evidence, evidence_q[LABELS*EVIDENCE_WIDTH-1:EVIDENCE_WIDTH]} : evidence_q;
 
   always_ff @(posedge clk_i) begin
     if (advance_i) begin
@@ -136,11 +136,17 @@ module beside_evidence #(
     end else if (command_i.compare) begin
       scores_q <= scores_q >> SCORE_BITS;
       cells_q <= {own_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
-      evidence_q <= {evidence, evidence_q[LABELS*EVIDENCE_WIDTH-1:EVIDENCE_WIDTH]};
     end
+    compared_q <= command_i.compare;
+    far_left_q <= command_i.has_left && far(own_cell, left_cell_i);
+    far_best_q <= has_right_i && far(own_cell, right_best_cell_q);
+    far_second_q <= far(own_cell, right_second_cell_q);
+    own_q <= $signed(EVIDENCE_WIDTH'(scores_q[SCORE_BITS-1:0]))
+        - (command_i.late_compare ? $signed(EVIDENCE_WIDTH'(background_q >> LATENESS_SHIFT)) : '0);
+    evidence_q <= evidences;
   end
 
-  assign evidence_o = evidence_q;
+  assign evidence_o = evidences;
   assign cells_o = cells_q;
   assign background_o = background_q;
 

@@ -270,6 +270,6 @@ module pool2_engine #(
 
   logic unused;
   assign unused = ^{decided_rival, unused_loser, unused_position, position, decide_margin, best_cell[CELL_WIDTH],
-                    second_cell[CELL_WIDTH], second_start, line_q, message_out, best_start};
+                    second_cell[CELL_WIDTH], second_start, line_q, message_out, best_start, prepared_q};
 
 endmodule

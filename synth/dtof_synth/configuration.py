@@ -40,6 +40,11 @@ class Configuration:
         return self.described.kind == "pool"
 
     @property
+    def pools_pairs(self) -> bool:
+        """A group belongs to two columns (poolPointer 2)."""
+        return self.is_pool and "LABELS" in self.parameters
+
+    @property
     def top(self) -> str:
         return self.described.top
 
@@ -76,6 +81,10 @@ def bin_width(configuration: Configuration) -> int:
 
 def memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one column module by what they hold. The RTL asks for the same sizes, or elaboration stops."""
+    if configuration.pools_pairs:
+        groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
+        words = groups * (configuration["GROUP_SIZE"] // 2) + -(-groups // 2)
+        return {"pixels and groups": Size(1, words, 2 * pool_word_width(configuration))}
     if configuration.is_pool:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2 + 1)
@@ -86,6 +95,8 @@ def memories(configuration: Configuration) -> dict[str, Size]:
 
 
 def pool_labels(configuration: Configuration) -> int:
+    if configuration.pools_pairs:
+        return configuration["LABELS"]
     return max(configuration["DARK_LABELS"], configuration["BRIGHT_LABELS"])
 
 
@@ -93,6 +104,9 @@ def pool_word_width(configuration: Configuration) -> int:
     """Two pixels or a group's word (dtof_pkg::pool_track_width, pool_point_width, pool_group_width)."""
     labels = pool_labels(configuration)
     label_width = max(1, (labels - 1).bit_length())
+    if configuration.pools_pairs:
+        track = labels * configuration["SCORE_BITS"] + label_width + configuration["OFFSET_BITS"]
+        return 2 * max(track, 7 + 16 - configuration["POINTER_SHIFT"] + 7)
     track = max(configuration["DARK_LABELS"] * configuration["DARK_SCORE_BITS"],
                 configuration["BRIGHT_LABELS"] * configuration["BRIGHT_SCORE_BITS"])
     if configuration["OFFSET_BITS"] > 0:
@@ -107,6 +121,8 @@ def engine_memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one engine."""
     if not configuration.is_pool:
         return {}
+    if configuration.pools_pairs:  # beside the messages the cell chosen in the column to the left
+        return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], 7 + 4 * pool_labels(configuration))}
     return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(4 * pool_labels(configuration), 8))}
 
 

@@ -72,8 +72,11 @@ def short_frames(seed: int, count: int) -> tuple[int, ...]:
 
 
 def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
-    """The RTL alone, of three columns, or of two engines with two columns each and two groups of pixels."""
-    if configuration.is_pool:
+    """The RTL alone, of three columns, or of two engines with two columns each and two groups of pixels; where pairs of
+    columns hear each other, of an engine with two pairs and one with one."""
+    if configuration.pools_pairs:
+        small = {"SRAM_NUM": 6, "ENGINE_COLUMNS": 4, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
+    elif configuration.is_pool:
         small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
     else:
         small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 3 if configuration.readout == "histogram" else 5}

@@ -7,7 +7,7 @@
 # multiplexed adder saves some area but puts the comparison in front of the adder.
 # poolPointer's columns share an SRAM by twos: there the pair is the module.
 setattr -mod -set keep_hierarchy 1 *_column *_pair *_engine
-setattr -mod -unset keep_hierarchy *pool_pointer_column
+setattr -mod -unset keep_hierarchy *pool_pointer_column *pool2_column
 synth -flatten -noshare -top $top -run coarse:fine
 opt -fast -undriven -fine
 techmap

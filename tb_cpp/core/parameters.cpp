@@ -47,6 +47,11 @@ Readout parse_readout(std::string_view name) {
   throw InputError(unknown_name("read-out", name, known));
 }
 
+Readout parse_rtl_readout(std::string_view name) {
+  const auto* const found = std::ranges::find(kTrialReadouts, name, readout_name);
+  return found != kTrialReadouts.end() ? *found : parse_readout(name);
+}
+
 PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
   constexpr int kAnyBits = 10;  // none of these depends on NP
   const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, kAnyBits); };

@@ -12,6 +12,8 @@ namespace dtof {
 
 /// Throws InputError naming the legal names.
 Readout parse_readout(std::string_view name);
+/// The same, and those on trial.
+Readout parse_rtl_readout(std::string_view name);
 
 /// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
 /// Lengths are fractions of a coarse bin, a 32nd of the range.

@@ -48,13 +48,23 @@ std::map<std::string_view, Setter> setters(ArrayParameters& array, int& time_gat
           {"BRIGHT_LABELS", number(pool.bright_labels)},
           {"BRIGHT_SCORE_BITS", number(pool.bright_score_bits)},
           {"BRIGHT_FROM", number(pool.bright_from)},
+          {"LABELS",
+           [&pool](int value) {
+             pool.dark_labels = value;
+             pool.bright_labels = value;
+           }},
+          {"SCORE_BITS",
+           [&pool](int value) {
+             pool.dark_score_bits = value;
+             pool.bright_score_bits = value;
+           }},
           {"OFFSET_BITS", number(pool.offset_bits)},
           {"ADVANTAGE_WIDTH", number(pool.count_bits)},
           {"POINTER_SHIFT", number(pool.pointer_shift)},
           {"RIVAL_MOVES", flag(pool.rival_moves)},
           {"POINTER_PORTS", nothing},
           {"SIGNALLED_CLEAR", nothing},
-          {"ENGINE_COLUMNS", nothing},
+          {"ENGINE_COLUMNS", number(pool.engine_columns)},
           {"ACQ_WIDTH", nothing}};
 }
 

@@ -145,6 +145,10 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
     if (is_pool_readout(array.readout.readout)) {
       const PoolSchedule schedule(acquisitions, array.readout.pool);
       settings = {schedule.coarse_end, schedule.track_end, schedule.late_begin};
+      if (array.readout.readout == Readout::kPoolPointer2) {
+        frame_array.readout.pool.smooth = pick(random, 2) != 0;
+        settings[2] = frame_array.readout.pool.smooth ? 1 : 0;
+      }
     } else if (array.readout.time_gate) {
       const int codes = array.readout.code_count();
       const CodeGate gate{.begin = pick(random, codes), .end = pick(random, codes)};

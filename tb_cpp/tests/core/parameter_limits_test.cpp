@@ -69,12 +69,16 @@ const std::map<std::string, int PoolPointerParameters::*> kOfPoolReadouts = {
     {"BRIGHT_FROM", &PoolPointerParameters::bright_from},
     {"OFFSET_BITS", &PoolPointerParameters::offset_bits},
     {"ADVANTAGE_WIDTH", &PoolPointerParameters::count_bits},
-    {"POINTER_SHIFT", &PoolPointerParameters::pointer_shift}};
+    {"POINTER_SHIFT", &PoolPointerParameters::pointer_shift},
+    {"LABELS", &PoolPointerParameters::dark_labels},
+    {"SCORE_BITS", &PoolPointerParameters::dark_score_bits}};
 
 ReadoutParameters of_model(const Row& row) {
-  const bool pool = row.top == "pool_pointer_array";
+  const bool pool = row.top != "dtof_array";
   ReadoutParameters parameters =
-      ReadoutParameters::defaults(pool ? Readout::kPoolPointer : Readout::kEzPointer);
+      ReadoutParameters::defaults(row.top == "pool_pointer_array" ? Readout::kPoolPointer
+                                  : pool                          ? Readout::kPoolPointer2
+                                                                  : Readout::kEzPointer);
   for (const auto& [name, value] : row.settings) {
     if (name == "READOUT") {
       parameters = ReadoutParameters::defaults(static_cast<Readout>(value));

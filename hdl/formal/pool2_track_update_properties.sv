@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pixel's track word after one timestamp: docs/reference/poolpointer2.md, Track, step by step on integers.
+`include "properties.svh"
+
+module pool2_track_update_properties #(
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
+    localparam int SCORES_WIDTH = LABELS * SCORE_BITS,
+    localparam int TRACK_WIDTH = SCORES_WIDTH + LABEL_WIDTH + OFFSET_BITS
+) (
+    input logic                   clk_i,
+    input logic [TRACK_WIDTH-1:0] word_i,
+    input logic [     LABELS-1:0] hits_i,
+    input logic                   offset_up_i,
+    input logic                   offset_down_i
+);
+
+  logic checking;
+  assign checking = 1'b1;
+
+  logic [TRACK_WIDTH-1:0] word;
+
+  pool2_track_update #(
+      .LABELS     (LABELS),
+      .SCORE_BITS (SCORE_BITS),
+      .OFFSET_BITS(OFFSET_BITS)
+  ) u_dut (
+      .word_i       (word_i),
+      .hits_i       (hits_i),
+      .offset_up_i  (offset_up_i),
+      .offset_down_i(offset_down_i),
+      .word_o       (word)
+  );
+
+  localparam int FULL = (1 << SCORE_BITS) - 1;
+  localparam int END = 1 << (OFFSET_BITS - 1);
+  integer k, score, leader, leader_score, offset, step, hit_label, hit_score, next_leader, next_offset;
+  integer next_hit_score, next_leader_score;
+  logic [SCORES_WIDTH-1:0] next_scores;
+  logic any_hit;
+
+  always_comb begin
+    leader = 32'(word_i[SCORES_WIDTH+:LABEL_WIDTH]);
+    offset = 32'(word_i[TRACK_WIDTH-1-:OFFSET_BITS]);
+    if (offset >= END) offset = offset - 2 * END;
+
+    // The offset moves first, with the old leader, the more the less its score.
+    leader_score = 0;
+    for (k = 0; k < LABELS; k = k + 1) begin
+      if (k == leader) leader_score = 32'(word_i[k*SCORE_BITS+:SCORE_BITS]);
+    end
+    step = (leader_score < 3) ? 4 : (leader_score < 8) ? 2 : 1;
+    next_offset = offset;
+    if (offset_up_i) next_offset = (offset + step > END - 1) ? END - 1 : offset + step;
+    if (offset_down_i) next_offset = (offset - step < -END) ? -END : offset - step;
+
+    // The lowest candidate hit gains a point, or every other one loses one.
+    any_hit = 1'b0;
+    hit_label = 0;
+    hit_score = 0;
+    for (k = LABELS - 1; k >= 0; k = k - 1) begin
+      if (hits_i[k]) begin
+        any_hit = 1'b1;
+        hit_label = k;
+        hit_score = 32'(word_i[k*SCORE_BITS+:SCORE_BITS]);
+      end
+    end
+    next_scores = word_i[SCORES_WIDTH-1:0];
+    next_hit_score = 0;
+    next_leader_score = 0;
+    for (k = 0; k < LABELS; k = k + 1) begin
+      score = 32'(word_i[k*SCORE_BITS+:SCORE_BITS]);
+      if (any_hit && k == hit_label && hit_score < FULL) score = score + 1;
+      if (any_hit && k != hit_label && hit_score == FULL && score > 0) score = score - 1;
+      next_scores[k*SCORE_BITS+:SCORE_BITS] = SCORE_BITS'(score);
+      if (k == hit_label) next_hit_score = score;
+      if (k == leader) next_leader_score = score;
+    end
+
+    // Then it leads, if it is ahead of the leader.
+    next_leader = leader;
+    if (any_hit && hit_label != leader && next_hit_score > next_leader_score) begin
+      next_leader = hit_label;
+      next_offset = 0;
+    end
+  end
+
+  `ASSUME(m_leader_in_use, leader < LABELS)
+  `ASSUME(m_one_way, !(offset_up_i && offset_down_i))
+  `PROVE(a_scores, word[SCORES_WIDTH-1:0] == next_scores)
+  `PROVE(a_leader, 32'(word[SCORES_WIDTH+:LABEL_WIDTH]) == next_leader)
+  `PROVE(a_offset, word[TRACK_WIDTH-1-:OFFSET_BITS] == OFFSET_BITS'(next_offset))
+  `GOAL(any_hit && hit_score == FULL && offset_down_i && next_offset == -END)
+
+endmodule

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// S1 and the result word of three winners in a row, any of which may be missing but the middle one: docs/reference/
+// poolpointer2.md, Decide, step by step on integers. The winners are constants; what was in the registers before is not.
+`include "properties.svh"
+
+module smoothing_properties #(
+    parameter int NP = 10,
+    localparam int F = 16 - NP
+) (
+    input logic clk_i,
+    input logic smooth_i
+);
+
+  localparam int CONFIDENCE_WIDTH = 8;
+
+  (* anyconst *) logic [47:0] positions;  // of the rows above, in the middle and below
+  (* anyconst *) logic [2:0] has;
+  (* anyconst *) logic [3*CONFIDENCE_WIDTH-1:0] margins;
+  (* anyconst *) logic [2:0] bright;
+  (* anyconst *) logic smooth;
+  logic [3:0] t_q = 4'd0;
+  logic checking;
+  logic [1:0] row;
+  logic [16+CONFIDENCE_WIDTH-1:0] result;
+
+  assign checking = (t_q != 4'd0);
+  assign row = 2'(t_q - 4'd1);
+
+  always_ff @(posedge clk_i) begin
+    t_q <= (t_q == 4'd8) ? t_q : t_q + 4'd1;
+  end
+
+  smoothing #(
+      .NP              (NP),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+  ) u_dut (
+      .clk_i           (clk_i),
+      .rst_ni          (checking),
+      .smooth_i        (smooth_i),
+      .take_winner_i   (t_q >= 4'd1 && t_q <= 4'd3),
+      .has_winner_i    (has[row]),
+      .position_i      (positions[row*16+:16]),
+      .margin_i        (margins[row*CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]),
+      .bright_i        (bright[row]),
+      .take_distances_i(t_q == 4'd4),
+      .take_result_i   (t_q == 4'd6),
+      .result_o        (result)
+  );
+
+  integer centre, neighbour, reach, sum, word;
+  integer i;
+
+  always_comb begin
+    centre = 32'(positions[31:16]);
+    reach = bright[1] ? 1536 : 1024;
+    sum = 0;
+    for (i = 0; i <= 2; i = i + 2) begin
+      neighbour = 32'(positions[i*16+:16]);
+      if (smooth && has[i] && neighbour - centre <= reach && centre - neighbour <= reach) begin
+        sum = sum + neighbour - centre;
+      end
+    end
+    // Rounded towards zero.
+    word = centre + ((sum >= 0) ? sum / 4 : -((-sum) / 4)) - (1 << F) / 2;
+    if (word < 0) word = 0;
+    if (word > 65536 - (1 << F) - 1) word = 65536 - (1 << F) - 1;
+  end
+
+  `ASSUME(m_the_middle_one, has[1])
+  `ASSUME(m_one_mode, smooth_i == smooth)
+  `PROVE(a_result, t_q != 4'd7 || result == {word[15:0], margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]})
+  `GOAL(t_q == 4'd7 && smooth && has == 3'b111 && sum < -2000)
+
+endmodule

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// pool_pointer2_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
+// netlist only.
+module pool_pointer2_array_bench #(
+    parameter int NP = 10,
+    parameter int PIXELS_PER_SRAM = 12,
+    parameter int SRAM_NUM = 4,
+    parameter int SLOTS = 2,
+    parameter int COUNT_WIDTH = 7,
+    parameter int GROUP_SIZE = 4,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int POINTER_SHIFT = 1,
+    parameter int ENGINE_COLUMNS = 2,
+    parameter int ACQ_WIDTH = 16,
+    parameter int FRAMES = 1,
+    parameter int BEATS = 1,
+    parameter int SEED = 1
+);
+
+  localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(7);
+  localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM) + 16
+      + CONFIDENCE_WIDTH;
+
+`ifdef NETLIST
+  localparam int COMPARE = 1;
+`else
+  localparam int COMPARE = 0;
+`endif
+
+  logic clk, rst_n, start, tdc_valid, result_tready;
+  logic [ACQ_WIDTH-1:0] acq_num, coarse_end, track_end, settings;
+  logic [SRAM_NUM*NP-1:0] tdc_timestamp;
+  logic [TDATA_WIDTH+7:0] rtl, netlist;
+
+`ifndef NETLIST_ALONE
+  pool_pointer2_array #(
+      .NP               (NP),
+      .PIXELS_PER_SRAM  (PIXELS_PER_SRAM),
+      .SRAM_NUM         (SRAM_NUM),
+      .SLOTS            (SLOTS),
+      .COUNT_WIDTH      (COUNT_WIDTH),
+      .GROUP_SIZE       (GROUP_SIZE),
+      .LABELS           (LABELS),
+      .SCORE_BITS       (SCORE_BITS),
+      .OFFSET_BITS      (OFFSET_BITS),
+      .POINTER_SHIFT    (POINTER_SHIFT),
+      .ENGINE_COLUMNS   (ENGINE_COLUMNS),
+      .ACQ_WIDTH        (ACQ_WIDTH)
+  ) u_rtl (
+      .clk_i          (clk),
+      .rst_ni         (rst_n),
+      .start_i        (start),
+      .acq_num_i      (acq_num),
+      .coarse_end_i   (coarse_end),
+      .track_end_i    (track_end),
+      .smooth_i       (settings[0]),
+      .busy_o         (rtl[TDATA_WIDTH+7]),
+      .done_o         (rtl[TDATA_WIDTH+6]),
+      .state_o        (rtl[TDATA_WIDTH+3+:3]),
+      .tdc_valid_i    (tdc_valid),
+      .tdc_ready_o    (rtl[TDATA_WIDTH+2]),
+      .tdc_timestamp_i(tdc_timestamp),
+      .result_tvalid_o(rtl[TDATA_WIDTH+1]),
+      .result_tready_i(result_tready),
+      .result_tdata_o (rtl[TDATA_WIDTH-1:0]),
+      .result_tlast_o (rtl[TDATA_WIDTH])
+  );
+`endif
+
+`ifdef NETLIST
+  pool_pointer2_array_netlist u_netlist (
+      .clk_i          (clk),
+      .rst_ni         (rst_n),
+      .start_i        (start),
+      .acq_num_i      (acq_num),
+      .coarse_end_i   (coarse_end),
+      .track_end_i    (track_end),
+      .smooth_i       (settings[0]),
+      .busy_o         (netlist[TDATA_WIDTH+7]),
+      .done_o         (netlist[TDATA_WIDTH+6]),
+      .state_o        (netlist[TDATA_WIDTH+3+:3]),
+      .tdc_valid_i    (tdc_valid),
+      .tdc_ready_o    (netlist[TDATA_WIDTH+2]),
+      .tdc_timestamp_i(tdc_timestamp),
+      .result_tvalid_o(netlist[TDATA_WIDTH+1]),
+      .result_tready_i(result_tready),
+      .result_tdata_o (netlist[TDATA_WIDTH-1:0]),
+      .result_tlast_o (netlist[TDATA_WIDTH])
+  );
+`ifdef NETLIST_ALONE
+  assign rtl = netlist;
+`endif
+`else
+  assign netlist = rtl;
+`endif
+
+  stream_bench #(
+      .NP              (NP),
+      .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
+      .SRAM_NUM        (SRAM_NUM),
+      .SLOTS           (SLOTS),
+      .ACQ_WIDTH       (ACQ_WIDTH),
+      .FRACTION_BITS   (16 - NP),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .TURNS           ((SRAM_NUM < ENGINE_COLUMNS) ? SRAM_NUM : ENGINE_COLUMNS),
+      .COMPARE         (COMPARE),
+      .FRAMES          (FRAMES),
+      .BEATS           (BEATS),
+      .SEED            (SEED)
+  ) u_bench (
+      .clk_o          (clk),
+      .rst_no         (rst_n),
+      .start_o        (start),
+      .acq_num_o      (acq_num),
+      .setting_0_o    (coarse_end),
+      .setting_1_o    (track_end),
+      .setting_2_o    (settings),
+      .tdc_valid_o    (tdc_valid),
+      .tdc_timestamp_o(tdc_timestamp),
+      .result_tready_o(result_tready),
+      .rtl_i          (rtl),
+      .netlist_i      (netlist)
+  );
+
+endmodule
