@@ -6,9 +6,11 @@
 // choose, decide) is done by an engine that several columns share (pool2_engine).
 //
 // The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
-// odd ones if there is one. T2 and later count from the pixel's last slot:
+// odd ones if there is one. T1 and later count from the pixel's last slot:
 //   clock   coarse                          track and point (a half of an SRAM word holds two pixels of a column)
-//   T2      of two pixels one is chosen     hits and distances of both timestamps, and which of them counts
+//   T1                                      track: the candidates that the first timestamp hits
+//   T2      of two pixels one is chosen     those that the second one hits, or the only one; which of the two counts;
+//                                           where it is
 //   T3                                      the pixel's next word; the pixels of the half change places
 // Cost at the defaults: see reports/area.md.
 module pool2_column #(
@@ -34,6 +36,7 @@ module pool2_column #(
     input  logic                    odd_t2_i,          // odd acquisition
     input  logic                    first_row_t2_i,    // coarse: the pair's first pixel is complete
     input  logic                    second_row_t2_i,   // coarse: its second one is
+    input  logic                    visit_t2_i,        // track and point: a pixel is complete
     input  logic [             3:0] acquisition_t3_i,  // mod 16
     // coarse bin of the timestamp that counts: at T2 of the second pixel, and registered
     output logic                    valid_t2_o,
@@ -47,7 +50,9 @@ module pool2_column #(
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, 1);
   localparam int TRACK_REACH = 4;
+  localparam int POINT_REACH = 8;
   localparam int RIVAL_REACH = 6;
   localparam logic [23:0] WEIGHTS = 24'o12344431;
 
@@ -98,101 +103,109 @@ module pool2_column #(
   assign held_valid_o = held_valid_q;
   assign held_bin_o = held_bin_q;
 
-  // Track and point, T2: where both timestamps are.
+  // Track: the candidates that the timestamps hit, one timestamp after the other.
 
-  localparam int MOVE_WIDTH = LABELS + 11;  // what T3 needs to know of a timestamp
+  logic [LABELS-1:0] hits, first_hits_q;
+  logic [CELL_WIDTH-1:0] matched;
+
+  assign matched = (visit_t2_i && has_second_q) ? second_q[NP-1-:CELL_WIDTH] : first_q[NP-1-:CELL_WIDTH];
+
+  label_match #(
+      .LABELS       (LABELS),
+      .DARK_LABELS  (LABELS),
+      .BRIGHT_LABELS(LABELS),
+      .WINDOW       (TRACK_REACH)
+  ) u_label_match (
+      .valid_i (has_first_q),
+      .cell_i  (matched),
+      .bright_i(1'b0),
+      .cells_i (cells_i),
+      .hits_o  (hits)
+  );
+
+  // T2: which of two timestamps counts. The preferred one, unless it is outside and the other one is inside.
 
   logic [PIXEL_WIDTH-1:0] pixel;
-  logic [2*NP-1:0] timestamps;
-  logic [1:0] has, is_inside;
-  logic [2*MOVE_WIDTH-1:0] moves;
-  logic [MOVE_WIDTH-1:0] move_q;
-  logic [3:0] gear_q, gear;
-  logic take_second;
+  logic [CELL_WIDTH-1:0] pointer_cell;
+  logic first_hit, second_hit, first_near, second_near, track_second, point_second, use_second;
+  logic [LABELS-1:0] used_hits;
+  logic [NP-1:0] used;
+  logic [15:0] position;
 
   assign pixel = half_i[PIXEL_WIDTH-1:0];
-  assign timestamps = {second_q, first_q};
-  assign has = {has_second_q, has_first_q};
+  assign pointer_cell = pixel[POINTER_WIDTH-1-:CELL_WIDTH];
 
-  genvar i;
+  function automatic logic near(input logic [CELL_WIDTH-1:0] cell_of_timestamp, input logic [CELL_WIDTH-1:0] centre);
+    logic [CELL_WIDTH:0] distance;
+    distance = {1'b0, cell_of_timestamp} - {1'b0, centre} + (CELL_WIDTH + 1)'(POINT_REACH);
+    near = (distance < (CELL_WIDTH + 1)'(2 * POINT_REACH));
+  endfunction
+
+  function automatic logic take_second(input logic odd, input logic first_inside, input logic second_inside);
+    take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
+  endfunction
+
+  assign first_hit = (first_hits_q != '0);
+  assign second_hit = (hits != '0);
+  assign first_near = near(first_q[NP-1-:CELL_WIDTH], pointer_cell);
+  assign second_near = near(second_q[NP-1-:CELL_WIDTH], pointer_cell);
+  assign track_second = take_second(odd_t2_i, first_hit, second_hit);
+  assign point_second = take_second(odd_t2_i, first_near, second_near);
+  assign used_hits = (has_second_q && !track_second) ? first_hits_q : hits;
+  // The leader's offset follows the preferred timestamp.
+  assign use_second = has_second_q && (point_i ? point_second : odd_t2_i);
+  assign used = use_second ? second_q : first_q;
+
   generate
-    for (i = 0; i < 2; i = i + 1) begin : g_timestamp
-      logic [NP-1:0] timestamp;
-      logic [15:0] position;
-      logic [LABELS-1:0] hits;
-      logic offset_up, offset_down, reach, up, hit, rival_hit, rival_up, rival_down;
-      logic [2:0] weight;
-      logic [3:0] own_gear;
-
-      assign timestamp = timestamps[i*NP+:NP];
-      if (NP == 16) begin : g_position
-        assign position = timestamp;
-      end else begin : g_middle_of_bin
-        // The middle of a timestamp's bin; zeros follow.
-        assign position = {timestamp, 1'b1, {(15 - NP) {1'b0}}};
-      end
-
-      label_match #(
-          .LABELS       (LABELS),
-          .DARK_LABELS  (LABELS),
-          .BRIGHT_LABELS(LABELS),
-          .WINDOW       (TRACK_REACH)
-      ) u_label_match (
-          .valid_i (has[i]),
-          .cell_i  (timestamp[NP-1-:CELL_WIDTH]),
-          .bright_i(1'b0),
-          .cells_i (cells_i),
-          .hits_o  (hits)
-      );
-
-      pixel_distance #(
-          .LABELS         (LABELS),
-          .SCORES_WIDTH   (LABELS * SCORE_BITS),
-          .OFFSET_BITS    (OFFSET_BITS),
-          .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
-          .POINTER_SHIFT  (POINTER_SHIFT),
-          .RIVAL_MOVES    (1),
-          .PIXEL_WIDTH    (PIXEL_WIDTH),
-          .RIVAL_REACH    (RIVAL_REACH),
-          .WEIGHTS        (WEIGHTS)
-      ) u_pixel_distance (
-          .valid_i      (has[i]),
-          .position_i   (position),
-          .point_i      (point_i),
-          .late_i       (1'b0),
-          .word_i       (pixel),
-          .cells_i      (cells_i),
-          .hits_i       (hits),
-          .offset_up_o  (offset_up),
-          .offset_down_o(offset_down),
-          .reach_o      (reach),
-          .up_o         (up),
-          .weight_o     (weight),
-          .gear_o       (own_gear),
-          .hit_o        (hit),
-          .rival_hit_o  (rival_hit),
-          .rival_up_o   (rival_up),
-          .rival_down_o (rival_down)
-      );
-
-      assign is_inside[i] = point_i ? reach : (hits != '0);
-      assign moves[i*MOVE_WIDTH+:MOVE_WIDTH] =
-          {hits, offset_up, offset_down, reach, up, weight, hit, rival_hit, rival_up, rival_down};
-      if (i == 0) begin : g_gear
-        assign gear = own_gear;  // the word's
-      end else begin : g_same_gear
-        logic unused_gear;
-        assign unused_gear = ^own_gear;
-      end
+    if (NP == 16) begin : g_position
+      assign position = used;
+    end else begin : g_middle_of_bin
+      // The middle of a timestamp's bin; zeros follow.
+      assign position = {used, 1'b1, {(15 - NP) {1'b0}}};
     end
   endgenerate
 
-  // The preferred one, unless it is outside and the other one is inside.
-  assign take_second = has_second_q && (odd_t2_i ? is_inside[1] || !is_inside[0] : is_inside[1] && !is_inside[0]);
+  // ... and where it is.
+
+  localparam int MOVE_WIDTH = LABELS + 15;  // what T3 needs to know
+  logic offset_up, offset_down, reach, up, hit, rival_hit, rival_up, rival_down;
+  logic [2:0] weight;
+  logic [3:0] gear;
+  logic [MOVE_WIDTH-1:0] move_q;
+
+  pixel_distance #(
+      .LABELS         (LABELS),
+      .SCORES_WIDTH   (LABELS * SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (1),
+      .PIXEL_WIDTH    (PIXEL_WIDTH),
+      .RIVAL_REACH    (RIVAL_REACH),
+      .WEIGHTS        (WEIGHTS)
+  ) u_pixel_distance (
+      .valid_i      (has_first_q),
+      .position_i   (position),
+      .point_i      (point_i),
+      .late_i       (1'b0),
+      .word_i       (pixel),
+      .cells_i      (cells_i),
+      .hits_i       (used_hits),
+      .offset_up_o  (offset_up),
+      .offset_down_o(offset_down),
+      .reach_o      (reach),
+      .up_o         (up),
+      .weight_o     (weight),
+      .gear_o       (gear),
+      .hit_o        (hit),
+      .rival_hit_o  (rival_hit),
+      .rival_up_o   (rival_up),
+      .rival_down_o (rival_down)
+  );
 
   always_ff @(posedge clk_i) begin
-    move_q <= take_second ? moves[2*MOVE_WIDTH-1:MOVE_WIDTH] : moves[MOVE_WIDTH-1:0];
-    gear_q <= gear;
+    first_hits_q <= hits;
+    move_q <= {used_hits, offset_up, offset_down, reach, up, weight, gear, hit, rival_hit, rival_up, rival_down};
   end
 
   // T3: the pixel's next word.
@@ -200,11 +213,12 @@ module pool2_column #(
   logic [LABELS-1:0] hits_t3;
   logic offset_up_t3, offset_down_t3, reach_t3, up_t3, hit_t3, rival_hit_t3, rival_up_t3, rival_down_t3;
   logic [2:0] weight_t3;
+  logic [3:0] gear_t3;
   logic [TRACK_WIDTH-1:0] tracked;
   logic [POINT_WIDTH-1:0] pointed;
   logic [PIXEL_WIDTH-1:0] moved;
 
-  assign {hits_t3, offset_up_t3, offset_down_t3, reach_t3, up_t3, weight_t3, hit_t3, rival_hit_t3, rival_up_t3,
+  assign {hits_t3, offset_up_t3, offset_down_t3, reach_t3, up_t3, weight_t3, gear_t3, hit_t3, rival_hit_t3, rival_up_t3,
           rival_down_t3} = move_q;
 
   pool2_track_update #(
@@ -229,7 +243,7 @@ module pool2_column #(
       .reach_i      (reach_t3),
       .up_i         (up_t3),
       .weight_i     (weight_t3),
-      .gear_i       (gear_q),
+      .gear_i       (gear_t3),
       .hit_i        (hit_t3),
       .rival_hit_i  (rival_hit_t3),
       .rival_up_i   (rival_up_t3),

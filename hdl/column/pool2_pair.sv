@@ -46,6 +46,7 @@ module pool2_pair #(
     input  logic                  first_slot_t1_i,
     input  logic                  first_row_t2_i,
     input  logic                  second_row_t2_i,
+    input  logic                  visit_t2_i,
     input  logic                  update_t3_i,
     input  logic [           3:0] acquisition_t2_i,  // registered here: it reaches all columns
     // coarse
@@ -147,7 +148,7 @@ module pool2_pair #(
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [3:0] acquisition_t3_q;
 
-  assign word_load = engine_i ? read_selected_q : (word_load_i || (load_i && load_q));
+  assign word_load = read_selected_q || word_load_i || (load_i && load_q);
 
   always_ff @(posedge clk_i) begin
     acquisition_t3_q <= acquisition_t2_i;
@@ -188,6 +189,7 @@ module pool2_pair #(
             .odd_t2_i        (acquisition_t2_i[0]),
             .first_row_t2_i  (first_row_t2_i),
             .second_row_t2_i (second_row_t2_i),
+            .visit_t2_i      (visit_t2_i),
             .acquisition_t3_i(acquisition_t3_q),
             .valid_t2_o      (valid_t2[c]),
             .bin_t2_o        (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),

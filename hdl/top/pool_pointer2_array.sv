@@ -4,7 +4,7 @@
 // decides for one after the other.
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
-//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (16, 20). smooth_i, sampled with
+//   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (14, 20). smooth_i, sampled with
 //   start_i, too, switches S1.
 // TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
@@ -125,7 +125,7 @@ module pool_pointer2_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, unused_odd_t1, first_row_t2, second_row_t2, unused_late_t2, update_t3;
+  logic beat_t1, first_slot_t1, unused_odd_t1, first_row_t2, second_row_t2, unused_late_t2, visit_t2, update_t3;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
@@ -152,6 +152,7 @@ module pool_pointer2_array #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (unused_late_t2),
+      .visit_t2_o       (visit_t2),
       .update_t3_o      (update_t3),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
@@ -295,6 +296,7 @@ module pool_pointer2_array #(
             .first_slot_t1_i (first_slot_t1),
             .first_row_t2_i  (first_row_t2),
             .second_row_t2_i (second_row_t2),
+            .visit_t2_i      (visit_t2),
             .update_t3_i     (update_t3),
             .acquisition_t2_i(acquisition_t2),
             .second_column_i (second_column),

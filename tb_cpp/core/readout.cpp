@@ -157,6 +157,9 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (readout == Readout::kPoolPointer2 && parameter == "OFFSET_BITS") {
     return 6;
   }
+  if (readout == Readout::kPoolPointer2 && parameter == "COARSE_SHARE") {
+    return 14;
+  }
   if (readout == Readout::kPoolPointer2 && parameter == "TRACK_SHARE") {
     return 20;
   }

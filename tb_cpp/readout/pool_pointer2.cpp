@@ -121,14 +121,14 @@ void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
   });
   const int score = word.score[static_cast<std::size_t>(word.leader)];
   const int step = score < parameters.offset_gear[0] ? 4 : score < parameters.offset_gear[1] ? 2 : 1;
-  move_offset(word, group, position, step, parameters.offset_bits);
+  move_offset(word, group, event.preferred, step, parameters.offset_bits);
   score_candidate(word, group, position, parameters.track_reach, true);
 }
 
 void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event,
            const PoolPointer2Parameters& parameters) {
   const std::int32_t position =
-      better_of_two(event, [&](std::int32_t x) { return within(in_cells(x - word.pointer), kReachCells); });
+      better_of_two(event, [&](std::int32_t x) { return within(in_cells(x) - in_cells(word.pointer), kReachCells); });
   constexpr std::int32_t kNoLimit = std::numeric_limits<std::int32_t>::max();
   PoolPointerParameters rules;
   rules.count_bits = parameters.count_bits;

@@ -34,7 +34,7 @@ struct PoolPointer2Parameters {
   int count_bits = 7;       ///< n, the leader's advantage
   int pointer_shift = 1;    ///< the leader's pointer has the unit 2^pointer_shift
   int engine_columns = 34;  ///< columns that share an engine; even
-  int coarse_share = 16;    ///< 64ths of the frame: coarse phase
+  int coarse_share = 14;    ///< 64ths of the frame: coarse phase
   int track_share = 20;     ///< 64ths of the frame: track phase
 
   int own_weight = 3;   ///< of a group's own histogram beside its four neighbours

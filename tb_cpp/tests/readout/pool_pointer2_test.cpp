@@ -59,7 +59,7 @@ class Reference {
  public:
   /// What the definition leaves open.
   struct Open {
-    int coarse = 16;  // 64ths
+    int coarse = 14;  // 64ths
     int track = 20;
     bool left_needs_margin = false;
     bool smooth = true;
@@ -227,7 +227,7 @@ class Reference {
     const int x = take(a, times, [&](int time) { return label_of(time) >= 0; });
     auto& score = pixel.score;
     const auto lead = static_cast<std::size_t>(pixel.leader);
-    const int e = cells(x, 512 * g.cell[lead] + 64 * pixel.offset);
+    const int e = cells(preferred(a, times), 512 * g.cell[lead] + 64 * pixel.offset);
     const int step = score[lead] < 3 ? 4 : score[lead] < 8 ? 2 : 1;
     if (e >= 1 && e <= 7) {
       pixel.offset = std::min(31, pixel.offset + step);
@@ -362,7 +362,10 @@ class Reference {
   }
 
   static void point(Pixel& pixel, int a, const std::vector<int>& times) {
-    const auto near = [&](int time) { return time - pixel.pa >= -4096 && time - pixel.pa < 4096; };
+    const auto near = [&](int time) {
+      const int away = time / 512 - pixel.pa / 512;
+      return away >= -8 && away <= 7;
+    };
     const int x = take(a, times, near);
     const int distance = x - pixel.pa;
     const bool hit = distance >= -2560 && distance < 2560;
@@ -720,10 +723,10 @@ TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
           "GROUP_SIZE must be a power of two from 4 to 32, not 3");
   refused([](PoolPointer2Parameters& p) { p.count_width = 8; },
           "8 bins of COUNT_WIDTH must fit the words of two pixels: 8 bits do not");
-  refused([](PoolPointer2Parameters& p) { p.labels = 8; },
+  refused([](PoolPointer2Parameters& p) { p.labels = 8, p.score_bits = 1; },
           "LABELS candidates of a group must fit the words of two pixels: 8 do not");
   refused([](PoolPointer2Parameters& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
-  refused([](PoolPointer2Parameters& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 47, not 60");
+  refused([](PoolPointer2Parameters& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 49, not 60");
 }
 
 }  // namespace
