@@ -33,10 +33,10 @@ module pool2_column #(
     // timestamps
     input  logic                    beat_t1_i,         // a timestamp, or none detected
     input  logic                    first_slot_t1_i,
+    input  logic                    last_slot_t1_i,
     input  logic                    odd_t2_i,          // odd acquisition
     input  logic                    first_row_t2_i,    // coarse: the pair's first pixel is complete
     input  logic                    second_row_t2_i,   // coarse: its second one is
-    input  logic                    visit_t2_i,        // track and point: a pixel is complete
     input  logic [             3:0] acquisition_t3_i,  // mod 16
     // coarse bin of the timestamp that counts: at T2 of the second pixel, and registered
     output logic                    valid_t2_o,
@@ -58,26 +58,20 @@ module pool2_column #(
 
   // The first two timestamps.
 
-  logic [NP-1:0] timestamp_t1_q, first_q, second_q;
-  logic valid_t1, has_first_q, has_second_q;
+  logic [NP-1:0] timestamp_t1_q, first_d, first_q, second_d, second_q;
+  logic valid_t1, has_first_q, has_second_d, has_second_q;
 
   assign valid_t1 = beat_t1_i && !(&timestamp_t1_q);
+  assign first_d = (first_slot_t1_i || !has_first_q) ? timestamp_t1_q : first_q;
+  assign second_d = has_second_q ? second_q : timestamp_t1_q;
+  assign has_second_d = !first_slot_t1_i && (has_second_q || (has_first_q && valid_t1));
 
   always_ff @(posedge clk_i) begin
     timestamp_t1_q <= timestamp_i;
-    if (first_slot_t1_i) begin
-      has_first_q <= valid_t1;
-      has_second_q <= 1'b0;
-    end else if (valid_t1) begin
-      has_first_q <= 1'b1;
-      has_second_q <= has_first_q;
-    end
-    if (first_slot_t1_i || !has_first_q) begin
-      first_q <= timestamp_t1_q;
-    end
-    if (!has_second_q) begin
-      second_q <= timestamp_t1_q;
-    end
+    has_first_q <= valid_t1 || (has_first_q && !first_slot_t1_i);
+    has_second_q <= has_second_d;
+    first_q <= first_d;
+    second_q <= second_d;
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
@@ -106,9 +100,11 @@ module pool2_column #(
   // Track: the candidates that the timestamps hit, one timestamp after the other.
 
   logic [LABELS-1:0] hits, first_hits_q;
-  logic [CELL_WIDTH-1:0] matched;
+  logic [CELL_WIDTH-1:0] matched_q;  // of the first timestamp at T1, of the second one, or the only one, at T2
 
-  assign matched = (visit_t2_i && has_second_q) ? second_q[NP-1-:CELL_WIDTH] : first_q[NP-1-:CELL_WIDTH];
+  always_ff @(posedge clk_i) begin
+    matched_q <= (last_slot_t1_i && has_second_d) ? second_d[NP-1-:CELL_WIDTH] : first_d[NP-1-:CELL_WIDTH];
+  end
 
   label_match #(
       .LABELS       (LABELS),
@@ -117,7 +113,7 @@ module pool2_column #(
       .WINDOW       (TRACK_REACH)
   ) u_label_match (
       .valid_i (has_first_q),
-      .cell_i  (matched),
+      .cell_i  (matched_q),
       .bright_i(1'b0),
       .cells_i (cells_i),
       .hits_o  (hits)

@@ -44,9 +44,9 @@ module pool2_pair #(
     // timestamps
     input  logic                  beat_t1_i,
     input  logic                  first_slot_t1_i,
+    input  logic                  last_slot_t1_i,
     input  logic                  first_row_t2_i,
     input  logic                  second_row_t2_i,
-    input  logic                  visit_t2_i,
     input  logic                  update_t3_i,
     input  logic [           3:0] acquisition_t2_i,  // registered here: it reaches all columns
     // coarse
@@ -186,10 +186,10 @@ module pool2_pair #(
             .point_i         (point_i),
             .beat_t1_i       (beat_t1_i),
             .first_slot_t1_i (first_slot_t1_i),
+            .last_slot_t1_i  (last_slot_t1_i),
             .odd_t2_i        (acquisition_t2_i[0]),
             .first_row_t2_i  (first_row_t2_i),
             .second_row_t2_i (second_row_t2_i),
-            .visit_t2_i      (visit_t2_i),
             .acquisition_t3_i(acquisition_t3_q),
             .valid_t2_o      (valid_t2[c]),
             .bin_t2_o        (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),

@@ -125,7 +125,7 @@ module pool_pointer2_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, unused_odd_t1, first_row_t2, second_row_t2, unused_late_t2, visit_t2, update_t3;
+  logic beat_t1, first_slot_t1, unused_odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t3;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
@@ -148,11 +148,11 @@ module pool_pointer2_array #(
       .idle_o           (stream_idle),
       .beat_t1_o        (beat_t1),
       .first_slot_t1_o  (first_slot_t1),
+      .last_slot_t1_o   (last_slot_t1),
       .odd_t1_o         (unused_odd_t1),
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (unused_late_t2),
-      .visit_t2_o       (visit_t2),
       .update_t3_o      (update_t3),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
@@ -294,9 +294,9 @@ module pool_pointer2_array #(
             .point_i         (point_q),
             .beat_t1_i       (beat_t1),
             .first_slot_t1_i (first_slot_t1),
+            .last_slot_t1_i  (last_slot_t1),
             .first_row_t2_i  (first_row_t2),
             .second_row_t2_i (second_row_t2),
-            .visit_t2_i      (visit_t2),
             .update_t3_i     (update_t3),
             .acquisition_t2_i(acquisition_t2),
             .second_column_i (second_column),

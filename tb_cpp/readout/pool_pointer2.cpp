@@ -127,8 +127,8 @@ void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
 
 void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event,
            const PoolPointer2Parameters& parameters) {
-  const std::int32_t position =
-      better_of_two(event, [&](std::int32_t x) { return within(in_cells(x) - in_cells(word.pointer), kReachCells); });
+  const std::int32_t position = better_of_two(
+      event, [&](std::int32_t x) { return within(in_cells(x) - in_cells(word.pointer), kReachCells); });
   constexpr std::int32_t kNoLimit = std::numeric_limits<std::int32_t>::max();
   PoolPointerParameters rules;
   rules.count_bits = parameters.count_bits;

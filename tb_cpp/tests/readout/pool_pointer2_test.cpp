@@ -362,11 +362,12 @@ class Reference {
   }
 
   static void point(Pixel& pixel, int a, const std::vector<int>& times) {
-    const auto near = [&](int time) {
+    const auto inside = [&](int time) {
       const int away = time / 512 - pixel.pa / 512;
       return away >= -8 && away <= 7;
     };
-    const int x = take(a, times, near);
+    const auto near = [&](int time) { return time - pixel.pa >= -4096 && time - pixel.pa < 4096; };
+    const int x = take(a, times, inside);
     const int distance = x - pixel.pa;
     const bool hit = distance >= -2560 && distance < 2560;
     const int f = x / 512 - pixel.pb;
