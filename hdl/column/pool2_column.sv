@@ -8,13 +8,14 @@
 // The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
 // odd ones if there is one. T1 and later count from the pixel's last slot:
 //   clock   coarse                          track and point (a half of an SRAM word holds two pixels of a column)
-//   T1                                      track: the candidates that the first timestamp hits
-//   T2      of two pixels one is chosen     those that the second one hits, or the only one; which of the two counts;
-//                                           where it is
+//   T1                                      point: which of the two counts; track: the candidates that the first one hits
+//   T2      of two pixels one is chosen     where it is; track: the candidates that the second one hits, or the only one,
+//                                           and which of the two counts
 //   T3                                      the pixel's next word; the pixels of the half change places
 // Cost at the defaults: see reports/area.md.
 module pool2_column #(
     parameter int NP = 10,
+    parameter int SLOTS = 2,
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
@@ -24,7 +25,8 @@ module pool2_column #(
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, 1),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
     localparam int HALF_WIDTH = 2 * PIXEL_WIDTH,
-    localparam int CELLS_WIDTH = LABELS * dtof_pkg::POOL_CELL_WIDTH,
+    localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
+    localparam int CELLS_WIDTH = LABELS * CELL_WIDTH,
     localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS)
 ) (
     input  logic                    clk_i,
@@ -34,7 +36,8 @@ module pool2_column #(
     input  logic                    beat_t1_i,         // a timestamp, or none detected
     input  logic                    first_slot_t1_i,
     input  logic                    last_slot_t1_i,
-    input  logic                    odd_t2_i,          // odd acquisition
+    input  logic                    odd_t1_i,          // odd acquisition
+    input  logic                    odd_t2_i,
     input  logic                    first_row_t2_i,    // coarse: the pair's first pixel is complete
     input  logic                    second_row_t2_i,   // coarse: its second one is
     input  logic [             3:0] acquisition_t3_i,  // mod 16
@@ -45,33 +48,66 @@ module pool2_column #(
     output logic [COARSE_WIDTH-1:0] held_bin_o,
     // the column's half of the word, the pixel in work lowest
     input  logic [ CELLS_WIDTH-1:0] cells_i,           // of the pixel's group
+    input  logic [  CELL_WIDTH-1:0] next_cell_i,       // point: the pointer's, of the pixel in work in the next clock
     input  logic [  HALF_WIDTH-1:0] half_i,
     output logic [  HALF_WIDTH-1:0] updated_o          // after T3
 );
 
-  localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
-  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, 1);
   localparam int TRACK_REACH = 4;
   localparam int POINT_REACH = 8;
   localparam int RIVAL_REACH = 6;
   localparam logic [23:0] WEIGHTS = 24'o12344431;
 
-  // The first two timestamps.
+  // The first two timestamps, complete at T1.
 
-  logic [NP-1:0] timestamp_t1_q, first_d, first_q, second_d, second_q;
-  logic valid_t1, has_first_q, has_second_d, has_second_q;
+  logic [NP-1:0] timestamp_t1_q, first, first_q, second;
+  logic valid_t1, has_first_q, has_second, has_second_q;
 
   assign valid_t1 = beat_t1_i && !(&timestamp_t1_q);
-  assign first_d = (first_slot_t1_i || !has_first_q) ? timestamp_t1_q : first_q;
-  assign second_d = has_second_q ? second_q : timestamp_t1_q;
-  assign has_second_d = !first_slot_t1_i && (has_second_q || (has_first_q && valid_t1));
+  assign first = (first_slot_t1_i || !has_first_q) ? timestamp_t1_q : first_q;
 
   always_ff @(posedge clk_i) begin
     timestamp_t1_q <= timestamp_i;
     has_first_q <= valid_t1 || (has_first_q && !first_slot_t1_i);
-    has_second_q <= has_second_d;
-    first_q <= first_d;
-    second_q <= second_d;
+    has_second_q <= has_second;
+    first_q <= first;
+  end
+
+  generate
+    if (SLOTS == 2) begin : g_two_slots
+      assign second = timestamp_t1_q;
+      assign has_second = !first_slot_t1_i && has_first_q && valid_t1;
+    end else begin : g_more_slots
+      logic [NP-1:0] second_q;
+      assign second = has_second_q ? second_q : timestamp_t1_q;
+      assign has_second = !first_slot_t1_i && (has_second_q || (has_first_q && valid_t1));
+      always_ff @(posedge clk_i) begin
+        second_q <= second;
+      end
+    end
+  endgenerate
+
+  // Which of them counts, at T2: the preferred one, but in the pointer phase the other one if only that is inside.
+
+  function automatic logic near(input logic [CELL_WIDTH-1:0] cell_of_timestamp, input logic [CELL_WIDTH-1:0] centre);
+    logic [CELL_WIDTH:0] distance;
+    distance = {1'b0, cell_of_timestamp} - {1'b0, centre} + (CELL_WIDTH + 1)'(POINT_REACH);
+    near = (distance < (CELL_WIDTH + 1)'(2 * POINT_REACH));
+  endfunction
+
+  function automatic logic take_second(input logic odd, input logic first_inside, input logic second_inside);
+    take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
+  endfunction
+
+  logic first_near, second_near, use_second;
+  logic [NP-1:0] used_q;
+
+  assign first_near = near(first[NP-1-:CELL_WIDTH], next_cell_i);
+  assign second_near = near(second[NP-1-:CELL_WIDTH], next_cell_i);
+  assign use_second = has_second && (point_i ? take_second(odd_t1_i, first_near, second_near) : odd_t1_i);
+
+  always_ff @(posedge clk_i) begin
+    used_q <= use_second ? second : first;
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
@@ -80,7 +116,7 @@ module pool2_column #(
   logic held_valid_q;
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
-  assign bin = (odd_t2_i && has_second_q) ? second_q[NP-1-:COARSE_WIDTH] : first_q[NP-1-:COARSE_WIDTH];
+  assign bin = used_q[NP-1-:COARSE_WIDTH];
   assign valid_t2_o = has_first_q || held_valid_q;
   assign bin_t2_o = (held_valid_q && !(odd_t2_i && has_first_q)) ? held_bin_q : bin;
 
@@ -97,14 +133,12 @@ module pool2_column #(
   assign held_valid_o = held_valid_q;
   assign held_bin_o = held_bin_q;
 
-  // Track: the candidates that the timestamps hit, one timestamp after the other.
+  // Track: the candidates that the timestamps hit, the first one's at T1, at T2 those of the second one or of the only
+  // one. They score as the pointer phase chooses; the leader's offset follows the preferred timestamp.
 
-  logic [LABELS-1:0] hits, first_hits_q;
-  logic [CELL_WIDTH-1:0] matched_q;  // of the first timestamp at T1, of the second one, or the only one, at T2
-
-  always_ff @(posedge clk_i) begin
-    matched_q <= (last_slot_t1_i && has_second_d) ? second_d[NP-1-:CELL_WIDTH] : first_d[NP-1-:CELL_WIDTH];
-  end
+  logic [LABELS-1:0] hits, first_hits_q, used_hits;
+  logic [CELL_WIDTH-1:0] matched_q;
+  logic track_second;
 
   label_match #(
       .LABELS       (LABELS),
@@ -119,49 +153,29 @@ module pool2_column #(
       .hits_o  (hits)
   );
 
-  // T2: which of two timestamps counts. The preferred one, unless it is outside and the other one is inside.
+  assign track_second = take_second(odd_t2_i, first_hits_q != '0, hits != '0);
+  assign used_hits = (has_second_q && !track_second) ? first_hits_q : hits;
+
+  always_ff @(posedge clk_i) begin
+    matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first[NP-1-:CELL_WIDTH];
+    first_hits_q <= hits;
+  end
+
+  // T2: where the timestamp is.
 
   logic [PIXEL_WIDTH-1:0] pixel;
-  logic [CELL_WIDTH-1:0] pointer_cell;
-  logic first_hit, second_hit, first_near, second_near, track_second, point_second, use_second;
-  logic [LABELS-1:0] used_hits;
-  logic [NP-1:0] used;
   logic [15:0] position;
 
   assign pixel = half_i[PIXEL_WIDTH-1:0];
-  assign pointer_cell = pixel[POINTER_WIDTH-1-:CELL_WIDTH];
-
-  function automatic logic near(input logic [CELL_WIDTH-1:0] cell_of_timestamp, input logic [CELL_WIDTH-1:0] centre);
-    logic [CELL_WIDTH:0] distance;
-    distance = {1'b0, cell_of_timestamp} - {1'b0, centre} + (CELL_WIDTH + 1)'(POINT_REACH);
-    near = (distance < (CELL_WIDTH + 1)'(2 * POINT_REACH));
-  endfunction
-
-  function automatic logic take_second(input logic odd, input logic first_inside, input logic second_inside);
-    take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
-  endfunction
-
-  assign first_hit = (first_hits_q != '0);
-  assign second_hit = (hits != '0);
-  assign first_near = near(first_q[NP-1-:CELL_WIDTH], pointer_cell);
-  assign second_near = near(second_q[NP-1-:CELL_WIDTH], pointer_cell);
-  assign track_second = take_second(odd_t2_i, first_hit, second_hit);
-  assign point_second = take_second(odd_t2_i, first_near, second_near);
-  assign used_hits = (has_second_q && !track_second) ? first_hits_q : hits;
-  // The leader's offset follows the preferred timestamp.
-  assign use_second = has_second_q && (point_i ? point_second : odd_t2_i);
-  assign used = use_second ? second_q : first_q;
 
   generate
     if (NP == 16) begin : g_position
-      assign position = used;
+      assign position = used_q;
     end else begin : g_middle_of_bin
       // The middle of a timestamp's bin; zeros follow.
-      assign position = {used, 1'b1, {(15 - NP) {1'b0}}};
+      assign position = {used_q, 1'b1, {(15 - NP) {1'b0}}};
     end
   endgenerate
-
-  // ... and where it is.
 
   localparam int MOVE_WIDTH = LABELS + 15;  // what T3 needs to know
   logic offset_up, offset_down, reach, up, hit, rival_hit, rival_up, rival_down;
@@ -200,7 +214,6 @@ module pool2_column #(
   );
 
   always_ff @(posedge clk_i) begin
-    first_hits_q <= hits;
     move_q <= {used_hits, offset_up, offset_down, reach, up, weight, gear, hit, rival_hit, rival_up, rival_down};
   end
 

@@ -19,6 +19,7 @@ module pool2_pair #(
     parameter int COLUMNS = 2,  // 1 for the last one of an odd number
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
+    parameter int SLOTS = 2,
     parameter int COUNT_WIDTH = 7,
     parameter int GROUP_SIZE = 4,
     parameter int LABELS = 5,
@@ -45,6 +46,7 @@ module pool2_pair #(
     input  logic                  beat_t1_i,
     input  logic                  first_slot_t1_i,
     input  logic                  last_slot_t1_i,
+    input  logic                  odd_t1_i,
     input  logic                  first_row_t2_i,
     input  logic                  second_row_t2_i,
     input  logic                  update_t3_i,
@@ -74,9 +76,11 @@ module pool2_pair #(
   localparam int OCTET = dtof_pkg::POOL2_BINS_PER_LINE;
   localparam int PLACE_WIDTH = $clog2(2 * OCTET);  // of a bin in a word
   localparam int LAST = COLUMNS - 1;
-  localparam int CELLS_WIDTH = LABELS * dtof_pkg::POOL_CELL_WIDTH;
+  localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
+  localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, 1);
 
-  logic [WORD_WIDTH-1:0] read_data, write_data, word_q, updated, counted;
+  logic [WORD_WIDTH-1:0] read_data, write_data, word_q, next_word, updated, counted;
   logic [COLUMNS-1:0] valid_t2, held_valid;
   logic [COLUMNS*COARSE_WIDTH-1:0] bin_t2, held_bin;
   logic read, write, word_load;
@@ -148,11 +152,12 @@ module pool2_pair #(
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [3:0] acquisition_t3_q;
 
+  assign next_word = word_load ? read_data : (update_t3_i ? updated : counted);
   assign word_load = read_selected_q || word_load_i || (load_i && load_q);
 
   always_ff @(posedge clk_i) begin
     acquisition_t3_q <= acquisition_t2_i;
-    word_q <= word_load ? read_data : (update_t3_i ? updated : counted);
+    word_q <= next_word;
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data[HALF_WIDTH+:CELLS_WIDTH] : read_data[CELLS_WIDTH-1:0];
     end
@@ -176,6 +181,7 @@ module pool2_pair #(
       if (c < COLUMNS) begin : g_column
         pool2_column #(
             .NP           (NP),
+            .SLOTS        (SLOTS),
             .LABELS       (LABELS),
             .SCORE_BITS   (SCORE_BITS),
             .OFFSET_BITS  (OFFSET_BITS),
@@ -187,6 +193,7 @@ module pool2_pair #(
             .beat_t1_i       (beat_t1_i),
             .first_slot_t1_i (first_slot_t1_i),
             .last_slot_t1_i  (last_slot_t1_i),
+            .odd_t1_i        (odd_t1_i),
             .odd_t2_i        (acquisition_t2_i[0]),
             .first_row_t2_i  (first_row_t2_i),
             .second_row_t2_i (second_row_t2_i),
@@ -196,6 +203,7 @@ module pool2_pair #(
             .held_valid_o    (held_valid[c]),
             .held_bin_o      (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH]),
             .cells_i         (cells_q),
+            .next_cell_i     (next_word[c*HALF_WIDTH+POINTER_WIDTH-CELL_WIDTH+:CELL_WIDTH]),
             .half_i          (half),
             .updated_o       (updated[c*HALF_WIDTH+:HALF_WIDTH])
         );

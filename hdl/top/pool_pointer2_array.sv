@@ -125,7 +125,7 @@ module pool_pointer2_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, unused_odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t3;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t3;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
@@ -149,7 +149,7 @@ module pool_pointer2_array #(
       .beat_t1_o        (beat_t1),
       .first_slot_t1_o  (first_slot_t1),
       .last_slot_t1_o   (last_slot_t1),
-      .odd_t1_o         (unused_odd_t1),
+      .odd_t1_o         (odd_t1),
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (unused_late_t2),
@@ -280,6 +280,7 @@ module pool_pointer2_array #(
             .COLUMNS        (PAIR_COLUMNS),
             .NP             (NP),
             .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+            .SLOTS          (SLOTS),
             .COUNT_WIDTH    (COUNT_WIDTH),
             .GROUP_SIZE     (GROUP_SIZE),
             .LABELS         (LABELS),
@@ -295,6 +296,7 @@ module pool_pointer2_array #(
             .beat_t1_i       (beat_t1),
             .first_slot_t1_i (first_slot_t1),
             .last_slot_t1_i  (last_slot_t1),
+            .odd_t1_i        (odd_t1),
             .first_row_t2_i  (first_row_t2),
             .second_row_t2_i (second_row_t2),
             .update_t3_i     (update_t3),
