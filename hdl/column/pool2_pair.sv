@@ -49,7 +49,7 @@ module pool2_pair #(
     input  logic                  odd_t1_i,
     input  logic                  first_row_t2_i,
     input  logic                  second_row_t2_i,
-    input  logic                  update_t3_i,
+    input  logic                  update_t2_i,       // a clock before the words change; registered here
     input  logic [           3:0] acquisition_t2_i,  // registered here: it reaches all columns
     // coarse
     input  logic                  second_column_i,   // with read_i: it is the second column's turn
@@ -60,7 +60,7 @@ module pool2_pair #(
     input  logic                  read_i,
     input  logic                  write_i,
     input  logic [ADDR_WIDTH-1:0] address_i,
-    input  logic                  word_load_i,       // the word read last clock
+    input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
     input  logic                  group_load_i,      // the group read last clock
     input  logic                  group_upper_i,     // with group_load_i: it is the word's upper half
     // engine
@@ -80,7 +80,7 @@ module pool2_pair #(
   localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, 1);
 
-  logic [WORD_WIDTH-1:0] read_data, write_data, word_q, next_word, updated, counted;
+  logic [WORD_WIDTH-1:0] read_data, write_data, word_q, next_word, next_pixels, updated, counted;
   logic [COLUMNS-1:0] valid_t2, held_valid;
   logic [COLUMNS*COARSE_WIDTH-1:0] bin_t2, held_bin;
   logic read, write, word_load;
@@ -148,16 +148,20 @@ module pool2_pair #(
 
   // The word in work, and the group of its pixels.
 
-  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q;
+  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, word_load_q, update_q;
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [3:0] acquisition_t3_q;
 
-  assign next_word = word_load ? read_data : (update_t3_i ? updated : counted);
-  assign word_load = read_selected_q || word_load_i || (load_i && load_q);
+  assign next_word = word_load ? read_data : (update_q ? updated : counted);
+  assign word_load = read_selected_q || word_load_q || (load_i && load_q);
+  // In the pointer phase, where nothing is counted.
+  assign next_pixels = word_load_q ? read_data : (update_q ? updated : word_q);
 
   always_ff @(posedge clk_i) begin
     acquisition_t3_q <= acquisition_t2_i;
     word_q <= next_word;
+    word_load_q <= word_load_d_i;
+    update_q <= update_t2_i;
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data[HALF_WIDTH+:CELLS_WIDTH] : read_data[CELLS_WIDTH-1:0];
     end
@@ -203,7 +207,7 @@ module pool2_pair #(
             .held_valid_o    (held_valid[c]),
             .held_bin_o      (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH]),
             .cells_i         (cells_q),
-            .next_cell_i     (next_word[c*HALF_WIDTH+POINTER_WIDTH-CELL_WIDTH+:CELL_WIDTH]),
+            .next_cell_i     (next_pixels[c*HALF_WIDTH+POINTER_WIDTH-CELL_WIDTH+:CELL_WIDTH]),
             .half_i          (half),
             .updated_o       (updated[c*HALF_WIDTH+:HALF_WIDTH])
         );
@@ -225,6 +229,6 @@ module pool2_pair #(
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(line) : '0);
 
   logic unused;
-  assign unused = ^{1'b0, valid_t2, held_valid, bin_t2, held_bin, GROUP_WIDTH'(0)};
+  assign unused = ^{1'b0, next_pixels, valid_t2, held_valid, bin_t2, held_bin, GROUP_WIDTH'(0)};
 
 endmodule

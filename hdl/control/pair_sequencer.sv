@@ -46,6 +46,7 @@ module pair_sequencer #(
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
     output logic                  second_row_t2_o,   // coarse: its second one is
     output logic                  late_t2_o,
+    output logic                  update_t2_o,       // a clock before update_t3_o, for who registers it
     output logic                  update_t3_o,
     output logic [           3:0] acquisition_t2_o,
     // coarse, both columns' turns
@@ -212,6 +213,7 @@ module pair_sequencer #(
   assign first_slot_t1_o = first_slot_t1_q;
   assign last_slot_t1_o = last_step_t1;
   assign odd_t1_o = acquisition_t1_q[0];
+  assign update_t2_o = visit_t2_q;
   assign update_t3_o = update_t3_q;
   assign acquisition_t2_o = acquisition_t2_q;
   assign second_row_t2_o = fetch_tn_q[2];

@@ -106,6 +106,7 @@ module pool_control_properties #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (late_t2),
+      .update_t2_o      (),
       .update_t3_o      (update_t3),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),

@@ -125,7 +125,7 @@ module pool_pointer2_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t3;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t2, unused_update_t3;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
@@ -153,7 +153,8 @@ module pool_pointer2_array #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (unused_late_t2),
-      .update_t3_o      (update_t3),
+      .update_t2_o      (update_t2),
+      .update_t3_o      (unused_update_t3),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
       .fresh_o          (fresh),
@@ -213,7 +214,7 @@ module pool_pointer2_array #(
 
   // What every pair gets, registered to spread it.
 
-  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, word_load_q, group_load_q, group_upper_q;
+  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, group_load_q, group_upper_q;
   logic [ADDR_WIDTH-1:0] address_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -232,7 +233,6 @@ module pool_pointer2_array #(
     engine_q <= !stream;
     clear_q <= clear;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
-    word_load_q <= stream_word_load;
     group_load_q <= group_load;
     group_upper_q <= group_place;
   end
@@ -299,7 +299,7 @@ module pool_pointer2_array #(
             .odd_t1_i        (odd_t1),
             .first_row_t2_i  (first_row_t2),
             .second_row_t2_i (second_row_t2),
-            .update_t3_i     (update_t3),
+            .update_t2_i     (update_t2),
             .acquisition_t2_i(acquisition_t2),
             .second_column_i (second_column),
             .fresh_i         (fresh),
@@ -308,7 +308,7 @@ module pool_pointer2_array #(
             .read_i          (read_q),
             .write_i         (write_q),
             .address_i       (address_q),
-            .word_load_i     (word_load_q),
+            .word_load_d_i   (stream_word_load),
             .group_load_i    (group_load_q),
             .group_upper_i   (group_upper_q),
             .engine_i        (engine_q),

@@ -144,7 +144,7 @@ module pool_pointer_array #(
   logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t3;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
   logic [3:0] acquisition_t2;
-  logic unused_group_place, unused_last_slot_t1;
+  logic unused_group_place, unused_last_slot_t1, unused_update_t2;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -169,6 +169,7 @@ module pool_pointer_array #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (late_t2),
+      .update_t2_o      (unused_update_t2),
       .update_t3_o      (update_t3),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
