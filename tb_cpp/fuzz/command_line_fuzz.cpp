@@ -26,6 +26,7 @@ void read(const std::uint8_t* data, std::size_t size) {
     }
   }
   std::vector<const char*> pointers;
+  pointers.reserve(arguments.size());
   for (const std::string& argument : arguments) {
     pointers.push_back(argument.c_str());
   }

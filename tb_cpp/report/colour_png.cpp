@@ -460,6 +460,7 @@ void write_map_picture(const std::filesystem::path& path, std::span<const MapPan
     y += kFontSize * 1.3;
   }
   std::vector<MapKind> kinds;
+  kinds.reserve(scales.size());
   for (const Scale& scale : scales) {
     kinds.push_back(scale.kind);
   }

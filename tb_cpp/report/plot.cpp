@@ -20,9 +20,9 @@
 namespace dtof {
 namespace {
 
-constexpr PlotStyle kStyles[] = {
+constexpr auto kStyles = std::to_array<PlotStyle>({
 #include "plot_styles.inc"
-};
+});
 
 /// For series that are no read-out's, e.g. photon models: by their place in the picture.
 constexpr std::array<std::string_view, 8> kOtherColours = {"#4c72b0", "#dd8452", "#55a868", "#c44e52",
