@@ -60,7 +60,7 @@ module pool2_column #(
 
   // The first two timestamps, complete at T1.
 
-  logic [NP-1:0] timestamp_t1_q, first, first_q, second;
+  logic [NP-1:0] timestamp_t1_q, first, first_q, second, second_q;
   logic valid_t1, has_first_q, has_second, has_second_q;
 
   assign valid_t1 = beat_t1_i && !(&timestamp_t1_q);
@@ -71,6 +71,7 @@ module pool2_column #(
     has_first_q <= valid_t1 || (has_first_q && !first_slot_t1_i);
     has_second_q <= has_second;
     first_q <= first;
+    second_q <= second;
   end
 
   generate
@@ -78,12 +79,8 @@ module pool2_column #(
       assign second = timestamp_t1_q;
       assign has_second = !first_slot_t1_i && has_first_q && valid_t1;
     end else begin : g_more_slots
-      logic [NP-1:0] second_q;
       assign second = has_second_q ? second_q : timestamp_t1_q;
       assign has_second = !first_slot_t1_i && (has_second_q || (has_first_q && valid_t1));
-      always_ff @(posedge clk_i) begin
-        second_q <= second;
-      end
     end
   endgenerate
 
@@ -99,15 +96,15 @@ module pool2_column #(
     take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
   endfunction
 
-  logic first_near, second_near, use_second;
-  logic [NP-1:0] used_q;
+  logic first_near, second_near, use_second_q;
+  logic [NP-1:0] used;
 
   assign first_near = near(first[NP-1-:CELL_WIDTH], next_cell_i);
   assign second_near = near(second[NP-1-:CELL_WIDTH], next_cell_i);
-  assign use_second = has_second && (point_i ? take_second(odd_t1_i, first_near, second_near) : odd_t1_i);
+  assign used = use_second_q ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
-    used_q <= use_second ? second : first;
+    use_second_q <= has_second && (point_i ? take_second(odd_t1_i, first_near, second_near) : odd_t1_i);
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
@@ -116,7 +113,7 @@ module pool2_column #(
   logic held_valid_q;
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
-  assign bin = used_q[NP-1-:COARSE_WIDTH];
+  assign bin = used[NP-1-:COARSE_WIDTH];
   assign valid_t2_o = has_first_q || held_valid_q;
   assign bin_t2_o = (held_valid_q && !(odd_t2_i && has_first_q)) ? held_bin_q : bin;
 
@@ -170,10 +167,10 @@ module pool2_column #(
 
   generate
     if (NP == 16) begin : g_position
-      assign position = used_q;
+      assign position = used;
     end else begin : g_middle_of_bin
       // The middle of a timestamp's bin; zeros follow.
-      assign position = {used_q, 1'b1, {(15 - NP) {1'b0}}};
+      assign position = {used, 1'b1, {(15 - NP) {1'b0}}};
     end
   endgenerate
 
