@@ -44,7 +44,7 @@ class Descriptions(unittest.TestCase):
         self.assertIn("column/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
                       generate.model_table(table))
-        self.assertIn("partitioned_histogram pool_pointer first_photon)", generate.cmake(table))
+        self.assertIn("partitioned_histogram pool_pointer first_photon pool_pointer2)", generate.cmake(table))
         self.assertIn("kFirstPhoton = 10,", generate.cpp_header(table))
         self.assertIn('"first photon"', generate.cpp_source(table))
         self.assertIn("set(DTOF_NUMBER_firstphoton 8)", generate.cmake(table))

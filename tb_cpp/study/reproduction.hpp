@@ -62,7 +62,7 @@ struct Reproduction {
   int light_frames = 0;
   std::vector<AccuracyStudy> convergence;  ///< ezPointer and hisPointer every 0.25 m, at 14 and 50 klux
   struct Pulses {
-    std::uint32_t acquisitions;
+    std::uint32_t acquisitions = 0;
     AccuracyStudy study;
   };
   std::vector<Pulses> pulses;  ///< ezPointer, 14 klux
