@@ -8,8 +8,8 @@
 // The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
 // odd ones if there is one. T1 and later count from the pixel's last slot:
 //   clock   coarse                          track and point (a half of an SRAM word holds two pixels of a column)
-//   T1                                      point: which of the two counts; track: the candidates that the first one hits
-//   T2      of two pixels one is chosen     where it is; track: the candidates that the second one hits, or the only one,
+//   T1                                      point: which are inside; track: the candidates that the first one hits
+//   T2      of two pixels one is chosen     which one counts, where it is; track: the candidates that the second one hits, or the only one,
 //                                           and which of the two counts
 //   T3                                      the pixel's next word; the pixels of the half change places
 // Cost at the defaults: see reports/area.md.
@@ -96,15 +96,18 @@ module pool2_column #(
     take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
   endfunction
 
-  logic first_near, second_near, use_second_q;
+  logic first_near, second_near, first_inside_q, second_inside_q, odd_q, use_second;
   logic [NP-1:0] used;
 
   assign first_near = near(first[NP-1-:CELL_WIDTH], next_cell_i);
   assign second_near = near(second[NP-1-:CELL_WIDTH], next_cell_i);
-  assign used = use_second_q ? second_q : first_q;
+  assign use_second = has_second_q && take_second(odd_q, first_inside_q, second_inside_q);
+  assign used = use_second ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
-    use_second_q <= has_second && (point_i ? take_second(odd_t1_i, first_near, second_near) : odd_t1_i);
+    odd_q <= odd_t1_i;
+    first_inside_q <= first_near;
+    second_inside_q <= point_i ? second_near : odd_t1_i;  // in the other phases the preferred one counts
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
@@ -150,7 +153,7 @@ module pool2_column #(
       .hits_o  (hits)
   );
 
-  assign track_second = take_second(odd_t2_i, first_hits_q != '0, hits != '0);
+  assign track_second = take_second(odd_q, first_hits_q != '0, hits != '0);
   assign used_hits = (has_second_q && !track_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin
