@@ -9,8 +9,8 @@
 // odd ones if there is one. T1 and later count from the pixel's last slot:
 //   clock   coarse                          track and point (a half of an SRAM word holds two pixels of a column)
 //   T1                                      point: which are inside; track: the candidates that the first one hits
-//   T2      of two pixels one is chosen     which one counts, where it is; track: the candidates that the second one hits, or the only one,
-//                                           and which of the two counts
+//   T2      of two pixels one is chosen     which one counts, and where it is; track: the candidates that the second one
+//                                           hits, or the only one, and which of the two scores
 //   T3                                      the pixel's next word; the pixels of the half change places
 // Cost at the defaults: see reports/area.md.
 module pool2_column #(
