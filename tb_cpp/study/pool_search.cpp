@@ -32,7 +32,8 @@ StudyScene middle(const StudyScene& scene, int columns, SceneTruth& truth) {
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       part.targets.at(column, row) = scene.targets.at(first + column, row);
-      const auto i = static_cast<std::size_t>(row * width + first + column);
+      const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(first + column);
       truth.distance_m.push_back(whole.distance_m[i]);
       truth.edge.push_back(whole.edge[i]);
       truth.single.push_back(whole.single[i]);

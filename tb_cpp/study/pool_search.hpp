@@ -15,7 +15,7 @@ namespace dtof {
 /// A frame that designs of poolPointer 2 are tried on: one engine's columns of a scene at one light.
 struct TrainingFrame {
   std::string scene;
-  double klux;
+  double klux = 0.0;
   SceneTruth truth;
   PoolFrame photons;
 };

@@ -138,6 +138,7 @@ constexpr std::size_t kReferences = 4;  // estimators that are no design
 
 std::vector<std::string> pool_design_names() {
   std::vector<std::string> names;
+  names.reserve(kNumbers.size());
   for (const Number& number : kNumbers) {
     names.emplace_back(number.name);
   }

@@ -27,7 +27,7 @@ PoolPointer2Parameters with_pool_design_number(PoolPointer2Parameters design, co
 
 /// Events of a whole map's columns, engine by engine, from left to right.
 struct PoolFrame {
-  std::uint32_t acquisitions;
+  std::uint32_t acquisitions = 0;
   std::vector<std::vector<PoolColumn>> engines;
 };
 PoolFrame draw_pool_frame(const SensorModel& sensor, const TargetMap& targets, double klux,

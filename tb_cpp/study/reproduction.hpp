@@ -53,8 +53,8 @@ struct Reproduction {
   std::vector<Changed<ThesisStudies>> assumptions;  ///< the first is the preset
   std::vector<Changed<AccuracyStudy>> steps;        ///< ezPointer near, 14 klux; the first is the thesis's
   struct Rates {
-    double signal;      ///< events at 1 m
-    double background;  ///< events at 14 klux
+    double signal = 0.0;      ///< events at 1 m
+    double background = 0.0;  ///< events at 14 klux
     ThesisStudies studies;
   };
   std::vector<Rates> rates;

@@ -49,8 +49,8 @@ inline constexpr std::array kDropped = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5};
 
 /// Truth of the pixels read, in the order of SceneMeasurement.
 struct SceneTruth {
-  int columns;
-  int rows;
+  int columns = 0;
+  int rows = 0;
   std::vector<double> distance_m;  ///< 0: no target, not judged
   std::vector<bool> edge;          ///< differs by more than 10 % from a neighbour (left, right, above, below)
   std::vector<bool> single;        ///< from every one of them

@@ -197,7 +197,8 @@ FilteredCounts filtered_counts(const FigureScene& scene, int guard) {
   std::vector<double> kept_shares;
   for (std::size_t frame = 0; frame < full.size(); ++frame) {
     const CoarsePeak peak = coarse_peak(coarse[frame], sensor.np, pointer.nb);
-    const auto middle = static_cast<double>(peak.index * peak.width + peak.width / 2);
+    const std::size_t middle_code = peak.index * peak.width + peak.width / 2;
+    const auto middle = static_cast<double>(middle_code);
     double of_pulse = 0.0;
     double kept = 0.0;
     for (std::size_t bin = 0; bin < full[frame].size(); ++bin) {

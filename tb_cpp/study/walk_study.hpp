@@ -37,12 +37,12 @@ struct WalkErrors {
 
 /// One read-out at one reflectivity and distance.
 struct WalkPoint {
-  double reflectivity;
-  double distance_m;
-  double found;       ///< share of pixels
-  bool judged;        ///< at least half of each column's pixels found the target
-  WalkErrors before;  ///< table at the sensor's default reflectivity (FlatCalibration)
-  WalkErrors after;   ///< WalkCorrection by the result's confidence
+  double reflectivity = 0.0;
+  double distance_m = 0.0;
+  double found = 0.0;   ///< share of pixels
+  bool judged = false;  ///< at least half of each column's pixels found the target
+  WalkErrors before;    ///< table at the sensor's default reflectivity (FlatCalibration)
+  WalkErrors after;     ///< WalkCorrection by the result's confidence
 };
 
 struct WalkReadout {

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "command_line/option_checks.hpp"
+#include "command_line/options.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
 #include "sensor/preset.hpp"

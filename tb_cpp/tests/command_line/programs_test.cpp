@@ -616,8 +616,9 @@ TEST_F(Programs, MeasuredAgainstATruthMap) {
   }
   const std::string measured = fmt::format("measured '{}' -r sifh -a 500 --photons 300 ", log.string());
   // The log's 26 frames of 16 zones; the lower half of each is unknown.
-  std::vector<float> truth(26 * 16, 1.5F);
-  std::fill(truth.begin() + 26 * 8, truth.end(), 0.0F);
+  constexpr std::size_t kHalf = 208;
+  std::vector<float> truth(2 * kHalf, 1.5F);
+  std::fill(truth.begin() + kHalf, truth.end(), 0.0F);
   write_pfm(path("truth.pfm"), {.width = 26, .height = 16, .metres = truth});
   const Outcome outcome = dtof(measured + "--truth truth.pfm --out measured");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
