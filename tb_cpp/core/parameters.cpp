@@ -99,7 +99,7 @@ void PoolPointerParameters::validate() const {
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
 }
 
-void PoolPointerParameters::validate_two(int count_width) const {
+void PoolPointerParameters::validate_pool_pointer2(int count_width) const {
   require(group_size >= 4 && group_size <= 32 && std::has_single_bit(static_cast<unsigned>(group_size)),
           "GROUP_SIZE must be a power of two from 4 to 32", group_size);
   require_range("LABELS", dark_labels, 2, 8);
@@ -169,7 +169,7 @@ void ReadoutParameters::validate() const {
     require_range("COUNT_WIDTH", count_width, 4, 8);
     require(fraction_bits == kPoolPositionBits - np, "FRACTION_BITS must be 16 - NP", fraction_bits);
     if (readout == Readout::kPoolPointer2) {
-      pool.validate_two(count_width);
+      pool.validate_pool_pointer2(count_width);
       return;
     }
     pool.validate();

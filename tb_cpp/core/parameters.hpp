@@ -42,7 +42,7 @@ struct PoolPointerParameters {
   /// Throws InputError.
   void validate() const;
   /// The same for poolPointer 2, which has no labels of its own for bright groups.
-  void validate_two(int count_width) const;
+  void validate_pool_pointer2(int count_width) const;
   /// Bits of a pixel word.
   [[nodiscard]] int word_bits() const;
   /// Whether a group's coarse histogram fits the words of its pixels, bins in powers of two, at least 4.
