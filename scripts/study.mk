@@ -2,11 +2,12 @@
 # make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
 # make pool       poolPointer 2 with and without S1 beside poolPointer and the matched filters, four seeds (half an hour)
 # make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
+# make rivals  the project's read-outs beside those that others have proposed, two seeds (an hour): build/rivals
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: scenes pool pool-search pareto trade real-data walk-error
+.PHONY: scenes pool pool-search rivals pareto trade real-data walk-error
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -44,6 +45,14 @@ pool: study
 
 pool-search: study
 	@$(DTOF_STUDY) pool-search $(POOL_TRAINING_MAP) --vary $(POOL_NUMBERS) --seeds 2 --rounds 2 --out build/pool_search
+
+rivals: study
+	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
+	  scripts/rivals.py $(DTOF_STUDY) --held-out $(SCENE_MAPS) --pooled --seeds 2 --seed $(SEED) --out build/rivals; \
+	else \
+	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/rivals_synthetic"; \
+	  scripts/rivals.py $(DTOF_STUDY) --held-out --pooled --seeds 2 --seed $(SEED) --out build/rivals_synthetic; \
+	fi
 
 pareto:
 	@/usr/bin/python3 scripts/pareto.py

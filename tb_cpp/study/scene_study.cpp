@@ -32,11 +32,6 @@ constexpr double kOutlier = 0.10;
 constexpr double kEdge = 0.10;
 constexpr std::uint32_t kSceneFrame = scene_frame(0);
 
-int picked_column(const StudyScene& scene, int index) {
-  return static_cast<int>((2 * std::int64_t{index} + 1) * scene.targets.columns() /
-                          (2 * std::int64_t{scene.columns}));
-}
-
 ErrorShares shares(const ErrorStatistics& statistics, double mean_square) {
   if (statistics.count() == 0) {
     return {};
@@ -86,6 +81,11 @@ std::vector<double> removed_outliers(std::vector<Judged> pixels) {
 }
 
 }  // namespace
+
+int picked_column(const StudyScene& scene, int index) {
+  return static_cast<int>((2 * std::int64_t{index} + 1) * scene.targets.columns() /
+                          (2 * std::int64_t{scene.columns}));
+}
 
 SceneTruth scene_truth(const StudyScene& scene) {
   SceneTruth truth{

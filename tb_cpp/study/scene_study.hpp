@@ -23,6 +23,9 @@ struct StudyScene {
   int columns;  ///< read out, evenly spread over the map
 };
 
+/// Column of the map that is the `index`-th read.
+int picked_column(const StudyScene& scene, int index);
+
 /// What one estimator made of a scene.
 struct SceneMeasurement {
   std::vector<double> distance_m;  ///< index = row * columns + column read

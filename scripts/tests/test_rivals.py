@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The picture of read-outs and rivals shows what the table says."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import rivals
+
+HEADER = "klux,scene,estimator,kind,bits_per_pixel,pixels,above_3_percent,above_3_percent_low,above_3_percent_high"
+ROWS = ("50,all,hisPointer,read-out,339,100,0.2,0.1,0.3", "50,all,32-bin histogram,rival,256,100,0.1,0.05,0.2",
+        "50,all,matched filter (single pixel),reference,,100,0.0,0.0,0.01", "50,room,hisPointer,read-out,339,100,0.9,0.9,0.9",
+        "14,all,hisPointer,read-out,339,100,0.01,0,0.02")
+
+
+class Picture(unittest.TestCase):
+    def setUp(self) -> None:
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = Path(self.folder.name) / "rivals.csv"
+        self.path.write_text("\n".join((HEADER, *ROWS)) + "\n", encoding="utf-8")
+
+    def tearDown(self) -> None:
+        self.folder.cleanup()
+
+    def test_points_are_of_all_scenes_together(self) -> None:
+        lights = rivals.points_of(self.path)
+        self.assertEqual(list(lights), ["50", "14"])
+        self.assertEqual([(p.title, p.bits, p.percent) for p in lights["50"]],
+                         [("hisPointer", 339, 20), ("32-bin histogram", 256, 10), ("matched filter (single pixel)", None, 0)])
+
+    def test_front_has_what_nothing_smaller_beats(self) -> None:
+        point = lambda title, bits, percent: rivals.Point(title, "rival", bits, percent, percent, percent)  # noqa: E731
+        points = [point("d", None, 0.1), point("c", 300, 2), point("b", 200, 1), point("a", 100, 3), point("a2", 100, 4)]
+        self.assertEqual([p.title for p in rivals.front(points)], ["a", "b"])
+
+    def test_every_point_is_numbered_and_named(self) -> None:
+        text = rivals.script("50", rivals.points_of(self.path)["50"], Path("out.svg"))
+        self.assertIn("set label '{/:Bold 1}  32-bin histogram, 256'", text)
+        self.assertIn("set label '2  hisPointer, 339'", text)
+        self.assertIn("'matched filter (single pixel)' at graph", text)
+        self.assertIn(f"first {rivals.LEAST_PERCENT} to graph 1", text)
+
+    def test_bits_are_those_of_the_readouts_own_configurations(self) -> None:
+        area = Path(self.folder.name) / "area.csv"
+        area.write_text("configuration,readout,bits_per_pixel\nhispointer,hispointer,339\nhispointer_wide,hispointer,400\n"
+                        "poolpointer_lean,poolpointer-lean,19\n", encoding="utf-8")
+        self.assertEqual(rivals.known_bits(area), {"hispointer": "339", "poolpointer-lean": "19"})
+        self.assertEqual(rivals.known_bits(area.with_name("none.csv")), {})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/detection.hpp"
+#include "host/range_converter.hpp"
+#include "photon/sensor_model.hpp"
+
+namespace dtof {
+
+/// A pixel's memory at the end of a frame, as it leaves the chip: counters or positions, on the rival's own
+/// scale.
+using RivalWords = std::vector<std::int32_t>;
+
+/// Detections of one pixel, frame by frame, the oldest first.
+using PixelFrames = std::span<const std::span<const Detection>>;
+
+/// A read-out that others have proposed, as an architect could choose it instead of the project's: what the
+/// pixel's memory does, bit for bit, and apart from it what the host makes of the words. It has no RTL, and
+/// its bits are those that the pixel keeps; what all pixels share (code tables, dividers, schedules) is not
+/// counted. Instances hold no state of a frame: all functions are thread-safe.
+class Rival {
+ public:
+  Rival() = default;
+  Rival(const Rival&) = delete;
+  Rival& operator=(const Rival&) = delete;
+  Rival(Rival&&) = delete;
+  Rival& operator=(Rival&&) = delete;
+  virtual ~Rival() = default;
+
+  /// Bits of memory that a pixel keeps.
+  [[nodiscard]] virtual int bits_per_pixel() const = 0;
+  /// Frames that one result needs; those before the last one saw the same scene.
+  [[nodiscard]] virtual int frames() const { return 1; }
+
+  /// On the chip, integers only. `frames` has frames() of them; the no-detection code is dropped. Throws
+  /// InputError for a timestamp beyond 2^NP - 1 or an acquisition beyond the frame.
+  [[nodiscard]] virtual RivalWords read_pixel(PixelFrames frames) const = 0;
+
+  /// On the host: where the words put the pulse, on the code axis in bins (metrics/depth.hpp), and how sure
+  /// that is, on the rival's own scale. A pixel without detections has some position and confidence 0.
+  [[nodiscard]] virtual Measurement decode(std::span<const std::int32_t> words) const = 0;
+
+  /// On the host: for each code 0 .. 2^NP - 2 the logarithm of the likelihood that the pulse is there, but
+  /// for a constant, in natural units. Empty for a rival whose words tell only one place.
+  [[nodiscard]] virtual std::vector<double> evidence(std::span<const std::int32_t> words) const {
+    (void)words;
+    return {};
+  }
+};
+
+/// Per cent of a flat wall's pixels whose relative error is larger.
+struct WallShares {
+  double above_3_percent;
+  double above_10_percent;
+};
+/// What a first estimate says of a rival, which `dtof-study rivals` puts beside its own figures: preset
+/// thesis, 50 klux, kClaimedPixels pixels a distance, counters without limits, the median's bias removed at
+/// each distance.
+struct RivalClaim {
+  WallShares at_3_m;
+  WallShares at_4_m;
+};
+inline constexpr std::uint64_t kClaimedPixels = 500;
+
+/// What the list knows of a rival.
+struct RivalEntry {
+  std::string_view name;      ///< on the command line
+  std::string_view title;     ///< in tables; begins with its family's title in scripts/plot_styles.toml
+  std::string_view citation;  ///< where it is defined
+  std::unique_ptr<Rival> (*make)(const SensorModel& sensor);
+  std::optional<RivalClaim> claim = std::nullopt;
+};
+
+/// All rivals, in the order of the reports (rival_list.cpp).
+std::span<const RivalEntry> all_rivals();
+/// Throws InputError naming the legal names.
+const RivalEntry& find_rival(std::string_view name);
+
+/// Throws InputError unless the pixel's detections fit the sensor's codes and frame.
+void check_rival_frame(std::span<const Detection> detections, const SensorModel& sensor);
+
+}  // namespace dtof

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frame/flat_calibration.hpp"
+#include "host/range_converter.hpp"
+#include "metrics/depth.hpp"
+#include "photon/sensor_model.hpp"
+#include "rival/rival.hpp"
+#include "study/scene_study.hpp"
+
+namespace dtof {
+
+/// Reads scenes out with rivals (rival/rival.hpp). The photons of a scene are those that SceneStudy and
+/// PoolStudy draw of it with the same sensor, light and seed; a rival that needs several frames has others
+/// before them. Each rival has a look-up table of its own by FlatCalibration, unless TableRule::kNone.
+///
+/// With `pooled` each rival has a second row, "..., pooled": the host helps its pixels along the column, by
+/// the chain of the pooled matched filter (readout/pooled_matched_filter.hpp) on the rival's evidence, or by
+/// the median of five rows where the rival has none. Its table is the one of the pixels alone for the chain,
+/// which keeps each pixel's own place, and for the median.
+class RivalStudy {
+ public:
+  RivalStudy(SensorModel sensor, double klux, std::span<const RivalEntry> rivals, bool pooled,
+             std::uint64_t seed, int threads, TableRule table = TableRule::kFlat);
+
+  [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
+  /// Of each estimator.
+  [[nodiscard]] const std::vector<int>& bits_per_pixel() const { return bits_; }
+  /// One measurement an estimator.
+  [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
+
+ private:
+  using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
+  [[nodiscard]] Positions read(const StudyScene& scene, std::uint32_t frame, bool pooled) const;
+
+  SensorModel sensor_;
+  double klux_;
+  std::vector<std::unique_ptr<Rival>> rivals_;
+  bool pooled_;
+  std::vector<std::string> titles_;
+  std::vector<int> bits_;
+  std::uint64_t seed_;
+  int threads_;
+  DepthScale scale_;
+  std::vector<RangeConverter> converters_;  // of each rival; empty without look-up tables
+};
+
+/// The middle of each value and its `reach` neighbours on either side, fewer at the ends; the upper one of
+/// two.
+std::vector<double> running_median(std::span<const double> values, std::size_t reach);
+
+}  // namespace dtof

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "rival/rival.hpp"
+#include "tests/rival/test_pixels.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(RivalList, NamesAndTitlesAreUniqueAndHaveASource) {
+  std::set<std::string_view> names;
+  std::set<std::string_view> titles;
+  for (const RivalEntry& entry : all_rivals()) {
+    EXPECT_TRUE(names.insert(entry.name).second) << entry.name;
+    EXPECT_TRUE(titles.insert(entry.title).second) << entry.title;
+    EXPECT_FALSE(entry.citation.empty()) << entry.name;
+    EXPECT_EQ(find_rival(entry.name).title, entry.title);
+  }
+  EXPECT_THAT(
+      [] { (void)find_rival("none"); },
+      ThrowsMessage<InputError>(AllOf(HasSubstr("no rival is called none"), HasSubstr("histogram32"))));
+}
+
+// What every rival owes its callers, whoever adds it.
+TEST(RivalList, EveryRivalReadsDarkBrightAndHostilePixels) {
+  const SensorModel sensor;
+  std::vector<Detection> bright;
+  for (std::uint32_t acquisition = 0; acquisition < sensor.acquisitions; ++acquisition) {
+    bright.push_back({acquisition, static_cast<Timestamp>(acquisition * 7 % 1024)});
+    bright.push_back({acquisition, 1022});
+  }
+  for (const RivalEntry& entry : all_rivals()) {
+    const std::unique_ptr<Rival> rival = entry.make(sensor);
+    EXPECT_GT(rival->bits_per_pixel(), 0) << entry.name;
+    ASSERT_GE(rival->frames(), 1) << entry.name;
+    const auto frames = static_cast<std::size_t>(rival->frames());
+    for (const std::vector<Detection>& pixel : {std::vector<Detection>(), bright}) {
+      const RivalWords words = rival->read_pixel(
+          std::vector<std::span<const Detection>>(frames, std::span<const Detection>(pixel)));
+      const Measurement measured = rival->decode(words);
+      EXPECT_GE(measured.position, 0.0) << entry.name;
+      EXPECT_LE(measured.position, 1023.0) << entry.name;
+      if (pixel.empty()) {
+        EXPECT_EQ(measured.confidence, 0.0) << entry.name;
+      }
+      const std::vector<double> evidence = rival->evidence(words);
+      EXPECT_TRUE(evidence.empty() || evidence.size() == 1023) << entry.name;
+    }
+    const std::vector<Detection> wrong = {{0, 1024}};
+    EXPECT_THAT(
+        [&] {
+          (void)rival->read_pixel(
+              std::vector<std::span<const Detection>>(frames, std::span<const Detection>(wrong)));
+        },
+        ThrowsMessage<InputError>(HasSubstr("timestamp 1024")))
+        << entry.name;
+  }
+}
+
+}  // namespace
+}  // namespace dtof
