@@ -11,6 +11,7 @@
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
 # make wave       READOUT's waveform (scripts/wave.mk)
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
+# make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)
 # make example    a frame of dtof_subsystem in a small SystemVerilog bench (scripts/example.mk)
 # make bench      speed of RTL, models and photon model
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 INDEX = "docs/README.md"
 BLOCKS = "docs/reference/blocks/"
 # Folders of hdl/ whose modules are blocks; the others hold package, proofs, lint waivers and SRAM stand-ins.
-BLOCK_FOLDERS = ("subsystem", "top", "column", "control", "datapath", "engine", "memory")
+BLOCK_FOLDERS = ("subsystem", "demonstrator", "top", "column", "control", "datapath", "engine", "memory")
 MODULE = re.compile(r"^module +(\w+)", re.MULTILINE)
 SECTION = re.compile(r"^## `(\w+)`$", re.MULTILINE)
 OF_A_MODULE = re.compile(r"`([A-Z][A-Z_]+|[a-z]\w*_(?:i|o|ni))`")  # a parameter or a port

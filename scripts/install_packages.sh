@@ -12,16 +12,17 @@ packages=(
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta qflow-tech-osu018
   # scripts, plots, checks
-  python3 python3-numpy python3-markdown gnuplot-nox clang-format clang-tidy gcovr
+  python3 python3-numpy python3-markdown python3-yaml gnuplot-nox clang-format clang-tidy gcovr
 )
 
 for purpose in "$@"; do
   case $purpose in
     fuzz) packages+=(clang libclang-rt-dev) ;;  # libFuzzer, for make fuzz only
+    fpga) packages+=(nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb) ;;  # places and routes the demonstrator, for make fpga only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
     playground)  # the models as WebAssembly, for make playground only
       packages+=(emscripten librange-v3-dev) ;;
-    *) echo "error: $purpose: packages for fuzz, browser and playground are known" >&2; exit 2 ;;
+    *) echo "error: $purpose: packages for fuzz, fpga, browser and playground are known" >&2; exit 2 ;;
   esac
 done
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the RTL of every named configuration, and the subsystem around every read-out, with Verilator -Wall, Yosys and
-Icarus Verilog.
+"""Reads the RTL of every named configuration, the subsystem around every read-out and the FPGA demonstrator with Verilator
+-Wall, Yosys and Icarus Verilog.
 
 Also checks that illegal parameters stop elaboration with their sentence and the last legal ones do not
 (hdl/lint/parameter_limits.csv), that no construct is used which a tool is known
@@ -30,6 +30,7 @@ SIZE = {  # enough to see every connection between columns, and between engines
 }
 SUBSYSTEM = "dtof_subsystem"
 ADAPTER = "axi_lite_to_apb"  # stands in front of it
+DEMONSTRATOR = "demonstrator"  # an FPGA around it, in a folder of its own
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
@@ -84,6 +85,25 @@ def check_read(what: str, top: str, parameters: dict[str, int]) -> list[str]:
 def check_configuration(configuration: Configuration) -> list[str]:
     return check_read(f"configuration {configuration.name}", configuration.top,
                       configuration.rtl_parameters() | SIZE[configuration.top])
+
+
+def check_demonstrator() -> list[str]:
+    """The very top of the FPGA, with the FPGA's memories."""
+    listed = [file.replace("/behavioural/", "/fpga/") for file in source_files()]
+    files = [*listed, *sorted(str(file.relative_to(HDL)) for file in (HDL / DEMONSTRATOR).glob("*.sv"))]
+    commands = {
+        "Verilator": ["verilator", "--lint-only", "-Wall", "-f", "dtof_lint.f", "+incdir+package", *files,
+                      "--top-module", DEMONSTRATOR],
+        "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Ipackage {' '.join(files)}; hierarchy -check -top {DEMONSTRATOR}; "
+                  "proc; check -assert"],
+        "Icarus Verilog": ["iverilog", "-g2012", "-t", "null", "-Ipackage", "-s", DEMONSTRATOR, *files],
+    }  # fmt: skip
+    failures = []
+    for tool, command in commands.items():
+        result = run(command)
+        if result.returncode != 0 or sorry(result.stdout):
+            failures.append(f"{tool} refuses the {DEMONSTRATOR}:\n{result.stdout}")
+    return failures
 
 
 def check_subsystem(readout: int) -> list[str]:
@@ -192,13 +212,13 @@ def main() -> int:
         limit = pool.map(lambda row: check_limit(*row), limits)
         subsystem = pool.map(check_subsystem, subsystem_numbers())
         adapter = check_read(ADAPTER, ADAPTER, {"ADDR_WIDTH": 12})
-        failures += [text for group in (*legal, *limit, *subsystem, adapter, block_ram.result()) for text in group]
+        failures += [text for group in (*legal, *limit, *subsystem, adapter, check_demonstrator(), block_ram.result()) for text in group]
     for text in failures:
         print(text, file=sys.stderr)
     if not failures:
         print(
-            f"RTL lint: {len(configurations)} configurations and the subsystem of {len(subsystem_numbers())} read-outs clean "
-            "in Verilator, Yosys and Icarus Verilog; "
+            f"RTL lint: {len(configurations)} configurations, the subsystem of {len(subsystem_numbers())} read-outs and the "
+            "demonstrator clean in Verilator, Yosys and Icarus Verilog; "
             f"{len(illegal)} illegal parameters refused, {len(limits) - len(illegal)} legal extremes taken; "
             f"stand-ins become block RAM ({', '.join(BLOCK_RAM)})"
         )

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// The very top of an FPGA that shows dtof_subsystem without a sensor (make fpga, docs/user/integration.md): photons are made
+// on the chip, hisPointer reads them out, results leave through a serial line, over which targets can be changed.
+//
+//   rx_i -> uart_receiver -> target_command -> photon_generator -> dtof_subsystem -> word_sender -> uart_transmitter -> tx_o
+//                                              register_writer ------^
+//
+// Frames follow each other without an end. The serial line is slower than the array, which waits for it.
+// Clock: any; at 12 MHz the line has 1 Mbaud. There is no reset input: the FPGA's configuration clears the registers of the
+// reset, which ends eight clocks later.
+module demonstrator #(
+    parameter int NP = 10,
+    parameter int COLUMNS = 8,
+    parameter int ROWS = 8,
+    parameter int ACQUISITIONS = 1000,
+    parameter int CLOCKS_PER_BIT = 12
+) (
+    input  logic clk_i,
+    input  logic rx_i,
+    output logic tx_o,
+    output logic frame_o  // changes with every frame: for a light
+);
+
+  localparam int PIXELS = ROWS * COLUMNS;
+  localparam int PIXEL_WIDTH = dtof_pkg::index_width(PIXELS);
+  localparam int LINE_WIDTH = 8 * ((COLUMNS * NP + 7) / 8);
+
+  logic [2:0] awake_q = '0;
+  logic rst_n = 1'b0;
+
+  always_ff @(posedge clk_i) begin
+    if (awake_q != '1) begin
+      awake_q <= awake_q + 1'b1;
+    end
+    rst_n <= (awake_q == '1);
+  end
+
+  // Targets over the serial line.
+
+  logic received, target_write;
+  logic [7:0] received_byte;
+  logic [PIXEL_WIDTH-1:0] target_pixel;
+  logic [NP-1:0] target_code;
+
+  uart_receiver #(
+      .CLOCKS_PER_BIT(CLOCKS_PER_BIT)
+  ) u_receiver (
+      .clk_i  (clk_i),
+      .rst_ni (rst_n),
+      .rx_i   (rx_i),
+      .valid_o(received),
+      .data_o (received_byte)
+  );
+
+  target_command #(
+      .NP    (NP),
+      .PIXELS(PIXELS)
+  ) u_command (
+      .clk_i  (clk_i),
+      .rst_ni (rst_n),
+      .valid_i(received),
+      .data_i (received_byte),
+      .write_o(target_write),
+      .pixel_o(target_pixel),
+      .code_o (target_code)
+  );
+
+  // Photons, registers, the read-out.
+
+  logic line_tvalid, line_tready, line_tlast, psel, penable, pready;
+  logic [LINE_WIDTH-1:0] line_tdata;
+  logic [11:0] paddr;
+  logic [31:0] pwdata;
+
+  photon_generator #(
+      .NP     (NP),
+      .COLUMNS(COLUMNS),
+      .ROWS   (ROWS)
+  ) u_photons (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_n),
+      .target_write_i (target_write),
+      .target_pixel_i (target_pixel),
+      .target_code_i  (target_code),
+      .m_axis_tvalid_o(line_tvalid),
+      .m_axis_tready_i(line_tready),
+      .m_axis_tdata_o (line_tdata),
+      .m_axis_tlast_o (line_tlast)
+  );
+
+  register_writer #(
+      .ACQUISITIONS(ACQUISITIONS)
+  ) u_software (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_n),
+      .psel_o   (psel),
+      .penable_o(penable),
+      .paddr_o  (paddr),
+      .pwdata_o (pwdata),
+      .pready_i (pready)
+  );
+
+  logic result_tvalid, result_tready, result_tuser, result_tlast, pslverr, irq;
+  logic [63:0] result_tdata;
+  logic [31:0] prdata;
+
+  dtof_subsystem #(
+      .READOUT        (dtof_pkg::READOUT_HISPOINTER),
+      .NP             (NP),
+      .SRAM_NUM       (COLUMNS),
+      .PIXELS_PER_SRAM(ROWS),
+      .SLOTS          (2)
+  ) u_subsystem (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_n),
+      .psel_i         (psel),
+      .penable_i      (penable),
+      .pwrite_i       (1'b1),
+      .paddr_i        (paddr),
+      .pwdata_i       (pwdata),
+      .pstrb_i        (4'hF),
+      .pready_o       (pready),
+      .prdata_o       (prdata),
+      .pslverr_o      (pslverr),
+      .irq_o          (irq),
+      .s_axis_tvalid_i(line_tvalid),
+      .s_axis_tready_o(line_tready),
+      .s_axis_tdata_i (line_tdata),
+      .s_axis_tlast_i (line_tlast),
+      .m_axis_tvalid_o(result_tvalid),
+      .m_axis_tready_i(result_tready),
+      .m_axis_tdata_o (result_tdata),
+      .m_axis_tuser_o (result_tuser),
+      .m_axis_tlast_o (result_tlast)
+  );
+
+  logic unused_registers;
+  assign unused_registers = ^{prdata, pslverr, irq};
+
+  // Results over the serial line.
+
+  logic byte_valid, byte_ready, frame_q;
+  logic [7:0] byte_data;
+
+  word_sender u_sender (
+      .clk_i          (clk_i),
+      .rst_ni         (rst_n),
+      .s_axis_tvalid_i(result_tvalid),
+      .s_axis_tready_o(result_tready),
+      .s_axis_tdata_i (result_tdata),
+      .s_axis_tuser_i (result_tuser),
+      .s_axis_tlast_i (result_tlast),
+      .valid_o        (byte_valid),
+      .ready_i        (byte_ready),
+      .data_o         (byte_data)
+  );
+
+  uart_transmitter #(
+      .CLOCKS_PER_BIT(CLOCKS_PER_BIT)
+  ) u_transmitter (
+      .clk_i  (clk_i),
+      .rst_ni (rst_n),
+      .valid_i(byte_valid),
+      .ready_o(byte_ready),
+      .data_i (byte_data),
+      .tx_o   (tx_o)
+  );
+
+  always_ff @(posedge clk_i or negedge rst_n) begin
+    if (!rst_n) begin
+      frame_q <= 1'b0;
+    end else if (result_tvalid && result_tready && result_tlast) begin
+      frame_q <= !frame_q;
+    end
+  end
+
+  assign frame_o = frame_q;
+
+endmodule

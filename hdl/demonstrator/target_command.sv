@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Three bytes write a pixel's target: 128 + pixel, then the code's bits 13:7, then its bits 6:0. Only the first has its
+// highest bit set, so that a byte that was lost costs one command.
+//
+// Schedule: write_o is high for one clock, behind the third byte.
+// Cost: pixel, half a code, two state bits.
+`include "dtof_macros.svh"
+
+module target_command #(
+    parameter int NP = 10,
+    parameter int PIXELS = 64,
+    localparam int PIXEL_WIDTH = dtof_pkg::index_width(PIXELS)
+) (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic                   valid_i,
+    input  logic [            7:0] data_i,
+    output logic                   write_o,
+    output logic [PIXEL_WIDTH-1:0] pixel_o,
+    output logic [         NP-1:0] code_o
+);
+
+  `DTOF_REQUIRE(g_illegal_pixels, PIXELS <= 128, "target_command: PIXELS must be at most 128")
+  `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 14, "target_command: NP must be 8 to 14")
+
+  logic [1:0] bytes_q;  // of a command that have come
+  logic [6:0] pixel_q;
+  logic [13:0] code_q;
+  logic write_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      bytes_q <= '0;
+      write_q <= 1'b0;
+    end else begin
+      write_q <= valid_i && !data_i[7] && (bytes_q == 2'd2) && (32'(pixel_q) < PIXELS);
+      if (valid_i) begin
+        if (data_i[7]) begin
+          bytes_q <= 2'd1;
+        end else begin
+          bytes_q <= (bytes_q == 2'd1) ? 2'd2 : 2'd0;
+        end
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i && data_i[7]) begin
+      pixel_q <= data_i[6:0];
+    end
+    if (valid_i && !data_i[7]) begin
+      code_q <= {code_q[6:0], data_i[6:0]};
+    end
+  end
+
+  assign write_o = write_q;
+  assign pixel_o = pixel_q[PIXEL_WIDTH-1:0];
+  assign code_o = code_q[NP-1:0];
+
+  logic unused_bits;
+  assign unused_bits = ^{pixel_q, code_q};
+
+endmodule

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: Apache-2.0
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
+
+import fpga  # noqa: E402
+from dtof_synth.errors import FlowError  # noqa: E402
+
+REPORT = {"utilization": {"ICESTORM_LC": {"used": 3762, "available": 7680}, "ICESTORM_RAM": {"used": 30, "available": 32}},
+          "fmax": {"clk_i": {"achieved": 68.16, "constraint": 12.0}}}  # fmt: skip
+ICETIME = "Total number of logic levels: 7\nTotal path delay: 16.00 ns (62.50 MHz)\n"
+CELLS = {"SB_LUT4": 2525, "SB_DFF": 550, "SB_DFFE": 645, "SB_CARRY": 769, "SB_RAM40_4K": 29, "SB_RAM40_4KNR": 1}
+FOUND = fpga.Result(fpga.Use(3762, 7680), fpga.Use(30, 32), 68.16, 62.5)
+
+
+class Fpga(unittest.TestCase):
+    def test_results_are_read(self):
+        self.assertEqual(fpga.result(REPORT, ICETIME), FOUND)
+        for report, icetime in ((REPORT | {"fmax": {}}, ICETIME), (REPORT, "nothing")):
+            with self.assertRaisesRegex(FlowError, "how fast"):
+                fpga.result(report, icetime)
+
+    def test_what_is_wrong_is_told(self):
+        self.assertEqual(fpga.problems(FOUND, CELLS, 30), [])
+        self.assertEqual(fpga.problems(FOUND, CELLS, 31), ["30 block RAMs for 31 memories"])
+        self.assertEqual(fpga.problems(FOUND, CELLS, 0), ["the simulation names no memories"])
+        slow = fpga.Result(FOUND.cells, FOUND.block_rams, 68.16, 11.9)
+        self.assertEqual(fpga.problems(slow, CELLS, 30), ["slower than the board's 12 MHz"])
+
+    def test_the_sources_are_all_of_the_folder_with_the_memories_of_an_fpga(self):
+        sources = fpga.sources()
+        self.assertIn("technology/fpga/sram_1rw.sv", sources)
+        self.assertFalse([file for file in sources if "behavioural" in file or not (ROOT / "hdl" / file).is_file()])
+        self.assertEqual(sum(file.startswith("demonstrator/") for file in sources),
+                         len(list((ROOT / "hdl/demonstrator").glob("*.sv"))))  # fmt: skip
+
+    def test_the_pins_are_the_tops_ports(self):
+        top = (ROOT / "hdl/demonstrator/demonstrator.sv").read_text(encoding="utf-8")
+        pins = (ROOT / "hdl/demonstrator/ice40_hx8k.pcf").read_text(encoding="utf-8")
+        ports = re.findall(r"^    (?:input|output) +logic (\w+)", top, re.MULTILINE)
+        self.assertEqual(sorted(ports), sorted(re.findall(r"^set_io (\w+) ", pins, re.MULTILINE)))
+
+    def test_a_test_that_ran_nothing_is_no_test(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(fpga, "BUILD", Path(folder)):
+            program = Path(folder) / "test.sh"
+            for text, passes in (("[       OK ] D.DepthsAreTheModels (1 ms)\n[  PASSED  ] 1 tests.\n", True),
+                                 ("[  PASSED  ] 0 tests.\n", False), ("", False)):  # fmt: skip
+                program.write_text(f"#!/bin/sh\ncat << END\n{text}END\n", encoding="utf-8")
+                program.chmod(0o755)
+                with mock.patch.object(fpga, "run", lambda command, *_: subprocess.check_output(command, text=True)):
+                    if passes:
+                        self.assertEqual(fpga.passed(program), "passed `DepthsAreTheModels`")
+                    else:
+                        with self.assertRaises(FlowError):
+                            fpga.passed(program)
+
+    def test_the_report_has_what_was_found(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch.object(fpga, "BUILD", Path(folder)):
+            (Path(folder) / "demonstrator.bin").write_bytes(bytes(1234))
+            text = fpga.report(FOUND, CELLS, 30, "passed `X`")
+        for part in ("3,762 of 7,680 (49 %)", "30 of 32 (94 %)", "68.2 MHz", "62.5 MHz", "| 1,195 |", "1,234 bytes", "1,000 kbit/s"):
+            self.assertIn(part, text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+class VerilatedContext;
+
+namespace dtof {
+
+/// The Verilated demonstrator, of RTL or of a netlist.
+class DemonstratorModel {
+ public:
+  DemonstratorModel() = default;
+  DemonstratorModel(const DemonstratorModel&) = delete;
+  DemonstratorModel& operator=(const DemonstratorModel&) = delete;
+  DemonstratorModel(DemonstratorModel&&) = delete;
+  DemonstratorModel& operator=(DemonstratorModel&&) = delete;
+  virtual ~DemonstratorModel() = default;
+
+  /// One clock with this level at the serial input; returns that of the serial output.
+  [[nodiscard]] virtual bool clock(bool rx) = 0;
+  /// The light, which changes with every frame.
+  [[nodiscard]] virtual bool light() const = 0;
+};
+
+std::unique_ptr<DemonstratorModel> make_demonstrator(VerilatedContext& context);
+
+}  // namespace dtof
