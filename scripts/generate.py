@@ -13,6 +13,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
+import file_lists  # noqa: E402
 import registers  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load  # noqa: E402
@@ -408,41 +409,6 @@ def column_files(text: str, table: Table) -> str:
     return head + COLUMNS_BEGIN + "".join(f"{column}\n" for column in columns) + COLUMNS_END + rest.split(COLUMNS_END)[1]
 
 
-def file_list(text: str) -> tuple[list[str], list[str], list[str]]:
-    """Of hdl/dtof.f: package, technology, the rest."""
-    files = [line for line in text.splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
-    part = lambda folder: [name for name in files if name.startswith(folder)]  # noqa: E731
-    rest = [name for name in files if not name.startswith(("package/", "technology/"))]
-    return part("package/"), part("technology/"), rest
-
-
-def replaced_lists(text: str, lists: dict[str, list[str]]) -> str:
-    """YAML with the .sv files of each block of `- <folder>/...` lines replaced; `lists` by the block's first folder."""
-    out: list[str] = []
-    open_block = ""
-    for line in text.splitlines():
-        found = re.fullmatch(r"( *)- ([a-z_]+)/[a-z_/0-9]+\.sv", line)
-        if not found:
-            open_block = ""
-            out.append(line)
-        elif not open_block:
-            open_block = found.group(2)
-            if open_block not in lists:
-                raise FlowError(f"no list of files begins in the folder {open_block}")
-            out += [f"{found.group(1)}- {name}" for name in lists[open_block]]
-    return "\n".join(out) + "\n"
-
-
-def fusesoc(text: str, listing: str) -> str:
-    package, technology, rest = file_list(listing)
-    return replaced_lists(text, {"technology": technology, "package": [*package, *rest]})
-
-
-def bender(text: str, listing: str) -> str:
-    package, technology, rest = file_list(listing)
-    return replaced_lists(text, {"technology": technology, "package": package, rest[0].split("/")[0]: rest})
-
-
 def readme(text: str, table: Table) -> str:
     for top in offered_tops(table):
         begin = PARAMETERS_BEGIN.format(top.name)
@@ -494,7 +460,7 @@ def main() -> int:
     try:
         table = load()
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
-                   ("hdl/dtof.f", "hdl/dtof.core", "hdl/Bender.yml", "README.md", INTEGRATION)}  # fmt: skip
+                   ("hdl/dtof.f", "README.md", INTEGRATION)}
         whole = registers.load()
         listing = column_files(current["hdl/dtof.f"], table)
         files = {
@@ -505,8 +471,9 @@ def main() -> int:
             "tb_cpp/core/readout.cpp": cpp_source(table),
             "tb_cpp/readout/model_table.cpp": model_table(table),
             "tb_cpp/cmake/readouts.cmake": cmake(table),
-            "hdl/dtof.core": fusesoc(current["hdl/dtof.core"], listing),
-            "hdl/Bender.yml": bender(current["hdl/Bender.yml"], listing),
+            "hdl/dtof_no_srams.f": file_lists.without_srams(listing),
+            "hdl/dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),
+            "hdl/Bender.yml": file_lists.bender(listing),
             "README.md": readme(current["README.md"], table),
             "hdl/package/subsystem_parameters.svh": subsystem_parameters(table),
             **all_connections(table),

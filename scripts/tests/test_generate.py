@@ -107,23 +107,5 @@ class Guide(unittest.TestCase):
             self.assertIn("\n" + file.read_text(encoding="utf-8").strip("\n") + "\n```\n", guide, file.name)
 
 
-class FileLists(unittest.TestCase):
-    def test_lists_are_replaced_and_nothing_else(self):
-        lists = {"a": ["a/x.sv", "a/y.sv"], "b": ["b/z.sv"]}
-        text = "top:\n  - a/old.sv\n  - a/older.sv\nnext: 1\n    - b/q.sv\n"
-        self.assertEqual(generate.replaced_lists(text, lists),
-                         "top:\n  - a/x.sv\n  - a/y.sv\nnext: 1\n    - b/z.sv\n")
-        with self.assertRaisesRegex(FlowError, "folder c"):
-            generate.replaced_lists("  - c/q.sv\n", lists)
-
-    def test_core_and_bender_have_every_file(self):
-        package, technology, rest = generate.file_list((ROOT / "hdl/dtof.f").read_text())
-        self.assertEqual(package, ["package/dtof_pkg.sv", "package/dtof_registers_pkg.sv"])
-        for name in ("hdl/dtof.core", "hdl/Bender.yml"):
-            text = (ROOT / name).read_text()
-            for file in [*package, *technology, *rest]:
-                self.assertEqual(text.count(f"- {file}\n"), 1, f"{file} in {name}")
-
-
 if __name__ == "__main__":
     unittest.main()

@@ -1,0 +1,162 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What other tools than the project's own read the RTL by: hdl/dtof.core (FuseSoC), hdl/Bender.yml and hdl/dtof_no_srams.f,
+written from hdl/dtof.f and readouts.toml by scripts/generate.py."""
+
+import json
+import re
+from pathlib import Path
+
+from dtof_synth.errors import FlowError
+from dtof_synth.readouts import Table
+
+WRITTEN = "Written by scripts/generate.py from hdl/dtof.f"
+VERSION = "0.2.0"
+OWN_SRAMS = "own_srams"  # flag of FuseSoC: the stand-ins of the SRAMs are left out
+OWN_SRAMS_BENDER = "tech_override"  # the same as a target of Bender
+# Beside the parameters of the arrays, those of dtof_subsystem and of the bench.
+READOUT = "dtof_pkg::READOUT_*: {}"
+SUBSYSTEM = {
+    "BUFFER_LINES": "lines that the line buffer holds",
+    "RASTER_ORDER": "1: results come row by row, for a memory of all of them",
+}
+BENCH = {"ACQUISITIONS": "of the example's frame"}
+
+
+def split(text: str) -> tuple[list[str], list[str], list[str]]:
+    """Of hdl/dtof.f: package, technology, the rest."""
+    files = [line for line in text.splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
+    part = lambda folder: [name for name in files if name.startswith(folder)]  # noqa: E731
+    package, technology = part("package/"), part("technology/behavioural/")
+    rest = [name for name in files if not name.startswith(("package/", "technology/"))]
+    if not package or not technology or not rest:
+        raise FlowError("hdl/dtof.f has no package, no technology or nothing else")
+    return package, technology, rest
+
+
+def without_srams(listing: str) -> str:
+    package, _, rest = split(listing)
+    return "\n".join([
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// {WRITTEN}: all RTL without the stand-ins of the SRAMs, for a process's own sram_1rw.sv and sram_1r1w.sv:",
+        "//   verilator --lint-only -f dtof_no_srams.f my_srams/sram_1rw.sv my_srams/sram_1r1w.sv --top-module dtof_subsystem",
+        "+incdir+package",
+        *package,
+        *rest,
+        "",
+    ])  # fmt: skip
+
+
+def entries(names: list[str], indent: int) -> list[str]:
+    return [f"{' ' * indent}- {name}" for name in names]
+
+
+def parameters(table: Table) -> dict[str, str]:
+    """Name and help of what can be chosen of dtof_subsystem."""
+    numbers = [(readout.number, readout.title) for readout in table.readouts.values() if readout.number is not None]
+    numbers += [(top.readout, next(readout.title for readout in table.readouts.values() if readout.top == top.name))
+                for top in table.tops.values() if top.readout is not None]  # fmt: skip
+    names = dict.fromkeys(name for top in table.tops.values() if top.name == "dtof_array" or top.readout is not None
+                          for name in top.parameters)  # fmt: skip
+    return ({"READOUT": READOUT.format(", ".join(f"{number} {title}" for number, title in numbers))}
+            | {name: table.parameters[name].help for name in names} | SUBSYSTEM)  # fmt: skip
+
+
+def fusesoc(table: Table, listing: str, includes: list[str]) -> str:
+    """`includes`: the included files, from hdl/."""
+    package, technology, rest = split(listing)
+    for_fpga = [name.replace("/behavioural/", "/fpga/") for name in technology]
+    chosen = parameters(table)
+    described = [line for name, text in (chosen | BENCH).items() for line in (
+        f"  {name}:", "    datatype: int", f"    description: {json.dumps(text, ensure_ascii=False)}", "    paramtype: vlogparam")]
+    return "\n".join([
+        "CAPI=2:",
+        "# SPDX-License-Identifier: Apache-2.0",
+        f"# {WRITTEN} and readouts.toml.",
+        f"# --flag={OWN_SRAMS}: without the stand-ins of the SRAMs, for a core of one's own that has sram_1rw and sram_1r1w.",
+        f"name: dtof:readout:dtof_array:{VERSION}",
+        "description: Read-out of large SPAD arrays, TDC timestamps to depth codes",
+        "filesets:",
+        "  rtl:",
+        "    files:",
+        *entries([f"{name}: {{is_include_file: true, include_path: package}}" for name in includes], 6),
+        *entries([*package, *rest], 6),
+        "    file_type: systemVerilogSource",
+        "  srams:",
+        "    files:",
+        *entries(technology, 6),
+        "    file_type: systemVerilogSource",
+        "  srams_fpga:",
+        "    files:",
+        *entries(for_fpga, 6),
+        "    file_type: systemVerilogSource",
+        "  bench:",
+        "    files:",
+        "      - example/example_bench.sv",
+        "    file_type: systemVerilogSource",
+        "  waivers:",
+        "    files:",
+        "      - lint/verilator.vlt: {file_type: vlt}",
+        "targets:",
+        "  default: &default",
+        f'    filesets: [rtl, "!{OWN_SRAMS}? (srams)"]',
+        "    toplevel: dtof_subsystem",
+        "  lint:",
+        "    <<: *default",
+        f'    filesets: [waivers, rtl, "!{OWN_SRAMS}? (srams)"]',
+        "    default_tool: verilator",
+        f"    parameters: [{', '.join(chosen)}]",
+        "    tools:",
+        "      verilator:",
+        "        mode: lint-only",
+        "        verilator_options: [-Wall]",
+        "  sim:",
+        f'    filesets: [rtl, "!{OWN_SRAMS}? (srams)", bench]',
+        "    toplevel: example_bench",
+        "    default_tool: icarus",
+        f"    parameters: [READOUT, {', '.join(BENCH)}]",
+        "    tools:",
+        "      icarus:",
+        "        iverilog_options: [-g2012]",
+        "  synth:",
+        "    <<: *default",
+        f'    filesets: [rtl, "!{OWN_SRAMS}? (srams_fpga)"]',
+        "    default_tool: yosys",
+        f"    parameters: [{', '.join(chosen)}]",
+        "    tools:",
+        "      yosys:",
+        "        arch: ice40",
+        "        output_format: json",
+        "parameters:",
+        *described,
+        "",
+    ])  # fmt: skip
+
+
+def bender(listing: str) -> str:
+    package, technology, rest = split(listing)
+    return "\n".join([
+        "# SPDX-License-Identifier: Apache-2.0",
+        f"# {WRITTEN}. -t {OWN_SRAMS_BENDER}: without the stand-ins of the SRAMs.",
+        "package:",
+        "  name: dtof_readout",
+        "",
+        "export_include_dirs:",
+        "  - package",
+        "",
+        "sources:",
+        "  - include_dirs: [package]",
+        "    files:",
+        *entries(package, 6),
+        f"  - target: not({OWN_SRAMS_BENDER})",
+        "    files:",
+        *entries(technology, 6),
+        "  - include_dirs: [package]",
+        "    files:",
+        *entries(rest, 6),
+        "",
+    ])  # fmt: skip
+
+
+def included(hdl: Path) -> list[str]:
+    """The files that the RTL includes."""
+    return sorted(str(file.relative_to(hdl)) for file in hdl.glob("package/*.svh"))

@@ -1,0 +1,199 @@
+# SPDX-License-Identifier: Apache-2.0
+"""FuseSoC, Bender and Vivado are not in Debian. What they do with their files is done here: the files that a target names are
+copied to a folder, and the target's tool reads them there."""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+HDL = ROOT / "hdl"
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
+
+import file_lists  # noqa: E402
+from dtof_synth.errors import FlowError  # noqa: E402
+
+CORE = yaml.safe_load((HDL / "dtof.core").read_text(encoding="utf-8").removeprefix("CAPI=2:\n"))
+BENDER = yaml.safe_load((HDL / "Bender.yml").read_text(encoding="utf-8"))
+CONDITIONAL = re.compile(r"(!?)(\w+)\? \((.+)\)")
+# The keys that CAPI2 has at these places, as far as they are used.
+KEYS = {
+    "core": {"name", "description", "filesets", "targets", "parameters"},
+    "fileset": {"files", "file_type", "depend"},
+    "file": {"is_include_file", "include_path", "file_type"},
+    "target": {"filesets", "toplevel", "default_tool", "parameters", "tools"},
+    "parameter": {"datatype", "description", "paramtype"},
+}
+OWN_SRAMS = ["technology/fpga/sram_1rw.sv", "technology/fpga/sram_1r1w.sv"]  # for one's own
+
+
+def resolved(names: list[str], flags: set[str]) -> list[str]:
+    """A list of CAPI2 under these flags."""
+    found = []
+    for name in names:
+        condition = CONDITIONAL.fullmatch(name)
+        if not condition:
+            found.append(name)
+        elif (condition.group(2) in flags) != bool(condition.group(1)):
+            found += condition.group(3).split()
+    return found
+
+
+class Target:
+    """A target of the core in a folder that has nothing but its files."""
+
+    def __init__(self, name: str, folder: str, flags: set[str] = frozenset()):
+        self.target = CORE["targets"][name]
+        self.folder = folder
+        self.files, self.includes, self.waivers = [], set(), []
+        for fileset in resolved(self.target["filesets"], flags):
+            for entry in CORE["filesets"][fileset]["files"]:
+                file, options = next(iter(entry.items())) if isinstance(entry, dict) else (entry, {})
+                self.add(file)
+                if options.get("is_include_file"):
+                    self.includes.add(options["include_path"])
+                else:
+                    (self.waivers if options.get("file_type") == "vlt" else self.files).append(file)
+
+    def add(self, file: str):
+        (Path(self.folder) / file).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(HDL / file, Path(self.folder) / file)
+
+    def run(self, *command: str) -> subprocess.CompletedProcess:
+        return subprocess.run(command, cwd=self.folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              check=False)  # fmt: skip
+
+    def lint(self) -> subprocess.CompletedProcess:
+        return self.run("verilator", "--lint-only", *self.target["tools"]["verilator"]["verilator_options"], *self.waivers,
+                        *(f"-I{folder}" for folder in self.includes), *self.files, "--top-module", self.target["toplevel"],
+                        "-GSRAM_NUM=2", "-GPIXELS_PER_SRAM=4")  # fmt: skip
+
+
+class FuseSoc(unittest.TestCase):
+    def test_every_key_is_one_of_capi2(self):
+        self.assertLessEqual(CORE.keys(), KEYS["core"])
+        for kind, described in (("fileset", CORE["filesets"]), ("target", CORE["targets"]), ("parameter", CORE["parameters"])):
+            for name, entry in described.items():
+                self.assertLessEqual(entry.keys(), KEYS[kind], name)
+        for fileset in CORE["filesets"].values():
+            for entry in fileset["files"]:
+                if isinstance(entry, dict):
+                    self.assertLessEqual(next(iter(entry.values())).keys(), KEYS["file"])
+
+    def test_what_a_target_names_is_there(self):
+        self.assertEqual(set(CORE["targets"]), {"default", "lint", "sim", "synth"})
+        for name, target in CORE["targets"].items():
+            self.assertLessEqual(set(target.get("parameters", [])), CORE["parameters"].keys(), name)
+            for flags in (set(), {file_lists.OWN_SRAMS}):
+                self.assertLessEqual(set(resolved(target["filesets"], flags)), CORE["filesets"].keys(), name)
+            self.assertEqual("tools" in target, name != "default")
+            self.assertEqual(list(target.get("tools", {})), [target["default_tool"]] if "default_tool" in target else [])
+
+    def test_lint_reads_in_verilator_with_its_parameters(self):
+        with tempfile.TemporaryDirectory() as folder:
+            target = Target("lint", folder)
+            result = target.lint()
+            self.assertEqual(result.returncode, 0, result.stdout)
+            text = (HDL / "subsystem/dtof_subsystem.sv").read_text() + (HDL / "package/subsystem_parameters.svh").read_text()
+            declared = re.findall(r"^ +parameter int (\w+) ", text, re.MULTILINE)
+            self.assertEqual(sorted(target.target["parameters"]), sorted(declared))
+
+    def test_own_srams_take_the_place_of_the_stand_ins(self):
+        with tempfile.TemporaryDirectory() as folder:
+            target = Target("lint", folder, {file_lists.OWN_SRAMS})
+            self.assertFalse([file for file in target.files if file.startswith("technology/")])
+            result = target.lint()
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn("Cannot find file containing module: 'sram_1r1w'", result.stdout)
+            for file in OWN_SRAMS:
+                target.add(file)
+                target.files.append(file)
+            self.assertEqual(target.lint().returncode, 0)
+
+    def test_sim_simulates_a_frame(self):
+        with tempfile.TemporaryDirectory() as folder:
+            target = Target("sim", folder)
+            top = target.target["toplevel"]
+            result = target.run("iverilog", *target.target["tools"]["icarus"]["iverilog_options"], "-s", top, "-o", "sim.vvp",
+                                f"-P{top}.ACQUISITIONS=200", f"-P{top}.READOUT=2",
+                                *(f"-I{include}" for include in target.includes), *target.files)  # fmt: skip
+            self.assertEqual(result.returncode, 0, result.stdout)
+            result = target.run("vvp", "-n", "sim.vvp")
+            self.assertEqual(result.stdout.splitlines()[-1], "PASS")
+            self.assertIn("200 acquisitions", result.stdout)
+
+    def test_synth_reads_in_yosys(self):
+        with tempfile.TemporaryDirectory() as folder:
+            target = Target("synth", folder)
+            self.assertIn("technology/fpga/sram_1rw.sv", target.files)
+            result = target.run("yosys", "-q", "-p", f"read_verilog -sv {' '.join(f'-I{name}' for name in target.includes)} "
+                                f"{' '.join(target.files)}; chparam -set SRAM_NUM 2 -set PIXELS_PER_SRAM 4 dtof_subsystem; "
+                                f"hierarchy -check -top {target.target['toplevel']}; proc; check -assert")  # fmt: skip
+            self.assertEqual(result.returncode, 0, result.stdout)
+
+
+class Bender(unittest.TestCase):
+    def test_its_files_are_those_of_the_list(self):
+        package, technology, rest = file_lists.split((HDL / "dtof.f").read_text(encoding="utf-8"))
+        self.assertEqual([file for source in BENDER["sources"] for file in source["files"]], package + technology + rest)
+        self.assertEqual([source["files"] for source in BENDER["sources"] if "target" in source], [technology])
+        self.assertEqual(BENDER["export_include_dirs"], ["package"])
+        for source in BENDER["sources"]:
+            self.assertLessEqual(source.keys(), {"include_dirs", "target", "files"})
+
+
+class Lists(unittest.TestCase):
+    def test_the_list_without_srams_reads_as_its_head_says(self):
+        text = (HDL / "dtof_no_srams.f").read_text(encoding="utf-8")
+        command = re.search(r"^// +(verilator .*)$", text, re.MULTILINE).group(1)
+        command = command.replace("my_srams/", "technology/fpga/") + " -GSRAM_NUM=2 -GPIXELS_PER_SRAM=4"
+        for name, there in (("sram_1rw.sv", True), ("sram_9.sv", False)):
+            result = subprocess.run(command.replace("sram_1rw.sv", name).split(), cwd=HDL, text=True, stdout=subprocess.PIPE,
+                                    stderr=subprocess.STDOUT, check=False)  # fmt: skip
+            self.assertEqual(result.returncode == 0, there, result.stdout)
+
+    def test_a_list_without_technology_is_refused(self):
+        with self.assertRaisesRegex(FlowError, "no technology"):
+            file_lists.split("package/dtof_pkg.sv\ntop/dtof_array.sv\n")
+
+
+class Vivado(unittest.TestCase):
+    """Yosys has a Tcl interpreter; Vivado's commands write down how they were called."""
+
+    STUBS = """
+proc read_verilog {option files} { foreach file $files { puts "$option $file" } }
+proc current_fileset {} { return sources_1 }
+proc set_property {name value object} { puts "$name $value $object" }
+"""
+
+    def sourced(self, call: str) -> subprocess.CompletedProcess:
+        with tempfile.TemporaryDirectory() as folder:
+            script = Path(folder) / "run.tcl"
+            script.write_text(f"{self.STUBS}\nsource {ROOT}/synth/vivado/dtof.tcl\n{call}\n", encoding="utf-8")
+            return subprocess.run(["yosys", "-Q", "-T", "-c", str(script)], text=True, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, check=False)  # fmt: skip
+
+    def test_it_reads_all_rtl_with_memories_of_an_fpga(self):
+        result = self.sourced("dtof_read_rtl")
+        self.assertEqual(result.returncode, 0, result.stdout)
+        package, technology, rest = file_lists.split((HDL / "dtof.f").read_text(encoding="utf-8"))
+        memories = [file.replace("behavioural", "fpga") for file in reversed(technology)]
+        expected = [f"-sv {HDL}/{file}" for file in [*package, *rest, *memories]]
+        lines = result.stdout.splitlines()
+        self.assertEqual([line for line in lines if line.startswith("-sv")], expected)
+        self.assertIn(f"include_dirs {HDL}/package sources_1", lines)
+
+    def test_a_folder_without_memories_is_refused(self):
+        result = self.sourced(f"dtof_read_rtl {ROOT}/docs")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("sram_1rw.sv is not there", result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
