@@ -66,8 +66,9 @@ void RegisterBus::drive_axi() {
   *ports_.wvalid = write_ && data_offered_ ? 1 : 0;
   *ports_.awaddr = offset_;
   *ports_.araddr = offset_;
-  *ports_.wdata = data_;
-  *ports_.wstrb = strobe_;
+  // What is not offered says nothing.
+  *ports_.wdata = data_offered_ ? data_ : ~data_;
+  *ports_.wstrb = data_offered_ ? strobe_ : static_cast<std::uint8_t>(strobe_ ^ kAllBytes);
   *ports_.bready = random_() % 2 == 0 ? 1 : 0;
   *ports_.rready = random_() % 2 == 0 ? 1 : 0;
 }

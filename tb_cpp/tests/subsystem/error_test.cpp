@@ -152,6 +152,47 @@ TEST_P(SubsystemErrors, ContinuousModeEndsWithAnIllegalSchedule) {
   expect_a_right_frame(10);
 }
 
+TEST_P(SubsystemErrors, BitsAreClearedOneByOne) {
+  const std::uint32_t most = bench_.get(DTOF_RELEASE);
+  CounterRandom random = this->random(16);
+  bench_.source().push(make_lines(bench_.configuration(), 1, random)[0], true);
+  bench_.set(DTOF_RELEASE, 0);
+  bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+  bench_.clocks(20);
+  constexpr std::uint32_t kBoth = DTOF_ERROR_MISFRAMED_MASK | DTOF_ERROR_ILLEGAL_SCHEDULE_MASK;
+  EXPECT_EQ(bench_.get(DTOF_ERROR), kBoth);
+  EXPECT_FALSE(bench_.write(DTOF_ERROR, kBoth, 0).error);
+  bench_.set(DTOF_ERROR, ~kBoth);
+  EXPECT_EQ(bench_.get(DTOF_ERROR), kBoth) << "neither was written as 1";
+  bench_.set(DTOF_ERROR, DTOF_ERROR_MISFRAMED_MASK);
+  EXPECT_EQ(bench_.get(DTOF_ERROR), DTOF_ERROR_ILLEGAL_SCHEDULE_MASK);
+  bench_.set(DTOF_ERROR, DTOF_ERROR_ILLEGAL_SCHEDULE_MASK);
+  EXPECT_EQ(bench_.get(DTOF_ERROR), 0U);
+
+  bench_.set(DTOF_RELEASE, most);
+  bench_.set(DTOF_CONTROL, DTOF_CONTROL_FLUSH_MASK);
+  bench_.forget_lines();
+  expect_a_right_frame(17);
+}
+
+TEST_P(SubsystemErrors, InterruptsAreClearedOneByOne) {
+  constexpr std::uint32_t kBoth = DTOF_IRQ_STATUS_FRAME_MASK | DTOF_IRQ_STATUS_ERROR_MASK;
+  for (const std::uint32_t first : {DTOF_IRQ_STATUS_FRAME_MASK, DTOF_IRQ_STATUS_ERROR_MASK}) {
+    SCOPED_TRACE(testing::Message() << "first " << first);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);  // a frame of no acquisitions
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    bench_.clocks(2);
+    EXPECT_EQ(bench_.get(DTOF_IRQ_STATUS), kBoth);
+    EXPECT_FALSE(bench_.write(DTOF_IRQ_STATUS, kBoth, 0).error);
+    EXPECT_EQ(bench_.get(DTOF_IRQ_STATUS), kBoth) << "no byte was written";
+    bench_.set(DTOF_IRQ_STATUS, first);
+    EXPECT_EQ(bench_.get(DTOF_IRQ_STATUS), kBoth & ~first);
+    bench_.set(DTOF_IRQ_STATUS, kBoth & ~first);
+    EXPECT_EQ(bench_.get(DTOF_IRQ_STATUS), 0U);
+  }
+}
+
 TEST_P(SubsystemErrors, AnOverrunIsTold) {
   CounterRandom random = this->random(11);
   FrameSettings settings{.acquisitions = 2, .gate = {0, 0}, .weak_below = 0, .enabled = {}};
