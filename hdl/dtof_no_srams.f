@@ -58,4 +58,5 @@ subsystem/raster_buffer.sv
 subsystem/frame_control.sv
 subsystem/apb_registers.sv
 subsystem/axi_lite_to_apb.sv
+subsystem/reset_synchroniser.sv
 subsystem/dtof_subsystem.sv

@@ -29,7 +29,7 @@ SIZE = {  # enough to see every connection between columns, and between engines
     "pool_pointer2_array": {"SRAM_NUM": 7, "ENGINE_COLUMNS": 4},
 }
 SUBSYSTEM = "dtof_subsystem"
-ADAPTER = "axi_lite_to_apb"  # stands in front of it
+IN_FRONT = {"axi_lite_to_apb": {"ADDR_WIDTH": 12}, "reset_synchroniser": {}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in a folder of its own
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
@@ -211,8 +211,8 @@ def main() -> int:
         legal = pool.map(check_configuration, configurations)
         limit = pool.map(lambda row: check_limit(*row), limits)
         subsystem = pool.map(check_subsystem, subsystem_numbers())
-        adapter = check_read(ADAPTER, ADAPTER, {"ADDR_WIDTH": 12})
-        failures += [text for group in (*legal, *limit, *subsystem, adapter, check_demonstrator(), block_ram.result()) for text in group]
+        in_front = [text for top, settings in IN_FRONT.items() for text in check_read(top, top, settings)]
+        failures += [text for group in (*legal, *limit, *subsystem, in_front, check_demonstrator(), block_ram.result()) for text in group]
     for text in failures:
         print(text, file=sys.stderr)
     if not failures:
