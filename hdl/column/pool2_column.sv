@@ -37,7 +37,6 @@ module pool2_column #(
     input  logic                    first_slot_t1_i,
     input  logic                    last_slot_t1_i,
     input  logic                    odd_t1_i,          // odd acquisition
-    input  logic                    odd_t2_i,
     input  logic                    first_row_t2_i,    // coarse: the pair's first pixel is complete
     input  logic                    second_row_t2_i,   // coarse: its second one is
     input  logic [             3:0] acquisition_t3_i,  // mod 16
@@ -86,10 +85,16 @@ module pool2_column #(
 
   // Which of them counts, at T2: the preferred one, but in the pointer phase the other one if only that is inside.
 
+  // Whether a timestamp's cell is POINT_REACH below to POINT_REACH - 1 above the centre. The centre comes late, out of
+  // the SRAM, so that what only the timestamp decides is ready before it.
   function automatic logic near(input logic [CELL_WIDTH-1:0] cell_of_timestamp, input logic [CELL_WIDTH-1:0] centre);
-    logic [CELL_WIDTH:0] distance;
-    distance = {1'b0, cell_of_timestamp} - {1'b0, centre} + (CELL_WIDTH + 1)'(POINT_REACH);
-    near = (distance < (CELL_WIDTH + 1)'(2 * POINT_REACH));
+    logic [CELL_WIDTH:0] top;
+    logic [CELL_WIDTH-4:0] same, one_less;
+    top = {1'b0, cell_of_timestamp} + (CELL_WIDTH + 1)'(POINT_REACH);
+    same = top[CELL_WIDTH:4];
+    one_less = same - 1'b1;
+    near = (top[3:0] < centre[3:0]) ? (one_less == {1'b0, centre[CELL_WIDTH-1:4]})
+        : (same == {1'b0, centre[CELL_WIDTH-1:4]});
   endfunction
 
   function automatic logic take_second(input logic odd, input logic first_inside, input logic second_inside);
@@ -118,7 +123,7 @@ module pool2_column #(
 
   assign bin = used[NP-1-:COARSE_WIDTH];
   assign valid_t2_o = has_first_q || held_valid_q;
-  assign bin_t2_o = (held_valid_q && !(odd_t2_i && has_first_q)) ? held_bin_q : bin;
+  assign bin_t2_o = (held_valid_q && !(odd_q && has_first_q)) ? held_bin_q : bin;
 
   always_ff @(posedge clk_i) begin
     if (first_row_t2_i) begin

@@ -26,7 +26,6 @@ module pool2_pair #(
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
     parameter int POINTER_SHIFT = 1,
-    localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(
         dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
         dtof_pkg::pool_point_width(LABELS, 7, POINTER_SHIFT, 1)),
@@ -198,7 +197,6 @@ module pool2_pair #(
             .first_slot_t1_i (first_slot_t1_i),
             .last_slot_t1_i  (last_slot_t1_i),
             .odd_t1_i        (odd_t1_i),
-            .odd_t2_i        (acquisition_t2_i[0]),
             .first_row_t2_i  (first_row_t2_i),
             .second_row_t2_i (second_row_t2_i),
             .acquisition_t3_i(acquisition_t3_q),
@@ -229,6 +227,6 @@ module pool2_pair #(
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(line) : '0);
 
   logic unused;
-  assign unused = ^{1'b0, next_pixels, valid_t2, held_valid, bin_t2, held_bin, GROUP_WIDTH'(0)};
+  assign unused = ^{1'b0, next_pixels, valid_t2, held_valid, bin_t2, held_bin};
 
 endmodule

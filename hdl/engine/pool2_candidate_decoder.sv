@@ -117,8 +117,7 @@ module pool2_candidate_decoder #(
   assign leak = new_peak_q ? new_leak_q : leak_q;
   assign from_peak = {1'b0, command_i.pair} + 6'd2 - peak_q;
   assign taken = next_taken || beside;
-  // While the ring fills, the peak is still of another group.
-  assign left_over = !(command_i.search && two_away) ? next : (next > leak) ? next - leak : '0;
+  assign left_over = !two_away ? next : (next > leak) ? next - leak : '0;
 
   assign entry = command_i.fill ? ((command_i.pair == 5'd0) ? {1'b1, {SUM_WIDTH{1'b0}}} : {1'b0, pair_sum})
       : command_i.search ? {head_taken, head} : '0;
@@ -131,7 +130,8 @@ module pool2_candidate_decoder #(
       two_away_q <= !command_i.first_label && (best_pair_q == 5'd4);
     end else begin
       beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
-      two_away_q <= (from_peak == 6'd2) || (from_peak == 6'd62);
+      // While the ring fills, the peak is still of another group.
+      two_away_q <= command_i.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
     end
     new_leak_q <= new_leak;
   end

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// hit[k] = (-5 <= (X >> 9) - cell[k] <= 4), for the candidates in use (docs/reference/poolpointer.md, Track).
+// hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW), for the candidates in use (docs/reference/poolpointer.md and
+// poolpointer2.md, Track).
 `include "properties.svh"
 
 module label_match_properties #(
     parameter int LABELS = 5,
     parameter int DARK_LABELS = 5,
-    parameter int BRIGHT_LABELS = 5
+    parameter int BRIGHT_LABELS = 5,
+    parameter int WINDOW = 5
 ) (
     input logic                clk_i,
     input logic                valid_i,
@@ -22,7 +24,8 @@ module label_match_properties #(
   label_match #(
       .LABELS       (LABELS),
       .DARK_LABELS  (DARK_LABELS),
-      .BRIGHT_LABELS(BRIGHT_LABELS)
+      .BRIGHT_LABELS(BRIGHT_LABELS),
+      .WINDOW       (WINDOW)
   ) u_dut (
       .valid_i (valid_i),
       .cell_i  (position_i[15:9]),
@@ -38,7 +41,7 @@ module label_match_properties #(
     expected = '0;
     for (k = 0; k < LABELS; k = k + 1) begin
       distance = (32'(position_i) >> 9) - 32'(cells_i[k*7+:7]);
-      expected[k] = valid_i && (k < candidates) && (distance >= -5) && (distance <= 4);
+      expected[k] = valid_i && (k < candidates) && (distance >= -WINDOW) && (distance < WINDOW);
     end
   end
 

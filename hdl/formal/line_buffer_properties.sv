@@ -101,18 +101,18 @@ module line_buffer_properties #(
     end
   end
 
-  logic inside;
-  assign inside = (out_line_q != '0);
+  logic under_way;
+  assign under_way = (out_line_q != '0);
 
   `ASSUME(m_release, release_i != '0 && 32'(release_i) <= ACQUISITION_LINES && 32'(release_i) <= LINES
                      && (WHOLE == 0 || 32'(release_i) == ACQUISITION_LINES))
-  `ASSUME(m_flush_between, !flush_i || (!inside && !line_ready_i))
+  `ASSUME(m_flush_between, !flush_i || (!under_way && !line_ready_i))
   `ASSUME(m_watched, 32'(watched_line) < ACQUISITION_LINES)
-  `PROVE(a_uninterrupted, !rst_n || !inside || line_valid)
-  `PROVE(a_released, !rst_n || inside || !line_valid || level >= release_i)
+  `PROVE(a_uninterrupted, !rst_n || !under_way || line_valid)
+  `PROVE(a_released, !rst_n || under_way || !line_valid || level >= release_i)
   `PROVE(a_line, !rst_n || !step || !at_watched || lost_q || underrun || (come_q && line == expected_q))
   `PROVE(a_lost, !rst_n || !step || !(lost_q || underrun) || line == {WIDTH{1'b1}})
-  `PROVE(a_underrun_inside, !rst_n || !underrun || (step && inside && !lost_q && level <= 1))
+  `PROVE(a_underrun_inside, !rst_n || !underrun || (step && under_way && !lost_q && level <= 1))
   `PROVE(a_whole_never_runs_empty, !rst_n || WHOLE == 0 || !underrun)
   `PROVE(a_takes_lines, !rst_n || s_tready || flush_i || 32'(level) >= LINES)
   `PROVE(a_level, !rst_n || 32'(level) <= LINES + 1)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a timestamp is from where a pixel's word points: docs/reference/poolpointer.md, Track and Point, on integers.
+// How far a timestamp is from where a pixel's word points: docs/reference/poolpointer.md, Track and Point, on integers;
+// with POOL_POINTER_2 the windows of docs/reference/poolpointer2.md.
 `include "properties.svh"
 
 module pixel_distance_properties #(
@@ -9,6 +10,7 @@ module pixel_distance_properties #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int POOL_POINTER_2 = 0,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int SCORES_WIDTH = LABELS * SCORE_BITS,
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
@@ -52,7 +54,9 @@ module pixel_distance_properties #(
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES),
-      .PIXEL_WIDTH    (PIXEL_WIDTH)
+      .PIXEL_WIDTH    (PIXEL_WIDTH),
+      .RIVAL_REACH    ((POOL_POINTER_2 != 0) ? 6 : 5),
+      .WEIGHTS        ((POOL_POINTER_2 != 0) ? 24'o12344431 : 24'o12344321)
   ) u_dut (
       .valid_i      (valid_i),
       .position_i   (position_i),
@@ -113,12 +117,14 @@ module pixel_distance_properties #(
     f = (x >>> 9) - rival_cell;
     expected_reach = valid_i && (e >= -8) && (e <= 7);
     expected_hit = valid_i && (e >= -5) && (e <= 4);
-    expected_rival_hit = valid_i && !expected_hit && (f >= -5) && (f <= 4);
+    expected_rival_hit = valid_i && !expected_hit && (f >= ((POOL_POINTER_2 != 0) ? -6 : -5)) && (f <= ((POOL_POINTER_2 != 0) ? 5 : 4));
     away = (e >= 0) ? e : -1 - e;
     case (away)
       0, 7: expected_weight = 1;
-      1, 6: expected_weight = 2;
-      2, 5: expected_weight = 3;
+      1: expected_weight = (POOL_POINTER_2 != 0) ? 3 : 2;
+      2: expected_weight = (POOL_POINTER_2 != 0) ? 4 : 3;
+      5: expected_weight = 3;
+      6: expected_weight = 2;
       default: expected_weight = 4;
     endcase
     if (ADVANTAGE_WIDTH == 7) begin

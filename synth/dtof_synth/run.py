@@ -19,8 +19,10 @@ from .power import ClockTree, Power
 
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
-# Namings to map with (synth/yosys/4_map.tcl), 0 for the names as they are. poolPointer's parts take ABC too long for more.
+# Namings to map with (synth/yosys/4_map.tcl), 0 for the names as they are; fewer for poolPointer, whose parts take ABC
+# longer.
 NAMING_SEEDS = list(range(16))
+POOL_NAMING_SEEDS = NAMING_SEEDS[:4]
 KEPT_COLUMNS = 3
 BOTH_CORNERS = ("typical", "slow")
 
@@ -157,7 +159,7 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     tools.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / TARGET_MHZ * effort.share:.0f}",
-        "abc_script": effort.script, "naming_seeds": NAMING_SEEDS[:1] if configuration.is_pool else NAMING_SEEDS,
+        "abc_script": effort.script, "naming_seeds": POOL_NAMING_SEEDS if configuration.is_pool else NAMING_SEEDS,
         "area_log": folder / "area.log",
         "tie_low": list(library.tie.get("0", ())),
         "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
