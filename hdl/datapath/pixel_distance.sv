@@ -67,14 +67,15 @@ module pixel_distance #(
   generate
     if (OFFSET_BITS > 0) begin : g_offset
       logic [OFFSET_BITS-1:0] offset;
-      logic signed [12:0] distance;
-      logic signed [9:0] cells;
+      logic [9:0] position;  // in units of 64; within the range, since the offset follows timestamps
+      logic signed [10:0] distance;
+      logic signed [7:0] cells;
       assign offset = word_i[SCORES_WIDTH+LABEL_WIDTH+:OFFSET_BITS];
-      assign distance = $signed({3'b000, position_i[15:6]}) - $signed({3'b000, leader_cell, 3'b000})
-          - $signed({{(13 - OFFSET_BITS) {offset[OFFSET_BITS-1]}}, offset});
-      assign cells = distance[12:3];
-      assign offset_up_o = valid_i && (cells > 10'sd0) && (cells < 10'sd8);
-      assign offset_down_o = valid_i && (cells < -10'sd1) && (cells >= -10'sd8);
+      assign position = {leader_cell, 3'b000} + {{(10 - OFFSET_BITS) {offset[OFFSET_BITS-1]}}, offset};
+      assign distance = $signed({1'b0, position_i[15:6]}) - $signed({1'b0, position});
+      assign cells = distance[10:3];
+      assign offset_up_o = valid_i && (cells > 8'sd0) && (cells < 8'sd8);
+      assign offset_down_o = valid_i && (cells < -8'sd1) && (cells >= -8'sd8);
       logic unused_distance;
       assign unused_distance = ^distance[2:0];
     end else begin : g_no_offset

@@ -82,7 +82,7 @@ module pixel_distance_properties #(
   endfunction
 
   // Track: distance to the leader's candidate and offset.
-  integer x, leader, offset, track_cells;
+  integer x, leader, offset, leader_position, track_cells;
   assign x = 32'(position_i);
   always_comb begin
     leader = 0;
@@ -92,7 +92,8 @@ module pixel_distance_properties #(
       offset = 32'(word_i >> (SCORES_WIDTH + LABEL_WIDTH)) & ((1 << OFFSET_BITS) - 1);
       if (offset >= (1 << OFFSET_BITS) / 2) offset = offset - (1 << OFFSET_BITS);
     end
-    track_cells = (x - (512 * cell_of(leader) + 64 * offset)) >>> 9;
+    leader_position = 512 * cell_of(leader) + 64 * offset;
+    track_cells = (x - leader_position) >>> 9;
   end
 
   // Point: Qa and Qb of the word, e and f.
@@ -140,6 +141,7 @@ module pixel_distance_properties #(
   localparam int GEAR_SHIFT = (ADVANTAGE_WIDTH == 4) ? POINTER_SHIFT : 0;
 
   `ASSUME(m_leader_in_use, point_i || leader < LABELS)
+  `ASSUME(m_leader_in_range, point_i || (leader_position >= 0 && leader_position < 65536))
   `ASSUME(m_candidates_in_use, !point_i || (a < LABELS && b < LABELS))
   `PROVE(a_offset_up, OFFSET_BITS == 0 || point_i || offset_up == (valid_i && track_cells >= 1 && track_cells <= 7))
   `PROVE(a_offset_down,
