@@ -240,7 +240,7 @@ inline constexpr std::array<Readout, {len(hardware)}> kRtlReadouts = {{
 inline constexpr std::array<Readout, {len(offered)}> kModelReadouts = {{
     {array(offered)}}};
 
-/// Those that are on trial: they have models and RTL, but `dtof` does not offer them.
+/// Those that are on trial: they have models and RTL, and are read only where they are named.
 inline constexpr std::array<Readout, {len(trial)}> kTrialReadouts = {{
     {array(trial)}}};
 

@@ -62,7 +62,7 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
     if (name == "all") {
       chosen.insert(chosen.end(), all.begin(), all.end());
     } else {
-      chosen.push_back(parse_readout(name));
+      chosen.push_back(parse_named_readout(name));
     }
   }
   struct Override {

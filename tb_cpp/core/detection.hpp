@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -62,6 +63,10 @@ struct RowRange {
 
   bool operator==(const RowRange&) const = default;
 };
+
+/// Gives column i of several, which are asked for once each, from left to right. The stream is valid until
+/// the next call, so that a reader of many columns holds one.
+using ColumnReader = std::function<const ColumnStream&(int column)>;
 
 /// Produces the TDC stream of a frame, any column alone and from any thread.
 class StreamSource {

@@ -47,7 +47,7 @@ Readout parse_readout(std::string_view name) {
   throw InputError(unknown_name("read-out", name, known));
 }
 
-Readout parse_rtl_readout(std::string_view name) {
+Readout parse_named_readout(std::string_view name) {
   const auto* const found = std::ranges::find(kTrialReadouts, name, readout_name);
   return found != kTrialReadouts.end() ? *found : parse_readout(name);
 }

@@ -13,7 +13,7 @@ namespace dtof {
 /// Throws InputError naming the legal names.
 Readout parse_readout(std::string_view name);
 /// The same, and those on trial.
-Readout parse_rtl_readout(std::string_view name);
+Readout parse_named_readout(std::string_view name);
 
 /// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
 /// Lengths are fractions of a coarse bin, a 32nd of the range.
@@ -97,6 +97,11 @@ struct ReadoutParameters {
   /// Throws InputError with the RTL's own sentence and the value if a parameter is outside its range.
   void validate() const;
 
+  /// Neighbouring columns whose pixels hear each other, counted from column 0: those of poolPointer 2's
+  /// engine, else 1.
+  [[nodiscard]] int columns_together() const {
+    return readout == Readout::kPoolPointer2 ? pool.engine_columns : 1;
+  }
   /// 2^NP.
   [[nodiscard]] int code_count() const { return 1 << np; }
   /// 2^NP - 1.

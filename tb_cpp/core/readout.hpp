@@ -60,7 +60,7 @@ inline constexpr std::array<Readout, 10> kModelReadouts = {
     Readout::kPoolPointer,
     Readout::kPoolPointerLean};
 
-/// Those that are on trial: they have models and RTL, but `dtof` does not offer them.
+/// Those that are on trial: they have models and RTL, and are read only where they are named.
 inline constexpr std::array<Readout, 1> kTrialReadouts = {
     Readout::kPoolPointer2};
 

@@ -35,13 +35,15 @@ class GatedModel final : public ReadoutModel {
     return model_->run_column(kept_, acquisitions);
   }
 
-  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(std::span<const ColumnStream> columns,
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(int count, const ColumnReader& column,
                                                                   std::uint32_t acquisitions) override {
-    std::vector<ColumnStream> kept(columns.size());
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-      keep(columns[column], acquisitions, kept[column]);
-    }
-    return model_->run_columns(kept, acquisitions);
+    return model_->run_columns(
+        count,
+        [&](int i) -> const ColumnStream& {
+          keep(column(i), acquisitions, kept_);
+          return kept_;
+        },
+        acquisitions);
   }
 
   void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,

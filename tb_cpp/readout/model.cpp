@@ -29,18 +29,24 @@ void check_detections(std::span<const Detection> detections, int row, const Read
   }
 }
 
-std::vector<std::vector<PixelResult>> ReadoutModel::run_columns(std::span<const ColumnStream> columns,
+std::vector<std::vector<PixelResult>> ReadoutModel::run_columns(int count, const ColumnReader& column,
                                                                 std::uint32_t acquisitions) {
   std::vector<std::vector<PixelResult>> results;
-  results.reserve(columns.size());
-  for (std::size_t column = 0; column < columns.size(); ++column) {
-    if (columns[column].rows() != columns.front().rows()) {
-      throw InputError(fmt::format("column {} has {} rows, column 0 has {}", column, columns[column].rows(),
-                                   columns.front().rows()));
+  for (int i = 0; i < count; ++i) {
+    results.push_back(run_column(column(i), acquisitions));
+    if (results.back().size() != results.front().size()) {
+      throw InputError(fmt::format("column {} has {} rows, column 0 has {}", i, results.back().size(),
+                                   results.front().size()));
     }
-    results.push_back(run_column(columns[column], acquisitions));
   }
   return results;
+}
+
+std::vector<std::vector<PixelResult>> ReadoutModel::run_columns(std::span<const ColumnStream> columns,
+                                                                std::uint32_t acquisitions) {
+  return run_columns(
+      static_cast<int>(columns.size()),
+      [columns](int i) -> const ColumnStream& { return columns[static_cast<std::size_t>(i)]; }, acquisitions);
 }
 
 std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {

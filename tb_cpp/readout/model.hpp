@@ -27,10 +27,14 @@ class ReadoutModel {
   /// Reads out one column's frame of `acquisitions`; one result per row.
   [[nodiscard]] virtual std::vector<PixelResult> run_column(const ColumnStream& column,
                                                             std::uint32_t acquisitions) = 0;
-  /// Reads out neighbouring columns of equally many rows from left to right, whose pixels may hear each
-  /// other; index: column, row. Throws InputError for different numbers of rows.
-  [[nodiscard]] virtual std::vector<std::vector<PixelResult>> run_columns(
-      std::span<const ColumnStream> columns, std::uint32_t acquisitions);
+  /// Reads out `count` neighbouring columns of equally many rows from left to right, whose pixels may hear
+  /// each other; index: column, row. Throws InputError for different numbers of rows.
+  [[nodiscard]] virtual std::vector<std::vector<PixelResult>> run_columns(int count,
+                                                                          const ColumnReader& column,
+                                                                          std::uint32_t acquisitions);
+  /// The same for columns that are all there.
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(std::span<const ColumnStream> columns,
+                                                                  std::uint32_t acquisitions);
   /// Reads out the column from what `sampler` draws, which must be of the same NP; one result per row, as
   /// many as `results` holds.
   virtual void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,

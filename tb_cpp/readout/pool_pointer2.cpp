@@ -380,19 +380,21 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
   return positions;
 }
 
-std::vector<std::vector<PixelResult>> run_pool_pointer2(std::span<const ColumnStream> array, int np,
+std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
                                                         std::uint32_t acquisitions,
                                                         const PoolPointer2Parameters& parameters) {
   parameters.validate();
   std::vector<std::vector<PixelResult>> results;
   std::vector<PoolColumn> engine;
-  for (std::size_t column = 0; column < array.size(); ++column) {
-    if (array[column].rows() != array.front().rows()) {
-      throw InputError(fmt::format("column {} has {} rows, column 0 has {}", column, array[column].rows(),
-                                   array.front().rows()));
+  int rows = 0;
+  for (int number = 0; number < count; ++number) {
+    const ColumnStream& stream = column(number);
+    rows = number == 0 ? stream.rows() : rows;
+    if (stream.rows() != rows) {
+      throw InputError(fmt::format("column {} has {} rows, column 0 has {}", number, stream.rows(), rows));
     }
-    engine.push_back(pool_column_events(array[column], np, acquisitions));
-    if (engine.size() < static_cast<std::size_t>(parameters.engine_columns) && column + 1 < array.size()) {
+    engine.push_back(pool_column_events(stream, np, acquisitions));
+    if (engine.size() < static_cast<std::size_t>(parameters.engine_columns) && number + 1 < count) {
       continue;
     }
     const std::vector<PoolWinners> columns = read_engine(engine, acquisitions, parameters);
@@ -435,12 +437,14 @@ class PoolPointer2Model final : public ReadoutModel {
   /// An engine of one column.
   [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
                                                     std::uint32_t acquisitions) override {
-    return run_columns(std::span(&column, 1), acquisitions).front();
+    return run_columns(
+               1, [&column](int) -> const ColumnStream& { return column; }, acquisitions)
+        .front();
   }
 
-  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(std::span<const ColumnStream> columns,
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(int count, const ColumnReader& column,
                                                                   std::uint32_t acquisitions) override {
-    return run_pool_pointer2(columns, np_, acquisitions, parameters_);
+    return run_pool_pointer2(count, column, np_, acquisitions, parameters_);
   }
 
   void run_sampled_column(PixelSampler& /*sampler*/, int /*column*/, std::uint32_t /*acquisitions*/,

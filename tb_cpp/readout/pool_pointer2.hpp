@@ -102,9 +102,9 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
                                              std::span<const PoolWinner> left,
                                              const PoolPointer2Parameters& parameters);
 
-/// Reads an array, column by column from left to right, engine by engine; index: column, row. Throws
-/// InputError for illegal parameters, malformed streams or columns of different lengths.
-std::vector<std::vector<PixelResult>> run_pool_pointer2(std::span<const ColumnStream> array, int np,
+/// Reads an array of `count` columns, column by column from left to right, engine by engine; index: column,
+/// row. Throws InputError for illegal parameters, malformed streams or columns of different lengths.
+std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
                                                         std::uint32_t acquisitions,
                                                         const PoolPointer2Parameters& parameters);
 

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
-#include <functional>
+#include <map>
+#include <ranges>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -15,24 +17,43 @@ namespace dtof {
 
 namespace {
 
-/// `read(column, results)` fills one column's results; the frame is row-major.
-std::vector<PixelResult> read_columns(
-    const StreamSource& source, std::span<const int> selected, int threads, Progress* progress,
-    const std::function<void(int column, std::vector<PixelResult>& results)>& read) {
-  const auto rows = static_cast<std::size_t>(source.rows());
-  const std::size_t width = selected.size();
-  std::vector<PixelResult> frame(rows * width);
-  parallel_for(width, threads, [&](std::size_t index) {
-    std::vector<PixelResult> results(rows);
-    read(selected[index], results);
-    for (std::size_t row = 0; row < rows; ++row) {
-      frame[row * width + index] = results[row];
-    }
-    if (progress != nullptr) {
-      progress->advance();
-    }
-  });
-  return frame;
+ColumnStream checked_column(const StreamSource& source, int column) {
+  ColumnStream stream = source.column(column);
+  if (stream.rows() != source.rows()) {
+    throw InputError(
+        fmt::format("column {} has {} rows, its source says {}", column, stream.rows(), source.rows()));
+  }
+  return stream;
+}
+
+/// Copies one column's results into a row-major frame of `width` columns.
+void store_column(std::span<const PixelResult> results, std::size_t width, std::size_t index,
+                  std::vector<PixelResult>& frame) {
+  for (std::size_t row = 0; row < results.size(); ++row) {
+    frame[row * width + index] = results[row];
+  }
+}
+
+/// Columns that are read together, and which of them are asked for.
+struct ColumnGroup {
+  int first = 0;
+  int count = 0;
+  std::vector<std::size_t> asked;  ///< places in the list of columns asked for
+};
+
+/// A pixel's result does not depend on which columns are asked for: groups are whole, and the same in any
+/// order.
+std::vector<ColumnGroup> column_groups(std::span<const int> selected, int together, int columns) {
+  std::map<int, ColumnGroup> groups;
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    const int first = selected[i] / together * together;
+    ColumnGroup& group = groups[first];
+    group.first = first;
+    group.count = std::min(together, columns - first);
+    group.asked.push_back(i);
+  }
+  const auto values = std::views::values(groups);
+  return {values.begin(), values.end()};
 }
 
 }  // namespace
@@ -40,26 +61,49 @@ std::vector<PixelResult> read_columns(
 std::vector<PixelResult> run_frame(const StreamSource& source, const ReadoutParameters& parameters,
                                    int threads, std::span<const int> columns, Progress* progress) {
   parameters.validate();
-  return read_columns(source, select_columns(source, columns), threads, progress,
-                      [&](int column, std::vector<PixelResult>& results) {
-                        const ColumnStream stream = source.column(column);
-                        if (stream.rows() != source.rows()) {
-                          throw InputError(fmt::format("column {} has {} rows, its source says {}", column,
-                                                       stream.rows(), source.rows()));
-                        }
-                        results = make_readout_model(parameters)->run_column(stream, source.acquisitions());
-                      });
+  const std::vector<int> selected = select_columns(source, columns);
+  const std::vector<ColumnGroup> groups =
+      column_groups(selected, parameters.columns_together(), source.columns());
+  const std::size_t width = selected.size();
+  std::vector<PixelResult> frame(static_cast<std::size_t>(source.rows()) * width);
+  parallel_for(groups.size(), threads, [&](std::size_t index) {
+    const ColumnGroup& group = groups[index];
+    ColumnStream stream;
+    const std::vector<std::vector<PixelResult>> results =
+        make_readout_model(parameters)
+            ->run_columns(
+                group.count,
+                [&](int column) -> const ColumnStream& {
+                  return stream = checked_column(source, group.first + column);
+                },
+                source.acquisitions());
+    for (const std::size_t place : group.asked) {
+      store_column(results[static_cast<std::size_t>(selected[place] - group.first)], width, place, frame);
+    }
+    if (progress != nullptr) {
+      progress->advance(group.asked.size());
+    }
+  });
+  return frame;
 }
 
 std::vector<PixelResult> run_sampled_frame(const SampledSource& source, const ReadoutParameters& parameters,
                                            int threads, std::span<const int> columns, Progress* progress) {
   parameters.validate();
-  return read_columns(source, select_columns(source, columns), threads, progress,
-                      [&](int column, std::vector<PixelResult>& results) {
-                        make_readout_model(parameters)
-                            ->run_sampled_column(*source.pixel_sampler(), column, source.acquisitions(),
-                                                 results);
-                      });
+  const std::vector<int> selected = select_columns(source, columns);
+  const std::size_t width = selected.size();
+  const auto rows = static_cast<std::size_t>(source.rows());
+  std::vector<PixelResult> frame(rows * width);
+  parallel_for(width, threads, [&](std::size_t index) {
+    std::vector<PixelResult> results(rows);
+    make_readout_model(parameters)
+        ->run_sampled_column(*source.pixel_sampler(), selected[index], source.acquisitions(), results);
+    store_column(results, width, index, frame);
+    if (progress != nullptr) {
+      progress->advance();
+    }
+  });
+  return frame;
 }
 
 }  // namespace dtof

@@ -28,12 +28,17 @@ std::vector<PixelResult> run_model(const RtlConfiguration& configuration,
   const std::size_t rows = columns.empty() ? 0 : static_cast<std::size_t>(columns.front().rows());
   std::vector<PixelResult> results(rows * columns.size());
   // The array has all its columns and rows; those that are not given are dark.
-  std::vector<ColumnStream> array(static_cast<std::size_t>(configuration.sram_num));
-  for (std::size_t column = 0; column < array.size(); ++column) {
-    array[column] = with_dark_rows(column < columns.size() ? columns[column] : ColumnStream(), configuration);
-  }
+  ColumnStream stream;
   const std::vector<std::vector<PixelResult>> expected =
-      make_readout_model(configuration.parameters)->run_columns(array, acquisitions);
+      make_readout_model(configuration.parameters)
+          ->run_columns(
+              configuration.sram_num,
+              [&](int column) -> const ColumnStream& {
+                const auto given = static_cast<std::size_t>(column);
+                return stream = with_dark_rows(given < columns.size() ? columns[given] : ColumnStream(),
+                                               configuration);
+              },
+              acquisitions);
   for (std::size_t column = 0; column < columns.size(); ++column) {
     for (std::size_t row = 0; row < rows; ++row) {
       results[row * columns.size() + column] = expected[column][row];

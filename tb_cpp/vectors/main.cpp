@@ -26,7 +26,7 @@ int run(int argc, char** argv) {
   app.add_option("--acquisitions", frames, "acquisitions of each frame")->required();
   app.add_option("--parameters", settings, "RTL parameters of the top, NAME=value")->required();
   CLI11_PARSE(app, argc, argv);
-  dtof::write_vectors(dtof::parse_rtl_parameters(dtof::parse_rtl_readout(readout), settings), frames, seed,
+  dtof::write_vectors(dtof::parse_rtl_parameters(dtof::parse_named_readout(readout), settings), frames, seed,
                       folder);
   return 0;
 }

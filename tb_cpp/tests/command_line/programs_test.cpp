@@ -728,6 +728,24 @@ TEST_F(Programs, MemoryIsRefusedBeforeItIsSpent) {
   EXPECT_EQ(dtof("replay many.npy --bin-width 100 --photons 50 -r sifh --out out").exit_code, 0);
 }
 
+// It is read with its model where it is named, and is in no list of all read-outs.
+TEST_F(Programs, AReadoutOnTrialIsReadWithItsModel) {
+  ASSERT_EQ(dtof("frame -r poolpointer2 --columns 32-35 -a 200 --out whole").exit_code, 0);
+  ASSERT_EQ(dtof("frame -r poolpointer2 --columns 35,33 -a 200 --out part").exit_code, 0);
+  const std::string whole = read_file(path("whole/poolpointer2.csv"));
+  std::ifstream part(path("part/poolpointer2.csv"));
+  std::string line;
+  int lines = 0;
+  for (std::getline(part, line); std::getline(part, line); ++lines) {
+    EXPECT_THAT(whole, HasSubstr("\n" + line + "\n"));
+  }
+  EXPECT_EQ(lines, 320);
+  expect_refused("frame -r poolpointer2 --engine rtl --out out", "no RTL is compiled for poolpointer2");
+  ASSERT_EQ(dtof("frame -r all --columns 0 -a 20 --out all").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(path("all/poolpointer.csv")));
+  EXPECT_FALSE(std::filesystem::exists(path("all/poolpointer2.csv")));
+}
+
 TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
   expect_refused("frame --array-columns 375 --array-rows 1 -a 10 --out out", "point cloud of 375 x 1 pixels");
   expect_refused("frame --array-columns 1 --array-rows 375 -a 10 --out out", "point cloud of 1 x 375 pixels");

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -449,6 +450,15 @@ class Reference {
   std::map<Place, Group> groups_;
 };
 
+std::vector<std::vector<PixelResult>> read_array(std::span<const ColumnStream> array, int np,
+                                                 std::uint32_t acquisitions,
+                                                 const PoolPointer2Parameters& parameters) {
+  return run_pool_pointer2(
+      static_cast<int>(array.size()),
+      [array](int column) -> const ColumnStream& { return array[static_cast<std::size_t>(column)]; }, np,
+      acquisitions, parameters);
+}
+
 void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
                          int engine_columns = 34, Reference::Open open = {}) {
   for (const bool smooth : {false, true}) {
@@ -460,7 +470,7 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
     parameters.left_needs_margin = open.left_needs_margin ? 1 : 0;
     parameters.coarse_share = open.coarse;
     parameters.track_share = open.track;
-    const auto actual = run_pool_pointer2(array, np, static_cast<std::uint32_t>(acquisitions), parameters);
+    const auto actual = read_array(array, np, static_cast<std::uint32_t>(acquisitions), parameters);
     std::vector<std::vector<PixelResult>> expected;
     for (std::size_t begin = 0; begin < array.size(); begin += static_cast<std::size_t>(engine_columns)) {
       const std::size_t end = std::min(array.size(), begin + static_cast<std::size_t>(engine_columns));
@@ -628,7 +638,7 @@ TEST_F(PoolPointer2, NothingDetectedIsNoConfidence) {
   }
   PoolPointer2Parameters parameters;
   parameters.left_needs_margin = 1;
-  for (const auto& column : run_pool_pointer2(array, 10, 3333, parameters)) {
+  for (const auto& column : read_array(array, 10, 3333, parameters)) {
     EXPECT_THAT(column, testing::Each(PixelResult{31, 32, 0}));
   }
 }
@@ -643,7 +653,7 @@ TEST_F(PoolPointer2, LongFramesAsReference) {
     }
   }
   expect_as_reference(array, 10, 3333);
-  for (const auto& column : run_pool_pointer2(array, 10, 3333, {})) {
+  for (const auto& column : read_array(array, 10, 3333, {})) {
     for (const PixelResult& result : column) {
       EXPECT_GE(result.confidence, 116) << "the finest gears were not reached";
     }
@@ -675,14 +685,14 @@ TEST_F(PoolPointer2, NothingDetected) {
   // Every candidate is as good, and the lowest is the border of the first two coarse bins. The first column
   // is sure of nothing; those after it follow its choice.
   for (const std::uint32_t acquisitions : {0U, 1U, 3333U}) {
-    const auto results = run_pool_pointer2(array, 10, acquisitions, {});
+    const auto results = read_array(array, 10, acquisitions, {});
     EXPECT_THAT(results[0], testing::Each(PixelResult{31, 32, 0}));
     for (const PixelResult& result : results[2]) {
       EXPECT_EQ(result.code, 31);
       EXPECT_EQ(result.fraction, 32);
     }
   }
-  EXPECT_TRUE(run_pool_pointer2({}, 10, 100, {}).empty());
+  EXPECT_TRUE(read_array({}, 10, 100, {}).empty());
 }
 
 // A column's results depend on its engine's columns only.
@@ -691,27 +701,27 @@ TEST_F(PoolPointer2, EnginesAreIndependent) {
   const auto array = surfaces(10, 2, 8, 16, 0.2, 900, draw);
   PoolPointer2Parameters parameters;
   parameters.engine_columns = 4;
-  const auto together = run_pool_pointer2(array, 10, 900, parameters);
+  const auto together = read_array(array, 10, 900, parameters);
   for (const std::size_t begin : {0U, 4U}) {
-    const auto alone = run_pool_pointer2(std::span(array).subspan(begin, 4), 10, 900, parameters);
+    const auto alone = read_array(std::span(array).subspan(begin, 4), 10, 900, parameters);
     for (std::size_t column = 0; column < 4; ++column) {
       EXPECT_EQ(alone[column], together[begin + column]);
     }
   }
   parameters.engine_columns = 8;
-  EXPECT_NE(run_pool_pointer2(array, 10, 900, parameters), together) << "the border made no difference";
+  EXPECT_NE(read_array(array, 10, 900, parameters), together) << "the border made no difference";
 }
 
 TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
   std::vector<ColumnStream> array(2);
   array[0].append_row(std::vector<Detection>{{5, 3}});
   array[1].finish_row();
-  EXPECT_THAT([&] { (void)run_pool_pointer2(array, 10, 5, {}); },
+  EXPECT_THAT([&] { (void)read_array(array, 10, 5, {}); },
               ThrowsMessage<InputError>(HasSubstr("row 0: acquisition 5 is outside")));
-  EXPECT_THAT([&] { (void)run_pool_pointer2(array, 7, 6, {}); },
+  EXPECT_THAT([&] { (void)read_array(array, 7, 6, {}); },
               ThrowsMessage<InputError>(HasSubstr("NP must be 8 to 16, not 7")));
   array[1].finish_row();
-  EXPECT_THAT([&] { (void)run_pool_pointer2(array, 10, 6, {}); },
+  EXPECT_THAT([&] { (void)read_array(array, 10, 6, {}); },
               ThrowsMessage<InputError>(HasSubstr("column 1 has 2 rows, column 0 has 1")));
   const auto refused = [&](auto spoil, const char* message) {
     PoolPointer2Parameters parameters;

@@ -60,6 +60,33 @@ TEST(RunFrame, RowMajorAndTheSameForEveryThreadCount) {
   EXPECT_EQ(run_frame(source, parameters, 5), frame);
 }
 
+// Columns of an engine hear each other, so that a part of a frame needs whole engines.
+TEST(RunFrame, ColumnsThatHearEachOtherAreReadTogether) {
+  SCOPED_TRACE(test_seed_message());
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2, 10);
+  parameters.pool.engine_columns = 4;
+  const RandomSource source(parameters);
+  std::vector<ColumnStream> columns;
+  for (int column = 0; column < source.columns(); ++column) {
+    columns.push_back(source.column(column));
+  }
+  const auto array = make_readout_model(parameters)->run_columns(columns, source.acquisitions());
+  const std::vector<PixelResult> frame = run_frame(source, parameters, 2);
+  const std::array<int, 3> some = {6, 1, 2};
+  const std::vector<PixelResult> part = run_frame(source, parameters, 2, some);
+  for (std::size_t row = 0; row < 5; ++row) {
+    for (std::size_t column = 0; column < 7; ++column) {
+      EXPECT_EQ(frame[row * 7 + column], array[column][row]) << "column " << column << ", row " << row;
+    }
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      EXPECT_EQ(part[row * 3 + i], array[static_cast<std::size_t>(some[i])][row]) << "column " << some[i];
+    }
+  }
+  source.columns_made = 0;
+  (void)run_frame(source, parameters, 1, std::array<int, 1>{5});
+  EXPECT_EQ(source.columns_made, 3) << "of the second engine, which has columns 4 to 6";
+}
+
 TEST(RunFrame, OnlyTheListedColumnsAreMade) {
   const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kFifh, 10);
   const RandomSource source(parameters);
