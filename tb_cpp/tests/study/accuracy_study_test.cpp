@@ -110,7 +110,8 @@ TEST(AccuracyStudy, PrecisionStopsWhenReached) {
   }
   settings.precision = 1e-6;
   settings.most_frames = 200;
-  const AccuracyPoint& given_up = run_accuracy_study(settings).points.front();
+  const AccuracyStudy hopeless = run_accuracy_study(settings);
+  const AccuracyPoint& given_up = hopeless.points.front();
   EXPECT_FALSE(given_up.precision_reached);
   EXPECT_EQ(given_up.frames, 200U);
 }
