@@ -61,9 +61,9 @@ struct WallShares {
   double above_3_percent;
   double above_10_percent;
 };
-/// What a first estimate says of a rival, which `dtof-study rivals` puts beside its own figures: preset
-/// thesis, 50 klux, kClaimedPixels pixels a distance, counters without limits, the median's bias removed at
-/// each distance.
+/// What a first estimate says of a rival, which `dtof-study rivals --claims` puts beside its own figures:
+/// preset thesis, 50 klux, kClaimedPixels pixels a distance, counters without limits, the median's bias
+/// removed at each distance.
 struct RivalClaim {
   WallShares at_3_m;
   WallShares at_4_m;

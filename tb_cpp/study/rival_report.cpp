@@ -9,6 +9,9 @@
 #include <numeric>
 #include <string_view>
 
+#include "metrics/error_estimates.hpp"
+#include "metrics/error_statistics.hpp"
+
 namespace dtof {
 namespace {
 
@@ -34,6 +37,29 @@ std::string share_text(const Estimate& share) {
 }
 
 bool is_flat_scene(const std::string& scene) { return scene.starts_with("flat "); }
+
+struct ClaimedShare {
+  bool first;  ///< of its wall
+  double percent;
+  Estimate here;
+
+  [[nodiscard]] bool agrees() const {
+    const auto cases =
+        static_cast<std::uint64_t>(std::llround(percent / 100.0 * static_cast<double>(kClaimedPixels)));
+    const Interval claimed = estimate_share(cases, kClaimedPixels).interval;
+    return claimed.low <= here.interval.high && here.interval.low <= claimed.high;
+  }
+};
+
+std::vector<ClaimedShare> claimed_shares(const CheckedClaim& claim) {
+  std::vector<ClaimedShare> shares;
+  for (const auto& [wall, counts] :
+       {std::pair(claim.claim.at_3_m, claim.at_3_m), std::pair(claim.claim.at_4_m, claim.at_4_m)}) {
+    shares.push_back({true, wall.above_3_percent, estimate_share(counts.above_3_percent, counts.pixels)});
+    shares.push_back({false, wall.above_10_percent, estimate_share(counts.above_10_percent, counts.pixels)});
+  }
+  return shares;
+}
 
 }  // namespace
 
@@ -261,39 +287,54 @@ std::string comparison_sentence(const std::map<double, ComparedScores>& lights, 
                                      fmt::join(parts, ", "));
 }
 
-std::optional<Table> claim_table(const ComparedScores& scores,
-                                 const std::vector<std::pair<std::string, RivalClaim>>& claims,
-                                 std::uint64_t claimed_pixels) {
-  const std::optional<std::size_t> near = scores.scene("flat 3 m");
-  const std::optional<std::size_t> far = scores.scene("flat 4 m");
-  if (!near || !far) {
-    return std::nullopt;
+void add_unbiased(WallCounts& counts, double wall_m, std::span<const double> measured_m) {
+  const double middle = median({measured_m.begin(), measured_m.end()});
+  for (const double measured : measured_m) {
+    const double error = std::abs(measured - middle) / wall_m;
+    ++counts.pixels;
+    counts.above_3_percent += error > kRequirement ? 1 : 0;
+    counts.above_10_percent += error > kOutlierError ? 1 : 0;
   }
-  Table table({"estimator", "3 m: first estimate", "here", "within both intervals", "4 m: first estimate",
-               "here", "within both intervals"});
-  for (const auto& [title, claim] : claims) {
-    const std::optional<std::size_t> row = scores.row(title);
-    if (!row) {
-      continue;
-    }
-    std::vector<std::string> cells = {title};
-    for (const auto& [scene, wall] : {std::pair(*near, claim.at_3_m), std::pair(*far, claim.at_4_m)}) {
-      const Estimate above_3 = scores.estimate({scene}, *row, compared_figures()[0]);
-      const Estimate above_10 = scores.estimate({scene}, *row, compared_figures()[1]);
-      const auto agrees = [&](double percent, const Estimate& here) {
-        const auto cases =
-            static_cast<std::uint64_t>(std::llround(percent / 100.0 * static_cast<double>(claimed_pixels)));
-        const Interval claimed = estimate_share(cases, claimed_pixels).interval;
-        return claimed.low <= here.interval.high && here.interval.low <= claimed.high ? "yes" : "no";
-      };
-      cells.push_back(fmt::format("{:g} / {:g}", wall.above_3_percent, wall.above_10_percent));
-      cells.push_back(fmt::format("{} / {}", share_text(above_3), share_text(above_10)));
-      cells.push_back(fmt::format("{} / {}", agrees(wall.above_3_percent, above_3),
-                                  agrees(wall.above_10_percent, above_10)));
+}
+
+Table claim_table(std::span<const CheckedClaim> claims) {
+  Table table({"rival", "3 m: first estimate", "here", "agree", "4 m: first estimate", "here", "agree"});
+  for (const CheckedClaim& claim : claims) {
+    std::vector<std::string> cells = {claim.title};
+    for (const ClaimedShare& share : claimed_shares(claim)) {
+      if (share.first) {
+        cells.push_back(fmt::format("{:g}", share.percent));
+        cells.push_back(share_text(share.here));
+        cells.emplace_back(share.agrees() ? "yes" : "no");
+      } else {
+        cells[cells.size() - 3] += fmt::format(" / {:g}", share.percent);
+        cells[cells.size() - 2] += " / " + share_text(share.here);
+        cells.back() += share.agrees() ? " / yes" : " / no";
+      }
     }
     table.add(std::move(cells));
   }
   return table;
+}
+
+std::string claim_sentence(std::span<const CheckedClaim> claims) {
+  std::size_t all = 0;
+  std::size_t agreeing = 0;
+  std::vector<std::string> others;
+  for (const CheckedClaim& claim : claims) {
+    bool agrees = true;
+    for (const ClaimedShare& share : claimed_shares(claim)) {
+      ++all;
+      agreeing += share.agrees() ? 1 : 0;
+      agrees = agrees && share.agrees();
+    }
+    if (!agrees) {
+      others.push_back(claim.title);
+    }
+  }
+  return fmt::format(
+      "{} of {} shares agree{}.", agreeing, all,
+      others.empty() ? "" : fmt::format("; rivals with one that does not: {}", fmt::join(others, ", ")));
 }
 
 }  // namespace dtof

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,10 +85,25 @@ Table compared_csv(const std::map<double, ComparedScores>& lights);
 std::string comparison_sentence(const std::map<double, ComparedScores>& lights, const std::string& rival,
                                 const std::string& other);
 
-/// Each claim beside what was measured on the flats of 3 m and 4 m at 50 klux, and whether they agree:
-/// whether the interval here and Wilson's of `claimed_pixels` overlap. Empty without these flats.
-std::optional<Table> claim_table(const ComparedScores& scores,
-                                 const std::vector<std::pair<std::string, RivalClaim>>& claims,
-                                 std::uint64_t claimed_pixels);
+/// Numbers of a wall's pixels by their relative error.
+struct WallCounts {
+  std::uint64_t pixels = 0;
+  std::uint64_t above_3_percent = 0;
+  std::uint64_t above_10_percent = 0;
+};
+/// Adds a wall's distances as the claims count them: what their median is off is taken from all of them.
+void add_unbiased(WallCounts& counts, double wall_m, std::span<const double> measured_m);
+
+/// A claim beside what was measured of it.
+struct CheckedClaim {
+  std::string title;
+  RivalClaim claim;
+  WallCounts at_3_m;
+  WallCounts at_4_m;
+};
+/// With Wilson's intervals; whether they overlap with those of the claim's kClaimedPixels.
+Table claim_table(std::span<const CheckedClaim> claims);
+/// How many of the claimed shares are within both intervals, and which are not.
+std::string claim_sentence(std::span<const CheckedClaim> claims);
 
 }  // namespace dtof

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,14 +78,28 @@ TEST(RivalReport, SentencesFollowTheFigures) {
   EXPECT_EQ(comparison_sentence({{50.0, made_up(0.1, 0.1)}}, "counter", "none"), "");
 }
 
+TEST(RivalReport, AWallIsJudgedWithoutItsMediansBias) {
+  WallCounts counts;
+  // A constant bias of 1 m is taken away; the median is 3.0, and 3.1 and 3.4 are off by 3.3 % and 13 %.
+  add_unbiased(counts, 3.0, std::vector<double>{4.0, 4.0, 4.0, 4.1, 4.4});
+  EXPECT_EQ(counts.pixels, 5U);
+  EXPECT_EQ(counts.above_3_percent, 2U);
+  EXPECT_EQ(counts.above_10_percent, 1U);
+  add_unbiased(counts, 3.0, std::vector<double>{1.0});
+  EXPECT_EQ(counts.pixels, 6U);
+  EXPECT_EQ(counts.above_3_percent, 2U);
+}
+
 TEST(RivalReport, ClaimsStandBesideWhatWasMeasured) {
-  const std::vector<std::pair<std::string, RivalClaim>> claims = {{"counter", {{10.0, 1.0}, {60.0, 1.0}}}};
-  const std::optional<Table> table = claim_table(made_up(0.30, 0.10), claims, 500);
-  ASSERT_TRUE(table);
-  EXPECT_THAT(table->markdown(), HasSubstr("10 / 1"));
-  EXPECT_THAT(table->csv(), HasSubstr("yes / yes,60 / 1"));
-  EXPECT_THAT(table->csv(), HasSubstr("no / yes\n"));
-  EXPECT_FALSE(claim_table(ComparedScores({"room"}, {}), claims, 500));
+  const std::vector<CheckedClaim> claims = {
+      {"counter", {{10.0, 1.0}, {60.0, 1.0}}, {1000, 105, 10}, {1000, 105, 10}},
+      {"adder", {{10.0, 1.0}, {10.0, 1.0}}, {1000, 95, 12}, {1000, 105, 10}}};
+  const std::string table = claim_table(claims).csv();
+  EXPECT_THAT(table, HasSubstr("counter,10 / 1,10.50 "));
+  EXPECT_THAT(table, HasSubstr("yes / yes,60 / 1,"));
+  EXPECT_THAT(table, HasSubstr("no / yes\nadder"));
+  EXPECT_EQ(claim_sentence(claims), "7 of 8 shares agree; rivals with one that does not: counter.");
+  EXPECT_EQ(claim_sentence(std::span(claims).subspan(1)), "4 of 4 shares agree.");
 }
 
 TEST(RivalReport, TheFileHasEverySceneAndAllTogether) {
