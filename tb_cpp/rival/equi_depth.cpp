@@ -139,8 +139,10 @@ class Proportional final : public Rival {
     }
     for_each_cycle(frames.back(), no_detection_of(sensor_),
                    [&](std::uint32_t acquisition, std::span<const std::int32_t> timestamps) {
+                     const std::int64_t fall = fall_[static_cast<std::size_t>(
+                         std::uint64_t{acquisition} * fall_.size() / sensor_.acquisitions)];
                      for (std::size_t i = 0; i < binners.size(); ++i) {
-                       move(binners[i], static_cast<int>(i) + 1, acquisition, timestamps);
+                       move(binners[i], static_cast<int>(i) + 1, fall, timestamps);
                      }
                    });
     RivalWords words;
@@ -169,8 +171,7 @@ class Proportional final : public Rival {
 
   [[nodiscard]] int fraction_bits() const { return optimised_ ? 8 : 6; }
 
-  void move(Binner& binner, int number, std::uint32_t acquisition,
-            std::span<const std::int32_t> timestamps) const {
+  void move(Binner& binner, int number, std::int64_t fall, std::span<const std::int32_t> timestamps) const {
     const auto early = static_cast<std::int32_t>(std::ranges::count_if(
         timestamps, [&](std::int32_t x) { return x << fraction_bits() < binner.boundary; }));
     const auto all = static_cast<std::int32_t>(timestamps.size());
@@ -188,12 +189,10 @@ class Proportional final : public Rival {
     const std::int64_t lag = std::int64_t{deviation(kMomentumFraction)} - binner.momentum;
     binner.momentum = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(binner.momentum + rounded_shift(kMomentumShare * lag, 10), -511, 511));
-    const auto place =
-        static_cast<std::size_t>(std::uint64_t{acquisition} * fall_.size() / sensor_.acquisitions);
     // The momentum has one fraction bit more than the step; shares and D have 10 each.
     const std::int64_t sum = gain * binner.momentum + 2 * kStepShare * binner.step;
-    binner.step = static_cast<std::int32_t>(
-        std::clamp<std::int64_t>(rounded_shift(sum * fall_[place], 21), -8191, 8191));
+    binner.step =
+        static_cast<std::int32_t>(std::clamp<std::int64_t>(rounded_shift(sum * fall, 21), -8191, 8191));
     move_to(binner, binner.boundary + binner.step);
   }
 

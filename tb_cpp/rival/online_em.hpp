@@ -8,11 +8,11 @@
 
 namespace dtof {
 
-/// Online expectation maximisation of a pulse on flat background (Poisson and Guicquero, CEA-Leti): a pixel
-/// keeps the pulse's place mu and its weight w among the detections. With g = N(x; mu, sigma) T, T the range,
-/// at each detection
+/// Online expectation maximisation of a pulse on flat background (Poisson, Guicquero, Coriat and Sicard, a
+/// 2-stage EM algorithm for online peak detection, CEA-Leti): a pixel keeps the pulse's place mu and its
+/// weight w among the detections. With g = N(x; mu, sigma) T, T the range, at each detection
 ///
-///     r = w g / (w g + 1 - w);   w += r's excess / 2^k;   mu += r (x - mu) / w / 2^k
+///     r = w g / (w g + 1 - w);   w += (r - w) / 2^k;   mu += r (x - mu) / w / 2^k
 ///
 /// sigma and the gain 2^-k follow a schedule that all pixels share, a choice of this model: a place is found
 /// from anywhere only by a pulse that starts as wide as a quarter of the range. Over the first 3/4 of the

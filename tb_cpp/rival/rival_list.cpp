@@ -10,6 +10,9 @@
 #include "rival/rival.hpp"
 
 namespace dtof {
+
+// A rival whose file has no header is declared here.
+
 namespace {
 
 using Made = std::unique_ptr<Rival>;
@@ -21,6 +24,8 @@ constexpr std::string_view kEquiDepth = "Ingle and Maier, TPAMI 2023 (arXiv 2307
 constexpr std::string_view kProportional = "Sadekar et al., ECCV 2024 (arXiv 2408.16150)";
 constexpr std::string_view kCompressive = "Gutierrez-Barragan et al., CVPR 2022";
 constexpr std::string_view kCorrelations = "Kuijk, Sensors 2025, 25(21) 6772";
+constexpr std::string_view kOnlineEm =
+    "Poisson, Guicquero, Coriat and Sicard, a 2-stage EM algorithm for online peak detection (CEA-Leti)";
 constexpr std::string_view kSketch = "Sheehan, Tachella and Davies, arXiv 2102.08732";
 constexpr std::string_view kSpline = "arXiv 2210.07314";
 
@@ -89,7 +94,7 @@ constexpr std::array kRivals = std::to_array<RivalEntry>({
     {"correlations", "two correlations, mean of 256", kCorrelations, correlations<8>},
     {"correlations-slow", "two correlations, mean of 4096", kCorrelations, correlations<12>,
      RivalClaim{{72.6, 24.8}, {87.4, 62.0}}},
-    {"online-em", "online EM", "Poisson and Guicquero, CEA-Leti", make_online_em},
+    {"online-em", "online EM", kOnlineEm, make_online_em},
     {"guided", "guided window", "Edinburgh's guided dToF; FoveaSPAD, arXiv 2412.02052",
      [](const Sensor& sensor) { return make_guided_window(sensor, {}); }},
 

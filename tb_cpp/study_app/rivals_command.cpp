@@ -316,6 +316,9 @@ void add_rivals_command(CLI::App& app, const std::string& command_line) {
                       fmt::format("rivals, one or more (default: all)\nnames: {}", fmt::join(names, ", ")));
   command->add_flag("--pooled", options->pooled,
                     "each rival also with its pixels pooled along the column by the host");
+  command->add_flag(
+      "--claims", options->claims,
+      "also put the first estimates of the rivals' entries beside what is measured on such walls");
   command->add_option(
       "--bits", options->bits,
       "READOUT=BITS, one or more: bits a pixel of the project's read-outs, as synthesis reports them");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rival/linear_code.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,6 +17,9 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "metrics/cramer_rao.hpp"
+#include "metrics/error_statistics.hpp"
+#include "photon/photon_source.hpp"
 #include "rival/code_matcher.hpp"
 #include "tests/rival/test_pixels.hpp"
 
@@ -178,6 +182,48 @@ TEST(Sketch, OfSizeOneIsTheCircularMean) {
   const double turn = std::atan2(words[1], words[0]) / (2.0 * std::numbers::pi);
   EXPECT_NEAR(sketch->decode(words).position, turn * 1024.0 - 0.5, 0.05);
   EXPECT_NEAR(sketch->decode(words).position, 400.0, 0.5);
+}
+
+/// Root mean square error of a sketch over the single pixel's bound, its median's bias taken away: 2 m, 14
+/// klux.
+double error_over_bound(int size) {
+  const SensorModel sensor;
+  const PhotonSource photons(sensor, TargetMap(1, 400, {2.0, 1.0}), 14.0, 1);
+  const std::unique_ptr<Rival> sketch = make_sketch(sensor, size);
+  const ColumnStream column = photons.column(0);
+  std::vector<double> positions;
+  for (int row = 0; row < 400; ++row) {
+    positions.push_back(sketch->decode(read_one_frame(*sketch, column.row(row))).position);
+  }
+  const double middle = median(positions);
+  double sum = 0.0;
+  for (const double position : positions) {
+    sum += (position - middle) * (position - middle);
+  }
+  const PixelRates rates = photons.rates(0, 0);
+  const double bound = cramer_rao_bound({.signal_events = rates.signal,
+                                         .background_events = rates.background,
+                                         .centre_bins = rates.centre_bins,
+                                         .sigma_bins = sensor.pulse_sigma_s() / sensor.time_resolution_s(),
+                                         .np = sensor.np,
+                                         .acquisitions = static_cast<double>(sensor.acquisitions),
+                                         .kept_events = sensor.slots});
+  return std::sqrt(sum / 400.0) / bound;
+}
+
+// The paper's claim: the error soon comes to the Cramer-Rao bound as the sketch grows, at sizes far below
+// 2^NP.
+TEST(Sketch, ComesToTheBoundWithModestSizes) {
+  const double one = error_over_bound(1);
+  const double two = error_over_bound(2);
+  const double four = error_over_bound(4);
+  const double sixteen = error_over_bound(16);
+  EXPECT_GT(one, 1.5 * two);
+  EXPECT_GT(two, 1.5 * four);
+  EXPECT_GT(four, sixteen);
+  EXPECT_LT(sixteen, 1.15);
+  RecordProperty("error_over_bound_1_2_4_16",
+                 fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", one, two, four, sixteen));
 }
 
 TEST(Sketch, NoFrameFillsItsCounters) {
