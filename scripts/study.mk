@@ -40,7 +40,9 @@ scenes: study
 
 pool: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
+	  set -e; \
 	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --seed $(SEED) --out build/pool; \
+	  scripts/publish.py pool; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/pool_synthetic"; \
 	  $(DTOF_STUDY) pool --held-out --seed $(SEED) --out build/pool_synthetic; \

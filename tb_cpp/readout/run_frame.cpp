@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <ranges>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -44,16 +44,20 @@ struct ColumnGroup {
 /// A pixel's result does not depend on which columns are asked for: groups are whole, and the same in any
 /// order.
 std::vector<ColumnGroup> column_groups(std::span<const int> selected, int together, int columns) {
-  std::map<int, ColumnGroup> groups;
+  std::map<int, ColumnGroup> by_first;
   for (std::size_t i = 0; i < selected.size(); ++i) {
     const int first = selected[i] / together * together;
-    ColumnGroup& group = groups[first];
+    ColumnGroup& group = by_first[first];
     group.first = first;
     group.count = std::min(together, columns - first);
     group.asked.push_back(i);
   }
-  const auto values = std::views::values(groups);
-  return {values.begin(), values.end()};
+  std::vector<ColumnGroup> groups;
+  groups.reserve(by_first.size());
+  for (auto& [first, group] : by_first) {
+    groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 }  // namespace
