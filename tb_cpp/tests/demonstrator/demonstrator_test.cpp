@@ -54,7 +54,7 @@ class Demonstrator : public testing::Test {
     context_.commandArgs(1, &program);
     model_ = make_demonstrator(context_);
   }
-  ~Demonstrator() override { write_coverage(context_); }
+  void TearDown() override { write_coverage(context_); }
 
   // Words of the next whole frame on the serial line.
   std::vector<std::uint64_t> receive_frame() {
@@ -109,14 +109,14 @@ class Demonstrator : public testing::Test {
     const std::vector<ColumnStream> streams = photons_.acquire(kAcquisitions);
     const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHisPointer, kNp);
     std::vector<Pixel> pixels(kPixels);
-    for (int column = 0; column < kColumns; ++column) {
+    for (std::size_t i = 0; i < streams.size(); ++i) {
       const std::vector<PixelResult> results =
-          make_readout_model(parameters)
-              ->run_column(streams[static_cast<std::size_t>(column)], kAcquisitions);
+          make_readout_model(parameters)->run_column(streams[i], kAcquisitions);
+      const auto column = static_cast<int>(i);
       for (int row = 0; row < kRows; ++row) {
         const PixelResult& result = results[static_cast<std::size_t>(row)];
-        pixels[static_cast<std::size_t>(row * kColumns + column)] = {
-            row, column, result.code, result.confidence, result.confidence < kWeakBelow};
+        pixels[static_cast<std::size_t>(row) * kColumns + i] = {row, column, result.code, result.confidence,
+                                                                result.confidence < kWeakBelow};
       }
     }
     return pixels;

@@ -5,7 +5,7 @@
 
 namespace dtof {
 
-GeneratedPhotons::GeneratedPhotons(int np, int columns, int rows) : np_(np), columns_(columns), rows_(rows) {
+GeneratedPhotons::GeneratedPhotons(int np, int columns, int rows) : np_(np), columns_(columns) {
   const int codes = 1 << np;
   const int first = codes / 8;
   const int step = (codes - 2 * first) / (columns * rows);

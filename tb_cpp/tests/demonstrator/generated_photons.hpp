@@ -21,7 +21,6 @@ class GeneratedPhotons {
  private:
   int np_;
   int columns_;
-  int rows_;
   std::uint32_t random_ = 0x2545F491;  // SEED
   std::vector<int> targets_;
 };
