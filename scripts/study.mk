@@ -2,8 +2,8 @@
 # make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
 # make pool       poolPointer 2 with and without S1 beside poolPointer and the matched filters, four seeds (half an hour)
 # make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
-# make rivals  the project's read-outs beside those that others have proposed, two seeds (two hours): build/rivals;
-#                 RIVAL_COLUMNS=20 reads fewer columns of each map (ten minutes), without poolPointer 2
+# make rivals     the project's read-outs beside those that others have proposed, two seeds (hours): build/rivals;
+#                 RIVAL_COLUMNS=4 reads four columns of each map (a quarter of an hour), without poolPointer 2
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data

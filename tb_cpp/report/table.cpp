@@ -5,10 +5,26 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 namespace dtof {
+namespace {
+
+/// In quotation marks where it has a comma or one of them (RFC 4180).
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char letter : text) {
+    quoted += letter == '"' ? "\"\"" : std::string(1, letter);
+  }
+  return quoted + '"';
+}
+
+}  // namespace
 
 Table::Table(std::vector<std::string> header, std::size_t text_columns) : text_columns_(text_columns) {
   rows_.push_back(std::move(header));
@@ -55,7 +71,9 @@ std::string Table::markdown() const {
 std::string Table::csv() const {
   std::string text;
   for (const auto& row : rows_) {
-    text += fmt::format("{}\n", fmt::join(row, ","));
+    std::vector<std::string> fields;
+    std::ranges::transform(row, std::back_inserter(fields), csv_field);
+    text += fmt::format("{}\n", fmt::join(fields, ","));
   }
   return text;
 }

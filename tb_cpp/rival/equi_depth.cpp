@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -48,8 +49,10 @@ constexpr std::int64_t rounded_shift(std::int64_t value, unsigned shift) {
 
 class Hierarchical final : public Rival {
  public:
-  Hierarchical(const SensorModel& sensor, int parts)
-      : sensor_(sensor), parts_(static_cast<std::size_t>(parts)), levels_(std::bit_width(parts_) - 1) {}
+  Hierarchical(SensorModel sensor, int parts)
+      : sensor_(std::move(sensor)),
+        parts_(static_cast<std::size_t>(parts)),
+        levels_(std::bit_width(parts_) - 1) {}
 
   [[nodiscard]] int bits_per_pixel() const override { return (static_cast<int>(parts_) - 1) * sensor_.np; }
 
@@ -114,8 +117,8 @@ class Hierarchical final : public Rival {
 
 class Proportional final : public Rival {
  public:
-  Proportional(const SensorModel& sensor, const ProportionalChoice& choice)
-      : sensor_(sensor), parts_(choice.parts), optimised_(choice.optimised) {
+  Proportional(SensorModel sensor, const ProportionalChoice& choice)
+      : sensor_(std::move(sensor)), parts_(choice.parts), optimised_(choice.optimised) {
     constexpr double kLeast = 0.02;
     constexpr double kFallsOver = 0.8;
     for (std::size_t step = 0; step < fall_.size(); ++step) {
@@ -185,7 +188,7 @@ class Proportional final : public Rival {
     constexpr std::int64_t kMomentumShare = 51;  // .05 in 1024ths
     constexpr std::int64_t kStepShare = 819;     // .8
     const std::int64_t gain =
-        (std::int64_t{6 * 1024} << static_cast<unsigned>(sensor_.np)) / 1000;  // .2 * 3 B / 100
+        (std::int64_t{6144} << static_cast<unsigned>(sensor_.np)) / 1000;  // .2 * 3 B / 100
     const std::int64_t lag = std::int64_t{deviation(kMomentumFraction)} - binner.momentum;
     binner.momentum = static_cast<std::int32_t>(
         std::clamp<std::int64_t>(binner.momentum + rounded_shift(kMomentumShare * lag, 10), -511, 511));

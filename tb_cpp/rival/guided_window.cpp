@@ -67,7 +67,7 @@ class GuidedWindow final : public Rival {
     for (const Detection& detection : detections) {
       const std::int32_t inside = std::int32_t{detection.timestamp} - begin;
       if (detection.timestamp != codes_ - 1 && inside >= 0 && inside < kBins * width) {
-        std::int32_t& bin = words[static_cast<std::size_t>(1 + inside / width)];
+        std::int32_t& bin = words.at(1 + static_cast<std::size_t>(inside / width));
         bin += bin < limit ? 1 : 0;
       }
     }

@@ -19,7 +19,7 @@ namespace dtof {
 /// 1, saturating at 2^count_bits - 1. The window's begin is a word of NP bits, and the first one that is
 /// read.
 struct GuidedWindowChoice {
-  int count_bits = 8;  ///< 1 .. 16
+  int count_bits = 10;  ///< 1 .. 16; sunlight fills 8 bits of the widest bins
 };
 std::unique_ptr<Rival> make_guided_window(const SensorModel& sensor, const GuidedWindowChoice& choice);
 

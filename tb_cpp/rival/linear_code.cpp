@@ -35,7 +35,7 @@ class LinearCodePixel final : public Rival {
 
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);
-    const Timestamp no_detection = static_cast<Timestamp>((1 << sensor_.np) - 1);
+    const auto no_detection = static_cast<Timestamp>((1 << sensor_.np) - 1);
     RivalWords sums(code_.counters, 0);
     std::int32_t sure = 0;  // detections that cannot carry any counter over its limit
     for (const Detection& detection : frames.back()) {

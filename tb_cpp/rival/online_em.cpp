@@ -13,7 +13,6 @@ namespace {
 constexpr std::size_t kStages = 7;
 constexpr int kFractionBits = 6;
 constexpr std::int64_t kLeastWeight = 65536 / 64;
-constexpr std::int64_t kMostWeight = 65535;
 constexpr std::array<unsigned, kStages> kGain = {4, 4, 5, 5, 6, 6, 7};
 
 /// To nearest, halves away from zero; `divisor` > 0.
@@ -60,7 +59,7 @@ class OnlineEm final : public Rival {
       place += rounded_quotient(away * share * 257, weight * gain);
       weight += rounded_quotient(257 * share - weight, gain);
       place = std::clamp<std::int64_t>(place, 0, (std::int64_t{1} << (sensor_.np + kFractionBits)) - 1);
-      weight = std::clamp(weight, kLeastWeight, kMostWeight);
+      weight = std::max(weight, kLeastWeight);  // 65535 is never passed: r has 8 bits
     }
     return {static_cast<std::int32_t>(place), static_cast<std::int32_t>(weight)};
   }

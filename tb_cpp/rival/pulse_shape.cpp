@@ -11,7 +11,7 @@
 namespace dtof {
 
 PulseShape::PulseShape(const SensorModel& sensor)
-    : sigma_(sensor.pulse_sigma_s() / sensor.time_resolution_s()), reach_(1) {
+    : sigma_(sensor.pulse_sigma_s() / sensor.time_resolution_s()) {
   const std::shared_ptr<const PulseResponse> response = sensor.pulse_response_bins();
   constexpr double kReachSigmas = 6.2;  // 1e-9 of a Gaussian is beyond
   const double reach = response ? std::max(-response->begin(), response->end()) : kReachSigmas * sigma_;
@@ -26,7 +26,8 @@ PulseShape::PulseShape(const SensorModel& sensor)
 }
 
 double PulseShape::share(int offset) const {
-  return std::abs(offset) > reach_ ? 0.0 : shares_[static_cast<std::size_t>(offset + reach_)];
+  const int place = offset + reach_;
+  return std::abs(offset) > reach_ ? 0.0 : shares_[static_cast<std::size_t>(place)];
 }
 
 }  // namespace dtof

@@ -22,7 +22,7 @@ class PulseShape {
 
  private:
   double sigma_;
-  int reach_;
+  int reach_ = 1;
   std::vector<double> shares_;
 };
 

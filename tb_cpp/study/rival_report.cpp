@@ -174,6 +174,24 @@ std::vector<std::size_t> accuracy_front(const ComparedScores& scores, const std:
   return front;
 }
 
+std::vector<std::string> rivals_on_a_front(const std::map<double, ComparedScores>& lights) {
+  std::vector<std::string> titles;
+  for (const auto& [klux, scores] : lights) {
+    const std::vector<std::size_t> scenes = scores.scenes_with_depth();
+    if (scenes.empty()) {
+      continue;
+    }
+    for (const std::size_t row : accuracy_front(scores, scenes, compared_figures()[0])) {
+      const ComparedRow& compared = scores.rows()[row];
+      if (compared.kind == ComparedRow::Kind::kRival &&
+          std::ranges::find(titles, compared.title) == titles.end()) {
+        titles.push_back(compared.title);
+      }
+    }
+  }
+  return titles;
+}
+
 Table overall_table(const ComparedScores& scores) {
   std::vector<std::string> header = {"estimator", "bits a pixel"};
   for (const ComparedFigure& figure : compared_figures()) {

@@ -72,6 +72,9 @@ class ComparedScores {
 std::vector<std::size_t> accuracy_front(const ComparedScores& scores, const std::vector<std::size_t>& scenes,
                                         const ComparedFigure& figure);
 
+/// Titles of the rivals that are on the front of some light, on the scenes with depth by pixels above 3 %.
+std::vector<std::string> rivals_on_a_front(const std::map<double, ComparedScores>& lights);
+
 /// Tables of a light: the scenes with depth together, and scene by scene (above 3 % / above 10 %).
 Table overall_table(const ComparedScores& scores);
 Table scene_by_scene_table(const ComparedScores& scores);

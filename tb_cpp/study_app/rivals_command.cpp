@@ -198,11 +198,11 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
   for (const std::string& note : notes) {
     report += fmt::format("\n{}\n", note);
   }
-  report += "\n## Beside each other\n\nAll scenes but the flats together.\n";
-  for (const RivalEntry& entry : rivals) {
+  report +=
+      "\n## Beside each other\n\nAll scenes but the flats together; rivals on the front of some light.\n";
+  for (const std::string& title : rivals_on_a_front(lights)) {
     for (const Readout other : {Readout::kHisPointer, Readout::kPoolPointer}) {
-      const std::string sentence =
-          comparison_sentence(lights, std::string(entry.title), std::string(readout_title(other)));
+      const std::string sentence = comparison_sentence(lights, title, std::string(readout_title(other)));
       report += sentence.empty() ? "" : fmt::format("\n* {}", sentence);
     }
   }

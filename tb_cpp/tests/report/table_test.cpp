@@ -18,6 +18,13 @@ TEST(Table, PrintsMarkdownAndCsv) {
   EXPECT_EQ(table.csv(), "name,mm\nezPointer,3\n");
 }
 
+TEST(Table, FieldsWithCommasAreQuotedInCsv) {
+  Table table({"name", "mm"});
+  table.add({"filter, pooled", "3"});
+  table.add({"2\" lens", "4"});
+  EXPECT_EQ(table.csv(), "name,mm\n\"filter, pooled\",3\n\"2\"\" lens\",4\n");
+}
+
 TEST(Table, RefusesARowOfAnotherLength) {
   Table table({"a", "b"});
   EXPECT_THROW(table.add({"1"}), std::logic_error);

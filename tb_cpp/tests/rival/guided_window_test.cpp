@@ -26,7 +26,7 @@ RivalWords read(const Rival& rival, const std::vector<Detection>& first, const s
 
 TEST(GuidedWindow, NarrowsAroundTheFirstFramesHighestBin) {
   const std::unique_ptr<Rival> rival = make_guided_window(SensorModel(), {});
-  EXPECT_EQ(rival->bits_per_pixel(), 8 * 8 + 10);
+  EXPECT_EQ(rival->bits_per_pixel(), 8 * 10 + 10);
   EXPECT_EQ(rival->frames(), 3);
   // Bin 3 of 128 codes; second window 448 - 128 .. 576; nothing there, so its lowest code is the guide.
   const std::vector<Detection> first = one_each(std::array{400, 500, 401, 1023, 1023, 1023});

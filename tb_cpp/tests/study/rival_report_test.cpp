@@ -62,6 +62,8 @@ TEST(RivalReport, TheFrontIsOfReadoutsAndRivalsWithBits) {
   const ComparedFigure& figure = compared_figures()[0];
   EXPECT_THAT(accuracy_front(made_up(0.30, 0.10), {0, 1}, figure), ElementsAre(1));
   EXPECT_THAT(accuracy_front(made_up(0.05, 0.10), {0, 1}, figure), ElementsAre(1, 0));
+  EXPECT_THAT(rivals_on_a_front({{14.0, made_up(0.05, 0.10)}, {50.0, made_up(0.30, 0.10)}}),
+              ElementsAre("counter"));
   EXPECT_THAT(front_table(made_up(0.05, 0.10)).markdown(), HasSubstr("| read-out"));
 }
 
