@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/log_gamma.hpp"
 #include "metrics/depth.hpp"
 #include "photon/expected_detections.hpp"
 #include "readout/pass_schedule.hpp"
@@ -43,7 +44,7 @@ PoissonTable tabulate_poisson(double mean, std::int64_t from, std::int64_t to) {
   for (std::size_t i = 0; i < size; ++i) {
     const double n = static_cast<double>(from) + static_cast<double>(i);
     const double exactly =
-        mean > 0.0 ? std::exp(n * std::log(mean) - mean - std::lgamma(n + 1.0)) : (n == 0.0 ? 1.0 : 0.0);
+        mean > 0.0 ? std::exp(n * std::log(mean) - mean - log_gamma(n + 1.0)) : (n == 0.0 ? 1.0 : 0.0);
     below = std::min(below + exactly, 1.0);
     table.exactly[i] = exactly;
     table.at_most[i] = below;

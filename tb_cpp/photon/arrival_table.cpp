@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/log_gamma.hpp"
+
 namespace dtof {
 namespace {
 
@@ -100,7 +102,7 @@ double at_least(int k, double mean) {
   if (mean < k) {
     // The upper tail term by term: the complement would cancel.
     double term = std::exp(k * std::log(std::max(mean, std::numeric_limits<double>::min())) - mean -
-                           std::lgamma(k + 1.0));
+                           log_gamma(k + 1.0));
     double sum = 0.0;
     for (int n = k; term > sum * std::numeric_limits<double>::epsilon(); ++n) {
       sum += term;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/log_gamma.hpp"
 
 namespace dtof {
 namespace {
@@ -34,7 +35,7 @@ double slot_probability(int k, double before, double after) {
     // The difference would cancel: Simpson's rule on the density mean^k exp(-mean) / k!, whose error is below
     // (step / before)^4.
     const auto density = [k](double mean) {
-      return std::exp(k * std::log(mean) - mean - std::lgamma(k + 1.0));
+      return std::exp(k * std::log(mean) - mean - log_gamma(k + 1.0));
     };
     return step / 6.0 * (density(before) + 4.0 * density(before + 0.5 * step) + density(after));
   }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/log_gamma.hpp"
 #include "core/random.hpp"
 #include "photon/physics.hpp"
 #include "tests/core/test_seed.hpp"
@@ -94,7 +95,7 @@ TEST_P(EventSamplerRates, NumbersAndArrivalTimesArePoisson) {
   }
   for (std::size_t n = 0; n < poisson.size(); ++n) {
     const auto number = static_cast<double>(n);
-    poisson[n] = std::exp(number * std::log(total) - total - std::lgamma(number + 1.0));
+    poisson[n] = std::exp(number * std::log(total) - total - log_gamma(number + 1.0));
   }
   EXPECT_GT(poisson_chi_square_p(bins, frame_means), kErrorRate);
   EXPECT_GT(chi_square_p(numbers, poisson, kAcquisitions), kErrorRate);
