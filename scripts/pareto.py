@@ -73,7 +73,7 @@ def estimator_title(configuration, base) -> str:
     """As `dtof-study scenes` names it: parameters that change results follow the read-out's title."""
     title = base.title
     for name in ("COUNT_WIDTH", "FRACTION_BITS", "WINDOW_CENTRED"):
-        if configuration[name] != base[name]:
+        if configuration.parameters.get(name) != base.parameters.get(name):
             title += f" {name}={configuration[name]}"
     return title
 
