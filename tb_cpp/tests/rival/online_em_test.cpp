@@ -80,6 +80,14 @@ TEST(OnlineEm, FollowsTheRecursion) {
   }
 }
 
+// A pulse that is gone leaves the least weight, so that the next one is still looked for.
+TEST(OnlineEm, TheWeightNeverFallsBelowTheLeast) {
+  const std::unique_ptr<Rival> em = make_online_em(SensorModel());
+  std::vector<int> timestamps(2500, 100);
+  timestamps.resize(3333, 900);
+  EXPECT_EQ(read_one_frame(*em, one_each(timestamps))[1], 1024);
+}
+
 TEST(OnlineEm, StaysInItsWords) {
   SensorModel sensor;
   const std::unique_ptr<Rival> em = make_online_em(sensor);

@@ -31,6 +31,19 @@ TEST(RivalList, NamesAndTitlesAreUniqueAndHaveASource) {
       ThrowsMessage<InputError>(AllOf(HasSubstr("no rival is called none"), HasSubstr("histogram32"))));
 }
 
+// What the tables say of memory.
+TEST(RivalList, BitsOfAPixel) {
+  const auto bits = [](std::string_view name) {
+    return find_rival(name).make(SensorModel())->bits_per_pixel();
+  };
+  EXPECT_EQ(bits("histogram32"), 32 * 8);
+  EXPECT_EQ(bits("fourier16"), 16 * 13 + 1);
+  EXPECT_EQ(bits("gray8-1bit"), 8 * 10 + 1);
+  EXPECT_EQ(bits("correlations"), 2 * 12);
+  EXPECT_EQ(bits("sketch2"), 4 * 21);
+  EXPECT_EQ(bits("spline16"), 16 * 11 + 1);
+}
+
 // What every rival owes its callers, whoever adds it.
 TEST(RivalList, EveryRivalReadsDarkBrightAndHostilePixels) {
   const SensorModel sensor;

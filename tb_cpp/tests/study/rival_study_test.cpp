@@ -19,14 +19,15 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 
-/// A made-up rival whose result is the number of the frame's detections, and the frames before it.
+/// A made-up rival that asks for three frames: its position is the number of the last one's detections, its
+/// confidence that of the one before.
 class CountingRival final : public Rival {
  public:
   explicit CountingRival(bool tells) : tells_(tells) {}
   [[nodiscard]] int bits_per_pixel() const override { return 7; }
-  [[nodiscard]] int frames() const override { return 2; }
+  [[nodiscard]] int frames() const override { return 3; }
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
-    return {static_cast<std::int32_t>(frames[0].size()), static_cast<std::int32_t>(frames[1].size())};
+    return {static_cast<std::int32_t>(frames[1].size()), static_cast<std::int32_t>(frames[2].size())};
   }
   [[nodiscard]] Measurement decode(std::span<const std::int32_t> words) const override {
     return {static_cast<double>(words[1]), static_cast<double>(words[0])};
