@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t kAcquisitions = 200;
 
 std::size_t index_of(PixelPlace pixel) {
-  return static_cast<std::size_t>(pixel.row * kFaultColumns + pixel.column);
+  return static_cast<std::size_t>(pixel.row) * kFaultColumns + static_cast<std::size_t>(pixel.column);
 }
 
 class Effect : public testing::Test {

@@ -16,7 +16,7 @@ constexpr std::uint32_t kAcquisitions = 100;
 constexpr PixelPlace kPixel = {5, 33};
 
 std::size_t index_of(PixelPlace pixel) {
-  return static_cast<std::size_t>(pixel.row * kFaultColumns + pixel.column);
+  return static_cast<std::size_t>(pixel.row) * kFaultColumns + static_cast<std::size_t>(pixel.column);
 }
 
 class PlantedFlip : public testing::TestWithParam<Readout> {

@@ -22,9 +22,9 @@ PhotonSource scene() {
 
 /// A frame of two columns whose codes are numbers of pixels.
 std::vector<PixelResult> counted(int rows) {
-  std::vector<PixelResult> frame;
-  for (int pixel = 0; pixel < 2 * rows; ++pixel) {
-    frame.push_back({.code = static_cast<std::uint16_t>(pixel)});
+  std::vector<PixelResult> frame(2 * static_cast<std::size_t>(rows));
+  for (std::size_t pixel = 0; pixel < frame.size(); ++pixel) {
+    frame[pixel].code = static_cast<std::uint16_t>(pixel);
   }
   return frame;
 }

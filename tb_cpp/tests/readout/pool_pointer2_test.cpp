@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <map>
+#include <numeric>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,7 +35,9 @@ using testing::ThrowsMessage;
 struct Place {
   int column;
   int row;
-  auto operator<=>(const Place&) const = default;
+  bool operator<(const Place& other) const {
+    return column != other.column ? column < other.column : row < other.row;
+  }
 };
 
 struct Pixel {
@@ -174,10 +177,8 @@ class Reference {
     }
     own.b = 5 * *std::min_element(octets.begin(), octets.end()) / 128;
     const int least = *std::min_element(w.begin(), w.end());
-    std::vector<int> free_pairs;
-    for (int i = 0; i < 31; ++i) {
-      free_pairs.push_back(i);
-    }
+    std::vector<int> free_pairs(31);
+    std::iota(free_pairs.begin(), free_pairs.end(), 0);
     const auto value = [&](int i) { return i < 0 || i > 30 ? 0 : w[static_cast<std::size_t>(i)]; };
     for (int k = 0; k < 5; ++k) {
       const int peak = *std::max_element(free_pairs.begin(), free_pairs.end(),
@@ -305,7 +306,8 @@ class Reference {
       }
       value = next;
     }
-    const auto next_to = static_cast<std::size_t>(pixel + direction);
+    const int neighbour = pixel + direction;
+    const auto next_to = static_cast<std::size_t>(neighbour);
     return best_step(value, position[next_to], position[static_cast<std::size_t>(pixel)][label],
                      lambda[next_to]);
   }
@@ -384,7 +386,7 @@ class Reference {
     if (near(x)) {
       const std::map<int, int> gears = {{7, 256}, {15, 128}, {31, 64}, {63, 32}, {79, 16},
                                         {99, 8},  {115, 4},  {123, 2}, {127, 1}};
-      static const std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
+      constexpr std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
       const int away = distance >= 0 ? distance / 512 : (-distance - 1) / 512;
       const int product = gears.lower_bound(n)->second * kWeight[static_cast<std::size_t>(away)];
       // Positions are even: what is below two of them is dithered by the acquisition's low bits.

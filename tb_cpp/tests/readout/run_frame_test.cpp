@@ -66,9 +66,9 @@ TEST(RunFrame, ColumnsThatHearEachOtherAreReadTogether) {
   ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2, 10);
   parameters.pool.engine_columns = 4;
   const RandomSource source(parameters);
-  std::vector<ColumnStream> columns;
+  std::vector<ColumnStream> columns(7);
   for (int column = 0; column < source.columns(); ++column) {
-    columns.push_back(source.column(column));
+    columns.at(static_cast<std::size_t>(column)) = source.column(column);
   }
   const auto array = make_readout_model(parameters)->run_columns(columns, source.acquisitions());
   const std::vector<PixelResult> frame = run_frame(source, parameters, 2);
