@@ -22,7 +22,7 @@ PlotSeries line(const std::string& label) { return {label, {1.0, 2.0}, {1.0, 2.0
 std::string drawn(const std::vector<PlotSeries>& series, const PlotLayout& layout) {
   const std::filesystem::path file = std::filesystem::path(::testing::TempDir()) / "plot_test.svg";
   write_plot(file, series, layout);
-  const std::string picture = read_file(file);
+  std::string picture = read_file(file);
   std::filesystem::remove(file);
   return picture;
 }
