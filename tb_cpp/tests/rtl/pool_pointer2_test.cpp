@@ -210,9 +210,9 @@ TEST(PoolPointer2, AgreesWithModelOnModelledPhotons) {
     SceneParameters scene;
     scene.reflectivity = sensor.default_reflectivity;
     const PhotonSource source(sensor, make_scene(Scene::kRoom, scene), klux, test_seed());
-    std::vector<ColumnStream> columns;
+    std::vector<ColumnStream> columns(10);
     for (int column = 0; column < 10; ++column) {
-      columns.push_back(source.column(95 + column));
+      columns.at(static_cast<std::size_t>(column)) = source.column(95 + column);
     }
     RtlReadout rtl(found.front());
     ASSERT_TRUE(agrees_with_model(rtl, columns, sensor.acquisitions, default_options(test_seed())));
