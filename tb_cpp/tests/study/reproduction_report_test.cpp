@@ -31,7 +31,7 @@ AccuracyPoint point(Readout readout, double klux, double distance_m, double prec
   return p;
 }
 
-AccuracyStudy study(std::vector<Readout> readouts, double klux, const std::vector<double>& distances,
+AccuracyStudy study(const std::vector<Readout>& readouts, double klux, const std::vector<double>& distances,
                     double precision) {
   AccuracyStudy result;
   for (const Readout readout : readouts) {

@@ -16,7 +16,6 @@
 namespace dtof {
 namespace {
 
-using testing::Contains;
 using testing::ElementsAre;
 
 /// A made-up rival that asks for three frames: its position is the number of the last one's detections, its
