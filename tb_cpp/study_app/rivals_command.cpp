@@ -70,6 +70,7 @@ std::map<std::string, double> parse_bits(const std::vector<std::string>& texts) 
 
 std::vector<RivalEntry> chosen_rivals(const std::vector<std::string>& names) {
   std::vector<RivalEntry> chosen;
+  chosen.reserve(names.size());
   for (const std::string& name : names) {
     chosen.push_back(find_rival(name));
   }
@@ -150,6 +151,7 @@ std::vector<CheckedClaim> check_claims(const RivalsOptions& options, const Senso
   std::vector<RivalEntry> claimed = chosen_rivals(options.rivals);
   std::erase_if(claimed, [](const RivalEntry& entry) { return !entry.claim; });
   std::vector<CheckedClaim> claims;
+  claims.reserve(claimed.size());
   for (const RivalEntry& entry : claimed) {
     claims.push_back({std::string(entry.title), *entry.claim, {}, {}});
   }

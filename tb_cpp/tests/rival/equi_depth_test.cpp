@@ -109,7 +109,7 @@ TEST(Proportional, StaysInTheRange) {
 /// The paper's equations in floating point.
 std::vector<double> optimised_reference(const std::vector<int>& timestamps, int parts, double codes) {
   std::vector<double> boundaries;
-  const double cycles = static_cast<double>(timestamps.size());
+  const auto cycles = static_cast<double>(timestamps.size());
   for (int i = 1; i < parts; ++i) {
     const double q = static_cast<double>(i) / parts;
     double e = q * codes;

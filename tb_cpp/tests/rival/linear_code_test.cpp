@@ -192,6 +192,7 @@ double error_over_bound(int size) {
   const std::unique_ptr<Rival> sketch = make_sketch(sensor, size);
   const ColumnStream column = photons.column(0);
   std::vector<double> positions;
+  positions.reserve(400);
   for (int row = 0; row < 400; ++row) {
     positions.push_back(sketch->decode(read_one_frame(*sketch, column.row(row))).position);
   }
