@@ -68,6 +68,11 @@ struct RowRange {
 /// the next call, so that a reader of many columns holds one.
 using ColumnReader = std::function<const ColumnStream&(int column)>;
 
+/// Of columns that are all there, as long as they are.
+inline ColumnReader reader_of(std::span<const ColumnStream> columns) {
+  return [columns](int column) -> const ColumnStream& { return columns[static_cast<std::size_t>(column)]; };
+}
+
 /// Produces the TDC stream of a frame, any column alone and from any thread.
 class StreamSource {
  public:

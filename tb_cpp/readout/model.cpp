@@ -44,9 +44,7 @@ std::vector<std::vector<PixelResult>> ReadoutModel::run_columns(int count, const
 
 std::vector<std::vector<PixelResult>> ReadoutModel::run_columns(std::span<const ColumnStream> columns,
                                                                 std::uint32_t acquisitions) {
-  return run_columns(
-      static_cast<int>(columns.size()),
-      [columns](int i) -> const ColumnStream& { return columns[static_cast<std::size_t>(i)]; }, acquisitions);
+  return run_columns(static_cast<int>(columns.size()), reader_of(columns), acquisitions);
 }
 
 std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {

@@ -437,9 +437,7 @@ class PoolPointer2Model final : public ReadoutModel {
   /// An engine of one column.
   [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
                                                     std::uint32_t acquisitions) override {
-    return run_columns(
-               1, [&column](int) -> const ColumnStream& { return column; }, acquisitions)
-        .front();
+    return run_columns(1, reader_of(std::span(&column, 1)), acquisitions).front();
   }
 
   [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(int count, const ColumnReader& column,

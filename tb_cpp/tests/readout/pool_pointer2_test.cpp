@@ -455,10 +455,7 @@ class Reference {
 std::vector<std::vector<PixelResult>> read_array(std::span<const ColumnStream> array, int np,
                                                  std::uint32_t acquisitions,
                                                  const PoolPointer2Parameters& parameters) {
-  return run_pool_pointer2(
-      static_cast<int>(array.size()),
-      [array](int column) -> const ColumnStream& { return array[static_cast<std::size_t>(column)]; }, np,
-      acquisitions, parameters);
+  return run_pool_pointer2(static_cast<int>(array.size()), reader_of(array), np, acquisitions, parameters);
 }
 
 void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
