@@ -46,8 +46,6 @@ struct RivalsOptions : SceneChoice {
   std::string command_line;
 };
 
-constexpr const char* kTrialName = "poolpointer2";
-
 /// Bits a pixel of read-outs by their names, from NAME=BITS.
 std::map<std::string, double> parse_bits(const std::vector<std::string>& texts) {
   std::map<std::string, double> bits;
@@ -60,9 +58,7 @@ std::map<std::string, double> parse_bits(const std::vector<std::string>& texts) 
       throw InputError(fmt::format("--bits {}: expected READOUT=BITS", text));
     }
     const std::string name = text.substr(0, equals);
-    if (name != kTrialName) {
-      (void)parse_readout(name);
-    }
+    (void)parse_named_readout(name);
     bits[name] = value;
   }
   return bits;
@@ -109,7 +105,8 @@ class Comparison {
     }
     if (trial_study_) {
       for (const std::string& title : trial_study_->estimators()) {
-        rows.push_back({title, ComparedRow::Kind::kReadout, known(kTrialName)});
+        rows.push_back(
+            {title, ComparedRow::Kind::kReadout, known(std::string(readout_name(Readout::kPoolPointer2)))});
       }
     }
     for (std::size_t e = 0; e < rival_study_.estimators().size(); ++e) {
