@@ -300,13 +300,13 @@ std::string coverage_report(const CoverageSettings& settings, const CoverageStud
              "the "
              "interval's width, roughly). {} runs\nleave a ratio uncertain by about {:.0f} %: where theirs "
              "lies "
-             "outside, 400 runs drawn with replacement from all frames\nare judged. Where a handful of "
+             "outside, {} runs drawn with replacement from all frames\nare judged. Where a handful of "
              "outliers "
              "makes the spread (more than half of the runs report fewer than ten, while\nall frames together "
              "have "
-             "some), the "
-             "spread says nothing, and the share of intervals that hold the truth must not refute 95 "
-             "%.\n\n{}\n\n"
+             "some), the spread says nothing, and the share of intervals that hold the truth must not refute "
+             "95 %.\nOf the cells whose intervals are right, the seeds' runs refute one in 40; there, too, "
+             "the runs drawn again decide.\n\n{}\n\n"
              "Extremes over places and read-outs; in brackets the number of cells:\n\n{}\n"
              "The same for each read-out, over places and numbers of frames:\n\n{}\n",
              settings.seeds, settings.study.run.seed, settings.frames.back(), fmt::join(settings.klux, ", "),
@@ -314,7 +314,7 @@ std::string coverage_report(const CoverageSettings& settings, const CoverageStud
              settings.seeds * (settings.frames.back() / settings.frames.front()), settings.frames.front(),
              settings.study.sensor.name, settings.study.calibration_seed,
              settings.seeds * settings.frames.back(), kLeastSpreadRatio, kMostSpreadRatio, settings.seeds,
-             100.0 / std::sqrt(2.0 * (settings.seeds - 1)), verdict_sentence(study),
+             100.0 / std::sqrt(2.0 * (settings.seeds - 1)), kRedrawnRuns, verdict_sentence(study),
              by_figure(settings, study), by_readout(study)) +
          (outside == 0
               ? std::string("No cell lies outside.\n\n")

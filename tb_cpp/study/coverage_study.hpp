@@ -37,6 +37,7 @@ const Estimate& figure_of(const ErrorEstimates& errors, Figure figure);
 
 inline constexpr double kLeastSpreadRatio = 0.8;
 inline constexpr double kMostSpreadRatio = 1.25;
+inline constexpr std::uint64_t kRedrawnRuns = 4000;
 
 /// Spread over runs against reported standard error, and intervals against truth.
 struct RunStatistics {
@@ -51,7 +52,7 @@ struct RunStatistics {
 
 enum class CoverageVerdict {
   kHolds,
-  kHoldsRedrawn,  ///< outside with the seeds' few runs, inside with more runs drawn from all frames
+  kHoldsRedrawn,  ///< outside with the seeds' own runs, inside with kRedrawnRuns drawn from all frames
   kFails
 };
 
