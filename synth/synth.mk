@@ -3,7 +3,8 @@
 #                      LIBERTY=<typical.lib> LIBERTY_SLOW=<slow.lib>   other standard cells (table only)
 #                      CONFIGURATIONS="sifh fifh"                      some configurations (table only)
 #                      STRICT=1                                        fail if a figure is worse than its budget
-# make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um
+# make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um; IHP 130 nm with
+#                      its own SRAM macros (../shared/pdk)
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-test      the flow's own tests, and the porting example simulated

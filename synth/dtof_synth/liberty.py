@@ -110,6 +110,8 @@ def parse(text: str, where: str) -> Group:
                 while tokens[position] not in (";", "}"):
                     words.append(_unquote(tokens[position]))
                     position += 1
+                    if tokens[position - 1].startswith('"'):  # IHP's files have no semicolon behind some strings
+                        break
                 group.attributes.append((name, " ".join(words)))
             elif tokens[position] == "(":
                 args = arguments()

@@ -39,6 +39,7 @@ class Library:
     inverter: str
     tie: dict[str, tuple[str, str]]
     nand2_area: float
+    mux2_area: float
     voltage: float
     wire_load: str
     wire_ff_per_sink: float
@@ -83,6 +84,11 @@ def _nand2_area(cells: list[Group]) -> float:
     return min(areas, default=0.0)
 
 
+def _mux2_area(cells: list[Group]) -> float:
+    """By name, since libraries write a multiplexer's function in many ways."""
+    return min((cell.number("area") for cell in cells if re.search("mux2", cell.name, re.IGNORECASE)), default=0.0)
+
+
 def _internal_clock_energy(pin: Group) -> float:
     """Energy of one clock cycle inside a register: rise and fall at the lightest slew, mean of all states."""
     powers = pin.children("internal_power")
@@ -97,7 +103,7 @@ def read(path: Path) -> Library:
     unit = _capacitance_unit_ff(root, path)
     cells = root.children("cell")
     result = Library(path, root.name, {}, set(), set(), {}, {}, [], "", {}, _nand2_area(cells),
-                     root.number("nom_voltage"), *_wire_load(root, unit))
+                     _mux2_area(cells), root.number("nom_voltage"), *_wire_load(root, unit))
     inverters: list[tuple[float, str]] = []
     for cell in cells:
         name, area = cell.name, cell.number("area")

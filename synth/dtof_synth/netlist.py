@@ -98,15 +98,18 @@ def count(module: Module, library: Library) -> Counts:
                   sum(library.clock_energy_fj[kind] * number for kind, number in flops.items()))
 
 
-def count_shared(design: dict, library: Library) -> Counts:
-    """Everything outside the columns: the top and its engines."""
-    total = count(top(design), library)
+def count_engines(design: dict, library: Library) -> Counts:
+    """All engines together; nothing where the array has none."""
     engine = engine_module(design)
     number = sum(cell["type"] == engine for cell in top(design)["cells"].values())
-    if number:
-        one = count(modules(design)[engine], library)
-        total = Counts(*(a + number * b for a, b in zip(astuple(total), astuple(one))))
-    return total
+    one = count(modules(design)[engine], library) if number else Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0)
+    return Counts(*(number * value for value in astuple(one)))
+
+
+def count_shared(design: dict, library: Library) -> Counts:
+    """Everything outside the columns: the top and its engines."""
+    return Counts(*(a + b for a, b in zip(astuple(count(top(design), library)),
+                                          astuple(count_engines(design, library)))))
 
 
 def foreign_cells(design: dict, library: Library, macros: set[str]) -> set[str]:

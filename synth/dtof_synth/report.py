@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import goals, power, sram_model
+from . import area_parts, goals, power, sram_model
 from .configuration import memories
 from .run import FAST_MHZ, TARGET_MHZ, Result
 
@@ -84,6 +84,47 @@ def _variant_rows(variants: list[Result], results: dict[str, Result]) -> list[li
     return rows
 
 
+def _mm2(um2: float) -> str:
+    return f"{um2 / 1e6:.3f}"
+
+
+def _parts_section(results: list[Result]) -> str:
+    rows = []
+    for result in results:
+        parts = area_parts.parts(result)
+        rows.append([result.configuration.title,
+                     *map(_mm2, (parts.column_logic, parts.column_sram, parts.engines, parts.scratch_sram,
+                                 parts.control, parts.fan_out, parts.total))])
+    return _table(["read-out, mm2", "column logic", "column SRAM", "engines", "scratch SRAM", "control", "fan-out",
+                   "total"], rows)
+
+
+def _placed_section(results: list[Result]) -> str:
+    rows = [[result.configuration.title, _mm2(area_parts.parts(result).total), _mm2(area_parts.placed(result)),
+             f"{area_parts.flip_flops(result)}", _mm2(area_parts.scan(result)), _mm2(result.clock_tree.area),
+             _mm2(area_parts.placed_with_all(result))] for result in results]
+    return _table(["read-out, mm2", "cells and macros", "placed", "flip-flops", "scan", "clock tree",
+                   "placed with both"], rows)
+
+
+def _doubtful_section(results: list[Result]) -> str:
+    """Macros whose organisation or width the public points do not cover, and what the arrays would be without."""
+    sizes = area_parts.doubtful_macros(results)
+    if not sizes:
+        return "No macro lacks a column multiplexer or is wider than the fitted points.\n"
+    rows = []
+    for size in sizes:
+        macro, other = sram_model.macro(size), sram_model.macro(size, area_parts.OTHER_MUX)
+        rows.append([size.name, f"{macro.mux}", f"{macro.area:.0f}", f"{other.area:.0f}",
+                     "yes" if size.bits > area_parts.FITTED_BITS else "no", f"{macro.read_energy:.2f}"])
+    arrays = [f"{result.configuration.title} {area_parts.total_with_other_mux(result) / 1e6:.3f} instead of "
+              f"{result.total_mm2:.3f} mm2" for result in results
+              if area_parts.total_with_other_mux(result) > area_parts.parts(result).total]
+    ending = f"With a multiplexer of {area_parts.OTHER_MUX}: {'; '.join(arrays)}.\n" if arrays else ""
+    return (_table(["macro", "mux", "um2", f"um2 with mux {area_parts.OTHER_MUX}",
+                    f"over {area_parts.FITTED_BITS} bits", "read pJ"], rows) + "\n" + ending)
+
+
 def area(results: dict[str, Result], extra: str, library: str, digest: str) -> str:
     main, variants = _split(results)
     notes = [f"* {result.configuration.title}: {result.configuration.note}." for result in main
@@ -91,8 +132,19 @@ def area(results: dict[str, Result], extra: str, library: str, digest: str) -> s
     return "\n".join([
         "# Area", "", _provenance(library, digest),
         "Cells, flip-flops, kGE and logic um2 are of one column (kGE: NAND2 of the library). Shared logic is in the "
-        "array once, fan-out trees to the columns included. Total: columns with their SRAMs, and shared logic.", "",
+        "array once, engines and fan-out trees to the columns included. Of the pool read-outs an SRAM serves two columns. "
+        "Total: cells and macros, as below.", "",
         _table(AREA_HEADER, _area_rows(main)), *notes, "",
+        "## What the area is made of", "",
+        "Of the whole array. Engines, their scratch SRAMs and control are shared by the columns; fan-out is the trees "
+        "of buffers that carry shared signals.", "", _parts_section(main),
+        "## Placed", "",
+        f"Cells at a utilisation of {area_parts.UTILISATION:.0%} and macros with a halo of {area_parts.HALO_UM:g} um. "
+        "Scan is a multiplexer in front of every flip-flop, the clock tree the estimate below; both are cells that the "
+        "total does not have.", "", _placed_section(main),
+        "## Macros beyond the public points", "",
+        "Compilers often offer no array without a column multiplexer (mux 1), and the energies of words wider than "
+        f"{area_parts.FITTED_BITS} bits are extrapolated from narrower ones.", "", _doubtful_section(main),
         "## Beside the thesis (Table 5)", "", _thesis_section(main),
         "## Shared logic and fan-out", "",
         "Buffers and register copies that carry the shared signals to all columns are counted in the shared logic. "

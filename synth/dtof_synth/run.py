@@ -48,12 +48,14 @@ EFFORTS = (Effort(0.68, _SMALL), Effort(0.68, _FAST), Effort(0.62, _FAST), Effor
 
 @dataclass(frozen=True)
 class Technology:
-    """Everything a run needs besides the RTL. `slow` is the library that logic is mapped against."""
+    """Everything a run needs besides the RTL. `slow` is the library that logic is mapped against, `target_mhz` the
+    clock that it is mapped for."""
 
     typical: Library
     slow: Library
     kit: Path
     root: Path
+    target_mhz: float = TARGET_MHZ
 
     def library(self, corner: str) -> Library:
         return self.typical if corner == "typical" else self.slow
@@ -61,8 +63,8 @@ class Technology:
 
 @dataclass(frozen=True)
 class Timing:
-    """One corner. Slacks in ns: setup and hold at 330 MHz, setup at 500 MHz. `slow_edges`: pins beyond the
-    library's max_transition."""
+    """One corner. Slacks in ns: setup and hold at the technology's target clock, setup at 500 MHz. `slow_edges`: pins
+    beyond the library's max_transition."""
 
     slack: float
     hold_slack: float
@@ -84,9 +86,11 @@ class Result:
 
     configuration: Configuration
     column_module: Counts
-    shared: Counts
+    shared: Counts  # engines included
+    engines: Counts  # all of them
     clock_tree: ClockTree
     nand2_area: float
+    mux2_area: float
     timing: dict[str, Timing]
     power: Power | None = None
     sram_area: float = field(init=False)  # of a column
@@ -158,7 +162,7 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     settings = folder / "map_settings.tcl"
     tools.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
-        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / TARGET_MHZ * effort.share:.0f}",
+        "abc_constraints": constraints, "abc_period_ps": f"{1e6 / technology.target_mhz * effort.share:.0f}",
         "abc_script": effort.script, "naming_seeds": POOL_NAMING_SEEDS if configuration.is_pool else NAMING_SEEDS,
         "area_log": folder / "area.log",
         "tie_low": list(library.tie.get("0", ())),
@@ -222,7 +226,7 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
         "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
         "netlist": folder / "timing.v", "top": configuration.top, "wire_load": library.wire_load,
         "constraints": technology.root / "constraints" / "dtof.sdc",
-        "target_period": f"{1000 / TARGET_MHZ:.6f}", "fast_period": f"{1000 / FAST_MHZ:.6f}",
+        "target_period": f"{1000 / technology.target_mhz:.6f}", "fast_period": f"{1000 / FAST_MHZ:.6f}",
         "activity": power.ACTIVITY, "with_power": int(corner == "typical")})
     name = f"{configuration.name}, {corner} corner"
     output = tools.run_sta(technology.root / "synth" / "sta" / "timing.tcl", settings,
@@ -243,6 +247,7 @@ class _Attempt:
 
     column_module: Counts
     shared: Counts
+    engines: Counts
     slow: Timing
     folder: Path
 
@@ -253,10 +258,11 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
     loads = netlist.finish(design, library, sram_kit.PIN_FF)
     column_module = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
     shared = netlist.count_shared(design, library)
+    engines = netlist.count_engines(design, library)
     own = folder / f"effort{number}"
     own.mkdir(exist_ok=True)
     _write_timing_netlist(design, loads, technology, own, configuration.name)
-    return _Attempt(column_module, shared, time_corner(configuration, technology, "slow", own)[0], own)
+    return _Attempt(column_module, shared, engines, time_corner(configuration, technology, "slow", own)[0], own)
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
@@ -281,7 +287,8 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         timing["typical"], output = time_corner(configuration, technology, "typical", best.folder)
         figures = Power(power.logic_mw(output, modules), power.sram_mw(configuration, TARGET_MHZ),
                         power.clock_mw(output, modules, tree, technology.typical, TARGET_MHZ))
-    return Result(configuration, best.column_module, best.shared, tree, technology.slow.nand2_area, timing, figures)
+    return Result(configuration, best.column_module, best.shared, best.engines, tree, technology.slow.nand2_area,
+                  technology.slow.mux2_area, timing, figures)
 
 
 def input_digest(technology: Technology) -> str:

@@ -8,7 +8,7 @@ the sizes of synth/sram_sizes.csv; any other size stops elaboration.
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from . import sram_model
@@ -62,10 +62,10 @@ def _scalar(kind: str, value: float) -> Group:
     return Group(kind, ["scalar"], [("values", [quoted([value])])])
 
 
-def _constraints() -> list[Group]:
+def _constraints(macro: Macro) -> list[Group]:
     return [Group("timing", [], [("related_pin", '"clk_i"'), ("timing_type", kind)],
                   [_scalar("rise_constraint", value), _scalar("fall_constraint", value)])
-            for kind, value in (("setup_rising", sram_model.SETUP_NS), ("hold_rising", sram_model.HOLD_NS))]
+            for kind, value in (("setup_rising", macro.setup), ("hold_rising", macro.hold))]
 
 
 def _access_energy(macro: Macro) -> list[Group]:
@@ -110,7 +110,7 @@ def _cell(macro: Macro, corner: Corner) -> Group:
             pin.groups = _access_energy(macro)
         elif direction == "input":
             pin.attributes.append(("capacitance", f"{PIN_FF:.4f}"))
-            pin.groups = _constraints()
+            pin.groups = _constraints(macro)
         else:
             pin.attributes.append(("max_capacitance", f"{24 * OUTPUT_DRIVE * CINV_FF:.4f}"))
             address = "addr_i" if size.ports == 1 else "raddr_i"
@@ -214,10 +214,10 @@ def technology_module(ports: int, sizes: list[Size]) -> str:
     return "\n".join([*lines, "  endgenerate", "endmodule", ""])
 
 
-def write_kit(folder: Path, sizes: list[Size]) -> list[Macro]:
+def write_kit(folder: Path, sizes: list[Size], macro_of: Callable[[Size], Macro] = sram_model.macro) -> list[Macro]:
     """Writes the whole kit; returns the macros."""
     folder.mkdir(parents=True, exist_ok=True)
-    macros = [sram_model.macro(size) for size in sorted(sizes)]
+    macros = [macro_of(size) for size in sorted(sizes)]
     for corner in (TYPICAL, SLOW):
         (folder / f"sram40_{corner.name}.lib").write_text(liberty(macros, corner), encoding="utf-8")
     (folder / "sram40.lef").write_text(lef(macros), encoding="utf-8")

@@ -108,6 +108,8 @@ class Macro:
     read_energy: float
     write_energy: float
     leakage: float
+    setup: float = SETUP_NS
+    hold: float = HOLD_NS
 
     @property
     def area(self) -> float:
@@ -118,14 +120,17 @@ class Macro:
         return f"{banks}{self.rows} rows x {self.columns} columns, mux {self.mux}"
 
 
-def _bank(kind: PortKind, words: int, bits: int) -> tuple[float, int, int, int, float, float] | None:
-    """(area, mux, rows, columns, width, height) of the best legal array, or None."""
+def _bank(kind: PortKind, words: int, bits: int,
+          muxes: tuple[int, ...]) -> tuple[float, int, int, int, float, float] | None:
+    """(area, mux, rows, columns, width, height) of the best legal array, or None. A single mux may have any aspect
+    ratio."""
     best = None
-    for mux in MUXES:
+    most_aspect = MAX_ASPECT if len(muxes) > 1 else math.inf
+    for mux in muxes:
         rows, columns = math.ceil(words / mux), bits * mux
         width = kind.strip_width + kind.cell_width * columns
         height = kind.strip_height + kind.cell_height * rows
-        legal = ROWS[0] <= rows <= ROWS[1] and max(width / height, height / width) <= MAX_ASPECT
+        legal = ROWS[0] <= rows <= ROWS[1] and max(width / height, height / width) <= most_aspect
         if words < ROWS[0]:
             legal = mux == 1
         if legal and (best is None or width * height < best[0]):
@@ -133,21 +138,23 @@ def _bank(kind: PortKind, words: int, bits: int) -> tuple[float, int, int, int, 
     return best
 
 
-def macro(size: Size) -> Macro:
-    """Figures of a size. A memory too large for one array is cut into equal banks, side by side."""
+def macro(size: Size, mux: int | None = None) -> Macro:
+    """Figures of a size, with the multiplexer that makes it smallest or with `mux`. A memory too large for one array
+    is cut into equal banks, side by side."""
     if size.ports not in KINDS or size.words < 1 or size.bits < 1:
         raise FlowError(f"no SRAM macro for {size}: ports must be 1 or 2, words and bits at least 1")
     kind = KINDS[size.ports]
-    banks, best = 1, _bank(kind, size.words, size.bits)
+    muxes = MUXES if mux is None else (mux,)
+    banks, best = 1, _bank(kind, size.words, size.bits, muxes)
     while best is None and banks < 64:
         banks *= 2
-        best = _bank(kind, math.ceil(size.words / banks), size.bits)
+        best = _bank(kind, math.ceil(size.words / banks), size.bits, muxes)
     if best is None:
         raise FlowError(f"{size.name}: no organisation with {ROWS[0]} to {ROWS[1]} rows and an aspect "
                         f"ratio up to {MAX_ASPECT:g} exists, even in {banks} banks")
-    _, mux, rows, columns, width, height = best
+    _, chosen, rows, columns, width, height = best
     growth = kind.access(size.words, size.bits) / kind.access(*ANCHOR)
-    return Macro(size, banks, mux, rows, columns, width * banks, height,
+    return Macro(size, banks, chosen, rows, columns, width * banks, height,
                  ACCESS_TYPICAL_NS * growth, ACCESS_SLOW_NS * growth,
                  kind.read_energy(size.words, size.bits), kind.write_energy(size.words, size.bits),
                  kind.leakage(size.words, size.bits))

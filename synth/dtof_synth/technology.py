@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 import gzip
+from collections.abc import Callable
 from pathlib import Path
 
-from . import library, sram_kit, standard_cells
+from . import library, sram_kit, sram_model, standard_cells
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
-from .run import Technology
-from .sram_model import Size
+from .run import TARGET_MHZ, Technology
+from .sram_model import Macro, Size
 
 SIZES = "synth/sram_sizes.csv"
 
@@ -45,7 +46,8 @@ def _plain_liberty(path: Path, folder: Path) -> Path:
 
 
 def prepare(root: Path, build: Path, configurations: list[Configuration],
-            liberty: Path | None = None, liberty_slow: Path | None = None) -> Technology:
+            liberty: Path | None = None, liberty_slow: Path | None = None,
+            macro_of: Callable[[Size], Macro] = sram_model.macro, target_mhz: float = TARGET_MHZ) -> Technology:
     """Generated libraries unless `liberty` is given; without `liberty_slow` it serves both corners."""
     build.mkdir(parents=True, exist_ok=True)
     listed = sram_kit.read_sizes(root / SIZES)
@@ -54,7 +56,7 @@ def prepare(root: Path, build: Path, configurations: list[Configuration],
             raise FlowError(f"{users[0]} needs the SRAM {size.name}, which is not in {SIZES}; "
                             "run make synth-sizes")
     kit = build / "technology"
-    sram_kit.write_kit(kit, listed)
+    sram_kit.write_kit(kit, listed, macro_of)
     if liberty is None:
         paths = []
         for corner in standard_cells.CORNERS:
@@ -64,4 +66,4 @@ def prepare(root: Path, build: Path, configurations: list[Configuration],
         paths = [_plain_liberty(liberty, build), _plain_liberty(liberty_slow or liberty, build)]
     typical = library.read(paths[0])
     slow = typical if paths[1] == paths[0] else library.read(paths[1])
-    return Technology(typical, slow, kit, root)
+    return Technology(typical, slow, kit, root, target_mhz)

@@ -26,6 +26,13 @@ class Liberty(unittest.TestCase):
         timing = cell.children("pin")[1].children("timing")[0]
         self.assertEqual(dict(timing.attributes)["values"], ["1, 2", "3, 4"])
 
+    def test_a_string_may_end_an_attribute_without_a_semicolon(self):
+        library = liberty.parse('library (x) { cell (C) { when : "a & b"\n timing () { type : setup; } area : 2; } }', "x")
+        cell = library.children("cell")[0]
+        self.assertEqual(cell.get("when"), "a & b")
+        self.assertEqual(cell.children("timing")[0].get("type"), "setup")
+        self.assertEqual(cell.number("area"), 2)
+
     def test_written_text_parses_to_the_same_tree(self):
         library = Group("library", ["x"], [("a", '"1"'), ("b", ["1", "ff"])],
                         [Group("cell", ["C"], [("area", "2")])], [("last", "z")])

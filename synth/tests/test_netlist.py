@@ -15,7 +15,7 @@ def library() -> Library:
     return Library(Path("x"), "x", {"BUF_X1": 1.0, "BUF_X4": 3.0, "DFF": 5.0, "INV": 0.5}, {"DFF"}, set(),
                    {"BUF_X1": {"A": 1.0}, "BUF_X4": {"A": 2.0}, "DFF": {"D": 1.0, "CK": 1.0}, "INV": {"A": 1.0}},
                    {"BUF_X1": {"Y": 20.0}, "BUF_X4": {"Y": 80.0}, "DFF": {"Q": 20.0}, "INV": {"Y": 20.0}},
-                   buffers, "INV", {}, 0.7, 1.1, "", 0.5, {"DFF": 1.0}, {"DFF": 2.0})
+                   buffers, "INV", {}, 0.7, 1.5, 1.1, "", 0.5, {"DFF": 1.0}, {"DFF": 2.0})
 
 
 def cell(kind: str, inputs: dict[str, int], outputs: dict[str, int]) -> dict:

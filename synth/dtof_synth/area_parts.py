@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the area of an array is made of, and what its macros and cells take once they are placed.
+
+reports/area.md's total is the sum of cells and macros. A placed array is larger: rows are not filled, a macro keeps
+its neighbours at a distance, and flip-flops in a scan chain are larger.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from . import sram_model
+from .configuration import engine_memories, memories
+from .run import Result
+from .sram_model import Macro, Size
+
+UTILISATION = 0.75  # cells over the area of their rows
+HALO_UM = 2.0  # around a macro
+# CACTI's points that time and energy are fitted to (sram_model.KINDS) have at most so many bits a word.
+FITTED_BITS = 64
+OTHER_MUX = 2
+
+
+@dataclass(frozen=True)
+class Parts:
+    """um2 of the whole array; the fields sum to the total."""
+
+    column_logic: float
+    column_sram: float
+    engines: float  # logic
+    scratch_sram: float  # of the engines
+    control: float  # shared logic without engines
+    fan_out: float  # trees of buffers in front of columns and engines
+
+    @property
+    def total(self) -> float:
+        return (self.column_logic + self.column_sram + self.engines + self.scratch_sram + self.control
+                + self.fan_out)
+
+
+def parts(result: Result) -> Parts:
+    engines = result.engines.area - result.engines.buffer_area
+    return Parts(result.column.area * result.columns, result.sram_area * result.columns, engines,
+                 result.engine_sram_area, result.shared.area - result.shared.buffer_area - engines,
+                 result.shared.buffer_area)
+
+
+def _macros(result: Result) -> Iterable[tuple[int, Size]]:
+    """(number in the array, size) of each kind of macro."""
+    configuration = result.configuration
+    for size in memories(configuration).values():
+        yield configuration.column_modules, size
+    for size in engine_memories(configuration).values():
+        yield configuration.engines, size
+
+
+def _macro_total(result: Result, area: Callable[[Macro], float]) -> float:
+    return sum(number * area(sram_model.macro(size)) for number, size in _macros(result))
+
+
+def _with_halo(macro: Macro) -> float:
+    return (macro.width + 2 * HALO_UM) * (macro.height + 2 * HALO_UM)
+
+
+def flip_flops(result: Result) -> int:
+    return result.column_module.flip_flops * result.configuration.column_modules + result.shared.flip_flops
+
+
+def scan(result: Result) -> float:
+    """um2 by which a multiplexer in front of every flip-flop makes the array larger."""
+    return flip_flops(result) * result.mux2_area
+
+
+def placed(result: Result) -> float:
+    """um2 of cells at UTILISATION and macros with their halos; without scan and clock tree."""
+    cells = result.column.area * result.columns + result.shared.area
+    return cells / UTILISATION + _macro_total(result, _with_halo)
+
+
+def placed_with_all(result: Result) -> float:
+    """The same with scan and the estimated clock tree."""
+    return placed(result) + (scan(result) + result.clock_tree.area) / UTILISATION
+
+
+def doubtful_macros(results: Iterable[Result]) -> list[Size]:
+    """Sizes whose array has no column multiplexer or whose words are wider than the points of the fits."""
+    sizes = {size for result in results for _, size in _macros(result)}
+    return sorted(size for size in sizes if sram_model.macro(size).mux == 1 or size.bits > FITTED_BITS)
+
+
+def total_with_other_mux(result: Result) -> float:
+    """um2 of the array if macros without a column multiplexer had one of OTHER_MUX."""
+    def area(macro: Macro) -> float:
+        return sram_model.macro(macro.size, OTHER_MUX).area if macro.mux == 1 else macro.area
+
+    return parts(result).total + _macro_total(result, area) - _macro_total(result, lambda macro: macro.area)
