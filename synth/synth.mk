@@ -12,8 +12,9 @@
 # make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
 #                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
+# make power           power from the activity of netlists on a scene: reports/power.md (minutes)
 # make synth-growth    how cost grows with the parameters
-.PHONY: synth synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
+.PHONY: synth power synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -39,3 +40,6 @@ sim-icarus: vectors
 sim-netlist sim-netlist-full: vectors
 	@synth/synth.py $@ --seed $(SEED) $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
 	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW))
+
+power: vectors
+	@synth/synth.py $@ --seed $(SEED) $(CONFIGURATIONS)

@@ -10,7 +10,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import batch, budgets, check, configuration, goals, growth, report, signalled_clear, simulation, \
+from . import batch, budgets, check, configuration, goals, growth, report, scene_power, signalled_clear, simulation, \
     sram_kit, sram_report
 from . import technology as technologies
 from .configuration import Configuration
@@ -136,6 +136,26 @@ def _check(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
     return check.run(ROOT, PDK, named, _all_configurations(named), arguments.jobs, _say)
 
 
+def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Power from the activity of netlists on a scene; the whole arrays' areas are those of `run`."""
+    started = time.monotonic()
+    chosen = _select(named, arguments.configuration or list(scene_power.CONFIGURATIONS))
+    build = ROOT / "build" / "synth"
+    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    results = batch.run_all([batch.Job(item) for item in chosen.values()], technology, build / "runs", arguments.jobs,
+                            _say)
+    found = scene_power.run(list(chosen.values()), results, technology, build / "power", arguments.seed, arguments.jobs,
+                            _say)
+    text = scene_power.report(found, results, input_digest(technology), arguments.seed)
+    _say(text)
+    if not arguments.configuration:
+        (ROOT / "reports" / "power.md").write_text(text, encoding="utf-8")
+        scene_power.write_csv(ROOT / "reports" / "power.csv", found)
+        _say("reports/power.md, reports/power.csv written")
+    _say(f"{len(found)} simulations, seed {arguments.seed}, {time.monotonic() - started:.0f} s")
+    return 0
+
+
 def _simulation_folder(kind: str, case: simulation.Case) -> Path:
     return SIMULATION / kind / "_".join([case.name, *case.part.split()])
 
@@ -223,6 +243,11 @@ def _parser() -> argparse.ArgumentParser:
         if action is not _sim_icarus:
             _add_liberty(simulate)
         simulate.set_defaults(action=action, trace=None)
+    power = commands.add_parser("power", help="power from the activity of netlists on a scene")
+    power.add_argument("configuration", nargs="*", help="names from configurations.toml; none: "
+                       f"{', '.join(scene_power.CONFIGURATIONS)}, with a report")
+    power.add_argument("--seed", type=int, default=1, help="of the photons")
+    power.set_defaults(action=_power)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),

@@ -43,6 +43,7 @@ class Library:
     voltage: float
     wire_load: str
     wire_ff_per_sink: float
+    energy_fj: float = 1.0  # the Liberty's unit of energy
     clock_pin_ff: dict[str, float] = field(default_factory=dict)
     clock_energy_fj: dict[str, float] = field(default_factory=dict)
 
@@ -103,7 +104,7 @@ def read(path: Path) -> Library:
     unit = _capacitance_unit_ff(root, path)
     cells = root.children("cell")
     result = Library(path, root.name, {}, set(), set(), {}, {}, [], "", {}, _nand2_area(cells),
-                     _mux2_area(cells), root.number("nom_voltage"), *_wire_load(root, unit))
+                     _mux2_area(cells), root.number("nom_voltage"), *_wire_load(root, unit), energy_fj=unit)
     inverters: list[tuple[float, str]] = []
     for cell in cells:
         name, area = cell.name, cell.number("area")

@@ -9,7 +9,7 @@ import re
 import shutil
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -153,11 +153,12 @@ def _lines(path: Path) -> int:
     return path.read_text(encoding="ascii").count("\n")
 
 
-def write_vectors(case: Case, root: Path, folder: Path) -> None:
-    """Stimulus and the model's results, by the program dtof-vectors."""
+def write_vectors(case: Case, root: Path, folder: Path, options: tuple[str, ...] = ()) -> None:
+    """Stimulus and the model's results, by the program dtof-vectors with more `options`."""
     settings = [f"{name}={value}" for name, value in case.configuration.parameters.items()]
     _run([str(root / VECTORS), "--readout", case.configuration.readout, "--out", str(folder), "--seed",
-          str(case.seed), "--acquisitions", *map(str, case.frames), "--parameters", *settings], folder, case.name)
+          str(case.seed), "--acquisitions", *map(str, case.frames), *options, "--parameters", *settings], folder,
+         case.name)
 
 
 def bench_parameters(case: Case, folder: Path) -> dict[str, int]:
@@ -187,18 +188,25 @@ def simulate_netlist(case: Case, technology: Technology, folder: Path) -> Outcom
     return simulate(case, technology.root, folder, write_netlist(case.configuration, technology, folder, case.seed))
 
 
+def compile_bench(case: Case, root: Path, folder: Path, netlist_files: Sequence[Path] = (),
+                  other_tops: Sequence[str] = ()) -> None:
+    """bench.vvp in `folder`; FlowError for any message of Icarus Verilog."""
+    bench = f"{case.configuration.top}_bench"
+    overrides = [f"-P{bench}.{name}={value}" for name, value in bench_parameters(case, folder).items()]
+    tops = [word for top in (bench, *other_tops) for word in ("-s", top)]
+    said = _run(["iverilog", "-g2012", f"-I{root / 'hdl' / 'package'}", *tops, *overrides,
+                 *(["-DNETLIST"] if netlist_files else []), "-o", "bench.vvp",
+                 *map(str, bench_files(case, root)), *map(str, netlist_files)], folder, case.name)
+    if said.strip():
+        raise FlowError(f"{case.name}: Icarus Verilog warns: {said.strip().splitlines()[0]}")
+
+
 def simulate(case: Case, root: Path, folder: Path, netlist_files: tuple[Path, ...] = ()) -> Outcome:
     """Runs a case in `folder`; with `netlist_files` the netlist beside the RTL. FlowError at the first failure."""
     started = time.monotonic()
     folder.mkdir(parents=True, exist_ok=True)
     write_vectors(case, root, folder)
-    bench = f"{case.configuration.top}_bench"
-    overrides = [f"-P{bench}.{name}={value}" for name, value in bench_parameters(case, folder).items()]
-    said = _run(["iverilog", "-g2012", f"-I{root / 'hdl' / 'package'}", "-s", bench, *overrides,
-                 *(["-DNETLIST"] if netlist_files else []), "-o", "bench.vvp",
-                 *map(str, bench_files(case, root)), *map(str, netlist_files)], folder, case.name)
-    if said.strip():
-        raise FlowError(f"{case.name}: Icarus Verilog warns: {said.strip().splitlines()[0]}")
+    compile_bench(case, root, folder, netlist_files)
     waveform = ["-fst", f"+trace={case.trace}"] if case.trace else []
     output = _run(["vvp", "-n", "bench.vvp", *waveform], folder, case.name)
     (folder / "bench.log").write_text(output, encoding="utf-8")

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -13,7 +14,9 @@
 #include "core/detection.hpp"
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "photon/photon_source.hpp"
 #include "readout/model.hpp"
+#include "sensor/preset.hpp"
 #include "tests/readout/test_streams.hpp"
 
 namespace dtof {
@@ -123,6 +126,43 @@ void write_results(fmt::ostream& file, const ArrayParameters& array, std::span<c
   }
 }
 
+/// The three files of write_vectors().
+class VectorFiles {
+ public:
+  explicit VectorFiles(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) {
+      throw InputError(fmt::format("{}: cannot make the folder ({})", folder.string(), error.message()));
+    }
+    frames_.emplace(fmt::output_file((folder / "frames.txt").string()));
+    timestamps_.emplace(fmt::output_file((folder / "timestamps.hex").string()));
+    results_.emplace(fmt::output_file((folder / "results.hex").string()));
+  }
+
+  void write(const ArrayParameters& array, std::uint32_t acquisitions,
+             const std::array<std::uint32_t, 3>& settings, int pause, int stall, bool reset,
+             std::span<const ColumnStream> columns) {
+    frames_->print("{} {} {} {} {} {} {}\n", acquisitions, settings[0], settings[1], settings[2], pause,
+                   stall, reset ? 1 : 0);
+    write_timestamps(*timestamps_, array, columns, acquisitions);
+    write_results(*results_, array, columns, acquisitions);
+  }
+
+ private:
+  std::optional<fmt::ostream> frames_;
+  std::optional<fmt::ostream> timestamps_;
+  std::optional<fmt::ostream> results_;
+};
+
+/// The third is S1's switch of poolPointer 2.
+std::array<std::uint32_t, 3> schedule_settings(const ReadoutParameters& readout, std::uint32_t acquisitions) {
+  const PoolSchedule schedule(acquisitions, readout.pool);
+  const bool pairs = readout.readout == Readout::kPoolPointer2;
+  return {schedule.coarse_end, schedule.track_end,
+          pairs ? static_cast<std::uint32_t>(readout.pool.smooth ? 1 : 0) : schedule.late_begin};
+}
+
 }  // namespace
 
 void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> frames, std::uint64_t seed,
@@ -130,25 +170,16 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
   constexpr std::array<int, 4> kPauses = {0, 10, 40, 75};
   constexpr std::array<int, 4> kStalls = {0, 20, 60, 90};
   CounterRandom random(seed, static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0, 0);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("{}: cannot make the folder ({})", folder.string(), error.message()));
-  }
-  fmt::ostream frame_file = fmt::output_file((folder / "frames.txt").string());
-  fmt::ostream timestamp_file = fmt::output_file((folder / "timestamps.hex").string());
-  fmt::ostream result_file = fmt::output_file((folder / "results.hex").string());
+  VectorFiles files(folder);
   ArrayParameters frame_array = array;
   std::size_t kind = 0;
   for (const std::uint32_t acquisitions : frames) {
     std::array<std::uint32_t, 3> settings{};
     if (is_pool_readout(array.readout.readout)) {
-      const PoolSchedule schedule(acquisitions, array.readout.pool);
-      settings = {schedule.coarse_end, schedule.track_end, schedule.late_begin};
       if (array.readout.readout == Readout::kPoolPointer2) {
         frame_array.readout.pool.smooth = pick(random, 2) != 0;
-        settings[2] = frame_array.readout.pool.smooth ? 1 : 0;
       }
+      settings = schedule_settings(frame_array.readout, acquisitions);
     } else if (array.readout.time_gate) {
       const int codes = array.readout.code_count();
       const CodeGate gate{.begin = pick(random, codes), .end = pick(random, codes)};
@@ -160,11 +191,40 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
                           : kPauses[1];
     const int stall = kStalls[static_cast<std::size_t>(pick(random, kStalls.size()))];
     const bool reset = acquisitions >= kShortestFrameToReset && acquisitions < kLongFrame;
-    frame_file.print("{} {} {} {} {} {} {}\n", acquisitions, settings[0], settings[1], settings[2], pause,
-                     stall, reset ? 1 : 0);
-    const std::vector<ColumnStream> columns = make_columns(frame_array, acquisitions, kind, random);
-    write_timestamps(timestamp_file, frame_array, columns, acquisitions);
-    write_results(result_file, frame_array, columns, acquisitions);
+    files.write(frame_array, acquisitions, settings, pause, stall, reset,
+                make_columns(frame_array, acquisitions, kind, random));
+  }
+}
+
+void write_scene_vectors(const ArrayParameters& array, Scene scene, double klux,
+                         std::span<const std::uint32_t> frames, std::uint64_t seed,
+                         const std::filesystem::path& folder) {
+  SensorModel sensor = parse_preset("thesis");
+  sensor.np = array.readout.np;
+  sensor.slots = array.readout.slots;
+  SceneParameters parameters;
+  parameters.rows = array.rows;
+  parameters.columns = std::max(parameters.columns, array.columns);
+  const TargetMap targets = make_scene(scene, parameters);
+  const int first = (parameters.columns - array.columns) / 2;
+  VectorFiles files(folder);
+  std::uint32_t number = 0;
+  for (const std::uint32_t acquisitions : frames) {
+    sensor.acquisitions = acquisitions;
+    const PhotonSource source(sensor, targets, klux, seed, number);
+    ++number;
+    std::vector<ColumnStream> columns;
+    columns.reserve(static_cast<std::size_t>(array.columns));
+    for (int column = 0; column < array.columns; ++column) {
+      columns.push_back(source.column(first + column));
+    }
+    std::array<std::uint32_t, 3> settings{};
+    if (is_pool_readout(array.readout.readout)) {
+      settings = schedule_settings(array.readout, acquisitions);
+    } else if (array.readout.time_gate) {
+      settings = {0, static_cast<std::uint32_t>(array.readout.code_count() - 1), 0};
+    }
+    files.write(array, acquisitions, settings, 0, 0, false, columns);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 
+#include "scene/scene.hpp"
 #include "vectors/rtl_parameters.hpp"
 
 namespace dtof {
@@ -21,5 +22,12 @@ namespace dtof {
 /// surface.
 void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> frames, std::uint64_t seed,
                    const std::filesystem::path& folder);
+
+/// The same files with the photons of a scene instead, for figures that depend on what a sensor sees: the
+/// columns in the middle of a map of 200 columns, sensor of the thesis with the array's NP and SLOTS, `klux`
+/// of background light, source and sink without pauses. Throws InputError as PhotonSource does.
+void write_scene_vectors(const ArrayParameters& array, Scene scene, double klux,
+                         std::span<const std::uint32_t> frames, std::uint64_t seed,
+                         const std::filesystem::path& folder);
 
 }  // namespace dtof

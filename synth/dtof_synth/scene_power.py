@@ -1,0 +1,251 @@
+# SPDX-License-Identifier: Apache-2.0
+"""make power: what an array takes on a real scene, from the transitions of a small array's netlist.
+
+A column module with all its pixels (and one engine where there are engines) is simulated over a short frame of the
+room scene; activity.py counts. The column's energy is that of every column; the logic outside the columns has another
+size in the whole array, so its energy per clock is scaled by area. The result is reported by part, for the
+acquisitions, for a whole frame with its idle time, and beside what `make synth` estimates from assumed activities.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+import subprocess
+import threading
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import activity, liberty, netlist, simulation, sram_kit, sram_model
+from .activity import OTHER, STREAMING, Activity
+from .configuration import Configuration, engine_memories, memories
+from .errors import FlowError
+from .library import Library
+from .run import EFFORTS, TARGET_MHZ, Result, Technology, elaborate, map_to_cells
+
+CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer", "sifh", "fifh", "poolpointer", "poolpointer_lean")
+KLUX = {"day": 50.0, "dusk": 2.0}
+SCENE = "room"
+ACQUISITIONS = 64
+FRAME_ACQUISITIONS = 33_333
+FRAMES_PER_S = 30
+GOALS_MW = {"poolpointer": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
+
+
+@dataclass(frozen=True)
+class Parts:
+    """mW of the whole array in one phase."""
+
+    columns: float
+    engines: float
+    control: float
+    sram: float
+    clock: float
+    leakage: float
+
+    @property
+    def total(self) -> float:
+        return self.columns + self.engines + self.control + self.sram + self.clock + self.leakage
+
+
+@dataclass(frozen=True)
+class ScenePower:
+    """Power of one configuration on one scene."""
+
+    configuration: Configuration
+    light: str
+    column_rate: float  # transitions of a column's data net per clock while streaming
+    streaming: Parts
+    other: Parts  # clear, scan, decision, results
+    idle_mw: float  # clock and leakage
+    streaming_clocks: int  # of a frame
+    other_clocks: int
+
+    @property
+    def frame_mj(self) -> float:
+        clocks = TARGET_MHZ * 1e6 / FRAMES_PER_S
+        idle = max(clocks - self.streaming_clocks - self.other_clocks, 0)
+        return (self.streaming.total * self.streaming_clocks + self.other.total * self.other_clocks
+                + self.idle_mw * idle) / (TARGET_MHZ * 1e6)
+
+    @property
+    def mean_mw(self) -> float:
+        return self.frame_mj * FRAMES_PER_S
+
+
+def small(configuration: Configuration) -> Configuration:
+    """One column module with all its pixels, one engine."""
+    sizes = {"SRAM_NUM": 2, "ENGINE_COLUMNS": 2} if configuration.is_pool else {"SRAM_NUM": 1}
+    return configuration.with_parameters(configuration.name, **sizes)
+
+
+def _streams(ports: dict[str, int]) -> bool:
+    return ports.get("tdc_ready_o") == 1 and ports.get("tdc_valid_i") == 1
+
+
+def simulate(configuration: Configuration, technology: Technology, folder: Path, klux: float,
+             seed: int) -> tuple[dict, Activity]:
+    """The small array's netlist on the scene, checked against RTL and model while it is counted."""
+    root = technology.root
+    case = simulation.Case(small(configuration), (ACQUISITIONS,), seed)
+    elaborate(case.configuration, technology, folder)
+    design = map_to_cells(case.configuration, technology, folder, EFFORTS[0])
+    netlist.finish(design, technology.slow, sram_kit.PIN_FF)
+    activity.name_for_counting(design)
+    files = simulation.write_simulation_netlist(design, case.configuration, technology, folder, seed)
+    simulation.write_vectors(case, root, folder, ("--scene", SCENE, "--klux", f"{klux:g}"))
+    bench = f"{case.configuration.top}_bench"
+    netlist_path = f"{bench}.u_netlist"
+    scopes = ", ".join([netlist_path, *(f"{netlist_path}.{path}" for path in activity.scopes_of(design) if path)])
+    (folder / "activity_dump.sv").write_text(
+        f'module activity_dump;\n  initial begin\n    $dumpfile("activity.vcd");\n    $dumpvars(1, {scopes});\n'
+        "  end\nendmodule\n", encoding="utf-8")
+    simulation.compile_bench(case, root, folder, [*files, folder / "activity_dump.sv"], ("activity_dump",))
+    pipe = folder / "activity.vcd"
+    pipe.unlink(missing_ok=True)
+    os.mkfifo(pipe)
+    said: list[str] = []
+    process = subprocess.Popen(["vvp", "-n", "bench.vvp"], cwd=folder, stdout=subprocess.PIPE,
+                               stderr=subprocess.STDOUT, text=True)
+    reader = threading.Thread(target=lambda: said.append(process.stdout.read()))
+    reader.start()
+    counted: Activity | None = None
+    try:
+        with pipe.open(encoding="ascii") as lines:
+            counted = activity.count(lines, design, netlist_path, _streams)
+    finally:
+        if process.poll() is None and not counted:
+            process.kill()
+        reader.join()
+        process.wait()
+        pipe.unlink(missing_ok=True)
+    simulation.outcome(said[0], case, 0.0)
+    return design, counted
+
+
+def _leakage_nw(cells: dict[str, float], module: dict) -> float:
+    return sum(cells.get(cell["type"], 0.0) for cell in module["cells"].values())
+
+
+def _area(library: Library, module: dict) -> float:
+    return sum(library.area.get(cell["type"], 0.0) for cell in module["cells"].values())
+
+
+def power(configuration: Configuration, light: str, result: Result, technology: Technology, folder: Path,
+          seed: int) -> ScenePower:
+    """FlowError if the netlist is not its RTL, or a step of the flow fails."""
+    design, counted = simulate(configuration, technology, folder, KLUX[light], seed)
+    library = technology.typical
+    group = liberty.read(library.path)
+    internal = activity.internal_energies(group, library.energy_fj)
+    leakage = {cell.name: cell.number("cell_leakage_power") for cell in group.children("cell")}
+    modules = configuration.column_modules
+    top = netlist.modules(design)[counted.scopes[""].module]
+    engine = next((scope for scope in counted.scopes.values() if scope.module.endswith("_engine_netlist")), None)
+    column = next(scope for path, scope in counted.scopes.items() if path and scope is not engine)
+    control_area = result.shared.area - result.engines.area
+    control_scale = control_area / _area(technology.slow, top)
+    engine_scale = result.engines.area / _area(technology.slow, netlist.modules(design)[engine.module]) if engine else 0
+    column_leak = _leakage_nw(leakage, netlist.modules(design)[column.module]) * modules
+    leak_mw = (column_leak + _leakage_nw(leakage, top) * control_scale
+               + (_leakage_nw(leakage, netlist.modules(design)[engine.module]) * engine_scale if engine else 0)) * 1e-6
+    leak_mw += modules * sum(sram_model.macro(size).leakage for size in memories(configuration).values()) * 1e-3
+    leak_mw += configuration.engines * sum(sram_model.macro(size).leakage
+                                           for size in engine_memories(configuration).values()) * 1e-3
+    clock_fj = (modules * result.column_module.clock_energy_fj + result.shared.clock_energy_fj
+                + result.clock_tree.load_ff * library.voltage**2)
+    clock_mw = clock_fj * TARGET_MHZ * 1e-6
+
+    def parts(phase: str) -> Parts:
+        clocks = counted.clocks.get(phase, 0)
+        if not clocks:
+            raise FlowError(f"{configuration.name}: the simulation has no clock of the phase {phase}")
+        to_mw = TARGET_MHZ * 1e-6 / clocks
+
+        def of(scope: activity.Scope) -> activity.Energy:
+            return activity.energy(scope, phase, design, library, internal, sram_kit.PIN_FF)
+
+        one, control = of(column), of(counted.scopes[""])
+        shared = of(engine) if engine else activity.Energy()
+        return Parts((one.nets + one.cells) * modules * to_mw, (shared.nets + shared.cells) * engine_scale * to_mw,
+                     (control.nets + control.cells) * control_scale * to_mw,
+                     (one.sram * modules + control.sram * modules + shared.sram * configuration.engines) * to_mw,
+                     clock_mw, leak_mw)
+
+    streaming_clocks = FRAME_ACQUISITIONS * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
+    return ScenePower(configuration, light, activity.toggle_rate(column, STREAMING, design, counted.clocks[STREAMING]),
+                      parts(STREAMING), parts(OTHER), clock_mw + leak_mw, streaming_clocks,
+                      counted.clocks[OTHER] + configuration.pixels)
+
+
+def report(found: list[ScenePower], results: dict[str, Result], digest: str, seed: int) -> str:
+    """Markdown."""
+    lines = ["# Power on a scene", "",
+             f"Written by `make power`: the netlist of one column module with {ACQUISITIONS} acquisitions of the scene "
+             f"`{SCENE}` at {', '.join(f'{klux:g} klux ({light})' for light, klux in KLUX.items())}, every transition of "
+             f"every net counted, {TARGET_MHZ:g} MHz, typical corner, seed {seed}; inputs `{digest[:12]}`. Method: "
+             "[docs/reference/synthesis.md](../docs/reference/synthesis.md#power-from-activity).", "",
+             "mW of the whole array while acquisitions stream in. Rate: transitions of a column's data net per clock. "
+             "Assumed: what [timing.md](timing.md) has for the same array.", "",
+             "| read-out | light | rate | columns | engines | control | SRAM | clock | leakage | total | assumed |",
+             "|---|---|" + "---:|" * 9]
+    for one in found:
+        part = one.streaming
+        assumed = results[one.configuration.name].power
+        lines.append(f"| {one.configuration.title} | {one.light} | {one.column_rate:.2f} | {part.columns:.1f} | "
+                     f"{part.engines:.1f} | {part.control:.1f} | {part.sram:.1f} | {part.clock:.1f} | "
+                     f"{part.leakage:.1f} | {part.total:.1f} | {assumed.total:.1f} |")
+    lines += ["", f"A frame of {FRAME_ACQUISITIONS} acquisitions, {FRAMES_PER_S} frames/s. Other: clear, scan, decision and "
+              "results. Idle: clock and leakage, since no clock is gated.", "",
+              "| read-out | light | streaming mW | other mW | idle mW | streaming | other | frame mJ | pixel nJ | mean mW |",
+              "|---|---|" + "---:|" * 8]
+    for one in found:
+        frame = TARGET_MHZ * 1e6 / FRAMES_PER_S
+        lines.append(f"| {one.configuration.title} | {one.light} | {one.streaming.total:.1f} | {one.other.total:.1f} | "
+                     f"{one.idle_mw:.1f} | {one.streaming_clocks / frame:.0%} | {one.other_clocks / frame:.1%} | "
+                     f"{one.frame_mj:.2f} | {one.frame_mj * 1e6 / one.configuration.pixels:.0f} | {one.mean_mw:.1f} |")
+    lines += ["", "## Goals", "", "Of the acquisitions, in the worse light.", "", "| goal | here | met |", "|---|---:|---:|"]
+    for name, limit in GOALS_MW.items():
+        worst = max((one for one in found if one.configuration.name == name), key=lambda one: one.streaming.total,
+                    default=None)
+        if worst is not None:
+            met = "yes" if worst.streaming.total <= limit else "**no**"
+            lines.append(f"| {worst.configuration.title}: at most {limit:g} mW | {worst.streaming.total:.1f} mW "
+                         f"({worst.light}) | {met} |")
+    return "\n".join([*lines, ""])
+
+
+def write_csv(path: Path, found: list[ScenePower]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["configuration", "light", "klux", "column_rate", "phase", "columns_mw", "engines_mw", "control_mw",
+                         "sram_mw", "clock_mw", "leakage_mw", "total_mw", "clocks_of_a_frame", "frame_mj"])
+        for one in found:
+            for phase, part, clocks in ((STREAMING, one.streaming, one.streaming_clocks),
+                                        (OTHER, one.other, one.other_clocks)):
+                figures = (part.columns, part.engines, part.control, part.sram, part.clock, part.leakage, part.total)
+                writer.writerow([one.configuration.name, one.light, f"{KLUX[one.light]:g}", f"{one.column_rate:.4f}",
+                                 phase, *(f"{figure:.3f}" for figure in figures), clocks, f"{one.frame_mj:.4f}"])
+
+
+def run(chosen: list[Configuration], results: dict[str, Result], technology: Technology, folder: Path, seed: int,
+        workers: int, say: Callable[[str], None]) -> list[ScenePower]:
+    """All chosen configurations in all lights, `workers` at a time; the longest first. The first failure stops
+    everything."""
+    tasks = [(configuration, light) for configuration in chosen for light in KLUX]
+    found: dict[tuple[str, str], ScenePower] = {}
+    with ProcessPoolExecutor(workers) as pool:
+        futures = {pool.submit(power, configuration, light, results[configuration.name], technology,
+                               folder / f"{configuration.name}_{light}", seed): (configuration.name, light)
+                   for configuration, light in sorted(tasks, key=lambda task: simulation.expected_rank(task[0]))}
+        try:
+            for future in as_completed(futures):
+                name, light = futures[future]
+                found[(name, light)] = future.result()
+                say(f"[{len(found)}/{len(tasks)}] {name}, {light}: {found[(name, light)].streaming.total:.1f} mW")
+        except BaseException:
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise
+    return [found[(configuration.name, light)] for configuration, light in tasks]
