@@ -6,6 +6,7 @@
 # make reproduce  the thesis's accuracy statements, measured (minutes); make coverage-study: their intervals checked
 # make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
 # make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
+# make power      power from the activity of netlists on a scene
 # make lint       RTL in three tools, C++ format and static analysis
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)

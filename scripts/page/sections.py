@@ -81,6 +81,7 @@ LISTED = (
            "sensor_effects_pool/sensor_effects.md", "the same for poolPointer, at one light",
            with_it=(("sensor_effects_pool/sensor_effects.csv", "sensor_effects_pool.csv"),)),
     Report("sram", "SRAM macros", "synth", "sram.md", says="sizes, area, access time and energy"),
+    Report("power", "Power on a scene", "power", "power.md", says="from the activity of netlists, by day and at dusk"),
     Report("coverage_study", "Confidence intervals", "coverage-study", "coverage_study.md",
            says="whether they hold over 40 seeds"),
     Report("speed_error", "Photon models: speed against error", "photon-report", "speed_error.md",
