@@ -6,6 +6,8 @@
 `list_models.py waveforms dtof_array`: the same to look at: with waveforms.
 `list_models.py variants dtof_array`: its variants, with one column.
 The same with pool_pointer_array.
+`list_models.py engines pool_pointer2_array`: the engines that the read-outs' columns cut into, with waveforms: columns of
+one hear each other, and an array that has other columns reads something else.
 """
 
 import sys
@@ -29,8 +31,14 @@ def line(name: str, configuration: Configuration, **size: int) -> str:
     return f"{name} READOUT {configuration.readout} {' '.join(words)}"
 
 
+def engine_widths(configuration: Configuration) -> list[int]:
+    """Columns of the engines of an array: all have ENGINE_COLUMNS, but for the last one."""
+    columns, together = configuration["SRAM_NUM"], configuration["ENGINE_COLUMNS"]
+    return sorted({min(columns, together), columns % together or together}, reverse=True)
+
+
 def main() -> int:
-    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "waveforms", "variants"):
+    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "waveforms", "variants", "engines"):
         print(__doc__, file=sys.stderr)
         return 2
     try:
@@ -42,6 +50,9 @@ def main() -> int:
                     print(line(f"variant_{name}", configuration, SRAM_NUM=1))
             elif configuration.variant_of:
                 continue
+            elif sys.argv[1] == "engines":
+                for columns in engine_widths(configuration):
+                    print(line(f"{name}_{columns}", configuration, SRAM_NUM=columns))
             elif sys.argv[1] == "waveforms":
                 # Columns of pool_pointer_array look at each other; of the others, one shows everything.
                 columns = {} if configuration.top == "pool_pointer_array" else {"SRAM_NUM": 1}

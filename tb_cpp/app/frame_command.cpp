@@ -170,10 +170,12 @@ std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& rea
   }
   if (rule == TableRule::kFlat) {
     const FlatCalibration calibration(scene.model());
-    const PhotonSource photons(scene.model(), calibration.targets(), scene.klux(), run.seed,
-                               FlatCalibration::kFrame);
-    std::vector<RangeConverter> tables =
-        calibration.fit(*make_source(fidelity, photons), readouts, run.seed, run.threads);
+    std::vector<RangeConverter> tables = calibration.fit(
+        [&](const TargetMap& targets) {
+          return make_source(fidelity, PhotonSource(scene.model(), targets, scene.klux(), run.seed,
+                                                    FlatCalibration::kFrame));
+        },
+        readouts, run.seed, run.threads);
     for (std::size_t r = 0; r < tabled.size(); ++r) {
       tabled[r].table = std::move(tables[r]);
     }

@@ -24,7 +24,7 @@
 #
 #   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
 #
-#   dtof_verilate_named(readouts|waveforms|variants <top module> <library>)
+#   dtof_verilate_named(readouts|waveforms|variants|engines <top module> <library>)
 #
 # adds configurations of configurations.toml (scripts/list_models.py).
 #
@@ -135,7 +135,10 @@ function(dtof_verilate name)
   endif()
   set(access "")
   if(P_WRITABLE_SRAMS)
-    set(access ${PROJECT_SOURCE_DIR}/rtl/writable_srams.vlt)
+    list(APPEND access ${PROJECT_SOURCE_DIR}/rtl/writable_srams.vlt)
+  endif()
+  if(array STREQUAL pool_pointer2_array)
+    list(APPEND access ${PROJECT_SOURCE_DIR}/rtl/pool_pointer2.vlt)
   endif()
   foreach(parameter ${DTOF_PARAMETERS})
     if(NOT DEFINED P_${parameter})

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <map>
 #include <numeric>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -23,6 +26,23 @@ std::vector<int> select_columns(const StreamSource& source, std::span<const int>
     }
   }
   return selected;
+}
+
+std::vector<ColumnGroup> column_groups(std::span<const int> selected, int together, int columns) {
+  std::map<int, ColumnGroup> by_first;
+  for (std::size_t i = 0; i < selected.size(); ++i) {
+    const int first = selected[i] / together * together;
+    ColumnGroup& group = by_first[first];
+    group.first = first;
+    group.count = std::min(together, columns - first);
+    group.asked.push_back(i);
+  }
+  std::vector<ColumnGroup> groups;
+  groups.reserve(by_first.size());
+  for (auto& [first, group] : by_first) {
+    groups.push_back(std::move(group));
+  }
+  return groups;
 }
 
 }  // namespace dtof

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 #include "core/error.hpp"
@@ -82,6 +85,16 @@ int FlatCalibration::column(std::size_t distance) const {
   return static_cast<int>(distance) * pitch_ + pitch_ / 2;
 }
 
+TargetMap FlatCalibration::paired_targets() const {
+  TargetMap paired(2 * targets_.columns(), targets_.rows());
+  for (int column = 0; column < paired.columns(); ++column) {
+    for (int row = 0; row < paired.rows(); ++row) {
+      paired.at(column, row) = targets_.at(column % targets_.columns(), row);
+    }
+  }
+  return paired;
+}
+
 RangeConverter FlatCalibration::fit(std::span<const Measurement> measurements, double code_step,
                                     std::uint64_t seed) const {
   std::vector<TargetRun> runs;
@@ -95,20 +108,32 @@ RangeConverter FlatCalibration::fit(std::span<const Measurement> measurements, d
   return RangeConverter::calibrate(runs, code_step);
 }
 
-std::vector<RangeConverter> FlatCalibration::fit(const StreamSource& photons,
+std::vector<RangeConverter> FlatCalibration::fit(const Photons& photons,
                                                  std::span<const ReadoutParameters> readouts,
                                                  std::uint64_t seed, int threads) const {
   const std::size_t width = distances_m_.size();
   std::vector<std::vector<Measurement>> measurements(readouts.size(),
                                                      std::vector<Measurement>(width * kPixels));
+  const auto store = [&](std::size_t readout, std::size_t d, std::span<const PixelResult> results) {
+    for (std::size_t row = 0; row < kPixels; ++row) {
+      measurements[readout][row * width + d] = to_measurement(results[row], readouts[readout].fraction_bits);
+    }
+  };
+  const auto hears_others = [](const ReadoutParameters& readout) { return readout.columns_together() > 1; };
+  const std::unique_ptr<StreamSource> source = photons(targets_);
+  const std::unique_ptr<StreamSource> pairs =
+      std::ranges::any_of(readouts, hears_others) ? photons(paired_targets()) : nullptr;
   parallel_for(width, threads, [&](std::size_t d) {
-    const ColumnStream stream = photons.column(column(d));
+    const ColumnStream alone = source->column(column(d));
+    std::array<ColumnStream, 2> pair;
+    if (pairs != nullptr) {
+      pair = {pairs->column(targets_.columns() + column(d)), pairs->column(column(d))};
+    }
     for (std::size_t r = 0; r < readouts.size(); ++r) {
-      const std::vector<PixelResult> results =
-          make_readout_model(readouts[r])->run_column(stream, photons.acquisitions());
-      for (std::size_t row = 0; row < kPixels; ++row) {
-        measurements[r][row * width + d] = to_measurement(results[row], readouts[r].fraction_bits);
-      }
+      const auto model = make_readout_model(readouts[r]);
+      store(r, d,
+            hears_others(readouts[r]) ? model->run_columns(pair, source->acquisitions()).back()
+                                      : model->run_column(alone, source->acquisitions()));
     }
   });
   std::vector<RangeConverter> tables;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -46,12 +47,19 @@ class FlatCalibration {
   /// in the middle is read.
   [[nodiscard]] const TargetMap& targets() const { return targets_; }
   [[nodiscard]] int column(std::size_t distance) const;
+  /// targets(), and behind them the same once more, for read-outs whose columns hear each other: what is read
+  /// of a distance is the right column of a pair, whose left one is among the others.
+  [[nodiscard]] TargetMap paired_targets() const;
 
   /// The table of measurements of the targets, index = row * distances_m().size() + distance.
   [[nodiscard]] RangeConverter fit(std::span<const Measurement> measurements, double code_step,
                                    std::uint64_t seed) const;
-  /// The table of each read-out's model, from photons of the targets.
-  [[nodiscard]] std::vector<RangeConverter> fit(const StreamSource& photons,
+  /// Draws the photons of targets.
+  using Photons = std::function<std::unique_ptr<StreamSource>(const TargetMap& targets)>;
+
+  /// The table of each read-out's model, from photons of targets(), or of paired_targets() where its columns
+  /// hear each other.
+  [[nodiscard]] std::vector<RangeConverter> fit(const Photons& photons,
                                                 std::span<const ReadoutParameters> readouts,
                                                 std::uint64_t seed, int threads) const;
 

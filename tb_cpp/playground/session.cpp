@@ -69,9 +69,12 @@ PlaygroundSession::PlaygroundSession(const PlaygroundRequest& request)
 void PlaygroundSession::calibrate() {
   constexpr int kOneThread = 1;
   const FlatCalibration calibration(scene_.model());
-  const PhotonSource photons(scene_.model(), calibration.targets(), scene_.klux(), seed_,
-                             FlatCalibration::kFrame);
-  tables_ = calibration.fit(photons, readouts_, seed_, kOneThread);
+  tables_ = calibration.fit(
+      [&](const TargetMap& targets) {
+        return std::make_unique<PhotonSource>(scene_.model(), targets, scene_.klux(), seed_,
+                                              FlatCalibration::kFrame);
+      },
+      readouts_, seed_, kOneThread);
 }
 
 void PlaygroundSession::read_column(int column) {

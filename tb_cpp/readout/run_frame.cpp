@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <map>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -32,32 +30,6 @@ void store_column(std::span<const PixelResult> results, std::size_t width, std::
   for (std::size_t row = 0; row < results.size(); ++row) {
     frame[row * width + index] = results[row];
   }
-}
-
-/// Columns that are read together, and which of them are asked for.
-struct ColumnGroup {
-  int first = 0;
-  int count = 0;
-  std::vector<std::size_t> asked;  ///< places in the list of columns asked for
-};
-
-/// A pixel's result does not depend on which columns are asked for: groups are whole, and the same in any
-/// order.
-std::vector<ColumnGroup> column_groups(std::span<const int> selected, int together, int columns) {
-  std::map<int, ColumnGroup> by_first;
-  for (std::size_t i = 0; i < selected.size(); ++i) {
-    const int first = selected[i] / together * together;
-    ColumnGroup& group = by_first[first];
-    group.first = first;
-    group.count = std::min(together, columns - first);
-    group.asked.push_back(i);
-  }
-  std::vector<ColumnGroup> groups;
-  groups.reserve(by_first.size());
-  for (auto& [first, group] : by_first) {
-    groups.push_back(std::move(group));
-  }
-  return groups;
 }
 
 }  // namespace

@@ -54,6 +54,25 @@ InputError not_compiled(const std::string& wanted) {
   return InputError{fmt::format("no RTL is compiled for {}; compiled are: {}", wanted, compiled)};
 }
 
+/// `wanted` begins with the read-out's name, as the keys do.
+InputError no_engine_compiled(const std::string& wanted, int rows, int columns) {
+  const std::string name = wanted.substr(0, wanted.find(' ') + 1);
+  std::string compiled;
+  for (const auto& [text, entry] : registry()) {
+    if (text.starts_with(name)) {
+      compiled += fmt::format("{}{}", compiled.empty() ? "" : " | ", text);
+    }
+  }
+  if (compiled.empty()) {
+    return InputError{fmt::format(
+        "no RTL is compiled for {}in this program; dtof-pool2 has its arrays (make pool2-rtl)", name)};
+  }
+  return InputError{
+      fmt::format("no RTL is compiled for {} with at least {} rows and an engine of just {} columns, which "
+                  "hear each other; compiled are: {}",
+                  wanted, rows, columns, compiled)};
+}
+
 }  // namespace
 
 bool register_rtl_configuration(const RtlConfiguration& configuration, ArrayModelFactory factory) {
@@ -71,8 +90,12 @@ std::vector<RtlConfiguration> compiled_rtl_configurations() {
 
 RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns,
                                         bool waveform) {
-  const auto records = [](const auto& entry) { return entry.second.configuration.records_waveform; };
-  if (waveform && std::ranges::none_of(registry(), records)) {
+  const bool whole_engine = parameters.columns_together() > 1;
+  const auto records = [](const auto& entry) {
+    const RtlConfiguration& candidate = entry.second.configuration;
+    return candidate.records_waveform && candidate.parameters.columns_together() == 1;
+  };
+  if (waveform && !whole_engine && std::ranges::none_of(registry(), records)) {
     throw InputError("this program's arrays record no waveforms, those of dtof-wave do (make wave)");
   }
   const std::string wanted = compiled_parameters(parameters).to_string();
@@ -85,12 +108,15 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   for (const auto& [text, entry] : registry()) {
     const RtlConfiguration& candidate = entry.configuration;
     if (compiled_parameters(candidate.parameters).to_string() == wanted &&
-        candidate.pixels_per_sram >= rows && (candidate.records_waveform || !waveform) &&
-        (!best.has_value() || cost(candidate) < cost(*best))) {
+        candidate.pixels_per_sram >= rows && (!whole_engine || candidate.sram_num == columns) &&
+        (candidate.records_waveform || !waveform) && (!best.has_value() || cost(candidate) < cost(*best))) {
       best = candidate;
     }
   }
   if (!best.has_value()) {
+    if (whole_engine) {
+      throw no_engine_compiled(wanted, rows, columns);
+    }
     throw not_compiled(fmt::format("{} with at least {} rows", wanted, rows));
   }
   best->parameters.time_gate = parameters.time_gate;

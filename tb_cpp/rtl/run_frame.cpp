@@ -76,29 +76,84 @@ RtlSourceFrame run_frame_in_groups(const StreamSource& source, const RtlConfigur
   return frame;
 }
 
-RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration, int threads,
-                             std::span<const int> columns, const RtlRunOptions& options, Progress* progress) {
-  const std::size_t width = select_columns(source, columns).size();
-  if (!options.trace.empty() && width > static_cast<std::size_t>(configuration.sram_num)) {
-    throw InputError(fmt::format("a trace holds at most SRAM_NUM = {} columns, not {}; choose some",
-                                 configuration.sram_num, width));
+namespace {
+
+/// Each engine of poolPointer 2 in an array of its own, with all its columns.
+RtlSourceFrame run_engines(const StreamSource& source, std::span<const int> selected,
+                           std::span<const ColumnGroup> engines, std::span<const RtlConfiguration> arrays,
+                           int threads, const RtlRunOptions& options, Progress* progress) {
+  const auto rows = static_cast<std::size_t>(source.rows());
+  const std::size_t width = selected.size();
+  RtlSourceFrame frame;
+  frame.results.resize(rows * width);
+  frame.result_cycles.resize(rows * width);
+  std::mutex statistics_mutex;
+  parallel_for(engines.size(), threads, [&](std::size_t index) {
+    const ColumnGroup& engine = engines[index];
+    std::vector<ColumnStream> streams;
+    for (int column = 0; column < engine.count; ++column) {
+      streams.push_back(source.column(engine.first + column));
+    }
+    const RtlFrame part = RtlReadout(arrays[index]).run(streams, source.acquisitions(), options);
+    for (const std::size_t place : engine.asked) {
+      const auto column = static_cast<std::size_t>(selected[place] - engine.first);
+      for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t from = row * streams.size() + column;
+        frame.results[row * width + place] = part.results[from];
+        frame.result_cycles[row * width + place] = part.result_cycles[from];
+      }
+    }
+    const std::scoped_lock lock(statistics_mutex);
+    frame.statistics.merge(part.statistics);
+    if (progress != nullptr) {
+      progress->advance(engine.asked.size());
+    }
+  });
+  return frame;
+}
+
+}  // namespace
+
+std::vector<RtlConfiguration> find_rtl_configurations(const ReadoutParameters& parameters, int rows,
+                                                      int source_columns, std::span<const int> selected,
+                                                      bool waveform) {
+  const int together = parameters.columns_together();
+  std::vector<RtlConfiguration> arrays;
+  if (together == 1) {
+    arrays.push_back(find_rtl_configuration(parameters, rows, static_cast<int>(selected.size()), waveform));
+  } else {
+    for (const ColumnGroup& engine : column_groups(selected, together, source_columns)) {
+      arrays.push_back(find_rtl_configuration(parameters, rows, engine.count, waveform));
+    }
   }
-  return run_frame_in_groups(
-      source, configuration, threads, columns, options.trace.empty(),
-      [&](std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
-        return RtlReadout(configuration).run(streams, acquisitions, options);
-      },
-      progress);
+  const bool one_array =
+      arrays.size() == 1 && (together > 1 || selected.size() <= static_cast<std::size_t>(arrays[0].sram_num));
+  if (waveform && !one_array) {
+    throw InputError(fmt::format("a waveform holds at most SRAM_NUM = {} columns{}, not {}; choose some",
+                                 arrays[0].sram_num, together > 1 ? ", those of one engine" : "",
+                                 selected.size()));
+  }
+  return arrays;
 }
 
 RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters& parameters, int threads,
                              std::span<const int> columns, const RtlRunOptions& options, Progress* progress) {
   parameters.validate();
-  const std::size_t count = columns.empty() ? static_cast<std::size_t>(source.columns()) : columns.size();
-  return run_frame_rtl(
-      source,
-      find_rtl_configuration(parameters, source.rows(), static_cast<int>(count), !options.trace.empty()),
-      threads, columns, options, progress);
+  const std::vector<int> selected = select_columns(source, columns);
+  const bool waveform = !options.trace.empty();
+  const std::vector<RtlConfiguration> arrays =
+      find_rtl_configurations(parameters, source.rows(), source.columns(), selected, waveform);
+  if (parameters.columns_together() > 1) {
+    return run_engines(source, selected,
+                       column_groups(selected, parameters.columns_together(), source.columns()), arrays,
+                       threads, options, progress);
+  }
+  return run_frame_in_groups(
+      source, arrays.front(), threads, selected, !waveform,
+      [&](std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
+        return RtlReadout(arrays.front()).run(streams, acquisitions, options);
+      },
+      progress);
 }
 
 }  // namespace dtof

@@ -20,30 +20,33 @@ struct RtlSourceFrame {
   RtlStatistics statistics;                  ///< sum over the column groups; `cycles` of the longest
 };
 
-/// Reads out a frame with the RTL: the chosen columns in groups of SRAM_NUM, one model instance each, on at
-/// most `threads` threads (0 = all processors).
+/// The compiled arrays that read the columns `selected` of a source of `source_columns` columns and `rows`
+/// rows: of poolPointer 2 one for each engine that has one of them, in their order, else one for all. With
+/// `waveform` it records one of all of them, or InputError is thrown; it also is for what is not compiled.
+std::vector<RtlConfiguration> find_rtl_configurations(const ReadoutParameters& parameters, int rows,
+                                                      int source_columns, std::span<const int> selected,
+                                                      bool waveform = false);
+
+/// Reads out a frame with the RTL of find_rtl_configurations(): the chosen columns in groups of SRAM_NUM, one
+/// model instance each, on at most `threads` threads (0 = all processors); of poolPointer 2 whole engines.
 ///
 /// `columns` lists the columns to read, in the order of the result; empty means all; columns not read cost
-/// nothing. Where pixels are independent, short columns share a column of the array, one below the other: a
-/// sensor of few rows costs little. `progress`, if given, advances by one per column. A trace holds one
-/// group: more columns than SRAM_NUM with `options.trace` set are refused. Throws InputError as
-/// RtlReadout::run and for a column outside the source.
-RtlSourceFrame run_frame_rtl(const StreamSource& source, const RtlConfiguration& configuration,
-                             int threads = 0, std::span<const int> columns = {},
-                             const RtlRunOptions& options = {}, Progress* progress = nullptr);
+/// nothing, but for those of an engine. Where pixels are independent, short columns share a column of the
+/// array, one below the other: a sensor of few rows costs little. `progress`, if given, advances by one per
+/// column. A trace holds one group: more columns than SRAM_NUM with `options.trace` set are refused. Throws
+/// InputError as RtlReadout::run and for a column outside the source.
+RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters& parameters, int threads = 0,
+                             std::span<const int> columns = {}, const RtlRunOptions& options = {},
+                             Progress* progress = nullptr);
 
 /// Reads `columns` streams, of as many rows as the array has or fewer.
 using RunGroup = std::function<RtlFrame(std::span<const ColumnStream> columns, std::uint32_t acquisitions)>;
 
-/// The same frame by groups, each of which `run` reads, from several threads at a time. `stack`: where pixels
-/// are independent, short columns may share a column of the array.
+/// A frame by groups of SRAM_NUM columns that know nothing of each other, each of which `run` reads, from
+/// several threads at a time. `stack`: where pixels are independent, short columns may share a column of the
+/// array.
 RtlSourceFrame run_frame_in_groups(const StreamSource& source, const RtlConfiguration& configuration,
                                    int threads, std::span<const int> columns, bool stack, const RunGroup& run,
                                    Progress* progress = nullptr);
-
-/// The same with the compiled configuration that suits (find_rtl_configuration).
-RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters& parameters, int threads = 0,
-                             std::span<const int> columns = {}, const RtlRunOptions& options = {},
-                             Progress* progress = nullptr);
 
 }  // namespace dtof

@@ -20,7 +20,6 @@
 #include "frame/array_rows.hpp"
 #include "readout/run_frame.hpp"
 #include "rtl/error.hpp"
-#include "rtl/registry.hpp"
 #include "rtl/run_frame.hpp"
 #include "scoreboard/scoreboard.hpp"
 #include "subsystem/registry.hpp"
@@ -65,13 +64,8 @@ void check_engine(const StreamSource& source, std::span<const ReadoutParameters>
       find_subsystem(parameters, array.source->rows());
       continue;
     }
-    const RtlConfiguration configuration = find_rtl_configuration(
-        parameters, array.source->rows(), static_cast<int>(region.columns.size()), !options.trace.empty());
-    if (!options.trace.empty() && region.columns.size() > static_cast<std::size_t>(configuration.sram_num)) {
-      throw InputError(
-          fmt::format("--trace: a waveform holds at most SRAM_NUM = {} columns, not {}; choose some",
-                      configuration.sram_num, region.columns.size()));
-    }
+    (void)find_rtl_configurations(parameters, array.source->rows(), source.columns(), region.columns,
+                                  !options.trace.empty());
   }
 }
 

@@ -6,13 +6,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <memory>
 #include <numeric>
 
 #include "core/error.hpp"
 #include "readout/model.hpp"
 #include "readout/run_frame.hpp"
-#include "rtl/registry.hpp"
+#include "rtl/run_frame.hpp"
 
 namespace dtof {
 namespace {
@@ -88,6 +89,13 @@ std::uint32_t shortest_failing_frame(RtlReadout& rtl, std::span<const ColumnStre
 /// each other.
 std::string columns_to_trace(std::span<const int> columns, std::size_t index,
                              const RtlConfiguration& configuration) {
+  const int together = configuration.parameters.columns_together();
+  if (together > 1) {
+    std::vector<int> engine;
+    std::ranges::copy_if(columns, std::back_inserter(engine),
+                         [&](int column) { return column / together == columns[index] / together; });
+    return fmt::format("{}", fmt::join(engine, ","));
+  }
   std::size_t first = index;
   std::size_t count = 1;
   if (is_pool_readout(configuration.parameters.readout)) {
@@ -97,11 +105,12 @@ std::string columns_to_trace(std::span<const int> columns, std::size_t index,
   return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
 }
 
-/// The arrays of `dtof` record no waveforms, those of `dtof-wave` do.
-std::string waveform_command(std::string command) {
+/// The arrays of `dtof` record no waveforms, those of `dtof-wave` do, and those of poolPointer 2 in
+/// `dtof-pool2`.
+std::string waveform_command(std::string command, const ReadoutParameters& parameters) {
   constexpr std::string_view kProgram = "dtof ";
   if (command.starts_with(kProgram)) {
-    command.replace(0, kProgram.size(), "dtof-wave ");
+    command.replace(0, kProgram.size(), parameters.columns_together() > 1 ? "dtof-pool2 " : "dtof-wave ");
   }
   return command;
 }
@@ -182,8 +191,11 @@ std::string check_source_frame(const StreamSource& source, const ReadoutParamete
   for (Mismatch& mismatch : mismatches) {
     mismatch.row += frame.first_row;
   }
+  const int engine_of[] = {mismatches.front().column};
   const RtlConfiguration configuration =
-      find_rtl_configuration(parameters, source.rows(), static_cast<int>(columns.size()));
+      find_rtl_configurations(parameters, source.rows(), source.columns(),
+                              parameters.columns_together() > 1 ? std::span<const int>(engine_of) : columns)
+          .front();
   const auto index =
       static_cast<std::size_t>(std::ranges::find(columns, mismatches.front().column) - columns.begin());
   return describe_mismatches(
@@ -191,9 +203,9 @@ std::string check_source_frame(const StreamSource& source, const ReadoutParamete
       {.configuration = configuration,
        .acquisitions = source.acquisitions(),
        .seed = frame.seed,
-       .reproduce =
-           fmt::format("{} --readout {} --columns {} --trace mismatch.fst", waveform_command(frame.command),
-                       readout_name(parameters.readout), columns_to_trace(columns, index, configuration)),
+       .reproduce = fmt::format("{} --readout {} --columns {} --trace mismatch.fst",
+                                waveform_command(frame.command, parameters), readout_name(parameters.readout),
+                                columns_to_trace(columns, index, configuration)),
        .shortest_failing_frame = std::nullopt});
 }
 

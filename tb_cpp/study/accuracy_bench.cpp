@@ -49,6 +49,19 @@ RunIdentity run_identity(std::uint64_t seed, Use use, std::size_t point, std::si
   return {seed, static_cast<std::uint32_t>((static_cast<std::size_t>(use) << 31U) | (batch << 14U) | point)};
 }
 
+bool hears_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
+
+/// Columns of a pixel's engine, fewer than a sensor's have, for the photons of them all are drawn for each
+/// pixel: its own pair and one on either side, all that a pixel hears of itself.
+int columns_of_engine(std::span<const ReadoutParameters> readouts) {
+  constexpr int kPairs = 3;
+  int columns = 1;
+  for (const ReadoutParameters& readout : readouts) {
+    columns = std::max(columns, std::min(readout.columns_together(), 2 * kPairs));
+  }
+  return columns;
+}
+
 std::size_t calibration_index(const StudySettings& settings, double distance_m) {
   return static_cast<std::size_t>(std::lround(distance_m / settings.calibration_step_m));
 }
@@ -82,6 +95,12 @@ void StudySettings::validate() const {
       throw InputError(fmt::format("accuracy: distances must be finite and above 0, not {} m", distance));
     }
   }
+  if (run.hardware() && std::ranges::any_of(readouts, hears_other_columns)) {
+    throw InputError(
+        fmt::format("accuracy: --engine {}: an engine of poolPointer 2 is one pixel's here, so that only its "
+                    "model reads it",
+                    run.engine));
+  }
   if (rejection && !lookup_table) {
     throw InputError("accuracy: rejection by confidence needs the calibration run");
   }
@@ -112,6 +131,7 @@ AccuracyBench::AccuracyBench(const StudySettings& settings)
     : settings_(settings),
       estimators_(make_estimators(settings)),
       pooled_(std::ranges::any_of(settings.readouts, is_pool_readout, &ReadoutParameters::readout)),
+      engine_(columns_of_engine(settings.readouts)),
       scale_(settings.sensor.integration_time_s, settings.sensor.np, settings.sensor.pulse_fwhm_s) {
   settings.validate();
 }
@@ -122,10 +142,15 @@ RunIdentity AccuracyBench::evaluation_run(std::uint64_t seed, std::size_t point,
 
 AccuracyBench::Batch AccuracyBench::measure(double distance_m, int frames, const RunIdentity& identity,
                                             const std::vector<bool>& active) const {
+  const auto make_source = [&](const IndependentPixels& pixels) {
+    const TargetMap targets = pixels.targets({.depth_m = distance_m, .reflectivity = settings_.reflectivity});
+    return settings_.make_source(settings_.sensor, targets, settings_.klux, identity.seed, identity.frame);
+  };
   const IndependentPixels pixels(settings_.sensor, frames, pooled_);
-  const TargetMap targets = pixels.targets({.depth_m = distance_m, .reflectivity = settings_.reflectivity});
-  const std::unique_ptr<StreamSource> source =
-      settings_.make_source(settings_.sensor, targets, settings_.klux, identity.seed, identity.frame);
+  const std::unique_ptr<StreamSource> source = make_source(pixels);
+  // In a map of their own: a wider one has other photons.
+  const IndependentPixels engines(settings_.sensor, frames, true, engine_);
+  const std::unique_ptr<StreamSource> source_of_engines = engine_ > 1 ? make_source(engines) : nullptr;
   Batch batch(estimators_.size());
   for (std::size_t e = 0; e < batch.size(); ++e) {
     if (active[e]) {
@@ -150,7 +175,10 @@ AccuracyBench::Batch AccuracyBench::measure(double distance_m, int frames, const
         continue;
       }
       const bool pool = estimator.readout && is_pool_readout(estimator.readout->readout);
-      const std::vector<Measurement> read = read_model(pool ? whole : counted, estimator, distance_m);
+      const std::vector<Measurement> read =
+          pool && hears_other_columns(*estimator.readout)
+              ? read_engine(*source_of_engines, engines, static_cast<int>(column), *estimator.readout)
+              : read_model(pool ? whole : counted, estimator, distance_m);
       const auto begin = read.begin() + (pool ? pixels.first_row : 0);
       std::copy_n(begin, pixels.rows, batch[e].begin() + static_cast<std::ptrdiff_t>(first));
     }
@@ -170,6 +198,23 @@ void AccuracyBench::read_rtl(const StreamSource& source, const IndependentPixels
     const auto width = static_cast<std::size_t>(source.columns());
     measurements[i] = to_measurement(run.results[row * width + column], parameters.fraction_bits);
   }
+}
+
+std::vector<Measurement> AccuracyBench::read_engine(const StreamSource& source,
+                                                    const IndependentPixels& pixels, int index,
+                                                    const ReadoutParameters& readout) const {
+  ColumnStream stream;
+  const std::vector<std::vector<PixelResult>> results = make_readout_model(readout)->run_columns(
+      pixels.engine,
+      [&](int place) -> const ColumnStream& {
+        return stream = pixels.whole_column(source.column(pixels.column(index, place)));
+      },
+      settings_.sensor.acquisitions);
+  std::vector<Measurement> measurements;
+  for (const PixelResult& result : results[static_cast<std::size_t>(pixels.engine / 2)]) {
+    measurements.push_back(to_measurement(result, readout.fraction_bits));
+  }
+  return measurements;
 }
 
 std::vector<Measurement> AccuracyBench::read_model(const ColumnStream& stream, const Estimator& estimator,
@@ -257,11 +302,12 @@ ColumnStream picked_rows(const ColumnStream& stream, int first, int count, int p
 
 }  // namespace
 
-IndependentPixels::IndependentPixels(const SensorModel& sensor, int frames, bool pooled)
+IndependentPixels::IndependentPixels(const SensorModel& sensor, int frames, bool pooled, int engine_columns)
     : rows(pooled ? 1 : std::min(frames, kArrayRows)),
       pitch(sensor.coincidence_window_s ? 3 * sensor.binning : sensor.binning),
       // With coincidence, the block in the middle: its neighbours belong to nobody else.
-      offset(sensor.coincidence_window_s ? sensor.binning : 0) {
+      offset(sensor.coincidence_window_s ? sensor.binning : 0),
+      engine(engine_columns) {
   while (frames % rows != 0) {
     --rows;
   }
@@ -271,7 +317,7 @@ IndependentPixels::IndependentPixels(const SensorModel& sensor, int frames, bool
 }
 
 TargetMap IndependentPixels::targets(PixelTarget target) const {
-  return {pitch * columns, pitch * height, target};
+  return {pitch * columns * engine, pitch * height, target};
 }
 
 ColumnStream IndependentPixels::whole_column(const ColumnStream& stream) const {

@@ -59,6 +59,7 @@ struct StudySettings {
 /// A flat scene of `frames` independent pixels. Binning and coincidence make neighbours depend on each other:
 /// then only pixels (pitch * i + offset) in both directions count. Pool read-outs make all pixels of a column
 /// depend on each other: then columns are as high as the thesis's array, and only one pixel of each counts.
+/// Where columns hear each other, too, a pixel has an engine of several columns of its own.
 struct IndependentPixels {
   int columns = 1;  ///< that count
   int rows = 1;     ///< that count
@@ -66,10 +67,13 @@ struct IndependentPixels {
   int offset = 0;
   int height = 1;     ///< of a column, in rows of `pitch`
   int first_row = 0;  ///< that counts, of these
+  int engine = 1;     ///< columns of a pixel's own; that in their middle counts, the right one of a pair
 
-  IndependentPixels(const SensorModel& sensor, int frames, bool pooled = false);
+  IndependentPixels(const SensorModel& sensor, int frames, bool pooled = false, int engine_columns = 1);
   [[nodiscard]] TargetMap targets(PixelTarget target) const;
   [[nodiscard]] int column(int index) const { return pitch * index + offset; }
+  /// The column at `place` of a pixel's engine.
+  [[nodiscard]] int column(int index, int place) const { return column(index * engine + place); }
   [[nodiscard]] int row(int index) const { return pitch * (first_row + index) + offset; }
   /// One stream for each of `height` rows.
   [[nodiscard]] ColumnStream whole_column(const ColumnStream& stream) const;
@@ -126,6 +130,10 @@ class AccuracyBench {
  private:
   void read_rtl(const StreamSource& source, const IndependentPixels& pixels,
                 const ReadoutParameters& parameters, std::vector<Measurement>& measurements) const;
+  /// Of all rows of the column that counts, in the engine of the pixel number `index`.
+  [[nodiscard]] std::vector<Measurement> read_engine(const StreamSource& source,
+                                                     const IndependentPixels& pixels, int index,
+                                                     const ReadoutParameters& readout) const;
   /// Of all rows of the stream.
   [[nodiscard]] std::vector<Measurement> read_model(const ColumnStream& stream, const Estimator& estimator,
                                                     double distance_m) const;
@@ -134,6 +142,7 @@ class AccuracyBench {
   const StudySettings& settings_;
   std::vector<Estimator> estimators_;
   bool pooled_;  // a pool read-out is among them
+  int engine_;   // columns of a pixel's engine
   DepthScale scale_;
 };
 

@@ -128,10 +128,12 @@ std::vector<BandAccuracy> run_map_accuracy(const MapAccuracySettings& settings) 
   add_band(edges.front(), edges.back(), true);
 
   const FlatCalibration calibration(settings.sensor);
-  const std::vector<RangeConverter> tables =
-      calibration.fit(*settings.make_source(settings.sensor, calibration.targets(), settings.klux,
-                                            settings.run.seed, FlatCalibration::kFrame),
-                      settings.readouts, settings.run.seed, settings.run.threads);
+  const std::vector<RangeConverter> tables = calibration.fit(
+      [&](const TargetMap& targets) {
+        return settings.make_source(settings.sensor, targets, settings.klux, settings.run.seed,
+                                    FlatCalibration::kFrame);
+      },
+      settings.readouts, settings.run.seed, settings.run.threads);
   std::vector<std::vector<FrameFigures>> figures(settings.readouts.size(),
                                                  std::vector<FrameFigures>(bands.size()));
   const Region whole = Region::whole(settings.targets.columns(), settings.targets.rows());

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <memory>
 #include <numeric>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -22,6 +23,7 @@
 #include "readout/model.hpp"
 #include "readout/paired_his_pointer.hpp"
 #include "readout/pooled_matched_filter.hpp"
+#include "readout/run_frame.hpp"
 #include "sensor/default_parameters.hpp"
 #include "study/readout_variant.hpp"
 
@@ -178,11 +180,22 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
   const StudyScene scene{"calibration", calibration.targets(),
                          static_cast<int>(calibration.distances_m().size())};
   const Positions positions = read(scene, FlatCalibration::kFrame);
+  const auto photons = [&](const TargetMap& targets) {
+    return std::make_unique<PhotonSource>(sensor_, targets, klux_, seed_, FlatCalibration::kFrame);
+  };
   for (std::size_t e = 0; e < titles_.size(); ++e) {
+    if (hears_other_columns(e)) {
+      converters_.push_back(calibration.fit(photons, std::span(&readouts_[e], 1), seed_, threads_).front());
+      continue;
+    }
     const double step = e < readouts_.size() ? std::ldexp(1.0, -readouts_[e].fraction_bits)
                                              : (e == readouts_.size() ? 1.0 : 0.0);
     converters_.push_back(calibration.fit(positions[e], step, seed_));
   }
+}
+
+bool SceneStudy::hears_other_columns(std::size_t estimator) const {
+  return estimator < readouts_.size() && readouts_[estimator].columns_together() > 1;
 }
 
 double SceneStudy::distance(std::size_t estimator, double position) const {
@@ -204,6 +217,9 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
       }
     };
     for (std::size_t e = 0; e < readouts_.size(); ++e) {
+      if (hears_other_columns(e)) {
+        continue;
+      }
       store(e, *make_readout_model(readouts_[e]), readouts_[e].fraction_bits);
     }
     const ReadoutParameters his_pointer = default_parameters(Readout::kHisPointer, sensor_);
@@ -238,8 +254,26 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
   return positions;
 }
 
+void SceneStudy::read_engines(const StudyScene& scene, Positions& positions) const {
+  const PhotonSource source(sensor_, scene.targets, klux_, seed_, kSceneFrame);
+  std::vector<int> columns(static_cast<std::size_t>(scene.columns));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    columns[i] = picked_column(scene, static_cast<int>(i));
+  }
+  for (std::size_t e = 0; e < readouts_.size(); ++e) {
+    if (!hears_other_columns(e)) {
+      continue;
+    }
+    const std::vector<PixelResult> results = run_frame(source, readouts_[e], threads_, columns);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      positions[e][i] = to_measurement(results[i], readouts_[e].fraction_bits);
+    }
+  }
+}
+
 std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene) const {
-  const Positions positions = read(scene, kSceneFrame);
+  Positions positions = read(scene, kSceneFrame);
+  read_engines(scene, positions);
   std::vector<SceneMeasurement> measurements;
   for (std::size_t e = 0; e < titles_.size(); ++e) {
     SceneMeasurement measurement;

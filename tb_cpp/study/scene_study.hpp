@@ -71,8 +71,9 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
 
 /// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and two
 /// references on full histograms that know each pixel's signal and background: the matched filter of the
-/// single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the same photons. With
-/// TableRule::kFlat each has a look-up table by FlatCalibration, else distances are those of Eq. 3.11.
+/// single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the same photons;
+/// poolPointer 2 also those of the other columns of its engines. With TableRule::kFlat each has a look-up
+/// table by FlatCalibration, else distances are those of Eq. 3.11.
 class SceneStudy {
  public:
   SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts, std::uint64_t seed,
@@ -87,7 +88,11 @@ class SceneStudy {
 
  private:
   using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
+  [[nodiscard]] bool hears_other_columns(std::size_t estimator) const;
+  /// All but the read-outs whose columns hear each other.
   [[nodiscard]] Positions read(const StudyScene& scene, std::uint32_t frame) const;
+  /// Those, which read whole engines of the scene, however few columns are asked for.
+  void read_engines(const StudyScene& scene, Positions& positions) const;
   [[nodiscard]] double distance(std::size_t estimator, double position) const;
 
   SensorModel sensor_;

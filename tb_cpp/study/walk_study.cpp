@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -27,11 +29,15 @@ namespace {
 constexpr int kRows = FlatCalibration::kPixels;
 constexpr std::uint32_t kJudgedFrame = scene_frame(0);
 constexpr std::uint32_t kCorrectionFrame = scene_frame(1);
+constexpr std::uint32_t kLeftFrames = 16;  // beyond the frames above
 constexpr double kWalkOutlier = 0.10;
 constexpr double kRequirement = 0.03;
 constexpr double kLeastFound = 0.5;
 
-/// A column of pixels that all look at one target.
+bool hears_other_columns(const ReadoutParameters& readout) { return readout.columns_together() > 1; }
+
+/// A column of pixels that all look at one target; where columns hear each other, the right one of a pair,
+/// whose left one has the photons of another frame.
 using Measurements = std::vector<std::vector<std::vector<Measurement>>>;  // read-out, column, row
 
 Measurements read(const WalkSettings& settings, std::span<const PixelTarget> columns, std::uint32_t frame) {
@@ -42,13 +48,21 @@ Measurements read(const WalkSettings& settings, std::span<const PixelTarget> col
     }
   }
   const PhotonSource source(settings.sensor, targets, settings.klux, settings.seed, frame);
+  const PhotonSource lefts = source.at_frame(frame + kLeftFrames);
+  const bool paired = std::ranges::any_of(settings.readouts, hears_other_columns);
   Measurements measurements(settings.readouts.size(), std::vector<std::vector<Measurement>>(columns.size()));
   parallel_for(columns.size(), settings.threads, [&](std::size_t column) {
-    const ColumnStream stream = source.column(static_cast<int>(column));
+    const int index = static_cast<int>(column);
+    const std::array<ColumnStream, 2> pair = {paired ? lefts.column(index) : ColumnStream(),
+                                              source.column(index)};
     for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
       const ReadoutParameters& readout = settings.readouts[r];
-      for (const PixelResult& result :
-           make_readout_model(readout)->run_column(stream, settings.sensor.acquisitions)) {
+      const auto model = make_readout_model(readout);
+      const std::uint32_t acquisitions = settings.sensor.acquisitions;
+      const std::vector<PixelResult> results = hears_other_columns(readout)
+                                                   ? model->run_columns(pair, acquisitions).back()
+                                                   : model->run_column(pair.back(), acquisitions);
+      for (const PixelResult& result : results) {
         measurements[r][column].push_back(to_measurement(result, readout.fraction_bits));
       }
     }
@@ -208,10 +222,12 @@ std::size_t WalkReadout::worse() const {
 std::vector<WalkReadout> run_walk_study(const WalkSettings& settings) {
   validate(settings);
   const FlatCalibration calibration(settings.sensor);
-  const PhotonSource flats(settings.sensor, calibration.targets(), settings.klux, settings.seed,
-                           FlatCalibration::kFrame);
-  const std::vector<RangeConverter> tables =
-      calibration.fit(flats, settings.readouts, settings.seed, settings.threads);
+  const std::vector<RangeConverter> tables = calibration.fit(
+      [&](const TargetMap& targets) {
+        return std::make_unique<PhotonSource>(settings.sensor, targets, settings.klux, settings.seed,
+                                              FlatCalibration::kFrame);
+      },
+      settings.readouts, settings.seed, settings.threads);
 
   const std::vector<PixelTarget> fitted = correction_targets(settings, calibration);
   const Measurements fitting = read(settings, fitted, kCorrectionFrame);

@@ -25,7 +25,7 @@
 #include "metrics/error_statistics.hpp"
 #include "report/colour_png.hpp"
 #include "report/table.hpp"
-#include "rtl/registry.hpp"
+#include "rtl/run_frame.hpp"
 #include "run/readout_run.hpp"
 #include "study/measured_scene.hpp"
 #include "study/readout_variant.hpp"
@@ -106,7 +106,8 @@ struct Light {
 
 bool is_compiled(const ReadoutParameters& parameters, const MeasuredScene& scene) {
   try {
-    (void)find_rtl_configuration(parameters, scene.rows, scene.columns);
+    (void)find_rtl_configurations(parameters, scene.rows, scene.columns,
+                                  Region::whole(scene.columns, scene.rows).columns);
     return true;
   } catch (const InputError&) {
     return false;

@@ -740,7 +740,9 @@ TEST_F(Programs, AReadoutOnTrialIsReadWithItsModel) {
     EXPECT_THAT(whole, HasSubstr("\n" + line + "\n"));
   }
   EXPECT_EQ(lines, 320);
-  expect_refused("frame -r poolpointer2 --engine rtl --out out", "no RTL is compiled for poolpointer2");
+  expect_refused(
+      "frame -r poolpointer2 --engine rtl --out out",
+      "no RTL is compiled for poolpointer2 in this program; dtof-pool2 has its arrays (make pool2-rtl)");
   ASSERT_EQ(dtof("frame -r all --columns 0 -a 20 --out all").exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(path("all/poolpointer.csv")));
   EXPECT_FALSE(std::filesystem::exists(path("all/poolpointer2.csv")));

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "core/error.hpp"
@@ -108,8 +109,11 @@ TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
   const std::vector<SceneMeasurement> without = plain.measure({"wall", targets, 3});
 
   const FlatCalibration calibration(sensor);
-  const PhotonSource photons(sensor, calibration.targets(), 14.0, 5, FlatCalibration::kFrame);
-  const std::vector<RangeConverter> tables = calibration.fit(photons, readouts, 5, 2);
+  const std::vector<RangeConverter> tables = calibration.fit(
+      [&](const TargetMap& map) {
+        return std::make_unique<PhotonSource>(sensor, map, 14.0, 5, FlatCalibration::kFrame);
+      },
+      readouts, 5, 2);
   const PhotonSource scene(sensor, targets, 14.0, 5, scene_frame(0));
   const DepthScale scale(sensor.integration_time_s, sensor.np, sensor.pulse_fwhm_s);
   for (std::size_t r = 0; r < readouts.size(); ++r) {
@@ -123,6 +127,37 @@ TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
         EXPECT_EQ(without[r].distance_m[i], scale.depth(position));
       }
     }
+  }
+}
+
+// Of a pair, whose left column is no other read-out's.
+TEST(FlatCalibration, ColumnsThatHearEachOtherAreFittedInPairs) {
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 400;
+  const FlatCalibration calibration(sensor);
+  const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kPoolPointer);
+  const ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  const auto photons = [&](const TargetMap& targets) {
+    return std::make_unique<PhotonSource>(sensor, targets, 14.0, 5, FlatCalibration::kFrame);
+  };
+  const std::vector<RangeConverter> both = calibration.fit(photons, std::vector{alone, together}, 5, 2);
+  const RangeConverter first = calibration.fit(photons, std::vector{alone}, 5, 2).front();
+
+  const PhotonSource pairs(sensor, calibration.paired_targets(), 14.0, 5, FlatCalibration::kFrame);
+  const auto width = static_cast<int>(calibration.distances_m().size());
+  std::vector<Measurement> measurements(static_cast<std::size_t>(width) * FlatCalibration::kPixels);
+  for (int d = 0; d < width; ++d) {
+    const std::vector<ColumnStream> pair = {pairs.column(width + d), pairs.column(d)};
+    const auto results = make_readout_model(together)->run_columns(pair, sensor.acquisitions);
+    for (int row = 0; row < FlatCalibration::kPixels; ++row) {
+      measurements[static_cast<std::size_t>(row * width + d)] =
+          to_measurement(results[1][static_cast<std::size_t>(row)], together.fraction_bits);
+    }
+  }
+  const RangeConverter second = calibration.fit(measurements, std::ldexp(1.0, -together.fraction_bits), 5);
+  for (double position = 0.0; position < 1024.0; position += 8.0) {
+    EXPECT_EQ(both[0].distance(position), first.distance(position));
+    EXPECT_EQ(both[1].distance(position), second.distance(position));
   }
 }
 

@@ -9,7 +9,11 @@ namespace {
 
 class Disturbance : public testing::TestWithParam<Readout> {
  protected:
-  RtlConfiguration configuration_ = find_rtl_configuration(ReadoutParameters::defaults(GetParam()), 160, 200);
+  static RtlConfiguration full_size(const ReadoutParameters& parameters) {
+    constexpr int kEngine = 10;  // columns of poolPointer 2's that the tests have
+    return find_rtl_configuration(parameters, 160, parameters.columns_together() > 1 ? kEngine : 200);
+  }
+  RtlConfiguration configuration_ = full_size(ReadoutParameters::defaults(GetParam()));
 };
 
 INSTANTIATE_TEST_SUITE_P(FullSize, Disturbance, testing::ValuesIn(full_size_readouts()), readout_test_name);

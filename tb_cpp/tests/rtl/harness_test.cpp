@@ -410,7 +410,7 @@ TEST_F(RunFrame, RefusesColumnsOutsideTheSourceAndTracesOfManyGroups) {
   RtlRunOptions options;
   options.trace = "trace.fst";
   EXPECT_THAT([&] { run_frame_rtl(source_, parameters_, 0, {}, options); },
-              ThrowsMessage<InputError>(HasSubstr("a trace holds at most SRAM_NUM")));
+              ThrowsMessage<InputError>(HasSubstr("a waveform holds at most SRAM_NUM")));
 }
 
 }  // namespace

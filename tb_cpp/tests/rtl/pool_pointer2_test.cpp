@@ -9,11 +9,18 @@
 
 #include <algorithm>
 #include <functional>
+#include <memory>
 #include <set>
+#include <vector>
 
+#include "core/error.hpp"
+#include "core/progress.hpp"
 #include "photon/photon_source.hpp"
 #include "photon/sensor_model.hpp"
+#include "readout/run_frame.hpp"
+#include "rtl/run_frame.hpp"
 #include "scene/scene.hpp"
+#include "scoreboard/scoreboard.hpp"
 #include "sensor/preset.hpp"
 #include "tests/rtl/pool_surfaces.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
@@ -217,6 +224,83 @@ TEST(PoolPointer2, AgreesWithModelOnModelledPhotons) {
     RtlReadout rtl(found.front());
     ASSERT_TRUE(agrees_with_model(rtl, columns, sensor.acquisitions, default_options(test_seed())));
   }
+}
+
+// A frame by engines: two of four columns and a last one of two, each an array of its own.
+class PoolPointer2Frame : public testing::Test {
+ protected:
+  static constexpr int kColumns = 10;
+  static constexpr int kRows = 16;
+
+  PoolPointer2Frame() {
+    const std::vector<RtlConfiguration> found =
+        configurations_with([](const RtlConfiguration& configuration) {
+          return configuration.pixels_per_sram == kRows && configuration.sram_num == 4;
+        });
+    parameters_ = found.at(0).parameters;
+    SensorModel sensor = parse_preset("thesis");
+    sensor.np = parameters_.np;
+    sensor.slots = parameters_.slots;
+    sensor.acquisitions = 300;
+    SceneParameters scene;
+    scene.columns = kColumns;
+    scene.rows = kRows;
+    scene.reflectivity = sensor.default_reflectivity;
+    source_ = std::make_unique<PhotonSource>(sensor, make_scene(Scene::kRoom, scene), 14.0, test_seed());
+  }
+
+  ReadoutParameters parameters_;
+  std::unique_ptr<PhotonSource> source_;
+};
+
+TEST_F(PoolPointer2Frame, AgreesWithTheModelInAnyColumns) {
+  SCOPED_TRACE(test_seed_message());
+  EXPECT_EQ(run_frame_rtl(*source_, parameters_, 2).results, run_frame(*source_, parameters_));
+  const std::vector<int> some = {9, 2, 7};
+  Progress progress("columns", some.size());
+  const RtlSourceFrame part = run_frame_rtl(*source_, parameters_, 1, some, {}, &progress);
+  EXPECT_EQ(part.results, run_frame(*source_, parameters_, 1, some));
+  EXPECT_GT(part.statistics.cycles, 300U * kRows * 2U);
+  EXPECT_GT(part.result_cycles.back(), 0U);
+}
+
+TEST_F(PoolPointer2Frame, RefusesEnginesThatAreNotCompiled) {
+  using ::testing::AllOf;
+  using ::testing::HasSubstr;
+  using ::testing::ThrowsMessage;
+  const auto read = [&](int columns) {
+    return [&, columns] { (void)find_rtl_configurations(parameters_, kRows, columns, std::vector<int>{8}); };
+  };
+  read(10)();
+  EXPECT_THAT(read(9), ThrowsMessage<InputError>(AllOf(HasSubstr("an engine of just 1 columns"),
+                                                       HasSubstr("compiled are: poolpointer2"))));
+}
+
+TEST_F(PoolPointer2Frame, AWaveformHoldsOneEngine) {
+  using ::testing::HasSubstr;
+  using ::testing::ThrowsMessage;
+  const auto arrays = [&](const std::vector<int>& columns) {
+    return find_rtl_configurations(parameters_, kRows, kColumns, columns, true);
+  };
+  EXPECT_EQ(arrays({4, 7}).size(), 1U);
+  EXPECT_THAT(
+      [&] {
+        (void)arrays({3, 4});
+      },
+      ThrowsMessage<InputError>(
+          HasSubstr("a waveform holds at most SRAM_NUM = 4 columns, those of one engine, not 2")));
+}
+
+TEST_F(PoolPointer2Frame, AMismatchNamesItsEngine) {
+  using ::testing::HasSubstr;
+  const std::vector<int> columns = {1, 4, 5, 7, 8};
+  RtlSourceFrame frame = run_frame_rtl(*source_, parameters_, 2, columns);
+  const SourceFrameContext context = {
+      .threads = 1, .first_row = 0, .seed = 1, .command = "dtof frame --engine rtl"};
+  EXPECT_EQ(check_source_frame(*source_, parameters_, columns, frame, context), "");
+  frame.results[2].code ^= 1;
+  EXPECT_THAT(check_source_frame(*source_, parameters_, columns, frame, context),
+              HasSubstr("dtof-pool2 frame --engine rtl --readout poolpointer2 --columns 4,5,7 --trace"));
 }
 
 }  // namespace

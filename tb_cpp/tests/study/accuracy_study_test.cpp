@@ -209,6 +209,41 @@ TEST(AccuracyStudy, Refusals) {
   EXPECT_THAT(changed([](auto& s) { s.klux = -1.0; }), ThrowsMessage<InputError>(HasSubstr("-1")));
 }
 
+TEST(AccuracyStudy, AnEngineOfColumnsIsOnePixelsAlone) {
+  SCOPED_TRACE(test_seed_message());
+  StudySettings settings = small_study();
+  settings.sensor.acquisitions = 500;
+  settings.distances_m = {2.0};
+  settings.frames = 8;
+  settings.calibration_frames = 8;
+  settings.calibration_step_m = 0.5;
+  settings.matched_filter = false;
+  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
+  const AccuracyStudy alone = run_accuracy_study(settings);
+  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer2));
+  const AccuracyStudy both = run_accuracy_study(settings);
+  ASSERT_EQ(both.points.size(), 2U);
+  EXPECT_EQ(both.points[0].rmse_m, alone.points[0].rmse_m) << "the same photons";
+  EXPECT_LT(both.points[1].rmse_m.value, 0.06);
+  settings.run.engine = "rtl";
+  EXPECT_THAT([&] { (void)run_accuracy_study(settings); },
+              ThrowsMessage<InputError>(HasSubstr("only its model reads it")));
+}
+
+TEST(IndependentPixels, EnginesShareNoColumn) {
+  SensorModel sensor = parse_preset("thesis");
+  const IndependentPixels pixels(sensor, 5, true, 6);
+  EXPECT_EQ(pixels.targets({.depth_m = 1.0}).columns(), 30);
+  std::set<int> columns;
+  for (int index = 0; index < 5; ++index) {
+    for (int place = 0; place < 6; ++place) {
+      columns.insert(pixels.column(index, place));
+    }
+  }
+  EXPECT_EQ(columns.size(), 30U);
+  EXPECT_EQ(*columns.rbegin(), 29);
+}
+
 TEST(IndependentPixels, CountedPixelsShareNoNeighbour) {
   SensorModel sensor = parse_preset("thesis");
   EXPECT_EQ(IndependentPixels(sensor, 1000).pitch, 1);

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "core/error.hpp"
@@ -63,7 +64,9 @@ TEST(MapAccuracy, FiguresAreThoseOfThePixelsErrors) {
   MapAccuracySettings settings = small_map();
   const std::vector<BandAccuracy> rows = run_map_accuracy(settings);
   const FlatCalibration calibration(settings.sensor);
-  const PhotonSource flats(settings.sensor, calibration.targets(), 14.0, 1, FlatCalibration::kFrame);
+  const auto flats = [&](const TargetMap& targets) {
+    return std::make_unique<PhotonSource>(settings.sensor, targets, 14.0, 1, FlatCalibration::kFrame);
+  };
   const RangeConverter table = calibration.fit(flats, settings.readouts, 1, 1).front();
   ErrorStatistics far;
   for (int frame = 0; frame < settings.frames; ++frame) {

@@ -29,6 +29,11 @@ TEST(ReadoutVariant, ChangesWhatIsNamed) {
   EXPECT_EQ(pool.pool.bright_score_bits, 3);
   EXPECT_EQ(pool.pool.coarse_share, 12);
   EXPECT_EQ(pool.pool.track_share, 14);
+
+  const ReadoutParameters two = parse_variant("poolpointer2:COARSE_SHARE=16,SMOOTH=0");
+  EXPECT_EQ(two.readout, Readout::kPoolPointer2);
+  EXPECT_EQ(two.pool.coarse_share, 16);
+  EXPECT_FALSE(two.pool.smooth);
 }
 
 TEST(ReadoutVariant, TitleNamesTheChanges) {
@@ -38,6 +43,9 @@ TEST(ReadoutVariant, TitleNamesTheChanges) {
   EXPECT_EQ(variant_title(parse_variant("poolpointer:LABELS=6,COARSE_SHARE=12")),
             "poolPointer LABELS=6 COARSE_SHARE=12");
   EXPECT_EQ(variant_title(ReadoutParameters::defaults(Readout::kPoolPointer)), "poolPointer");
+  EXPECT_EQ(variant_title(parse_variant("poolpointer2:LABELS=4,SMOOTH=0")),
+            "poolPointer 2 LABELS=4 SMOOTH=0");
+  EXPECT_EQ(variant_title(ReadoutParameters::defaults(Readout::kPoolPointer2)), "poolPointer 2");
 }
 
 TEST(ReadoutVariant, RefusesWhatItDoesNotKnow) {
@@ -52,6 +60,8 @@ TEST(ReadoutVariant, RefusesWhatItDoesNotKnow) {
               ThrowsMessage<InputError>(HasSubstr("has no COARSE_SHARE")));
   EXPECT_THAT(parse("poolpointer:FRACTION_BITS=4"),
               ThrowsMessage<InputError>(HasSubstr("has no FRACTION_BITS")));
+  EXPECT_THAT(parse("poolpointer:SMOOTH=0"),
+              ThrowsMessage<InputError>(HasSubstr("poolpointer has no SMOOTH to change; known are")));
   EXPECT_THAT(parse("poolpointer:LABELS=9"),
               ThrowsMessage<InputError>(HasSubstr("DARK_LABELS must be 2 to 8, not 9")));
   EXPECT_THAT(parse("hispointer:COUNT_WIDTH=99"), ThrowsMessage<InputError>(HasSubstr("COUNT_WIDTH")));

@@ -11,6 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include "metrics/depth.hpp"
+#include "photon/photon_source.hpp"
+#include "readout/run_frame.hpp"
 #include "sensor/preset.hpp"
 
 namespace dtof {
@@ -121,6 +124,36 @@ TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
   const double his_pointer = score_scene(truth, measured[0]).all.above_3_percent;
   const double pool_pointer = score_scene(truth, measured[1]).all.above_3_percent;
   EXPECT_LT(pool_pointer, 0.5 * his_pointer);
+}
+
+// Engines are whole, however few columns are judged, and the other estimators do not notice.
+TEST(SceneStudy, ReadsWholeEnginesOfColumnsThatHearEachOther) {
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 400;
+  const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kPoolPointer);
+  ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  together.pool.engine_columns = 4;
+  TargetMap targets(10, 24, {2.0, 0.6});
+  targets.at(5, 5).depth_m = 3.0;
+  const StudyScene scene{"wall", targets, 3};
+  const SceneStudy both(sensor, 14.0, std::vector{alone, together}, 5, 2, TableRule::kNone);
+  const SceneStudy one(sensor, 14.0, std::vector{alone}, 5, 2, TableRule::kNone);
+  const std::vector<SceneMeasurement> measured = both.measure(scene);
+  const std::vector<SceneMeasurement> others = one.measure(scene);
+  ASSERT_EQ(measured.size(), 5U);
+  for (const std::size_t e : {0U, 2U, 3U, 4U}) {
+    EXPECT_EQ(measured[e].distance_m, others[e == 0 ? 0 : e - 1].distance_m) << both.estimators()[e];
+  }
+  const PhotonSource photons(sensor, targets, 14.0, 5, scene_frame(0));
+  const std::vector<PixelResult> whole = run_frame(photons, together);
+  const DepthScale scale(sensor.integration_time_s, sensor.np, sensor.pulse_fwhm_s);
+  for (std::size_t row = 0; row < 24; ++row) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto column = static_cast<std::size_t>(picked_column(scene, static_cast<int>(i)));
+      const double position = code_position(whole[row * 10 + column], together.fraction_bits);
+      EXPECT_EQ(measured[1].distance_m[row * 3 + i], scale.depth(position)) << column << " " << row;
+    }
+  }
 }
 
 TEST(SceneStudy, PoolingHelpsTheMatchedFilterWhereASinglePixelIsLost) {

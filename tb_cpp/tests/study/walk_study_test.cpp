@@ -64,6 +64,22 @@ TEST(WalkStudy, DoesNotDependOnTheThreads) {
   }
 }
 
+TEST(WalkStudy, ColumnsThatHearEachOtherAreReadInPairs) {
+  WalkSettings settings = small_study();
+  const std::vector<WalkReadout> alone = run_walk_study(settings);
+  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer2));
+  const std::vector<WalkReadout> both = run_walk_study(settings);
+  for (std::size_t i = 0; i < alone[0].points.size(); ++i) {
+    EXPECT_EQ(both[0].points[i].before.bias_m, alone[0].points[i].before.bias_m) << "the same photons";
+    EXPECT_EQ(both[0].points[i].after.bias_m, alone[0].points[i].after.bias_m);
+  }
+  // Half of the pairs' counts would be missing without their left columns, and with them pixels at 0.1.
+  EXPECT_EQ(both[1].judged(), 4U);
+  for (const WalkPoint& point : both[1].points) {
+    EXPECT_GT(point.found, 0.95) << point.reflectivity << " " << point.distance_m;
+  }
+}
+
 TEST(WalkReadout, FiguresByHand) {
   const auto errors = [](double bias) {
     return WalkErrors{{bias, {bias - 0.001, bias + 0.001}}, 0.0, 0.0, 0.0};
