@@ -77,6 +77,9 @@ TEST(RivalReport, SentencesFollowTheFigures) {
             "30.50 % (fewer).");
   EXPECT_THAT(sentence(0.10, 0.30), HasSubstr("(more)"));
   EXPECT_THAT(sentence(0.10, 0.11), HasSubstr("(no certain difference)"));
+  // Half an interval is 0.0635: each share is outside the other's, but they overlap.
+  EXPECT_THAT(sentence(0.30, 0.20), HasSubstr("(no certain difference)"));
+  EXPECT_THAT(sentence(0.20, 0.30), HasSubstr("(no certain difference)"));
   EXPECT_EQ(comparison_sentence({{50.0, made_up(0.1, 0.1)}}, "counter", "none"), "");
 }
 
