@@ -25,7 +25,7 @@ from .errors import FlowError
 from .library import Library
 from .run import EFFORTS, TARGET_MHZ, Result, Technology, elaborate, map_to_cells
 
-CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer", "sifh", "fifh", "poolpointer", "poolpointer_lean")
+CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer", "fifh", "poolpointer")
 KLUX = {"day": 50.0, "dusk": 2.0}
 SCENE = "room"
 ACQUISITIONS = 64
