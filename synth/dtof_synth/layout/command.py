@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`make layout`: the columns of several read-outs, and the report."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import os
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from pathlib import Path
+
+from .. import configuration, technology
+from ..configuration import Configuration
+from ..errors import FlowError
+from ..run import Technology
+from . import flow, picture, report, results
+from .flow import Result
+from .tools import Cells
+
+ROOT = Path(__file__).resolve().parents[3]
+BUILD = ROOT / "build" / "layout"
+DEFAULT = ("ezpointer", "hispointer", "poolpointer")
+
+
+def _say(text: str) -> None:
+    print(text, flush=True)
+
+
+def _generic_areas() -> dict[str, float]:
+    """um2 of a column's logic in the generated library, from `make synth`."""
+    with (ROOT / "reports" / "area.csv").open(newline="", encoding="utf-8") as file:
+        return {row["configuration"]: float(row["column_um2"]) for row in csv.DictReader(file)}
+
+
+def _work(item: Configuration, technologies: Technology, cells: Cells, generic_area: float) -> Result:
+    return flow.lay_out(item, technologies, cells, generic_area, BUILD / item.name, _say)
+
+
+def _draw(items: list[Configuration], found: dict[str, Result], cells: Cells, library, output: Path) -> None:
+    drawn = []
+    for item in items:
+        result = found[item.name]
+        path = BUILD / item.name / "qflow" / "layout" / f"{result.block}.def"
+        title = result.title if result.columns == 1 else f"{result.title}, {result.columns} columns"
+        drawn.append(picture.Drawn(title, results.read_def(path.read_text(encoding="utf-8")),
+                                   frozenset(result.sram_ports), frozenset(library.sequential)))
+    picture.draw(drawn, picture.cell_sizes(cells.file("_stdcells.lef").read_text(encoding="utf-8")), output)
+
+
+def _run(names: list[str], jobs: int) -> None:
+    started = time.monotonic()
+    named = configuration.load(ROOT / "configurations.toml")
+    unknown = [name for name in names if name not in named]
+    if unknown:
+        raise FlowError(f"unknown configuration '{unknown[0]}'; known: {', '.join(named)}")
+    items = [named[name] for name in names or DEFAULT]
+    cells = Cells()
+    prepared = technology.prepare(ROOT, BUILD / "technology", items, cells.file("_stdcells.lib"))
+    areas = _generic_areas()
+    found: dict[str, Result] = {}
+    # The largest last in the list takes longest and starts first.
+    with ProcessPoolExecutor(max_workers=jobs) as pool:
+        waiting = {pool.submit(_work, item, prepared, cells, areas.get(item.name, 0.0) * item.module_columns): item
+                   for item in reversed(items)}
+        try:
+            for done in as_completed(waiting):
+                result = done.result()
+                found[waiting[done].name] = result
+                _say(f"{waiting[done].name}: {result.failed_nets} failed nets, {result.rule_errors} design rule errors, "
+                     f"{result.comparison} {sum(result.seconds.values()):.0f} processor seconds")
+        except FlowError:
+            pool.shutdown(cancel_futures=True)
+            raise
+    folder = BUILD if names else ROOT / "reports"
+    _draw(items, found, cells, prepared.slow, folder / "layout.png")
+    ordered = [found[item.name] for item in items]
+    (folder / "layout.md").write_text(report.text(ordered, "layout.png"), encoding="utf-8")
+    report.write_csv(folder / "layout.csv", ordered)
+    _say(f"{(folder / 'layout.md').relative_to(ROOT)} written, {time.monotonic() - started:.0f} s; GDS: "
+         f"{', '.join(f'build/layout/{item.name}/qflow/layout/{found[item.name].block}.gds' for item in items)}")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description="Columns placed, routed and checked in OSU 0.18 um.")
+    parser.add_argument("configuration", nargs="*", help="names from configurations.toml, without renewing reports/; none: "
+                        f"{', '.join(DEFAULT)}")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="layouts at the same time")
+    arguments = parser.parse_args()
+    try:
+        _run(arguments.configuration, max(arguments.jobs, 1))
+    except FlowError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 130
+    return 0

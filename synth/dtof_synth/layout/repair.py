@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Vias that the router left where nothing is below them.
+
+qrouter sometimes puts a via to metal1 on a net that goes on in metal2 there. Its lone pad is smaller than the smallest
+allowed area. Such a via is taken out of the routed DEF; that it connected nothing is what the comparison of the netlists
+shows afterwards.
+"""
+
+from __future__ import annotations
+
+import re
+
+RULE = "Metal1 area"
+VIA = "M2_M1"
+UNITS = 100  # of the DEF in a micrometre
+
+
+def drop_lone_vias(definition: str, boxes: dict[str, list[tuple[float, ...]]]) -> tuple[str, int]:
+    """The DEF without the vias at the pads that Magic reports, and how many they were."""
+    dropped = 0
+    for rule, places in boxes.items():
+        for left, low, right, high in sorted(set(places)) if rule.startswith(RULE) else ():
+            x, y = round((left + right) / 2 * UNITS), round((low + high) / 2 * UNITS)
+            alone = re.compile(rf"\n\s*NEW metal1 \( {x} {y} \) {VIA}(?= *(;)?\n)")
+            definition, number = alone.subn("", definition, count=1)
+            dropped += number
+    return definition, dropped
