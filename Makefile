@@ -7,7 +7,7 @@
 # make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
 # make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
 # make power      power from the activity of netlists on a scene
-# make layout     columns placed and routed in OSU 0.18 um, checked, with GDS (synth/layout.mk)
+# make layout     columns placed and routed in OSU 0.18 um, checked, with GDS; make orfs: files for OpenROAD (synth/layout.mk)
 # make lint       RTL in three tools, C++ format and static analysis
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)

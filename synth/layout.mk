@@ -2,7 +2,12 @@
 # make layout          columns of ezPointer, hisPointer and poolPointer placed and routed in OSU 0.18 um, design rules and
 #                      netlist checked, GDS in build/layout/; reports/layout.md (fifteen minutes on two cores)
 #                      CONFIGURATIONS="poolpointer2"  others, build/layout/layout.md
-.PHONY: layout
+# make orfs            config.mk, constraints, LEF and Liberty of the SRAMs for OpenROAD-flow-scripts, into build/orfs/
+#                      CONFIGURATIONS="hispointer" COLUMNS=8  some read-outs, columns of the array
+.PHONY: layout orfs
 layout:
 	@scripts/install_packages.sh layout
 	@synth/layout.py $(CONFIGURATIONS)
+
+orfs: packages
+	@synth/orfs.py $(CONFIGURATIONS) $(if $(COLUMNS),--columns $(COLUMNS))

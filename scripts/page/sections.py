@@ -90,6 +90,8 @@ LISTED = (
            says="figures that `--fidelity auto` chooses by"),
     Report("photon_speed", "Photon models: speed beside NumPy", "photon-bench", "photon_speed.md",
            says="detections per second, as multiples of two NumPy scripts"),
+    Report("layout", "Layout", "layout", "layout.md",
+           says="columns placed and routed in OSU 0.18 um, their wires beside the wire-load model"),
     Report("mutants", "Mutants", "mutate", "mutants.md", says="whether the tests notice small changes"),
     Report("coverage", "Coverage of the tests", "coverage", "coverage.md",
            says="lines, branches and toggles that the tests reach"),

@@ -1,0 +1,9 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Entry point of the files for OpenROAD-flow-scripts; see layout.mk for the targets."""
+
+import sys
+
+from dtof_synth.orfs import main
+
+sys.exit(main())
