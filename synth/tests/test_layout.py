@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The layout's figures from what its tools write, and that what they complain about is a failure. Needs none of the tools."""
 
+import io
 import tempfile
 import unittest
 from collections import Counter
@@ -8,7 +9,7 @@ from pathlib import Path
 from unittest import mock
 
 from dtof_synth.errors import FlowError
-from dtof_synth.layout import block, flow, picture, pins, repair, results, tools, wires
+from dtof_synth.layout import block, command, flow, picture, pins, repair, results, tools, wires
 
 ROUTED = """Progress: Stage 2 total routes completed: 5507
 Failed net routes: 2
@@ -173,6 +174,13 @@ class Failures(unittest.TestCase):
             self.assertEqual(project.return_value.place.call_count, len(flow.SEEDS))
             project.return_value.route.side_effect = [["clk_i"], []]
             self.assertEqual(flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), {})[1], flow.SEEDS[1])
+
+
+    def test_exit_status(self):
+        with mock.patch.object(command, "_run", side_effect=FlowError("column: 2 nets could not be routed")), \
+                mock.patch("sys.argv", ["layout.py"]), mock.patch("sys.stderr", io.StringIO()) as said:
+            self.assertEqual(command.main(), 1)
+        self.assertEqual(said.getvalue(), "error: column: 2 nets could not be routed\n")
 
 
 class Blocks(unittest.TestCase):

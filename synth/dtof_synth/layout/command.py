@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import argparse
 import csv
+import hashlib
 import os
+import pickle
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -14,7 +16,7 @@ from pathlib import Path
 from .. import configuration, technology
 from ..configuration import Configuration
 from ..errors import FlowError
-from ..run import Technology
+from ..run import Technology, input_digest
 from . import flow, picture, report, results
 from .flow import Result
 from .tools import Cells
@@ -34,8 +36,29 @@ def _generic_areas() -> dict[str, float]:
         return {row["configuration"]: float(row["column_um2"]) for row in csv.DictReader(file)}
 
 
+def _key(item: Configuration, technologies: Technology, cells: Cells, generic_area: float) -> str:
+    """Hash of all that a layout depends on; a report that is worded anew needs no new layouts."""
+    folder = Path(__file__).resolve().parent
+    said_only = {folder / name for name in ("command.py", "picture.py", "report.py")}
+    digest = hashlib.sha256(f"{input_digest(technologies)} {item.rtl_parameters()} {generic_area}".encode())
+    for file in sorted({*folder.glob("*.py"), *(ROOT / "synth" / "magic").iterdir(), *cells.folder.iterdir()} - said_only):
+        digest.update(file.read_bytes())
+    return digest.hexdigest()
+
+
 def _work(item: Configuration, technologies: Technology, cells: Cells, generic_area: float) -> Result:
-    return flow.lay_out(item, technologies, cells, generic_area, BUILD / item.name, _say)
+    """The layout of one configuration, or what is kept of it if nothing has changed."""
+    key = _key(item, technologies, cells, generic_area)
+    kept = BUILD / item.name / "result.pickle"
+    try:
+        kept_key, result = pickle.loads(kept.read_bytes())
+        if kept_key == key:
+            return result
+    except (OSError, pickle.UnpicklingError, EOFError, AttributeError, TypeError, ValueError, ImportError):
+        pass
+    result = flow.lay_out(item, technologies, cells, generic_area, BUILD / item.name, _say)
+    kept.write_bytes(pickle.dumps((key, result)))
+    return result
 
 
 def _draw(items: list[Configuration], found: dict[str, Result], cells: Cells, library, output: Path) -> None:

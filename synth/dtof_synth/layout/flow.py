@@ -13,6 +13,7 @@ from .. import netlist, run, sram_kit
 from .. import tools as steps
 from ..configuration import Configuration, memories
 from ..errors import FlowError
+from ..orfs import small
 from ..run import Technology
 from . import block as blocks
 from . import repair, results, wires
@@ -23,6 +24,7 @@ from .tools import Cells, Project, processor_seconds
 PERIOD_NS = 50.0  # far beyond every path: arrivals count, not slacks
 SEEDS = (1, 2, 3)  # of the placement: another one where a net cannot be routed
 REPAIRS = 2
+ARRAY_COLUMNS = 4  # of the array that is elaborated around the column
 
 
 @dataclass
@@ -70,8 +72,9 @@ class Result:
 
 
 def synthesise(configuration: Configuration, technology: Technology, folder: Path) -> Block:
-    """The column alone, mapped by the flow's own steps."""
-    run.elaborate(configuration, technology, folder)
+    """The column alone, mapped by the flow's own steps. The array around it, which is elaborated with it, is small: a column
+    does not depend on how many there are."""
+    run.elaborate(small(configuration, ARRAY_COLUMNS), technology, folder)
     library = technology.slow
     scripts = technology.root / "synth" / "yosys"
     effort = run.EFFORTS[0]
