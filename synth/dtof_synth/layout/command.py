@@ -98,8 +98,9 @@ def _run(names: list[str], jobs: int) -> None:
             raise
     folder = BUILD if names else ROOT / "reports"
     _draw(items, found, cells, prepared.slow, folder / "layout.png")
+    command = "make layout" + (f' CONFIGURATIONS="{" ".join(names)}"' if names else "")
     ordered = [found[item.name] for item in items]
-    (folder / "layout.md").write_text(report.text(ordered, "layout.png"), encoding="utf-8")
+    (folder / "layout.md").write_text(report.text(ordered, "layout.png", command), encoding="utf-8")
     report.write_csv(folder / "layout.csv", ordered)
     _say(f"{(folder / 'layout.md').relative_to(ROOT)} written, {time.monotonic() - started:.0f} s; GDS: "
          f"{', '.join(f'build/layout/{item.name}/qflow/layout/{found[item.name].block}.gds' for item in items)}")

@@ -55,7 +55,7 @@ def _more(value: float, base: float) -> str:
     return f"{100 * (value / base - 1):+.1f} %"
 
 
-def text(results: list[Result], picture: str) -> str:
+def text(results: list[Result], picture: str, command: str) -> str:
     blocks = _table(["block", "cells", "flip-flops", "cell area, um2", "die, um", "density"],
                     [[_name(one), f"{one.cells:,}", str(one.flip_flops), f"{one.cell_area:,.0f}",
                       f"{one.die_width:.0f} x {one.die_height:.0f}", f"{one.density:.1%}"] for one in results])
@@ -78,7 +78,7 @@ def text(results: list[Result], picture: str) -> str:
                        f"{sum(one.seconds.values()):.0f}"] for one in results])
     return "\n".join([
         "# Layout", "",
-        "Written by `make layout`: columns placed and routed in OSU 0.18 um with Debian's qflow (graywolf, qrouter), checked by "
+        f"Written by `{command}`: columns placed and routed in OSU 0.18 um with Debian's qflow (graywolf, qrouter), checked by "
         "Magic and Netgen. The SRAM is outside; its pins are on the lower edge. How, and what it does not show: "
         "[docs/reference/layout.md](../docs/reference/layout.md).", "",
         f"![Columns as placed and routed, to one scale]({picture})", "", blocks, "", checks, "",
