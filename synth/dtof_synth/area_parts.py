@@ -89,6 +89,10 @@ def doubtful_macros(results: Iterable[Result]) -> list[Size]:
     return sorted(size for size in sizes if sram_model.macro(size).mux == 1 or size.bits > FITTED_BITS)
 
 
+def lacks_mux(result: Result) -> bool:
+    return any(sram_model.macro(size).mux == 1 for _, size in _macros(result))
+
+
 def total_with_other_mux(result: Result) -> float:
     """um2 of the array if macros without a column multiplexer had one of OTHER_MUX."""
     def area(macro: Macro) -> float:

@@ -118,8 +118,7 @@ def _doubtful_section(results: list[Result]) -> str:
         rows.append([size.name, f"{macro.mux}", f"{macro.area:.0f}", f"{other.area:.0f}",
                      "yes" if size.bits > area_parts.FITTED_BITS else "no", f"{macro.read_energy:.2f}"])
     arrays = [f"{result.configuration.title} {area_parts.total_with_other_mux(result) / 1e6:.3f} instead of "
-              f"{result.total_mm2:.3f} mm2" for result in results
-              if area_parts.total_with_other_mux(result) > area_parts.parts(result).total]
+              f"{result.total_mm2:.3f} mm2" for result in results if area_parts.lacks_mux(result)]
     ending = f"With a multiplexer of {area_parts.OTHER_MUX}: {'; '.join(arrays)}.\n" if arrays else ""
     return (_table(["macro", "mux", "um2", f"um2 with mux {area_parts.OTHER_MUX}",
                     f"over {area_parts.FITTED_BITS} bits", "read pJ"], rows) + "\n" + ending)

@@ -60,7 +60,7 @@ class Parts(unittest.TestCase):
 class Report(unittest.TestCase):
     def test_sentences_follow_the_figures(self):
         self.assertIn("No macro lacks", report._doubtful_section([result("ezpointer", NONE)]))
-        text = report._doubtful_section([result("poolpointer", ENGINES)])
+        text = report._doubtful_section([result("ezpointer", NONE), result("poolpointer", ENGINES)])
         self.assertIn("| sram_1rw_100x116 | 1 | 6435 | 8105 | yes |", text)
         self.assertRegex(text, r"With a multiplexer of 2: poolPointer [0-9.]+ instead of [0-9.]+ mm2\.")
 
