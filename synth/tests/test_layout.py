@@ -46,7 +46,7 @@ PINS 4 ;
   + LAYER metal2 ( -15 -15 ) ( 15 15 )
   + PLACED ( 4400 -200 ) N ;
 - y + NET y
-  + LAYER metal2 ( -15 -15 ) ( 15 15 )
+  + LAYER metal3 ( -15 -15 ) ( 15 15 )
   + PLACED ( 4400 600 ) N ;
 END PINS
 NETS 2 ;
@@ -224,7 +224,9 @@ class Pins(unittest.TestCase):
         column = block.Block("t", [block.Cell("INVX1_1", "INVX1", {"A": "sram_q_0", "Y": "n1"}, ""),
                                    block.Cell("INVX1_2", "INVX1", {"A": "a", "Y": "y"}, "")],
                              {"sram_q_0": "input", "a": "input", "y": "output"}, ["sram_q_0"])
-        found = results.read_def(pins.arrange(DEF, column)).pins
+        arranged = pins.arrange(DEF, column)
+        self.assertNotIn("LAYER metal3", arranged)
+        found = results.read_def(arranged).pins
         self.assertEqual(found["sram_q_0"], (41.6, -2.0))
         self.assertEqual({found[name][1] for name in ("a", "y")}, {95.0})
         self.assertEqual(found["vdd"], (80.0, -2.6))

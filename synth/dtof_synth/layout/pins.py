@@ -14,7 +14,9 @@ from statistics import mean
 from ..errors import FlowError
 from .block import SUPPLIES, Block
 
-# In the DEF's units, hundredths of a micrometre: metal2's tracks, and what a stripe's vias keep free to either side.
+# Pins come from above and below in metal2, wherever graywolf had them. In the DEF's units, hundredths of a micrometre: the
+# layer's tracks, and what a stripe's vias keep free to either side.
+LAYER = "metal2"
 TRACK = 80
 STRIPE = 320
 _COMPONENT = re.compile(r"^- (\S+) \S+ \+ PLACED \( (-?\d+) (-?\d+) \)", re.MULTILINE)
@@ -65,8 +67,9 @@ def arrange(definition: str, block: Block) -> str:
         at |= {port: (x, y) for port, x in spread([(mean(near[port]), port) for port in ports], slots).items()}
 
     def placed(match: re.Match) -> str:
-        pin, net, layer, x, y = match.groups()
-        x, y = at.get(net, (x, y))
-        return f"- {pin} + NET {net}\n{layer}  + PLACED ( {x} {y} ) N ;"
+        if match[2] not in at:
+            return match[0]
+        x, y = at[match[2]]
+        return f"- {match[1]} + NET {match[2]}\n  + LAYER {LAYER} ( -15 -15 ) ( 15 15 )\n  + PLACED ( {x} {y} ) N ;"
 
     return _PIN.sub(placed, definition)
