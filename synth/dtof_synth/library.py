@@ -43,9 +43,9 @@ class Library:
     voltage: float
     wire_load: str
     wire_ff_per_sink: float
-    energy_fj: float = 1.0  # the Liberty's unit of energy
     clock_pin_ff: dict[str, float] = field(default_factory=dict)
     clock_energy_fj: dict[str, float] = field(default_factory=dict)
+    energy_fj: float = 1.0  # the Liberty's unit of energy
 
 
 def _capacitance_unit_ff(library: Group, where: Path) -> float:
