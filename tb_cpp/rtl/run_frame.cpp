@@ -91,6 +91,7 @@ RtlSourceFrame run_engines(const StreamSource& source, std::span<const int> sele
   parallel_for(engines.size(), threads, [&](std::size_t index) {
     const ColumnGroup& engine = engines[index];
     std::vector<ColumnStream> streams;
+    streams.reserve(static_cast<std::size_t>(engine.count));
     for (int column = 0; column < engine.count; ++column) {
       streams.push_back(source.column(engine.first + column));
     }
