@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <memory>
@@ -191,7 +192,7 @@ std::string check_source_frame(const StreamSource& source, const ReadoutParamete
   for (Mismatch& mismatch : mismatches) {
     mismatch.row += frame.first_row;
   }
-  const int engine_of[] = {mismatches.front().column};
+  const std::array<int, 1> engine_of = {mismatches.front().column};
   const RtlConfiguration configuration =
       find_rtl_configurations(parameters, source.rows(), source.columns(),
                               parameters.columns_together() > 1 ? std::span<const int>(engine_of) : columns)

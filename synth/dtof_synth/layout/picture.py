@@ -87,13 +87,14 @@ def script(drawn: list[Drawn], sizes: dict[str, tuple[float, float]], output: Pa
     series(pins[SRAM_PIN], f"with points pointtype 7 pointsize 0.4 linecolor rgb '{SRAM_PIN}' title 'pins to the SRAM'")
     series(pins[OTHER_PIN], f"with points pointtype 7 pointsize 0.4 linecolor rgb '{OTHER_PIN}' title 'other pins'")
     series(frames, "with vectors nohead linecolor rgb '#000000' notitle")
-    series([f"0 {top - 20} {BAR_UM} 0"], "with vectors nohead linewidth 3 linecolor rgb '#000000' notitle")
-    labels.append(f"set label '{BAR_UM:.0f} um' at {BAR_UM / 2},{top - 20} center offset 0,0.8")
-    height = round(WIDTH_PX * (top + 40) / right)
+    band = top + 35  # scale and key, above the titles
+    series([f"0 {band} {BAR_UM} 0"], "with vectors nohead linewidth 3 linecolor rgb '#000000' notitle")
+    labels.append(f"set label '{BAR_UM:.0f} um' at {BAR_UM / 2},{band} center offset 0,0.8")
+    height = round(WIDTH_PX * (band + 60) / right)
     head = [f"set terminal png size {WIDTH_PX},{height} font 'DejaVu Sans,11'", f"set output '{output}'",
             "unset border", "unset tics", "set size ratio -1", "set lmargin 0", "set rmargin 0", "set tmargin 0",
-            "set bmargin 0", f"set xrange [-5:{right + 5}]", f"set yrange [-30:{top + 20}]",
-            f"set key at {BAR_UM + 20},{top} left top Left reverse vertical maxrows 5 samplen 2 width 1"]
+            "set bmargin 0", f"set xrange [-5:{right + 5}]", f"set yrange [-30:{band + 30}]",
+            f"set key at {BAR_UM + 20},{band + 25} left top Left reverse vertical maxrows 3 samplen 2 width 1"]
     return "\n".join(blocks + head + labels + ["plot " + ", ".join(plots), ""])
 
 
