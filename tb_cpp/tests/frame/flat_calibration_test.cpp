@@ -149,9 +149,9 @@ TEST(FlatCalibration, ColumnsThatHearEachOtherAreFittedInPairs) {
   for (int d = 0; d < width; ++d) {
     const std::vector<ColumnStream> pair = {pairs.column(width + d), pairs.column(d)};
     const auto results = make_readout_model(together)->run_columns(pair, sensor.acquisitions);
-    for (int row = 0; row < FlatCalibration::kPixels; ++row) {
-      measurements[static_cast<std::size_t>(row * width + d)] =
-          to_measurement(results[1][static_cast<std::size_t>(row)], together.fraction_bits);
+    for (std::size_t row = 0; row < FlatCalibration::kPixels; ++row) {
+      measurements[row * static_cast<std::size_t>(width) + static_cast<std::size_t>(d)] =
+          to_measurement(results[1][row], together.fraction_bits);
     }
   }
   const RangeConverter second = calibration.fit(measurements, std::ldexp(1.0, -together.fraction_bits), 5);
