@@ -19,9 +19,13 @@ set_input_delay [expr {$control_share * $period}] -clock clk [get_ports {start_i
 # dtof_array has the gate, the pool read-outs' arrays the schedule and S1.
 set_input_delay [expr {$control_share * $period}] -clock clk \
   [get_ports -quiet {gate_begin_i* gate_end_i* coarse_end_i* track_end_i* late_begin_i* smooth_i}]
-set_output_delay [expr {$control_share * $period}] -clock clk [get_ports {busy_o done_o state_o*}]
+set_output_delay [expr {$control_share * $period}] -clock clk [get_ports {busy_o done_o state_o* error_o*}]
 set_input_delay [expr {$stream_share * $period}] -clock clk [get_ports result_tready_i]
 set_output_delay [expr {$stream_share * $period}] -clock clk [get_ports {result_tvalid_o result_tdata_o* result_tlast_o}]
 
 # The reset is asserted asynchronously and released synchronously outside; its tree has a clock of its own time.
 set_false_path -from [get_ports rst_ni]
+
+# The SRAMs' side band rests while the array works.
+set_false_path -from [get_ports sram_cfg_i*]
+set_false_path -to [get_ports sram_cfg_o*]

@@ -6,9 +6,12 @@
 +incdir+package
 package/dtof_pkg.sv
 package/dtof_registers_pkg.sv
+technology/behavioural/clock_gate.sv
 technology/behavioural/sram_1r1w.sv
 technology/behavioural/sram_1rw.sv
 memory/dtof_sram.sv
+control/array_errors.sv
+control/gate_register.sv
 control/pass_sequencer.sv
 control/pixel_sequencer.sv
 control/scan_sequencer.sv

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Written by scripts/generate.py from hdl/dtof.f: all RTL without the stand-ins of the SRAMs, for a process's own sram_1rw.sv and sram_1r1w.sv:
-//   verilator --lint-only -f dtof_no_srams.f my_srams/sram_1rw.sv my_srams/sram_1r1w.sv --top-module dtof_subsystem
+// Written by scripts/generate.py from hdl/dtof.f: all RTL without the technology folder, for a process's own sram_1rw.sv, sram_1r1w.sv and clock_gate.sv:
+//   verilator --lint-only -f dtof_no_srams.f my_srams/sram_1rw.sv my_srams/sram_1r1w.sv my_srams/clock_gate.sv --top-module dtof_subsystem
 +incdir+package
 package/dtof_pkg.sv
 package/dtof_registers_pkg.sv
 memory/dtof_sram.sv
+control/array_errors.sv
+control/gate_register.sv
 control/pass_sequencer.sv
 control/pixel_sequencer.sv
 control/scan_sequencer.sv

@@ -50,6 +50,8 @@ module ez_pointer_column #(
   ) u_pointer_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
+      .sram_cfg_i     (sram_cfg_i),
+      .sram_cfg_o     (sram_cfg_o),
       .read_i         (word_read_i),
       .read_pixel_i   (word_read_pixel_i),
       .read_done_i    (word_read_done_i),

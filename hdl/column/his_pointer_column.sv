@@ -37,6 +37,9 @@ module his_pointer_column #(
   logic [TAG_BITS-1:0] tag_t1, start_tag;
   logic [POINTER_WIDTH-1:0] pointer;
   logic [CONFIDENCE_BITS-1:0] confidence;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] histogram_cfg, pointer_cfg;
+
+  assign sram_cfg_o = histogram_cfg & pointer_cfg;
 
   time_gate #(
       .NP       (NP),
@@ -60,6 +63,8 @@ module his_pointer_column #(
   ) u_peak_histogram (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
+      .sram_cfg_i     (sram_cfg_i),
+      .sram_cfg_o     (histogram_cfg),
       .build_t1_i     (beat_t1_i && !final_pass_i),
       .timestamp_t1_i (timestamp_t1),
       .peak_i         (dtof_pkg::peak_width(READOUT, NP, NB)'(0)),
@@ -122,6 +127,8 @@ module his_pointer_column #(
   ) u_pointer_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
+      .sram_cfg_i     (sram_cfg_i),
+      .sram_cfg_o     (pointer_cfg),
       .read_i         (word_read_i),
       .read_pixel_i   (word_read_pixel_i),
       .read_done_i    (word_read_done_i),

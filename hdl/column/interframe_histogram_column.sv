@@ -32,6 +32,9 @@ module interframe_histogram_column #(
   logic signed [NP+1:0] start, peak_code;
   logic [NP-1:0] code;
   logic [COUNT_WIDTH-1:0] unused_count, confidence;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] histogram_cfg, peak_cfg;
+
+  assign sram_cfg_o = histogram_cfg & peak_cfg;
 
   always_ff @(posedge clk_i) begin
     if (word_read_done_i) begin
@@ -62,6 +65,8 @@ module interframe_histogram_column #(
   ) u_peak_histogram (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
+      .sram_cfg_i     (sram_cfg_i),
+      .sram_cfg_o     (histogram_cfg),
       .build_t1_i     (beat_t1_i),
       .timestamp_t1_i (timestamp_t1),
       .peak_i         (peak_q),
@@ -92,6 +97,8 @@ module interframe_histogram_column #(
   ) u_peak_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (peak_cfg),
       .read_en_i   (word_read_i),
       .read_addr_i (word_read_pixel_i),
       .read_data_o (peak_data),

@@ -29,6 +29,7 @@ module partitioned_histogram_column #(
   logic [RESULT_WIDTH-1:0] loaded_result;
   logic load_result;
   logic signed [NP+1:0] unused_start;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] histogram_cfg;
 
   time_gate #(
       .NP       (NP),
@@ -52,6 +53,8 @@ module partitioned_histogram_column #(
   ) u_peak_histogram (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
+      .sram_cfg_i     (sram_cfg_i),
+      .sram_cfg_o     (histogram_cfg),
       .build_t1_i     (beat_t1_i),
       .timestamp_t1_i (timestamp_t1),
       .peak_i         (dtof_pkg::peak_width(READOUT, NP, NB)'(0)),
@@ -79,8 +82,10 @@ module partitioned_histogram_column #(
     if (dtof_pkg::coarse_passes(READOUT, NP, NB) > 0) begin : g_partitions
       localparam int BEST_WIDTH = COUNT_WIDTH + RESULT_WIDTH;
       logic [BEST_WIDTH-1:0] best_data, best_q, best;
+      logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] best_cfg;
       logic [COUNT_WIDTH-1:0] best_count_q;
 
+      assign sram_cfg_o = histogram_cfg & best_cfg;
       assign scan_code = {pass_i, scan_peak};
 
       always_ff @(posedge clk_i) begin
@@ -111,6 +116,8 @@ module partitioned_histogram_column #(
       ) u_best_sram (
           .clk_i       (clk_i),
           .rst_ni      (rst_ni),
+          .cfg_i       (sram_cfg_i),
+          .cfg_o       (best_cfg),
           .read_en_i   (word_read_i),
           .read_addr_i (word_read_pixel_i),
           .read_data_o (best_data),
@@ -121,6 +128,7 @@ module partitioned_histogram_column #(
     end else begin : g_one_run
       logic unused_count;
       assign unused_count = ^scan_count;
+      assign sram_cfg_o = histogram_cfg;
       assign scan_code = scan_peak;
       assign load_result = result_load_i;
       assign loaded_result = {scan_code, scan_confidence};

@@ -20,6 +20,7 @@ module pool2_column #(
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
     parameter int POINTER_SHIFT = 1,
+    parameter int TIME_GATE = 0,
     localparam int ADVANTAGE_WIDTH = 7,
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, 1),
@@ -31,6 +32,8 @@ module pool2_column #(
 ) (
     input  logic                    clk_i,
     input  logic [          NP-1:0] timestamp_i,
+    input  logic [          NP-1:0] gate_begin_i,
+    input  logic [          NP-1:0] gate_end_i,
     input  logic                    point_i,           // the pointer phase
     // timestamps
     input  logic                    beat_t1_i,         // a timestamp, or none detected
@@ -59,14 +62,24 @@ module pool2_column #(
 
   // The first two timestamps, complete at T1.
 
-  logic [NP-1:0] timestamp_t1_q, first, first_q, second, second_q;
+  logic [NP-1:0] timestamp_t1, first, first_q, second, second_q;
   logic valid_t1, has_first_q, has_second, has_second_q;
 
-  assign valid_t1 = beat_t1_i && !(&timestamp_t1_q);
-  assign first = (first_slot_t1_i || !has_first_q) ? timestamp_t1_q : first_q;
+  time_gate #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_time_gate (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .timestamp_t1_o(timestamp_t1)
+  );
+
+  assign valid_t1 = beat_t1_i && !(&timestamp_t1);
+  assign first = (first_slot_t1_i || !has_first_q) ? timestamp_t1 : first_q;
 
   always_ff @(posedge clk_i) begin
-    timestamp_t1_q <= timestamp_i;
     has_first_q <= valid_t1 || (has_first_q && !first_slot_t1_i);
     has_second_q <= has_second;
     first_q <= first;
@@ -75,10 +88,10 @@ module pool2_column #(
 
   generate
     if (SLOTS == 2) begin : g_two_slots
-      assign second = timestamp_t1_q;
+      assign second = timestamp_t1;
       assign has_second = !first_slot_t1_i && has_first_q && valid_t1;
     end else begin : g_more_slots
-      assign second = has_second_q ? second_q : timestamp_t1_q;
+      assign second = has_second_q ? second_q : timestamp_t1;
       assign has_second = !first_slot_t1_i && (has_second_q || (has_first_q && valid_t1));
     end
   endgenerate

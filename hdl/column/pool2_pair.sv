@@ -26,6 +26,7 @@ module pool2_pair #(
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
     parameter int POINTER_SHIFT = 1,
+    parameter int TIME_GATE = 0,
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(
         dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
         dtof_pkg::pool_point_width(LABELS, 7, POINTER_SHIFT, 1)),
@@ -37,7 +38,12 @@ module pool2_pair #(
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic [COLUMNS*NP-1:0] timestamp_i,
+    input  logic [        NP-1:0] gate_begin_i,     // time gate, the same for a whole frame
+    input  logic [        NP-1:0] gate_end_i,
     // phase, common to all pairs
     input  logic                  coarse_i,
     input  logic                  point_i,
@@ -92,6 +98,8 @@ module pool2_pair #(
   ) u_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (read),
       .read_addr_i (address),
       .read_data_o (read_data),
@@ -188,10 +196,13 @@ module pool2_pair #(
             .LABELS       (LABELS),
             .SCORE_BITS   (SCORE_BITS),
             .OFFSET_BITS  (OFFSET_BITS),
-            .POINTER_SHIFT(POINTER_SHIFT)
+            .POINTER_SHIFT(POINTER_SHIFT),
+            .TIME_GATE    (TIME_GATE)
         ) u_column (
             .clk_i           (clk_i),
             .timestamp_i     (timestamp_i[c*NP+:NP]),
+            .gate_begin_i    (gate_begin_i),
+            .gate_end_i      (gate_end_i),
             .point_i         (point_i),
             .beat_t1_i       (beat_t1_i),
             .first_slot_t1_i (first_slot_t1_i),

@@ -23,6 +23,7 @@ module pool_pointer_column #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int TIME_GATE = 0,
     localparam int LABELS = dtof_pkg::max_of(DARK_LABELS, BRIGHT_LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(DARK_LABELS, DARK_SCORE_BITS, BRIGHT_LABELS,
@@ -35,6 +36,8 @@ module pool_pointer_column #(
 ) (
     input  logic                     clk_i,
     input  logic [           NP-1:0] timestamp_i,
+    input  logic [           NP-1:0] gate_begin_i,
+    input  logic [           NP-1:0] gate_end_i,
     // phase, common to all columns
     input  logic                     point_i,
     // timestamps
@@ -69,20 +72,30 @@ module pool_pointer_column #(
 
   // The timestamp that counts: the first, but the second in odd acquisitions if there is one.
 
-  logic [NP-1:0] timestamp_t1_q, timestamp_t2_q;
+  logic [NP-1:0] timestamp_t1, timestamp_t2_q;
   logic [15:0] position;
   logic valid_t1, valid_t2_q, only_one_q;
 
-  assign valid_t1 = beat_t1_i && !(&timestamp_t1_q);
+  time_gate #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_time_gate (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .timestamp_t1_o(timestamp_t1)
+  );
+
+  assign valid_t1 = beat_t1_i && !(&timestamp_t1);
 
   always_ff @(posedge clk_i) begin
-    timestamp_t1_q <= timestamp_i;
     valid_t2_q <= valid_t1 || (valid_t2_q && !first_slot_t1_i);
     if (valid_t1 || first_slot_t1_i) begin
       only_one_q <= valid_t1 && (first_slot_t1_i || !valid_t2_q);
     end
     if (valid_t1 && (first_slot_t1_i || !valid_t2_q || (odd_t1_i && only_one_q))) begin
-      timestamp_t2_q <= timestamp_t1_q;
+      timestamp_t2_q <= timestamp_t1;
     end
   end
 

@@ -28,6 +28,7 @@ module pool_pointer_pair #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int TIME_GATE = 0,
     localparam int LABELS = dtof_pkg::max_of(DARK_LABELS, BRIGHT_LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(
@@ -40,7 +41,12 @@ module pool_pointer_pair #(
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic [COLUMNS*NP-1:0] timestamp_i,
+    input  logic [        NP-1:0] gate_begin_i,     // time gate, the same for a whole frame
+    input  logic [        NP-1:0] gate_end_i,
     // phase, common to all columns
     input  logic                  coarse_i,
     input  logic                  point_i,
@@ -91,6 +97,8 @@ module pool_pointer_pair #(
   ) u_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (read),
       .read_addr_i (address),
       .read_data_o (read_data),
@@ -171,10 +179,13 @@ module pool_pointer_pair #(
           .OFFSET_BITS      (OFFSET_BITS),
           .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
           .POINTER_SHIFT    (POINTER_SHIFT),
-          .RIVAL_MOVES      (RIVAL_MOVES)
+          .RIVAL_MOVES      (RIVAL_MOVES),
+          .TIME_GATE        (TIME_GATE)
       ) u_column (
           .clk_i           (clk_i),
           .timestamp_i     (timestamp_i[c*NP+:NP]),
+          .gate_begin_i    (gate_begin_i),
+          .gate_end_i      (gate_end_i),
           .point_i         (point_i),
           .beat_t1_i       (beat_t1_i),
           .first_slot_t1_i (first_slot_t1_i),

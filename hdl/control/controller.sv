@@ -21,7 +21,6 @@ module controller #(
     output logic                  busy_o,
     output logic                  done_o,
     output logic [           2:0] state_o,
-    output logic                  accept_o,        // a frame is accepted: its registers are sampled
     // pass_sequencer
     output logic                  load_o,          // acq_num_o is new
     output logic [ ACQ_WIDTH-1:0] acq_num_o,
@@ -53,7 +52,7 @@ module controller #(
   logic [2:0] state_d, state_q;
   logic [PASS_WIDTH-1:0] pass_q;
   logic [ACQ_WIDTH-1:0] acq_num_q;
-  logic first_pass_q, final_pass_q, start_q, done_q;
+  logic first_pass_q, final_pass_q, start_q, done_q, accept;
 
   always_comb begin
     state_d = state_q;
@@ -111,9 +110,9 @@ module controller #(
       done_q <= 1'b0;
     end else begin
       state_q <= state_d;
-      start_q <= accept_o;
+      start_q <= accept;
       done_q <= (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);
-      if (accept_o) begin
+      if (accept) begin
         acq_num_q <= acq_num_i;
         pass_q <= '0;
         first_pass_q <= 1'b1;
@@ -134,7 +133,7 @@ module controller #(
   assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
   assign done_o = done_q;
   assign state_o = state_q;
-  assign accept_o = start_i && !busy_o;
+  assign accept = start_i && !busy_o;
   assign clear_all_o = (state_q == dtof_pkg::STATE_RESET) || (state_q == dtof_pkg::STATE_M2);
   assign coarse_scan_o = (state_q == dtof_pkg::STATE_M1);
   assign final_scan_o = (state_q == dtof_pkg::STATE_M4);

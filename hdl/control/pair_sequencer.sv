@@ -38,6 +38,7 @@ module pair_sequencer #(
     output logic                  tdc_ready_o,
     output logic                  acq_done_o,        // last timestamp of an acquisition in this clock
     output logic                  idle_o,            // nothing in the pipeline and nothing to come
+    output logic                  underrun_o,       // tdc_valid_i is low inside an acquisition
     // to the columns
     output logic                  beat_t1_o,
     output logic                  first_slot_t1_o,
@@ -133,7 +134,8 @@ module pair_sequencer #(
   end
 
   // A clock without a valid timestamp inside an acquisition counts as "no detection".
-  `DTOF_ASSERT(a_contiguous_acquisition, !active_q || missing || tdc_valid_i,
+  assign underrun_o = active_q && !missing && !tdc_valid_i;
+  `DTOF_ASSERT(a_contiguous_acquisition, !underrun_o,
                "tdc_valid_i fell inside an acquisition")
 
   // T1

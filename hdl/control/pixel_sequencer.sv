@@ -31,6 +31,7 @@ module pixel_sequencer #(
     output logic                 tdc_ready_o,
     output logic                 acq_done_o,      // last timestamp of an acquisition in this clock
     output logic                 idle_o,          // no timestamp in the pipeline and none to come
+    output logic                 underrun_o,      // tdc_valid_i is low inside an acquisition
     output logic                 fetch_o,
     output logic [ROW_WIDTH-1:0] fetch_pixel_o,
     output logic                 beat_t1_o,
@@ -107,7 +108,8 @@ module pixel_sequencer #(
   end
 
   // A clock without a valid timestamp inside an acquisition counts as "no detection".
-  `DTOF_ASSERT(a_contiguous_acquisition, !active_q || tdc_valid_i,
+  assign underrun_o = active_q && !tdc_valid_i;
+  `DTOF_ASSERT(a_contiguous_acquisition, !underrun_o,
                "tdc_valid_i fell inside an acquisition")
 
   `DTOF_ASSERT(a_pass_complete, stream_i || (beat_tn_q == '0), "a pass ended with timestamps in the pipeline")

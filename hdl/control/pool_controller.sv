@@ -24,6 +24,7 @@ module pool_controller #(
     output logic                  busy_o,
     output logic                  done_o,
     output logic [           2:0] state_o,
+    output logic                  illegal_schedule_o,  // of the frame that has begun; one clock
     // pair_sequencer
     output logic                  stream_o,
     output logic                  coarse_o,
@@ -150,8 +151,9 @@ module pool_controller #(
     end
   end
 
-  `DTOF_ASSERT(a_schedule, !start_q || (coarse_end_q <= track_end_q && track_end_q <= late_begin_q
-                                        && late_begin_q <= acq_num_q),
+  assign illegal_schedule_o = start_q && !(coarse_end_q <= track_end_q && track_end_q <= late_begin_q
+                                           && late_begin_q <= acq_num_q);
+  `DTOF_ASSERT(a_schedule, !illegal_schedule_o,
                "the schedule must be coarse_end_i <= track_end_i <= late_begin_i <= acq_num_i")
 
   assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;

@@ -31,6 +31,9 @@ module histogram_builder #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,          // of the assertions alone
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp at T1
     input  logic                   hit_t1_i,        // it counts
     input  logic [  BIN_WIDTH-1:0] bin_t1_i,
@@ -72,6 +75,8 @@ module histogram_builder #(
   ) u_histogram_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (read_en),
       .read_addr_i (read_addr),
       .read_data_o (sram_data),

@@ -24,6 +24,9 @@ module peak_histogram #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,           // of the assertions alone
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp at T1
     input  logic                   build_t1_i,       // it belongs to an acquisition whose pass has a histogram
     input  logic [         NP-1:0] timestamp_t1_i,   // all ones: no detection
@@ -78,6 +81,8 @@ module peak_histogram #(
   ) u_histogram_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
+      .sram_cfg_i     (sram_cfg_i),
+      .sram_cfg_o     (sram_cfg_o),
       .hit_t1_i       (build_t1_i && keep),
       .bin_t1_i       (bin_t1),
       .same_pixel_t3_i(same_pixel_t3_i),

@@ -24,6 +24,9 @@ module pointer_builder #(
 ) (
     input  logic                       clk_i,
     input  logic                       rst_ni,           // of the assertions alone
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // schedule, common to all columns
     input  logic                       read_i,           // fetch ahead, or result read-out
     input  logic [      ROW_WIDTH-1:0] read_pixel_i,
@@ -63,6 +66,8 @@ module pointer_builder #(
   ) u_word_builder (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
+      .sram_cfg_i     (sram_cfg_i),
+      .sram_cfg_o     (sram_cfg_o),
       .read_i         (read_i),
       .read_pixel_i   (read_pixel_i),
       .read_done_i    (read_done_i),

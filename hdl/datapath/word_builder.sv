@@ -30,6 +30,9 @@ module word_builder #(
 ) (
     input  logic                 clk_i,
     input  logic                 rst_ni,           // of the assertions alone
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // schedule, common to all columns
     input  logic                 read_i,           // fetch ahead, or result read-out
     input  logic [ROW_WIDTH-1:0] read_pixel_i,
@@ -66,6 +69,8 @@ module word_builder #(
   ) u_word_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (read_i),
       .read_addr_i (read_pixel_i),
       .read_data_o (sram_data),

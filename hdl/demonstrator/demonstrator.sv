@@ -103,6 +103,7 @@ module demonstrator #(
   logic result_tvalid, result_tready, result_tuser, result_tlast, pslverr, irq;
   logic [63:0] result_tdata;
   logic [31:0] prdata;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] unused_sram_cfg;
 
   dtof_subsystem #(
       .READOUT        (dtof_pkg::READOUT_HISPOINTER),
@@ -113,6 +114,9 @@ module demonstrator #(
   ) u_subsystem (
       .clk_i          (clk_i),
       .rst_ni         (rst_n),
+      .scan_mode_i    (1'b0),
+      .sram_cfg_i     ('0),
+      .sram_cfg_o     (unused_sram_cfg),
       .psel_i         (psel),
       .penable_i      (penable),
       .pwrite_i       (1'b1),

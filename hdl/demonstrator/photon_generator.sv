@@ -115,6 +115,8 @@ module photon_generator #(
     end
   end
 
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] unused_cfg;
+
   dtof_sram #(
       .PORTS(2),
       .DEPTH(PIXELS),
@@ -122,6 +124,8 @@ module photon_generator #(
   ) u_targets (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       ('0),
+      .cfg_o       (unused_cfg),
       .read_en_i   (draw),
       .read_addr_i (pixel_q),
       .read_data_o (target),

@@ -40,6 +40,9 @@ module pool2_engine #(
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic                    smooth_i,       // S1 is on
     input  logic                    has_right_i,    // in choose: the column in work has one to its right
     input  pool2_engine_command_t   command_i,
@@ -162,6 +165,8 @@ module pool2_engine #(
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (command_i.read_scratch),
       .read_addr_i (scratch_row_i),
       .read_data_o ({left_cell, message_out}),

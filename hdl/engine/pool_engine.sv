@@ -46,6 +46,9 @@ module pool_engine #(
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  engine_command_t         command_i,
     input  logic [  WORD_WIDTH-1:0] line_i,         // the selected column's word, POOL_PAIR_READ_CLOCKS after its read
     output logic [  WORD_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
@@ -170,6 +173,8 @@ module pool_engine #(
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (command_i.read_message),
       .read_addr_i (message_row_i),
       .read_data_o (scratch_out),

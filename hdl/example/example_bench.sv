@@ -40,6 +40,7 @@ module example_bench #(
   logic result_valid, result_first, result_last;
   logic result_ready = 1'b0;
   logic [63:0] result;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] unused_sram_cfg;
 
   dtof_subsystem #(
       .READOUT        (READOUT),
@@ -51,6 +52,9 @@ module example_bench #(
   ) u_subsystem (
       .clk_i          (clk),
       .rst_ni         (rst_n),
+      .scan_mode_i    (1'b0),
+      .sram_cfg_i     ('0),
+      .sram_cfg_o     (unused_sram_cfg),
       .psel_i         (psel),
       .penable_i      (penable),
       .pwrite_i       (pwrite),

@@ -35,6 +35,7 @@ module timing_bench #(
   logic result_valid, result_first, result_last;
   logic result_ready = 1'b1;
   logic [63:0] result;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] unused_sram_cfg;
 
   dtof_subsystem #(
       .READOUT        (READOUT),
@@ -46,6 +47,9 @@ module timing_bench #(
   ) u_subsystem (
       .clk_i          (clk),
       .rst_ni         (rst_n),
+      .scan_mode_i    (1'b0),
+      .sram_cfg_i     ('0),
+      .sram_cfg_o     (unused_sram_cfg),
       .psel_i         (psel),
       .penable_i      (penable),
       .pwrite_i       (pwrite),

@@ -39,7 +39,7 @@ module control_properties #(
     checking <= 1'b1;
   end
 
-  logic accept, busy, done, clear_all, coarse_scan, final_scan, load, next_pass, next_is_final, first_pass, final_pass;
+  logic busy, done, clear_all, coarse_scan, final_scan, load, next_pass, next_is_final, first_pass, final_pass;
   logic [2:0] state;
   logic [ACQ_WIDTH-1:0] acq_num;
   logic [PASS_WIDTH-1:0] pass;
@@ -60,7 +60,6 @@ module control_properties #(
       .rst_ni         (checking),
       .start_i        (start_i),
       .acq_num_i      (acq_num_i),
-      .accept_o       (accept),
       .busy_o         (busy),
       .done_o         (done),
       .state_o        (state),

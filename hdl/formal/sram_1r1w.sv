@@ -4,9 +4,12 @@
 module sram_1r1w #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
+    parameter int CFG_WIDTH = 1,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
     input  logic                  clk_i,
+    input  logic [ CFG_WIDTH-1:0] cfg_i,
+    output logic [ CFG_WIDTH-1:0] cfg_o,
     input  logic                  re_i,
     input  logic [ADDR_WIDTH-1:0] raddr_i,
     output logic [     WIDTH-1:0] rdata_o,
@@ -14,6 +17,8 @@ module sram_1r1w #(
     input  logic [ADDR_WIDTH-1:0] waddr_i,
     input  logic [     WIDTH-1:0] wdata_i
 );
+
+  assign cfg_o = cfg_i;
 
   logic [WIDTH-1:0] memory[DEPTH];
   logic [WIDTH-1:0] anything;

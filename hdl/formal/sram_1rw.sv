@@ -3,15 +3,20 @@
 module sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
+    parameter int CFG_WIDTH = 1,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
     input  logic                  clk_i,
+    input  logic [ CFG_WIDTH-1:0] cfg_i,
+    output logic [ CFG_WIDTH-1:0] cfg_o,
     input  logic                  en_i,
     input  logic                  we_i,
     input  logic [ADDR_WIDTH-1:0] addr_i,
     input  logic [     WIDTH-1:0] wdata_i,
     output logic [     WIDTH-1:0] rdata_o
 );
+
+  assign cfg_o = cfg_i;
 
   logic [WIDTH-1:0] memory[DEPTH];
   logic [WIDTH-1:0] anything;

@@ -16,6 +16,8 @@ module dtof_sram #(
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] cfg_i,  // side band of the macro
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] cfg_o,
     input  logic                  read_en_i,
     input  logic [ADDR_WIDTH-1:0] read_addr_i,
     output logic [     WIDTH-1:0] read_data_o,
@@ -31,10 +33,13 @@ module dtof_sram #(
   generate
     if (PORTS == 2) begin : g_two_ports
       sram_1r1w #(
-          .DEPTH(DEPTH),
-          .WIDTH(WIDTH)
+          .DEPTH    (DEPTH),
+          .WIDTH    (WIDTH),
+          .CFG_WIDTH(dtof_pkg::SRAM_CFG_WIDTH)
       ) u_macro (
           .clk_i  (clk_i),
+          .cfg_i  (cfg_i),
+          .cfg_o  (cfg_o),
           .re_i   (read_en_i),
           .raddr_i(read_addr_i),
           .rdata_o(read_data_o),
@@ -44,10 +49,13 @@ module dtof_sram #(
       );
     end else begin : g_one_port
       sram_1rw #(
-          .DEPTH(DEPTH),
-          .WIDTH(WIDTH)
+          .DEPTH    (DEPTH),
+          .WIDTH    (WIDTH),
+          .CFG_WIDTH(dtof_pkg::SRAM_CFG_WIDTH)
       ) u_macro (
           .clk_i  (clk_i),
+          .cfg_i  (cfg_i),
+          .cfg_o  (cfg_o),
           .en_i   (read_en_i || write_en_i),
           .we_i   (write_en_i),
           .addr_i (write_en_i ? write_addr_i : read_addr_i),

@@ -9,6 +9,9 @@
 // says when it is read. The rules between these ports are assertions: control/column_rules.sv.
     input  logic                    clk_i,
     input  logic                    rst_ni,                   // of assertions alone: a column needs no reset
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp
     input  logic [          NP-1:0] timestamp_i,              // T0; all ones: no detection
     input  logic [          NP-1:0] gate_begin_i,             // time gate, the same for a whole frame

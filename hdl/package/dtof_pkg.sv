@@ -20,6 +20,19 @@ package dtof_pkg;
   localparam logic [2:0] POOL_STATE_POINT = STATE_M4;
   localparam logic [2:0] POOL_STATE_DECIDE = STATE_M5;
 
+  // Bits of error_o (control/array_errors.sv).
+  localparam int ERROR_UNDERRUN = 0;
+  localparam int ERROR_START_IGNORED = 1;
+  localparam int ERROR_ILLEGAL_SCHEDULE = 2;
+  localparam int ERROR_WIDTH = 3;
+
+  // Width of the side band from the top to every SRAM macro and back: what a process's macros want, by a macro of the tool.
+`ifdef DTOF_SRAM_CFG_WIDTH
+  localparam int SRAM_CFG_WIDTH = `DTOF_SRAM_CFG_WIDTH;
+`else
+  localparam int SRAM_CFG_WIDTH = 1;
+`endif
+
   // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
   localparam int HISTOGRAM_WRITE_STAGE = 5;          // histogram_builder: a timestamp of T0 is written at T5
   localparam int POOL_LAST_COMMAND_STAGE = 6;        // pair_sequencer: the write of a second column's count, given at T6

@@ -9,6 +9,7 @@
 // 4. Results leave as words of 64 bits with a status, in the array's order or row by row; the array waits for a sink that
 //    waits.
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
+// 6. Between frames the array's clock is gated (clock_gate of the technology folder).
 //
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER is pool_pointer_array. The parameters
 // that follow (package/subsystem_parameters.svh) are the arrays'; each has the default of the read-out.
@@ -27,6 +28,10 @@ module dtof_subsystem #(
 ) (
     input  logic                     clk_i,
     input  logic                     rst_ni,
+    input  logic                     scan_mode_i,      // 1: the array's clock is never gated
+    // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // the AND of what they answer
     // APB4, registers
     input  logic                     psel_i,
     input  logic                     penable_i,
@@ -184,6 +189,10 @@ module dtof_subsystem #(
     end
   end
 
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] buffer_cfg, array_cfg, raster_cfg;
+
+  assign sram_cfg_o = buffer_cfg & array_cfg & raster_cfg;
+
   // Lines in.
 
   logic tdc_valid, tdc_ready;
@@ -196,6 +205,8 @@ module dtof_subsystem #(
   ) u_line_buffer (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .sram_cfg_i  (sram_cfg_i),
+      .sram_cfg_o  (buffer_cfg),
       .flush_i     (flush && !busy),
       .release_i   (frame_release_q),
       .level_o     (level),
@@ -229,27 +240,42 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-  // The array.
+  // The array. Its clock rests between frames.
+
+  logic array_clk;
+
+  clock_gate u_array_clock (
+      .clk_i      (clk_i),
+      .enable_i   (begin_frame || array_busy),
+      .scan_mode_i(scan_mode_i),
+      .clk_o      (array_clk)
+  );
 
   logic result_tvalid, result_tready, result_tlast;
   logic [RESULT_WIDTH-1:0] result_tdata;
   logic array_busy;
+  logic [dtof_pkg::ERROR_WIDTH-1:0] array_error;
 
   generate
     if (POOL != 0) begin : g_pool
       pool_pointer_array #(
 `include "pool_pointer_array_parameters.svh"
       ) u_array (
-          .clk_i          (clk_i),
+          .clk_i          (array_clk),
           .rst_ni         (rst_ni),
+          .sram_cfg_i     (sram_cfg_i),
+          .sram_cfg_o     (array_cfg),
           .start_i        (begin_frame),
           .acq_num_i      (acquisitions),
+          .gate_begin_i   ({NP{1'b0}}),
+          .gate_end_i     ({NP{1'b0}}),
           .coarse_end_i   (coarse_end),
           .track_end_i    (track_end),
           .late_begin_i   (late_begin),
           .busy_o         (array_busy),
           .done_o         (done),
           .state_o        (state),
+          .error_o        (array_error),
           .tdc_valid_i    (tdc_valid),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
@@ -263,8 +289,10 @@ module dtof_subsystem #(
           .READOUT(READOUT),
 `include "dtof_array_parameters.svh"
       ) u_array (
-          .clk_i          (clk_i),
+          .clk_i          (array_clk),
           .rst_ni         (rst_ni),
+          .sram_cfg_i     (sram_cfg_i),
+          .sram_cfg_o     (array_cfg),
           .start_i        (begin_frame),
           .acq_num_i      (acquisitions),
           .gate_begin_i   ({NP{1'b0}}),
@@ -272,6 +300,7 @@ module dtof_subsystem #(
           .busy_o         (array_busy),
           .done_o         (done),
           .state_o        (state),
+          .error_o        (array_error),
           .tdc_valid_i    (tdc_valid),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
@@ -282,6 +311,9 @@ module dtof_subsystem #(
       );
     end
   endgenerate
+
+  // The registers tell of errors: line buffer and frame control see them before they could reach the array.
+  `DTOF_ASSERT(a_no_array_error, array_error == '0, "the array met a master's error that should have been kept from it")
 
   `DTOF_ASSERT(a_begin_when_idle, !(begin_frame && array_busy), "a frame begins while another is under way")
 
@@ -335,6 +367,8 @@ module dtof_subsystem #(
       ) u_raster_buffer (
           .clk_i     (clk_i),
           .rst_ni    (rst_ni),
+          .sram_cfg_i(sram_cfg_i),
+          .sram_cfg_o(raster_cfg),
           .s_tvalid_i(word_tvalid),
           .s_tready_o(word_tready),
           .s_result_i({word_tdata[STATUS_LSB+:STATUS_WIDTH], word_tdata[CONFIDENCE_LSB+:KEPT_CONFIDENCE],
@@ -363,6 +397,7 @@ module dtof_subsystem #(
       logic unused_word;
       assign unused_word = ^{word_tuser, word_tdata};
     end else begin : g_array_order
+      assign raster_cfg = '1;
       assign word_tready = m_axis_tready_i;
       assign m_axis_tvalid_o = word_tvalid;
       assign m_axis_tdata_o = word_tdata;

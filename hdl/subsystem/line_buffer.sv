@@ -19,6 +19,9 @@ module line_buffer #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic                   flush_i,      // empties the buffer; not while an acquisition is under way
     input  logic [LEVEL_WIDTH-1:0] release_i,    // 1 to the smaller of ACQUISITION_LINES and LINES
     output logic [LEVEL_WIDTH-1:0] level_o,      // lines in the buffer
@@ -93,6 +96,8 @@ module line_buffer #(
   ) u_lines (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (read),
       .read_addr_i (read_address_q),
       .read_data_o (head),

@@ -17,6 +17,9 @@ module raster_buffer #(
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // each pixel of a frame once
     input  logic                    s_tvalid_i,
     output logic                    s_tready_o,
@@ -101,6 +104,8 @@ module raster_buffer #(
   ) u_results (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
       .read_en_i   (read),
       .read_addr_i (read_address_q),
       .read_data_o (m_result_o),

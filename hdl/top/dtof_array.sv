@@ -48,6 +48,9 @@ module dtof_array #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // the AND of what they answer
     // frame
     input  logic                   start_i,          // ignored while busy_o, also in the clock of done_o
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,        // acquisitions of the frame, sampled with start_i
@@ -56,6 +59,7 @@ module dtof_array #(
     output logic                   busy_o,           // from the clock behind start_i to that of done_o
     output logic                   done_o,           // the last result was taken; one clock
     output logic [            2:0] state_o,          // dtof_pkg::STATE_*
+    output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (array_errors)
     // TDC stream
     input  logic                   tdc_valid_i,      // high for a whole acquisition
     output logic                   tdc_ready_o,      // an acquisition may start, or is under way
@@ -103,7 +107,7 @@ module dtof_array #(
 
   // Control, once per array.
 
-  logic accept, clear_all, coarse_scan, final_scan;
+  logic clear_all, coarse_scan, final_scan;
   logic load, next_pass, next_is_final, first_pass, final_pass, more, acq_done;
   logic [ACQ_WIDTH-1:0] acq_num;
   logic [PASS_WIDTH-1:0] pass;
@@ -124,7 +128,6 @@ module dtof_array #(
       .busy_o         (busy_o),
       .done_o         (done_o),
       .state_o        (state_o),
-      .accept_o       (accept),
       .clear_all_o    (clear_all),
       .coarse_scan_o  (coarse_scan),
       .final_scan_o   (final_scan),
@@ -165,22 +168,30 @@ module dtof_array #(
 
   logic [NP-1:0] gate_begin, gate_end;
 
-  generate
-    if (TIME_GATE != 0) begin : g_time_gate
-      logic [NP-1:0] gate_begin_q, gate_end_q;
-      always_ff @(posedge clk_i) begin
-        if (accept) begin
-          gate_begin_q <= gate_begin_i;
-          gate_end_q <= gate_end_i;
-        end
-      end
-      assign gate_begin = gate_begin_q;
-      assign gate_end = gate_end_q;
-    end else begin : g_no_time_gate
-      assign gate_begin = '0;
-      assign gate_end = '0;
-    end
-  endgenerate
+  gate_register #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_gate_register (
+      .clk_i       (clk_i),
+      .start_i     (start_i),
+      .busy_i      (busy_o),
+      .gate_begin_i(gate_begin_i),
+      .gate_end_i  (gate_end_i),
+      .gate_begin_o(gate_begin),
+      .gate_end_o  (gate_end)
+  );
+
+  logic underrun;
+
+  array_errors u_errors (
+      .clk_i             (clk_i),
+      .rst_ni            (rst_ni),
+      .start_i           (start_i),
+      .busy_i            (busy_o),
+      .underrun_i        (underrun),
+      .illegal_schedule_i(1'b0),
+      .error_o           (error_o)
+  );
 
   logic fetch, beat_t1, first_slot_t0, visit_t1, first_acq_t1, last_slot_t2, beat_t5;
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
@@ -199,6 +210,7 @@ module dtof_array #(
       .tdc_ready_o    (tdc_ready_o),
       .acq_done_o     (acq_done),
       .idle_o         (stream_idle),
+      .underrun_o     (underrun),
       .fetch_o        (fetch),
       .fetch_pixel_o  (fetch_pixel),
       .beat_t1_o      (beat_t1),
@@ -363,6 +375,8 @@ module dtof_array #(
   ) u_column ( \
       .clk_i                  (clk_i), \
       .rst_ni                 (rst_ni), \
+      .sram_cfg_i             (sram_cfg_i), \
+      .sram_cfg_o             (column_cfg[c*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]), \
       .timestamp_i            (tdc_timestamp_i[c*NP+:NP]), \
       .gate_begin_i           (gate_begin), \
       .gate_end_i             (gate_end), \
@@ -398,6 +412,16 @@ module dtof_array #(
       .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]), \
       .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH]) \
   );
+
+  logic [SRAM_NUM*dtof_pkg::SRAM_CFG_WIDTH-1:0] column_cfg;
+  integer i;
+
+  always_comb begin
+    sram_cfg_o = '1;
+    for (i = 0; i < SRAM_NUM; i = i + 1) begin
+      sram_cfg_o = sram_cfg_o & column_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
+    end
+  end
 
   genvar c;
   generate

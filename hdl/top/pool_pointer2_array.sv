@@ -24,6 +24,7 @@ module pool_pointer2_array #(
     parameter int SCORE_BITS = 4,         // bits of their scores, 1 to 4
     parameter int OFFSET_BITS = 6,        // bits of a leader's offset in the track phase, 2 to 6
     parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2
+    parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
@@ -34,14 +35,20 @@ module pool_pointer2_array #(
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // the AND of what they answer
     input  logic                   start_i,  // ignored while busy_o, also in the clock of done_o
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,
+    input  logic [         NP-1:0] gate_begin_i,  // time gate of the frame, sampled with start_i
+    input  logic [         NP-1:0] gate_end_i,
     input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [  ACQ_WIDTH-1:0] track_end_i,
     input  logic                   smooth_i,  // S1
     output logic                   busy_o,
     output logic                   done_o,
     output logic [            2:0] state_o,
+    output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (array_errors)
     input  logic                   tdc_valid_i,
     output logic                   tdc_ready_o,
     input  logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
@@ -91,7 +98,7 @@ module pool_pointer2_array #(
 
   logic stream, coarse, point, more, unused_late, acq_done, stream_idle, clear;
   logic [3:0] acquisition;
-  logic decode, choose, decide, engine_done;
+  logic decode, choose, decide, engine_done, underrun, illegal_schedule;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
 
   pool_controller #(
@@ -109,6 +116,7 @@ module pool_pointer2_array #(
       .busy_o         (busy_o),
       .done_o         (done_o),
       .state_o        (state_o),
+      .illegal_schedule_o(illegal_schedule),
       .stream_o       (stream),
       .coarse_o       (coarse),
       .point_o        (point),
@@ -129,6 +137,31 @@ module pool_pointer2_array #(
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
+  logic [NP-1:0] gate_begin, gate_end;
+
+  gate_register #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE)
+  ) u_gate_register (
+      .clk_i       (clk_i),
+      .start_i     (start_i),
+      .busy_i      (busy_o),
+      .gate_begin_i(gate_begin_i),
+      .gate_end_i  (gate_end_i),
+      .gate_begin_o(gate_begin),
+      .gate_end_o  (gate_end)
+  );
+
+  array_errors u_errors (
+      .clk_i             (clk_i),
+      .rst_ni            (rst_ni),
+      .start_i           (start_i),
+      .busy_i            (busy_o),
+      .underrun_i        (underrun),
+      .illegal_schedule_i(illegal_schedule),
+      .error_o           (error_o)
+  );
+
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
@@ -146,6 +179,7 @@ module pool_pointer2_array #(
       .tdc_ready_o      (tdc_ready_o),
       .acq_done_o       (acq_done),
       .idle_o           (stream_idle),
+      .underrun_o       (underrun),
       .beat_t1_o        (beat_t1),
       .first_slot_t1_o  (first_slot_t1),
       .last_slot_t1_o   (last_slot_t1),
@@ -240,6 +274,15 @@ module pool_pointer2_array #(
   // Engines with their pairs of columns.
 
   logic [ENGINES*RESULT_WIDTH-1:0] results;
+  logic [ENGINES*dtof_pkg::SRAM_CFG_WIDTH-1:0] cfg;
+  integer j;
+
+  always_comb begin
+    sram_cfg_o = '1;
+    for (j = 0; j < ENGINES; j = j + 1) begin
+      sram_cfg_o = sram_cfg_o & cfg[j*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
+    end
+  end
 
   genvar e, p;
   generate
@@ -251,16 +294,22 @@ module pool_pointer2_array #(
       logic [HALF_WIDTH-1:0] word;
       logic [PAIRS*HALF_WIDTH-1:0] pair_words;
       logic [HALF_WIDTH-1:0] line;
+      logic [PAIRS*dtof_pkg::SRAM_CFG_WIDTH-1:0] pair_cfg;
+      logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg, part_cfg;
       logic [PAIRS-1:0] select;
       logic has_right;
       integer i;
 
       always_comb begin
         line = '0;
+        part_cfg = engine_cfg;
         for (i = 0; i < PAIRS; i = i + 1) begin
           line = line | pair_words[i*HALF_WIDTH+:HALF_WIDTH];
+          part_cfg = part_cfg & pair_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
         end
       end
+
+      assign cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH] = part_cfg;
 
       // The last pair is its own missing neighbour, in an engine with fewer columns, too.
       if (PAIRS < STEP_PAIRS) begin : g_fewer
@@ -286,10 +335,15 @@ module pool_pointer2_array #(
             .LABELS         (LABELS),
             .SCORE_BITS     (SCORE_BITS),
             .OFFSET_BITS    (OFFSET_BITS),
-            .POINTER_SHIFT  (POINTER_SHIFT)
+            .POINTER_SHIFT  (POINTER_SHIFT),
+            .TIME_GATE      (TIME_GATE)
         ) u_pair (
             .clk_i           (clk_i),
             .rst_ni          (rst_ni),
+            .sram_cfg_i      (sram_cfg_i),
+            .sram_cfg_o      (pair_cfg[p*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
+            .gate_begin_i    (gate_begin),
+            .gate_end_i      (gate_end),
             .timestamp_i     (tdc_timestamp_i[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
             .coarse_i        (coarse_q),
             .point_i         (point_q),
@@ -331,6 +385,8 @@ module pool_pointer2_array #(
       ) u_engine (
           .clk_i        (clk_i),
           .rst_ni       (rst_ni),
+          .sram_cfg_i   (sram_cfg_i),
+          .sram_cfg_o   (engine_cfg),
           .smooth_i     (smooth_q),
           .has_right_i  (has_right),
           .command_i    (command),

@@ -30,7 +30,7 @@ KEYS = {
     "target": {"filesets", "toplevel", "default_tool", "parameters", "tools"},
     "parameter": {"datatype", "description", "paramtype"},
 }
-OWN_SRAMS = ["technology/fpga/sram_1rw.sv", "technology/fpga/sram_1r1w.sv"]  # for one's own
+OWN_SRAMS = ["technology/fpga/sram_1rw.sv", "technology/fpga/sram_1r1w.sv", "technology/fpga/clock_gate.sv"]  # for one's own
 
 
 def resolved(names: list[str], flags: set[str]) -> list[str]:

@@ -185,7 +185,7 @@ def behavioural_models(sizes: Iterable[Size]) -> str:
         lines += ["", f"module {size.name} (",
                   ",\n".join(f"    {port}" for port in _ports(size, lambda bits: f"[{bits - 1}:0] " if bits else "")),
                   ");", f"  {sram_model.KINDS[size.ports].module} #(.DEPTH({size.words}), .WIDTH({size.bits})) "
-                  f"u_memory ({connections});", "endmodule"]
+                  f"u_memory ({connections}, .cfg_i(1'b0), .cfg_o());", "endmodule"]
     return "\n".join([*lines, ""])
 
 
@@ -196,11 +196,12 @@ def technology_module(ports: int, sizes: list[Size]) -> str:
     reference = pins(Size(ports, 16, 1))
     lines = ["// SPDX-License-Identifier: Apache-2.0",
              "// Generated from a list of SRAM sizes; any other size stops elaboration.",
-             f"module {module} #(", "    parameter DEPTH = 1,", "    parameter WIDTH = 1", ") ("]
+             f"module {module} #(", "    parameter DEPTH = 1,", "    parameter WIDTH = 1,", "    parameter CFG_WIDTH = 1", ") (",
+             "    input wire [CFG_WIDTH-1:0] cfg_i,", "    output wire [CFG_WIDTH-1:0] cfg_o,"]
     for index, (name, direction, _) in enumerate(reference):
         span = {"A": "[(DEPTH > 1 ? $clog2(DEPTH) : 1)-1:0] ", "W": "[WIDTH-1:0] "}.get(names.get(name, ""), "")
         lines.append(f"    {direction} wire {span}{name}{',' if index < len(reference) - 1 else ''}")
-    lines += [");", "  generate"]
+    lines += [");", "  assign cfg_o = cfg_i;  // these macros have no side band", "  generate"]
     keyword = "if"
     for size in [size for size in sizes if size.ports == ports]:
         connections = ", ".join(f".{name}({name})" for name, _, _ in reference)

@@ -2,17 +2,17 @@
 # Reads the RTL into a Vivado project or a non-project run, with memories that become block RAM:
 #
 #   source synth/vivado/dtof.tcl
-#   dtof_read_rtl                       ;# or: dtof_read_rtl my_srams, for a folder with one's own sram_1rw.sv and sram_1r1w.sv
+#   dtof_read_rtl                       ;# or: dtof_read_rtl my_srams, for a folder with one's own sram_1rw.sv, sram_1r1w.sv and clock_gate.sv
 #   synth_design -top dtof_subsystem -part xc7a35ticsg324-1L -generic READOUT=2 -generic SRAM_NUM=8 -generic PIXELS_PER_SRAM=16
 #
 # The files are those of hdl/dtof_no_srams.f, in its order.
 
 set dtof_hdl [file normalize [file join [file dirname [info script]] .. .. hdl]]
 
-proc dtof_read_rtl {{srams ""}} {
+proc dtof_read_rtl {{technology ""}} {
     global dtof_hdl
-    if {$srams eq ""} {
-        set srams [file join $dtof_hdl technology fpga]
+    if {$technology eq ""} {
+        set technology [file join $dtof_hdl technology fpga]
     }
     set files {}
     set list [open [file join $dtof_hdl dtof_no_srams.f]]
@@ -22,8 +22,8 @@ proc dtof_read_rtl {{srams ""}} {
         }
     }
     close $list
-    foreach memory {sram_1rw sram_1r1w} {
-        set file [file join $srams $memory.sv]
+    foreach module {sram_1rw sram_1r1w clock_gate} {
+        set file [file join $technology $module.sv]
         if {![file exists $file]} {
             error "dtof_read_rtl: $file is not there"
         }

@@ -17,7 +17,7 @@ class ArrayModel {
     std::uint8_t* reset_n;
     std::uint8_t* start;
     std::uint16_t* acquisitions;
-    std::uint16_t* gate_begin;  ///< these two are of dtof_array only
+    std::uint16_t* gate_begin;
     std::uint16_t* gate_end;
     std::uint16_t* coarse_end;  ///< schedule; these are null in dtof_array
     std::uint16_t* track_end;
@@ -31,6 +31,7 @@ class ArrayModel {
     const std::uint8_t* busy;
     const std::uint8_t* done;
     const std::uint8_t* state;
+    const std::uint8_t* error;  ///< kRtlUnderrun and so on
     const std::uint8_t* tdc_ready;
     const std::uint8_t* result_valid;
     const std::uint8_t* result_last;

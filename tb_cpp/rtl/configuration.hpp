@@ -39,6 +39,11 @@ enum class RtlState : int { kIdle = 0, kReset = 1, kM0 = 2, kM1 = 3, kM2 = 4, kM
 
 inline constexpr std::size_t kRtlStateCount = 8;
 
+/// Bits of error_o (hdl/control/array_errors.sv).
+inline constexpr std::uint8_t kRtlUnderrun = 1;
+inline constexpr std::uint8_t kRtlStartIgnored = 2;
+inline constexpr std::uint8_t kRtlIllegalSchedule = 4;
+
 /// IDLE, RESET, M0 .. M5.
 std::string_view rtl_state_name(RtlState state);
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
+`include "dtof_macros.svh"
+
 /// dtof_array behind ports whose C++ types are the same for every configuration, so that one driver runs
 /// them all: 16 bits per column of timestamp on a bus of at least 128 bits (an array of words in C++), each
 /// field of the result on its own 16-bit port. PROBE = 1 shows the writes to column 0's histogram or pointer
@@ -32,6 +34,7 @@ module dtof_array_testbench #(
     output logic                 busy_o,
     output logic                 done_o,
     output logic [          2:0] state_o,
+    output logic [          2:0] error_o,
     input  logic                 tdc_valid_i,
     output logic                 tdc_ready_o,
     input  logic [BUS_WIDTH-1:0] tdc_timestamp_i,
@@ -60,6 +63,7 @@ module dtof_array_testbench #(
   localparam COLUMN_LSB = ROW_LSB + ROW_WIDTH;
 
   logic [SRAM_NUM*NP-1:0] timestamp;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg, sram_cfg_answer;
   logic [RESULT_WIDTH-1:0] result;
 
   for (genvar column = 0; column < SRAM_NUM; ++column) begin : gen_timestamp
@@ -86,6 +90,8 @@ module dtof_array_testbench #(
   ) u_array (
       .clk_i,
       .rst_ni,
+      .sram_cfg_i(sram_cfg),
+      .sram_cfg_o(sram_cfg_answer),
       .start_i,
       .acq_num_i,
       .gate_begin_i(gate_begin_i[NP-1:0]),
@@ -93,6 +99,7 @@ module dtof_array_testbench #(
       .busy_o,
       .done_o,
       .state_o,
+      .error_o,
       .tdc_valid_i,
       .tdc_ready_o,
       .tdc_timestamp_i(timestamp),
@@ -130,6 +137,14 @@ module dtof_array_testbench #(
   end else begin : gen_histogram_probe
     `DTOF_PROBE(u_array.g_column[0].g_interframe_histogram.u_column.u_peak_histogram.u_histogram_builder.u_histogram_sram)
   end
+
+  // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.
+  always_ff @(posedge clk_i) begin
+    if (start_i) begin
+      sram_cfg <= ~sram_cfg;
+    end
+  end
+  `DTOF_ASSERT(a_side_band, sram_cfg_answer == sram_cfg, "an SRAM does not hear or answer on its side band")
 
   // The padding of the timestamp bus and of the gate.
   logic unused;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
+`include "dtof_macros.svh"
+
 /// pool_pointer2_array behind the ports of dtof_array_testbench and the schedule's: 16 bits per column of timestamp
 /// on a bus of at least 128 bits, each field of the result on its own 16-bit port.
 module pool_pointer2_testbench #(
@@ -13,6 +15,7 @@ module pool_pointer2_testbench #(
     parameter SCORE_BITS = 4,
     parameter OFFSET_BITS = 6,
     parameter POINTER_SHIFT = 1,
+    parameter TIME_GATE = 0,
     parameter ENGINE_COLUMNS = 34,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
 ) (
@@ -20,12 +23,15 @@ module pool_pointer2_testbench #(
     input  logic                 rst_ni,
     input  logic                 start_i,
     input  logic [         15:0] acq_num_i,
+    input  logic [         15:0] gate_begin_i,
+    input  logic [         15:0] gate_end_i,
     input  logic [         15:0] coarse_end_i,
     input  logic [         15:0] track_end_i,
     input  logic                 smooth_i,
     output logic                 busy_o,
     output logic                 done_o,
     output logic [          2:0] state_o,
+    output logic [          2:0] error_o,
     input  logic                 tdc_valid_i,
     output logic                 tdc_ready_o,
     input  logic [BUS_WIDTH-1:0] tdc_timestamp_i,
@@ -54,6 +60,7 @@ module pool_pointer2_testbench #(
   localparam COLUMN_LSB = ROW_LSB + ROW_WIDTH;
 
   logic [SRAM_NUM*NP-1:0] timestamp;
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg, sram_cfg_answer;
   logic [RESULT_WIDTH-1:0] result;
 
   for (genvar column = 0; column < SRAM_NUM; ++column) begin : gen_timestamp
@@ -71,19 +78,25 @@ module pool_pointer2_testbench #(
       .SCORE_BITS(SCORE_BITS),
       .OFFSET_BITS(OFFSET_BITS),
       .POINTER_SHIFT(POINTER_SHIFT),
+      .TIME_GATE(TIME_GATE),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .ACQ_WIDTH(16)
   ) u_array (
       .clk_i,
       .rst_ni,
+      .sram_cfg_i(sram_cfg),
+      .sram_cfg_o(sram_cfg_answer),
       .start_i,
       .acq_num_i,
+      .gate_begin_i(gate_begin_i[NP-1:0]),
+      .gate_end_i(gate_end_i[NP-1:0]),
       .coarse_end_i,
       .track_end_i,
       .smooth_i,
       .busy_o,
       .done_o,
       .state_o,
+      .error_o,
       .tdc_valid_i,
       .tdc_ready_o,
       .tdc_timestamp_i(timestamp),
@@ -107,8 +120,16 @@ module pool_pointer2_testbench #(
   assign probe_address_o = '0;
   assign probe_data_o = '0;
 
-  // The padding of the timestamp bus.
+  // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.
+  always_ff @(posedge clk_i) begin
+    if (start_i) begin
+      sram_cfg <= ~sram_cfg;
+    end
+  end
+  `DTOF_ASSERT(a_side_band, sram_cfg_answer == sram_cfg, "an SRAM does not hear or answer on its side band")
+
+  // The padding of the timestamp bus and of the gate.
   logic unused;
-  assign unused = &{1'b0, tdc_timestamp_i};
+  assign unused = &{1'b0, tdc_timestamp_i, gate_begin_i, gate_end_i};
 
 endmodule

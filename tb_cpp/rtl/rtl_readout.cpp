@@ -172,10 +172,8 @@ class RtlReadout::Simulation {
 
   void drive_registers(std::uint32_t acquisitions, CodeGate gate) {
     *ports_.acquisitions = static_cast<std::uint16_t>(acquisitions);
-    if (ports_.gate_begin != nullptr) {
-      *ports_.gate_begin = static_cast<std::uint16_t>(gate.begin);
-      *ports_.gate_end = static_cast<std::uint16_t>(gate.end);
-    }
+    *ports_.gate_begin = static_cast<std::uint16_t>(gate.begin);
+    *ports_.gate_end = static_cast<std::uint16_t>(gate.end);
     if (ports_.coarse_end != nullptr) {
       const PoolSchedule schedule(acquisitions, configuration_.parameters.pool);
       *ports_.coarse_end = static_cast<std::uint16_t>(schedule.coarse_end);
@@ -196,6 +194,7 @@ class RtlReadout::Simulation {
     held_clocks_ = 0;
     pending_beat_ = false;
     row_stall_left_ = options_->row_stall;
+    expected_error_ = 0;
     frame_.statistics = RtlStatistics{};
     const std::uint64_t limit = cycle_limit();
     const bool disturb = options_->stall_probability > 0.0 || options_->start_probability > 0.0;
@@ -224,6 +223,8 @@ class RtlReadout::Simulation {
       driver_->drive();
       settle();
       const bool done = observe();
+      require(*ports_.error == expected_error_, "error_o is not what the clock before says");
+      expected_error_ = *ports_.start != 0 && *ports_.busy != 0 ? kRtlStartIgnored : 0;
       held_clocks_ += driver_->pauses() || pending_beat_ ? 1 : 0;
       // A start pulse in the clock after done would begin another frame; the loop ends before it can.
       driver_->finish_clock();
@@ -340,6 +341,7 @@ class RtlReadout::Simulation {
   std::uint64_t beats_ = 0;
   std::uint64_t held_clocks_ = 0;  // source pauses or sink stalls
   bool pending_beat_ = false;
+  std::uint8_t expected_error_ = 0;  // of the clock before
   std::uint64_t row_stall_left_ = 0;
   Beat last_beat_;
   RtlFrame frame_;

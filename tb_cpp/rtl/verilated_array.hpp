@@ -33,15 +33,13 @@ class VerilatedArray : public ArrayModel {
       registers = {.coarse_end = &model_.coarse_end_i,
                    .track_end = &model_.track_end_i,
                    .late_begin = &model_.late_begin_i};
-    } else {
-      registers = {.gate_begin = &model_.gate_begin_i, .gate_end = &model_.gate_end_i};
     }
     return {.clock = &model_.clk_i,
             .reset_n = &model_.rst_ni,
             .start = &model_.start_i,
             .acquisitions = &model_.acq_num_i,
-            .gate_begin = registers.gate_begin,
-            .gate_end = registers.gate_end,
+            .gate_begin = &model_.gate_begin_i,
+            .gate_end = &model_.gate_end_i,
             .coarse_end = registers.coarse_end,
             .track_end = registers.track_end,
             .late_begin = registers.late_begin,
@@ -53,6 +51,7 @@ class VerilatedArray : public ArrayModel {
             .busy = &model_.busy_o,
             .done = &model_.done_o,
             .state = &model_.state_o,
+            .error = &model_.error_o,
             .tdc_ready = &model_.tdc_ready_o,
             .result_valid = &model_.result_tvalid_o,
             .result_last = &model_.result_tlast_o,
@@ -78,10 +77,8 @@ class VerilatedArray : public ArrayModel {
   [[nodiscard]] Model& model() { return model_; }
 
  private:
-  // Those that only one of the arrays has.
+  // Those that not all of the arrays have.
   struct Registers {
-    std::uint16_t* gate_begin = nullptr;
-    std::uint16_t* gate_end = nullptr;
     std::uint16_t* coarse_end = nullptr;
     std::uint16_t* track_end = nullptr;
     std::uint16_t* late_begin = nullptr;

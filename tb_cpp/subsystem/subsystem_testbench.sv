@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
+`include "dtof_macros.svh"
+
 /// dtof_subsystem behind ports whose C++ types are the same for every configuration: 512 bits of lines, APB4 or, with
 /// AXI_LITE = 1, AXI4-Lite. The probes show what the array takes, and when its frames begin and end.
 module subsystem_testbench #(
@@ -107,6 +109,7 @@ module subsystem_testbench #(
   assign unused = &{1'b0, psel_i, penable_i, pwrite_i, paddr_i, pwdata_i, pstrb_i, s_axi_awvalid_i, s_axi_awaddr_i,
                     s_axi_wvalid_i, s_axi_wdata_i, s_axi_wstrb_i, s_axi_bready_i, s_axi_arvalid_i, s_axi_araddr_i,
                     s_axi_rready_i, s_axis_tdata_i};
+  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg, sram_cfg_answer;
 
   dtof_subsystem #(
       .READOUT(READOUT),
@@ -116,6 +119,9 @@ module subsystem_testbench #(
   ) u_subsystem (
       .clk_i,
       .rst_ni,
+      .scan_mode_i(1'b0),
+      .sram_cfg_i(sram_cfg),
+      .sram_cfg_o(sram_cfg_answer),
       .psel_i(psel),
       .penable_i(penable),
       .pwrite_i(pwrite),
@@ -143,5 +149,13 @@ module subsystem_testbench #(
   assign probe_line_valid_o = u_subsystem.tdc_valid;
   assign probe_line_ready_o = u_subsystem.tdc_ready;
   assign probe_line_o = 512'(u_subsystem.line);
+
+  // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.
+  always_ff @(posedge clk_i) begin
+    if (probe_begin_o) begin
+      sram_cfg <= ~sram_cfg;
+    end
+  end
+  `DTOF_ASSERT(a_side_band, sram_cfg_answer == sram_cfg, "an SRAM does not hear or answer on its side band")
 
 endmodule

@@ -6,12 +6,16 @@
 // Write:  wdata_i is stored at the clock edge that ends a clock with we_i.
 // Read and write of one address in one clock: the word is written, the read data is undefined. It is X here, so that a tool
 // needs no logic around the block RAM whatever that does then.
+// Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
 module sram_1r1w #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
+    parameter int CFG_WIDTH = 1,
     localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
 ) (
     input  logic                  clk_i,
+    input  logic [ CFG_WIDTH-1:0] cfg_i,
+    output logic [ CFG_WIDTH-1:0] cfg_o,
     input  logic                  re_i,
     input  logic [ADDR_WIDTH-1:0] raddr_i,
     output logic [     WIDTH-1:0] rdata_o,
@@ -19,6 +23,8 @@ module sram_1r1w #(
     input  logic [ADDR_WIDTH-1:0] waddr_i,
     input  logic [     WIDTH-1:0] wdata_i
 );
+
+  assign cfg_o = cfg_i;
 
   (* ram_style = "block" *) logic [WIDTH-1:0] memory[DEPTH];
 
