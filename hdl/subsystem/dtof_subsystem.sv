@@ -240,13 +240,23 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-  // The array. Its clock rests between frames.
+  // The array. Its clock rests between frames. Behind a reset it runs for as long as what had no reset takes to leave the
+  // array's pipelines.
 
   logic array_clk;
+  logic [7:0] settling_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      settling_q <= '1;
+    end else begin
+      settling_q <= settling_q << 1;
+    end
+  end
 
   clock_gate u_array_clock (
       .clk_i      (clk_i),
-      .enable_i   (begin_frame || array_busy),
+      .enable_i   (begin_frame || array_busy || settling_q[7]),
       .scan_mode_i(scan_mode_i),
       .clk_o      (array_clk)
   );

@@ -144,7 +144,7 @@ module dtof_array_testbench #(
       sram_cfg <= ~sram_cfg;
     end
   end
-  `DTOF_ASSERT(a_side_band, sram_cfg_answer == sram_cfg, "an SRAM does not hear or answer on its side band")
+  `DTOF_ASSERT(a_side_band, sram_cfg_answer == sram_cfg, "an SRAM does not hear its side band")
 
   // The padding of the timestamp bus and of the gate.
   logic unused;
