@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// error_o of every kind of array, clock by clock, while a master breaks the rules. The harness checks in every run that
-// it is silent otherwise, and that it tells of a start while busy.
+// error_o of every kind of array, clock by clock, while a master breaks the rules. The harness checks in
+// every run that it is silent otherwise, and that it tells of a start while busy.
 #include <gtest/gtest.h>
 #include <verilated.h>
 
