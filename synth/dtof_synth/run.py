@@ -16,6 +16,7 @@ from .errors import FlowError
 from .library import Library
 from .netlist import Counts
 from .power import ClockTree, Power
+from .standard_cells import CINV_FF, FO4_NS
 
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
@@ -24,6 +25,7 @@ FAST_MHZ = 500.0
 NAMING_SEEDS = list(range(16))
 POOL_NAMING_SEEDS = NAMING_SEEDS[:4]
 KEPT_COLUMNS = 3
+DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 BOTH_CORNERS = ("typical", "slow")
 
 
@@ -49,16 +51,17 @@ EFFORTS = (Effort(0.68, _SMALL), Effort(0.68, _FAST), Effort(0.62, _FAST), Effor
 @dataclass(frozen=True)
 class Technology:
     """Everything a run needs besides the RTL. `slow` is the library that logic is mapped against, `target_mhz` the
-    clock that it is mapped for."""
+    clock that it is mapped for. Without `fast` nothing is timed with margins."""
 
     typical: Library
     slow: Library
     kit: Path
     root: Path
     target_mhz: float = TARGET_MHZ
+    fast: Library | None = None
 
     def library(self, corner: str) -> Library:
-        return self.typical if corner == "typical" else self.slow
+        return {"typical": self.typical, "slow": self.slow, "fast": self.fast}[corner]
 
 
 @dataclass(frozen=True)
@@ -74,6 +77,16 @@ class Timing:
     end: str
     stages: int
     slow_edges: int
+
+
+@dataclass(frozen=True)
+class Margin:
+    """One corner with the margins of constraints/margins.sdc. Slacks in ns at the target clock."""
+
+    slack: float
+    hold_slack: float
+    start: str  # of the slowest path
+    end: str
 
 
 def _area(used: dict[str, sram_model.Size]) -> float:
@@ -93,6 +106,7 @@ class Result:
     mux2_area: float
     timing: dict[str, Timing]
     power: Power | None = None
+    margins: dict[str, Margin] = field(default_factory=dict)
     sram_area: float = field(init=False)  # of a column
     engine_sram_area: float = field(init=False)  # of all engines
 
@@ -241,6 +255,22 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     return timing, output
 
 
+def time_margins(configuration: Configuration, technology: Technology, corner: str, folder: Path) -> Margin:
+    """The same netlist in one corner with margins."""
+    library = technology.library(corner)
+    settings = folder / f"margins_{corner}_settings.tcl"
+    tools.write_settings(settings, {
+        "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
+        "netlist": folder / "timing.v", "top": configuration.top, "wire_load": library.wire_load,
+        "constraints": technology.root / "constraints" / "dtof.sdc",
+        "margins": technology.root / "constraints" / "margins.sdc", "period": f"{1000 / technology.target_mhz:.6f}",
+        "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}"})
+    output = tools.run_sta(technology.root / "synth" / "sta" / "margins.tcl", settings, folder / f"margins_{corner}.log",
+                           f"{configuration.name}, {corner} corner with margins")
+    start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"))
+    return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1), start, end)
+
+
 @dataclass(frozen=True)
 class _Attempt:
     """Mapped with one effort and timed in the slow corner; its files are in a folder of its own."""
@@ -268,12 +298,12 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
 def run(configuration: Configuration, technology: Technology, folder: Path,
         corners: Iterable[str] = BOTH_CORNERS, most_attempts: int = len(EFFORTS)) -> Result:
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
-    timed: with rising effort until it closes, else the best attempt stands."""
+    timed: with rising effort until it closes with DEMANDED_SLACK_NS, else the best attempt stands."""
     elaborate(configuration, technology, folder)
     attempts: list[_Attempt] = []
     for number in range(most_attempts):
         attempts.append(_attempt(configuration, technology, folder, number))
-        if attempts[-1].slow.slack >= 0:
+        if attempts[-1].slow.slack >= DEMANDED_SLACK_NS:
             break
     best = max(attempts, key=lambda attempt: attempt.slow.slack)
     modules = configuration.column_modules
@@ -283,12 +313,15 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         modules * best.column_module.clock_ff + best.shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
     timing = {"slow": best.slow}
     figures: Power | None = None
+    margins: dict[str, Margin] = {}
     if "typical" in corners:
         timing["typical"], output = time_corner(configuration, technology, "typical", best.folder)
         figures = Power(power.logic_mw(output, modules), power.sram_mw(configuration, TARGET_MHZ),
                         power.clock_mw(output, modules, tree, technology.typical, TARGET_MHZ))
+        if technology.fast is not None:
+            margins = {corner: time_margins(configuration, technology, corner, best.folder) for corner in ("slow", "fast")}
     return Result(configuration, best.column_module, best.shared, best.engines, tree, technology.slow.nand2_area,
-                  technology.slow.mux2_area, timing, figures)
+                  technology.slow.mux2_area, timing, figures, margins)
 
 
 def input_digest(technology: Technology) -> str:

@@ -66,4 +66,5 @@ def prepare(root: Path, build: Path, configurations: list[Configuration],
         paths = [_plain_liberty(liberty, build), _plain_liberty(liberty_slow or liberty, build)]
     typical = library.read(paths[0])
     slow = typical if paths[1] == paths[0] else library.read(paths[1])
-    return Technology(typical, slow, kit, root, target_mhz)
+    fast = library.read(paths[2]) if len(paths) > 2 else None
+    return Technology(typical, slow, kit, root, target_mhz, fast)

@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 from dtof_synth import liberty, standard_cells
-from dtof_synth.standard_cells import CINV_FF, SLOW, TYPICAL, inverter, path_delay
+from dtof_synth.standard_cells import CINV_FF, FAST, SLOW, TYPICAL, inverter, path_delay
 
 NANGATE = Path(__file__).resolve().parents[3] / "shared" / "pdk" / "liberty" / "nangate45_typ.lib.gz"
 
@@ -21,6 +21,7 @@ class StandardCells(unittest.TestCase):
     def test_fo4_is_28_ps_typical_and_nangate_ratio_slow(self):
         self.assertAlmostEqual(fo4(TYPICAL), 0.028, places=6)
         self.assertAlmostEqual(fo4(SLOW) / fo4(TYPICAL), 81 / 25.8, places=6)
+        self.assertAlmostEqual(fo4(FAST) / fo4(TYPICAL), 16 / 25.8, places=6)
 
     def test_area_anchors(self):
         cells = {cell.name: cell.number("area") for cell in

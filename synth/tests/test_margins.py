@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The table of slacks with margins, and what the margins do to a circuit whose delay is known."""
+
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+from dtof_synth import configuration, library, report, standard_cells, tools
+from dtof_synth.netlist import Counts
+from dtof_synth.power import ClockTree
+from dtof_synth.run import Margin, Result
+
+ROOT = Path(__file__).resolve().parents[2]
+PERIOD_NS = 3.0
+NONE = Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0)
+
+
+def slacks(text: str) -> tuple[float, float]:
+    """Setup and hold, as the scripts of synth/sta print them."""
+    found = re.search(r"^DTOF_SLACK (\S+) (\S+)", text, re.MULTILINE)
+    return float(found.group(1)), float(found.group(2))
+
+
+class Margins(unittest.TestCase):
+    def test_a_negative_slack_anywhere_is_not_met(self):
+        chosen = configuration.load(ROOT / "configurations.toml")["ezpointer"]
+        good = Margin(0.2, 0.1, "a", "b")
+
+        def verdict(slow: Margin, fast: Margin) -> str:
+            result = Result(chosen, NONE, NONE, NONE, ClockTree(1, 1.0, 0.0), 0.8, 2.0, {},
+                            margins={"slow": slow, "fast": fast})
+            return report._margin_section([result])[-1]
+
+        self.assertIn("| yes |", verdict(good, good))
+        for bad in (Margin(-0.001, 0.1, "a", "b"), Margin(0.2, -0.001, "a", "b")):
+            self.assertIn("| **no** |", verdict(bad, good))
+            self.assertIn("| **no** |", verdict(good, bad))
+
+    def test_derate_and_uncertainty_cost_what_they_should(self):
+        # A chain between two flip-flops: the margins take 5 % of what arrives late and 0.05 ns more of uncertainty; hold
+        # loses 5 % of the shortest path.
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            liberty = folder / "slow.lib"
+            liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
+            nets = [f"n{index}" for index in range(13)]
+            gates = "".join(f"  INV_X1 i{index} (.A({a}), .Y({b}));\n" for index, (a, b) in enumerate(zip(nets, nets[1:])))
+            (folder / "chain.v").write_text(
+                f"module chain (clk_i, result_tready_i);\n  input clk_i; input result_tready_i;\n  wire q, {', '.join(nets)};\n"
+                f"  DFF_X1 a (.D(result_tready_i), .CK(clk_i), .Q({nets[0]}));\n{gates}"
+                f"  DFF_X1 b (.D({nets[-1]}), .CK(clk_i), .Q(q));\nendmodule\n", encoding="utf-8")
+            (folder / "dtof.sdc").write_text(
+                "create_clock -name clk -period $period [get_ports clk_i]\nset_clock_uncertainty -setup 0.10 [get_clocks clk]\n"
+                "set_clock_uncertainty -hold 0.05 [get_clocks clk]\n", encoding="utf-8")
+            (folder / "none.sdc").write_text("", encoding="utf-8")
+
+            def timed(margins: Path) -> tuple[float, float, float]:
+                tools.write_settings(folder / "settings.tcl", {
+                    "liberty_files": [liberty], "netlist": folder / "chain.v", "top": "chain",
+                    "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc", "margins": margins,
+                    "period": f"{PERIOD_NS}", "slew": "0.028", "load": "10"})
+                output = tools.run_sta(ROOT / "synth/sta/margins.tcl", folder / "settings.tcl", folder / "log", "chain")
+                arrival = float(re.search(r"^ +([0-9.]+) +data arrival time", output.split("DTOF_PATH_MAX")[1],
+                                          re.MULTILINE).group(1))
+                return *slacks(output), arrival
+
+            setup, hold, arrival = timed(folder / "none.sdc")
+            tight_setup, tight_hold, late_arrival = timed(ROOT / "constraints/margins.sdc")
+        self.assertGreater(arrival, 0.5)
+        self.assertAlmostEqual(late_arrival, 1.05 * arrival, delta=0.002)
+        # The derates change setup and hold times of cells, too, by 5 % of some hundredths of a nanosecond.
+        self.assertAlmostEqual(setup - tight_setup, 0.05 + 0.05 * arrival, delta=0.02)
+        self.assertAlmostEqual(hold - tight_hold, 0.05 * (hold + 0.05), delta=0.02)
+
+
+if __name__ == "__main__":
+    unittest.main()
