@@ -25,6 +25,7 @@ module porting_tb;
   ) u_array (
       .clk_i          (clk),
       .rst_ni         (rst_n),
+      .sram_cfg_i     ('0),
       .start_i        (start),
       .acq_num_i      (16'd40),
       .gate_begin_i   ({NP{1'b0}}),

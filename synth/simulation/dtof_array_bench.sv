@@ -34,7 +34,7 @@ module dtof_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, gate_begin, gate_end;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+7:0] rtl, netlist;
+  logic [TDATA_WIDTH+11:0] rtl, netlist;  // as stream_bench has them
 
 `ifndef NETLIST_ALONE
   dtof_array #(
@@ -57,6 +57,7 @@ module dtof_array_bench #(
   ) u_rtl (
       .clk_i          (clk),
       .rst_ni         (rst_n),
+      .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
       .gate_begin_i   (NP'(gate_begin)),
@@ -64,6 +65,8 @@ module dtof_array_bench #(
       .busy_o         (rtl[TDATA_WIDTH+7]),
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
+      .error_o        (rtl[TDATA_WIDTH+9+:3]),
+      .sram_cfg_o     (rtl[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (rtl[TDATA_WIDTH+2]),
       .tdc_timestamp_i(tdc_timestamp),
@@ -78,6 +81,7 @@ module dtof_array_bench #(
   dtof_array_netlist u_netlist (
       .clk_i          (clk),
       .rst_ni         (rst_n),
+      .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
       .gate_begin_i   (NP'(gate_begin)),
@@ -85,6 +89,8 @@ module dtof_array_bench #(
       .busy_o         (netlist[TDATA_WIDTH+7]),
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),
+      .error_o        (netlist[TDATA_WIDTH+9+:3]),
+      .sram_cfg_o     (netlist[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (netlist[TDATA_WIDTH+2]),
       .tdc_timestamp_i(tdc_timestamp),

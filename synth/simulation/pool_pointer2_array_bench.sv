@@ -32,7 +32,7 @@ module pool_pointer2_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, coarse_end, track_end, settings;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+7:0] rtl, netlist;
+  logic [TDATA_WIDTH+11:0] rtl, netlist;  // as stream_bench has them
 
 `ifndef NETLIST_ALONE
   pool_pointer2_array #(
@@ -51,14 +51,19 @@ module pool_pointer2_array_bench #(
   ) u_rtl (
       .clk_i          (clk),
       .rst_ni         (rst_n),
+      .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
+      .gate_begin_i   ('0),
+      .gate_end_i     ('0),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
       .busy_o         (rtl[TDATA_WIDTH+7]),
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
+      .error_o        (rtl[TDATA_WIDTH+9+:3]),
+      .sram_cfg_o     (rtl[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (rtl[TDATA_WIDTH+2]),
       .tdc_timestamp_i(tdc_timestamp),
@@ -73,14 +78,19 @@ module pool_pointer2_array_bench #(
   pool_pointer2_array_netlist u_netlist (
       .clk_i          (clk),
       .rst_ni         (rst_n),
+      .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
+      .gate_begin_i   ('0),
+      .gate_end_i     ('0),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
       .busy_o         (netlist[TDATA_WIDTH+7]),
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),
+      .error_o        (netlist[TDATA_WIDTH+9+:3]),
+      .sram_cfg_o     (netlist[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (netlist[TDATA_WIDTH+2]),
       .tdc_timestamp_i(tdc_timestamp),

@@ -24,7 +24,7 @@ module stream_bench #(
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int RESULT_WIDTH = NP + FRACTION_BITS + CONFIDENCE_WIDTH,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH,
-    localparam int OUTPUT_WIDTH = 8 + TDATA_WIDTH
+    localparam int OUTPUT_WIDTH = 12 + TDATA_WIDTH
 ) (
     output logic                   clk_o,
     output logic                   rst_no,
@@ -36,7 +36,7 @@ module stream_bench #(
     output logic                   tdc_valid_o,
     output logic [SRAM_NUM*NP-1:0] tdc_timestamp_o,
     output logic                   result_tready_o,
-    // {busy, done, state, tdc_ready, tvalid, tlast, tdata}
+    // {error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata}
     input  logic [OUTPUT_WIDTH-1:0] rtl_i,
     input  logic [OUTPUT_WIDTH-1:0] netlist_i
 );
@@ -131,7 +131,7 @@ module stream_bench #(
   task check_unknown;
     begin
       if ((^rtl_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]) === 1'bx) begin
-        $display("RTL: a control output is X: {busy, done, state, tdc_ready, tvalid} = %b",
+        $display("RTL: a control output is X: {error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
                  rtl_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]);
         fail;
       end
@@ -141,7 +141,7 @@ module stream_bench #(
       end
       if (COMPARE != 0) begin
         if ((^netlist_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]) === 1'bx) begin
-          $display("netlist: a control output is X: {busy, done, state, tdc_ready, tvalid} = %b",
+          $display("netlist: a control output is X: {error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
                    netlist_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]);
           fail;
         end
@@ -156,9 +156,11 @@ module stream_bench #(
   task check_netlist;
     begin
       if (COMPARE != 0 && rtl_i !== netlist_i) begin
-        compare("busy_o", OUTPUT_WIDTH - 1, 1);
-        compare("done_o", OUTPUT_WIDTH - 2, 1);
-        compare("state_o", OUTPUT_WIDTH - 5, 3);
+        compare("error_o", TDATA_WIDTH + 9, 3);
+        compare("sram_cfg_o", TDATA_WIDTH + 8, 1);
+        compare("busy_o", TDATA_WIDTH + 7, 1);
+        compare("done_o", TDATA_WIDTH + 6, 1);
+        compare("state_o", TDATA_WIDTH + 3, 3);
         compare("tdc_ready_o", TDATA_WIDTH + 2, 1);
         compare("result_tvalid_o", TDATA_WIDTH + 1, 1);
         compare("result_tlast_o", TDATA_WIDTH, 1);
