@@ -42,6 +42,7 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->readout = (uint8_t)FIELD(values[READOUT], DTOF_READOUT_NUMBER);
   device->has_schedule = FIELD(values[READOUT], DTOF_READOUT_SCHEDULE) != 0;
   device->has_gate = FIELD(values[READOUT], DTOF_READOUT_TIME_GATE) != 0;
+  device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
   device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
   device->rows = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_ROWS);
   device->timestamp_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_TIMESTAMP);
@@ -72,7 +73,7 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
   if (settings->acquisitions >> device->acquisition_bits != 0 || release > most_lines(device) ||
       settings->weak_below > confidences ||
       (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
-      (device->has_schedule && shares > SHARES)) {
+      (device->has_schedule && shares > SHARES) || (settings->second_target && !device->has_second_target)) {
     return DTOF_ARGUMENT;
   }
 
@@ -91,6 +92,7 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
        device->has_gate},
       {DTOF_RELEASE, release, true},
       {DTOF_WEAK_BELOW, settings->weak_below, true},
+      {DTOF_OUTPUT, settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U, device->has_second_target},
   };
   uint32_t track_end = (uint32_t)((uint64_t)settings->acquisitions * shares / SHARES);
   writes[1].value = (uint32_t)((uint64_t)settings->acquisitions * settings->coarse_share / SHARES);
@@ -169,6 +171,13 @@ dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes) {
 }
 
 dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *result) {
+  if (FIELD(word, DTOF_RESULT_SECOND) != 0) {
+    result->has_second = true;
+    result->second_position = (uint16_t)FIELD(word, DTOF_RESULT_POSITION);
+    return result->row == FIELD(word, DTOF_RESULT_ROW) && result->column == FIELD(word, DTOF_RESULT_COLUMN)
+               ? DTOF_OK
+               : DTOF_STREAM;
+  }
   result->row = (uint16_t)FIELD(word, DTOF_RESULT_ROW);
   result->column = (uint16_t)FIELD(word, DTOF_RESULT_COLUMN);
   result->position = (uint16_t)FIELD(word, DTOF_RESULT_POSITION);
@@ -177,24 +186,33 @@ dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *r
   result->weak = FIELD(word, DTOF_RESULT_WEAK) != 0;
   result->empty = FIELD(word, DTOF_RESULT_EMPTY) != 0;
   result->masked = FIELD(word, DTOF_RESULT_MASKED) != 0;
+  result->has_second = false;
+  result->second_position = 0;
   return result->row < device->rows && result->column < device->columns ? DTOF_OK : DTOF_STREAM;
 }
 
 dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, size_t count,
                               dtof_result *results) {
   size_t pixels = (size_t)device->rows * device->columns;
-  if (count != pixels) {
+  size_t words_of_a_pixel = count == pixels ? 1U : 2U;
+  if (count != words_of_a_pixel * pixels) {
     return DTOF_STREAM;
   }
   /* A place that is still free has a row that no array has. */
   for (size_t i = 0; i < pixels; ++i) {
     results[i].row = UINT16_MAX;
   }
-  for (size_t i = 0; i < count; ++i) {
+  for (size_t i = 0; i < count; i += words_of_a_pixel) {
     dtof_result result;
-    dtof_status status = dtof_unpack(device, words[i], &result);
-    if (status != DTOF_OK) {
-      return status;
+    result.row = UINT16_MAX;
+    for (size_t k = 0; k < words_of_a_pixel; ++k) {
+      dtof_status status = dtof_unpack(device, words[i + k], &result);
+      if (status != DTOF_OK) {
+        return status;
+      }
+    }
+    if (result.has_second != (words_of_a_pixel == 2U)) {
+      return DTOF_STREAM;
     }
     dtof_result *place = &results[(size_t)result.row * device->columns + result.column];
     if (place->row != UINT16_MAX) {
@@ -203,6 +221,14 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
     *place = result;
   }
   return DTOF_OK;
+}
+
+dtof_result dtof_second(const dtof_result *result) {
+  dtof_result second = *result;
+  second.position = result->second_position;
+  second.has_second = false;
+  second.second_position = 0;
+  return second;
 }
 
 static double code_of(const dtof_device *device, const dtof_result *result) {

@@ -47,6 +47,7 @@ typedef struct {
   uint8_t acquisition_bits;
   bool has_schedule; /* poolPointer */
   bool has_gate;
+  bool has_second_target;
   uint16_t acquisition_lines;
   uint16_t buffer_lines;
 } dtof_device;
@@ -60,6 +61,7 @@ typedef struct {
   uint16_t gate_begin; /* a timestamp from begin to below end counts; ignored where there is no gate */
   uint16_t gate_end;
   uint16_t weak_below; /* a confidence below is weak */
+  bool second_target;  /* each pixel's second target, too; DTOF_ARGUMENT where has_second_target is false */
   uint16_t release;    /* lines in the buffer before an acquisition begins; 0: as many as possible */
 } dtof_settings;
 
@@ -73,6 +75,8 @@ typedef struct {
   bool weak;
   bool empty;  /* confidence 0 */
   bool masked; /* the column is not enabled */
+  bool has_second;
+  uint16_t second_position; /* where has_second: of the pixel's second target */
 } dtof_result;
 
 /* A point of a look-up table: the distance at a position in codes. */
@@ -116,13 +120,19 @@ dtof_status dtof_frames(const dtof_device *device, uint32_t *frames, uint32_t *c
 dtof_status dtof_take_errors(const dtof_device *device, uint32_t *errors);
 dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes);
 
-/* A word of the result stream. DTOF_STREAM if its place is not one of the array's. */
+/* A word of the result stream. DTOF_STREAM if its place is not one of the array's. That of a second target
+ * sets only second_position and has_second and asks for the result that the word before filled: DTOF_STREAM
+ * if its row and column are others. */
 dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *result);
 
-/* A frame's words in any order, placed at row * columns + column of `results`, which holds rows x columns.
- * DTOF_STREAM if they are not each pixel once. */
+/* A frame's words, placed at row * columns + column of `results`, which holds rows x columns; pixels in any
+ * order, a second target directly behind its first. DTOF_STREAM if they are not each pixel once, with a
+ * second target for all or none. */
 dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, size_t count,
                               dtof_result *results);
+
+/* The second target as a result of its own; has_second must be true. */
+dtof_result dtof_second(const dtof_result *result);
 
 /* Distance of a result by a table of `count` points, at least one, positions strictly ascending: linear
  * between points, and beyond both ends along the line of the whole table's slope. */

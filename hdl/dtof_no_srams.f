@@ -55,6 +55,7 @@ top/pool_pointer_array.sv
 top/pool_pointer2_array.sv
 subsystem/line_buffer.sv
 subsystem/line_filter.sv
+subsystem/target_words.sv
 subsystem/stream_output.sv
 subsystem/raster_buffer.sv
 subsystem/frame_control.sv

@@ -32,6 +32,7 @@ module pool_engine #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int SECOND_TARGET = 0,  // 1: the result has the position of the label that lost, too
     localparam int LABELS = dtof_pkg::max_of(DARK_LABELS, BRIGHT_LABELS),
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
@@ -42,7 +43,7 @@ module pool_engine #(
     localparam int WORD_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
-    localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH
+    localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET)
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
@@ -53,7 +54,9 @@ module pool_engine #(
     input  logic [  WORD_WIDTH-1:0] line_i,         // the selected column's word, POOL_PAIR_READ_CLOCKS after its read
     output logic [  WORD_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
     input  logic [   ROW_WIDTH-1:0] message_row_i,  // of command_i.write_message and read_message
-    output logic [RESULT_WIDTH-1:0] result_o        // {code, fraction, confidence}, held from one take_result to the next
+    // {code, fraction, confidence}, with SECOND_TARGET {second code, second fraction, code, fraction, confidence};
+    // held from one take_result to the next
+    output logic [RESULT_WIDTH-1:0] result_o
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
@@ -210,7 +213,7 @@ module pool_engine #(
   );
 
   logic decided_rival, unused_loser;
-  logic [POSITION_WIDTH-1:0] position, unused_position;
+  logic [POSITION_WIDTH-1:0] position, lost_position;
   logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
 
   label_chain #(
@@ -231,7 +234,7 @@ module pool_engine #(
       .best_label_o     (decided_rival),
       .second_label_o   (unused_loser),
       .best_position_o  (position),
-      .second_position_o(unused_position),
+      .second_position_o(lost_position),
       .margin_o         (decide_margin)
   );
 
@@ -302,14 +305,31 @@ module pool_engine #(
   assign shifted = $signed(position) - HALF_BIN;
   assign limited = (shifted < 0) ? '0 : (shifted > LAST_POSITION) ? 16'(LAST_POSITION) : shifted[15:0];
 
-  always_ff @(posedge clk_i) begin
-    if (command_i.take_result) begin
-      result_o <= {limited, decide_margin[CONFIDENCE_WIDTH-1:0]};
+  generate
+    if (SECOND_TARGET != 0) begin : g_second_target
+      logic signed [POSITION_WIDTH-1:0] lost_shifted;
+      logic [15:0] lost_limited;
+      assign lost_shifted = $signed(lost_position) - HALF_BIN;
+      assign lost_limited = (lost_shifted < 0) ? '0
+          : (lost_shifted > LAST_POSITION) ? 16'(LAST_POSITION) : lost_shifted[15:0];
+      always_ff @(posedge clk_i) begin
+        if (command_i.take_result) begin
+          result_o <= {lost_limited, limited, decide_margin[CONFIDENCE_WIDTH-1:0]};
+        end
+      end
+    end else begin : g_one_target
+      logic unused_position;
+      assign unused_position = ^lost_position;
+      always_ff @(posedge clk_i) begin
+        if (command_i.take_result) begin
+          result_o <= {limited, decide_margin[CONFIDENCE_WIDTH-1:0]};
+        end
+      end
     end
-  end
+  endgenerate
 
   logic unused;
-  assign unused = ^{decided_rival, unused_loser, unused_position, decide_margin, best_cell[CELL_WIDTH],
-                    second_cell[CELL_WIDTH], second_start};
+  assign unused = ^{decided_rival, unused_loser, decide_margin, best_cell[CELL_WIDTH], second_cell[CELL_WIDTH],
+                    second_start};
 
 endmodule

@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // raster_buffer: every result leaves once, in raster order, under any pace of both sides and from reset at any time. One
-// arbitrary pixel is watched.
+// arbitrary pixel is watched, its first result or its second; a frame has one or two results of every pixel.
 `include "properties.svh"
 
 module raster_buffer_properties #(
     parameter int SRAM_NUM = 2,
     parameter int PIXELS_PER_SRAM = 2,
     parameter int WIDTH = 1,
+    parameter int TARGETS = 1,
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
     input logic                    clk_i,
     input logic                    reset_i,
+    input logic                    both_i,      // in a frame's first result: its pixels have two
     input logic                    s_tvalid_i,
     input logic [       WIDTH-1:0] s_result_i,
     input logic [COLUMN_WIDTH-1:0] s_column_i,
     input logic [   ROW_WIDTH-1:0] s_row_i,
+    input logic                    s_second_i,
     input logic                    s_tlast_i,
     input logic                    m_tready_i
 );
@@ -27,7 +30,7 @@ module raster_buffer_properties #(
     checking <= 1'b1;
   end
 
-  logic s_tready, tvalid, tlast;
+  logic s_tready, tvalid, tlast, second;
   logic [WIDTH-1:0] result;
   logic [COLUMN_WIDTH-1:0] column;
   logic [ROW_WIDTH-1:0] row;
@@ -35,7 +38,8 @@ module raster_buffer_properties #(
   raster_buffer #(
       .SRAM_NUM       (SRAM_NUM),
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
-      .WIDTH          (WIDTH)
+      .WIDTH          (WIDTH),
+      .TARGETS        (TARGETS)
   ) u_dut (
       .clk_i     (clk_i),
       .rst_ni    (rst_n),
@@ -44,23 +48,31 @@ module raster_buffer_properties #(
       .s_result_i(s_result_i),
       .s_column_i(s_column_i),
       .s_row_i   (s_row_i),
+      .s_second_i(s_second_i),
       .s_tlast_i (s_tlast_i),
       .m_tvalid_o(tvalid),
       .m_tready_i(m_tready_i),
       .m_result_o(result),
       .m_column_o(column),
       .m_row_o   (row),
+      .m_second_o(second),
       .m_tlast_o (tlast)
   );
 
   (* anyconst *) logic [COLUMN_WIDTH-1:0] watched_column;
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_row;
+  (* anyconst *) logic watched_second;
   logic [7:0] in_q, out_q;  // results of the frame
-  logic come_q, held_q, whole_q, is_watched, push, pop;
+  logic come_q, held_q, whole_q, both_q, both_in, both_in_q, is_watched, push, pop;
+  logic [7:0] last_in, last_out;
   logic [1:0] pause_q;
   logic [WIDTH-1:0] expected_q, result_q;
 
-  assign is_watched = (s_column_i == watched_column) && (s_row_i == watched_row);
+  // Whether pixels have two results is a frame's matter, known with its first one.
+  assign both_in = (TARGETS > 1) && ((in_q == '0) ? both_i : both_in_q);
+  assign last_in = 8'(SRAM_NUM * PIXELS_PER_SRAM * (both_in ? 2 : 1) - 1);
+  assign last_out = 8'(SRAM_NUM * PIXELS_PER_SRAM * (both_q ? 2 : 1) - 1);
+  assign is_watched = (s_column_i == watched_column) && (s_row_i == watched_row) && (s_second_i == watched_second);
   assign push = s_tvalid_i && s_tready;
   assign pop = tvalid && m_tready_i;
 
@@ -75,7 +87,9 @@ module raster_buffer_properties #(
     end else begin
       if (push) begin
         in_q <= s_tlast_i ? '0 : in_q + 1'b1;
+        both_in_q <= both_in;
         if (s_tlast_i) whole_q <= 1'b1;
+        if (s_tlast_i) both_q <= both_in;
         if (is_watched) begin
           come_q <= 1'b1;
           expected_q <= s_result_i;
@@ -83,7 +97,7 @@ module raster_buffer_properties #(
       end
       if (pop) begin
         out_q <= out_q + 1'b1;
-        if (32'(out_q) == SRAM_NUM * PIXELS_PER_SRAM - 1) begin
+        if (out_q == last_out) begin
           out_q <= '0;
           whole_q <= 1'b0;
           come_q <= 1'b0;
@@ -95,17 +109,21 @@ module raster_buffer_properties #(
     result_q <= result;
   end
 
-  // Each pixel of a frame once, which tlast ends.
+  // Each pixel of a frame once or twice, which tlast ends.
   `ASSUME(m_in_array, 32'(s_column_i) < SRAM_NUM && 32'(s_row_i) < PIXELS_PER_SRAM)
-  `ASSUME(m_watched, 32'(watched_column) < SRAM_NUM && 32'(watched_row) < PIXELS_PER_SRAM)
+  `ASSUME(m_watched, 32'(watched_column) < SRAM_NUM && 32'(watched_row) < PIXELS_PER_SRAM
+          && (!watched_second || TARGETS > 1))
   `ASSUME(m_once, !s_tvalid_i || !is_watched || !come_q || whole_q)
-  `ASSUME(m_last, s_tlast_i == (32'(in_q) == SRAM_NUM * PIXELS_PER_SRAM - 1))
-  `ASSUME(m_all, !s_tvalid_i || !s_tlast_i || come_q || is_watched)
+  `ASSUME(m_last, s_tlast_i == (in_q == last_in))
+  `ASSUME(m_second, both_in ? (!s_tlast_i || s_second_i) : !s_second_i)
+  `ASSUME(m_all, !s_tvalid_i || !s_tlast_i || come_q || is_watched || (watched_second && !both_in))
   `PROVE(a_only_whole_frames, !(rst_n && tvalid) || whole_q)
   `PROVE(a_no_mixing, !(rst_n && push) || !whole_q)
-  `PROVE(a_order, !(rst_n && tvalid) || 32'(row) * SRAM_NUM + 32'(column) == 32'(out_q))
-  `PROVE(a_result, !(rst_n && tvalid && column == watched_column && row == watched_row) || result == expected_q)
-  `PROVE(a_tlast, !(rst_n && tvalid) || tlast == (32'(out_q) == SRAM_NUM * PIXELS_PER_SRAM - 1))
+  `PROVE(a_order, !(rst_n && tvalid) ||
+         (32'(row) * SRAM_NUM + 32'(column)) * (both_q ? 2 : 1) + 32'(second) == 32'(out_q))
+  `PROVE(a_result, !(rst_n && tvalid && column == watched_column && row == watched_row && second == watched_second)
+         || result == expected_q)
+  `PROVE(a_tlast, !(rst_n && tvalid) || tlast == (out_q == last_out))
   `PROVE(a_valid_holds, !(rst_n && held_q) || (tvalid && result == result_q))
   `PROVE(a_takes_results, !rst_n || whole_q || s_tready)
   `PROVE(a_goes_on, !rst_n || pause_q < 3)

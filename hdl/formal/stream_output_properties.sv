@@ -21,6 +21,7 @@ module stream_output_properties #(
     input logic [      ROW_WIDTH-1:0] row_i,
     input logic [ POSITION_WIDTH-1:0] position_i,
     input logic [CONFIDENCE_BITS-1:0] confidence_i,
+    input logic                       result_second_i,
     input logic                       result_tlast_i,
     input logic                       m_axis_tready_i
 );
@@ -60,6 +61,7 @@ module stream_output_properties #(
       .result_tvalid_i(result_tvalid_i),
       .result_tready_o(result_tready),
       .result_tdata_i (result),
+      .result_second_i(result_second_i),
       .result_tlast_i (result_tlast_i),
       .m_axis_tvalid_o(tvalid),
       .m_axis_tready_i(m_axis_tready_i),
@@ -76,7 +78,7 @@ module stream_output_properties #(
   assign weak = (CONFIDENCE_WIDTH > 0) && (confidence < weak_below_i);
   assign empty = (CONFIDENCE_WIDTH > 0) && (confidence == 16'd0);
   assign masked = ((enable_i >> column_i) & 1'b1) == '0;
-  assign entry = {begins_q, result_tlast_i, 4'd0, masked, empty, weak, !weak && !empty && !masked, 12'(column_i),
+  assign entry = {begins_q, result_tlast_i, 3'd0, result_second_i, masked, empty, weak, !weak && !empty && !masked, 12'(column_i),
                   12'(row_i), confidence, 16'(position_i)};
   assign push = result_tvalid_i && result_tready;
   assign pop = tvalid && m_axis_tready_i;

@@ -134,4 +134,9 @@ package dtof_pkg;
     pool_confidence_width = $clog2((1 << advantage_width) + 16);
   endfunction
 
+  // Bits of a result: one position or two, and the confidence.
+  function automatic int pool_result_width(input int advantage_width, input int second_target);
+    pool_result_width = ((second_target != 0) ? 32 : 16) + pool_confidence_width(advantage_width);
+  endfunction
+
 endpackage

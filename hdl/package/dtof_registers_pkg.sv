@@ -4,7 +4,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00010000;
+  localparam logic [31:0] VERSION_VALUE = 32'h00010001;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -28,6 +28,8 @@ package dtof_registers_pkg;
   localparam int READOUT_TIME_GATE_WIDTH = 1;
   localparam int READOUT_RASTER_ORDER_LSB = 10;
   localparam int READOUT_RASTER_ORDER_WIDTH = 1;
+  localparam int READOUT_SECOND_TARGET_LSB = 11;
+  localparam int READOUT_SECOND_TARGET_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -151,6 +153,11 @@ package dtof_registers_pkg;
   localparam int WEAK_BELOW_VALUE_LSB = 0;
   localparam int WEAK_BELOW_VALUE_WIDTH = 16;
 
+  // what a frame sends
+  localparam logic [11:0] OUTPUT = 12'h07c;
+  localparam int OUTPUT_SECOND_TARGET_LSB = 0;
+  localparam int OUTPUT_SECOND_TARGET_WIDTH = 1;
+
   // register k: columns 32 k and up; at reset all are enabled
   localparam logic [11:0] COLUMN_ENABLE = 12'h080;
   localparam int COLUMN_ENABLE_NUMBER = 32;
@@ -175,19 +182,19 @@ package dtof_registers_pkg;
   localparam int RESULT_EMPTY_WIDTH = 1;
   localparam int RESULT_MASKED_LSB = 59;
   localparam int RESULT_MASKED_WIDTH = 1;
+  localparam int RESULT_SECOND_LSB = 60;
+  localparam int RESULT_SECOND_WIDTH = 1;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h018)
         || (offset >= 12'h040 && offset <= 12'h058)
-        || (offset >= 12'h060 && offset <= 12'h078)
-        || (offset >= 12'h080 && offset <= 12'h0fc);
+        || (offset >= 12'h060 && offset <= 12'h0fc);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
-        || (offset >= 12'h060 && offset <= 12'h078)
-        || (offset >= 12'h080 && offset <= 12'h0fc);
+        || (offset >= 12'h060 && offset <= 12'h0fc);
   endfunction
 
 endpackage

@@ -54,5 +54,7 @@
     parameter int POINTER_SHIFT = 1,
     // 1: the rival has a pointer of its own
     parameter int RIVAL_MOVES = 1,
+    // 1: a result has the position of the label that lost, too
+    parameter int SECOND_TARGET = 0,
     // columns that share an engine
     parameter int ENGINE_COLUMNS = 34,

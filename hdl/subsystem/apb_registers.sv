@@ -14,6 +14,7 @@ module apb_registers #(
     parameter int HAS_SCHEDULE = 0,
     parameter int TIME_GATE = 0,
     parameter int RASTER_ORDER = 0,
+    parameter int SECOND_TARGET = 0,
     parameter int NP = 10,
     parameter int SRAM_NUM = 200,
     parameter int PIXELS_PER_SRAM = 160,
@@ -40,6 +41,7 @@ module apb_registers #(
     output logic                 start_o,
     output logic                 flush_o,
     output logic                 continuous_o,
+    output logic                 second_o,       // 0 without SECOND_TARGET
     output logic [ACQ_WIDTH-1:0] acquisitions_o,
     output logic [ACQ_WIDTH-1:0] coarse_end_o,   // these three are 0 without HAS_SCHEDULE
     output logic [ACQ_WIDTH-1:0] track_end_o,
@@ -213,6 +215,21 @@ module apb_registers #(
       assign gate_begin_o = '0;
       assign gate_end_o = '0;
     end
+
+    if (SECOND_TARGET != 0) begin : g_second_target
+      logic second_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          second_q <= 1'b0;
+        end else if (write && offset == dtof_registers_pkg::OUTPUT
+                     && mask[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB]) begin
+          second_q <= written[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB];
+        end
+      end
+      assign second_o = second_q;
+    end else begin : g_one_target
+      assign second_o = 1'b0;
+    end
   endgenerate
 
   // The columns: COLUMN_ENABLE + 4 k has those from 32 k on.
@@ -256,6 +273,7 @@ module apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_SCHEDULE_LSB] = (HAS_SCHEDULE != 0);
         prdata_o[dtof_registers_pkg::READOUT_TIME_GATE_LSB] = (TIME_GATE != 0);
         prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
+        prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
       end
       dtof_registers_pkg::SIZE: begin
         prdata_o[dtof_registers_pkg::SIZE_COLUMNS_LSB+:16] = 16'(SRAM_NUM);
@@ -293,6 +311,7 @@ module apb_registers #(
       end
       dtof_registers_pkg::RELEASE: prdata_o = 32'(release_q);
       dtof_registers_pkg::WEAK_BELOW: prdata_o = 32'(weak_below_q);
+      dtof_registers_pkg::OUTPUT: prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second_o;
       default:
       if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
         prdata_o = enable_word;

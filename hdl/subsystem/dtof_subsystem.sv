@@ -7,7 +7,7 @@
 //    acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
 // 3. Columns that are not enabled and timestamps outside the time gate count as no detection.
 // 4. Results leave as words of 64 bits with a status, in the array's order or row by row; the array waits for a sink that
-//    waits.
+//    waits. With SECOND_TARGET = 1 a frame may have a word for each pixel's second target, too.
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
 // 6. Between frames the array's clock is gated (clock_gate of the technology folder).
 //
@@ -65,10 +65,15 @@ module dtof_subsystem #(
   localparam int FRACTION_WIDTH = (POOL != 0) ? 16 - NP : dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
   localparam int RESULT_CONFIDENCE_WIDTH = (POOL != 0) ? dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH)
       : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, CONFIDENCE_WIDTH);
-  localparam int RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + NP + FRACTION_WIDTH + RESULT_CONFIDENCE_WIDTH;
+  localparam int POSITION_WIDTH = NP + FRACTION_WIDTH;
+  localparam int TARGETS = (SECOND_TARGET != 0) ? 2 : 1;
+  localparam int TARGET_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + RESULT_CONFIDENCE_WIDTH;
+  localparam int RESULT_WIDTH = TARGET_WIDTH + (TARGETS - 1) * POSITION_WIDTH;
 
   `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT) || POOL != 0,
                 "dtof_subsystem: READOUT must be one of dtof_pkg::READOUT_*")
+  `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || POOL != 0,
+                "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER")
   `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1 && SRAM_NUM <= 1024, "dtof_subsystem: SRAM_NUM must be 1 to 1024")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1 && PIXELS_PER_SRAM <= 4096,
                 "dtof_subsystem: PIXELS_PER_SRAM must be 1 to 4096")
@@ -79,7 +84,7 @@ module dtof_subsystem #(
 
   // Registers and frames.
 
-  logic start, flush, continuous, begin_frame, busy, done, frame;
+  logic start, flush, continuous, second, begin_frame, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, misframed, overrun;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end, late_begin;
   logic [NP-1:0] gate_begin, gate_end;
@@ -94,6 +99,7 @@ module dtof_subsystem #(
       .HAS_SCHEDULE    (POOL),
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
+      .SECOND_TARGET   (SECOND_TARGET),
       .NP              (NP),
       .SRAM_NUM        (SRAM_NUM),
       .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
@@ -118,6 +124,7 @@ module dtof_subsystem #(
       .start_o           (start),
       .flush_o           (flush),
       .continuous_o      (continuous),
+      .second_o          (second),
       .acquisitions_o    (acquisitions),
       .coarse_end_o      (coarse_end),
       .track_end_o       (track_end),
@@ -327,7 +334,48 @@ module dtof_subsystem #(
 
   `DTOF_ASSERT(a_begin_when_idle, !(begin_frame && array_busy), "a frame begins while another is under way")
 
-  // Results out.
+  // Results out: a word a target.
+
+  logic target_tvalid, target_tready, target_second, target_tlast;
+  logic [TARGET_WIDTH-1:0] target_tdata;
+
+  generate
+    if (SECOND_TARGET != 0) begin : g_second_target
+      logic frame_second_q;
+      always_ff @(posedge clk_i) begin
+        if (begin_frame) begin
+          frame_second_q <= second;
+        end
+      end
+
+      target_words #(
+          .PLACE_WIDTH     (COLUMN_WIDTH + ROW_WIDTH),
+          .POSITION_WIDTH  (POSITION_WIDTH),
+          .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
+      ) u_target_words (
+          .clk_i     (clk_i),
+          .rst_ni    (rst_ni),
+          .both_i    (frame_second_q),
+          .s_tvalid_i(result_tvalid),
+          .s_tready_o(result_tready),
+          .s_tdata_i (result_tdata),
+          .s_tlast_i (result_tlast),
+          .m_tvalid_o(target_tvalid),
+          .m_tready_i(target_tready),
+          .m_tdata_o (target_tdata),
+          .m_second_o(target_second),
+          .m_tlast_o (target_tlast)
+      );
+    end else begin : g_one_target
+      logic unused_second;
+      assign unused_second = second;
+      assign result_tready = target_tready;
+      assign target_tvalid = result_tvalid;
+      assign target_tdata = result_tdata;
+      assign target_second = 1'b0;
+      assign target_tlast = result_tlast;
+    end
+  endgenerate
 
   logic word_tvalid, word_tready, word_tuser, word_tlast;
   logic [M_TDATA_WIDTH-1:0] word_tdata;
@@ -335,17 +383,18 @@ module dtof_subsystem #(
   stream_output #(
       .SRAM_NUM        (SRAM_NUM),
       .ROW_WIDTH       (ROW_WIDTH),
-      .POSITION_WIDTH  (NP + FRACTION_WIDTH),
+      .POSITION_WIDTH  (POSITION_WIDTH),
       .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
   ) u_stream_output (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
       .weak_below_i   (frame_weak_below_q),
       .enable_i       (frame_enable_q),
-      .result_tvalid_i(result_tvalid),
-      .result_tready_o(result_tready),
-      .result_tdata_i (result_tdata),
-      .result_tlast_i (result_tlast),
+      .result_tvalid_i(target_tvalid),
+      .result_tready_o(target_tready),
+      .result_tdata_i (target_tdata),
+      .result_second_i(target_second),
+      .result_tlast_i (target_tlast),
       .m_axis_tvalid_o(word_tvalid),
       .m_axis_tready_i(word_tready),
       .m_axis_tdata_o (word_tdata),
@@ -361,7 +410,6 @@ module dtof_subsystem #(
       localparam int STATUS_WIDTH = dtof_registers_pkg::RESULT_MASKED_LSB + 1 - STATUS_LSB;
       localparam int CONFIDENCE_LSB = dtof_registers_pkg::RESULT_CONFIDENCE_LSB;
       localparam int KEPT_CONFIDENCE = dtof_pkg::max_of(RESULT_CONFIDENCE_WIDTH, 1);
-      localparam int POSITION_WIDTH = NP + FRACTION_WIDTH;
       localparam int KEPT_WIDTH = STATUS_WIDTH + KEPT_CONFIDENCE + POSITION_WIDTH;
 
       logic [STATUS_WIDTH-1:0] status;
@@ -369,11 +417,13 @@ module dtof_subsystem #(
       logic [POSITION_WIDTH-1:0] position;
       logic [COLUMN_WIDTH-1:0] column;
       logic [ROW_WIDTH-1:0] row;
+      logic second_word;
 
       raster_buffer #(
           .SRAM_NUM       (SRAM_NUM),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
-          .WIDTH          (KEPT_WIDTH)
+          .WIDTH          (KEPT_WIDTH),
+          .TARGETS        (TARGETS)
       ) u_raster_buffer (
           .clk_i     (clk_i),
           .rst_ni    (rst_ni),
@@ -385,12 +435,14 @@ module dtof_subsystem #(
                        word_tdata[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH]}),
           .s_column_i(word_tdata[COLUMN_LSB+:COLUMN_WIDTH]),
           .s_row_i   (word_tdata[ROW_LSB+:ROW_WIDTH]),
+          .s_second_i(word_tdata[dtof_registers_pkg::RESULT_SECOND_LSB]),
           .s_tlast_i (word_tlast),
           .m_tvalid_o(m_axis_tvalid_o),
           .m_tready_i(m_axis_tready_i),
           .m_result_o({status, confidence, position}),
           .m_column_o(column),
           .m_row_o   (row),
+          .m_second_o(second_word),
           .m_tlast_o (m_axis_tlast_o)
       );
 
@@ -401,8 +453,9 @@ module dtof_subsystem #(
         m_axis_tdata_o[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
         m_axis_tdata_o[COLUMN_LSB+:COLUMN_WIDTH] = column;
         m_axis_tdata_o[ROW_LSB+:ROW_WIDTH] = row;
+        m_axis_tdata_o[dtof_registers_pkg::RESULT_SECOND_LSB] = second_word;
       end
-      assign m_axis_tuser_o = (column == '0) && (row == '0);
+      assign m_axis_tuser_o = (column == '0) && (row == '0) && !second_word;
 
       logic unused_word;
       assign unused_word = ^{word_tuser, word_tdata};

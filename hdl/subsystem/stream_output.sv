@@ -2,7 +2,8 @@
 // Results of an array as words of 64 bits, the same for every array, with a status for each pixel. Two words wait here,
 // so that no path leads from the sink's ready to the array.
 //
-// Word: {status, column, row, confidence, position}, at the places of dtof_registers_pkg. Of a result's status, `weak` is
+// Word: {status, column, row, confidence, position}, at the places of dtof_registers_pkg. `second` is what comes with the
+// result: a pixel's second target. Of a result's status, `weak` is
 // confidence < weak_below_i; `empty` is confidence = 0, where the read-out has one; `masked` says that the column is not
 // enabled; `valid` that none of the three holds.
 // tuser: a frame's first word. tlast: its last.
@@ -27,6 +28,7 @@ module stream_output #(
     input  logic                   result_tvalid_i,
     output logic                   result_tready_o,
     input  logic [TDATA_WIDTH-1:0] result_tdata_i,  // {column, row, code, fraction, confidence}
+    input  logic                   result_second_i, // a pixel's second target
     input  logic                   result_tlast_i,  // the frame's last
     // AXI4-Stream
     output logic                   m_axis_tvalid_o,
@@ -74,6 +76,7 @@ module stream_output #(
     word[dtof_registers_pkg::RESULT_WEAK_LSB] = low;
     word[dtof_registers_pkg::RESULT_EMPTY_LSB] = empty;
     word[dtof_registers_pkg::RESULT_MASKED_LSB] = masked;
+    word[dtof_registers_pkg::RESULT_SECOND_LSB] = result_second_i;
   end
 
   // The word at the port, and one behind it for the clock in which the array learns that the sink waits.

@@ -8,7 +8,9 @@
 //   (C, T) = (16, 16), lean (12, 16).
 // TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
-//   each engine: column engine * ENGINE_COLUMNS + column of the engine.
+//   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
+//   second code, second fraction, code, fraction, confidence}: the label that lost the decision, to which the confidence
+//   belongs as well.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer.md's cycle budget says.
 `include "dtof_macros.svh"
 `include "engine_command.svh"
@@ -30,12 +32,12 @@ module pool_pointer_array #(
     parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2 or 4 (below)
     parameter int RIVAL_MOVES = 1,        // 1: absolute pointers; 0: relative ones, the rival rests
     parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
+    parameter int SECOND_TARGET = 0,      // 1: a result has the position of the label that lost, too
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
-    localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH,
+    localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
 ) (
     input  logic                   clk_i,
@@ -102,6 +104,8 @@ module pool_pointer_array #(
                 "pool_pointer_array: POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4")
   `DTOF_REQUIRE(g_illegal_rival, RIVAL_MOVES == 0 || RIVAL_MOVES == 1,
                 "pool_pointer_array: RIVAL_MOVES must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || SECOND_TARGET == 1,
+                "pool_pointer_array: SECOND_TARGET must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_histogram,
                 BINS_PER_WORD >= 4 && dtof_pkg::POOL_COARSE_BINS <= BINS_PER_WORD * (GROUP_SIZE / 2),
                 "pool_pointer_array: 32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE pixels")
@@ -382,7 +386,8 @@ module pool_pointer_array #(
           .OFFSET_BITS      (OFFSET_BITS),
           .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
           .POINTER_SHIFT    (POINTER_SHIFT),
-          .RIVAL_MOVES      (RIVAL_MOVES)
+          .RIVAL_MOVES      (RIVAL_MOVES),
+          .SECOND_TARGET    (SECOND_TARGET)
       ) u_engine (
           .clk_i        (clk_i),
           .rst_ni       (rst_ni),

@@ -17,6 +17,7 @@ module pool_pointer_array_bench #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int SECOND_TARGET = 0,  // the vectors have one target
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
     parameter int FRAMES = 1,
@@ -56,6 +57,7 @@ module pool_pointer_array_bench #(
       .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
       .POINTER_SHIFT    (POINTER_SHIFT),
       .RIVAL_MOVES      (RIVAL_MOVES),
+      .SECOND_TARGET    (SECOND_TARGET),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
       .ACQ_WIDTH        (ACQ_WIDTH)
   ) u_rtl (

@@ -9,7 +9,7 @@
 #   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [GROUP_SIZE n] [DARK_LABELS n] [DARK_SCORE_BITS n] [BRIGHT_LABELS n]
 #                 [BRIGHT_SCORE_BITS n] [BRIGHT_FROM n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
-#                 [RIVAL_MOVES 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
+#                 [RIVAL_MOVES 0|1] [SECOND_TARGET 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
 #                 [NO_WAVEFORM] TARGET <library>)
 #   dtof_verilate(<name> READOUT poolpointer2 [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
 #                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [POINTER_SHIFT n] [ENGINE_COLUMNS n]

@@ -77,6 +77,7 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
           .count_bits = value("ADVANTAGE_WIDTH"),
           .pointer_shift = value("POINTER_SHIFT"),
           .rival_moves = value("RIVAL_MOVES") != 0,
+          .second_target = value("SECOND_TARGET") != 0,
           .coarse_share = value("COARSE_SHARE"),
           .track_share = value("TRACK_SHARE"),
           .engine_columns = value("ENGINE_COLUMNS")};
@@ -217,7 +218,7 @@ std::string ReadoutParameters::to_string() const {
         count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.bright_labels,
         pool.bright_score_bits, pool.bright_from, pool.offset_bits, pool.count_bits, pool.pointer_shift,
         pool.rival_moves ? "moves" : "stays", pool.coarse_share, pool.track_share);
-    return out;
+    return out + (pool.second_target ? " SECOND_TARGET=1" : "");
   }
   if (has_parameter(readout, "NB")) {
     out += fmt::format(" NB={}", nb);

@@ -30,9 +30,10 @@ struct PoolPointerParameters {
   /// The unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4 if count_bits
   /// is 4.
   int pointer_shift = 1;
-  bool rival_moves = true;  ///< the rival has a pointer of 7 bits; else it stays at its candidate
-  int coarse_share = 16;    ///< 64ths of the frame: coarse phase
-  int track_share = 16;     ///< 64ths of the frame: track phase
+  bool rival_moves = true;     ///< the rival has a pointer of 7 bits; else it stays at its candidate
+  bool second_target = false;  ///< SECOND_TARGET: a result has the position of the label that lost, too
+  int coarse_share = 16;       ///< 64ths of the frame: coarse phase
+  int track_share = 16;        ///< 64ths of the frame: track phase
   /// ENGINE_COLUMNS, columns that share an engine, even; it changes no result of poolPointer, but some of
   /// poolPointer 2, where nothing crosses an engine's border.
   int engine_columns = 34;

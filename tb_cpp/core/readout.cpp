@@ -241,6 +241,9 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (parameter == "RIVAL_MOVES") {
     return 1;
   }
+  if (parameter == "SECOND_TARGET") {
+    return 0;
+  }
   if (parameter == "ENGINE_COLUMNS") {
     return 34;
   }

@@ -268,7 +268,13 @@ class PoolPointerModel final : public ReadoutModel {
     std::vector<PixelResult> results;
     for (std::size_t row = 0; row < words.size(); ++row) {
       const int margin = beliefs[row][0] - beliefs[row][1];
-      results.push_back(pool_result(chain[row].position[margin >= 0 ? 0 : 1], margin, fraction_bits_));
+      PixelResult result = pool_result(chain[row].position[margin >= 0 ? 0 : 1], margin, fraction_bits_);
+      if (pool_.second_target) {
+        const PixelResult lost =
+            pool_result(chain[row].position[margin >= 0 ? 1 : 0], margin, fraction_bits_);
+        result.second = static_cast<std::uint16_t>((unsigned{lost.code} << fraction_bits_) | lost.fraction);
+      }
+      results.push_back(result);
     }
     return results;
   }

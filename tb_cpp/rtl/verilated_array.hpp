@@ -26,6 +26,10 @@ class VerilatedArray : public ArrayModel {
 
   [[nodiscard]] Ports ports() override {
     Registers registers;
+    const std::uint16_t* second = nullptr;
+    if constexpr (requires { model_.result_second_o; }) {
+      second = &model_.result_second_o;
+    }
     if constexpr (requires { model_.smooth_i; }) {
       registers = {
           .coarse_end = &model_.coarse_end_i, .track_end = &model_.track_end_i, .smooth = &model_.smooth_i};
@@ -60,6 +64,7 @@ class VerilatedArray : public ArrayModel {
             .result_code = &model_.result_code_o,
             .result_fraction = &model_.result_fraction_o,
             .result_confidence = &model_.result_confidence_o,
+            .result_second = second,
             .probe_write = &model_.probe_write_o,
             .probe_address = &model_.probe_address_o,
             .probe_data = &model_.probe_data_o};

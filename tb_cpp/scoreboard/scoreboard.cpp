@@ -22,7 +22,8 @@ namespace {
 constexpr std::size_t kDescribedMismatches = 5;
 
 std::string to_text(const PixelResult& result) {
-  return fmt::format("code {} fraction {} confidence {}", result.code, result.fraction, result.confidence);
+  return fmt::format("code {} fraction {} confidence {}{}", result.code, result.fraction, result.confidence,
+                     result.second != 0 ? fmt::format(" second {}", result.second) : "");
 }
 
 std::vector<PixelResult> run_model(const RtlConfiguration& configuration,

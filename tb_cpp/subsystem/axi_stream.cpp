@@ -63,7 +63,10 @@ void ResultSink::observe() {
   if (valid && first != current_.empty()) {
     throw refuse("tuser is not on the first word");
   }
-  if (valid && last != (current_.size() + 1 == words_)) {
+  if (valid && expected_.empty()) {
+    throw refuse("a word although no frame has begun");
+  }
+  if (valid && last != (current_.size() + 1 == expected_.front())) {
     throw refuse("tlast is not on the last word");
   }
   held_ = valid && *ports_.result_ready == 0;
@@ -75,6 +78,7 @@ void ResultSink::observe() {
     if (last) {
       frames_.push_back(std::move(current_));
       current_.clear();
+      expected_.pop_front();
     }
   }
 }

@@ -53,9 +53,7 @@ class LineSource {
 /// is taken; the first and the last word of a frame are marked, and no others.
 class ResultSink {
  public:
-  /// `words`: those of a frame.
-  ResultSink(const SubsystemModel::Ports& ports, std::size_t words, CounterRandom random)
-      : ports_(ports), words_(words), random_(random) {}
+  ResultSink(const SubsystemModel::Ports& ports, CounterRandom random) : ports_(ports), random_(random) {}
 
   double stall_probability = 0.0;  ///< per clock
   bool blocked = false;            ///< takes nothing
@@ -63,8 +61,11 @@ class ResultSink {
   /// Frames that were received whole, and the words of the one that is under way.
   [[nodiscard]] const std::vector<std::vector<std::uint64_t>>& frames() const { return frames_; }
   [[nodiscard]] const std::vector<std::uint64_t>& current() const { return current_; }
+  /// A frame of so many words begins, behind those that are still expected.
+  void expect_frame(std::size_t words) { expected_.push_back(words); }
   void reset() {
     current_.clear();
+    expected_.clear();
     held_ = false;
   }
 
@@ -74,7 +75,7 @@ class ResultSink {
 
  private:
   SubsystemModel::Ports ports_;
-  std::size_t words_;
+  std::deque<std::size_t> expected_;  // words of the frames to come
   CounterRandom random_;
   std::vector<std::vector<std::uint64_t>> frames_;
   std::vector<std::uint64_t> current_;

@@ -38,10 +38,7 @@ SubsystemBench::SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t
       ports_(model_->ports()),
       bus_(ports_, stream(seed, Stream::kBus)),
       source_(ports_, configuration_.parameters.np, stream(seed, Stream::kSource)),
-      sink_(ports_,
-            static_cast<std::size_t>(configuration_.pixels_per_sram) *
-                static_cast<std::size_t>(configuration_.sram_num),
-            stream(seed, Stream::kSink)),
+      sink_(ports_, stream(seed, Stream::kSink)),
       acquisition_lines_(static_cast<std::size_t>(configuration_.pixels_per_sram) *
                          static_cast<std::size_t>(configuration_.parameters.slots)) {
   reset();
@@ -65,6 +62,7 @@ void SubsystemBench::reset() {
   array_held_ = false;
   events_ = {};
   release_next_ = std::min(buffer_lines_, acquisition_lines_);
+  second_next_ = false;
   *ports_.reset_n = 0;
   for (int i = 0; i < 2; ++i) {
     source_.drive();
@@ -138,6 +136,10 @@ BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std:
   if (offset == DTOF_RELEASE && strobe == RegisterBus::kAllBytes) {
     release_next_ = data;
   }
+  if (offset == DTOF_OUTPUT && strobe == RegisterBus::kAllBytes) {
+    second_next_ =
+        configuration_.parameters.pool.second_target && (data & DTOF_OUTPUT_SECOND_TARGET_MASK) != 0;
+  }
   return bus_.response();
 }
 
@@ -205,6 +207,8 @@ void SubsystemBench::observe_lines() {
     frames_.emplace_back();
     begin_cycle_ = cycle_;
     release_ = release_next_;
+    sink_.expect_frame(static_cast<std::size_t>(configuration_.pixels_per_sram) *
+                       static_cast<std::size_t>(configuration_.sram_num) * (second_next_ ? 2 : 1));
   }
   if (*ports_.done != 0) {
     frames_.back().cycles = cycle_ + 1 - begin_cycle_;

@@ -84,7 +84,8 @@ class SubsystemBench {
   std::size_t acquisition_lines_;
   std::size_t buffer_lines_ = 0;
   std::size_t release_ = 0;       // of the frame that is under way
-  std::size_t release_next_ = 0;  // what the register says
+  std::size_t release_next_ = 0;  // what the registers say
+  bool second_next_ = false;
   std::vector<ArrayFrame> frames_;
   SubsystemEvents events_;
   std::uint64_t cycle_ = 0;

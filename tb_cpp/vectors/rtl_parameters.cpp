@@ -62,6 +62,7 @@ std::map<std::string_view, Setter> setters(ArrayParameters& array, int& time_gat
           {"ADVANTAGE_WIDTH", number(pool.count_bits)},
           {"POINTER_SHIFT", number(pool.pointer_shift)},
           {"RIVAL_MOVES", flag(pool.rival_moves)},
+          {"SECOND_TARGET", flag(pool.second_target)},
           {"POINTER_PORTS", nothing},
           {"SIGNALLED_CLEAR", nothing},
           {"ENGINE_COLUMNS", number(pool.engine_columns)},

@@ -47,8 +47,9 @@ std::vector<Row> parameter_limits() {
 }
 
 // Of the array alone: a model has no such parameter, or no other value of it.
-const std::set<std::string> kOfTheArray = {"READOUT",        "PIXELS_PER_SRAM", "SRAM_NUM",   "POINTER_PORTS",
-                                           "ENGINE_COLUMNS", "ACQ_WIDTH",       "RIVAL_MOVES"};
+const std::set<std::string> kOfTheArray = {"READOUT",       "PIXELS_PER_SRAM", "SRAM_NUM",
+                                           "POINTER_PORTS", "ENGINE_COLUMNS",  "ACQ_WIDTH",
+                                           "RIVAL_MOVES",   "SECOND_TARGET"};
 
 const std::map<std::string, int ReadoutParameters::*> kOfEveryReadout = {
     {"NP", &ReadoutParameters::np},
@@ -84,6 +85,8 @@ ReadoutParameters of_model(const Row& row) {
       parameters = ReadoutParameters::defaults(static_cast<Readout>(value));
     } else if (name == "RIVAL_MOVES") {
       parameters.pool.rival_moves = value != 0;
+    } else if (name == "SECOND_TARGET") {
+      parameters.pool.second_target = value != 0;
     } else if (pool && kOfPoolReadouts.contains(name)) {
       parameters.pool.*kOfPoolReadouts.at(name) = value;
     } else if (!kOfTheArray.contains(name)) {

@@ -380,10 +380,15 @@ class Reference {
     std::vector<PixelResult> results;
     for (std::size_t r = 0; r < pixels_.size(); ++r) {
       const int margin = belief[r][0] - belief[r][1];
-      const int x = position[r][margin < 0 ? 1 : 0] - scale / 2;
-      const int word = std::min(std::max(x, 0), 65536 - scale - 1);
+      const auto limited = [&](int label) {
+        const int x = position[r][static_cast<std::size_t>(label)] - scale / 2;
+        return std::min(std::max(x, 0), 65536 - scale - 1);
+      };
+      const int winner = margin < 0 ? 1 : 0;
+      const int word = limited(winner);
       results.push_back({static_cast<std::uint16_t>(word / scale), static_cast<std::uint16_t>(word % scale),
-                         static_cast<std::uint16_t>(std::abs(margin))});
+                         static_cast<std::uint16_t>(std::abs(margin)),
+                         static_cast<std::uint16_t>(p_.second_target ? limited(1 - winner) : 0)});
     }
     return results;
   }
@@ -519,6 +524,7 @@ TEST_P(PoolPointer, ParameterSweepAsReference) {
     PoolPointerParameters& pool = parameters.pool;
     parameters.count_width = 4 + pick(random, 5);
     pool.group_size = 4 << pick(random, 4);
+    pool.second_target = trial % 2 == 0;
     pool.dark_labels = 2 + pick(random, 7);
     pool.bright_labels = 2 + pick(random, 7);
     pool.dark_score_bits = 1 + pick(random, 4);

@@ -43,6 +43,7 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.acquisition_lines, bench_.acquisition_lines());
   EXPECT_EQ(device_.has_schedule, is_pool_readout(configuration.parameters.readout));
   EXPECT_EQ(device_.has_gate, configuration.parameters.time_gate.has_value());
+  EXPECT_EQ(device_.has_second_target, configuration.parameters.pool.second_target);
 }
 
 TEST_P(Driver, ReadsFramesInMillimetres) {
@@ -66,17 +67,20 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
         .acquisitions = random() % 30,
         .gate = {pick(random, 4), configuration.parameters.no_detection() - pick(random, 4)},
         .weak_below = random() % 4,
-        .enabled = [&] {
-          std::vector<bool> enabled(columns);
-          for (std::size_t i = 0; i < columns; ++i) {
-            enabled[i] = pick(random, 5) != 0;
-          }
-          return enabled;
-        }()};
+        .enabled =
+            [&] {
+              std::vector<bool> enabled(columns);
+              for (std::size_t i = 0; i < columns; ++i) {
+                enabled[i] = pick(random, 5) != 0;
+              }
+              return enabled;
+            }(),
+        .second_target = device_.has_second_target && frame % 2 == 0};
     dtof_settings chosen = dtof_default_settings(&device_, settings.acquisitions);
     chosen.gate_begin = static_cast<std::uint16_t>(settings.gate.begin);
     chosen.gate_end = static_cast<std::uint16_t>(settings.gate.end);
     chosen.weak_below = static_cast<std::uint16_t>(settings.weak_below);
+    chosen.second_target = settings.second_target;
     std::vector<std::uint32_t> mask((columns + 31) / 32);
     for (std::size_t i = 0; i < columns; ++i) {
       mask[i / 32] |= settings.enabled[i] ? 1U << (i % 32) : 0U;
@@ -103,8 +107,10 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     std::vector<dtof_result> results(words.size());
     ASSERT_EQ(dtof_unpack_frame(&device_, words.data(), words.size(), results.data()), DTOF_OK);
     for (const ResultFields& expected : expected_results(bench_, settings, lines)) {
-      const dtof_result& result = results[static_cast<std::size_t>(expected.row) * columns +
-                                          static_cast<std::size_t>(expected.column)];
+      const dtof_result& of_pixel = results[static_cast<std::size_t>(expected.row) * columns +
+                                            static_cast<std::size_t>(expected.column)];
+      ASSERT_EQ(of_pixel.has_second, settings.second_target);
+      const dtof_result result = expected.second ? dtof_second(&of_pixel) : of_pixel;
       const ResultFields fields{.position = result.position,
                                 .confidence = result.confidence,
                                 .row = result.row,
@@ -112,7 +118,8 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
                                 .valid = result.valid,
                                 .weak = result.weak,
                                 .empty = result.empty,
-                                .masked = result.masked};
+                                .masked = result.masked,
+                                .second = expected.second};
       ASSERT_EQ(fields, expected);
       const double position = expected.position / static_cast<double>(1 << device_.fraction_bits);
       EXPECT_NEAR(dtof_distance_mm(&device_, &result, points.data(), points.size()),
@@ -162,6 +169,8 @@ TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
   EXPECT_TRUE(refused([](dtof_settings& settings) { settings.release = 1000; }));
   EXPECT_TRUE(refused([](dtof_settings& settings) { settings.weak_below = 5000; }));
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.gate_end = 5000; }), device_.has_gate);
+  EXPECT_EQ(refused([](dtof_settings& settings) { settings.second_target = true; }),
+            !device_.has_second_target);
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.track_share = 49; }), device_.has_schedule);
 }
 
@@ -236,6 +245,33 @@ TEST(DriverAlone, TellsWhenAFrameIsNotWhole) {
   EXPECT_EQ(dtof_unpack_frame(&device, twice.data(), twice.size(), results.data()), DTOF_STREAM);
   words[3] = std::uint64_t{3} << DTOF_RESULT_ROW_LSB;
   EXPECT_EQ(dtof_unpack_frame(&device, words.data(), words.size(), results.data()), DTOF_STREAM);
+}
+
+TEST(DriverAlone, TakesASecondTargetOfEveryPixelOrOfNone) {
+  Memory memory;
+  dtof_device device{};
+  ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);  // 2 columns of 3 rows
+  std::vector<std::uint64_t> words;
+  for (std::uint64_t pixel = 0; pixel < 6; ++pixel) {
+    const std::uint64_t place = pixel / 2 << DTOF_RESULT_ROW_LSB | pixel % 2 << DTOF_RESULT_COLUMN_LSB;
+    words.push_back(place | (10 + pixel));
+    words.push_back(place | DTOF_RESULT_SECOND_MASK | (20 + pixel));
+  }
+  std::vector<dtof_result> results(6);
+  ASSERT_EQ(dtof_unpack_frame(&device, words.data(), words.size(), results.data()), DTOF_OK);
+  EXPECT_EQ(results[4].position, 14);
+  EXPECT_TRUE(results[4].has_second);
+  EXPECT_EQ(results[4].second_position, 24);
+  const auto refused = [&](auto change) {
+    std::vector<std::uint64_t> changed = words;
+    change(changed);
+    return dtof_unpack_frame(&device, changed.data(), changed.size(), results.data()) == DTOF_STREAM;
+  };
+  EXPECT_TRUE(refused([](auto& changed) { changed.resize(6); })) << "half a frame";
+  EXPECT_TRUE(refused([](auto& changed) { changed.pop_back(); }));
+  EXPECT_TRUE(refused([](auto& changed) { std::swap(changed[0], changed[1]); })) << "no first before it";
+  EXPECT_TRUE(refused([](auto& changed) { std::swap(changed[1], changed[3]); })) << "another pixel's";
+  EXPECT_TRUE(refused([](auto& changed) { changed[1] = changed[0]; })) << "no second";
 }
 
 TEST(DriverAlone, ATableOfOnePointIsThatDistance) {

@@ -16,7 +16,8 @@ FrameSettings random_settings(const RtlConfiguration& configuration, CounterRand
   FrameSettings settings{.acquisitions = static_cast<std::uint32_t>(pick(random, 24)),
                          .gate = {pick(random, codes), pick(random, codes)},
                          .weak_below = static_cast<std::uint32_t>(pick(random, 6)),
-                         .enabled = {}};
+                         .enabled = {},
+                         .second_target = pick(random, 2) == 0};
   if (pick(random, 3) == 0) {
     settings.gate = {0, codes - 1};
   }

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "core/random.hpp"
@@ -29,6 +29,7 @@ struct ResultFields {
   bool weak = false;
   bool empty = false;
   bool masked = false;
+  bool second = false;
 
   bool operator==(const ResultFields&) const = default;
 };
@@ -37,7 +38,7 @@ inline void PrintTo(const ResultFields& fields, std::ostream* stream) {
   *stream << "row " << fields.row << " column " << fields.column << " position " << fields.position
           << " confidence " << fields.confidence << (fields.valid ? " valid" : "")
           << (fields.weak ? " weak" : "") << (fields.empty ? " empty" : "")
-          << (fields.masked ? " masked" : "");
+          << (fields.masked ? " masked" : "") << (fields.second ? " second" : "");
 }
 
 inline ResultFields fields_of(std::uint64_t word) {
@@ -49,7 +50,8 @@ inline ResultFields fields_of(std::uint64_t word) {
           .valid = (word & DTOF_RESULT_VALID_MASK) != 0,
           .weak = (word & DTOF_RESULT_WEAK_MASK) != 0,
           .empty = (word & DTOF_RESULT_EMPTY_MASK) != 0,
-          .masked = (word & DTOF_RESULT_MASKED_MASK) != 0};
+          .masked = (word & DTOF_RESULT_MASKED_MASK) != 0,
+          .second = (word & DTOF_RESULT_SECOND_MASK) != 0};
 }
 
 /// What a frame's registers say.
@@ -57,7 +59,8 @@ struct FrameSettings {
   std::uint32_t acquisitions = 0;
   CodeGate gate{};  ///< without effect where there is none
   std::uint32_t weak_below = 0;
-  std::vector<bool> enabled;  ///< columns; empty: all
+  std::vector<bool> enabled;   ///< columns; empty: all
+  bool second_target = false;  ///< without effect where there is none
 };
 
 inline void write_settings(SubsystemBench& bench, const FrameSettings& settings) {
@@ -72,6 +75,7 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
   bench.set(DTOF_GATE, static_cast<std::uint32_t>(settings.gate.begin) << DTOF_GATE_BEGIN_LSB |
                            static_cast<std::uint32_t>(settings.gate.end) << DTOF_GATE_END_LSB);
   bench.set(DTOF_WEAK_BELOW, settings.weak_below);
+  bench.set(DTOF_OUTPUT, settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0);
   for (std::size_t first = 0; first < settings.enabled.size(); first += 32) {
     std::uint32_t mask = 0;
     for (std::size_t i = first; i < std::min(first + 32, settings.enabled.size()); ++i) {
@@ -119,10 +123,16 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     fields.masked = !settings.enabled.empty() && !settings.enabled[column];
     fields.valid = !fields.weak && !fields.empty && !fields.masked;
     expected.push_back(fields);
+    if (settings.second_target && parameters.pool.second_target) {
+      fields.position = result.second;
+      fields.second = true;
+      expected.push_back(fields);
+    }
   }
   if ((bench.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0) {
-    std::ranges::sort(expected, {},
-                      [](const ResultFields& fields) { return std::pair(fields.row, fields.column); });
+    std::ranges::sort(expected, {}, [](const ResultFields& fields) {
+      return std::tuple(fields.row, fields.column, fields.second);
+    });
   }
   return expected;
 }
@@ -177,8 +187,9 @@ class Subsystem : public testing::TestWithParam<CompiledSubsystem> {
 };
 
 inline std::string subsystem_test_name(const testing::TestParamInfo<CompiledSubsystem>& subsystem) {
-  return fmt::format("{}_{}x{}", readout_name(subsystem.param.configuration.parameters.readout),
-                     subsystem.param.configuration.sram_num, subsystem.param.configuration.pixels_per_sram);
+  const RtlConfiguration& configuration = subsystem.param.configuration;
+  return fmt::format("{}_{}x{}", readout_name(configuration.parameters.readout), configuration.sram_num,
+                     configuration.pixels_per_sram);
 }
 
 inline void PrintTo(const CompiledSubsystem& subsystem, std::ostream* stream) {
