@@ -22,8 +22,8 @@ static uint32_t most_lines(const dtof_device *device) {
 
 dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   static const uint32_t offsets[] = {DTOF_ID,     DTOF_VERSION, DTOF_READOUT, DTOF_SIZE,
-                                     DTOF_WIDTHS, DTOF_LINES,   DTOF_SLOTS};
-  enum { ID, VERSION, READOUT, SIZE, WIDTHS, LINES, SLOTS, REGISTERS };
+                                     DTOF_WIDTHS, DTOF_LINES,   DTOF_SLOTS,   DTOF_RAW_BINS};
+  enum { ID, VERSION, READOUT, SIZE, WIDTHS, LINES, SLOTS, RAW_BINS, REGISTERS };
   uint32_t values[REGISTERS];
 
   device->bus = bus;
@@ -42,6 +42,8 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->readout = (uint8_t)FIELD(values[READOUT], DTOF_READOUT_NUMBER);
   device->has_schedule = FIELD(values[READOUT], DTOF_READOUT_SCHEDULE) != 0;
   device->has_gate = FIELD(values[READOUT], DTOF_READOUT_TIME_GATE) != 0;
+  device->has_raw_histogram = FIELD(values[READOUT], DTOF_READOUT_RAW_HISTOGRAM) != 0;
+  device->raw_bins = FIELD(values[RAW_BINS], DTOF_RAW_BINS_VALUE);
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
   device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
   device->rows = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_ROWS);
@@ -73,7 +75,9 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
   if (settings->acquisitions >> device->acquisition_bits != 0 || release > most_lines(device) ||
       settings->weak_below > confidences ||
       (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
-      (device->has_schedule && shares > SHARES) || (settings->second_target && !device->has_second_target)) {
+      (device->has_schedule && shares > SHARES) || (settings->second_target && !device->has_second_target) ||
+      (settings->raw && (!device->has_raw_histogram || settings->raw_first_row > settings->raw_last_row ||
+                         settings->raw_last_row >= device->rows))) {
     return DTOF_ARGUMENT;
   }
 
@@ -92,7 +96,14 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
        device->has_gate},
       {DTOF_RELEASE, release, true},
       {DTOF_WEAK_BELOW, settings->weak_below, true},
-      {DTOF_OUTPUT, settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U, device->has_second_target},
+      {DTOF_OUTPUT,
+       (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
+           (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U),
+       device->has_second_target || device->has_raw_histogram},
+      {DTOF_RAW_ROWS,
+       (uint32_t)settings->raw_first_row << DTOF_RAW_ROWS_FIRST_LSB | (uint32_t)settings->raw_last_row
+                                                                          << DTOF_RAW_ROWS_LAST_LSB,
+       settings->raw},
   };
   uint32_t track_end = (uint32_t)((uint64_t)settings->acquisitions * shares / SHARES);
   writes[1].value = (uint32_t)((uint64_t)settings->acquisitions * settings->coarse_share / SHARES);
@@ -186,6 +197,7 @@ dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *r
   result->weak = FIELD(word, DTOF_RESULT_WEAK) != 0;
   result->empty = FIELD(word, DTOF_RESULT_EMPTY) != 0;
   result->masked = FIELD(word, DTOF_RESULT_MASKED) != 0;
+  result->raw = FIELD(word, DTOF_RESULT_RAW) != 0;
   result->has_second = false;
   result->second_position = 0;
   return result->row < device->rows && result->column < device->columns ? DTOF_OK : DTOF_STREAM;
@@ -211,7 +223,7 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
         return status;
       }
     }
-    if (result.has_second != (words_of_a_pixel == 2U)) {
+    if (result.has_second != (words_of_a_pixel == 2U) || result.raw) {
       return DTOF_STREAM;
     }
     dtof_result *place = &results[(size_t)result.row * device->columns + result.column];
@@ -219,6 +231,29 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
       return DTOF_STREAM;
     }
     *place = result;
+  }
+  return DTOF_OK;
+}
+
+dtof_status dtof_unpack_raw(const dtof_device *device, uint16_t first_row, uint16_t last_row,
+                            const uint64_t *words, size_t count, dtof_result *bins) {
+  if (first_row > last_row || last_row >= device->rows ||
+      count != (size_t)(last_row - first_row + 1) * device->raw_bins * device->columns) {
+    return DTOF_STREAM;
+  }
+  size_t taken = 0;
+  for (uint32_t row = first_row; row <= last_row; ++row) {
+    for (size_t bin = 0; bin < device->raw_bins; ++bin) {
+      for (size_t column = 0; column < device->columns; ++column) {
+        dtof_result result;
+        result.row = UINT16_MAX;
+        dtof_status status = dtof_unpack(device, words[taken++], &result);
+        if (status != DTOF_OK || !result.raw || result.row != row || result.column != column) {
+          return DTOF_STREAM;
+        }
+        bins[((row - first_row) * device->columns + column) * device->raw_bins + bin] = result;
+      }
+    }
   }
   return DTOF_OK;
 }

@@ -48,6 +48,8 @@ typedef struct {
   bool has_schedule; /* poolPointer */
   bool has_gate;
   bool has_second_target;
+  bool has_raw_histogram;
+  uint32_t raw_bins; /* of a raw histogram; 0 where there is none */
   uint16_t acquisition_lines;
   uint16_t buffer_lines;
 } dtof_device;
@@ -62,7 +64,10 @@ typedef struct {
   uint16_t gate_end;
   uint16_t weak_below; /* a confidence below is weak */
   bool second_target;  /* each pixel's second target, too; DTOF_ARGUMENT where has_second_target is false */
-  uint16_t release;    /* lines in the buffer before an acquisition begins; 0: as many as possible */
+  bool raw; /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
+  uint16_t raw_first_row;
+  uint16_t raw_last_row;
+  uint16_t release; /* lines in the buffer before an acquisition begins; 0: as many as possible */
 } dtof_settings;
 
 /* One pixel's result. */
@@ -75,6 +80,7 @@ typedef struct {
   bool weak;
   bool empty;  /* confidence 0 */
   bool masked; /* the column is not enabled */
+  bool raw;    /* a bin of a raw histogram: its lowest code and, as the confidence, its count */
   bool has_second;
   uint16_t second_position; /* where has_second: of the pixel's second target */
 } dtof_result;
@@ -130,6 +136,13 @@ dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *r
  * second target for all or none. */
 dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, size_t count,
                               dtof_result *results);
+
+/* The words of a raw frame in the order of the stream: rows first_row to last_row, bins, columns. A pixel's
+ * bins are placed one behind the other, pixel by pixel of a row, at ((row - first_row) * columns + column) *
+ * raw_bins + bin of `bins`, which holds (last_row - first_row + 1) * columns * raw_bins. DTOF_STREAM if they
+ * are not that. */
+dtof_status dtof_unpack_raw(const dtof_device *device, uint16_t first_row, uint16_t last_row,
+                            const uint64_t *words, size_t count, dtof_result *bins);
 
 /* The second target as a result of its own; has_second must be true. */
 dtof_result dtof_second(const dtof_result *result);

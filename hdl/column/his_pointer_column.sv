@@ -6,7 +6,8 @@
 //    ((1 << (NP-NB)) >> 1).
 // 3. Measurement 2 moves the pointers as ezPointer's. v2 lets only a window around the coarse peak through, c - SB < x
 //    <= c + SB with SB = 2^(NB-1) + GUARD (Eq. 3.13), signed, no wrap; P travels with its pointer, as its tag.
-// 4. In M4 the pointers are read.
+// 4. In M4 the pointers are read. In that of a raw frame, which final_pass_i does not mark, it is a bin of the coarse
+//    histogram: its lowest code and its count.
 //
 //   clock     measurement 1                            measurement 2
 //   T0        timestamp registered, gated              the same
@@ -32,7 +33,7 @@ module his_pointer_column #(
   logic [NP-1:0] timestamp_t1, centre;
   logic hit, in_window;
   logic [BIN_WIDTH-1:0] scan_peak;
-  logic [COUNT_WIDTH-1:0] unused_count, unused_confidence;
+  logic [COUNT_WIDTH-1:0] scan_count, unused_confidence;
   logic signed [NP+1:0] unused_start;
   logic [TAG_BITS-1:0] tag_t1, start_tag;
   logic [POINTER_WIDTH-1:0] pointer;
@@ -83,7 +84,7 @@ module his_pointer_column #(
       .first_s2_i     (first_s2_i),
       .bin_s2_i       (bin_s2_i),
       .peak_o         (scan_peak),
-      .count_o        (unused_count),
+      .count_o        (scan_count),
       .confidence_o   (unused_confidence),
       .start_o        (unused_start)
   );
@@ -149,6 +150,21 @@ module his_pointer_column #(
       .confidence_o   (confidence)
   );
 
+  logic [RESULT_WIDTH-1:0] result;
+
+  generate
+    if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
+      logic [KEPT_CONFIDENCE_WIDTH-1:0] kept_confidence;
+      assign kept_confidence = (CONFIDENCE_WIDTH != 0) ? KEPT_CONFIDENCE_WIDTH'(confidence) : '0;
+      assign result = final_pass_i ? {pointer, kept_confidence}
+          : {POINTER_WIDTH'(scan_peak) << (NP - NB + FRACTION_BITS), KEPT_CONFIDENCE_WIDTH'(scan_count)};
+    end else begin : g_pointers_alone
+      logic unused_count;
+      assign unused_count = ^scan_count;
+      assign result = RESULT_WIDTH'({pointer, confidence} >> (CONFIDENCE_BITS - CONFIDENCE_WIDTH));
+    end
+  endgenerate
+
   result_register #(
       .WIDTH(RESULT_WIDTH)
   ) u_result_register (
@@ -156,7 +172,7 @@ module his_pointer_column #(
       .rst_ni       (rst_ni),
       .load_i       (result_load_i),
       .shift_i      (result_shift_i),
-      .result_i     (RESULT_WIDTH'({pointer, confidence} >> (CONFIDENCE_BITS - CONFIDENCE_WIDTH))),
+      .result_i     (result),
       .next_column_i(next_column_i),
       .result_o     (result_o)
   );

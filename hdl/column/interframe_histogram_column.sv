@@ -124,10 +124,12 @@ module interframe_histogram_column #(
   endgenerate
 
   // A window may begin below code 0, where an empty fine histogram has its peak. No window's peak lies beyond the
-  // last code: only codes that were measured are counted, and an empty window's first code is in the range.
+  // last code: only codes that were measured are counted, and an empty window's first code is in the range. A bin of a
+  // raw frame may; it gets the code of no detection.
   logic unused_peak_code;
   assign peak_code = start + $signed((NP + 2)'(scan_peak));
-  assign code = peak_code[NP+1] ? '0 : peak_code[NP-1:0];
+  assign code = peak_code[NP+1] ? '0
+      : (RAW_HISTOGRAM != 0 && peak_code[NP]) ? {NP{1'b1}} : peak_code[NP-1:0];
   assign unused_peak_code = peak_code[NP];
 
   result_register #(

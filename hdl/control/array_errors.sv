@@ -4,7 +4,8 @@
 //
 //   ERROR_UNDERRUN          tdc_valid_i was low in a clock inside an acquisition: the pixel counts as not detected
 //   ERROR_START_IGNORED     start_i while busy_o: nothing happens
-//   ERROR_ILLEGAL_SCHEDULE  a frame began with a schedule whose ends are not in order: its results mean nothing
+//   ERROR_ILLEGAL_SCHEDULE  a frame began with a schedule whose ends are not in order, or a raw one with rows that are not: its
+//                           results mean nothing
 //
 // Latency: one clock. Cost: three flip-flops.
 module array_errors (

@@ -19,6 +19,7 @@ module control_properties #(
     parameter int SKIP_RESET = 0,
     parameter int ACQ_WIDTH = 2,
     parameter int LONGEST_STAY = 16,
+    parameter int RAW = 0,  // 1: frames may be raw
     localparam int BINS = 1 << BIN_WIDTH,
     localparam int RESET_BINS = (POINTER != 0 && COARSE_PASSES == 0) ? 1 : BINS,
     localparam int FINAL_BINS = (POINTER != 0) ? 1 : BINS,
@@ -30,6 +31,9 @@ module control_properties #(
     input logic                 clk_i,
     input logic                 start_i,
     input logic [ACQ_WIDTH-1:0] acq_num_i,
+    input logic                 raw_i,
+    input logic [ROW_WIDTH-1:0] raw_first_i,
+    input logic [ROW_WIDTH-1:0] raw_last_i,
     input logic                 tdc_valid_i,
     input logic                 tready_i
 );
@@ -131,7 +135,8 @@ module control_properties #(
       .BIN_WIDTH      (BIN_WIDTH),
       .RESET_BINS     (RESET_BINS),
       .FINAL_BINS     (FINAL_BINS),
-      .SKIP_RESET     (SKIP_RESET)
+      .SKIP_RESET     (SKIP_RESET),
+      .RAW_BINS       ((RAW != 0) ? BINS : 0)
   ) u_scan_sequencer (
       .clk_i        (clk_i),
       .rst_ni       (checking),
@@ -139,6 +144,9 @@ module control_properties #(
       .reset_state_i(scan_reset),
       .final_state_i(scan_final),
       .hold_i       (result_busy),
+      .raw_i        (raw_q),
+      .raw_first_i  (raw_first_q),
+      .raw_last_i   (raw_last_q),
       .busy_o       (scan_busy),
       .row_o        (row),
       .last_row_o   (scan_last_row),
@@ -176,6 +184,19 @@ module control_properties #(
       .tlast_o   (tlast)
   );
 
+  // What the array samples with a start.
+  logic raw_q;
+  logic [ROW_WIDTH-1:0] raw_first_q, raw_last_q;
+  logic [31:0] scans;
+  always_ff @(posedge clk_i) begin
+    if (start_i && !busy) begin
+      raw_q <= (RAW != 0) && raw_i;
+      raw_first_q <= raw_first_i;
+      raw_last_q <= raw_last_i;
+    end
+  end
+  assign scans = raw_q ? (32'(raw_last_q) - 32'(raw_first_q) + 1) << BIN_WIDTH : PIXELS;
+
   // A frame, followed at one arbitrary address.
   localparam int COUNT_WIDTH = 4;
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
@@ -184,7 +205,7 @@ module control_properties #(
   logic [2:0] state_q;
   logic [ACQ_WIDTH-1:0] acq_num_q, acquisitions_q;
   logic [PASS_WIDTH:0] passes_q;
-  logic [ROW_WIDTH:0] rows_q;
+  logic [ROW_WIDTH+BIN_WIDTH:0] rows_q;  // scans of M4: of a raw frame one a bin of a row
   logic [COUNT_WIDTH-1:0] clears_q, reads_q, clears, reads, beats_q;
   logic [1:0] final_reads_q;
   logic [4:0] stay_q;
@@ -247,7 +268,8 @@ module control_properties #(
 
   logic coarse_read, in_reset_bins, in_final_bins;
   assign in_reset_bins = 32'(watched_bin) < RESET_BINS;
-  assign in_final_bins = 32'(watched_bin) < FINAL_BINS;
+  assign in_final_bins = raw_q ? (watched_pixel >= raw_first_q && watched_pixel <= raw_last_q)
+      : 32'(watched_bin) < FINAL_BINS;
 
   logic legal;
   always_comb begin
@@ -264,23 +286,24 @@ module control_properties #(
       dtof_pkg::STATE_M4: legal = (state == dtof_pkg::STATE_M4) || (state == dtof_pkg::STATE_M5);
       default:
       legal = (state == dtof_pkg::STATE_M5)
-          || (state == ((32'(rows_q) == PIXELS) ? dtof_pkg::STATE_IDLE : dtof_pkg::STATE_M4));
+          || (state == ((32'(rows_q) == scans) ? dtof_pkg::STATE_IDLE : dtof_pkg::STATE_M4));
     endcase
   end
 
   `ASSUME(m_contiguous, place_q == '0 || tdc_valid_i)
   `ASSUME(m_watched, 32'(watched_pixel) < PIXELS)
+  `ASSUME(m_raw_rows, raw_first_i <= raw_last_i && 32'(raw_last_i) < PIXELS)
   // Starts
   `PROVE(a_busy, busy == frame_q)
   `PROVE(a_start_is_not_lost, !accepted_before_q || state == dtof_pkg::STATE_RESET)
   `PROVE(a_done_ends_a_frame, !done || (frame_q && !done_q))
   `PROVE(a_done_is_complete, !done || (acquisitions_q == acq_num_q && 32'(passes_q) == COARSE_PASSES
-                                        && 32'(rows_q) == PIXELS && 32'(beats_q) == PIXELS * SRAM_NUM))
+                                        && 32'(rows_q) == scans && 32'(beats_q) == scans * SRAM_NUM))
   // Every frame ends
   `PROVE(a_states, legal)
   `PROVE(a_no_state_lasts, 32'(stay_q) < LONGEST_STAY)
   `PROVE(a_passes, 32'(passes_q) <= COARSE_PASSES)
-  `PROVE(a_rows, 32'(rows_q) <= PIXELS)
+  `PROVE(a_rows, 32'(rows_q) <= scans || !frame_q)
   `PROVE(a_acquisitions, !frame_q || acquisitions_q <= acq_num_q)
   // Addresses
   `PROVE(a_stream_alone, !(accepted && (scan_s0 || clear_s1)))
@@ -292,8 +315,9 @@ module control_properties #(
   `PROVE(a_no_clear_elsewhere, !clear_s1 || state == dtof_pkg::STATE_RESET || state == dtof_pkg::STATE_M1)
   `PROVE(a_final_reads_once, !done || 32'(final_reads_q) == (in_final_bins ? 1 : 0))
   // Results
-  `PROVE(a_tlast, !(tvalid && tready_i) || tlast == (32'(beats_q) == PIXELS * SRAM_NUM - 1))
-  `PROVE(a_rows_in_order, !tvalid || 32'(tdata[ROW_WIDTH:1]) + 1 == 32'(rows_q))
+  `PROVE(a_tlast, !(tvalid && tready_i) || tlast == (32'(beats_q) == scans * SRAM_NUM - 1))
+  `PROVE(a_rows_in_order, !tvalid || 32'(tdata[ROW_WIDTH:1])
+         == (raw_q ? 32'(raw_first_q) + ((32'(rows_q) - 1) >> BIN_WIDTH) : 32'(rows_q) - 1))
   `GOAL(done && (&acq_num_q))
 
 endmodule

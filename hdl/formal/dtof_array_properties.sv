@@ -15,12 +15,18 @@ module dtof_array_properties #(
     parameter int POINTER_PORTS = 2,
     parameter int SIGNALLED_CLEAR = 0,
     parameter int ACQ_WIDTH = 2,
+    parameter int RAW_HISTOGRAM = 0,
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS),
     localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS)
-        + dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, 0, CONFIDENCE_WIDTH)
+        + dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, 0,
+                                 dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM))
 ) (
     input logic                   clk_i,
     input logic                   start_i,
     input logic [  ACQ_WIDTH-1:0] acq_num_i,
+    input logic                   raw_i,
+    input logic [  ROW_WIDTH-1:0] raw_first_row_i,
+    input logic [  ROW_WIDTH-1:0] raw_last_row_i,
     input logic                   tdc_valid_i,
     input logic [SRAM_NUM*NP-1:0] tdc_timestamp_i,
     input logic                   tready_i
@@ -51,6 +57,7 @@ module dtof_array_properties #(
       .POINTER_PORTS   (POINTER_PORTS),
       .SIGNALLED_CLEAR (SIGNALLED_CLEAR),
       .TIME_GATE       (0),
+      .RAW_HISTOGRAM   (RAW_HISTOGRAM),
       .ACQ_WIDTH       (ACQ_WIDTH)
   ) u_dut (
       .clk_i          (clk_i),
@@ -59,6 +66,9 @@ module dtof_array_properties #(
       .acq_num_i      (acq_num_i),
       .gate_begin_i   ('0),
       .gate_end_i     ('0),
+      .raw_i          (raw_i),
+      .raw_first_row_i(raw_first_row_i),
+      .raw_last_row_i (raw_last_row_i),
       .busy_o         (busy),
       .done_o         (done),
       .state_o        (state),
@@ -81,6 +91,7 @@ module dtof_array_properties #(
   end
 
   `ASSUME(m_contiguous, place_q == '0 || tdc_valid_i)
+  `ASSUME(m_raw_rows, raw_first_row_i <= raw_last_row_i && 32'(raw_last_row_i) < PIXELS)
   `PROVE(a_idle_or_busy, busy || state == dtof_pkg::STATE_IDLE)
   `GOAL(done)
 

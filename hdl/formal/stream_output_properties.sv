@@ -7,6 +7,7 @@ module stream_output_properties #(
     parameter int ROW_WIDTH = 2,
     parameter int POSITION_WIDTH = 3,
     parameter int CONFIDENCE_WIDTH = 2,
+    parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int CONFIDENCE_BITS = (CONFIDENCE_WIDTH > 0) ? CONFIDENCE_WIDTH : 1,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
@@ -16,6 +17,7 @@ module stream_output_properties #(
     input logic                       reset_i,
     input logic [               15:0] weak_below_i,
     input logic [       SRAM_NUM-1:0] enable_i,
+    input logic                       raw_i,
     input logic                       result_tvalid_i,
     input logic [   COLUMN_WIDTH-1:0] column_i,
     input logic [      ROW_WIDTH-1:0] row_i,
@@ -52,12 +54,14 @@ module stream_output_properties #(
       .SRAM_NUM        (SRAM_NUM),
       .ROW_WIDTH       (ROW_WIDTH),
       .POSITION_WIDTH  (POSITION_WIDTH),
-      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .HAS_CONFIDENCE  (HAS_CONFIDENCE)
   ) u_dut (
       .clk_i          (clk_i),
       .rst_ni         (rst_n),
       .weak_below_i   (weak_below_i),
       .enable_i       (enable_i),
+      .raw_i          (raw_i),
       .result_tvalid_i(result_tvalid_i),
       .result_tready_o(result_tready),
       .result_tdata_i (result),
@@ -75,10 +79,10 @@ module stream_output_properties #(
   logic [1:0] count_q;
   logic begins_q, weak, empty, masked, push, pop;
 
-  assign weak = (CONFIDENCE_WIDTH > 0) && (confidence < weak_below_i);
-  assign empty = (CONFIDENCE_WIDTH > 0) && (confidence == 16'd0);
+  assign weak = (HAS_CONFIDENCE > 0) && !raw_i && (confidence < weak_below_i);
+  assign empty = (HAS_CONFIDENCE > 0) && !raw_i && (confidence == 16'd0);
   assign masked = ((enable_i >> column_i) & 1'b1) == '0;
-  assign entry = {begins_q, result_tlast_i, 3'd0, result_second_i, masked, empty, weak, !weak && !empty && !masked, 12'(column_i),
+  assign entry = {begins_q, result_tlast_i, 2'd0, raw_i, result_second_i, masked, empty, weak, !weak && !empty && !masked, 12'(column_i),
                   12'(row_i), confidence, 16'(position_i)};
   assign push = result_tvalid_i && result_tready;
   assign pop = tvalid && m_axis_tready_i;

@@ -19,7 +19,8 @@
     // pass over the stream; it changes only while no timestamp is in the pipeline
     input  logic [  PASS_WIDTH-1:0] pass_i,                   // 0, 1, ...
     input  logic                    first_pass_i,
-    input  logic                    final_pass_i,             // its scan gives the result
+    input  logic                    final_pass_i,             // its scan gives the result; low in M4 of a raw frame of counts
+                                                              // that are older than this pass
     // where the timestamps are
     input  logic                    beat_t1_i,                // the timestamp of T0 belongs to an acquisition
     input  logic [             3:1] same_pixel_t3_i,          // [d]: the timestamp d clocks ahead is of the same pixel

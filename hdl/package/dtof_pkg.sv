@@ -134,6 +134,24 @@ package dtof_pkg;
     pool_confidence_width = $clog2((1 << advantage_width) + 16);
   endfunction
 
+  // Whether a raw histogram can be had: none where scans alone keep a word, the best of several histograms.
+  function automatic bit has_whole_histogram(input int readout, input int np, input int nb);
+    has_whole_histogram = has_histogram(readout)
+        && (!has_word(readout) || is_word_read_ahead(readout) || coarse_passes(readout, np, nb) == 0);
+  endfunction
+
+  // Bins of a raw histogram: of the final pass, or of a pass before it where timestamps move a word there.
+  function automatic int raw_bins(input int readout, input int np, input int nb);
+    raw_bins = 1 << (is_word_moved(readout) ? bin_width(readout, np, nb) : scan_width(readout, np, nb));
+  endfunction
+
+  // Bits of a pointer read-out's confidence in a result, which is a count in a raw histogram.
+  function automatic int kept_confidence_width(input int pointer_confidence_width, input int count_width,
+                                               input int raw_histogram);
+    kept_confidence_width = (raw_histogram != 0) ? max_of(pointer_confidence_width, count_width)
+        : pointer_confidence_width;
+  endfunction
+
   // Bits of a result: one position or two, and the confidence.
   function automatic int pool_result_width(input int advantage_width, input int second_target);
     pool_result_width = ((second_target != 0) ? 32 : 16) + pool_confidence_width(advantage_width);

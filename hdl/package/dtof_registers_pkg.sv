@@ -30,6 +30,8 @@ package dtof_registers_pkg;
   localparam int READOUT_RASTER_ORDER_WIDTH = 1;
   localparam int READOUT_SECOND_TARGET_LSB = 11;
   localparam int READOUT_SECOND_TARGET_WIDTH = 1;
+  localparam int READOUT_RAW_HISTOGRAM_LSB = 12;
+  localparam int READOUT_RAW_HISTOGRAM_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -60,6 +62,11 @@ package dtof_registers_pkg;
   localparam logic [11:0] SLOTS = 12'h018;
   localparam int SLOTS_VALUE_LSB = 0;
   localparam int SLOTS_VALUE_WIDTH = 8;
+
+  // of a raw histogram
+  localparam logic [11:0] RAW_BINS = 12'h01c;
+  localparam int RAW_BINS_VALUE_LSB = 0;
+  localparam int RAW_BINS_VALUE_WIDTH = 17;
 
   // begins frames
   localparam logic [11:0] CONTROL = 12'h040;
@@ -157,12 +164,21 @@ package dtof_registers_pkg;
   localparam logic [11:0] OUTPUT = 12'h07c;
   localparam int OUTPUT_SECOND_TARGET_LSB = 0;
   localparam int OUTPUT_SECOND_TARGET_WIDTH = 1;
+  localparam int OUTPUT_RAW_LSB = 1;
+  localparam int OUTPUT_RAW_WIDTH = 1;
 
   // register k: columns 32 k and up; at reset all are enabled
   localparam logic [11:0] COLUMN_ENABLE = 12'h080;
   localparam int COLUMN_ENABLE_NUMBER = 32;
   localparam int COLUMN_ENABLE_MASK_LSB = 0;
   localparam int COLUMN_ENABLE_MASK_WIDTH = 32;
+
+  // with OUTPUT.RAW: whose histograms a frame sends
+  localparam logic [11:0] RAW_ROWS = 12'h100;
+  localparam int RAW_ROWS_FIRST_LSB = 0;
+  localparam int RAW_ROWS_FIRST_WIDTH = 12;
+  localparam int RAW_ROWS_LAST_LSB = 16;
+  localparam int RAW_ROWS_LAST_WIDTH = 12;
 
   // A result.
   localparam int RESULT_WIDTH = 64;
@@ -184,17 +200,19 @@ package dtof_registers_pkg;
   localparam int RESULT_MASKED_WIDTH = 1;
   localparam int RESULT_SECOND_LSB = 60;
   localparam int RESULT_SECOND_WIDTH = 1;
+  localparam int RESULT_RAW_LSB = 61;
+  localparam int RESULT_RAW_WIDTH = 1;
 
   function automatic bit is_register(input logic [11:0] offset);
-    is_register = (offset <= 12'h018)
+    is_register = (offset <= 12'h01c)
         || (offset >= 12'h040 && offset <= 12'h058)
-        || (offset >= 12'h060 && offset <= 12'h0fc);
+        || (offset >= 12'h060 && offset <= 12'h100);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
-        || (offset >= 12'h060 && offset <= 12'h0fc);
+        || (offset >= 12'h060 && offset <= 12'h100);
   endfunction
 
 endpackage

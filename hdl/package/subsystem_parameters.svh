@@ -32,6 +32,8 @@
     parameter int SIGNALLED_CLEAR = 0,
     // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
     parameter int TIME_GATE = 0,
+    // 1: a frame may send histograms instead of results (`raw_i`)
+    parameter int RAW_HISTOGRAM = 0,
     // bits of the run-time number of acquisitions
     parameter int ACQ_WIDTH = 16,
     // pixels that share a coarse histogram

@@ -15,6 +15,8 @@ module apb_registers #(
     parameter int TIME_GATE = 0,
     parameter int RASTER_ORDER = 0,
     parameter int SECOND_TARGET = 0,
+    parameter int RAW_HISTOGRAM = 0,
+    parameter int RAW_BINS = 0,
     parameter int NP = 10,
     parameter int SRAM_NUM = 200,
     parameter int PIXELS_PER_SRAM = 160,
@@ -42,6 +44,9 @@ module apb_registers #(
     output logic                 flush_o,
     output logic                 continuous_o,
     output logic                 second_o,       // 0 without SECOND_TARGET
+    output logic                 raw_o,          // these three are 0 without RAW_HISTOGRAM
+    output logic [         11:0] raw_first_o,
+    output logic [         11:0] raw_last_o,
     output logic [ACQ_WIDTH-1:0] acquisitions_o,
     output logic [ACQ_WIDTH-1:0] coarse_end_o,   // these three are 0 without HAS_SCHEDULE
     output logic [ACQ_WIDTH-1:0] track_end_o,
@@ -230,6 +235,32 @@ module apb_registers #(
     end else begin : g_one_target
       assign second_o = 1'b0;
     end
+
+    if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
+      localparam int FIRST_LSB = dtof_registers_pkg::RAW_ROWS_FIRST_LSB;
+      localparam int LAST_LSB = dtof_registers_pkg::RAW_ROWS_LAST_LSB;
+      logic raw_q;
+      logic [11:0] raw_first_q, raw_last_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          raw_q <= 1'b0;
+          raw_first_q <= '0;
+          raw_last_q <= '0;
+        end else if (write && offset == dtof_registers_pkg::OUTPUT && mask[dtof_registers_pkg::OUTPUT_RAW_LSB]) begin
+          raw_q <= written[dtof_registers_pkg::OUTPUT_RAW_LSB];
+        end else if (write && offset == dtof_registers_pkg::RAW_ROWS) begin
+          raw_first_q <= (raw_first_q & ~mask[FIRST_LSB+:12]) | written[FIRST_LSB+:12];
+          raw_last_q <= (raw_last_q & ~mask[LAST_LSB+:12]) | written[LAST_LSB+:12];
+        end
+      end
+      assign raw_o = raw_q;
+      assign raw_first_o = raw_first_q;
+      assign raw_last_o = raw_last_q;
+    end else begin : g_no_raw_histogram
+      assign raw_o = 1'b0;
+      assign raw_first_o = '0;
+      assign raw_last_o = '0;
+    end
   endgenerate
 
   // The columns: COLUMN_ENABLE + 4 k has those from 32 k on.
@@ -274,6 +305,7 @@ module apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_TIME_GATE_LSB] = (TIME_GATE != 0);
         prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
         prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
+        prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
       end
       dtof_registers_pkg::SIZE: begin
         prdata_o[dtof_registers_pkg::SIZE_COLUMNS_LSB+:16] = 16'(SRAM_NUM);
@@ -290,6 +322,7 @@ module apb_registers #(
         prdata_o[dtof_registers_pkg::LINES_BUFFER_LSB+:16] = 16'(BUFFER_LINES);
       end
       dtof_registers_pkg::SLOTS: prdata_o[dtof_registers_pkg::SLOTS_VALUE_LSB+:8] = 8'(SLOTS);
+      dtof_registers_pkg::RAW_BINS: prdata_o[dtof_registers_pkg::RAW_BINS_VALUE_LSB+:17] = 17'(RAW_BINS);
       dtof_registers_pkg::CONTROL: prdata_o[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB] = continuous_q;
       dtof_registers_pkg::STATUS: begin
         prdata_o[dtof_registers_pkg::STATUS_BUSY_LSB] = busy_i;
@@ -311,7 +344,14 @@ module apb_registers #(
       end
       dtof_registers_pkg::RELEASE: prdata_o = 32'(release_q);
       dtof_registers_pkg::WEAK_BELOW: prdata_o = 32'(weak_below_q);
-      dtof_registers_pkg::OUTPUT: prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second_o;
+      dtof_registers_pkg::OUTPUT: begin
+        prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second_o;
+        prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw_o;
+      end
+      dtof_registers_pkg::RAW_ROWS: begin
+        prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first_o;
+        prdata_o[dtof_registers_pkg::RAW_ROWS_LAST_LSB+:12] = raw_last_o;
+      end
       default:
       if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
         prdata_o = enable_word;

@@ -7,7 +7,8 @@
 //    acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
 // 3. Columns that are not enabled and timestamps outside the time gate count as no detection.
 // 4. Results leave as words of 64 bits with a status, in the array's order or row by row; the array waits for a sink that
-//    waits. With SECOND_TARGET = 1 a frame may have a word for each pixel's second target, too.
+//    waits. With SECOND_TARGET = 1 a frame may have a word for each pixel's second target, too; with RAW_HISTOGRAM = 1
+//    it may send histograms of chosen rows instead of results.
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
 // 6. Between frames the array's clock is gated (clock_gate of the technology folder).
 //
@@ -65,15 +66,22 @@ module dtof_subsystem #(
   localparam int FRACTION_WIDTH = (POOL != 0) ? 16 - NP : dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
   localparam int RESULT_CONFIDENCE_WIDTH = (POOL != 0) ? dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH)
       : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, CONFIDENCE_WIDTH);
+  // A count of a raw frame takes the place of the confidence.
+  localparam int KEPT_CONFIDENCE_WIDTH = (POOL != 0) ? RESULT_CONFIDENCE_WIDTH
+      : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH,
+                                   dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM));
+  localparam int RAW_BINS = (RAW_HISTOGRAM != 0) ? dtof_pkg::raw_bins(READOUT, NP, NB) : 0;
   localparam int POSITION_WIDTH = NP + FRACTION_WIDTH;
   localparam int TARGETS = (SECOND_TARGET != 0) ? 2 : 1;
-  localparam int TARGET_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + RESULT_CONFIDENCE_WIDTH;
+  localparam int TARGET_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + KEPT_CONFIDENCE_WIDTH;
   localparam int RESULT_WIDTH = TARGET_WIDTH + (TARGETS - 1) * POSITION_WIDTH;
 
   `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT) || POOL != 0,
                 "dtof_subsystem: READOUT must be one of dtof_pkg::READOUT_*")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || POOL != 0,
                 "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER")
+  `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (POOL == 0 && RASTER_ORDER == 0),
+                "dtof_subsystem: RAW_HISTOGRAM must be 0 for READOUT_POOLPOINTER, and where RASTER_ORDER is 1")
   `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1 && SRAM_NUM <= 1024, "dtof_subsystem: SRAM_NUM must be 1 to 1024")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1 && PIXELS_PER_SRAM <= 4096,
                 "dtof_subsystem: PIXELS_PER_SRAM must be 1 to 4096")
@@ -84,11 +92,12 @@ module dtof_subsystem #(
 
   // Registers and frames.
 
-  logic start, flush, continuous, second, begin_frame, busy, done, frame;
+  logic start, flush, continuous, second, raw, begin_frame, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, misframed, overrun;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end, late_begin;
   logic [NP-1:0] gate_begin, gate_end;
   logic [15:0] release_lines, weak_below;
+  logic [11:0] raw_first, raw_last;
   logic [SRAM_NUM-1:0] enable;
   logic [2:0] state;
   logic [LEVEL_WIDTH-1:0] level;
@@ -100,6 +109,8 @@ module dtof_subsystem #(
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
       .SECOND_TARGET   (SECOND_TARGET),
+      .RAW_HISTOGRAM   (RAW_HISTOGRAM),
+      .RAW_BINS        (RAW_BINS),
       .NP              (NP),
       .SRAM_NUM        (SRAM_NUM),
       .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
@@ -125,6 +136,9 @@ module dtof_subsystem #(
       .flush_o           (flush),
       .continuous_o      (continuous),
       .second_o          (second),
+      .raw_o             (raw),
+      .raw_first_o       (raw_first),
+      .raw_last_o        (raw_last),
       .acquisitions_o    (acquisitions),
       .coarse_end_o      (coarse_end),
       .track_end_o       (track_end),
@@ -149,9 +163,11 @@ module dtof_subsystem #(
   );
 
   frame_control #(
-      .HAS_SCHEDULE(POOL),
-      .ACQ_WIDTH   (ACQ_WIDTH),
-      .MOST_RELEASE(MOST_RELEASE)
+      .HAS_SCHEDULE   (POOL),
+      .ACQ_WIDTH      (ACQ_WIDTH),
+      .MOST_RELEASE   (MOST_RELEASE),
+      .RAW_HISTOGRAM  (RAW_HISTOGRAM),
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM)
   ) u_frame_control (
       .clk_i             (clk_i),
       .rst_ni            (rst_ni),
@@ -162,6 +178,9 @@ module dtof_subsystem #(
       .track_end_i       (track_end),
       .late_begin_i      (late_begin),
       .release_i         (release_lines),
+      .raw_i             (raw),
+      .raw_first_i       (raw_first),
+      .raw_last_i        (raw_last),
       .begin_o           (begin_frame),
       .done_i            (done),
       .frame_i           (frame),
@@ -314,6 +333,9 @@ module dtof_subsystem #(
           .acq_num_i      (acquisitions),
           .gate_begin_i   ({NP{1'b0}}),
           .gate_end_i     ({NP{1'b0}}),
+          .raw_i          (raw),
+          .raw_first_row_i(ROW_WIDTH'(raw_first)),
+          .raw_last_row_i (ROW_WIDTH'(raw_last)),
           .busy_o         (array_busy),
           .done_o         (done),
           .state_o        (state),
@@ -377,6 +399,24 @@ module dtof_subsystem #(
     end
   endgenerate
 
+  logic frame_raw;
+
+  generate
+    if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
+      logic frame_raw_q;
+      always_ff @(posedge clk_i) begin
+        if (begin_frame) begin
+          frame_raw_q <= raw;
+        end
+      end
+      assign frame_raw = frame_raw_q;
+    end else begin : g_results_alone
+      logic unused_raw;
+      assign unused_raw = ^{raw, raw_first, raw_last};
+      assign frame_raw = 1'b0;
+    end
+  endgenerate
+
   logic word_tvalid, word_tready, word_tuser, word_tlast;
   logic [M_TDATA_WIDTH-1:0] word_tdata;
 
@@ -384,12 +424,14 @@ module dtof_subsystem #(
       .SRAM_NUM        (SRAM_NUM),
       .ROW_WIDTH       (ROW_WIDTH),
       .POSITION_WIDTH  (POSITION_WIDTH),
-      .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
+      .CONFIDENCE_WIDTH(KEPT_CONFIDENCE_WIDTH),
+      .HAS_CONFIDENCE  ((RESULT_CONFIDENCE_WIDTH > 0) ? 1 : 0)
   ) u_stream_output (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
       .weak_below_i   (frame_weak_below_q),
       .enable_i       (frame_enable_q),
+      .raw_i          (frame_raw),
       .result_tvalid_i(target_tvalid),
       .result_tready_o(target_tready),
       .result_tdata_i (target_tdata),

@@ -6,15 +6,17 @@
 // 3. What is illegal begins no frame and ends the continuous frames; start_i while busy_o does nothing. Either is told
 //    with a pulse.
 //
-// Legal is a schedule in order (HAS_SCHEDULE = 1), coarse_end <= track_end <= late_begin <= acquisitions, and
-// 1 <= release <= MOST_RELEASE.
+// Legal is a schedule in order (HAS_SCHEDULE = 1), coarse_end <= track_end <= late_begin <= acquisitions;
+// 1 <= release <= MOST_RELEASE; and with raw_i (RAW_HISTOGRAM = 1) raw_first <= raw_last < PIXELS_PER_SRAM.
 // Cost: a cycle counter and the last frame's cycles, a frame counter, three comparators of ACQ_WIDTH bits.
 `include "dtof_macros.svh"
 
 module frame_control #(
     parameter int HAS_SCHEDULE = 0,
     parameter int ACQ_WIDTH = 16,
-    parameter int MOST_RELEASE = 320
+    parameter int MOST_RELEASE = 320,
+    parameter int RAW_HISTOGRAM = 0,
+    parameter int PIXELS_PER_SRAM = 160
 ) (
     input  logic                 clk_i,
     input  logic                 rst_ni,
@@ -25,6 +27,9 @@ module frame_control #(
     input  logic [ACQ_WIDTH-1:0] track_end_i,
     input  logic [ACQ_WIDTH-1:0] late_begin_i,
     input  logic [         15:0] release_i,
+    input  logic                 raw_i,               // these three are 0 without RAW_HISTOGRAM
+    input  logic [         11:0] raw_first_i,
+    input  logic [         11:0] raw_last_i,
     output logic                 begin_o,             // the array's start: its settings are sampled
     input  logic                 done_i,              // the array's last clock
     input  logic                 frame_i,             // the frame's last result was taken
@@ -35,18 +40,28 @@ module frame_control #(
     output logic [         31:0] frame_cycles_o       // from begin_o to done_i, both included
 );
 
-  logic legal;
+  logic legal, legal_schedule, legal_raw;
 
   generate
     if (HAS_SCHEDULE != 0) begin : g_schedule
-      assign legal = (coarse_end_i <= track_end_i) && (track_end_i <= late_begin_i) && (late_begin_i <= acquisitions_i)
-          && (release_i != '0) && (32'(release_i) <= MOST_RELEASE);
+      assign legal_schedule = (coarse_end_i <= track_end_i) && (track_end_i <= late_begin_i)
+          && (late_begin_i <= acquisitions_i);
     end else begin : g_no_schedule
       logic unused_schedule;
       assign unused_schedule = ^{coarse_end_i, track_end_i, late_begin_i, acquisitions_i};
-      assign legal = (release_i != '0) && (32'(release_i) <= MOST_RELEASE);
+      assign legal_schedule = 1'b1;
+    end
+
+    if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
+      assign legal_raw = !raw_i || (raw_first_i <= raw_last_i && 32'(raw_last_i) < PIXELS_PER_SRAM);
+    end else begin : g_no_raw_histogram
+      logic unused_raw;
+      assign unused_raw = ^{raw_i, raw_first_i, raw_last_i};
+      assign legal_raw = 1'b1;
     end
   endgenerate
+
+  assign legal = legal_schedule && legal_raw && (release_i != '0) && (32'(release_i) <= MOST_RELEASE);
 
   logic running_q, again_q;
   logic [31:0] cycles_q, frame_cycles_q, frame_count_q;

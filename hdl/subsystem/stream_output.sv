@@ -5,7 +5,7 @@
 // Word: {status, column, row, confidence, position}, at the places of dtof_registers_pkg. `second` is what comes with the
 // result: a pixel's second target. Of a result's status, `weak` is
 // confidence < weak_below_i; `empty` is confidence = 0, where the read-out has one; `masked` says that the column is not
-// enabled; `valid` that none of the three holds.
+// enabled; `valid` that none of the three holds. Counts of a raw frame are neither weak nor empty.
 // tuser: a frame's first word. tlast: its last.
 // Latency: one clock. A word a clock while tready stays high. tvalid never falls before tready.
 // Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
@@ -16,14 +16,16 @@ module stream_output #(
     parameter int ROW_WIDTH = 8,
     parameter int POSITION_WIDTH = 10,    // code and fraction, at most 16
     parameter int CONFIDENCE_WIDTH = 4,   // at most 16; 0: none
+    parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,  // 0: it is a count of raw frames alone
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
     localparam int WORD_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
     input  logic                   clk_i,
     input  logic                   rst_ni,
-    input  logic [           15:0] weak_below_i,   // these two do not change during a frame
+    input  logic [           15:0] weak_below_i,   // these three do not change during a frame
     input  logic [   SRAM_NUM-1:0] enable_i,
+    input  logic                   raw_i,          // the frame's results are counts
     // from the array
     input  logic                   result_tvalid_i,
     output logic                   result_tready_o,
@@ -51,8 +53,8 @@ module stream_output #(
   generate
     if (CONFIDENCE_WIDTH > 0) begin : g_confidence
       assign confidence = 16'(result_tdata_i[CONFIDENCE_WIDTH-1:0]);
-      assign low = (confidence < weak_below_i);
-      assign empty = (confidence == '0);
+      assign low = (HAS_CONFIDENCE != 0) && !raw_i && (confidence < weak_below_i);
+      assign empty = (HAS_CONFIDENCE != 0) && !raw_i && (confidence == '0);
     end else begin : g_no_confidence
       logic unused_weak_below;
       assign unused_weak_below = ^weak_below_i;
@@ -77,6 +79,7 @@ module stream_output #(
     word[dtof_registers_pkg::RESULT_EMPTY_LSB] = empty;
     word[dtof_registers_pkg::RESULT_MASKED_LSB] = masked;
     word[dtof_registers_pkg::RESULT_SECOND_LSB] = result_second_i;
+    word[dtof_registers_pkg::RESULT_RAW_LSB] = raw_i;
   end
 
   // The word at the port, and one behind it for the clock in which the array learns that the sink waits.

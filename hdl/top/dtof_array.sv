@@ -19,6 +19,9 @@
 //   pixel 0, slot 0 of every column; the other PIXELS_PER_SRAM * SLOTS - 1 timestamps follow on consecutive
 //   clocks, valid and ready held high. Between acquisitions the source may pause. All ones: no detection.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; rows in order, columns in a row.
+// Raw frame (RAW_HISTOGRAM = 1, raw_i with start_i): instead of the results, the histograms that the read-out holds at the
+//   frame's end, of the rows from raw_first_row_i to raw_last_row_i: row by row, bin by bin, column by column. code is
+//   the bin's lowest, limited to 0 .. 2^NP - 1, fraction 0, and confidence the count.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of 2 SRAM_NUM and the bins to scan in M4.
 // Cost at the defaults: ezPointer 493 um2 of logic and 2240 bits of SRAM a column, 1998 um2 in common.
@@ -40,10 +43,12 @@ module dtof_array #(
     parameter int POINTER_PORTS = 2,     // ports of the pointer SRAM; 1 needs SLOTS >= 2
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
+    parameter int RAW_HISTOGRAM = 0,     // 1: raw_i is there; a confidence has at least COUNT_WIDTH bits
     parameter int ACQ_WIDTH = 16,        // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int RESULT_WIDTH = dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, FRACTION_BITS, CONFIDENCE_WIDTH),
+    localparam int KEPT_CONFIDENCE_WIDTH = dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM),
+    localparam int RESULT_WIDTH = dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, FRACTION_BITS, KEPT_CONFIDENCE_WIDTH),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
 ) (
     input  logic                   clk_i,
@@ -56,6 +61,9 @@ module dtof_array #(
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,        // acquisitions of the frame, sampled with start_i
     input  logic [         NP-1:0] gate_begin_i,     // time gate of the frame, sampled with start_i
     input  logic [         NP-1:0] gate_end_i,
+    input  logic                   raw_i,            // a raw frame; this and its rows are sampled with start_i
+    input  logic [  ROW_WIDTH-1:0] raw_first_row_i,
+    input  logic [  ROW_WIDTH-1:0] raw_last_row_i,   // from the first one to PIXELS_PER_SRAM - 1
     output logic                   busy_o,           // from the clock behind start_i to that of done_o
     output logic                   done_o,           // the last result was taken; one clock
     output logic [            2:0] state_o,          // dtof_pkg::STATE_*
@@ -89,6 +97,8 @@ module dtof_array #(
                 "dtof_array: GUARD must be 0 to 2^NP")
   `DTOF_REQUIRE(g_illegal_ports, POINTER_PORTS == 2 || (POINTER_PORTS == 1 && SLOTS >= 2),
                 "dtof_array: POINTER_PORTS must be 2, or 1 with SLOTS of at least 2")
+  `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (RAW_HISTOGRAM == 1 && dtof_pkg::has_whole_histogram(READOUT, NP, NB)),
+                "dtof_array: RAW_HISTOGRAM must be 0, or 1 with a histogram that is whole at a frame's end")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 1 && ACQ_WIDTH <= 24, "dtof_array: ACQ_WIDTH must be 1 to 24")
 
   localparam int HISTOGRAM = dtof_pkg::has_histogram(READOUT) ? 1 : 0;
@@ -101,6 +111,10 @@ module dtof_array #(
   localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB);
   localparam int BINS = 1 << BIN_WIDTH;
   localparam int FINAL_BINS = 1 << dtof_pkg::scan_width(READOUT, NP, NB);
+  // The histogram that a raw frame shows: of the final pass, or, where timestamps move a word there, of the first one,
+  // which then is neither cleared in M1 nor in M2.
+  localparam int RAW_OF_FIRST_PASS = (RAW_HISTOGRAM != 0) ? WORD_MOVED : 0;
+  localparam int RAW_BINS = (RAW_HISTOGRAM != 0) ? dtof_pkg::raw_bins(READOUT, NP, NB) : 0;
   localparam int GEARS = dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
   localparam int GEAR_WIDTH = dtof_pkg::index_width(GEARS + 1);
   localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, GEARS);
@@ -181,6 +195,37 @@ module dtof_array #(
       .gate_end_o  (gate_end)
   );
 
+  logic raw, keeps_counts, illegal_rows;
+  logic [ROW_WIDTH-1:0] raw_first_row, raw_last_row;
+
+  generate
+    if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
+      logic raw_q;
+      logic [ROW_WIDTH-1:0] raw_first_row_q, raw_last_row_q;
+      always_ff @(posedge clk_i) begin
+        if (start_i && !busy_o) begin
+          raw_q <= raw_i;
+          raw_first_row_q <= raw_first_row_i;
+          raw_last_row_q <= raw_last_row_i;
+        end
+      end
+      assign illegal_rows = start_i && !busy_o && raw_i
+          && (raw_first_row_i > raw_last_row_i || 32'(raw_last_row_i) >= PIXELS_PER_SRAM);
+      assign raw = raw_q;
+      assign raw_first_row = raw_first_row_q;
+      assign raw_last_row = raw_last_row_q;
+    end else begin : g_no_raw_histogram
+      logic unused_raw;
+      assign unused_raw = ^{raw_i, raw_first_row_i, raw_last_row_i};
+      assign illegal_rows = 1'b0;
+      assign raw = 1'b0;
+      assign raw_first_row = '0;
+      assign raw_last_row = '0;
+    end
+  endgenerate
+
+  assign keeps_counts = (RAW_OF_FIRST_PASS != 0) && raw;
+
   logic underrun;
 
   array_errors u_errors (
@@ -189,7 +234,7 @@ module dtof_array #(
       .start_i           (start_i),
       .busy_i            (busy_o),
       .underrun_i        (underrun),
-      .illegal_schedule_i(1'b0),
+      .illegal_schedule_i(illegal_rows),
       .error_o           (error_o)
   );
 
@@ -233,7 +278,8 @@ module dtof_array #(
       .BIN_WIDTH      (BIN_WIDTH),
       .RESET_BINS     ((HISTOGRAM != 0) ? BINS : 1),
       .FINAL_BINS     (FINAL_BINS),
-      .SKIP_RESET     ((HISTOGRAM != 0) ? SIGNALLED_CLEAR : 0)
+      .SKIP_RESET     ((HISTOGRAM != 0) ? SIGNALLED_CLEAR : 0),
+      .RAW_BINS       (RAW_BINS)
   ) u_scan_sequencer (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
@@ -241,6 +287,9 @@ module dtof_array #(
       .reset_state_i(scan_reset),
       .final_state_i(scan_final),
       .hold_i       (result_busy),
+      .raw_i        (raw),
+      .raw_first_i  (raw_first_row),
+      .raw_last_i   (raw_last_row),
       .busy_o       (scan_busy),
       .row_o        (row),
       .last_row_o   (scan_last_row),
@@ -333,7 +382,7 @@ module dtof_array #(
 
   assign column_pass = (COARSE_PASSES != 0) ? pass : '0;
   assign column_first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
-  assign column_final_pass = (COARSE_PASSES != 0) ? final_pass : 1'b1;
+  assign column_final_pass = (COARSE_PASSES != 0) ? final_pass && !(keeps_counts && final_scan) : 1'b1;
   assign column_first_slot_t0 = (WORD_MOVED != 0) ? first_slot_t0 : 1'b0;
   assign column_visit_t1 = (WORD_MOVED != 0) ? visit_t1 : 1'b0;
   assign column_first_acq_t1 = (WORD_MOVED != 0) ? first_acq_t1 : 1'b0;
@@ -344,9 +393,9 @@ module dtof_array #(
   assign column_histogram_write_pixel = (HISTOGRAM != 0) ? histogram_write_pixel : '0;
   assign column_scan_s0 = (HISTOGRAM != 0) ? scan_s0 : 1'b0;
   assign column_scan_bin_s0 = (HISTOGRAM != 0) ? bin_s0 : '0;
-  assign column_clear_s1 = (HISTOGRAM != 0) ? clear_s1 : 1'b0;
+  assign column_clear_s1 = (HISTOGRAM != 0) ? clear_s1 && !(keeps_counts && coarse_scan) : 1'b0;
   assign column_clear_bin_s1 = (HISTOGRAM != 0) ? bin_s1 : '0;
-  assign column_clear_all = (HISTOGRAM != 0) ? clear_all : 1'b0;
+  assign column_clear_all = (HISTOGRAM != 0) ? clear_all && !(keeps_counts && next_pass) : 1'b0;
   assign column_scan_s2 = (HISTOGRAM != 0) ? scan_s2 : 1'b0;
   assign column_first_s2 = (HISTOGRAM != 0) ? first_s2 : 1'b0;
   assign column_bin_s2 = (HISTOGRAM != 0) ? bin_s2 : '0;
@@ -371,7 +420,8 @@ module dtof_array #(
       .WINDOW_CENTRED  (WINDOW_CENTRED), \
       .POINTER_PORTS   (POINTER_PORTS), \
       .SIGNALLED_CLEAR (SIGNALLED_CLEAR), \
-      .TIME_GATE       (TIME_GATE) \
+      .TIME_GATE       (TIME_GATE), \
+      .RAW_HISTOGRAM   (RAW_HISTOGRAM) \
   ) u_column ( \
       .clk_i                  (clk_i), \
       .rst_ni                 (rst_ni), \

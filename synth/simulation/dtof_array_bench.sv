@@ -16,12 +16,14 @@ module dtof_array_bench #(
     parameter int POINTER_PORTS = 2,
     parameter int SIGNALLED_CLEAR = 0,
     parameter int TIME_GATE = 0,
+    parameter int RAW_HISTOGRAM = 0,  // the vectors have results alone
     parameter int ACQ_WIDTH = 16,
     parameter int FRAMES = 1,
     parameter int BEATS = 1,
     parameter int SEED = 1
 );
 
+  localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
   localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM)
       + dtof_pkg::result_width(READOUT, NP, COUNT_WIDTH, FRACTION_BITS, CONFIDENCE_WIDTH);
 
@@ -53,6 +55,7 @@ module dtof_array_bench #(
       .POINTER_PORTS   (POINTER_PORTS),
       .SIGNALLED_CLEAR (SIGNALLED_CLEAR),
       .TIME_GATE       (TIME_GATE),
+      .RAW_HISTOGRAM   (RAW_HISTOGRAM),
       .ACQ_WIDTH       (ACQ_WIDTH)
   ) u_rtl (
       .clk_i          (clk),
@@ -62,6 +65,9 @@ module dtof_array_bench #(
       .acq_num_i      (acq_num),
       .gate_begin_i   (NP'(gate_begin)),
       .gate_end_i     (NP'(gate_end)),
+      .raw_i          (1'b0),
+      .raw_first_row_i({ROW_WIDTH{1'b0}}),
+      .raw_last_row_i ({ROW_WIDTH{1'b0}}),
       .busy_o         (rtl[TDATA_WIDTH+7]),
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
@@ -86,6 +92,9 @@ module dtof_array_bench #(
       .acq_num_i      (acq_num),
       .gate_begin_i   (NP'(gate_begin)),
       .gate_end_i     (NP'(gate_end)),
+      .raw_i          (1'b0),
+      .raw_first_row_i({ROW_WIDTH{1'b0}}),
+      .raw_last_row_i ({ROW_WIDTH{1'b0}}),
       .busy_o         (netlist[TDATA_WIDTH+7]),
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),

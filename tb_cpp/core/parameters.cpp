@@ -198,6 +198,26 @@ void ReadoutParameters::validate() const {
   }
 }
 
+int ReadoutParameters::raw_bins() const {
+  constexpr int kFineBinsOfThreeSteps = 16;
+  switch (readout) {
+    case Readout::kHisPointer1:
+    case Readout::kHisPointer:
+    case Readout::kSifh:
+      return 1 << nb;
+    case Readout::kFifh:
+      return 1 << (np - nb);
+    case Readout::kThreeSteps:
+      return kFineBinsOfThreeSteps;
+    case Readout::kPifh:
+      return nb == np ? code_count() : 0;
+    case Readout::kHistogram:
+      return code_count();
+    default:
+      return 0;
+  }
+}
+
 std::string ReadoutParameters::to_string() const {
   std::string out = fmt::format("{} NP={} SLOTS={}", readout_name(readout), np, slots);
   if (time_gate) {

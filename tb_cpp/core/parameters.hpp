@@ -103,6 +103,9 @@ struct ReadoutParameters {
   [[nodiscard]] int columns_together() const {
     return readout == Readout::kPoolPointer2 ? pool.engine_columns : 1;
   }
+  /// Bins of the histogram that a raw frame shows (RAW_HISTOGRAM); 0 if the read-out holds none that is whole
+  /// at a frame's end.
+  [[nodiscard]] int raw_bins() const;
   /// 2^NP.
   [[nodiscard]] int code_count() const { return 1 << np; }
   /// 2^NP - 1.

@@ -205,6 +205,9 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (parameter == "TIME_GATE") {
     return 0;
   }
+  if (parameter == "RAW_HISTOGRAM") {
+    return 0;
+  }
   if (parameter == "GROUP_SIZE") {
     return 8;
   }

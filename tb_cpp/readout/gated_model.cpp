@@ -46,6 +46,12 @@ class GatedModel final : public ReadoutModel {
         acquisitions);
   }
 
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_raw_column(const ColumnStream& column,
+                                                                     std::uint32_t acquisitions) override {
+    keep(column, acquisitions, kept_);
+    return model_->run_raw_column(kept_, acquisitions);
+  }
+
   void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,
                           std::span<PixelResult> results) override {
     GatedSampler gated(sampler, gate_);

@@ -24,6 +24,12 @@ constexpr std::uint16_t histogram_confidence(const HistogramPeak& peak, int bin_
   return static_cast<std::uint16_t>(peak.count - std::min(peak.count, mean_of_rest));
 }
 
+/// Where a histogram's bins are: bin b holds the codes from first + (b << shift) on.
+struct HistogramBins {
+  std::int32_t first = 0;  ///< may be negative
+  int shift = 0;
+};
+
 /// Histogram of saturating counters. Scan and clear visit the touched bins only, so that a pass costs its
 /// detections and not its bins.
 class Histogram {
@@ -41,8 +47,14 @@ class Histogram {
     count = static_cast<std::uint16_t>(count + (count < limit_ ? 1 : 0));
   }
 
+  /// From here on take_peak copies all counts to `counts` before it clears them; null: it does not.
+  void copy_counts_to(std::vector<std::uint16_t>* counts) { copy_ = counts; }
+
   /// Finds the peak and clears the histogram behind the scan.
   HistogramPeak take_peak() {
+    if (copy_ != nullptr) {
+      *copy_ = counts_;
+    }
     // Count in the upper half, complemented index in the lower: the maximum is the lowest bin of a tie.
     std::uint32_t best = kIndexMask;
     std::uint32_t sum = 0;
@@ -64,6 +76,7 @@ class Histogram {
   std::vector<std::uint16_t> touched_;
   std::size_t touched_count_ = 0;
   std::uint16_t limit_;
+  std::vector<std::uint16_t>* copy_ = nullptr;
 };
 
 /// One pass that keeps timestamps with a given prefix and histograms their next bits: every coarse pass, the

@@ -37,16 +37,19 @@ class SifhPixel {
   template <typename Cursor>
   PixelResult read(Cursor row) {
     const std::uint32_t peak = prefix_peak(coarse_, 0, row, histogram_).bin;
-    const auto first =
-        static_cast<std::int32_t>(peak << static_cast<unsigned>(coarse_.bin_shift)) + window_offset_;
-    const HistogramPeak fine = window_peak(end_, first, fine_bits_, row, histogram_);
-    return {window_code(first, fine), 0, histogram_confidence(fine, fine_bits_)};
+    first_ = static_cast<std::int32_t>(peak << static_cast<unsigned>(coarse_.bin_shift)) + window_offset_;
+    const HistogramPeak fine = window_peak(end_, first_, fine_bits_, row, histogram_);
+    return {window_code(first_, fine), 0, histogram_confidence(fine, fine_bits_)};
   }
+
+  Histogram& histogram() { return histogram_; }
+  [[nodiscard]] HistogramBins bins() const { return {first_, 0}; }
 
  private:
   int fine_bits_;
   PrefixPass coarse_;
   std::int32_t window_offset_ = 0;  // TH- + 1 of coarse peak 0
+  std::int32_t first_ = 0;          // code of the window's first bin
   std::uint32_t end_ = 0;
   Histogram histogram_;
 };
@@ -69,14 +72,19 @@ class FifhPixel {
   PixelResult read(Cursor row) {
     const std::uint32_t coarse = prefix_peak(coarse_, 0, row, histogram_).bin;
     const HistogramPeak fine = prefix_peak(fine_, coarse, row, histogram_);
+    first_ = static_cast<std::int32_t>(coarse << static_cast<unsigned>(fine_bits_));
     return {static_cast<std::uint16_t>(extend_prefix(fine_, coarse, fine)), 0,
             histogram_confidence(fine, fine_bits_)};
   }
+
+  Histogram& histogram() { return histogram_; }
+  [[nodiscard]] HistogramBins bins() const { return {first_, 0}; }
 
  private:
   int fine_bits_;
   PrefixPass coarse_;
   PrefixPass fine_;
+  std::int32_t first_ = 0;  // code of the fine histogram's first bin
   Histogram histogram_;
 };
 
@@ -110,10 +118,13 @@ class ThreeStepsPixel {
     }
     const std::int32_t section_width = 1 << section_shift_;
     const auto section_begin = static_cast<std::int32_t>(section << static_cast<unsigned>(section_shift_));
-    const std::int32_t first = section_begin + section_width / 2 - (1 << kFineBits) / 2;
-    const HistogramPeak fine = window_peak(end_, first, kFineBits, row, histogram_);
-    return {window_code(first, fine), 0, histogram_confidence(fine, kFineBits)};
+    first_ = section_begin + section_width / 2 - (1 << kFineBits) / 2;
+    const HistogramPeak fine = window_peak(end_, first_, kFineBits, row, histogram_);
+    return {window_code(first_, fine), 0, histogram_confidence(fine, kFineBits)};
   }
+
+  Histogram& histogram() { return histogram_; }
+  [[nodiscard]] HistogramBins bins() const { return {first_, 0}; }
 
  private:
   static constexpr std::uint32_t kSteps = 3;
@@ -122,6 +133,7 @@ class ThreeStepsPixel {
 
   std::array<PrefixPass, kSteps> steps_{};
   int section_shift_ = 0;
+  std::int32_t first_ = 0;  // code of the window's first bin
   std::uint32_t end_ = 0;
   Histogram histogram_;
 };

@@ -47,6 +47,11 @@ std::vector<std::vector<PixelResult>> ReadoutModel::run_columns(std::span<const 
   return run_columns(static_cast<int>(columns.size()), reader_of(columns), acquisitions);
 }
 
+std::vector<std::vector<PixelResult>> ReadoutModel::run_raw_column(const ColumnStream& /*column*/,
+                                                                   std::uint32_t /*acquisitions*/) {
+  throw InputError("the read-out holds no whole histogram at a frame's end");
+}
+
 std::unique_ptr<ReadoutModel> make_readout_model(const ReadoutParameters& parameters) {
   parameters.validate();
   std::unique_ptr<ReadoutModel> model = make_ungated_model(parameters);

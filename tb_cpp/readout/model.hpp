@@ -39,6 +39,13 @@ class ReadoutModel {
   /// many as `results` holds.
   virtual void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,
                                   std::span<PixelResult> results) = 0;
+  /// What a raw frame shows of the column: of each row the bins of the histogram that the read-out holds at
+  /// the frame's end (the last one it built), as many as raw_bins() of its parameters. A bin is its lowest
+  /// code, limited to 0 .. 2^NP - 1 where a window begins or ends beyond the range, and its count as the
+  /// confidence. Throws InputError for a read-out
+  /// without such a histogram.
+  [[nodiscard]] virtual std::vector<std::vector<PixelResult>> run_raw_column(const ColumnStream& column,
+                                                                             std::uint32_t acquisitions);
 };
 
 /// Throws InputError for illegal parameters.

@@ -38,6 +38,9 @@ class PartitionedPixel {
     return best;
   }
 
+  Histogram& histogram() { return histogram_; }
+  [[nodiscard]] HistogramBins bins() const { return {}; }
+
  private:
   int bin_bits_;
   std::vector<std::uint32_t> run_end_;

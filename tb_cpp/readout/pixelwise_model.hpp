@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "readout/histogram.hpp"
 #include "readout/model.hpp"
 #include "readout/pass_schedule.hpp"
 
@@ -17,7 +19,8 @@ void check_detections(std::span<const Detection> detections, int row, const Read
                       std::uint32_t acquisitions);
 
 /// A ReadoutModel around a `Pixel` with `start_frame(acquisitions)` and `read(cursor) -> PixelResult`:
-/// the virtual call is per column, the loop over detections is inlined.
+/// the virtual call is per column, the loop over detections is inlined. One with histograms has
+/// `histogram()`, and `bins()`, which tells where those of the last one are that `read` has built.
 template <typename Pixel>
 class PixelwiseModel final : public ReadoutModel {
  public:
@@ -37,6 +40,37 @@ class PixelwiseModel final : public ReadoutModel {
           pixel_.read(PassCursor(detections, static_cast<std::uint32_t>(parameters_.no_detection()))));
     }
     return results;
+  }
+
+  [[nodiscard]] std::vector<std::vector<PixelResult>> run_raw_column(const ColumnStream& column,
+                                                                     std::uint32_t acquisitions) override {
+    if constexpr (requires { pixel_.histogram(); }) {
+      const auto bins = static_cast<std::size_t>(parameters_.raw_bins());
+      if (bins > 0) {
+        std::vector<std::uint16_t> counts;
+        std::vector<std::vector<PixelResult>> rows;
+        pixel_.histogram().copy_counts_to(&counts);
+        pixel_.start_frame(acquisitions);
+        for (int row = 0; row < column.rows(); ++row) {
+          const std::span<const Detection> detections = column.row(row);
+          check_detections(detections, row, parameters_, acquisitions);
+          pixel_.read(PassCursor(detections, static_cast<std::uint32_t>(parameters_.no_detection())));
+          std::vector<PixelResult>& results = rows.emplace_back();
+          const HistogramBins place = pixel_.bins();
+          for (std::size_t bin = 0; bin < bins; ++bin) {
+            const std::int32_t code =
+                place.first + (static_cast<std::int32_t>(bin) << static_cast<unsigned>(place.shift));
+            results.push_back(
+                {.code = static_cast<std::uint16_t>(std::clamp(code, 0, parameters_.no_detection())),
+                 .fraction = 0,
+                 .confidence = counts[bin]});
+          }
+        }
+        pixel_.histogram().copy_counts_to(nullptr);
+        return rows;
+      }
+    }
+    return ReadoutModel::run_raw_column(column, acquisitions);
   }
 
   void run_sampled_column(PixelSampler& sampler, int column, std::uint32_t acquisitions,

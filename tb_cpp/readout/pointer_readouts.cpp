@@ -51,6 +51,9 @@ class HisPointerPixel {
     return pointer_.follow(row, centre, {signed_centre - reach_, signed_centre + reach_});
   }
 
+  Histogram& histogram() { return histogram_; }
+  [[nodiscard]] HistogramBins bins() const { return {0, coarse_.bin_shift}; }
+
  private:
   PrefixPass coarse_;
   std::int32_t reach_;  // SB of Eq. 3.13; v1 reaches past both ends of the range

@@ -19,6 +19,9 @@ class ArrayModel {
     std::uint16_t* acquisitions;
     std::uint16_t* gate_begin;
     std::uint16_t* gate_end;
+    std::uint8_t* raw;  ///< these three are of dtof_array only
+    std::uint16_t* raw_first_row;
+    std::uint16_t* raw_last_row;
     std::uint16_t* coarse_end;  ///< schedule; these are null in dtof_array
     std::uint16_t* track_end;
     std::uint16_t* late_begin;  ///< of pool_pointer_array only

@@ -20,6 +20,9 @@ std::string RtlConfiguration::to_string() const {
   if (has_histogram(parameters.readout)) {
     out += fmt::format(" SIGNALLED_CLEAR={}", signalled_clear ? 1 : 0);
   }
+  if (raw_histogram) {
+    out += " RAW_HISTOGRAM=1";
+  }
   return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={}", pixels_per_sram, sram_num);
 }
 

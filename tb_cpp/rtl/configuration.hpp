@@ -25,6 +25,7 @@ struct RtlConfiguration {
   int sram_num = 8;                  ///< SRAM_NUM, columns
   int pointer_ports = 2;             ///< POINTER_PORTS, 1 or 2 (pointer read-outs)
   bool signalled_clear = false;      ///< SIGNALLED_CLEAR (histogram read-outs)
+  bool raw_histogram = false;        ///< RAW_HISTOGRAM: a frame may send histograms instead of results
   bool records_waveform = true;      ///< not a parameter: whether a waveform of the model can be written
 
   /// E.g. "ezpointer NP=10 SLOTS=2 ... PIXELS_PER_SRAM=160 SRAM_NUM=8".

@@ -22,6 +22,7 @@ module dtof_array_testbench #(
     parameter POINTER_PORTS = 2,
     parameter SIGNALLED_CLEAR = 0,
     parameter TIME_GATE = 0,
+    parameter RAW_HISTOGRAM = 0,
     parameter PROBE = 0,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
 ) (
@@ -31,6 +32,9 @@ module dtof_array_testbench #(
     input  logic [         15:0] acq_num_i,
     input  logic [         15:0] gate_begin_i,
     input  logic [         15:0] gate_end_i,
+    input  logic                 raw_i,
+    input  logic [         15:0] raw_first_row_i,
+    input  logic [         15:0] raw_last_row_i,
     output logic                 busy_o,
     output logic                 done_o,
     output logic [          2:0] state_o,
@@ -54,7 +58,8 @@ module dtof_array_testbench #(
   localparam COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM);
   localparam ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
   localparam FRACTION_WIDTH = dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
-  localparam RESULT_CONFIDENCE_WIDTH = dtof_pkg::confidence_width(READOUT, COUNT_WIDTH, CONFIDENCE_WIDTH);
+  localparam RESULT_CONFIDENCE_WIDTH = dtof_pkg::confidence_width(READOUT, COUNT_WIDTH,
+      dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM));
   localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + NP + FRACTION_WIDTH + RESULT_CONFIDENCE_WIDTH;
 
   localparam FRACTION_LSB = RESULT_CONFIDENCE_WIDTH;
@@ -86,6 +91,7 @@ module dtof_array_testbench #(
       .POINTER_PORTS(POINTER_PORTS),
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
       .TIME_GATE(TIME_GATE),
+      .RAW_HISTOGRAM(RAW_HISTOGRAM),
       .ACQ_WIDTH(16)
   ) u_array (
       .clk_i,
@@ -96,6 +102,9 @@ module dtof_array_testbench #(
       .acq_num_i,
       .gate_begin_i(gate_begin_i[NP-1:0]),
       .gate_end_i(gate_end_i[NP-1:0]),
+      .raw_i,
+      .raw_first_row_i(raw_first_row_i[ROW_WIDTH-1:0]),
+      .raw_last_row_i(raw_last_row_i[ROW_WIDTH-1:0]),
       .busy_o,
       .done_o,
       .state_o,
@@ -146,8 +155,8 @@ module dtof_array_testbench #(
   end
   `DTOF_ASSERT(a_side_band, sram_cfg_answer == sram_cfg, "an SRAM does not hear its side band")
 
-  // The padding of the timestamp bus and of the gate.
+  // The padding of the timestamp bus, of the gate and of the rows.
   logic unused;
-  assign unused = &{1'b0, tdc_timestamp_i, gate_begin_i, gate_end_i};
+  assign unused = &{1'b0, tdc_timestamp_i, gate_begin_i, gate_end_i, raw_first_row_i, raw_last_row_i};
 
 endmodule

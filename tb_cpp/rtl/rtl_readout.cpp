@@ -89,7 +89,8 @@ class RtlReadout::Simulation {
     options_ = &options;
     acquisitions_ = acquisitions;
     gate_ = gate;
-    expected_beats_ = result_order_.size();
+    order_ = options.raw ? raw_order(*options.raw) : result_order_;
+    expected_beats_ = order_.size();
     total_cycles_ = 0;
     broken_ = true;  // until the frame ends without an exception
     if (!options.trace.empty()) {
@@ -100,7 +101,7 @@ class RtlReadout::Simulation {
     frame_ = RtlFrame{};
     frame_.columns = static_cast<int>(columns.size());
     const std::size_t rows = columns.empty() ? 0 : static_cast<std::size_t>(columns.front().rows());
-    frame_.results.resize(rows * columns.size());
+    frame_.results.resize((options.raw ? raw_lines(*options.raw) : rows) * columns.size());
     frame_.result_cycles.resize(frame_.results.size());
 
     if (options.reset_first || !was_reset_) {
@@ -121,6 +122,24 @@ class RtlReadout::Simulation {
   }
 
  private:
+  /// Rows times bins.
+  [[nodiscard]] std::size_t raw_lines(RawRows rows) const {
+    return static_cast<std::size_t>(rows.last - rows.first + 1) *
+           static_cast<std::size_t>(configuration_.parameters.raw_bins());
+  }
+  /// Row by row, bin by bin, column by column.
+  [[nodiscard]] std::vector<ResultAddress> raw_order(RawRows rows) const {
+    std::vector<ResultAddress> order;
+    for (int row = rows.first; row <= rows.last; ++row) {
+      for (int bin = 0; bin < configuration_.parameters.raw_bins(); ++bin) {
+        for (int column = 0; column < configuration_.sram_num; ++column) {
+          order.push_back({row, column, column == 0});
+        }
+      }
+    }
+    return order;
+  }
+
   // Inputs are set; settles the outputs of this clock.
   void settle() {
     *ports_.clock = 0;
@@ -167,13 +186,20 @@ class RtlReadout::Simulation {
             ? 1000 * pixels * static_cast<std::uint64_t>(configuration_.parameters.pool.engine_columns)
             : 0;
     // Every code of every pixel cleared and scanned, and the results, with room for latencies.
-    return 2 * stream + 8 * pixels * codes + 8 * expected_beats_ + 100 * codes + engine + 10000;
+    const std::uint64_t raw = options_->raw ? 16 * expected_beats_ : 0;
+    return 2 * stream + 8 * pixels * codes + 8 * expected_beats_ + 100 * codes + engine + raw + 10000;
   }
 
   void drive_registers(std::uint32_t acquisitions, CodeGate gate) {
     *ports_.acquisitions = static_cast<std::uint16_t>(acquisitions);
     *ports_.gate_begin = static_cast<std::uint16_t>(gate.begin);
     *ports_.gate_end = static_cast<std::uint16_t>(gate.end);
+    if (ports_.raw != nullptr) {
+      const bool own = acquisitions == acquisitions_;
+      *ports_.raw = options_->raw.has_value() == own ? 1 : 0;
+      *ports_.raw_first_row = static_cast<std::uint16_t>(own && options_->raw ? options_->raw->first : 0);
+      *ports_.raw_last_row = static_cast<std::uint16_t>(own && options_->raw ? options_->raw->last : 0);
+    }
     if (ports_.coarse_end != nullptr) {
       const PoolSchedule schedule(acquisitions, configuration_.parameters.pool);
       *ports_.coarse_end = static_cast<std::uint16_t>(schedule.coarse_end);
@@ -215,7 +241,7 @@ class RtlReadout::Simulation {
                           {static_cast<int>(random() % 65536U), static_cast<int>(random() % 65536U)});
         }
       }
-      if (row_stall_left_ > 0 && beats_ < expected_beats_ && result_order_[beats_].begins_row) {
+      if (row_stall_left_ > 0 && beats_ < expected_beats_ && order_[beats_].begins_row) {
         *ports_.result_ready = 0;
       } else if (!disturb) {
         *ports_.result_ready = 1;
@@ -302,12 +328,15 @@ class RtlReadout::Simulation {
     }
     row_stall_left_ = options_->row_stall;
     require(beats_ < expected_beats_, "more results than pixels");
-    const ResultAddress& pixel = result_order_[beats_];
+    const ResultAddress& pixel = order_[beats_];
     require(beat.row == pixel.row && beat.column == pixel.column, "result out of order");
     require(beat.last == (beats_ + 1 == expected_beats_), "result_tlast_o on the wrong result");
+    // The line of a raw frame is a bin of a row.
+    const std::size_t line =
+        options_->raw ? beats_ / static_cast<std::size_t>(configuration_.sram_num) : beat.row;
     ++beats_;
     const auto columns = static_cast<std::size_t>(frame_.columns);
-    const std::size_t index = beat.row * columns + beat.column;
+    const std::size_t index = line * columns + beat.column;
     if (beat.column < columns && index < frame_.results.size()) {
       frame_.results[index] = beat.result;
       frame_.result_cycles[index] = cycle_;
@@ -324,6 +353,7 @@ class RtlReadout::Simulation {
 
   RtlConfiguration configuration_;
   std::vector<ResultAddress> result_order_;
+  std::vector<ResultAddress> order_;           // of this frame
   std::unique_ptr<VerilatedContext> context_;  // outlives the model
   std::unique_ptr<ArrayModel> model_;
   ArrayModel::Ports ports_{};
@@ -359,6 +389,12 @@ const RtlConfiguration& RtlReadout::configuration() const { return configuration
 
 RtlFrame RtlReadout::run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
                          const RtlRunOptions& options) {
+  if (options.raw &&
+      (!configuration_.raw_histogram || options.raw->first < 0 || options.raw->first > options.raw->last ||
+       options.raw->last >= configuration_.pixels_per_sram)) {
+    throw InputError(fmt::format("{} sends no histograms of rows {} to {}", configuration_.to_string(),
+                                 options.raw->first, options.raw->last));
+  }
   if (simulation_->broken()) {  // an exception left the model inside an evaluation
     simulation_ = std::make_unique<Simulation>(configuration_, options.seed, false);
   }

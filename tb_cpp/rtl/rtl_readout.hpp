@@ -29,6 +29,12 @@ struct RtlCycle {
   std::uint16_t sram_data;
 };
 
+/// Rows whose histograms a raw frame sends, both included.
+struct RawRows {
+  int first = 0;
+  int last = 0;
+};
+
 /// How a frame is driven. The defaults are an ideal source and sink.
 struct RtlRunOptions {
   std::uint64_t seed = 1;          ///< of everything random below
@@ -39,6 +45,7 @@ struct RtlRunOptions {
   std::uint64_t row_stall = 0;
   double start_probability = 0.0;         ///< per clock while busy: start_i with another acq_num_i
   std::optional<std::uint64_t> reset_at;  ///< reset in this clock after start, then a whole frame
+  std::optional<RawRows> raw;             ///< a raw frame (RAW_HISTOGRAM)
   bool reset_first = true;  ///< false: start as the frame before left the array (if there was one)
   /// Clocks after which a frame is given up; 0: several times what its size needs. Clocks in which source or
   /// sink hold the array up do not count.
@@ -59,7 +66,8 @@ struct RtlStatistics {
 
 struct RtlFrame {
   int columns = 0;
-  std::vector<PixelResult> results;          ///< index = row * columns + column
+  /// Index = row * columns + column; of a raw frame ((row - first) * bins + bin) * columns + column.
+  std::vector<PixelResult> results;
   std::vector<std::uint64_t> result_cycles;  ///< clock of each result, since start; same index
   RtlStatistics statistics;
 };
@@ -85,7 +93,8 @@ class RtlReadout {
   /// Runs one frame of `acquisitions` (0 to 65,535) on up to SRAM_NUM columns of equally many rows, at most
   /// PIXELS_PER_SRAM; columns and rows beyond the given ones see no detection and are not in the result (the
   /// rows of a pool read-out see them, too). A pool read-out's schedule is that of PoolSchedule.
-  /// Throws InputError for a stream that the configuration cannot take, RtlError for misbehaving RTL.
+  /// Throws InputError for a stream or a raw frame that the configuration cannot take, RtlError for
+  /// misbehaving RTL.
   RtlFrame run(std::span<const ColumnStream> columns, std::uint32_t acquisitions,
                const RtlRunOptions& options = {});
 

@@ -37,6 +37,10 @@ class VerilatedArray : public ArrayModel {
       registers = {.coarse_end = &model_.coarse_end_i,
                    .track_end = &model_.track_end_i,
                    .late_begin = &model_.late_begin_i};
+    } else {
+      registers = {.raw = &model_.raw_i,
+                   .raw_first_row = &model_.raw_first_row_i,
+                   .raw_last_row = &model_.raw_last_row_i};
     }
     return {.clock = &model_.clk_i,
             .reset_n = &model_.rst_ni,
@@ -44,6 +48,9 @@ class VerilatedArray : public ArrayModel {
             .acquisitions = &model_.acq_num_i,
             .gate_begin = &model_.gate_begin_i,
             .gate_end = &model_.gate_end_i,
+            .raw = registers.raw,
+            .raw_first_row = registers.raw_first_row,
+            .raw_last_row = registers.raw_last_row,
             .coarse_end = registers.coarse_end,
             .track_end = registers.track_end,
             .late_begin = registers.late_begin,
@@ -84,6 +91,9 @@ class VerilatedArray : public ArrayModel {
  private:
   // Those that not all of the arrays have.
   struct Registers {
+    std::uint8_t* raw = nullptr;
+    std::uint16_t* raw_first_row = nullptr;
+    std::uint16_t* raw_last_row = nullptr;
     std::uint16_t* coarse_end = nullptr;
     std::uint16_t* track_end = nullptr;
     std::uint16_t* late_begin = nullptr;

@@ -63,6 +63,8 @@ void SubsystemBench::reset() {
   events_ = {};
   release_next_ = std::min(buffer_lines_, acquisition_lines_);
   second_next_ = false;
+  raw_next_ = false;
+  raw_rows_next_ = 0;
   *ports_.reset_n = 0;
   for (int i = 0; i < 2; ++i) {
     source_.drive();
@@ -139,6 +141,10 @@ BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std:
   if (offset == DTOF_OUTPUT && strobe == RegisterBus::kAllBytes) {
     second_next_ =
         configuration_.parameters.pool.second_target && (data & DTOF_OUTPUT_SECOND_TARGET_MASK) != 0;
+    raw_next_ = configuration_.raw_histogram && (data & DTOF_OUTPUT_RAW_MASK) != 0;
+  }
+  if (offset == DTOF_RAW_ROWS && strobe == RegisterBus::kAllBytes) {
+    raw_rows_next_ = data;
   }
   return bus_.response();
 }
@@ -202,13 +208,22 @@ void SubsystemBench::take_array_line() {
   }
 }
 
+std::size_t SubsystemBench::words() const {
+  const auto columns = static_cast<std::size_t>(configuration_.sram_num);
+  if (raw_next_) {
+    const std::size_t first = (raw_rows_next_ & DTOF_RAW_ROWS_FIRST_MASK) >> DTOF_RAW_ROWS_FIRST_LSB;
+    const std::size_t last = (raw_rows_next_ & DTOF_RAW_ROWS_LAST_MASK) >> DTOF_RAW_ROWS_LAST_LSB;
+    return (last - first + 1) * static_cast<std::size_t>(configuration_.parameters.raw_bins()) * columns;
+  }
+  return static_cast<std::size_t>(configuration_.pixels_per_sram) * columns * (second_next_ ? 2 : 1);
+}
+
 void SubsystemBench::observe_lines() {
   if (*ports_.begin != 0) {
     frames_.emplace_back();
     begin_cycle_ = cycle_;
     release_ = release_next_;
-    sink_.expect_frame(static_cast<std::size_t>(configuration_.pixels_per_sram) *
-                       static_cast<std::size_t>(configuration_.sram_num) * (second_next_ ? 2 : 1));
+    sink_.expect_frame(words());
   }
   if (*ports_.done != 0) {
     frames_.back().cycles = cycle_ + 1 - begin_cycle_;

@@ -73,6 +73,8 @@ class SubsystemBench {
   void observe_lines();
   void take_array_line();
   [[nodiscard]] Line array_line() const;
+  /// Words of the frame that begins.
+  [[nodiscard]] std::size_t words() const;
 
   RtlConfiguration configuration_;
   std::unique_ptr<VerilatedContext> context_;
@@ -86,6 +88,8 @@ class SubsystemBench {
   std::size_t release_ = 0;       // of the frame that is under way
   std::size_t release_next_ = 0;  // what the registers say
   bool second_next_ = false;
+  bool raw_next_ = false;
+  std::uint32_t raw_rows_next_ = 0;
   std::vector<ArrayFrame> frames_;
   SubsystemEvents events_;
   std::uint64_t cycle_ = 0;

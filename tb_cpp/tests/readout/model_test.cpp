@@ -302,6 +302,18 @@ TEST(TimeGate, WhatIsOutsideDoesNotExist) {
   }
 }
 
+TEST(RawHistogram, OnlyOfReadoutsThatHoldAWholeOne) {
+  for (const Readout readout : kModelReadouts) {
+    const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
+    const bool none = readout == Readout::kEzPointer || readout == Readout::kPifh || is_pool_readout(readout);
+    EXPECT_EQ(parameters.raw_bins() == 0, none) << readout_name(readout);
+    if (none) {
+      EXPECT_THROW((void)make_readout_model(parameters)->run_raw_column(stream_of({1, 2}), 2), InputError)
+          << readout_name(readout);
+    }
+  }
+}
+
 TEST(MalformedStream, RefusedWithRowAndReason) {
   const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHistogram, 4);
   EXPECT_THAT(

@@ -63,7 +63,27 @@ class Frame {
     return {};
   }
 
+  /// The histogram that the last scan of result() has seen.
+  std::vector<PixelResult> histogram() const {
+    (void)result();
+    std::vector<PixelResult> bins;
+    for (std::int64_t bin = 0; bin < last_.bins; ++bin) {
+      const auto found = last_.counts.find(bin);
+      bins.push_back({static_cast<std::uint16_t>(
+                          std::clamp<std::int64_t>(last_.first + bin * last_.width, 0, power2(p_.np) - 1)),
+                      0, static_cast<std::uint16_t>(found == last_.counts.end() ? 0 : found->second)});
+    }
+    return bins;
+  }
+
  private:
+  struct Histogram {
+    std::map<std::int64_t, std::int64_t> counts;
+    std::int64_t bins = 0;
+    std::int64_t first = 0;  // code of bin 0
+    std::int64_t width = 1;  // codes of a bin
+  };
+
   std::int64_t half() const { return acquisitions_ / 2; }
 
   std::vector<std::int64_t> timestamps(std::int64_t begin, std::int64_t end, const Keep& keep) const {
@@ -93,15 +113,18 @@ class Frame {
       }
     }
     found.confidence = std::max<std::int64_t>(0, found.peak_count - (sum - found.peak_count) / bins);
+    last_ = {counts, bins, 0, 1};
     return found;
   }
 
   std::int64_t coarse_peak() const {
     const std::int64_t width = power2(p_.np - p_.nb);
-    return scan(
-               0, half(), [](std::int64_t) { return true; }, [=](std::int64_t x) { return x / width; },
-               power2(p_.nb))
-        .peak;
+    const std::int64_t peak = scan(
+                                  0, half(), [](std::int64_t) { return true; },
+                                  [=](std::int64_t x) { return x / width; }, power2(p_.nb))
+                                  .peak;
+    last_.width = width;
+    return peak;
   }
 
   PixelResult clamped(std::int64_t code, std::int64_t confidence) const {
@@ -118,6 +141,7 @@ class Frame {
     const Scan fine = scan(
         half(), acquisitions_, [=](std::int64_t x) { return low < x && x <= high; },
         [=](std::int64_t x) { return x - low - 1; }, power2(p_.nb));
+    last_.first = low + 1;
     return clamped(fine.peak + low + 1, fine.confidence);
   }
 
@@ -127,6 +151,7 @@ class Frame {
     const Scan fine = scan(
         half(), acquisitions_, [=](std::int64_t x) { return x / width == coarse; },
         [=](std::int64_t x) { return x % width; }, width);
+    last_.first = coarse * width;
     return {static_cast<std::uint16_t>(coarse * width + fine.peak), 0,
             static_cast<std::uint16_t>(fine.confidence)};
   }
@@ -146,6 +171,7 @@ class Frame {
     const Scan fine = scan(
         half(), acquisitions_, [=](std::int64_t x) { return start <= x && x < start + 16; },
         [=](std::int64_t x) { return x - start; }, 16);
+    last_.first = start;
     return clamped(start + fine.peak, fine.confidence);
   }
 
@@ -219,6 +245,7 @@ class Frame {
   ReadoutParameters p_;
   std::int64_t acquisitions_;
   std::vector<Detection> detections_;
+  mutable Histogram last_;
 };
 
 }  // namespace
@@ -226,6 +253,12 @@ class Frame {
 PixelResult reference_result(const ReadoutParameters& parameters, const std::vector<Detection>& detections,
                              std::int64_t acquisitions) {
   return Frame(parameters, detections, acquisitions).result();
+}
+
+std::vector<PixelResult> reference_histogram(const ReadoutParameters& parameters,
+                                             const std::vector<Detection>& detections,
+                                             std::int64_t acquisitions) {
+  return Frame(parameters, detections, acquisitions).histogram();
 }
 
 }  // namespace dtof

@@ -14,5 +14,9 @@ namespace dtof {
 /// timestamps are selected by predicates, counts live in a map, all arithmetic is signed 64 bit.
 PixelResult reference_result(const ReadoutParameters& parameters, const std::vector<Detection>& detections,
                              std::int64_t acquisitions);
+/// Likewise what a raw frame shows of the pixel: each bin's lowest code and, as the confidence, its count.
+std::vector<PixelResult> reference_histogram(const ReadoutParameters& parameters,
+                                             const std::vector<Detection>& detections,
+                                             std::int64_t acquisitions);
 
 }  // namespace dtof

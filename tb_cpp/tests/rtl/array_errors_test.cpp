@@ -121,5 +121,18 @@ TEST_F(ArrayErrors, ScheduleOutOfOrder) {
   EXPECT_EQ(error(), 0);
 }
 
+TEST_F(ArrayErrors, RowsOfARawFrameOutOfOrder) {
+  if (ports_.raw == nullptr || !smallest_array().raw_histogram) {
+    GTEST_SKIP() << "the array sends no histograms";
+  }
+  *ports_.raw = 1;
+  *ports_.raw_first_row = 1;
+  *ports_.raw_last_row = 0;
+  start();
+  EXPECT_EQ(error(), kRtlIllegalSchedule);
+  clock();
+  EXPECT_EQ(error(), 0);
+}
+
 }  // namespace
 }  // namespace dtof

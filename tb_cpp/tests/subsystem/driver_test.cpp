@@ -44,6 +44,7 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_schedule, is_pool_readout(configuration.parameters.readout));
   EXPECT_EQ(device_.has_gate, configuration.parameters.time_gate.has_value());
   EXPECT_EQ(device_.has_second_target, configuration.parameters.pool.second_target);
+  EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
 }
 
 TEST_P(Driver, ReadsFramesInMillimetres) {
@@ -130,6 +131,59 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
   }
 }
 
+TEST_P(Driver, ReadsRawHistograms) {
+  if (!device_.has_raw_histogram) {
+    GTEST_SKIP() << "the subsystem sends none";
+  }
+  CounterRandom random = this->random(21);
+  const RtlConfiguration& configuration = bench_.configuration();
+  const int rows = configuration.pixels_per_sram;
+  for (const auto& [first, last] : {std::pair(0, rows - 1), std::pair(1, 2), std::pair(rows - 1, rows - 1)}) {
+    const FrameSettings settings{.acquisitions = 20,
+                                 .gate = {0, configuration.parameters.no_detection()},
+                                 .weak_below = 0,
+                                 .enabled = {},
+                                 .raw = true,
+                                 .raw_first = first,
+                                 .raw_last = last};
+    dtof_settings chosen = dtof_default_settings(&device_, settings.acquisitions);
+    chosen.raw = true;
+    chosen.raw_first_row = static_cast<std::uint16_t>(first);
+    chosen.raw_last_row = static_cast<std::uint16_t>(last);
+    ASSERT_EQ(dtof_configure(&device_, &chosen), DTOF_OK);
+    const std::vector<Line> lines = make_lines(configuration, settings.acquisitions, random);
+    push_lines(bench_, lines);
+    ASSERT_EQ(dtof_start(&device_, false), DTOF_OK);
+    bench_.wait_for_frames(1);
+    const std::vector<std::uint64_t>& words = bench_.sink().frames().back();
+    std::vector<dtof_result> bins(words.size());
+    ASSERT_EQ(dtof_unpack_raw(&device_, chosen.raw_first_row, chosen.raw_last_row, words.data(), words.size(),
+                              bins.data()),
+              DTOF_OK);
+    const std::vector<ResultFields> expected = expected_results(bench_, settings, lines);
+    ASSERT_EQ(expected.size(), words.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const std::size_t bin = i / device_.columns % device_.raw_bins;
+      const std::size_t pixel =
+          i / device_.columns / device_.raw_bins * device_.columns + i % device_.columns;
+      const dtof_result& result = bins[pixel * device_.raw_bins + bin];
+      ASSERT_TRUE(result.raw);
+      ASSERT_EQ(result.row, expected[i].row);
+      ASSERT_EQ(result.column, expected[i].column);
+      ASSERT_EQ(result.position, expected[i].position);
+      ASSERT_EQ(result.confidence, expected[i].confidence);
+    }
+    std::vector<std::uint64_t> other = words;
+    std::swap(other.front(), other.back());
+    EXPECT_EQ(dtof_unpack_raw(&device_, chosen.raw_first_row, chosen.raw_last_row, other.data(), other.size(),
+                              bins.data()),
+              DTOF_STREAM);
+    EXPECT_EQ(dtof_unpack_raw(&device_, chosen.raw_first_row, chosen.raw_last_row, words.data(),
+                              words.size() - 1, bins.data()),
+              DTOF_STREAM);
+  }
+}
+
 TEST_P(Driver, StopsContinuousFramesAndTakesErrors) {
   dtof_settings settings = dtof_default_settings(&device_, 0);
   ASSERT_EQ(dtof_configure(&device_, &settings), DTOF_OK);
@@ -171,6 +225,11 @@ TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.gate_end = 5000; }), device_.has_gate);
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.second_target = true; }),
             !device_.has_second_target);
+  EXPECT_EQ(refused([](dtof_settings& settings) { settings.raw = true; }), !device_.has_raw_histogram);
+  EXPECT_TRUE(refused([](dtof_settings& settings) {
+    settings.raw = true;
+    settings.raw_last_row = 1000;
+  }));
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.track_share = 49; }), device_.has_schedule);
 }
 

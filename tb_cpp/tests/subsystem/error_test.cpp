@@ -135,6 +135,17 @@ TEST_P(SubsystemErrors, AnIllegalScheduleBeginsNoFrame) {
       EXPECT_EQ(take_errors(), DTOF_ERROR_ILLEGAL_SCHEDULE_MASK);
     }
   }
+  const auto rows = static_cast<std::uint32_t>(bench_.configuration().pixels_per_sram);
+  for (const auto& [first, last] : {std::array{1U, 0U}, std::array{0U, rows}, std::array{rows, rows}}) {
+    if (bench_.configuration().raw_histogram) {
+      bench_.set(DTOF_OUTPUT, DTOF_OUTPUT_RAW_MASK);
+      bench_.set(DTOF_RAW_ROWS, first << DTOF_RAW_ROWS_FIRST_LSB | last << DTOF_RAW_ROWS_LAST_LSB);
+      bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+      bench_.clocks(20);
+      EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
+      EXPECT_EQ(take_errors(), DTOF_ERROR_ILLEGAL_SCHEDULE_MASK);
+    }
+  }
   EXPECT_EQ(bench_.frames().size(), 0U);
   expect_a_right_frame(9);
 }

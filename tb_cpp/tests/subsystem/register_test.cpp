@@ -22,6 +22,10 @@ TEST_P(Subsystem, SaysWhatItIs) {
             parameters.time_gate ? 1U : 0U);
   EXPECT_EQ(field(readout, DTOF_READOUT_SECOND_TARGET_MASK, DTOF_READOUT_SECOND_TARGET_LSB),
             parameters.pool.second_target ? 1U : 0U);
+  EXPECT_EQ(field(readout, DTOF_READOUT_RAW_HISTOGRAM_MASK, DTOF_READOUT_RAW_HISTOGRAM_LSB),
+            configuration.raw_histogram ? 1U : 0U);
+  EXPECT_EQ(bench_.get(DTOF_RAW_BINS),
+            configuration.raw_histogram ? static_cast<std::uint32_t>(parameters.raw_bins()) : 0U);
   const std::uint32_t size = bench_.get(DTOF_SIZE);
   EXPECT_EQ(field(size, DTOF_SIZE_COLUMNS_MASK, DTOF_SIZE_COLUMNS_LSB),
             static_cast<std::uint32_t>(configuration.sram_num));
@@ -56,7 +60,11 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
     return 0xFFFF;
   }
   if (offset == DTOF_OUTPUT) {
-    return parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0;
+    return (parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+           (configuration.raw_histogram ? DTOF_OUTPUT_RAW_MASK : 0);
+  }
+  if (offset == DTOF_RAW_ROWS) {
+    return configuration.raw_histogram ? DTOF_RAW_ROWS_FIRST_MASK | DTOF_RAW_ROWS_LAST_MASK : 0;
   }
   if (offset == DTOF_COARSE_END || offset == DTOF_TRACK_END || offset == DTOF_LATE_BEGIN) {
     return pool ? 0xFFFF : 0;
@@ -74,8 +82,9 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
 
 TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   CounterRandom random = this->random(1);
-  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END, DTOF_TRACK_END,
-                                        DTOF_LATE_BEGIN, DTOF_GATE,         DTOF_RELEASE,    DTOF_OUTPUT};
+  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END,
+                                        DTOF_TRACK_END,  DTOF_LATE_BEGIN,   DTOF_GATE,
+                                        DTOF_RELEASE,    DTOF_OUTPUT,       DTOF_RAW_ROWS};
   for (std::uint32_t i = 0; i < DTOF_COLUMN_ENABLE_NUMBER; ++i) {
     offsets.push_back(DTOF_COLUMN_ENABLE + 4 * i);
   }
@@ -103,7 +112,7 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
 }
 
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x01CU, 0x03CU, 0x05CU, 0x100U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x020U, 0x03CU, 0x05CU, 0x104U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }

@@ -30,6 +30,7 @@ struct ResultFields {
   bool empty = false;
   bool masked = false;
   bool second = false;
+  bool raw = false;
 
   bool operator==(const ResultFields&) const = default;
 };
@@ -38,7 +39,8 @@ inline void PrintTo(const ResultFields& fields, std::ostream* stream) {
   *stream << "row " << fields.row << " column " << fields.column << " position " << fields.position
           << " confidence " << fields.confidence << (fields.valid ? " valid" : "")
           << (fields.weak ? " weak" : "") << (fields.empty ? " empty" : "")
-          << (fields.masked ? " masked" : "") << (fields.second ? " second" : "");
+          << (fields.masked ? " masked" : "") << (fields.second ? " second" : "")
+          << (fields.raw ? " raw" : "");
 }
 
 inline ResultFields fields_of(std::uint64_t word) {
@@ -51,7 +53,8 @@ inline ResultFields fields_of(std::uint64_t word) {
           .weak = (word & DTOF_RESULT_WEAK_MASK) != 0,
           .empty = (word & DTOF_RESULT_EMPTY_MASK) != 0,
           .masked = (word & DTOF_RESULT_MASKED_MASK) != 0,
-          .second = (word & DTOF_RESULT_SECOND_MASK) != 0};
+          .second = (word & DTOF_RESULT_SECOND_MASK) != 0,
+          .raw = (word & DTOF_RESULT_RAW_MASK) != 0};
 }
 
 /// What a frame's registers say.
@@ -61,6 +64,9 @@ struct FrameSettings {
   std::uint32_t weak_below = 0;
   std::vector<bool> enabled;   ///< columns; empty: all
   bool second_target = false;  ///< without effect where there is none
+  bool raw = false;            ///< likewise
+  int raw_first = 0;
+  int raw_last = 0;
 };
 
 inline void write_settings(SubsystemBench& bench, const FrameSettings& settings) {
@@ -75,7 +81,10 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
   bench.set(DTOF_GATE, static_cast<std::uint32_t>(settings.gate.begin) << DTOF_GATE_BEGIN_LSB |
                            static_cast<std::uint32_t>(settings.gate.end) << DTOF_GATE_END_LSB);
   bench.set(DTOF_WEAK_BELOW, settings.weak_below);
-  bench.set(DTOF_OUTPUT, settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0);
+  bench.set(DTOF_OUTPUT, (settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+                             (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0));
+  bench.set(DTOF_RAW_ROWS, static_cast<std::uint32_t>(settings.raw_first) << DTOF_RAW_ROWS_FIRST_LSB |
+                               static_cast<std::uint32_t>(settings.raw_last) << DTOF_RAW_ROWS_LAST_LSB);
   for (std::size_t first = 0; first < settings.enabled.size(); first += 32) {
     std::uint32_t mask = 0;
     for (std::size_t i = first; i < std::min(first + 32, settings.enabled.size()); ++i) {
@@ -96,6 +105,8 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(parameters.slots);
   std::vector<std::vector<PixelResult>> results;
+  std::vector<std::vector<std::vector<PixelResult>>> histograms;  // of a raw frame: column, row, bin
+  const bool raw = settings.raw && configuration.raw_histogram;
   for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
     const bool enabled = settings.enabled.empty() || settings.enabled[column];
     ColumnStream stream;
@@ -107,10 +118,32 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
       }
       stream.finish_row();
     }
-    results.push_back(make_readout_model(parameters)->run_column(stream, settings.acquisitions));
+    if (raw) {
+      histograms.push_back(make_readout_model(parameters)->run_raw_column(stream, settings.acquisitions));
+    } else {
+      results.push_back(make_readout_model(parameters)->run_column(stream, settings.acquisitions));
+    }
   }
   const bool has_confidence = !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
   std::vector<ResultFields> expected;
+  for (int row = settings.raw_first; raw && row <= settings.raw_last; ++row) {
+    for (std::size_t bin = 0; bin < static_cast<std::size_t>(parameters.raw_bins()); ++bin) {
+      for (std::size_t column = 0; column < histograms.size(); ++column) {
+        const PixelResult& count = histograms[column][static_cast<std::size_t>(row)][bin];
+        const bool masked = !settings.enabled.empty() && !settings.enabled[column];
+        expected.push_back({.position = count.code << parameters.fraction_bits,
+                            .confidence = count.confidence,
+                            .row = row,
+                            .column = static_cast<int>(column),
+                            .valid = !masked,
+                            .masked = masked,
+                            .raw = true});
+      }
+    }
+  }
+  if (raw) {
+    return expected;
+  }
   for (const ResultAddress& address : configuration.result_order()) {
     const auto column = static_cast<std::size_t>(address.column);
     const PixelResult& result = results[column][static_cast<std::size_t>(address.row)];
