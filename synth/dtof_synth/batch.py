@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .configuration import Configuration
-from .run import BOTH_CORNERS, EFFORTS, Result, Technology, input_digest, run
+from .run import BOTH_CORNERS, Result, Technology, input_digest, run
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class Job:
 
     configuration: Configuration
     corners: tuple[str, ...] = BOTH_CORNERS
-    most_attempts: int = len(EFFORTS)
+    most_attempts: int | None = None  # all
 
 
 def _key(job: Job, digest: str) -> str:

@@ -44,8 +44,15 @@ _BALANCE = "dch,-f;if,-g;strash"
 _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
-# From small to fast; the first that closes timing is taken.
-EFFORTS = (Effort(0.68, _SMALL), Effort(0.68, _FAST), Effort(0.62, _FAST), Effort(0.55, _FAST))
+# From small to fast; the first that closes timing, with margins as well, is taken. The larger parts of the pool read-outs
+# become slower as well as larger where ABC tries harder.
+EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
+SMALL_EFFORT = Effort(0.68, _SMALL)
+POOL_EFFORTS = (SMALL_EFFORT,)
+
+
+def efforts(configuration: Configuration) -> tuple[Effort, ...]:
+    return POOL_EFFORTS if configuration.is_pool else EFFORTS
 
 
 @dataclass(frozen=True)
@@ -279,11 +286,16 @@ class _Attempt:
     shared: Counts
     engines: Counts
     slow: Timing
+    margin: Margin | None  # in the slow corner, where the technology has a fast one
     folder: Path
+
+    @property
+    def closes(self) -> bool:
+        return self.slow.slack >= DEMANDED_SLACK_NS and (self.margin is None or self.margin.slack >= 0)
 
 
 def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int) -> _Attempt:
-    design = map_to_cells(configuration, technology, folder, EFFORTS[number])
+    design = map_to_cells(configuration, technology, folder, efforts(configuration)[number])
     library = technology.slow
     loads = netlist.finish(design, library, sram_kit.PIN_FF)
     column_module = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
@@ -292,18 +304,20 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
     own = folder / f"effort{number}"
     own.mkdir(exist_ok=True)
     _write_timing_netlist(design, loads, technology, own, configuration.name)
-    return _Attempt(column_module, shared, engines, time_corner(configuration, technology, "slow", own)[0], own)
+    slow, _ = time_corner(configuration, technology, "slow", own)
+    margin = time_margins(configuration, technology, "slow", own) if technology.fast is not None else None
+    return _Attempt(column_module, shared, engines, slow, margin, own)
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
-        corners: Iterable[str] = BOTH_CORNERS, most_attempts: int = len(EFFORTS)) -> Result:
+        corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None) -> Result:
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
-    timed: with rising effort until it closes with DEMANDED_SLACK_NS, else the best attempt stands."""
+    timed: with rising effort until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
     elaborate(configuration, technology, folder)
     attempts: list[_Attempt] = []
-    for number in range(most_attempts):
+    for number in range(len(efforts(configuration)[:most_attempts])):
         attempts.append(_attempt(configuration, technology, folder, number))
-        if attempts[-1].slow.slack >= DEMANDED_SLACK_NS:
+        if attempts[-1].closes:
             break
     best = max(attempts, key=lambda attempt: attempt.slow.slack)
     modules = configuration.column_modules
@@ -318,8 +332,8 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         timing["typical"], output = time_corner(configuration, technology, "typical", best.folder)
         figures = Power(power.logic_mw(output, modules), power.sram_mw(configuration, TARGET_MHZ),
                         power.clock_mw(output, modules, tree, technology.typical, TARGET_MHZ))
-        if technology.fast is not None:
-            margins = {corner: time_margins(configuration, technology, corner, best.folder) for corner in ("slow", "fast")}
+        if best.margin is not None:
+            margins = {"slow": best.margin, "fast": time_margins(configuration, technology, "fast", best.folder)}
     return Result(configuration, best.column_module, best.shared, best.engines, tree, technology.slow.nand2_area,
                   technology.slow.mux2_area, timing, figures, margins)
 

@@ -23,7 +23,7 @@ from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .library import Library
-from .run import EFFORTS, TARGET_MHZ, Result, Technology, elaborate, map_to_cells
+from .run import TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
 
 CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer", "fifh", "poolpointer")
 KLUX = {"day": 50.0, "dusk": 2.0}
@@ -100,7 +100,7 @@ def simulate(configuration: Configuration, technology: Technology, folder: Path,
     root = technology.root
     case = simulation.Case(small(configuration), (ACQUISITIONS,), seed)
     elaborate(case.configuration, technology, folder)
-    design = map_to_cells(case.configuration, technology, folder, EFFORTS[0])
+    design = map_to_cells(case.configuration, technology, folder, efforts(case.configuration)[0])
     netlist.finish(design, technology.slow, sram_kit.PIN_FF)
     activity.name_for_counting(design)
     files = simulation.write_simulation_netlist(design, case.configuration, technology, folder, seed)

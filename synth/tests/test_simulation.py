@@ -11,7 +11,7 @@ from pathlib import Path
 
 from dtof_synth import configuration, netlist, simulation, sram_kit, technology
 from dtof_synth.errors import FlowError
-from dtof_synth.run import EFFORTS, elaborate, map_to_cells
+from dtof_synth.run import efforts, elaborate, map_to_cells
 
 ROOT = Path(__file__).resolve().parents[2]
 NAMED = configuration.load(ROOT / "configurations.toml")
@@ -120,7 +120,7 @@ class NetlistBench(unittest.TestCase):
         cls.technology = technology.prepare(ROOT, cls.folder / "generic40", [])
         cls.case = short(simulation.netlist_cases(NAMED["ezpointer"], SEED)[0])
         elaborate(cls.case.configuration, cls.technology, cls.folder)
-        cls.design = map_to_cells(cls.case.configuration, cls.technology, cls.folder, EFFORTS[0])
+        cls.design = map_to_cells(cls.case.configuration, cls.technology, cls.folder, efforts(cls.case.configuration)[0])
         netlist.finish(cls.design, cls.technology.slow, sram_kit.PIN_FF)
 
     @classmethod
