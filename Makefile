@@ -11,7 +11,7 @@
 # make lint       RTL in three tools, C++ format and static analysis
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
-# make wave       READOUT's waveform; make pool2-rtl: dtof with the RTL of poolPointer 2 (scripts/wave.mk)
+# make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer 2 (scripts/wave.mk)
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
 # make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)
 # make example    a frame of dtof_subsystem in a small SystemVerilog bench (scripts/example.mk)

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "core/parameters.hpp"
@@ -37,7 +38,11 @@ void add_list_command(CLI::App& app) {
       fmt::print("  {}\n", configuration.to_string());
     }
     fmt::print("\nSubsystems compiled into this program (--engine subsystem):\n");
-    for (const CompiledSubsystem& subsystem : compiled_subsystems()) {
+    const std::vector<CompiledSubsystem> subsystems = compiled_subsystems();
+    if (subsystems.empty()) {
+      fmt::print("  none; dtof-full has them (make full)\n");
+    }
+    for (const CompiledSubsystem& subsystem : subsystems) {
       fmt::print("  {}\n", subsystem.configuration.to_string());
     }
   });

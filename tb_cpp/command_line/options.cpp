@@ -138,7 +138,7 @@ void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsyst
       ->add_option("-e,--engine", settings.engine,
                    with_subsystem
                        ? "model (C++), rtl (the Verilated hardware) or subsystem (the hardware with\n"
-                         "registers and streams, run by its C driver)"
+                         "registers and streams, run by its C driver; in dtof-full)"
                        : "model (C++) or rtl (the Verilated hardware)")
       ->check(CLI::IsMember(engines))
       ->capture_default_str();

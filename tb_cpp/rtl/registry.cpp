@@ -64,8 +64,8 @@ InputError no_engine_compiled(const std::string& wanted, int rows, int columns) 
     }
   }
   if (compiled.empty()) {
-    return InputError{fmt::format(
-        "no RTL is compiled for {}in this program; dtof-pool2 has its arrays (make pool2-rtl)", name)};
+    return InputError{
+        fmt::format("no RTL is compiled for {}in this program; dtof-full has its arrays (make full)", name)};
   }
   return InputError{
       fmt::format("no RTL is compiled for {} with at least {} rows and an engine of just {} columns, which "

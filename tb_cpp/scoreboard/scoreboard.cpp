@@ -108,11 +108,11 @@ std::string columns_to_trace(std::span<const int> columns, std::size_t index,
 }
 
 /// The arrays of `dtof` record no waveforms, those of `dtof-wave` do, and those of poolPointer 2 in
-/// `dtof-pool2`.
+/// `dtof-full`.
 std::string waveform_command(std::string command, const ReadoutParameters& parameters) {
   constexpr std::string_view kProgram = "dtof ";
   if (command.starts_with(kProgram)) {
-    command.replace(0, kProgram.size(), parameters.columns_together() > 1 ? "dtof-pool2 " : "dtof-wave ");
+    command.replace(0, kProgram.size(), parameters.columns_together() > 1 ? "dtof-full " : "dtof-wave ");
   }
   return command;
 }

@@ -53,8 +53,11 @@ CompiledSubsystem find_subsystem(const ReadoutParameters& parameters, int rows) 
     }
     compiled += fmt::format("{}{}", compiled.empty() ? "" : " | ", entry.configuration.to_string());
   }
+  if (compiled.empty()) {
+    throw InputError("this program has no subsystems, dtof-full has them (make full)");
+  }
   throw InputError(fmt::format("no subsystem is compiled for {} with at least {} rows; compiled are: {}",
-                               wanted, rows, compiled.empty() ? "none" : compiled));
+                               wanted, rows, compiled));
 }
 
 }  // namespace dtof

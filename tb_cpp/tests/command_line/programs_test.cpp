@@ -130,7 +130,7 @@ TEST_F(Programs, FrameThroughTheSubsystemIsThatOfTheBareArray) {
   const std::string frame =
       fmt::format("frame -r ezpointer,hispointer,poolpointer --verify {} ", kSmallScene);
   for (const char* engine : {"rtl", "subsystem"}) {
-    const Outcome outcome = dtof(frame + fmt::format("--engine {0} --out {0}", engine));
+    const Outcome outcome = run(DTOF_FULL_PROGRAM, frame + fmt::format("--engine {0} --out {0}", engine));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr(fmt::format("engine {} (every pixel equal to the model)", engine)));
   }
@@ -139,8 +139,11 @@ TEST_F(Programs, FrameThroughTheSubsystemIsThatOfTheBareArray) {
               read_file(path("rtl") + "/" + name + ".csv"));
   }
   // Its time gate is there, its array's is not.
-  const Outcome gated = dtof(frame + "--engine subsystem --code-gate 200 600 --out gated");
+  const Outcome gated = run(DTOF_FULL_PROGRAM, frame + "--engine subsystem --code-gate 200 600 --out gated");
   EXPECT_EQ(gated.exit_code, 0) << gated.output;
+  const Outcome other = run(DTOF_FULL_PROGRAM, "frame --engine subsystem --readout sifh --out other");
+  EXPECT_EQ(other.exit_code, 1);
+  EXPECT_THAT(other.output, HasSubstr("no subsystem is compiled for sifh"));
 }
 
 TEST_F(Programs, ThreadsAndChosenColumnsDoNotChangeAResult) {
@@ -382,7 +385,8 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("accuracy --rows 0-3 --distances 2 --out out", "--rows");
   expect_refused("scenes --rows 0-3 --out out", "--rows");
   expect_refused("frame --engine rtl --readout ezpointer --np 9 --out out", "compiled");
-  expect_refused("frame --engine subsystem --readout sifh --out out", "no subsystem is compiled for sifh");
+  expect_refused("frame --engine subsystem --readout hispointer --out out",
+                 "this program has no subsystems, dtof-full has them (make full)");
   expect_refused("frame --engine subsystem -r ezpointer -a 65536 --out out", "to 65535");
   expect_refused("frame --engine subsystem -r ezpointer --trace x.fst --out out", "--engine rtl");
   expect_refused("accuracy --engine subsystem --distances 2 --out out", "subsystem");
@@ -740,9 +744,8 @@ TEST_F(Programs, AReadoutOnTrialIsReadWithItsModel) {
     EXPECT_THAT(whole, HasSubstr("\n" + line + "\n"));
   }
   EXPECT_EQ(lines, 320);
-  expect_refused(
-      "frame -r poolpointer2 --engine rtl --out out",
-      "no RTL is compiled for poolpointer2 in this program; dtof-pool2 has its arrays (make pool2-rtl)");
+  expect_refused("frame -r poolpointer2 --engine rtl --out out",
+                 "no RTL is compiled for poolpointer2 in this program; dtof-full has its arrays (make full)");
   ASSERT_EQ(dtof("frame -r all --columns 0 -a 20 --out all").exit_code, 0);
   EXPECT_TRUE(std::filesystem::exists(path("all/poolpointer.csv")));
   EXPECT_FALSE(std::filesystem::exists(path("all/poolpointer2.csv")));

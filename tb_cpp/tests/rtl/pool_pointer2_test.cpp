@@ -300,7 +300,7 @@ TEST_F(PoolPointer2Frame, AMismatchNamesItsEngine) {
   EXPECT_EQ(check_source_frame(*source_, parameters_, columns, frame, context), "");
   frame.results[2].code ^= 1;
   EXPECT_THAT(check_source_frame(*source_, parameters_, columns, frame, context),
-              HasSubstr("dtof-pool2 frame --engine rtl --readout poolpointer2 --columns 4,5,7 --trace"));
+              HasSubstr("dtof-full frame --engine rtl --readout poolpointer2 --columns 4,5,7 --trace"));
 }
 
 }  // namespace
