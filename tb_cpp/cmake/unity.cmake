@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Joins the C++ files that Verilator wrote into DIRECTORY, and REGISTRATION, into one translation unit. What runs
-# once (construction) or on demand (waveform) is not worth the optimiser's time: it would take longer than the rest.
+# once (construction) or on demand (waveform) is not worth the optimiser's time: it would take longer than the rest. It
+# stands last, so that no header is read without the optimiser.
 # model.d has the files that Verilator read, for the build.
 file(GLOB sources ${DIRECTORY}/V*.cpp)
 list(SORT sources)
@@ -9,11 +10,12 @@ list(FILTER rare INCLUDE REGEX "(Slow|__Syms|__Trace__[0-9]+|__ConstPool_[0-9]+)
 list(REMOVE_ITEM sources ${rare})
 # Verilator's one file-local name, renamed so that several models fit into one translation unit.
 cmake_path(GET DIRECTORY FILENAME name)
-set(text "#define trace_init trace_init_${name}\n")
+set(text "#include \"rtl/verilated_model.hpp\"\n#define VL_WRITEF DTOF_PRINT_FAILED_ASSERTION\n")
+string(APPEND text "#define trace_init trace_init_${name}\n")
 foreach(source ${sources})
   string(APPEND text "#include \"${source}\"\n")
 endforeach()
-string(APPEND text "#pragma GCC push_options\n#pragma GCC optimize(\"O0\")\n")
+string(APPEND text "#undef VL_WRITEF\n#pragma GCC push_options\n#pragma GCC optimize(\"O0\")\n")
 foreach(source ${rare})
   string(APPEND text "#include \"${source}\"\n")
 endforeach()

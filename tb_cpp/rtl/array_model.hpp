@@ -60,11 +60,12 @@ class ArrayModel {
 
   [[nodiscard]] virtual Ports ports() = 0;
   virtual void eval() = 0;
-  /// Begins a waveform (FST) of all signals. Throws InputError if the file cannot be written.
-  virtual void open_trace(const std::filesystem::path& file) = 0;
+  /// Begins a waveform (FST) of all signals. Throws InputError if the file cannot be written, or if this
+  /// model was built without waveforms, as it is unless it overrides these three.
+  virtual void open_trace(const std::filesystem::path& file);
   /// Writes the signals' values at `time` (ns).
-  virtual void dump_trace(std::uint64_t time) = 0;
-  virtual void close_trace() = 0;
+  virtual void dump_trace(std::uint64_t time);
+  virtual void close_trace();
 };
 
 }  // namespace dtof

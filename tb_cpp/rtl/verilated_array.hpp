@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <fmt/format.h>
 #include <verilated.h>
 
 #include <cstdint>
-#include <filesystem>
 
-#include "core/error.hpp"
 #include "rtl/array_model.hpp"
 
 namespace dtof {
 
-/// ArrayModel over the class that Verilator generated for one configuration. It records no waveform:
-/// open_trace() throws InputError (waveform_array.hpp has one that does).
+/// ArrayModel over the class that Verilator generated for one configuration, without waveforms
+/// (waveform_array.hpp has one with them).
 template <typename Model>
 class VerilatedArray : public ArrayModel {
  public:
@@ -78,12 +75,6 @@ class VerilatedArray : public ArrayModel {
   }
 
   void eval() override { model_.eval(); }
-
-  void open_trace(const std::filesystem::path& file) override {
-    throw InputError(fmt::format("cannot write '{}': this array was built without waveforms", file.string()));
-  }
-  void dump_trace(std::uint64_t /*time*/) override {}
-  void close_trace() override {}
 
  protected:
   [[nodiscard]] Model& model() { return model_; }

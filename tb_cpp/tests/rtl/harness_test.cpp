@@ -245,7 +245,12 @@ TEST(VerilatedHooks, AssertionsOfTheRtlAreAlive) {
       }
     }
   };
-  EXPECT_THAT(run_until_the_gap, ThrowsMessage<RtlError>(HasSubstr("Assertion failed")));
+  // When, where and what, as Verilator would print it.
+  EXPECT_THAT(run_until_the_gap,
+              ThrowsMessage<RtlError>(AllOf(
+                  HasSubstr("[0] %Error: pixel_sequencer.sv:"),
+                  HasSubstr("Assertion failed in array.dtof_array_testbench.u_array.u_pixel_sequencer."),
+                  HasSubstr("tdc_valid_i fell inside an acquisition"))));
 }
 
 TEST(TimeGate, IsRefusedWhereThereIsNoneOrOutOfRange) {
