@@ -27,7 +27,8 @@ class RawHistogram : public testing::TestWithParam<RtlConfiguration> {
     const RtlConfiguration& configuration = rtl.configuration();
     const RtlFrame frame = rtl.run(columns, acquisitions, options);
     const auto bins = static_cast<std::size_t>(configuration.parameters.raw_bins());
-    const auto rows = static_cast<std::size_t>(options.raw->last - options.raw->first + 1);
+    const std::size_t rows =
+        static_cast<std::size_t>(options.raw->last) - static_cast<std::size_t>(options.raw->first) + 1;
     ASSERT_EQ(frame.results.size(), rows * bins * columns.size());
     for (std::size_t column = 0; column < columns.size(); ++column) {
       const auto expected =
