@@ -44,11 +44,11 @@ _BALANCE = "dch,-f;if,-g;strash"
 _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
-# From small to fast; the first that closes timing, with margins as well, is taken. The larger parts of the pool read-outs
-# become slower as well as larger where ABC tries harder.
+# From small to fast; the first that closes timing is taken, of the thesis's read-outs the first that closes with margins as
+# well. The larger parts of the pool read-outs become slower as well as larger where ABC tries harder.
 EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
 SMALL_EFFORT = Effort(0.68, _SMALL)
-POOL_EFFORTS = (SMALL_EFFORT,)
+POOL_EFFORTS = (SMALL_EFFORT, Effort(0.68, _FAST))
 
 
 def efforts(configuration: Configuration) -> tuple[Effort, ...]:
@@ -291,7 +291,11 @@ class _Attempt:
 
     @property
     def closes(self) -> bool:
-        return self.slow.slack >= DEMANDED_SLACK_NS and (self.margin is None or self.margin.slack >= 0)
+        return self.slow.slack >= DEMANDED_SLACK_NS
+
+    @property
+    def closes_with_margins(self) -> bool:
+        return self.closes and (self.margin is None or self.margin.slack >= 0)
 
 
 def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int) -> _Attempt:
@@ -312,12 +316,13 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
 def run(configuration: Configuration, technology: Technology, folder: Path,
         corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None) -> Result:
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
-    timed: with rising effort until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
+    timed: with rising effort until it closes with DEMANDED_SLACK_NS, those of the thesis with margins as well, else the best
+    attempt stands."""
     elaborate(configuration, technology, folder)
     attempts: list[_Attempt] = []
     for number in range(len(efforts(configuration)[:most_attempts])):
         attempts.append(_attempt(configuration, technology, folder, number))
-        if attempts[-1].closes:
+        if attempts[-1].closes if configuration.is_pool else attempts[-1].closes_with_margins:
             break
     best = max(attempts, key=lambda attempt: attempt.slow.slack)
     modules = configuration.column_modules
