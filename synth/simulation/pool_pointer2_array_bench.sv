@@ -12,6 +12,7 @@ module pool_pointer2_array_bench #(
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
     parameter int POINTER_SHIFT = 1,
+    parameter int TIME_GATE = 0,  // the vectors have no gate
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
     parameter int FRAMES = 1,
@@ -46,6 +47,7 @@ module pool_pointer2_array_bench #(
       .SCORE_BITS       (SCORE_BITS),
       .OFFSET_BITS      (OFFSET_BITS),
       .POINTER_SHIFT    (POINTER_SHIFT),
+      .TIME_GATE        (TIME_GATE),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
       .ACQ_WIDTH        (ACQ_WIDTH)
   ) u_rtl (
@@ -54,8 +56,8 @@ module pool_pointer2_array_bench #(
       .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
-      .gate_begin_i   ('0),
-      .gate_end_i     ('0),
+      .gate_begin_i   ({NP{1'b0}}),
+      .gate_end_i     ({NP{1'b0}}),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
@@ -81,8 +83,8 @@ module pool_pointer2_array_bench #(
       .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
-      .gate_begin_i   ('0),
-      .gate_end_i     ('0),
+      .gate_begin_i   ({NP{1'b0}}),
+      .gate_end_i     ({NP{1'b0}}),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),

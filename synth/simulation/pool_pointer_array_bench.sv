@@ -18,6 +18,7 @@ module pool_pointer_array_bench #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int SECOND_TARGET = 0,  // the vectors have one target
+    parameter int TIME_GATE = 0,  // the vectors have no gate
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
     parameter int FRAMES = 1,
@@ -58,6 +59,7 @@ module pool_pointer_array_bench #(
       .POINTER_SHIFT    (POINTER_SHIFT),
       .RIVAL_MOVES      (RIVAL_MOVES),
       .SECOND_TARGET    (SECOND_TARGET),
+      .TIME_GATE        (TIME_GATE),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
       .ACQ_WIDTH        (ACQ_WIDTH)
   ) u_rtl (
@@ -66,8 +68,8 @@ module pool_pointer_array_bench #(
       .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
-      .gate_begin_i   ('0),
-      .gate_end_i     ('0),
+      .gate_begin_i   ({NP{1'b0}}),
+      .gate_end_i     ({NP{1'b0}}),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .late_begin_i   (late_begin),
@@ -93,8 +95,8 @@ module pool_pointer_array_bench #(
       .sram_cfg_i     (start),
       .start_i        (start),
       .acq_num_i      (acq_num),
-      .gate_begin_i   ('0),
-      .gate_end_i     ('0),
+      .gate_begin_i   ({NP{1'b0}}),
+      .gate_end_i     ({NP{1'b0}}),
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .late_begin_i   (late_begin),

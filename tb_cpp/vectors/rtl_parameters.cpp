@@ -65,6 +65,7 @@ std::map<std::string_view, Setter> setters(ArrayParameters& array, int& time_gat
           {"SECOND_TARGET", flag(pool.second_target)},
           {"POINTER_PORTS", nothing},
           {"SIGNALLED_CLEAR", nothing},
+          {"RAW_HISTOGRAM", nothing},
           {"ENGINE_COLUMNS", number(pool.engine_columns)},
           {"ACQ_WIDTH", nothing}};
 }
