@@ -35,7 +35,7 @@ module schedule_bench;
   logic clk = 1'b0, rst_n = 1'b0, start = 1'b0;
   wire done;
   pool_pointer_array #(PARAMETERS) u_array (
-      .clk_i(clk), .rst_ni(rst_n), .start_i(start), .acq_num_i(ACQ_WIDTH'd0), .coarse_end_i(ACQ_WIDTH'd0),
+      .clk_i(clk), .rst_ni(rst_n), .sram_cfg_i('0), .sram_cfg_o(), .error_o(), .gate_begin_i('0), .gate_end_i('0), .start_i(start), .acq_num_i(ACQ_WIDTH'd0), .coarse_end_i(ACQ_WIDTH'd0),
       .track_end_i(ACQ_WIDTH'd0), .late_begin_i(ACQ_WIDTH'd0), .busy_o(), .done_o(done), .state_o(), .tdc_ready_o(),
       .tdc_valid_i(1'b0), .tdc_timestamp_i('0), .result_tvalid_o(), .result_tready_i(1'b1), .result_tdata_o(),
       .result_tlast_o());
