@@ -197,6 +197,7 @@ dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *r
   result->weak = FIELD(word, DTOF_RESULT_WEAK) != 0;
   result->empty = FIELD(word, DTOF_RESULT_EMPTY) != 0;
   result->masked = FIELD(word, DTOF_RESULT_MASKED) != 0;
+  result->saturated = FIELD(word, DTOF_RESULT_SATURATED) != 0;
   result->raw = FIELD(word, DTOF_RESULT_RAW) != 0;
   result->has_second = false;
   result->second_position = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The very top of an FPGA that shows dtof_subsystem without a sensor (make fpga, docs/user/integration.md): photons are made
-// on the chip, hisPointer reads them out, results leave through a serial line, over which targets can be changed.
+// on the chip, hisPointer or poolPointer reads them out, results leave through a serial line, over which targets can be
+// changed.
 //
 //   rx_i -> uart_receiver -> target_command -> photon_generator -> dtof_subsystem -> word_sender -> uart_transmitter -> tx_o
 //                                              register_writer ------^
@@ -9,6 +10,7 @@
 // Clock: any; at 12 MHz the line has 1 Mbaud. There is no reset input: the FPGA's configuration clears the registers of the
 // reset, which ends eight clocks later.
 module demonstrator #(
+    parameter int READOUT = dtof_pkg::READOUT_HISPOINTER,  // or dtof_pkg::READOUT_POOLPOINTER
     parameter int NP = 10,
     parameter int COLUMNS = 8,
     parameter int ROWS = 8,
@@ -89,6 +91,7 @@ module demonstrator #(
   );
 
   register_writer #(
+      .HAS_SCHEDULE((READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0),
       .ACQUISITIONS(ACQUISITIONS)
   ) u_software (
       .clk_i    (clk_i),
@@ -106,7 +109,7 @@ module demonstrator #(
   logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] unused_sram_cfg;
 
   dtof_subsystem #(
-      .READOUT        (dtof_pkg::READOUT_HISPOINTER),
+      .READOUT        (READOUT),
       .NP             (NP),
       .SRAM_NUM       (COLUMNS),
       .PIXELS_PER_SRAM(ROWS),

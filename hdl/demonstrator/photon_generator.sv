@@ -169,7 +169,7 @@ module photon_generator #(
   // The row's lines: column 0 has moved to the lowest bits when the last column has come.
 
   logic target_first;
-  logic [COLUMNS*NP-1:0] first_q, second_q;
+  logic [COLUMNS*NP-1:0] first_q, second_q, line;
 
   assign target_first = (target_event_q <= background_event_q);
 
@@ -181,7 +181,8 @@ module photon_generator #(
   end
 
   assign m_axis_tvalid_o = (state_q == SEND_FIRST) || (state_q == SEND_SECOND);
-  assign m_axis_tdata_o = TDATA_WIDTH'((state_q == SEND_FIRST) ? first_q : second_q);
+  assign line = (state_q == SEND_FIRST) ? first_q : second_q;
+  assign m_axis_tdata_o = TDATA_WIDTH'(line);
   assign m_axis_tlast_o = (state_q == SEND_SECOND) && (pixel_q == '0);
 
 endmodule

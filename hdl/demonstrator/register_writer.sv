@@ -2,10 +2,12 @@
 // In the place of a processor: writes the registers of dtof_subsystem once behind the reset, so that it reads frames without
 // an end.
 //
-// Order: ACQUISITIONS, WEAK_BELOW, CONTROL with START and CONTINUOUS.
+// Order: ACQUISITIONS, WEAK_BELOW, poolPointer's schedule (COARSE_END, TRACK_END, LATE_BEGIN, as pool_pointer_array
+// recommends) where there is one, CONTROL with START and CONTINUOUS.
 // Schedule: a write takes APB's two clocks and what the slave waits.
-// Cost: three state bits.
+// Cost: five state bits.
 module register_writer #(
+    parameter int HAS_SCHEDULE = 0,
     parameter int ACQUISITIONS = 1000,
     parameter int WEAK_BELOW = 2
 ) (
@@ -18,9 +20,12 @@ module register_writer #(
     input  logic        pready_i
 );
 
-  localparam logic [1:0] LAST = 2'd2;
+  localparam int COARSE_END = (ACQUISITIONS * 16) >> 6;
+  localparam int TRACK_END = (ACQUISITIONS * 32) >> 6;
+  localparam int LATE_BEGIN = TRACK_END + (((ACQUISITIONS - TRACK_END) * 5) >> 3);
+  localparam logic [2:0] CONTROL = 3'd5;
 
-  logic [1:0] index_q;
+  logic [2:0] index_q;
   logic enable_q, done_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -33,8 +38,8 @@ module register_writer #(
         enable_q <= 1'b1;
       end else if (pready_i) begin
         enable_q <= 1'b0;
-        index_q <= index_q + 1'b1;
-        done_q <= (index_q == LAST);
+        index_q <= (HAS_SCHEDULE == 0 && index_q == 3'd1) ? CONTROL : index_q + 1'b1;
+        done_q <= (index_q == CONTROL);
       end
     end
   end
@@ -44,13 +49,25 @@ module register_writer #(
 
   always_comb begin
     case (index_q)
-      2'd0: begin
+      3'd0: begin
         paddr_o = dtof_registers_pkg::ACQUISITIONS;
         pwdata_o = 32'(ACQUISITIONS);
       end
-      2'd1: begin
+      3'd1: begin
         paddr_o = dtof_registers_pkg::WEAK_BELOW;
         pwdata_o = 32'(WEAK_BELOW);
+      end
+      3'd2: begin
+        paddr_o = dtof_registers_pkg::COARSE_END;
+        pwdata_o = 32'(COARSE_END);
+      end
+      3'd3: begin
+        paddr_o = dtof_registers_pkg::TRACK_END;
+        pwdata_o = 32'(TRACK_END);
+      end
+      3'd4: begin
+        paddr_o = dtof_registers_pkg::LATE_BEGIN;
+        pwdata_o = 32'(LATE_BEGIN);
       end
       default: begin
         paddr_o = dtof_registers_pkg::CONTROL;

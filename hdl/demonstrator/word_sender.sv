@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Result words of dtof_subsystem as bytes for a serial line: nine for each word, seven bits in each, the lowest first.
-// The highest bit of a byte is set in a word's first one alone, so that a receiver finds the words. Bits 59:0 are the
-// word's, bit 60 is tuser, bit 61 tlast; the others are 0.
+// The highest bit of a byte is set in a word's first one alone, so that a receiver finds the words. Bits 60:0 are the
+// word's, bit 61 is tuser, bit 62 tlast.
 //
 // Schedule: a word is taken when the one before is sent.
 // Cost: 63 bits to shift, a counter.
@@ -39,13 +39,13 @@ module word_sender (
 
   always_ff @(posedge clk_i) begin
     if (s_axis_tready_o) begin
-      shift_q <= {1'b0, s_axis_tlast_i, s_axis_tuser_i, s_axis_tdata_i[59:0]};
+      shift_q <= {s_axis_tlast_i, s_axis_tuser_i, s_axis_tdata_i[60:0]};
     end else if (ready_i) begin
       shift_q <= {7'd0, shift_q[62:7]};
     end
   end
 
   logic unused_word;
-  assign unused_word = ^s_axis_tdata_i[63:60];
+  assign unused_word = ^s_axis_tdata_i[63:61];
 
 endmodule

@@ -8,6 +8,8 @@ module stream_output_properties #(
     parameter int POSITION_WIDTH = 3,
     parameter int CONFIDENCE_WIDTH = 2,
     parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,
+    parameter int COUNTER_WIDTH = CONFIDENCE_WIDTH,
+    parameter int RAW_COUNTER_WIDTH = CONFIDENCE_WIDTH,
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int CONFIDENCE_BITS = (CONFIDENCE_WIDTH > 0) ? CONFIDENCE_WIDTH : 1,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
@@ -51,11 +53,13 @@ module stream_output_properties #(
   logic [63:0] tdata;
 
   stream_output #(
-      .SRAM_NUM        (SRAM_NUM),
-      .ROW_WIDTH       (ROW_WIDTH),
-      .POSITION_WIDTH  (POSITION_WIDTH),
-      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
-      .HAS_CONFIDENCE  (HAS_CONFIDENCE)
+      .SRAM_NUM         (SRAM_NUM),
+      .ROW_WIDTH        (ROW_WIDTH),
+      .POSITION_WIDTH   (POSITION_WIDTH),
+      .CONFIDENCE_WIDTH (CONFIDENCE_WIDTH),
+      .HAS_CONFIDENCE   (HAS_CONFIDENCE),
+      .COUNTER_WIDTH    (COUNTER_WIDTH),
+      .RAW_COUNTER_WIDTH(RAW_COUNTER_WIDTH)
   ) u_dut (
       .clk_i          (clk_i),
       .rst_ni         (rst_n),
@@ -77,13 +81,18 @@ module stream_output_properties #(
   // What must come, in a queue: {first, last, word}, the oldest in slot 0.
   logic [ENTRY_WIDTH-1:0] slot0_q, slot1_q, entry;
   logic [1:0] count_q;
-  logic begins_q, weak, empty, masked, push, pop;
+  logic begins_q, weak, empty, masked, saturated, push, pop;
 
   assign weak = (HAS_CONFIDENCE > 0) && !raw_i && (confidence < weak_below_i);
   assign empty = (HAS_CONFIDENCE > 0) && !raw_i && (confidence == 16'd0);
   assign masked = ((enable_i >> column_i) & 1'b1) == '0;
-  assign entry = {begins_q, result_tlast_i, 2'd0, raw_i, result_second_i, masked, empty, weak, !weak && !empty && !masked, 12'(column_i),
-                  12'(row_i), confidence, 16'(position_i)};
+  // One more than the count would need another bit.
+  logic [16:0] above;
+  assign above = 17'(confidence) + 17'd1;
+  assign saturated = (CONFIDENCE_WIDTH > 0) && (raw_i ? above == 17'd1 << RAW_COUNTER_WIDTH
+      : (COUNTER_WIDTH > 0 && above == 17'd1 << COUNTER_WIDTH));
+  assign entry = {begins_q, result_tlast_i, 1'b0, raw_i, result_second_i, saturated, masked, empty, weak,
+                  !weak && !empty && !masked, 12'(column_i), 12'(row_i), confidence, 16'(position_i)};
   assign push = result_tvalid_i && result_tready;
   assign pop = tvalid && m_axis_tready_i;
 

@@ -198,9 +198,11 @@ package dtof_registers_pkg;
   localparam int RESULT_EMPTY_WIDTH = 1;
   localparam int RESULT_MASKED_LSB = 59;
   localparam int RESULT_MASKED_WIDTH = 1;
-  localparam int RESULT_SECOND_LSB = 60;
+  localparam int RESULT_SATURATED_LSB = 60;
+  localparam int RESULT_SATURATED_WIDTH = 1;
+  localparam int RESULT_SECOND_LSB = 61;
   localparam int RESULT_SECOND_WIDTH = 1;
-  localparam int RESULT_RAW_LSB = 61;
+  localparam int RESULT_RAW_LSB = 62;
   localparam int RESULT_RAW_WIDTH = 1;
 
   function automatic bit is_register(input logic [11:0] offset);

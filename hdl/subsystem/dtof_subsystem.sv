@@ -421,11 +421,13 @@ module dtof_subsystem #(
   logic [M_TDATA_WIDTH-1:0] word_tdata;
 
   stream_output #(
-      .SRAM_NUM        (SRAM_NUM),
-      .ROW_WIDTH       (ROW_WIDTH),
-      .POSITION_WIDTH  (POSITION_WIDTH),
-      .CONFIDENCE_WIDTH(KEPT_CONFIDENCE_WIDTH),
-      .HAS_CONFIDENCE  ((RESULT_CONFIDENCE_WIDTH > 0) ? 1 : 0)
+      .SRAM_NUM         (SRAM_NUM),
+      .ROW_WIDTH        (ROW_WIDTH),
+      .POSITION_WIDTH   (POSITION_WIDTH),
+      .CONFIDENCE_WIDTH (KEPT_CONFIDENCE_WIDTH),
+      .HAS_CONFIDENCE   ((RESULT_CONFIDENCE_WIDTH > 0) ? 1 : 0),
+      .COUNTER_WIDTH    ((POOL != 0) ? 0 : RESULT_CONFIDENCE_WIDTH),
+      .RAW_COUNTER_WIDTH(COUNT_WIDTH)
   ) u_stream_output (
       .clk_i          (clk_i),
       .rst_ni         (rst_ni),
@@ -449,7 +451,7 @@ module dtof_subsystem #(
       localparam int COLUMN_LSB = dtof_registers_pkg::RESULT_COLUMN_LSB;
       localparam int ROW_LSB = dtof_registers_pkg::RESULT_ROW_LSB;
       localparam int STATUS_LSB = dtof_registers_pkg::RESULT_VALID_LSB;
-      localparam int STATUS_WIDTH = dtof_registers_pkg::RESULT_MASKED_LSB + 1 - STATUS_LSB;
+      localparam int STATUS_WIDTH = dtof_registers_pkg::RESULT_SATURATED_LSB + 1 - STATUS_LSB;
       localparam int CONFIDENCE_LSB = dtof_registers_pkg::RESULT_CONFIDENCE_LSB;
       localparam int KEPT_CONFIDENCE = dtof_pkg::max_of(RESULT_CONFIDENCE_WIDTH, 1);
       localparam int KEPT_WIDTH = STATUS_WIDTH + KEPT_CONFIDENCE + POSITION_WIDTH;

@@ -5,7 +5,8 @@
 // Word: {status, column, row, confidence, position}, at the places of dtof_registers_pkg. `second` is what comes with the
 // result: a pixel's second target. Of a result's status, `weak` is
 // confidence < weak_below_i; `empty` is confidence = 0, where the read-out has one; `masked` says that the column is not
-// enabled; `valid` that none of the three holds. Counts of a raw frame are neither weak nor empty.
+// enabled; `valid` that none of the three holds. `saturated` says that a counter of COUNTER_WIDTH bits (of a raw frame:
+// RAW_COUNTER_WIDTH) reads its largest value. Counts of a raw frame are neither weak nor empty.
 // tuser: a frame's first word. tlast: its last.
 // Latency: one clock. A word a clock while tready stays high. tvalid never falls before tready.
 // Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
@@ -17,6 +18,8 @@ module stream_output #(
     parameter int POSITION_WIDTH = 10,    // code and fraction, at most 16
     parameter int CONFIDENCE_WIDTH = 4,   // at most 16; 0: none
     parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,  // 0: it is a count of raw frames alone
+    parameter int COUNTER_WIDTH = CONFIDENCE_WIDTH,      // bits of the counter that the confidence is; 0: it is none
+    parameter int RAW_COUNTER_WIDTH = CONFIDENCE_WIDTH,  // bits of a bin of a raw frame
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
     localparam int WORD_WIDTH = dtof_registers_pkg::RESULT_WIDTH
@@ -44,7 +47,7 @@ module stream_output #(
   logic [ROW_WIDTH-1:0] row;
   logic [POSITION_WIDTH-1:0] position;
   logic [15:0] confidence;
-  logic low, empty, masked;
+  logic low, empty, masked, saturated;
 
   assign column = result_tdata_i[TDATA_WIDTH-1-:COLUMN_WIDTH];
   assign row = result_tdata_i[POSITION_WIDTH+CONFIDENCE_WIDTH+:ROW_WIDTH];
@@ -55,12 +58,15 @@ module stream_output #(
       assign confidence = 16'(result_tdata_i[CONFIDENCE_WIDTH-1:0]);
       assign low = (HAS_CONFIDENCE != 0) && !raw_i && (confidence < weak_below_i);
       assign empty = (HAS_CONFIDENCE != 0) && !raw_i && (confidence == '0);
+      assign saturated = raw_i ? (confidence == 16'((32'd1 << RAW_COUNTER_WIDTH) - 1))
+          : ((COUNTER_WIDTH != 0) && (confidence == 16'((32'd1 << COUNTER_WIDTH) - 1)));
     end else begin : g_no_confidence
       logic unused_weak_below;
       assign unused_weak_below = ^weak_below_i;
       assign confidence = '0;
       assign low = 1'b0;
       assign empty = 1'b0;
+      assign saturated = 1'b0;
     end
   endgenerate
 
@@ -78,6 +84,7 @@ module stream_output #(
     word[dtof_registers_pkg::RESULT_WEAK_LSB] = low;
     word[dtof_registers_pkg::RESULT_EMPTY_LSB] = empty;
     word[dtof_registers_pkg::RESULT_MASKED_LSB] = masked;
+    word[dtof_registers_pkg::RESULT_SATURATED_LSB] = saturated;
     word[dtof_registers_pkg::RESULT_SECOND_LSB] = result_second_i;
     word[dtof_registers_pkg::RESULT_RAW_LSB] = raw_i;
   end

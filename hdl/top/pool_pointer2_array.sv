@@ -302,14 +302,14 @@ module pool_pointer2_array #(
 
       always_comb begin
         line = '0;
-        part_cfg = engine_cfg;
+        part_cfg = '1;  // no copy of a side band that floats, on which Icarus would evaluate this block for ever
         for (i = 0; i < PAIRS; i = i + 1) begin
           line = line | pair_words[i*HALF_WIDTH+:HALF_WIDTH];
           part_cfg = part_cfg & pair_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
         end
       end
 
-      assign cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH] = part_cfg;
+      assign cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH] = part_cfg & engine_cfg;
 
       // The last pair is its own missing neighbour, in an engine with fewer columns, too.
       if (PAIRS < STEP_PAIRS) begin : g_fewer

@@ -311,14 +311,14 @@ module pool_pointer_array #(
 
       always_comb begin
         line = '0;
-        part_cfg = engine_cfg;
+        part_cfg = '1;  // no copy of a side band that floats, on which Icarus would evaluate this block for ever
         for (i = 0; i < PAIRS; i = i + 1) begin
           line = line | pair_words[i*WORD_WIDTH+:WORD_WIDTH];
           part_cfg = part_cfg & pair_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
         end
       end
 
-      assign cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH] = part_cfg;
+      assign cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH] = part_cfg & engine_cfg;
 
       for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
         localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "core/readout.hpp"
+
 class VerilatedContext;
 
 namespace dtof {
@@ -18,6 +20,8 @@ class DemonstratorModel {
   DemonstratorModel& operator=(DemonstratorModel&&) = delete;
   virtual ~DemonstratorModel() = default;
 
+  [[nodiscard]] virtual Readout readout() const = 0;
+  [[nodiscard]] virtual int columns() const = 0;
   /// One clock with this level at the serial input; returns that of the serial output.
   [[nodiscard]] virtual bool clock(bool rx) = 0;
   /// The light, which changes with every frame.

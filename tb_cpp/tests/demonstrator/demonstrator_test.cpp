@@ -20,9 +20,7 @@ namespace dtof {
 namespace {
 
 constexpr int kNp = 10;
-constexpr int kColumns = 8;
 constexpr int kRows = 8;
-constexpr std::size_t kPixels = std::size_t{kColumns} * kRows;
 constexpr std::uint32_t kAcquisitions = 1000;
 constexpr int kWeakBelow = 2;
 constexpr int kClocksPerBit = 12;
@@ -32,16 +30,18 @@ constexpr std::uint64_t kFrameClocks = 300000;
 struct Pixel {
   int row = 0;
   int column = 0;
-  int code = 0;
+  int position = 0;
   int confidence = 0;
   bool weak = false;
+  bool saturated = false;
 
   bool operator==(const Pixel&) const = default;
 };
 
 void PrintTo(const Pixel& pixel, std::ostream* stream) {
-  *stream << fmt::format("row {} column {} code {} confidence {}{}", pixel.row, pixel.column, pixel.code,
-                         pixel.confidence, pixel.weak ? " weak" : "");
+  *stream << fmt::format("row {} column {} position {} confidence {}{}{}", pixel.row, pixel.column,
+                         pixel.position, pixel.confidence, pixel.weak ? " weak" : "",
+                         pixel.saturated ? " saturated" : "");
 }
 
 class Demonstrator : public testing::Test {
@@ -53,13 +53,15 @@ class Demonstrator : public testing::Test {
     const char* program = "demonstrator";  // the RTL looks for +sram_report
     context_.commandArgs(1, &program);
     model_ = make_demonstrator(context_);
+    parameters_ = ReadoutParameters::defaults(model_->readout(), kNp);
+    photons_ = GeneratedPhotons(kNp, model_->columns(), kRows);
   }
   void TearDown() override { write_coverage(context_); }
 
   // Words of the next whole frame on the serial line.
   std::vector<std::uint64_t> receive_frame() {
-    constexpr std::uint64_t kFirst = std::uint64_t{1} << 60U;
-    constexpr std::uint64_t kLast = std::uint64_t{1} << 61U;
+    constexpr std::uint64_t kFirst = std::uint64_t{1} << 61U;
+    constexpr std::uint64_t kLast = std::uint64_t{1} << 62U;
     std::vector<std::uint64_t> words;
     for (std::uint64_t clocks = 0; clocks < kFrameClocks; ++clocks) {
       const std::optional<std::uint8_t> byte = receiver_.clock(model_->clock(sender_.clock()));
@@ -90,16 +92,17 @@ class Demonstrator : public testing::Test {
   std::vector<Pixel> receive_pixels() {
     const std::vector<std::uint64_t> words = receive_frame();
     dtof_device device{};
-    device.columns = kColumns;
+    device.columns = static_cast<std::uint16_t>(model_->columns());
     device.rows = kRows;
-    std::array<dtof_result, kPixels> results{};
+    std::vector<dtof_result> results(pixel_count());
     EXPECT_EQ(dtof_unpack_frame(&device, words.data(), words.size(), results.data()), DTOF_OK);
     std::vector<Pixel> pixels;
     for (const dtof_result& result : results) {
       EXPECT_FALSE(result.masked);
       EXPECT_EQ(result.empty, result.confidence == 0);
       EXPECT_EQ(result.valid, !result.weak && !result.empty);
-      pixels.push_back({result.row, result.column, result.position, result.confidence, result.weak});
+      pixels.push_back({result.row, result.column, result.position, result.confidence, result.weak,
+                        result.saturated});
     }
     return pixels;
   }
@@ -107,26 +110,37 @@ class Demonstrator : public testing::Test {
   // What the model makes of the next frame's photons.
   std::vector<Pixel> expected_pixels() {
     const std::vector<ColumnStream> streams = photons_.acquire(kAcquisitions);
-    const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHisPointer, kNp);
-    std::vector<Pixel> pixels(kPixels);
+    const bool counts = !is_pool_readout(parameters_.readout);
+    const int full = (1 << parameters_.confidence_width) - 1;
+    std::vector<Pixel> pixels(pixel_count());
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const std::vector<PixelResult> results =
-          make_readout_model(parameters)->run_column(streams[i], kAcquisitions);
+          make_readout_model(parameters_)->run_column(streams[i], kAcquisitions);
       const auto column = static_cast<int>(i);
       for (int row = 0; row < kRows; ++row) {
         const PixelResult& result = results[static_cast<std::size_t>(row)];
-        pixels[static_cast<std::size_t>(row) * kColumns + i] = {row, column, result.code, result.confidence,
-                                                                result.confidence < kWeakBelow};
+        pixels[static_cast<std::size_t>(row) * streams.size() + i] = {
+            row,
+            column,
+            (result.code << parameters_.fraction_bits) + result.fraction,
+            result.confidence,
+            result.confidence < kWeakBelow,
+            counts && result.confidence == full};
       }
     }
     return pixels;
   }
 
+  [[nodiscard]] std::size_t pixel_count() const {
+    return static_cast<std::size_t>(model_->columns()) * kRows;
+  }
+  [[nodiscard]] int code(const Pixel& pixel) const { return pixel.position >> parameters_.fraction_bits; }
+
   // Pixels whose code is at most `reach` beside their target.
   std::size_t near_targets(const std::vector<Pixel>& pixels, int reach) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      count += std::abs(pixels[i].code - photons_.targets()[i]) <= reach ? 1U : 0U;
+      count += std::abs(code(pixels[i]) - photons_.targets()[i]) <= reach ? 1U : 0U;
     }
     return count;
   }
@@ -135,14 +149,15 @@ class Demonstrator : public testing::Test {
     const auto bits = static_cast<unsigned>(code);
     sender_.push(std::array{static_cast<std::uint8_t>(0x80U | pixel), static_cast<std::uint8_t>(bits >> 7U),
                             static_cast<std::uint8_t>(bits & 0x7FU)});
-    if (pixel < kPixels) {
+    if (pixel < pixel_count()) {
       photons_.targets()[pixel] = code;
     }
   }
 
   VerilatedContext context_;
   std::unique_ptr<DemonstratorModel> model_;
-  GeneratedPhotons photons_{kNp, kColumns, kRows};
+  ReadoutParameters parameters_;
+  GeneratedPhotons photons_{kNp, 1, kRows};
   SerialReceiver receiver_{kClocksPerBit};
   SerialSender sender_{kClocksPerBit};
   std::uint64_t word_ = 0;
@@ -156,7 +171,9 @@ TEST_F(Demonstrator, DepthsAreTheModels) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     const std::vector<Pixel> pixels = receive_pixels();
     ASSERT_EQ(pixels, expected_pixels());
-    EXPECT_GE(near_targets(pixels, 8), kPixels - 4);
+    // Behind the reset each pixel has a depth of its own, more than poolPointer has candidates for a group.
+    const std::size_t missed = is_pool_readout(parameters_.readout) ? pixel_count() / 2 : pixel_count() / 16;
+    EXPECT_GE(near_targets(pixels, 8), pixel_count() - missed);
   }
 }
 
@@ -165,10 +182,11 @@ TEST_F(Demonstrator, TargetsChangeOverTheSerialLine) {
   ASSERT_EQ(ramp, expected_pixels());
 
   sender_.push(std::array<std::uint8_t, 2>{0x80 | 9, 3});  // a byte is missing: no command
-  for (std::size_t pixel = 0; pixel < kPixels; pixel += 3) {
-    set_target(pixel, 900 - 12 * static_cast<int>(pixel));
+  for (std::size_t pixel = 0; pixel < pixel_count(); ++pixel) {  // steps from column to column, planes down them
+    const auto columns = static_cast<std::size_t>(model_->columns());
+    set_target(pixel, 880 - 60 * static_cast<int>(pixel % columns) + 3 * static_cast<int>(pixel / columns));
   }
-  set_target(kPixels, 500);  // no such pixel
+  set_target(pixel_count(), 500);  // no such pixel
   // Targets change during the second frame, which only takes its random numbers from the model.
   (void)receive_frame();
   ASSERT_TRUE(sender_.idle());
@@ -176,8 +194,8 @@ TEST_F(Demonstrator, TargetsChangeOverTheSerialLine) {
 
   const std::vector<Pixel> changed = receive_pixels();
   ASSERT_EQ(changed, expected_pixels());
-  EXPECT_GE(near_targets(changed, 8), kPixels - 4);
-  EXPECT_GT(std::abs(changed[0].code - ramp[0].code), 500);
+  EXPECT_GE(near_targets(changed, 8), pixel_count() - pixel_count() / 16);
+  EXPECT_NE(changed, ramp);
 }
 
 }  // namespace

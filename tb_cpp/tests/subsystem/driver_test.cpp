@@ -120,6 +120,7 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
                                 .weak = result.weak,
                                 .empty = result.empty,
                                 .masked = result.masked,
+                                .saturated = result.saturated,
                                 .second = expected.second};
       ASSERT_EQ(fields, expected);
       const double position = expected.position / static_cast<double>(1 << device_.fraction_bits);
@@ -172,6 +173,7 @@ TEST_P(Driver, ReadsRawHistograms) {
       ASSERT_EQ(result.column, expected[i].column);
       ASSERT_EQ(result.position, expected[i].position);
       ASSERT_EQ(result.confidence, expected[i].confidence);
+      ASSERT_EQ(result.saturated, expected[i].saturated);
     }
     std::vector<std::uint64_t> other = words;
     std::swap(other.front(), other.back());

@@ -90,6 +90,34 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
   EXPECT_EQ(bench_.get(DTOF_FRAME_COUNT), kFrames);
 }
 
+TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
+  const RtlConfiguration& configuration = bench_.configuration();
+  const ReadoutParameters& parameters = configuration.parameters;
+  constexpr std::uint32_t kAcquisitions = 2200;  // more than a bin counts in each half of the frame
+  const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
+  const auto slots = static_cast<std::size_t>(parameters.slots);
+  std::vector<Line> lines(kAcquisitions * rows * slots, Line(static_cast<std::size_t>(configuration.sram_num),
+                                                             static_cast<Timestamp>(parameters.no_detection())));
+  // One pixel of the first column sees a detection at the same code in each acquisition, the others see none.
+  for (std::size_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+    lines[acquisition * rows * slots].front() = static_cast<Timestamp>(parameters.code_count() / 3);
+  }
+  FrameSettings settings{.acquisitions = kAcquisitions, .gate = {0, parameters.no_detection()}, .enabled = {}};
+  settings.raw_last = configuration.pixels_per_sram - 1;
+  const bool has_counter = !is_pool_readout(parameters.readout);
+  std::size_t frame = 0;
+  for (const bool raw : {false, true}) {
+    settings.raw = raw;
+    write_settings(bench_, settings);
+    push_lines(bench_, lines);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    const std::vector<ResultFields> received = received_results(bench_, frame++);
+    ASSERT_EQ(received, expected_results(bench_, settings, lines));
+    EXPECT_EQ(std::ranges::count_if(received, &ResultFields::saturated), has_counter ? 1 : 0);
+  }
+}
+
 TEST_P(SubsystemFrames, AreWholeBehindAResetAtAnyTime) {
   CounterRandom random = this->random(4);
   for (int round = 0; round < 10; ++round) {

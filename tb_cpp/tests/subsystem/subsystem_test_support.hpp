@@ -29,6 +29,7 @@ struct ResultFields {
   bool weak = false;
   bool empty = false;
   bool masked = false;
+  bool saturated = false;
   bool second = false;
   bool raw = false;
 
@@ -39,7 +40,8 @@ inline void PrintTo(const ResultFields& fields, std::ostream* stream) {
   *stream << "row " << fields.row << " column " << fields.column << " position " << fields.position
           << " confidence " << fields.confidence << (fields.valid ? " valid" : "")
           << (fields.weak ? " weak" : "") << (fields.empty ? " empty" : "")
-          << (fields.masked ? " masked" : "") << (fields.second ? " second" : "")
+          << (fields.masked ? " masked" : "") << (fields.saturated ? " saturated" : "")
+          << (fields.second ? " second" : "")
           << (fields.raw ? " raw" : "");
 }
 
@@ -53,6 +55,7 @@ inline ResultFields fields_of(std::uint64_t word) {
           .weak = (word & DTOF_RESULT_WEAK_MASK) != 0,
           .empty = (word & DTOF_RESULT_EMPTY_MASK) != 0,
           .masked = (word & DTOF_RESULT_MASKED_MASK) != 0,
+          .saturated = (word & DTOF_RESULT_SATURATED_MASK) != 0,
           .second = (word & DTOF_RESULT_SECOND_MASK) != 0,
           .raw = (word & DTOF_RESULT_RAW_MASK) != 0};
 }
@@ -125,6 +128,10 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     }
   }
   const bool has_confidence = !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
+  const bool counts = has_confidence && !is_pool_readout(parameters.readout);
+  const int largest_count = (1 << parameters.count_width) - 1;
+  const int largest_confidence =
+      is_pointer_readout(parameters.readout) ? (1 << parameters.confidence_width) - 1 : largest_count;
   std::vector<ResultFields> expected;
   for (int row = settings.raw_first; raw && row <= settings.raw_last; ++row) {
     for (std::size_t bin = 0; bin < static_cast<std::size_t>(parameters.raw_bins()); ++bin) {
@@ -137,6 +144,7 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
                             .column = static_cast<int>(column),
                             .valid = !masked,
                             .masked = masked,
+                            .saturated = count.confidence == largest_count,
                             .raw = true});
       }
     }
@@ -154,6 +162,7 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     fields.weak = has_confidence && result.confidence < settings.weak_below;
     fields.empty = has_confidence && result.confidence == 0;
     fields.masked = !settings.enabled.empty() && !settings.enabled[column];
+    fields.saturated = counts && result.confidence == largest_confidence;
     fields.valid = !fields.weak && !fields.empty && !fields.masked;
     expected.push_back(fields);
     if (settings.second_target && parameters.pool.second_target) {
