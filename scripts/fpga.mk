@@ -2,8 +2,8 @@
 # make fpga-check     a small dtof_subsystem of every read-out on four FPGA families, by Yosys: block RAMs, look-up tables,
 #                     flip-flops in reports/fpga_check.md; fails if a memory does not become block RAM (20 minutes)
 #                     FPGA="ezpointer --families ecp5"  some of them (no report)
-# make fpga           the demonstrator of hdl/demonstrator for an iCE40 HX8K, from RTL to build/fpga/demonstrator.bin; its netlist
-#                     simulated, its depths compared with the model's; reports/fpga.md (minutes)
+# make fpga           the demonstrator of hdl/demonstrator for an iCE40 HX8K with hisPointer and with poolPointer, from RTL to the
+#                     bitstreams in build/fpga/; their netlists simulated, depths compared with the models'; reports/fpga.md (minutes)
 .PHONY: fpga-check fpga
 fpga-check: packages
 	@scripts/fpga_check.py $(FPGA)
@@ -11,5 +11,5 @@ fpga-check: packages
 fpga: configure
 	@scripts/install_packages.sh fpga
 	@scripts/fpga.py
-	@ninja -C $(BUILD) demonstrator_netlist_test
-	@scripts/fpga.py --report $(BUILD)/tests/demonstrator/demonstrator_netlist_test
+	@ninja -C $(BUILD) demonstrator_netlist_test demonstrator_pool_netlist_test
+	@scripts/fpga.py --report $(BUILD)/tests/demonstrator

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The demonstrator of hdl/demonstrator for an iCE40 HX8K: Yosys, nextpnr, icepack. Writes build/fpga/demonstrator.bin, the
-netlist that demonstrator_netlist_test simulates, and, with --report, reports/fpga.md.
+"""The demonstrator of hdl/demonstrator for an iCE40 HX8K, with either read-out: Yosys, nextpnr, icepack. Writes bitstreams and
+netlists, which tests simulate, to build/fpga/ and, with --report, reports/fpga.md.
 
 Fails if a memory did not become block RAM, if it does not fit, or if it is slower than the board's clock. What icetime, which
 knows the chip from another database, says of the speed stands beside nextpnr's.
@@ -31,6 +31,25 @@ from dtof_synth.errors import FlowError  # noqa: E402, fpga_check has set the pa
 
 
 @dataclass(frozen=True)
+class Design:
+    name: str  # of its files
+    readout: str
+    settings: dict[str, int]  # parameters that are not the top's own, as in tb_cpp/tests/demonstrator/CMakeLists.txt
+
+    @property
+    def parameters(self) -> dict[str, int]:
+        return parameters() | self.settings
+
+    def file(self, ending: str) -> Path:
+        return BUILD / f"{self.name}{ending}"
+
+
+DESIGNS = (
+    Design("demonstrator", "hisPointer", {}),
+    Design("demonstrator_pool", "poolPointer", {"READOUT": 64, "COLUMNS": 2}),
+)
+
+@dataclass(frozen=True)
 class Use:
     used: int
     available: int
@@ -42,6 +61,15 @@ class Result:
     block_rams: Use
     nextpnr_mhz: float
     icetime_mhz: float
+
+
+@dataclass(frozen=True)
+class Outcome:
+    design: Design
+    found: Result
+    cells: dict[str, int]
+    memories: int
+    test: str  # what the test of the netlist says
 
 
 def sources() -> list[str]:
@@ -67,11 +95,12 @@ def run(command: list[str], log: str, folder: Path = BUILD) -> str:
     return result.stdout
 
 
-def synthesise() -> dict[str, int]:
+def synthesise(design: Design) -> dict[str, int]:
     """Cells by type. Writes the netlist for nextpnr and for simulation, and the cells' models beside it."""
-    script = (f"read_verilog -sv -DSYNTHESIS -Ipackage {' '.join(sources())}; synth_ice40 -top {TOP} "
-              f"-json {BUILD}/{TOP}.json; write_verilog -noattr {BUILD}/{TOP}_netlist.v; tee -o /dev/stdout stat")  # fmt: skip
-    text = run(["yosys", "-Q", "-T", "-p", script], "yosys.log", HDL)
+    settings = " ".join(f"-set {name} {value}" for name, value in design.settings.items())
+    script = (f"read_verilog -sv -DSYNTHESIS -Ipackage {' '.join(sources())}; chparam {settings} {TOP}; synth_ice40 -top {TOP} "
+              f"-json {design.file('.json')}; rename -top {TOP}; write_verilog -noattr {design.file('_netlist.v')}; tee -o /dev/stdout stat")  # fmt: skip
+    text = run(["yosys", "-Q", "-T", "-p", script], f"{design.name}_yosys.log", HDL)
     share = Path(shutil.which("yosys") or "").resolve().parents[1] / "share/yosys"
     models = (share / "ice40/cells_sim.v").read_text(encoding="utf-8")
     (BUILD / "ice40_cells.v").write_text("`define NO_ICE40_DEFAULT_ASSIGNMENTS\n" + models, encoding="utf-8")
@@ -79,20 +108,25 @@ def synthesise() -> dict[str, int]:
     return {kind: int(number) for kind, number in re.findall(r"^ +(\w+) +(\d+)$", statistics, re.MULTILINE)}
 
 
-def memories() -> int:
+def memories(design: Design) -> int:
     """Memories of the top, as the behavioural ones say of themselves at the start of a simulation."""
-    program = BUILD / "memories.vvp"
+    program = design.file(".vvp")
+    settings = [f"-P{TOP}.{name}={value}" for name, value in design.settings.items()]
     files = [file.replace("/fpga/", "/behavioural/") for file in sources()]
-    run(["iverilog", "-g2012", "-s", TOP, "-o", str(program), "-Ipackage", *files], "iverilog.log", HDL)
-    return len(re.findall(r"\d+ words x \d+ bits", run(["vvp", "-n", str(program), "+sram_report"], "memories.log")))
+    run(["iverilog", "-g2012", "-s", TOP, "-o", str(program), *settings, "-Ipackage", *files],
+        f"{design.name}_iverilog.log", HDL)
+    text = run(["vvp", "-n", str(program), "+sram_report"], f"{design.name}_memories.log")
+    return len(re.findall(r"\d+ words x \d+ bits", text))
 
 
-def place_and_route() -> Result:
-    run(["nextpnr-ice40", "--hx8k", "--package", "ct256", "--pcf", str(FOLDER / "ice40_hx8k.pcf"), "--json", f"{TOP}.json",
-         "--asc", f"{TOP}.asc", "--freq", str(BOARD_MHZ), "--seed", str(SEED), "--report", "report.json"], "nextpnr.log")
-    run(["icepack", f"{TOP}.asc", f"{TOP}.bin"], "icepack.log")
-    return result(json.loads((BUILD / "report.json").read_text(encoding="utf-8")),
-                  run(["icetime", "-d", "hx8k", "-mt", f"{TOP}.asc"], "icetime.log"))
+def place_and_route(design: Design) -> Result:
+    name = design.name
+    run(["nextpnr-ice40", "--hx8k", "--package", "ct256", "--pcf", str(FOLDER / "ice40_hx8k.pcf"), "--json", f"{name}.json",
+         "--asc", f"{name}.asc", "--freq", str(BOARD_MHZ), "--seed", str(SEED), "--report", f"{name}_report.json"],
+        f"{name}_nextpnr.log")
+    run(["icepack", f"{name}.asc", f"{name}.bin"], f"{name}_icepack.log")
+    return result(json.loads(design.file("_report.json").read_text(encoding="utf-8")),
+                  run(["icetime", "-d", "hx8k", "-mt", f"{name}.asc"], f"{name}_icetime.log"))
 
 
 def result(report: dict, icetime: str) -> Result:
@@ -115,37 +149,46 @@ def problems(found: Result, cells: dict[str, int], expected_memories: int) -> li
     return sentences
 
 
-def report(found: Result, cells: dict[str, int], expected_memories: int, test: str) -> str:
-    registers = sum(number for kind, number in cells.items() if kind.startswith("SB_DFF"))
-    top = parameters()
+def row(title: str, values: list[str]) -> str:
+    return f"| {title} | {' | '.join(values)} |"
+
+
+def report(outcomes: list[Outcome]) -> str:
     share = lambda use: f"{use.used:,} of {use.available:,} ({100 * use.used / use.available:.0f} %)"  # noqa: E731
+    designs = [outcome.design for outcome in outcomes]
+    found = [outcome.found for outcome in outcomes]
+    rates = [f"{BOARD_MHZ * 1000 // design.parameters['CLOCKS_PER_BIT']:,} kbit/s" for design in designs]
+    registers = [sum(number for kind, number in outcome.cells.items() if kind.startswith("SB_DFF")) for outcome in outcomes]
     return "\n".join([
         "# FPGA demonstrator",
         "",
-        f"From `make fpga`: [hdl/demonstrator](../hdl/demonstrator/{TOP}.sv), {top['COLUMNS']} columns of {top['ROWS']} pixels "
-        "with hisPointer, photons made on the chip,",
-        "a serial line, on an iCE40 HX8K; mapped by Yosys, placed and routed by nextpnr-ice40, packed by icepack.",
+        f"From `make fpga`: [hdl/demonstrator](../hdl/demonstrator/{TOP}.sv), photons made on the chip, a serial line, on an iCE40",
+        "HX8K; mapped by Yosys, placed and routed by nextpnr-ice40, packed by icepack.",
         "",
-        "| | |",
-        "|---|---:|",
-        f"| logic cells | {share(found.cells)} |",
-        f"| of them look-up tables of four inputs | {cells['SB_LUT4']:,} |",
-        f"| flip-flops | {registers:,} |",
-        f"| block RAMs, for {expected_memories} memories | {share(found.block_rams)} |",
-        f"| highest clock by nextpnr | {found.nextpnr_mhz:.1f} MHz |",
-        f"| by icetime | {found.icetime_mhz:.1f} MHz |",
-        f"| the board's clock | {BOARD_MHZ} MHz |",
-        f"| serial line at that clock | {BOARD_MHZ * 1000 // top['CLOCKS_PER_BIT']:,} kbit/s |",
-        f"| bitstream | {(BUILD / f'{TOP}.bin').stat().st_size:,} bytes |",
+        row("", [design.readout for design in designs]),
+        "|---|" + "---:|" * len(outcomes),
+        row("columns x pixels of a column", [f"{design.parameters['COLUMNS']} x {design.parameters['ROWS']}" for design in designs]),
+        row("logic cells", [share(each.cells) for each in found]),
+        row("of them look-up tables of four inputs", [f"{outcome.cells['SB_LUT4']:,}" for outcome in outcomes]),
+        row("flip-flops", [f"{number:,}" for number in registers]),
+        row("memories", [str(outcome.memories) for outcome in outcomes]),
+        row("block RAMs", [share(each.block_rams) for each in found]),
+        row("highest clock by nextpnr", [f"{each.nextpnr_mhz:.1f} MHz" for each in found]),
+        row("by icetime", [f"{each.icetime_mhz:.1f} MHz" for each in found]),
+        row("the board's clock", [f"{BOARD_MHZ} MHz"] * len(outcomes)),
+        row("serial line at that clock", rates),
+        row("bitstream", [f"{design.file('.bin').stat().st_size:,} bytes" for design in designs]),
         "",
-        f"The netlist behind the mapping, simulated with Yosys's models of the cells: {test}.",
+        "The netlists behind the mapping, simulated with Yosys's models of the cells:",
+        "",
+        *(f"* {outcome.design.readout}: {outcome.test}" for outcome in outcomes),
         "",
     ])  # fmt: skip
 
 
-def passed(program: Path) -> str:
+def passed(design: Design, program: Path) -> str:
     """What the test of the netlist printed at its end."""
-    text = run([str(program)], "netlist_test.log")
+    text = run([str(program)], f"{design.name}_netlist_test.log")
     found = re.search(r"\[  PASSED  \] (\d+) tests", text)
     names = re.findall(r"\[       OK \] \w+\.(\w+)", text)
     if not found or int(found.group(1)) != len(names) or not names:
@@ -153,32 +196,43 @@ def passed(program: Path) -> str:
     return "passed " + ", ".join(f"`{name}`" for name in names)
 
 
+def kept_outcome(design: Design, tests: Path) -> Outcome:
+    """Of the last run for this design, and what its netlist's test says, which is run."""
+    kept = json.loads(design.file("_result.json").read_text(encoding="utf-8"))
+    found = result(json.loads(design.file("_report.json").read_text(encoding="utf-8")),
+                   design.file("_icetime.log").read_text(encoding="utf-8"))  # fmt: skip
+    test = passed(design, (tests / f"{design.name}_netlist_test").resolve())
+    return Outcome(design, found, kept["cells"], kept["memories"], test)
+
+
+def make(design: Design) -> list[str]:
+    """From RTL to the bitstream; what is wrong with it."""
+    kept = design.file("_result.json")
+    kept.unlink(missing_ok=True)
+    cells, expected = synthesise(design), memories(design)
+    found = place_and_route(design)
+    sentences = [f"{design.readout}: {sentence}" for sentence in problems(found, cells, expected)]
+    if not sentences:
+        kept.write_text(json.dumps({"cells": cells, "memories": expected}), encoding="utf-8")
+        print(f"fpga: {design.readout}: {found.cells.used} of {found.cells.available} logic cells, {found.block_rams.used} of "
+              f"{found.block_rams.available} block RAMs, {found.nextpnr_mhz:.1f} MHz; wrote build/fpga/{design.name}.bin")
+    return sentences
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
-    parser.add_argument("--report", type=Path, metavar="TEST", help="run this test of the netlist and write the report")
+    parser.add_argument("--report", type=Path, metavar="FOLDER", help="run the tests of the netlists, which are in this folder, "
+                        "and write the report")  # fmt: skip
     arguments = parser.parse_args()
     BUILD.mkdir(parents=True, exist_ok=True)
-    kept = BUILD / "result.json"
     if arguments.report:
-        test = passed(arguments.report.resolve())
-        outcome = json.loads(kept.read_text(encoding="utf-8"))
-        found = result(json.loads((BUILD / "report.json").read_text(encoding="utf-8")),
-                       (BUILD / "icetime.log").read_text(encoding="utf-8"))  # fmt: skip
-        REPORT.write_text(report(found, outcome["cells"], outcome["memories"], test), encoding="utf-8")
-        print(f"fpga: the netlist's depths are the model's; wrote {REPORT.relative_to(ROOT)}")
+        REPORT.write_text(report([kept_outcome(design, arguments.report) for design in DESIGNS]), encoding="utf-8")
+        print(f"fpga: the netlists' depths are the models'; wrote {REPORT.relative_to(ROOT)}")
         return 0
-    kept.unlink(missing_ok=True)
-    cells, expected = synthesise(), memories()
-    found = place_and_route()
-    sentences = problems(found, cells, expected)
+    sentences = [sentence for design in DESIGNS for sentence in make(design)]
     for sentence in sentences:
         print(f"error: {sentence}", file=sys.stderr)
-    if sentences:
-        return 1
-    kept.write_text(json.dumps({"cells": cells, "memories": expected}), encoding="utf-8")
-    print(f"fpga: {found.cells.used} of {found.cells.available} logic cells, {found.block_rams.used} of "
-          f"{found.block_rams.available} block RAMs, {found.nextpnr_mhz:.1f} MHz; wrote build/fpga/{TOP}.bin")
-    return 0
+    return 1 if sentences else 0
 
 
 if __name__ == "__main__":

@@ -35,10 +35,10 @@ module schedule_bench;
   logic clk = 1'b0, rst_n = 1'b0, start = 1'b0;
   wire done;
   pool_pointer_array #(PARAMETERS) u_array (
-      .clk_i(clk), .rst_ni(rst_n), .sram_cfg_i('0), .sram_cfg_o(), .error_o(), .gate_begin_i('0), .gate_end_i('0), .start_i(start), .acq_num_i(ACQ_WIDTH'd0), .coarse_end_i(ACQ_WIDTH'd0),
-      .track_end_i(ACQ_WIDTH'd0), .late_begin_i(ACQ_WIDTH'd0), .busy_o(), .done_o(done), .state_o(), .tdc_ready_o(),
-      .tdc_valid_i(1'b0), .tdc_timestamp_i('0), .result_tvalid_o(), .result_tready_i(1'b1), .result_tdata_o(),
-      .result_tlast_o());
+      .clk_i(clk), .rst_ni(rst_n), .sram_cfg_i('0), .sram_cfg_o(), .start_i(start), .acq_num_i(ACQ_WIDTH'd0),
+      .gate_begin_i('0), .gate_end_i('0), .coarse_end_i(ACQ_WIDTH'd0), .track_end_i(ACQ_WIDTH'd0),
+      .late_begin_i(ACQ_WIDTH'd0), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),
+      .tdc_timestamp_i('0), .result_tvalid_o(), .result_tready_i(1'b1), .result_tdata_o(), .result_tlast_o());
   always #1 clk = !clk;
   always @(negedge clk) begin
     $display("%b%b%b %b %0d %b", u_array.u_engine_sequencer.decoding, u_array.u_engine_sequencer.choosing,

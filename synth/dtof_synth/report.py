@@ -185,11 +185,12 @@ def _margin_section(results: list[Result]) -> list[str]:
     results = [result for result in results if result.margins]
     if not results:
         return []
+    lacking = max(0.0, -min(corner.hold_slack for result in results for corner in result.margins.values()))
     return ["## With margins", "",
             "The same netlists with the margins of [constraints/margins.sdc](../constraints/margins.sdc): cells 5 % slower or "
             "faster where that hurts, 0.15 ns of uncertainty, edges at the inputs and loads at the outputs; slow corner, and "
-            "the fast one for hold. Met: no slack is negative. What hold lacks is a few hundredths of a nanosecond between registers "
-            "that feed each other; layout repairs it with buffers that no total has.", "",
+            f"the fast one for hold. Met: no slack is negative. Hold lacks at most {lacking:.3f} ns, which is left to layout; no total "
+            "has the buffers for it.", "",
             _table(["read-out", "slow: setup", "hold", "fast: setup", "hold", "setup met", "hold met", "slowest from", "to"],
                    _margin_rows(results))]
 
@@ -207,8 +208,8 @@ def timing(results: dict[str, Result], library: str, digest: str) -> str:
         "# Timing and power", "", _provenance(library, digest),
         "Slacks in ns, ideal clock with the uncertainty and port budgets of "
         "[constraints/dtof.sdc](../constraints/dtof.sdc). fmax: the shortest period without a setup violation, port "
-        "budgets scaled with it. Stages: cells between start and end. Hold is fixed in layout; a small negative "
-        "figure here is a register that feeds its neighbour. Wires inside a block are a wire load; the length of "
+        "budgets scaled with it. Stages: cells between start and end. Hold is left to layout. "
+        "Wires inside a block are a wire load; the length of "
         "the wires to the columns is not modelled.", "",
         _table(header, _timing_rows(main)),
         *_margin_section(main),

@@ -93,7 +93,7 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
 TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
   const RtlConfiguration& configuration = bench_.configuration();
   const ReadoutParameters& parameters = configuration.parameters;
-  constexpr std::uint32_t kAcquisitions = 2200;  // more than a bin counts in each half of the frame
+  constexpr std::uint32_t kAcquisitions = 4200;  // more than a bin counts, in each pass
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(parameters.slots);
   std::vector<Line> lines(kAcquisitions * rows * slots, Line(static_cast<std::size_t>(configuration.sram_num),
