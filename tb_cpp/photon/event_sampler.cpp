@@ -8,17 +8,19 @@
 #include <boost/random/exponential_distribution.hpp>
 #include <boost/random/normal_distribution.hpp>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 
 #include "photon/physics.hpp"
+#include "photon/ziggurat.hpp"
 
 namespace dtof {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-// Before a process's first event, in front of its list.
-constexpr double kBeforeFrame = -1.0;
-constexpr std::size_t kFirst = 1;
+// Before a process's first event, twice in front of its list.
+constexpr double kBeforeFrame = -kNever;
+constexpr std::size_t kFirst = 2;
 
 // Drawing the kept events one after the other in time order costs as much as drawing and sorting this many
 // signal events, or four times as many background events, which come sorted (measured).
@@ -33,21 +35,28 @@ constexpr double kNegligibleSigma = 12.0;
 class Bits64 {
  public:
   using result_type = std::uint64_t;
+  static constexpr std::size_t kBatch = 32;
+
   explicit Bits64(CounterRandom& random) : random_(random) {}
   static constexpr result_type min() { return 0; }
   static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
-  result_type operator()() {
-    if (next_ == words_.size()) {
+  result_type operator()() { return batch()[next_++]; }
+
+  /// The batch that the next word is of, and the word's place in it; `skip_to` passes over words.
+  std::span<const std::uint64_t, kBatch> batch() {
+    if (next_ == kBatch) {
       random_.fill(words_);
       next_ = 0;
     }
-    return words_[next_++];
+    return words_;
   }
+  [[nodiscard]] std::size_t next() const { return next_; }
+  void skip_to(std::size_t next) { next_ = next; }
 
  private:
   CounterRandom& random_;
-  std::array<std::uint64_t, 32> words_{};
-  std::size_t next_ = words_.size();
+  std::array<std::uint64_t, kBatch> words_{};
+  std::size_t next_ = kBatch;
 };
 
 double draw_exponential(Bits64& bits) { return boost::random::exponential_distribution<double>(1.0)(bits); }
@@ -85,10 +94,62 @@ double next_in_response(const PulseResponse& response, double now, double share)
 }
 
 void make_room(std::vector<double>& values, std::size_t count) {
-  if (count == values.size()) {
+  if (count > values.size()) {
     values.resize(std::max<std::size_t>(1024, 2 * count));
   }
 }
+
+/// The whole part of a number >= 0 below 2^63.
+double whole(double number) { return static_cast<double>(static_cast<std::int64_t>(number)); }
+
+std::int64_t load_integer(const double* number) {
+  std::int64_t integer = 0;
+  std::memcpy(&integer, number, sizeof(integer));
+  return integer;
+}
+void store_integer(std::int64_t integer, double* number) { std::memcpy(number, &integer, sizeof(integer)); }
+
+/// Merges two sorted lists from a place in each on, an event a step.
+class TwoListsForward {
+ public:
+  TwoListsForward(const double* signal, const double* background, double* events)
+      : signal_(signal), background_(background), events_(events) {}
+  void step() {
+    const std::int64_t signal = load_integer(signal_);
+    const std::int64_t background = load_integer(background_);
+    const std::int64_t behind = signal - background;
+    const std::int64_t earlier = behind >> 63;  // -1: the signal
+    store_integer(background + (behind & earlier), events_++);
+    signal_ -= earlier;
+    background_ += 1 + earlier;
+  }
+
+ private:
+  const double* signal_;
+  const double* background_;
+  double* events_;
+};
+
+/// The same of what lies before a place in each, from the last event on.
+class TwoListsBackward {
+ public:
+  TwoListsBackward(const double* signal, const double* background, double* events)
+      : signal_(signal - 1), background_(background - 1), events_(events) {}
+  void step() {
+    const std::int64_t signal = load_integer(signal_);
+    const std::int64_t background = load_integer(background_);
+    const std::int64_t behind = signal - background;
+    const std::int64_t earlier = behind >> 63;
+    store_integer(signal - (behind & earlier), --events_);
+    background_ += earlier;
+    signal_ -= 1 + earlier;
+  }
+
+ private:
+  const double* signal_;
+  const double* background_;
+  double* events_;
+};
 
 }  // namespace
 
@@ -104,8 +165,8 @@ EventSampler::EventSampler(const SensorModel& model, std::size_t keep)
       afterpulse_probability_(model.afterpulse_probability),
       afterpulse_time_constant_(model.afterpulse_time_constant_s / model.time_resolution_s()),
       keep_(keep),
-      background_{kBeforeFrame},
-      signal_{kBeforeFrame} {}
+      background_{kBeforeFrame, kBeforeFrame},
+      signal_{kBeforeFrame, kBeforeFrame} {}
 
 std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRandom random) {
   PixelRates visible = rates;
@@ -130,52 +191,123 @@ std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRan
   return std::span<const double>(events_).first(event_count_);
 }
 
-[[gnu::flatten]] void EventSampler::walk_background(double events_per_acquisition, CounterRandom& random) {
-  Bits64 bits(random);
+void EventSampler::walk_background(double events_per_acquisition, CounterRandom& random) {
   background_end_ = kFirst;
   // `walked` is measured in mean events: gaps are exponential with mean 1, whatever the rate.
   const double end = events_per_acquisition * acquisitions_;
+  const double gate_begin = gate_begin_;
   const double gate_width = gate_end_ - gate_begin_;
-  const bool gated = gate_width < code_count_;
+  const double code_count = code_count_;
   const double acquisitions_per_event = 1.0 / events_per_acquisition;
   const double bins_per_event = code_count_ / events_per_acquisition;
-  double walked = 0.0;
-  while ((walked += draw_exponential(bits)) < end) {
-    double position = walked * bins_per_event;
-    if (gated) {
-      const double acquisition = std::floor(walked * acquisitions_per_event);
-      position = acquisition * code_count_ + gate_begin_ +
-                 (walked * acquisitions_per_event - acquisition) * gate_width;
-    }
-    if (position >= frame_end_) {  // only by rounding
-      break;
-    }
-    make_room(background_, background_end_);
-    background_[background_end_++] = position;
+  if (gate_width < code_count_) {
+    walk_flat(end, random, [=](double walked) {
+      const double acquisition = whole(walked * acquisitions_per_event);
+      return acquisition * code_count + gate_begin +
+             (walked * acquisitions_per_event - acquisition) * gate_width;
+    });
+  } else {
+    walk_flat(end, random, [=](double walked) { return walked * bins_per_event; });
   }
 }
 
-[[gnu::flatten]] void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
+template <typename PositionAt>
+void EventSampler::walk_flat(double end, CounterRandom& random, const PositionAt& position_at) {
   Bits64 bits(random);
+  const Ziggurat& exponential = Ziggurat::exponential();
+  const double frame_end = frame_end_;
+  double walked = 0.0;
+  for (bool inside = true; inside;) {
+    const auto words = bits.batch();
+    make_room(background_, background_end_ + Bits64::kBatch + 1);
+    double* event = &background_[background_end_];
+    const auto keep = [&] {
+      inside = walked < end;
+      if (inside) {
+        *event = position_at(walked);
+        inside = *event < frame_end;  // fails by rounding only
+        event += inside ? 1 : 0;
+      }
+    };
+    std::size_t i = bits.next();
+    for (; i < Bits64::kBatch && inside; ++i) {
+      const Ziggurat::Draw gap = exponential.draw(words[i]);
+      if (!gap.decided) {
+        break;
+      }
+      walked += gap.value;
+      keep();
+    }
+    bits.skip_to(i);
+    if (i < Bits64::kBatch && inside) {
+      walked += draw_exponential(bits);
+      keep();
+    }
+    background_end_ = static_cast<std::size_t>(event - background_.data());
+  }
+}
+
+void EventSampler::walk_signal(const PixelRates& rates, CounterRandom& random) {
+  Bits64 bits(random);
+  const Ziggurat& exponential = Ziggurat::exponential();
+  const Ziggurat& normal = Ziggurat::normal();
   signal_end_ = kFirst;
   const double acquisitions_per_event = 1.0 / rates.signal;
   const double end = rates.signal * acquisitions_;
+  const double centre = rates.centre_bins;
+  const double sigma = sigma_;
+  const double gate_begin = gate_begin_;
+  const double gate_end = gate_end_;
+  const double frame_end = frame_end_;
+  const double code_count = code_count_;
   const bool sort_now = rates.signal <= kSortWhileDrawing;
   double walked = 0.0;
-  while ((walked += draw_exponential(bits)) < end) {
-    const double acquisition = std::floor(walked * acquisitions_per_event);
-    const double time = rates.centre_bins +
-                        (response_ ? response_->quantile(draw_uniform(bits)) : sigma_ * draw_normal(bits));
-    const double position = acquisition * code_count_ + time;
-    if (time < gate_begin_ || time >= gate_end_ || position >= frame_end_) {
-      continue;
+  for (bool inside = true; inside;) {
+    const auto words = bits.batch();
+    make_room(signal_, signal_end_ + Bits64::kBatch + 1);
+    double* event = &signal_[signal_end_];
+    const auto keep = [&](double time) {
+      const double position = whole(walked * acquisitions_per_event) * code_count + time;
+      if (time < gate_begin || time >= gate_end || position >= frame_end) {
+        return;
+      }
+      // Two events of a pulse come in either order as often, so that this exchange has no branch.
+      const double last = event[-1];
+      const double before = std::min(last, position);
+      event[-1] = before;
+      event[0] = std::max(last, position);
+      if (before < event[-2] && sort_now) {
+        double* slot = event - 1;
+        for (; slot[-1] > before; --slot) {
+          *slot = slot[-1];
+        }
+        *slot = before;
+      }
+      ++event;
+    };
+    std::size_t i = bits.next();
+    for (; i + 1 < Bits64::kBatch && !response_; i += 2) {
+      const Ziggurat::Draw gap = exponential.draw(words[i]);
+      const Ziggurat::Draw deviation = normal.draw(words[i + 1]);
+      if (!(gap.decided & deviation.decided)) {
+        break;
+      }
+      walked += gap.value;
+      if (walked >= end) {
+        inside = false;
+        break;
+      }
+      keep(centre + sigma * deviation.value);
     }
-    make_room(signal_, signal_end_);
-    std::size_t slot = signal_end_++;
-    for (; sort_now && signal_[slot - 1] > position; --slot) {
-      signal_[slot] = signal_[slot - 1];
+    bits.skip_to(i);
+    if (i < Bits64::kBatch && inside) {
+      walked += draw_exponential(bits);
+      inside = walked < end;
+      if (inside) {
+        keep(centre + (response_ ? response_->quantile(draw_uniform(bits)) : sigma * draw_normal(bits)));
+      }
     }
-    signal_[slot] = position;
+    signal_end_ = static_cast<std::size_t>(event - signal_.data());
   }
   if (!sort_now) {
     std::sort(signal_.begin() + kFirst, signal_.begin() + static_cast<std::ptrdiff_t>(signal_end_));
@@ -183,39 +315,45 @@ std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRan
 }
 
 void EventSampler::merge() {
-  make_room(background_, background_end_);
-  make_room(signal_, signal_end_);
+  make_room(background_, background_end_ + 1);
+  make_room(signal_, signal_end_ + 1);
   background_[background_end_] = kNever;
   signal_[signal_end_] = kNever;
-  event_count_ = background_end_ + signal_end_ - 2 * kFirst;
+  const std::size_t backgrounds = background_end_ - kFirst;
+  const std::size_t signals = signal_end_ - kFirst;
+  event_count_ = backgrounds + signals;
   if (events_.size() < event_count_) {
     events_.resize(event_count_);
   }
-  // From both ends at once, two chains that the processor overlaps; without branches, since which process is
-  // next is not predictable; as integers, which order like the numbers and are compared faster.
-  const auto before = [](const double* a, const double* b) {
-    return std::bit_cast<std::int64_t>(*a) < std::bit_cast<std::int64_t>(*b);
-  };
-  const double* background = &background_[kFirst];
-  const double* signal = &signal_[kFirst];
-  const double* last_background = &background_[background_end_] - 1;
-  const double* last_signal = &signal_[signal_end_] - 1;
-  const auto merge_last = [&](std::size_t place) {
-    const bool take_background = before(last_signal, last_background);
-    events_[place] = take_background ? *last_background : *last_signal;
-    last_background -= take_background ? 1 : 0;
-    last_signal -= take_background ? 0 : 1;
-  };
-  const std::size_t half = event_count_ / 2;
-  for (std::size_t i = 0; i < half; ++i) {
-    const bool take_signal = before(signal, background);
-    events_[i] = take_signal ? *signal : *background;
-    signal += take_signal ? 1 : 0;
-    background += take_signal ? 0 : 1;
-    merge_last(event_count_ - 1 - i);
+  // From both ends and from a point between them at once, four chains that the processor overlaps; without
+  // branches, since which process is next is not predictable; as integers, which order like the numbers and
+  // are compared faster.
+  const std::size_t quarter = event_count_ / 4;
+  const std::size_t middle = 2 * quarter;
+  std::size_t signals_before = middle - std::min(middle, backgrounds);  // the middle
+  for (std::size_t most = std::min(middle, signals); signals_before < most;) {
+    const std::size_t between = (signals_before + most) / 2;
+    if (signal_[kFirst + between] < background_[kFirst + middle - 1 - between]) {
+      signals_before = between + 1;
+    } else {
+      most = between;
+    }
   }
-  if (event_count_ % 2 != 0) {
-    merge_last(half);
+  const double* middle_signal = &signal_[kFirst + signals_before];
+  const double* middle_background = &background_[kFirst + middle - signals_before];
+  double* events = events_.data();
+  TwoListsForward first(&signal_[kFirst], &background_[kFirst], events);
+  TwoListsBackward second(middle_signal, middle_background, events + middle);
+  TwoListsForward third(middle_signal, middle_background, events + middle);
+  TwoListsBackward fourth(&signal_[signal_end_], &background_[background_end_], events + event_count_);
+  for (std::size_t i = 0; i < quarter; ++i) {
+    first.step();
+    second.step();
+    third.step();
+    fourth.step();
+  }
+  for (std::size_t i = 4 * quarter; i < event_count_; ++i) {
+    fourth.step();
   }
 }
 
@@ -248,7 +386,7 @@ void EventSampler::walk_in_time_order(const PixelRates& rates, double background
       if (next >= gate_end_ || position >= frame_end_) {
         break;
       }
-      make_room(events_, event_count_);
+      make_room(events_, event_count_ + 1);
       events_[event_count_++] = position;
       now = next + dead_time_;
       if (afterpulse_probability_ > 0.0 && draw_uniform(bits) < afterpulse_probability_) {

@@ -40,6 +40,8 @@ class EventSampler {
 
  private:
   void walk_background(double events_per_acquisition, CounterRandom& random);
+  template <typename PositionAt>
+  void walk_flat(double end, CounterRandom& random, const PositionAt& position_at);
   void walk_signal(const PixelRates& rates, CounterRandom& random);
   void merge();
   void walk_in_time_order(const PixelRates& rates, double background, CounterRandom& random);

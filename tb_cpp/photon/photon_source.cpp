@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,35 +23,45 @@ namespace {
 class TdcRow {
  public:
   explicit TdcRow(const SensorModel& model)
-      : np_(model.np), slots_(static_cast<std::size_t>(model.slots)), codes_(model.tdc_codes.get()) {}
+      : np_(model.np),
+        slots_(static_cast<std::size_t>(model.slots)),
+        codes_(model.tdc_codes.get()),
+        acquisitions_(slots_, kNone) {}
 
   /// `pixel`: row * columns + column.
   void append(std::span<const double> events, std::size_t pixel, ColumnStream& stream) {
     if (detections_.size() < events.size()) {
       detections_.resize(events.size());
+      acquisitions_.resize(slots_ + events.size(), kNone);
     }
     const auto shift = static_cast<unsigned>(np_);
     const std::uint64_t code_mask = (std::uint64_t{1} << shift) - 1;
-    const auto whole = [](double position) {
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(position));
-    };
-    std::size_t count = 0;
+    // The slots are full if the event SLOTS places earlier is of the same acquisition.
+    std::uint32_t* const own = &acquisitions_[slots_];
+    const std::uint32_t* const earlier = acquisitions_.data();
+    Detection* kept = detections_.data();
     for (std::size_t i = 0; i < events.size(); ++i) {
-      const std::uint64_t position = whole(events[i]);
-      const std::uint64_t acquisition = position >> shift;
-      detections_[count] = {static_cast<std::uint32_t>(acquisition),
-                            static_cast<Timestamp>(position & code_mask)};
-      // The slots are full if the event SLOTS places earlier is of the same acquisition.
-      const bool full = i >= slots_ && whole(events[i - slots_]) >> shift == acquisition;
-      count += full ? 0 : 1;
-      if (codes_ != nullptr && !full) {
-        detections_[count - 1].timestamp = unequal_code(events[i], acquisition, pixel);
+      const auto position = static_cast<std::uint64_t>(static_cast<std::int64_t>(events[i]));
+      const auto acquisition = static_cast<std::uint32_t>(position >> shift);
+      *kept = {acquisition, static_cast<Timestamp>(position & code_mask)};
+      own[i] = acquisition;
+      kept += static_cast<std::size_t>(earlier[i] != acquisition);
+    }
+    const auto count = static_cast<std::size_t>(kept - detections_.data());
+    if (codes_ != nullptr) {
+      kept = detections_.data();
+      for (std::size_t i = 0; i < events.size(); ++i) {
+        if (earlier[i] != own[i]) {
+          (kept++)->timestamp = unequal_code(events[i], own[i], pixel);
+        }
       }
     }
     stream.append_row(std::span<const Detection>(detections_).first(count));
   }
 
  private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
   [[nodiscard]] Timestamp unequal_code(double position, std::uint64_t acquisition, std::size_t pixel) {
     const std::size_t table = pixel % codes_->tables();
     if (boundaries_.empty() || table != table_) {
@@ -67,6 +78,7 @@ class TdcRow {
   const TdcCodes* codes_;
   std::vector<double> boundaries_;  // of the table `table_`
   std::size_t table_ = 0;
+  std::vector<std::uint32_t> acquisitions_;  // of the row's events, SLOTS times kNone before
   std::vector<Detection> detections_;
 };
 

@@ -9,6 +9,8 @@
 #include <set>
 #include <vector>
 
+#include "core/philox.hpp"
+
 namespace dtof {
 namespace {
 
@@ -72,6 +74,21 @@ TEST(CounterRandom, FillGivesTheWordsOfSingleCalls) {
     bulk.fill(words);
     for (const std::uint64_t word : words) {
       EXPECT_EQ(word, single.bits64());
+    }
+  }
+}
+
+TEST(CounterRandom, BatchesOfEveryVectorWidthAreTheGeneratorsBlocks) {
+  const r123::Philox4x32::ctr_type first = {{0xFFFFFFF5U, 0x80000001U, 0xDEADBEEFU, 7U}};  // counts over 2^32
+  const r123::Philox4x32::key_type key = {{0xFEDCBA98U, 0x76543210U}};
+  for (const PhiloxBatch batch : philox_batches()) {
+    std::array<std::uint64_t, 2 * kPhiloxBatchBlocks> words{};
+    batch(first, key, words.data());
+    r123::Philox4x32::ctr_type counter = first;
+    for (std::size_t i = 0; i < words.size(); i += 2, ++counter[0]) {
+      const r123::Philox4x32::ctr_type block = r123::Philox4x32()(counter, key);
+      EXPECT_EQ(words[i], (std::uint64_t{block[0]} << 32U) | block[1]) << i;
+      EXPECT_EQ(words[i + 1], (std::uint64_t{block[2]} << 32U) | block[3]) << i;
     }
   }
 }
