@@ -4,7 +4,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <new>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace dtof {
@@ -20,6 +23,24 @@ struct Detection {
   bool operator==(const Detection&) const = default;
 };
 
+/// An allocator whose new elements have no value until they are written: for rows that are written in place.
+template <typename T>
+class UnwrittenAllocator : public std::allocator<T> {
+ public:
+  template <typename U>
+  struct rebind {
+    using other = UnwrittenAllocator<U>;
+  };
+  template <typename U>
+  void construct(U* place) {
+    ::new (static_cast<void*>(place)) U;
+  }
+  template <typename U, typename... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+
 /// All detections of one column over one frame, pixel (row) by pixel.
 ///
 /// Within a pixel detections are sorted by acquisition; detections of one acquisition stand in slot
@@ -33,6 +54,16 @@ class ColumnStream {
   }
   /// Makes room for `detections` in all.
   void reserve(std::size_t detections) { detections_.reserve(detections); }
+  /// Room for the next row, to be written from its begin on; `finish_row` keeps the first `count`.
+  std::span<Detection> next_row(std::size_t most) {
+    const std::size_t begin = row_end_.empty() ? 0 : row_end_.back();
+    detections_.resize(begin + most);
+    return std::span<Detection>(detections_).subspan(begin);
+  }
+  void finish_row(std::size_t count) {
+    detections_.resize((row_end_.empty() ? 0 : row_end_.back()) + count);
+    finish_row();
+  }
   /// Appends one detection to the row that is being built; `finish_row` closes it.
   void append(Detection detection) { detections_.push_back(detection); }
   void finish_row() { row_end_.push_back(detections_.size()); }
@@ -52,7 +83,7 @@ class ColumnStream {
   bool operator==(const ColumnStream&) const = default;
 
  private:
-  std::vector<Detection> detections_;
+  std::vector<Detection, UnwrittenAllocator<Detection>> detections_;
   std::vector<std::size_t> row_end_;
 };
 

@@ -50,7 +50,7 @@ DTOF_AVX2 inline void store(const Blocks& blocks, std::uint64_t* words) {
 /// The words of r123::Philox4x32's blocks from `counter`, 8 blocks at once: one after the other, each round
 /// would wait for the one before, and more blocks do not fit into the registers.
 DTOF_AVX2 void philox_avx2(const Counter& counter, const Key& key, std::uint64_t* words) {
-  for (std::uint32_t block = 0; block < kPhiloxBatchBlocks; block += 8) {
+  for (std::uint32_t block = 0; block < kPhiloxBatchBlocks; block += 8, words += 16) {
     Blocks x = first_blocks(counter, block);
     Blocks y = first_blocks(counter, block + 4);
     std::uint32_t key_0 = key[0];
@@ -63,8 +63,8 @@ DTOF_AVX2 void philox_avx2(const Counter& counter, const Key& key, std::uint64_t
       key_0 += PHILOX_W32_0;
       key_1 += PHILOX_W32_1;
     }
-    store(x, words + 2 * block);
-    store(y, words + 2 * block + 8);
+    store(x, words);
+    store(y, words + 8);
   }
 }
 

@@ -30,16 +30,16 @@ class TdcRow {
 
   /// `pixel`: row * columns + column.
   void append(std::span<const double> events, std::size_t pixel, ColumnStream& stream) {
-    if (detections_.size() < events.size()) {
-      detections_.resize(events.size());
-      acquisitions_.resize(slots_ + events.size(), kNone);
+    if (acquisitions_.size() < slots_ + events.size()) {
+      acquisitions_.resize(slots_ + events.size());
     }
+    const std::span<Detection> detections = stream.next_row(events.size());
     const auto shift = static_cast<unsigned>(np_);
     const std::uint64_t code_mask = (std::uint64_t{1} << shift) - 1;
     // The slots are full if the event SLOTS places earlier is of the same acquisition.
     std::uint32_t* const own = &acquisitions_[slots_];
     const std::uint32_t* const earlier = acquisitions_.data();
-    Detection* kept = detections_.data();
+    Detection* kept = detections.data();
     for (std::size_t i = 0; i < events.size(); ++i) {
       const auto position = static_cast<std::uint64_t>(static_cast<std::int64_t>(events[i]));
       const auto acquisition = static_cast<std::uint32_t>(position >> shift);
@@ -47,16 +47,15 @@ class TdcRow {
       own[i] = acquisition;
       kept += static_cast<std::size_t>(earlier[i] != acquisition);
     }
-    const auto count = static_cast<std::size_t>(kept - detections_.data());
     if (codes_ != nullptr) {
-      kept = detections_.data();
+      kept = detections.data();
       for (std::size_t i = 0; i < events.size(); ++i) {
         if (earlier[i] != own[i]) {
           (kept++)->timestamp = unequal_code(events[i], own[i], pixel);
         }
       }
     }
-    stream.append_row(std::span<const Detection>(detections_).first(count));
+    stream.finish_row(static_cast<std::size_t>(kept - detections.data()));
   }
 
  private:
@@ -79,7 +78,6 @@ class TdcRow {
   std::vector<double> boundaries_;  // of the table `table_`
   std::size_t table_ = 0;
   std::vector<std::uint32_t> acquisitions_;  // of the row's events, SLOTS times kNone before
-  std::vector<Detection> detections_;
 };
 
 using Events = std::vector<double>;

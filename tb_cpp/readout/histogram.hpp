@@ -95,11 +95,8 @@ HistogramPeak prefix_peak(const PrefixPass& pass, std::uint32_t prefix, Cursor& 
   const std::uint32_t first = prefix << (prefix_shift - bin_shift);
   const auto first_code = static_cast<std::int32_t>(prefix << prefix_shift);
   const auto last_code = static_cast<std::int32_t>((prefix + 1) << prefix_shift);
-  row.advance_to(pass.end, first_code, last_code, [&](std::uint32_t timestamp) {
-    if (timestamp >> prefix_shift == prefix) {
-      histogram.add((timestamp >> bin_shift) - first);
-    }
-  });
+  row.advance_to(pass.end, first_code, last_code,
+                 [&](std::uint32_t timestamp) { histogram.add((timestamp >> bin_shift) - first); });
   return histogram.take_peak();
 }
 
@@ -116,10 +113,7 @@ HistogramPeak window_peak(std::uint32_t end, std::int32_t first, int bin_bits, C
                           Histogram& histogram) {
   const std::uint32_t bins = 1U << static_cast<unsigned>(bin_bits);
   row.advance_to(end, first, first + static_cast<std::int32_t>(bins), [&](std::uint32_t timestamp) {
-    const auto bin = static_cast<std::uint32_t>(static_cast<std::int32_t>(timestamp) - first);
-    if (bin < bins) {
-      histogram.add(bin);
-    }
+    histogram.add(static_cast<std::uint32_t>(static_cast<std::int32_t>(timestamp) - first));
   });
   return histogram.take_peak();
 }

@@ -85,10 +85,6 @@ class PointerBuilder {
     for (unsigned gear = 0; gear <= format.fraction_bits(); ++gear) {
       const PointerWord step = step_ >> gear;
       row.advance_to(gear_end_[gear], window.above + 1, window.up_to + 1, [&](std::uint32_t timestamp) {
-        const auto code = static_cast<std::int32_t>(timestamp);
-        if (code <= window.above || code > window.up_to) {
-          return;
-        }
         const PointerWord distance = format.word(timestamp) - word;
         word = pointer_move(word, distance, step);
         const bool near = format.near(distance);
