@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -49,7 +50,9 @@ class ColumnStream {
  public:
   /// Appends the next row; `detections` must be sorted by acquisition.
   void append_row(std::span<const Detection> detections) {
-    detections_.insert(detections_.end(), detections.begin(), detections.end());
+    const std::size_t begin = detections_.size();
+    detections_.resize(begin + detections.size());
+    std::ranges::copy(detections, detections_.begin() + static_cast<std::ptrdiff_t>(begin));
     row_end_.push_back(detections_.size());
   }
   /// Makes room for `detections` in all.

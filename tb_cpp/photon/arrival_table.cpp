@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "photon/arrival_table.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -236,6 +237,35 @@ void ArrivalTable::fill_cells() {
       begin_pace = end_pace;
       ++cell;
       end_cumulative = (cell + 1) * events_per_cell;
+    }
+  }
+}
+
+void ArrivalTable::inverse_codes(std::span<const double> cumulative, std::span<Timestamp> codes) const {
+  // Without a call in the loop: those to be searched are noted, and done thereafter.
+  const Cell* const cells = cells_.data();
+  const double cells_per_event = cells_per_event_;
+  const double last_time = last_time_;
+  constexpr std::size_t kMost = 64;
+  std::array<std::uint8_t, kMost> searched{};
+  for (std::size_t begin = 0; begin < cumulative.size(); begin += kMost) {
+    const std::size_t count = std::min(kMost, cumulative.size() - begin);
+    const double* const means = &cumulative[begin];
+    Timestamp* const out = &codes[begin];
+    std::size_t searches = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double position = means[i] * cells_per_event;
+      const std::int32_t index = std::min(static_cast<std::int32_t>(position), std::int32_t{kCells - 1});
+      const Cell& cell = cells[static_cast<std::uint32_t>(index)];
+      const double part = position - index;
+      const double time = cell.time + part * (cell.slope + part * cell.curve);
+      out[i] = static_cast<Timestamp>(static_cast<std::int32_t>(time < last_time ? time : last_time));
+      searched[searches] = static_cast<std::uint8_t>(i);
+      searches += cell.slope > kSearch ? 0 : 1;
+    }
+    for (std::size_t k = 0; k < searches; ++k) {
+      const std::size_t i = searched[k];
+      out[i] = static_cast<Timestamp>(static_cast<std::int32_t>(inverse(means[i])));
     }
   }
 }

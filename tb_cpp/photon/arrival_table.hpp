@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "core/detection.hpp"
 #include "photon/event_sampler.hpp"
 #include "photon/sensor_model.hpp"
 
@@ -46,10 +48,12 @@ class ArrivalTable {
     const auto index = std::min(static_cast<std::uint32_t>(static_cast<std::int32_t>(position)), kCells - 1);
     const Cell& cell = cells_[index];
     const double part = position - index;
-    const double time = cell.slope != kSearch ? cell.time + part * (cell.slope + part * cell.curve)
-                                              : search(cumulative, static_cast<std::size_t>(cell.time));
+    const double time = cell.slope > kSearch ? cell.time + part * (cell.slope + part * cell.curve)
+                                             : search(cumulative, static_cast<std::size_t>(cell.time));
     return std::min(time, last_time_);
   }
+  /// The whole bins of `inverse` of each: as many codes.
+  void inverse_codes(std::span<const double> cumulative, std::span<Timestamp> codes) const;
   /// Mean before `time`, 0 .. total().
   [[nodiscard]] double cumulative(double time) const;
 

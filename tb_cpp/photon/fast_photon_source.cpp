@@ -2,15 +2,18 @@
 #include "photon/fast_photon_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/random/binomial_distribution.hpp>
 #include <boost/random/exponential_distribution.hpp>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/random.hpp"
 #include "photon/arrival_table.hpp"
+#include "photon/ziggurat.hpp"
 
 namespace dtof {
 namespace {
@@ -35,28 +38,86 @@ void make_room(std::vector<T>& values, std::size_t count) {
   }
 }
 
-/// Walks the kept events of `acquisitions` acquisitions in time order: `keep(acquisition, time)`.
+/// Walks the kept events of some acquisitions in time order.
+class Walk {
+ public:
+  static constexpr std::size_t kMost = 64;
+
+  struct Events {
+    std::span<const std::uint32_t> acquisitions;
+    std::span<const double> cumulative;  // mean events of the acquisition before each
+  };
+
+  /// `events`: mean events of an acquisition.
+  Walk(double events, std::uint32_t acquisitions, int slots)
+      : events_(events), end_(events * acquisitions), slots_(slots), last_(std::int64_t{acquisitions} - 1) {}
+
+  /// The next events; none: that was all. Valid until the next call.
+  Events next(SplitMix64& random) {
+    // Without a call in the loop, what is summed up stays in registers: each loop begins with a draw of
+    // Boost's, and ends before a draw that needs Boost.
+    const Ziggurat& exponential = Ziggurat::exponential();
+    const double acquisitions_per_event = 1.0 / events_;
+    const double events = events_;
+    const double end = end_;
+    const int slots = slots_;
+    double walked = walked_ + draw_exponential(random);
+    SplitMix64 words = random;
+    std::int64_t before = before_;
+    int kept = kept_;
+    std::size_t count = 0;
+    while (walked < end) {
+      const std::int64_t acquisition =
+          std::min(static_cast<std::int64_t>(walked * acquisitions_per_event), last_);
+      const double begin = static_cast<double>(acquisition) * events;
+      const double since = walked - begin;
+      kept = acquisition == before ? kept + 1 : 1;
+      before = acquisition;
+      acquisitions_[count] = static_cast<std::uint32_t>(acquisition);
+      cumulative_[count] = since < 0.0 ? 0.0 : since > events ? events : since;
+      ++count;
+      // The process has no memory: what the TDC would not keep is passed over.
+      if (kept == slots) {
+        walked = begin + events;
+      }
+      SplitMix64 ahead = words;
+      const Ziggurat::Draw gap = exponential.draw(ahead());
+      if (!gap.decided || count == kMost) {
+        break;
+      }
+      words = ahead;
+      walked += gap.value;
+    }
+    walked_ = walked;
+    before_ = before;
+    kept_ = kept;
+    random = words;
+    return {std::span(acquisitions_).first(count), std::span(cumulative_).first(count)};
+  }
+
+ private:
+  // Mean events on the axis of all acquisitions one after the other.
+  double events_;
+  double end_;
+  double walked_ = 0.0;
+  int slots_;
+  int kept_ = 0;
+  std::int64_t last_;
+  std::int64_t before_ = -1;
+  std::array<std::uint32_t, kMost> acquisitions_{};
+  std::array<double, kMost> cumulative_{};
+};
+
+/// `keep(acquisition, code)` for every kept event, in time order.
 template <typename Keep>
 void walk(const ArrivalTable& table, std::uint32_t acquisitions, int slots, SplitMix64& random,
           const Keep& keep) {
-  // `walked` is measured in mean events on the axis of all acquisitions one after the other.
-  const double events = table.total();
-  const double end = events * acquisitions;
-  const double acquisitions_per_event = 1.0 / events;
-  const auto last = static_cast<std::int64_t>(acquisitions) - 1;
-  double walked = 0.0;
-  std::int64_t before = -1;
-  int kept = 0;
-  while ((walked += draw_exponential(random)) < end) {
-    const std::int64_t acquisition =
-        std::min(static_cast<std::int64_t>(walked * acquisitions_per_event), last);
-    const double begin = static_cast<double>(acquisition) * events;
-    kept = acquisition == before ? kept + 1 : 1;
-    before = acquisition;
-    keep(static_cast<std::uint32_t>(acquisition), table.inverse(std::clamp(walked - begin, 0.0, events)));
-    // The process has no memory: what the TDC would not keep is passed over.
-    if (kept == slots) {
-      walked = begin + events;
+  Walk events(table.total(), acquisitions, slots);
+  std::array<Timestamp, Walk::kMost> codes{};
+  for (auto batch = events.next(random); !batch.acquisitions.empty(); batch = events.next(random)) {
+    table.inverse_codes(batch.cumulative, codes);
+    for (std::size_t i = 0; i < batch.acquisitions.size(); ++i) {
+      keep(batch.acquisitions[i], codes[i]);
     }
   }
 }
@@ -84,6 +145,7 @@ class FastPixelSampler final : public PixelSampler {
       return;
     }
     kept_.build_kept(rates, slots);
+    last_ = -1;
     slot_probability_.clear();
     double at_least_before = 1.0;
     for (int k = 1; k <= slots; ++k) {
@@ -106,10 +168,9 @@ class FastPixelSampler final : public PixelSampler {
  private:
   std::span<const Timestamp> draw_walking(std::uint32_t acquisitions, std::int32_t first, std::int32_t last) {
     std::size_t count = 0;
-    walk(events_, acquisitions, exact_.model().slots, random_, [&](std::uint32_t, double time) {
+    walk(events_, acquisitions, exact_.model().slots, random_, [&](std::uint32_t, Timestamp code) {
       make_room(codes_, count);
-      const auto code = static_cast<std::int32_t>(time);
-      codes_[count] = static_cast<Timestamp>(code);
+      codes_[count] = code;
       count += code >= first && code < last ? 1 : 0;
     });
     return std::span<const Timestamp>(codes_).first(count);
@@ -130,23 +191,28 @@ class FastPixelSampler final : public PixelSampler {
         break;
       }
     }
-    const double begin = kept_.cumulative(first);
-    const double end = kept_.cumulative(last);
+    if (first != first_ || last != last_) {
+      begin_ = kept_.cumulative(first);
+      end_ = kept_.cumulative(last);
+      first_ = first;
+      last_ = last;
+    }
+    const double begin = begin_;
+    const double end = end_;
     if (begin > 0.0 || end < total) {
       count = draw_binomial(count, (end - begin) / total, random_);
     }
     make_room(codes_, count);
     const double step = (end - begin) * 0x1.0p-32;
+    cumulative_.resize(std::size_t{count} + 1);
     for (std::uint32_t i = 0; i < count; i += 2) {
       const std::uint64_t word = random_();
-      codes_[i] = code(begin + step * static_cast<double>(word >> 32U));
-      codes_[i + 1] = code(begin + step * static_cast<double>(word & 0xFFFFFFFFU));
+      cumulative_[i] = begin + step * static_cast<double>(word >> 32U);
+      cumulative_[i + 1] = begin + step * static_cast<double>(word & 0xFFFFFFFFU);
     }
-    return std::span<const Timestamp>(codes_).first(count);
-  }
-
-  [[nodiscard]] Timestamp code(double cumulative) const {
-    return static_cast<Timestamp>(static_cast<std::int32_t>(kept_.inverse(cumulative)));
+    const auto codes = std::span<Timestamp>(codes_).first(count);
+    kept_.inverse_codes(std::span<const double>(cumulative_).first(count), codes);
+    return codes;
   }
 
   PhotonSource exact_;
@@ -155,6 +221,12 @@ class FastPixelSampler final : public PixelSampler {
   SplitMix64 random_;
   bool walk_ = false;
   std::vector<double> slot_probability_;
+  // A pointer asks for the same window in each of its steps: `kept_` before its ends; last_ < 0: none yet.
+  std::int32_t first_ = 0;
+  std::int32_t last_ = -1;
+  double begin_ = 0.0;
+  double end_ = 0.0;
+  std::vector<double> cumulative_;
   std::vector<Timestamp> codes_;
 };
 
@@ -183,10 +255,11 @@ ColumnStream FastPhotonSource::column_rows(int index, RowRange range) const {
     std::size_t count = 0;
     if (table.total() > 0.0) {
       SplitMix64 random = pixel_random(exact_, index, row);
-      walk(table, acquisitions(), exact_.model().slots, random, [&](std::uint32_t acquisition, double time) {
-        make_room(detections, count);
-        detections[count++] = {acquisition, static_cast<Timestamp>(static_cast<std::int32_t>(time))};
-      });
+      walk(table, acquisitions(), exact_.model().slots, random,
+           [&](std::uint32_t acquisition, Timestamp code) {
+             make_room(detections, count);
+             detections[count++] = {acquisition, code};
+           });
     }
     stream.append_row(std::span<const Detection>(detections).first(count));
   }
