@@ -78,6 +78,23 @@ class Hermite {
   [[nodiscard]] double time(double part) const {
     return time_ + std::min(part * (first_ + part * (square_ + part * cube_)), step_);
   }
+  /// About the part at which `time` is reached; anything if the cubic is flat on the way.
+  [[nodiscard]] double newton(double time) const {
+    const double wanted = time - time_;
+    double part = std::clamp(wanted / step_, 0.0, 1.0);
+    for (int i = 0; i < 6; ++i) {
+      const double over = part * (first_ + part * (square_ + part * cube_)) - wanted;
+      const double slope = first_ + part * (2.0 * square_ + 3.0 * part * cube_);
+      if (!(slope > 0.0)) {
+        break;
+      }
+      part = std::clamp(part - over / slope, 0.0, 1.0);
+      if (std::abs(over) < 1e-14 * step_) {
+        break;
+      }
+    }
+    return part;
+  }
   [[nodiscard]] double pace(double part) const {
     return per_rise_ * std::max(first_ + part * (2.0 * square_ + 3.0 * part * cube_), 0.0);
   }
@@ -291,14 +308,22 @@ double ArrivalTable::cumulative(double time) const {
   const Hermite cubic(*(right - 1), *right);
   const double before = (right - 1)->cumulative;
   const double rise = right->cumulative - before;
-  // The cubic is monotone: halving cannot miss, and a double's bits are more than enough.
+  // The cubic is monotone: its place is the last step of 2^-40 before which it has not reached `time`. Newton
+  // finds it at once, or nearly; where the cubic is too flat for that, halving cannot miss.
+  constexpr double kSteps = 0x1.0p40;
+  const auto before_time = [&](double step) { return cubic.time(step / kSteps) < time; };
+  const double step = std::clamp(std::floor(cubic.newton(time) * kSteps), 1.0, kSteps - 2.0);
   double low = 0.0;
-  double high = 1.0;
-  for (int i = 0; i < 40; ++i) {
-    const double middle = 0.5 * (low + high);
-    (cubic.time(middle) < time ? low : high) = middle;
+  double high = kSteps;
+  if (before_time(step - 1.0) && !before_time(step + 2.0)) {
+    low = step - 1.0;
+    high = step + 2.0;
   }
-  return before + rise * 0.5 * (low + high);
+  while (high - low > 1.0) {
+    const double middle = std::floor(0.5 * (low + high));
+    (before_time(middle) ? low : high) = middle;
+  }
+  return before + rise * (0.5 * (low + high) / kSteps);
 }
 
 double ArrivalTable::displacement() const {

@@ -212,7 +212,17 @@ class FastPixelSampler final : public PixelSampler {
     }
     const auto codes = std::span<Timestamp>(codes_).first(count);
     kept_.inverse_codes(std::span<const double>(cumulative_).first(count), codes);
-    return codes;
+    if (begin == 0.0 && end == total) {
+      return codes;
+    }
+    // At the window's ends the table's inverse does not meet the table exactly.
+    const auto width = static_cast<std::uint32_t>(last - first);
+    std::size_t inside = 0;
+    for (const Timestamp code : codes) {
+      codes_[inside] = code;
+      inside += static_cast<std::size_t>(static_cast<std::uint32_t>(code - first) < width);
+    }
+    return codes.first(inside);
   }
 
   PhotonSource exact_;

@@ -384,6 +384,26 @@ TEST(FastPhotonSource, WindowsTakeTheirShareAndNothingElse) {
   }
 }
 
+TEST(FastPhotonSource, NoWindowGetsACodeOutside) {
+  // At the ends of narrow windows over the pulse the table's inverse does not meet the table exactly.
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 1;
+  for (const double depth : {1.0, 2.3, 4.0}) {
+    const PhotonSource exact(sensor, TargetMap(1, 1, {.depth_m = depth, .reflectivity = 1.0}), 14.0, 1);
+    const auto sampler = FastPhotonSource(exact).pixel_sampler();
+    sampler->start_pixel(0, 0);
+    const auto centre = static_cast<std::int32_t>(exact.rates(0, 0).centre_bins);
+    for (const std::int32_t width : {1, 5, 32}) {
+      for (std::int32_t first = centre - 80; first < centre + 80; ++first) {
+        for (const Timestamp code : sampler->draw(20000, first, first + width)) {
+          ASSERT_GE(code, first) << depth;
+          ASSERT_LT(code, first + width) << depth;
+        }
+      }
+    }
+  }
+}
+
 TEST(FastPhotonSource, RepeatsForASeedWhateverElseIsDrawn) {
   const SensorModel sensor = parse_preset("thesis");
   TargetMap targets(3, 4, {.depth_m = 1.0, .reflectivity = 1.0});
