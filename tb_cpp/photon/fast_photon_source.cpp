@@ -54,19 +54,36 @@ class Walk {
 
   /// The next events; none: that was all. Valid until the next call.
   Events next(SplitMix64& random) {
-    // Without a call in the loop, what is summed up stays in registers: each loop begins with a draw of
-    // Boost's, and ends before a draw that needs Boost.
+    if (over_) {
+      return {};
+    }
+    // Without a call in a loop, what is summed up stays in registers: a batch begins with a draw of Boost's,
+    // and ends before the next draw that needs Boost. Gaps come first, apart from the branches of the walk.
     const Ziggurat& exponential = Ziggurat::exponential();
+    gaps_[0] = draw_exponential(random);
+    SplitMix64 words = random;
+    std::size_t drawn = 1;
+    for (; drawn < kMost; ++drawn) {
+      const Ziggurat::Draw gap = exponential.draw(words());
+      if (!gap.decided) {
+        break;
+      }
+      gaps_[drawn] = gap.value;
+    }
     const double acquisitions_per_event = 1.0 / events_;
     const double events = events_;
     const double end = end_;
     const int slots = slots_;
-    double walked = walked_ + draw_exponential(random);
-    SplitMix64 words = random;
+    double walked = walked_;
     std::int64_t before = before_;
     int kept = kept_;
     std::size_t count = 0;
-    while (walked < end) {
+    for (; count < drawn; ++count) {
+      walked += gaps_[count];
+      if (walked >= end) {
+        over_ = true;
+        break;
+      }
       const std::int64_t acquisition =
           std::min(static_cast<std::int64_t>(walked * acquisitions_per_event), last_);
       const double begin = static_cast<double>(acquisition) * events;
@@ -75,23 +92,18 @@ class Walk {
       before = acquisition;
       acquisitions_[count] = static_cast<std::uint32_t>(acquisition);
       cumulative_[count] = since < 0.0 ? 0.0 : since > events ? events : since;
-      ++count;
       // The process has no memory: what the TDC would not keep is passed over.
       if (kept == slots) {
         walked = begin + events;
       }
-      SplitMix64 ahead = words;
-      const Ziggurat::Draw gap = exponential.draw(ahead());
-      if (!gap.decided || count == kMost) {
-        break;
-      }
-      words = ahead;
-      walked += gap.value;
     }
     walked_ = walked;
     before_ = before;
     kept_ = kept;
-    random = words;
+    const std::size_t taken = over_ ? count : drawn - 1;
+    for (std::size_t i = 0; i < taken; ++i) {
+      random();
+    }
     return {std::span(acquisitions_).first(count), std::span(cumulative_).first(count)};
   }
 
@@ -104,6 +116,8 @@ class Walk {
   int kept_ = 0;
   std::int64_t last_;
   std::int64_t before_ = -1;
+  bool over_ = false;
+  std::array<double, kMost> gaps_{};
   std::array<std::uint32_t, kMost> acquisitions_{};
   std::array<double, kMost> cumulative_{};
 };
