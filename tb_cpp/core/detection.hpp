@@ -29,6 +29,7 @@ template <typename T>
 class UnwrittenAllocator : public std::allocator<T> {
  public:
   template <typename U>
+  // NOLINTNEXTLINE(readability-identifier-naming): the standard's name
   struct rebind {
     using other = UnwrittenAllocator<U>;
   };
