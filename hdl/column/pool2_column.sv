@@ -13,6 +13,8 @@
 //                                           hits, or the only one, and which of the two scores
 //   T3                                      the pixel's next word; the pixels of the half change places
 // Cost at the defaults: see reports/area.md.
+`include "pixel_distance.svh"
+
 module pool2_column #(
     parameter int NP = 10,
     parameter int SLOTS = 2,
@@ -195,11 +197,8 @@ module pool2_column #(
     end
   endgenerate
 
-  localparam int MOVE_WIDTH = LABELS + 15;  // what T3 needs to know
-  logic offset_up, offset_down, reach, up, hit, rival_hit, rival_up, rival_down;
-  logic [2:0] weight;
-  logic [3:0] gear;
-  logic [MOVE_WIDTH-1:0] move_q;
+  pixel_distance_t distance, distance_t3_q;
+  logic [LABELS-1:0] hits_t3_q;
 
   pixel_distance #(
       .LABELS         (LABELS),
@@ -219,34 +218,19 @@ module pool2_column #(
       .word_i       (pixel),
       .cells_i      (cells_i),
       .hits_i       (used_hits),
-      .offset_up_o  (offset_up),
-      .offset_down_o(offset_down),
-      .reach_o      (reach),
-      .up_o         (up),
-      .weight_o     (weight),
-      .gear_o       (gear),
-      .hit_o        (hit),
-      .rival_hit_o  (rival_hit),
-      .rival_up_o   (rival_up),
-      .rival_down_o (rival_down)
+      .distance_o   (distance)
   );
 
   always_ff @(posedge clk_i) begin
-    move_q <= {used_hits, offset_up, offset_down, reach, up, weight, gear, hit, rival_hit, rival_up, rival_down};
+    hits_t3_q <= used_hits;
+    distance_t3_q <= distance;
   end
 
   // T3: the pixel's next word.
 
-  logic [LABELS-1:0] hits_t3;
-  logic offset_up_t3, offset_down_t3, reach_t3, up_t3, hit_t3, rival_hit_t3, rival_up_t3, rival_down_t3;
-  logic [2:0] weight_t3;
-  logic [3:0] gear_t3;
   logic [TRACK_WIDTH-1:0] tracked;
   logic [POINT_WIDTH-1:0] pointed;
   logic [PIXEL_WIDTH-1:0] moved;
-
-  assign {hits_t3, offset_up_t3, offset_down_t3, reach_t3, up_t3, weight_t3, gear_t3, hit_t3, rival_hit_t3, rival_up_t3,
-          rival_down_t3} = move_q;
 
   pool2_track_update #(
       .LABELS     (LABELS),
@@ -254,9 +238,9 @@ module pool2_column #(
       .OFFSET_BITS(OFFSET_BITS)
   ) u_track_update (
       .word_i       (pixel[TRACK_WIDTH-1:0]),
-      .hits_i       (hits_t3),
-      .offset_up_i  (offset_up_t3),
-      .offset_down_i(offset_down_t3),
+      .hits_i       (hits_t3_q),
+      .offset_up_i  (distance_t3_q.offset_up),
+      .offset_down_i(distance_t3_q.offset_down),
       .word_o       (tracked)
   );
 
@@ -266,15 +250,16 @@ module pool2_column #(
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (1)
   ) u_pointer_update (
+      .update_i     (point_i),
       .word_i       (pixel[POINT_WIDTH-1:0]),
-      .reach_i      (reach_t3),
-      .up_i         (up_t3),
-      .weight_i     (weight_t3),
-      .gear_i       (gear_t3),
-      .hit_i        (hit_t3),
-      .rival_hit_i  (rival_hit_t3),
-      .rival_up_i   (rival_up_t3),
-      .rival_down_i (rival_down_t3),
+      .reach_i      (distance_t3_q.reach),
+      .up_i         (distance_t3_q.up),
+      .weight_i     (distance_t3_q.weight),
+      .gear_i       (distance_t3_q.gear),
+      .hit_i        (distance_t3_q.hit),
+      .rival_hit_i  (distance_t3_q.rival_hit),
+      .rival_up_i   (distance_t3_q.rival_up),
+      .rival_down_i (distance_t3_q.rival_down),
       .acquisition_i(acquisition_t3_i),
       .word_o       (pointed)
   );

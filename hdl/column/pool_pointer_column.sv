@@ -11,6 +11,8 @@
 //   T3                                      word updated, the other pixel's turn; with the second pixel the pair
 //                                           is written and the next one registered
 // Cost at the defaults: see reports/area.md.
+`include "pixel_distance.svh"
+
 module pool_pointer_column #(
     parameter int NP = 10,
     parameter int COUNT_WIDTH = 7,
@@ -32,7 +34,8 @@ module pool_pointer_column #(
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
     localparam int WORD_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),
     localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS),
-    localparam int BINS_PER_WORD = dtof_pkg::pool_bins_per_word(WORD_WIDTH, COUNT_WIDTH)
+    localparam int BINS_PER_WORD = dtof_pkg::pool_bins_per_word(WORD_WIDTH, COUNT_WIDTH),
+    localparam int BIN_WIDTH = $clog2(BINS_PER_WORD)
 ) (
     input  logic                     clk_i,
     input  logic [           NP-1:0] timestamp_i,
@@ -48,7 +51,9 @@ module pool_pointer_column #(
     input  logic                     first_row_t2_i,    // coarse: the pair's first pixel is complete
     input  logic                     second_row_t2_i,   // coarse: its second one is
     input  logic                     late_t2_i,
-    input  logic                     update_t3_i,
+    input  logic                     update_t2_i,
+    input  logic                     track_t3_i,        // a track word is updated
+    input  logic                     point_t3_i,        // a pointer word is
     input  logic [              3:0] acquisition_t3_i,  // mod 16
     // coarse bin of the timestamp that counts: at T2 of the second pixel, and registered
     output logic                     valid_t2_o,
@@ -59,7 +64,8 @@ module pool_pointer_column #(
     input  logic [   WORD_WIDTH-1:0] read_data_i,
     input  logic                     word_load_i,
     input  logic                     group_load_i,
-    input  logic [BINS_PER_WORD-1:0] count_i,           // this bin gets next_count_i
+    input  logic                     counting_i,        // the word's bin_i gets next_count_i
+    input  logic [    BIN_WIDTH-1:0] bin_i,
     input  logic [  COUNT_WIDTH-1:0] next_count_i,
     output logic [   WORD_WIDTH-1:0] word_o,
     output logic [   WORD_WIDTH-1:0] updated_o          // after T3
@@ -68,7 +74,7 @@ module pool_pointer_column #(
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int SCORES_WIDTH = TRACK_WIDTH - ((OFFSET_BITS > 0) ? dtof_pkg::index_width(LABELS) + OFFSET_BITS : 0);
 
-  logic [WORD_WIDTH-1:0] word_q, word_d;
+  logic [WORD_WIDTH-1:0] word_q, word_d, counted, updated;
 
   // The timestamp that counts: the first, but the second in odd acquisitions if there is one.
 
@@ -137,23 +143,24 @@ module pool_pointer_column #(
   logic [dtof_pkg::POOL_BACKGROUND_WIDTH-1:0] background;
   logic bright;
   logic [LABELS-1:0] hits_t2, hits_t3_q;
-  logic bright_t3_q, offset_up_t3_q, offset_down_t3_q, reach_t3_q, up_t3_q, hit_t3_q;
-  logic rival_hit_t3_q, rival_up_t3_q, rival_down_t3_q;
-  logic [2:0] weight_t3_q, weight_t2;
-  logic [3:0] gear_t3_q, gear_t2;
-  logic offset_up_t2, offset_down_t2, reach_t2, up_t2, hit_t2, rival_hit_t2, rival_up_t2, rival_down_t2;
-  logic [PIXEL_WIDTH-1:0] pixel;
+  logic measure_t2, bright_t3_q;
+  pixel_distance_t distance_t2, distance_t3_q;
+  logic [PIXEL_WIDTH-1:0] pixel, other_pixel;
 
   assign pixel = word_q[PIXEL_WIDTH-1:0];
+  assign other_pixel = word_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH];
   assign background = group_q[LABELS*CELL_WIDTH+:dtof_pkg::POOL_BACKGROUND_WIDTH];
   assign bright = (BRIGHT_FROM == 0) || (background >= dtof_pkg::POOL_BACKGROUND_WIDTH'(BRIGHT_FROM));
+
+  // T3 takes nothing else.
+  assign measure_t2 = valid_t2_q && update_t2_i;
 
   label_match #(
       .LABELS       (LABELS),
       .DARK_LABELS  (DARK_LABELS),
       .BRIGHT_LABELS(BRIGHT_LABELS)
   ) u_label_match (
-      .valid_i (valid_t2_q),
+      .valid_i (measure_t2),
       .cell_i  (timestamp_t2_q[NP-1-:CELL_WIDTH]),
       .bright_i(bright),
       .cells_i (group_q[LABELS*CELL_WIDTH-1:0]),
@@ -169,38 +176,20 @@ module pool_pointer_column #(
       .RIVAL_MOVES    (RIVAL_MOVES),
       .PIXEL_WIDTH    (PIXEL_WIDTH)
   ) u_pixel_distance (
-      .valid_i      (valid_t2_q),
-      .position_i   (position),
-      .point_i      (point_i),
-      .late_i       (late_t2_i),
-      .word_i       (pixel),
-      .cells_i      (group_q[LABELS*CELL_WIDTH-1:0]),
-      .hits_i       (hits_t2),
-      .offset_up_o  (offset_up_t2),
-      .offset_down_o(offset_down_t2),
-      .reach_o      (reach_t2),
-      .up_o         (up_t2),
-      .weight_o     (weight_t2),
-      .gear_o       (gear_t2),
-      .hit_o        (hit_t2),
-      .rival_hit_o  (rival_hit_t2),
-      .rival_up_o   (rival_up_t2),
-      .rival_down_o (rival_down_t2)
+      .valid_i   (measure_t2),
+      .position_i(position),
+      .point_i   (point_i),
+      .late_i    (late_t2_i),
+      .word_i    (pixel),
+      .cells_i   (group_q[LABELS*CELL_WIDTH-1:0]),
+      .hits_i    (hits_t2),
+      .distance_o(distance_t2)
   );
 
   always_ff @(posedge clk_i) begin
     hits_t3_q <= hits_t2;
     bright_t3_q <= bright;
-    offset_up_t3_q <= offset_up_t2;
-    offset_down_t3_q <= offset_down_t2;
-    reach_t3_q <= reach_t2;
-    up_t3_q <= up_t2;
-    weight_t3_q <= weight_t2;
-    gear_t3_q <= gear_t2;
-    hit_t3_q <= hit_t2;
-    rival_hit_t3_q <= rival_hit_t2;
-    rival_up_t3_q <= rival_up_t2;
-    rival_down_t3_q <= rival_down_t2;
+    distance_t3_q <= distance_t2;
     if (group_load_i) begin
       group_q <= read_data_i[GROUP_WIDTH-1:0];
     end
@@ -220,11 +209,12 @@ module pool_pointer_column #(
       .BRIGHT_SCORE_BITS(BRIGHT_SCORE_BITS),
       .OFFSET_BITS      (OFFSET_BITS)
   ) u_track_update (
+      .update_i     (track_t3_i),
       .word_i       (pixel[TRACK_WIDTH-1:0]),
       .hits_i       (hits_t3_q),
       .bright_i     (bright_t3_q),
-      .offset_up_i  (offset_up_t3_q),
-      .offset_down_i(offset_down_t3_q),
+      .offset_up_i  (distance_t3_q.offset_up),
+      .offset_down_i(distance_t3_q.offset_down),
       .word_o       (tracked)
   );
 
@@ -234,44 +224,47 @@ module pool_pointer_column #(
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES)
   ) u_pointer_update (
-      .word_i      (pixel[POINT_WIDTH-1:0]),
-      .reach_i     (reach_t3_q),
-      .up_i        (up_t3_q),
-      .weight_i    (weight_t3_q),
-      .gear_i      (gear_t3_q),
-      .hit_i       (hit_t3_q),
-      .rival_hit_i (rival_hit_t3_q),
-      .rival_up_i  (rival_up_t3_q),
-      .rival_down_i(rival_down_t3_q),
+      .update_i     (point_t3_i),
+      .word_i       (pixel[POINT_WIDTH-1:0]),
+      .reach_i      (distance_t3_q.reach),
+      .up_i         (distance_t3_q.up),
+      .weight_i     (distance_t3_q.weight),
+      .gear_i       (distance_t3_q.gear),
+      .hit_i        (distance_t3_q.hit),
+      .rival_hit_i  (distance_t3_q.rival_hit),
+      .rival_up_i   (distance_t3_q.rival_up),
+      .rival_down_i (distance_t3_q.rival_down),
       .acquisition_i(acquisition_t3_i),
-      .word_o      (pointed)
+      .word_o       (pointed)
   );
 
-  assign moved = point_i ? PIXEL_WIDTH'(pointed) : PIXEL_WIDTH'(tracked);
+  // The other one is 0.
+  assign moved = PIXEL_WIDTH'(tracked) | PIXEL_WIDTH'(pointed);
 
   // The word in work. Its halves change places with every pixel.
 
-  logic [WORD_WIDTH-1:0] updated, counted;
   integer b;
-
-  generate
-    if (WORD_WIDTH > 2 * PIXEL_WIDTH) begin : g_padding
-      assign updated = {word_q[WORD_WIDTH-1:2*PIXEL_WIDTH], moved, word_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH]};
-    end else begin : g_no_padding
-      assign updated = {moved, word_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH]};
-    end
-  endgenerate
-
   always_comb begin
     counted = word_q;
-    for (b = 0; b < BINS_PER_WORD; b = b + 1) begin
-      if (count_i[b]) begin
-        counted[b*COUNT_WIDTH+:COUNT_WIDTH] = next_count_i;
+    b = 0;
+    if (counting_i) begin
+      for (b = 0; b < BINS_PER_WORD; b = b + 1) begin
+        if (bin_i == BIN_WIDTH'(b)) begin
+          counted[b*COUNT_WIDTH+:COUNT_WIDTH] = next_count_i;
+        end
       end
     end
   end
 
-  assign word_d = word_load_i ? read_data_i : (update_t3_i ? updated : counted);
+  generate
+    if (WORD_WIDTH > 2 * PIXEL_WIDTH) begin : g_padding
+      assign updated = {word_q[WORD_WIDTH-1:2*PIXEL_WIDTH], moved, other_pixel};
+    end else begin : g_no_padding
+      assign updated = {moved, other_pixel};
+    end
+  endgenerate
+
+  assign word_d = word_load_i ? read_data_i : ((track_t3_i || point_t3_i) ? updated : counted);
 
   always_ff @(posedge clk_i) begin
     word_q <= word_d;

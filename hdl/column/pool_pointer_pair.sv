@@ -57,7 +57,7 @@ module pool_pointer_pair #(
     input  logic                  first_row_t2_i,
     input  logic                  second_row_t2_i,
     input  logic                  late_t2_i,
-    input  logic                  update_t3_i,
+    input  logic                  update_t2_i,
     input  logic [           3:0] acquisition_t2_i,  // registered here: it reaches all columns
     // coarse
     input  logic                  second_column_i,  // with read_i: it is the second column's turn
@@ -114,7 +114,7 @@ module pool_pointer_pair #(
   logic [LINE_WIDTH-1:0] line, line_q, write_line_q;
   logic [BIN_WIDTH-1:0] select_q;
   logic [COUNT_WIDTH-1:0] count, next_count;
-  logic [COLUMNS*BINS_PER_WORD-1:0] count_here;
+  logic counting;
 
   assign bin = second_column_i ? held_bin[LAST*COARSE_WIDTH+:COARSE_WIDTH] : bin_t2[COARSE_WIDTH-1:0];
   assign bin_valid = second_column_i ? (COLUMNS > 1) && held_valid[LAST] : valid_t2[0];
@@ -140,24 +140,28 @@ module pool_pointer_pair #(
 
   assign next_count = (&count) ? count : count + 1'b1;
 
+  assign counting = count_i && pending_q;
+
   integer k;
   always_comb begin
     count = '0;
-    count_here = '0;
     for (k = 0; k < COLUMNS * BINS_PER_WORD; k = k + 1) begin
       if ((second_column_q == (k >= BINS_PER_WORD)) && (select_q == BIN_WIDTH'(k % BINS_PER_WORD))) begin
         count = words[(k/BINS_PER_WORD)*WORD_WIDTH+(k%BINS_PER_WORD)*COUNT_WIDTH+:COUNT_WIDTH];
-        count_here[k] = count_i && pending_q;
       end
     end
   end
 
   // Columns.
 
+  // Registered here, since all of a word waits for them and what reaches all columns comes late.
   logic [3:0] acquisition_t3_q;
+  logic track_t3_q, point_t3_q;
 
   always_ff @(posedge clk_i) begin
     acquisition_t3_q <= acquisition_t2_i;
+    track_t3_q <= update_t2_i && !point_i;
+    point_t3_q <= update_t2_i && point_i;
   end
 
   assign word_load = word_load_i || (load_i && load_q);
@@ -194,7 +198,9 @@ module pool_pointer_pair #(
           .first_row_t2_i  (first_row_t2_i),
           .second_row_t2_i (second_row_t2_i),
           .late_t2_i       (late_t2_i),
-          .update_t3_i     (update_t3_i),
+          .update_t2_i     (update_t2_i),
+          .track_t3_i      (track_t3_q),
+          .point_t3_i      (point_t3_q),
           .acquisition_t3_i(acquisition_t3_q),
           .valid_t2_o      (valid_t2[c]),
           .bin_t2_o        (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),
@@ -203,7 +209,8 @@ module pool_pointer_pair #(
           .read_data_i     (read_data[c*WORD_WIDTH+:WORD_WIDTH]),
           .word_load_i     (word_load),
           .group_load_i    (group_load_i),
-          .count_i         (count_here[c*BINS_PER_WORD+:BINS_PER_WORD]),
+          .counting_i      (counting && (second_column_q == (c == 1))),
+          .bin_i           (select_q),
           .next_count_i    (next_count),
           .word_o          (words[c*WORD_WIDTH+:WORD_WIDTH]),
           .updated_o       (updated[c*WORD_WIDTH+:WORD_WIDTH])

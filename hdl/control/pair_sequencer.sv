@@ -47,8 +47,7 @@ module pair_sequencer #(
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
     output logic                  second_row_t2_o,   // coarse: its second one is
     output logic                  late_t2_o,
-    output logic                  update_t2_o,       // a clock before update_t3_o, for who registers it
-    output logic                  update_t3_o,
+    output logic                  update_t2_o,       // a clock before words are updated, for the columns to register
     output logic [           3:0] acquisition_t2_o,
     // coarse, both columns' turns
     output logic                  second_column_o,   // with a read
@@ -179,7 +178,7 @@ module pair_sequencer #(
   logic [LAST_STAGE:2] fetch_tn_q;
   logic [5*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. T6, T2 lowest
   logic [PAIR_WIDTH-1:0] pair_t2;
-  logic visit_t2_q, update_t3_q, second_visit_t2_q;
+  logic visit_t2_q, second_visit_t2_q;
   logic [3:0] acquisition_t2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -188,14 +187,12 @@ module pair_sequencer #(
       load_o <= 1'b0;
       count_o <= 1'b0;
       visit_t2_q <= 1'b0;
-      update_t3_q <= 1'b0;
       second_visit_t2_q <= 1'b0;
     end else begin
       fetch_tn_q <= {fetch_tn_q[5:2], fetch_t1};
       load_o <= fetch_tn_q[2] || fetch_tn_q[4];
       count_o <= fetch_tn_q[3] || fetch_tn_q[5];
       visit_t2_q <= last_step_t1 && !coarse_i;
-      update_t3_q <= visit_t2_q;
       second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
     end
   end
@@ -216,7 +213,6 @@ module pair_sequencer #(
   assign last_slot_t1_o = last_step_t1;
   assign odd_t1_o = acquisition_t1_q[0];
   assign update_t2_o = visit_t2_q;
-  assign update_t3_o = update_t3_q;
   assign acquisition_t2_o = acquisition_t2_q;
   assign second_row_t2_o = fetch_tn_q[2];
   assign second_column_o = fetch_tn_q[4];

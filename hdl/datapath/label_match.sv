@@ -23,29 +23,38 @@ module label_match #(
 
   // From -WINDOW .. WINDOW - 1 to 0 .. 2 WINDOW - 1: one comparison. What only the timestamp decides is shared.
   logic [CELL_WIDTH:0] top;
-  logic [HIGH_WIDTH-1:0] one_less;
+  logic [LOW_WIDTH-1:0] top_low;
+  logic [HIGH_WIDTH-1:0] top_high, one_less;
   assign top = {1'b0, cell_i} + (CELL_WIDTH + 1)'(WINDOW);
-  assign one_less = top[CELL_WIDTH:LOW_WIDTH] - 1'b1;
+  assign top_low = top[LOW_WIDTH-1:0];
+  assign top_high = top[CELL_WIDTH:LOW_WIDTH];
+  assign one_less = top_high - 1'b1;
 
-  genvar k;
-  generate
-    for (k = 0; k < LABELS; k = k + 1) begin : g_label
-      logic [CELL_WIDTH-1:0] centre;
-      logic in_use, near;
-      assign centre = cells_i[k*CELL_WIDTH+:CELL_WIDTH];
-      if (2 * WINDOW == 2 ** LOW_WIDTH) begin : g_power_of_two
-        // top - centre has no high bits: those of both are equal, or one apart where the low ones borrow.
-        assign near = ((top[LOW_WIDTH-1:0] < centre[LOW_WIDTH-1:0]) ? one_less : top[CELL_WIDTH:LOW_WIDTH])
-            == {1'b0, centre[CELL_WIDTH-1:LOW_WIDTH]};
-      end else begin : g_any_width
-        logic [CELL_WIDTH:0] distance;
-        assign distance = top - {1'b0, centre};
-        assign near = (distance < (CELL_WIDTH + 1)'(2 * WINDOW));
+  // Under valid_i alone, so that a simulator works on timestamps; the defaults say that nothing is kept.
+  integer k;
+  logic [CELL_WIDTH-1:0] centre;
+  logic [CELL_WIDTH:0] distance;
+  logic near;
+  always_comb begin
+    hits_o = '0;
+    k = 0;
+    centre = '0;
+    distance = '0;
+    near = 1'b0;
+    if (valid_i) begin
+      for (k = 0; k < LABELS; k = k + 1) begin
+        centre = cells_i[k*CELL_WIDTH+:CELL_WIDTH];
+        distance = top - {1'b0, centre};
+        if (2 * WINDOW == 2 ** LOW_WIDTH) begin
+          // The distance has no high bits: those of both are equal, or one apart where the low ones borrow.
+          near = ((top_low < LOW_WIDTH'(centre)) ? one_less : top_high) == HIGH_WIDTH'(centre >> LOW_WIDTH);
+        end else begin
+          near = (distance < (CELL_WIDTH + 1)'(2 * WINDOW));
+        end
+        hits_o[k] = (bright_i ? (k < BRIGHT_LABELS) : (k < DARK_LABELS)) && near;
       end
-      assign in_use = bright_i ? (k < BRIGHT_LABELS) : (k < DARK_LABELS);
-      assign hits_o[k] = valid_i && in_use && near;
     end
-  endgenerate
+  end
 
   logic unused;
   assign unused = ^{1'b0, one_less};

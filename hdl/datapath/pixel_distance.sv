@@ -7,6 +7,8 @@
 //          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
 //          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
 // Cost: a subtractor of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
+`include "pixel_distance.svh"
+
 module pixel_distance #(
     parameter int LABELS = 5,
     parameter int SCORES_WIDTH = 24,
@@ -25,144 +27,134 @@ module pixel_distance #(
     input  logic [                     PIXEL_WIDTH-1:0] word_i,
     input  logic [LABELS*dtof_pkg::POOL_CELL_WIDTH-1:0] cells_i,
     input  logic [                          LABELS-1:0] hits_i,
-    output logic                                        offset_up_o,
-    output logic                                        offset_down_o,
-    output logic                                        reach_o,
-    output logic                                        up_o,
-    output logic [                                 2:0] weight_o,
-    output logic [                                 3:0] gear_o,
-    output logic                                        hit_o,
-    output logic                                        rival_hit_o,
-    output logic                                        rival_up_o,
-    output logic                                        rival_down_o
+    output pixel_distance_t                             distance_o       // 0 without a timestamp
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
+  localparam int OFFSET_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 1);
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
   localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
-
-  // Which candidate the word leans on.
-
-  logic [LABEL_WIDTH-1:0] leader;
-  logic [CELL_WIDTH-1:0] leader_cell;
-
-  generate
-    if (RIVAL_MOVES != 0 && OFFSET_BITS > 0) begin : g_track_leader
-      assign leader = word_i[SCORES_WIDTH+:LABEL_WIDTH];
-    end else if (RIVAL_MOVES != 0) begin : g_no_leader
-      assign leader = '0;
-    end else if (OFFSET_BITS > 0) begin : g_either_leader
-      assign leader = point_i ? word_i[POINTER_WIDTH+:LABEL_WIDTH] : word_i[SCORES_WIDTH+:LABEL_WIDTH];
-    end else begin : g_point_leader
-      assign leader = word_i[POINTER_WIDTH+:LABEL_WIDTH];
-    end
-  endgenerate
-
-  assign leader_cell = cells_i[leader*CELL_WIDTH+:CELL_WIDTH];
-
-  // Track: offset.
-
-  generate
-    if (OFFSET_BITS > 0) begin : g_offset
-      logic [OFFSET_BITS-1:0] offset;
-      logic [9:0] position;  // in units of 64; within the range, since the offset follows timestamps
-      logic signed [10:0] distance;
-      logic signed [7:0] cells;
-      assign offset = word_i[SCORES_WIDTH+LABEL_WIDTH+:OFFSET_BITS];
-      assign position = {leader_cell, 3'b000} + {{(10 - OFFSET_BITS) {offset[OFFSET_BITS-1]}}, offset};
-      assign distance = $signed({1'b0, position_i[15:6]}) - $signed({1'b0, position});
-      assign cells = distance[10:3];
-      assign offset_up_o = valid_i && (cells > 8'sd0) && (cells < 8'sd8);
-      assign offset_down_o = valid_i && (cells < -8'sd1) && (cells >= -8'sd8);
-      logic unused_distance;
-      assign unused_distance = ^distance[2:0];
-    end else begin : g_no_offset
-      assign offset_up_o = 1'b0;
-      assign offset_down_o = 1'b0;
-    end
-  endgenerate
-
-  // Point: leader, in the pointer's units.
-
   localparam int DISTANCE_WIDTH = 16 - POINTER_SHIFT + 2;
   localparam int CELL_SHIFT = 9 - POINTER_SHIFT;
   localparam int CELLS_WIDTH = DISTANCE_WIDTH - CELL_SHIFT;
-  localparam logic signed [CELLS_WIDTH-1:0] REACH = CELLS_WIDTH'(8);
-  localparam logic signed [CELLS_WIDTH-1:0] NEAR = CELLS_WIDTH'(5);
-
-  logic [POINTER_WIDTH-1:0] pointer;
-  logic [2:0] cells_away;
-  logic signed [DISTANCE_WIDTH-1:0] distance;
-  logic signed [CELLS_WIDTH-1:0] cells;
-
-  assign pointer = word_i[POINTER_WIDTH-1:0];
-  assign cells = distance[DISTANCE_WIDTH-1:CELL_SHIFT];
-  assign reach_o = valid_i && (cells >= -REACH) && (cells < REACH);
-  assign hit_o = valid_i && (cells >= -NEAR) && (cells < NEAR);
-  assign up_o = !cells[CELLS_WIDTH-1];
-  assign cells_away = cells[2:0] ^ {3{cells[CELLS_WIDTH-1]}};
-
-  assign weight_o = WEIGHTS[3*cells_away+:3];
-
+  localparam logic [CELLS_WIDTH-1:0] REACH = CELLS_WIDTH'(8);
+  localparam logic [2:0] NEAR = 3'd4;  // cells to the leader, 0 the one in which it is
+  localparam logic [2:0] RIVAL_NEAR = 3'(RIVAL_REACH - 1);
   // 64 units of 2^-11 coarse bin.
   localparam logic [3:0] LATE_GEAR = 4'(6 - ((ADVANTAGE_WIDTH == 4) ? POINTER_SHIFT : 0));
-  logic [ADVANTAGE_WIDTH-1:0] advantage;
-  logic [3:0] gear_of_count;
-  assign advantage = word_i[POINT_WIDTH-1-:ADVANTAGE_WIDTH];
 
-  generate
-    if (ADVANTAGE_WIDTH == 7) begin : g_gear
-      always_comb begin
-        if (advantage >= 7'd124) gear_of_count = 4'd0;
-        else if (advantage >= 7'd116) gear_of_count = 4'd1;
-        else if (advantage >= 7'd100) gear_of_count = 4'd2;
-        else if (advantage >= 7'd80) gear_of_count = 4'd3;
-        else if (advantage >= 7'd64) gear_of_count = 4'd4;
-        else if (advantage >= 7'd32) gear_of_count = 4'd5;
-        else if (advantage >= 7'd16) gear_of_count = 4'd6;
-        else if (advantage >= 7'd8) gear_of_count = 4'd7;
-        else gear_of_count = 4'd8;
+  logic [LABEL_WIDTH-1:0] track_leader, point_leader, leader, resting_rival;
+  logic [CELL_WIDTH-1:0] leader_cell;
+  logic [OFFSET_WIDTH-1:0] offset;
+  logic [9:0] track_position;  // in units of 64; within the range, since the offset follows timestamps
+  logic [10:0] track_distance;
+  logic [7:0] track_cells, rival_cells;
+  logic [POINTER_WIDTH-1:0] pointer;
+  logic [DISTANCE_WIDTH-1:0] position, distance;
+  logic below, reach, hit, rival_below;
+  logic [CELLS_WIDTH-1:0] point_cells;
+  logic [2:0] cells_away, rival_away;
+  logic [3:0] gear;
+  logic [6:0] advantage;
+
+  assign position = {2'b00, position_i[15:POINTER_SHIFT]};
+
+  // Under valid_i alone, so that a simulator works on timestamps; the defaults say that nothing is kept.
+  always_comb begin
+    distance_o = '0;
+    track_leader = '0;
+    point_leader = '0;
+    leader = '0;
+    resting_rival = '0;
+    leader_cell = '0;
+    offset = '0;
+    track_position = '0;
+    track_distance = '0;
+    track_cells = '0;
+    rival_cells = '0;
+    pointer = '0;
+    distance = '0;
+    point_cells = '0;
+    cells_away = '0;
+    below = 1'b0;
+    reach = 1'b0;
+    hit = 1'b0;
+    rival_below = 1'b0;
+    rival_away = '0;
+    gear = '0;
+    advantage = '0;
+    if (valid_i) begin
+      // Which candidate the word leans on.
+      track_leader = (OFFSET_BITS > 0) ? LABEL_WIDTH'(word_i >> SCORES_WIDTH) : '0;
+      point_leader = LABEL_WIDTH'(word_i >> POINTER_WIDTH);
+      leader = (RIVAL_MOVES == 0 && (point_i || OFFSET_BITS == 0)) ? point_leader : track_leader;
+      leader_cell = cells_i[leader*CELL_WIDTH+:CELL_WIDTH];
+
+      // Track: offset.
+      offset = OFFSET_WIDTH'(word_i >> (SCORES_WIDTH + LABEL_WIDTH));
+      track_position = {leader_cell, 3'b000} + {{(10 - OFFSET_WIDTH) {1'(offset >> (OFFSET_WIDTH - 1))}}, offset};
+      track_distance = 11'(position_i >> 6) - {1'b0, track_position};
+      track_cells = 8'(track_distance >> 3);
+      distance_o.offset_up = (OFFSET_BITS > 0) && (track_cells != 8'd0) && (track_cells < 8'd8);
+      distance_o.offset_down = (OFFSET_BITS > 0) && (track_cells >= -8'd8) && (track_cells != -8'd1);
+
+      // Point: leader, in the pointer's units.
+      pointer = POINTER_WIDTH'(word_i);
+      if (RIVAL_MOVES != 0) begin
+        distance = position - DISTANCE_WIDTH'(pointer);
+      end else begin
+        distance = position - DISTANCE_WIDTH'({leader_cell, {CELL_SHIFT{1'b0}}})
+            - {{(DISTANCE_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer};
       end
-    end else begin : g_short_gear
-      always_comb begin
-        if (advantage == 4'd15) gear_of_count = 4'(4 - POINTER_SHIFT);
-        else if (advantage == 4'd14) gear_of_count = 4'(5 - POINTER_SHIFT);
-        else if (advantage >= 4'd12) gear_of_count = 4'(6 - POINTER_SHIFT);
-        else if (advantage >= 4'd8) gear_of_count = 4'(7 - POINTER_SHIFT);
-        else if (advantage >= 4'd4) gear_of_count = 4'(8 - POINTER_SHIFT);
-        else gear_of_count = 4'(9 - POINTER_SHIFT);
+      point_cells = CELLS_WIDTH'(distance >> CELL_SHIFT);
+      below = 1'(point_cells >> (CELLS_WIDTH - 1));
+      cells_away = 3'(point_cells) ^ {3{below}};
+      reach = (point_cells < REACH) || (point_cells >= -REACH);
+      hit = reach && (cells_away <= NEAR);
+      distance_o.reach = reach;
+      distance_o.hit = hit;
+      distance_o.up = !below;
+      distance_o.weight = WEIGHTS[3*cells_away+:3];
+
+      advantage = 7'(ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH)));
+      if (ADVANTAGE_WIDTH == 7) begin
+        if (advantage >= 7'd124) gear = 4'd0;
+        else if (advantage >= 7'd116) gear = 4'd1;
+        else if (advantage >= 7'd100) gear = 4'd2;
+        else if (advantage >= 7'd80) gear = 4'd3;
+        else if (advantage >= 7'd64) gear = 4'd4;
+        else if (advantage >= 7'd32) gear = 4'd5;
+        else if (advantage >= 7'd16) gear = 4'd6;
+        else if (advantage >= 7'd8) gear = 4'd7;
+        else gear = 4'd8;
+      end else begin
+        if (advantage == 7'd15) gear = 4'(4 - POINTER_SHIFT);
+        else if (advantage == 7'd14) gear = 4'(5 - POINTER_SHIFT);
+        else if (advantage >= 7'd12) gear = 4'(6 - POINTER_SHIFT);
+        else if (advantage >= 7'd8) gear = 4'(7 - POINTER_SHIFT);
+        else if (advantage >= 7'd4) gear = 4'(8 - POINTER_SHIFT);
+        else gear = 4'(9 - POINTER_SHIFT);
+      end
+      distance_o.gear = (late_i && gear > LATE_GEAR) ? LATE_GEAR : gear;
+
+      // Point: rival.
+      rival_cells = 8'(position_i >> 9) - 8'(RIVAL_WIDTH'(word_i >> POINTER_WIDTH));
+      rival_below = 1'(rival_cells >> 7);
+      rival_away = 3'(rival_cells) ^ {3{rival_below}};
+      resting_rival = LABEL_WIDTH'(word_i >> (POINTER_WIDTH + LABEL_WIDTH));
+      if (RIVAL_MOVES != 0) begin
+        distance_o.rival_hit = !hit && (rival_cells < 8'd8 || rival_cells >= -8'd8) && (rival_away <= RIVAL_NEAR);
+        distance_o.rival_up = !rival_below && (rival_cells != 8'd0);
+        distance_o.rival_down = rival_below;
+      end else begin
+        distance_o.rival_hit = !hit && hits_i[resting_rival];
       end
     end
-  endgenerate
-
-  assign gear_o = (late_i && gear_of_count > LATE_GEAR) ? LATE_GEAR : gear_of_count;
-
-  generate
-    if (RIVAL_MOVES != 0) begin : g_moving_rival
-      logic [RIVAL_WIDTH-1:0] rival;
-      localparam logic signed [RIVAL_WIDTH:0] RIVAL_CELLS = (RIVAL_WIDTH + 1)'(RIVAL_REACH);
-      logic signed [RIVAL_WIDTH:0] rival_distance;
-      assign rival = word_i[POINTER_WIDTH+:RIVAL_WIDTH];
-      assign distance = $signed({2'b00, position_i[15:POINTER_SHIFT]}) - $signed({2'b00, pointer});
-      assign rival_distance = $signed({1'b0, position_i[15:9]}) - $signed({1'b0, rival});
-      assign rival_hit_o = valid_i && !hit_o && (rival_distance >= -RIVAL_CELLS) && (rival_distance < RIVAL_CELLS);
-      assign rival_up_o = (rival_distance > 8'sd0);
-      assign rival_down_o = (rival_distance < 8'sd0);
-    end else begin : g_resting_rival
-      logic [LABEL_WIDTH-1:0] rival;
-      assign rival = word_i[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
-      assign distance = $signed({2'b00, position_i[15:POINTER_SHIFT]})
-          - $signed({2'b00, leader_cell, {CELL_SHIFT{1'b0}}})
-          - $signed({{(DISTANCE_WIDTH - POINTER_WIDTH) {pointer[POINTER_WIDTH-1]}}, pointer});
-      assign rival_hit_o = valid_i && !hit_o && hits_i[rival];
-      assign rival_up_o = 1'b0;
-      assign rival_down_o = 1'b0;
-    end
-  endgenerate
+  end
 
   logic unused;
-  assign unused = ^{1'b0, point_i, position_i, word_i, cells_i, hits_i, distance[CELL_SHIFT-1:0]};
+  assign unused = ^{1'b0, point_i, position_i, word_i, cells_i, hits_i};
 
 endmodule

@@ -15,7 +15,8 @@ module twin_pointer_update #(
     localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES)
 ) (
-    input  logic [POINT_WIDTH-1:0] word_i,        // {advantage, rival, pointer}
+    input  logic                   update_i,
+    input  logic [POINT_WIDTH-1:0] word_i,         // {advantage, rival, pointer}
     input  logic                   reach_i,
     input  logic                   up_i,
     input  logic [            2:0] weight_i,
@@ -25,7 +26,7 @@ module twin_pointer_update #(
     input  logic                   rival_up_i,
     input  logic                   rival_down_i,
     input  logic [            3:0] acquisition_i,  // mod 16
-    output logic [POINT_WIDTH-1:0] word_o
+    output logic [POINT_WIDTH-1:0] word_o          // 0 without update_i
 );
 
   // Bits of a move below the pointer's unit, which decide with the dither whether it goes one farther.
@@ -33,15 +34,13 @@ module twin_pointer_update #(
   localparam int MOVE_WIDTH = ((ADVANTAGE_WIDTH == 4) ? 10 : 9) - POINTER_SHIFT;
   localparam int PRODUCT_WIDTH = MOVE_WIDTH + BELOW_UNIT + 2;
 
-  logic [ADVANTAGE_WIDTH-1:0] advantage, next_advantage;
-  logic [POINTER_WIDTH-1:0] pointer, moved, swapped;
-  logic [MOVE_WIDTH-1:0] move;
-  logic carry, counted, swap;
+  localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
+  localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
+  localparam int SUM_WIDTH = dtof_pkg::max_of(POINTER_WIDTH, MOVE_WIDTH + 2) + 1;
+  localparam logic signed [SUM_WIDTH-1:0] HIGHEST = SUM_WIDTH'((1 << (POINTER_WIDTH - 1)) - 1);
 
-  assign pointer = word_i[POINTER_WIDTH-1:0];
-  assign advantage = word_i[POINT_WIDTH-1-:ADVANTAGE_WIDTH];
+  localparam logic [ADVANTAGE_WIDTH-1:0] HALF_ADVANTAGE = ADVANTAGE_WIDTH'(1 << (ADVANTAGE_WIDTH - 1));
 
-  logic [PRODUCT_WIDTH-1:0] product;
   logic [BELOW_UNIT+1:0] dither;
   generate
     if (BELOW_UNIT == 0) begin : g_dither
@@ -50,70 +49,94 @@ module twin_pointer_update #(
       assign dither = {acquisition_i[1:0], acquisition_i[2+:BELOW_UNIT]};
     end
   endgenerate
-  // The dither only matters by its carry, which the pointer's adder takes along.
+
+  logic [ADVANTAGE_WIDTH-1:0] advantage, next_advantage;
+  logic [POINTER_WIDTH-1:0] pointer, moved, swapped, limited, next_pointer;
+  logic [PRODUCT_WIDTH-1:0] product;
   logic [BELOW_UNIT+2:0] below;
-  assign product = PRODUCT_WIDTH'(weight_i) << gear_i;
-  assign below = {1'b0, product[BELOW_UNIT+1:0]} + {1'b0, dither};
-  assign carry = below[BELOW_UNIT+2];
-  assign move = product[BELOW_UNIT+2+:MOVE_WIDTH];
+  logic [MOVE_WIDTH-1:0] move;
+  logic carry, counted, swap, gain, loss;
+  logic [RIVAL_WIDTH-1:0] rival, rival_step, next_rival;
+  logic [POINTER_WIDTH:0] absolute_sum;
+  logic [LABEL_WIDTH-1:0] leader_label, rival_label;
+  logic signed [SUM_WIDTH-1:0] start, step, sum;
 
-  logic unused_bits;
-  assign unused_bits = ^{product, below};
+  logic fourth, sixteenth;  // acquisition of 4, of 16
+  assign fourth = (acquisition_i[1:0] == 2'd0);
+  assign sixteenth = (acquisition_i == 4'd0);
 
-  generate
-    if (RIVAL_MOVES != 0) begin : g_moving_rival
-      logic [dtof_pkg::POOL_RIVAL_WIDTH-1:0] rival, next_rival;
-      logic [POINTER_WIDTH:0] sum, step;
-      logic [dtof_pkg::POOL_RIVAL_WIDTH-1:0] coarse_pointer;
+  // Under update_i alone, so that a simulator works on words that are updated; the defaults say that nothing is kept.
+  always_comb begin
+    word_o = '0;
+    advantage = '0;
+    next_advantage = '0;
+    pointer = '0;
+    moved = '0;
+    swapped = '0;
+    limited = '0;
+    next_pointer = '0;
+    product = '0;
+    below = '0;
+    move = '0;
+    carry = 1'b0;
+    counted = 1'b0;
+    swap = 1'b0;
+    gain = 1'b0;
+    loss = 1'b0;
+    rival = '0;
+    rival_step = '0;
+    next_rival = '0;
+    absolute_sum = '0;
+    leader_label = '0;
+    rival_label = '0;
+    start = '0;
+    step = '0;
+    sum = '0;
+    if (update_i) begin
+      pointer = POINTER_WIDTH'(word_i);
+      advantage = ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH));
 
-      assign coarse_pointer = pointer[POINTER_WIDTH-1-:dtof_pkg::POOL_RIVAL_WIDTH];
-      assign rival = word_i[POINTER_WIDTH+:dtof_pkg::POOL_RIVAL_WIDTH];
-      // One adder: down by move + carry is up by its complement. Saturates at both ends of the range.
-      assign step = (POINTER_WIDTH + 1)'(move) ^ {(POINTER_WIDTH + 1) {!up_i}};
-      assign sum = {1'b0, pointer} + step + (POINTER_WIDTH + 1)'(carry == up_i);
-      assign moved = sum[POINTER_WIDTH] ? {POINTER_WIDTH{up_i}} : sum[POINTER_WIDTH-1:0];
-      logic [dtof_pkg::POOL_RIVAL_WIDTH-1:0] rival_step;  // 1, 0, -1
-      assign rival_step = {{(dtof_pkg::POOL_RIVAL_WIDTH - 1) {rival_hit_i && rival_down_i}},
-                           rival_hit_i && (rival_up_i || rival_down_i)};
-      assign next_rival = swap ? coarse_pointer : rival + rival_step;
-      assign swapped = {rival, 1'b1, {(POINTER_WIDTH - 1 - dtof_pkg::POOL_RIVAL_WIDTH) {1'b0}}};
-      assign word_o[POINTER_WIDTH+:dtof_pkg::POOL_RIVAL_WIDTH] = next_rival;
-    end else begin : g_resting_rival
-      localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
-      localparam int SUM_WIDTH = dtof_pkg::max_of(POINTER_WIDTH, MOVE_WIDTH + 2) + 1;
-      logic [LABEL_WIDTH-1:0] leader, rival;
-      logic signed [SUM_WIDTH-1:0] start, step, sum, limited;
-      localparam logic signed [SUM_WIDTH-1:0] HIGHEST = SUM_WIDTH'((1 << (POINTER_WIDTH - 1)) - 1);
+      // The dither only matters by its carry, which the pointer's adder takes along.
+      product = PRODUCT_WIDTH'(weight_i) << gear_i;
+      below = {1'b0, (BELOW_UNIT + 2)'(product)} + {1'b0, dither};
+      carry = 1'(below >> (BELOW_UNIT + 2));
+      move = MOVE_WIDTH'(product >> (BELOW_UNIT + 2));
 
-      assign leader = word_i[POINTER_WIDTH+:LABEL_WIDTH];
-      assign rival = word_i[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
-      assign start = $signed({{(SUM_WIDTH - POINTER_WIDTH) {pointer[POINTER_WIDTH-1]}}, pointer});
-      assign step = $signed({{(SUM_WIDTH - MOVE_WIDTH) {1'b0}}, move} ^ {SUM_WIDTH{!up_i}});
-      assign sum = start + step + $signed(SUM_WIDTH'(carry == up_i));
-      assign limited = (sum > HIGHEST) ? HIGHEST : (sum < ~HIGHEST) ? ~HIGHEST : sum;
-      assign moved = POINTER_WIDTH'(limited);
-      logic unused_limited;
-      assign unused_limited = ^limited;
-      assign swapped = '0;
-      assign word_o[POINTER_WIDTH+:LABEL_WIDTH] = swap ? rival : leader;
-      assign word_o[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH] = swap ? leader : rival;
-      logic unused_rival;
-      assign unused_rival = ^{rival_up_i, rival_down_i};
+      // Counts beyond half of the range are slowed down.
+      counted = (advantage < HALF_ADVANTAGE)
+          || (fourth && (advantage < HALF_ADVANTAGE + HALF_ADVANTAGE / 2 || sixteenth));
+      swap = rival_hit_i && (advantage == '0);
+
+      // 1, 0, -1: a swap comes with n = 0, after which it is 1. There is no hit of both.
+      gain = (hit_i && counted && (advantage != '1)) || swap;
+      loss = rival_hit_i && counted && !swap;
+      next_advantage = advantage + {{(ADVANTAGE_WIDTH - 1) {loss}}, gain || loss};
+
+      if (RIVAL_MOVES != 0) begin
+        rival = RIVAL_WIDTH'(word_i >> POINTER_WIDTH);
+        // One adder: down by move + carry is up by its complement. Saturates at both ends of the range.
+        absolute_sum = {1'b0, pointer} + ((POINTER_WIDTH + 1)'(move) ^ {(POINTER_WIDTH + 1) {!up_i}})
+            + (POINTER_WIDTH + 1)'(carry == up_i);
+        moved = 1'(absolute_sum >> POINTER_WIDTH) ? {POINTER_WIDTH{up_i}} : POINTER_WIDTH'(absolute_sum);
+        swapped = POINTER_WIDTH'({rival, 1'b1}) << (POINTER_WIDTH - 1 - RIVAL_WIDTH);
+        next_pointer = swap ? swapped : (reach_i ? moved : pointer);
+        rival_step = {{(RIVAL_WIDTH - 1) {rival_hit_i && rival_down_i}},
+                      rival_hit_i && (rival_up_i || rival_down_i)};  // 1, 0, -1
+        next_rival = swap ? RIVAL_WIDTH'(pointer >> (POINTER_WIDTH - RIVAL_WIDTH)) : rival + rival_step;
+        word_o = POINT_WIDTH'({next_advantage, next_rival, next_pointer});
+      end else begin
+        leader_label = LABEL_WIDTH'(word_i >> POINTER_WIDTH);
+        rival_label = LABEL_WIDTH'(word_i >> (POINTER_WIDTH + LABEL_WIDTH));
+        start = $signed({{(SUM_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer});
+        step = $signed({{(SUM_WIDTH - MOVE_WIDTH) {1'b0}}, move} ^ {SUM_WIDTH{!up_i}});
+        sum = start + step + $signed(SUM_WIDTH'(carry == up_i));
+        limited = (sum > HIGHEST) ? POINTER_WIDTH'(HIGHEST)
+            : (sum < ~HIGHEST) ? POINTER_WIDTH'(~HIGHEST) : POINTER_WIDTH'(sum);
+        next_pointer = swap ? '0 : (reach_i ? limited : pointer);
+        word_o = POINT_WIDTH'({next_advantage, swap ? leader_label : rival_label, swap ? rival_label : leader_label,
+                               next_pointer});
+      end
     end
-  endgenerate
-
-  // Counts beyond half of the range are slowed down.
-  assign counted = !advantage[ADVANTAGE_WIDTH-1]
-      || ((acquisition_i[1:0] == 2'd0) && (!advantage[ADVANTAGE_WIDTH-2] || acquisition_i[3:2] == 2'd0));
-  assign swap = rival_hit_i && (advantage == '0);
-
-  // 1, 0, -1: a swap comes with n = 0, after which it is 1. There is no hit of both.
-  logic gain, loss;
-  assign gain = (hit_i && counted && (advantage != '1)) || swap;
-  assign loss = rival_hit_i && counted && !swap;
-  assign next_advantage = advantage + {{(ADVANTAGE_WIDTH - 1) {loss}}, gain || loss};
-
-  assign word_o[POINTER_WIDTH-1:0] = swap ? swapped : (reach_i ? moved : pointer);
-  assign word_o[POINT_WIDTH-1-:ADVANTAGE_WIDTH] = next_advantage;
+  end
 
 endmodule

@@ -3,6 +3,8 @@
 // with POOL_POINTER_2 the windows of docs/reference/poolpointer2.md.
 `include "properties.svh"
 
+`include "pixel_distance.svh"
+
 module pixel_distance_properties #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
@@ -31,9 +33,7 @@ module pixel_distance_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
-  logic offset_up, offset_down, reach, up, hit, rival_hit, rival_up, rival_down;
-  logic [2:0] weight;
-  logic [3:0] gear;
+  pixel_distance_t distance;
 
   label_match #(
       .LABELS       (LABELS),
@@ -65,16 +65,7 @@ module pixel_distance_properties #(
       .word_i       (word_i),
       .cells_i      (cells_i),
       .hits_i       (hits),
-      .offset_up_o  (offset_up),
-      .offset_down_o(offset_down),
-      .reach_o      (reach),
-      .up_o         (up),
-      .weight_o     (weight),
-      .gear_o       (gear),
-      .hit_o        (hit),
-      .rival_hit_o  (rival_hit),
-      .rival_up_o   (rival_up),
-      .rival_down_o (rival_down)
+      .distance_o   (distance)
   );
 
   function automatic integer cell_of(input integer label);
@@ -143,17 +134,20 @@ module pixel_distance_properties #(
   `ASSUME(m_leader_in_use, point_i || leader < LABELS)
   `ASSUME(m_leader_in_range, point_i || (leader_position >= 0 && leader_position < 65536))
   `ASSUME(m_candidates_in_use, !point_i || (a < LABELS && b < LABELS))
-  `PROVE(a_offset_up, OFFSET_BITS == 0 || point_i || offset_up == (valid_i && track_cells >= 1 && track_cells <= 7))
+  `PROVE(a_offset_up,
+         OFFSET_BITS == 0 || point_i || distance.offset_up == (valid_i && track_cells >= 1 && track_cells <= 7))
   `PROVE(a_offset_down,
-         OFFSET_BITS == 0 || point_i || offset_down == (valid_i && track_cells >= -8 && track_cells <= -2))
-  `PROVE(a_no_offset, OFFSET_BITS != 0 || (!offset_up && !offset_down))
-  `PROVE(a_reach, !point_i || reach == expected_reach)
-  `PROVE(a_up, !(point_i && reach) || up == (e >= 0))
-  `PROVE(a_weight, !(point_i && reach) || 32'(weight) == expected_weight)
-  `PROVE(a_gear, !(point_i && reach) || ((1 << gear) << GEAR_SHIFT) == step)
-  `PROVE(a_hit, !point_i || hit == expected_hit)
-  `PROVE(a_rival_hit, !point_i || rival_hit == expected_rival_hit)
-  `PROVE(a_rival_moves, !(point_i && rival_hit && RIVAL_MOVES != 0) || (rival_up == (f > 0) && rival_down == (f < 0)))
-  `GOAL(point_i && rival_hit && reach)
+         OFFSET_BITS == 0 || point_i || distance.offset_down == (valid_i && track_cells >= -8 && track_cells <= -2))
+  `PROVE(a_no_offset, OFFSET_BITS != 0 || (!distance.offset_up && !distance.offset_down))
+  `PROVE(a_reach, !point_i || distance.reach == expected_reach)
+  `PROVE(a_up, !(point_i && distance.reach) || distance.up == (e >= 0))
+  `PROVE(a_weight, !(point_i && distance.reach) || 32'(distance.weight) == expected_weight)
+  `PROVE(a_gear, !(point_i && distance.reach) || ((1 << distance.gear) << GEAR_SHIFT) == step)
+  `PROVE(a_hit, !point_i || distance.hit == expected_hit)
+  `PROVE(a_rival_hit, !point_i || distance.rival_hit == expected_rival_hit)
+  `PROVE(a_rival_moves, !(point_i && distance.rival_hit && RIVAL_MOVES != 0)
+         || (distance.rival_up == (f > 0) && distance.rival_down == (f < 0)))
+  `PROVE(a_nothing, valid_i || distance == '0)
+  `GOAL(point_i && distance.rival_hit && distance.reach)
 
 endmodule

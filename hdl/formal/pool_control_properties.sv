@@ -79,7 +79,7 @@ module pool_control_properties #(
       .engine_done_i  (engine_done_i)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t3, ready;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t2, ready;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
   logic [3:0] acquisition_t2;
 
@@ -106,8 +106,7 @@ module pool_control_properties #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (late_t2),
-      .update_t2_o      (),
-      .update_t3_o      (update_t3),
+      .update_t2_o      (update_t2),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
       .fresh_o          (fresh),
@@ -174,7 +173,7 @@ module pool_control_properties #(
       .first_row_t2_i  (first_row_t2),
       .second_row_t2_i (second_row_t2),
       .late_t2_i       (late_t2),
-      .update_t3_i     (update_t3),
+      .update_t2_i     (update_t2),
       .acquisition_t2_i(acquisition_t2),
       .second_column_i (second_column),
       .fresh_i         (fresh),

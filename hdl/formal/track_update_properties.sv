@@ -15,6 +15,7 @@ module track_update_properties #(
                                                             BRIGHT_SCORE_BITS, OFFSET_BITS)
 ) (
     input logic                   clk_i,
+    input logic                   update_i,
     input logic [TRACK_WIDTH-1:0] word_i,
     input logic [     LABELS-1:0] hits_i,
     input logic                   bright_i,
@@ -35,6 +36,7 @@ module track_update_properties #(
       .BRIGHT_SCORE_BITS(BRIGHT_SCORE_BITS),
       .OFFSET_BITS      (OFFSET_BITS)
   ) u_dut (
+      .update_i     (update_i),
       .word_i       (word_i),
       .hits_i       (hits_i),
       .bright_i     (bright_i),
@@ -111,13 +113,14 @@ module track_update_properties #(
   `ASSUME(m_hits_in_use, (hits_i >> candidates) == '0)
   `ASSUME(m_leader_in_use, leader < candidates)
   `ASSUME(m_one_way, !(offset_up_i && offset_down_i))
-  `PROVE(a_scores, got_score == next_score)
+  `PROVE(a_scores, !update_i || got_score == next_score)
+  `PROVE(a_nothing, update_i || word == '0)
   generate
     if (OFFSET_BITS > 0) begin : g_offset
-      `PROVE(a_leader, 32'(word[SCORES_WIDTH+:LABEL_WIDTH]) == next_leader)
-      `PROVE(a_offset, word[SCORES_WIDTH+LABEL_WIDTH+:OFFSET_BITS] == OFFSET_BITS'(next_offset))
+      `PROVE(a_leader, !update_i || 32'(word[SCORES_WIDTH+:LABEL_WIDTH]) == next_leader)
+      `PROVE(a_offset, !update_i || word[SCORES_WIDTH+LABEL_WIDTH+:OFFSET_BITS] == OFFSET_BITS'(next_offset))
     end
   endgenerate
-  `GOAL(any_hit && hit_score == full)
+  `GOAL(update_i && any_hit && hit_score == full)
 
 endmodule

@@ -3,6 +3,8 @@
 // word to the next word. Distances come from pixel_distance and label_match, so that the three are proved together.
 `include "properties.svh"
 
+`include "pixel_distance.svh"
+
 module twin_pointer_update_properties #(
     parameter int LABELS = 5,
     parameter int ADVANTAGE_WIDTH = 7,
@@ -13,6 +15,7 @@ module twin_pointer_update_properties #(
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES)
 ) (
     input logic                   clk_i,
+    input logic                   update_i,
     input logic                   valid_i,
     input logic [           15:0] position_i,
     input logic                   late_i,
@@ -25,10 +28,7 @@ module twin_pointer_update_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
-  logic reach, up, hit, rival_hit, rival_up, rival_down;
-  logic [2:0] weight;
-  logic [3:0] gear;
-  logic [1:0] unused_offset;
+  pixel_distance_t distance;
   logic [POINT_WIDTH-1:0] word;
 
   label_match #(
@@ -59,16 +59,7 @@ module twin_pointer_update_properties #(
       .word_i       (word_i),
       .cells_i      (cells_i),
       .hits_i       (hits),
-      .offset_up_o  (unused_offset[0]),
-      .offset_down_o(unused_offset[1]),
-      .reach_o      (reach),
-      .up_o         (up),
-      .weight_o     (weight),
-      .gear_o       (gear),
-      .hit_o        (hit),
-      .rival_hit_o  (rival_hit),
-      .rival_up_o   (rival_up),
-      .rival_down_o (rival_down)
+      .distance_o   (distance)
   );
 
   twin_pointer_update #(
@@ -77,15 +68,16 @@ module twin_pointer_update_properties #(
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES)
   ) u_dut (
+      .update_i     (update_i),
       .word_i       (word_i),
-      .reach_i      (reach),
-      .up_i         (up),
-      .weight_i     (weight),
-      .gear_i       (gear),
-      .hit_i        (hit),
-      .rival_hit_i  (rival_hit),
-      .rival_up_i   (rival_up),
-      .rival_down_i (rival_down),
+      .reach_i      (distance.reach),
+      .up_i         (distance.up),
+      .weight_i     (distance.weight),
+      .gear_i       (distance.gear),
+      .hit_i        (distance.hit),
+      .rival_hit_i  (distance.rival_hit),
+      .rival_up_i   (distance.rival_up),
+      .rival_down_i (distance.rival_down),
       .acquisition_i(acquisition_i),
       .word_o       (word)
   );
@@ -178,7 +170,7 @@ module twin_pointer_update_properties #(
   end
 
   `ASSUME(m_candidates_in_use, a < LABELS && b < LABELS)
-  `PROVE(a_word, word == expected)
-  `GOAL(roles_change && reach)
+  `PROVE(a_word, word == (update_i ? expected : '0))
+  `GOAL(update_i && roles_change && distance.reach)
 
 endmodule

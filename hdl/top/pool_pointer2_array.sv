@@ -133,7 +133,7 @@ module pool_pointer2_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t2, unused_update_t3;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t2;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
@@ -188,7 +188,6 @@ module pool_pointer2_array #(
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (unused_late_t2),
       .update_t2_o      (update_t2),
-      .update_t3_o      (unused_update_t3),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
       .fresh_o          (fresh),

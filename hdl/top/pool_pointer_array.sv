@@ -153,10 +153,10 @@ module pool_pointer_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t3;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t2;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
   logic [3:0] acquisition_t2;
-  logic unused_group_place, unused_last_slot_t1, unused_update_t2;
+  logic unused_group_place, unused_last_slot_t1;
 
   logic [NP-1:0] gate_begin, gate_end;
 
@@ -207,8 +207,7 @@ module pool_pointer_array #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .late_t2_o        (late_t2),
-      .update_t2_o      (unused_update_t2),
-      .update_t3_o      (update_t3),
+      .update_t2_o      (update_t2),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
       .fresh_o          (fresh),
@@ -355,7 +354,7 @@ module pool_pointer_array #(
             .first_row_t2_i   (first_row_t2),
             .second_row_t2_i  (second_row_t2),
             .late_t2_i        (late_t2),
-            .update_t3_i      (update_t3),
+            .update_t2_i      (update_t2),
             .acquisition_t2_i (acquisition_t2),
             .second_column_i  (second_column),
             .fresh_i          (fresh),

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What pixel_distance says about a timestamp and a pixel's word. All are 0 without a timestamp.
+//
+// A type of the compilation unit, included at the head of a file: Icarus Verilog 11 takes none of a package.
+`ifndef PIXEL_DISTANCE_SVH
+`define PIXEL_DISTANCE_SVH
+
+typedef struct packed {
+  logic       offset_up;
+  logic       offset_down;
+  logic       reach;
+  logic       up;
+  logic [2:0] weight;
+  logic [3:0] gear;
+  logic       hit;
+  logic       rival_hit;
+  logic       rival_up;
+  logic       rival_down;
+} pixel_distance_t;
+
+`endif
