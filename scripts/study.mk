@@ -7,8 +7,9 @@
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
+# make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: scenes pool pool-search rivals pareto trade real-data walk-error
+.PHONY: scenes pool pool-search rivals pareto trade real-data walk-error video
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -68,6 +69,10 @@ trade: study
 walk-error: study
 	@$(DTOF_STUDY) walk --seed $(SEED) --out build/walk
 	@scripts/publish.py walk_error
+
+video: study
+	@$(DTOF_STUDY) video --scene room planes clutter poles --frames 10 -k 50 --seed $(SEED) --out build/video
+	@scripts/publish.py video
 
 real-data: study
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \

@@ -15,6 +15,7 @@
 namespace dtof {
 namespace {
 
+constexpr std::int32_t kCellsPerCoarseBin = kUnitsPerCoarseBin / kUnitsPerCell;
 constexpr int kPairColumns = 2;         // columns that share an SRAM, and so a group
 constexpr int kSmoothShift = 2;         // S1 moves by a quarter
 constexpr std::int32_t kNoOpinion = 0;  // no candidate has this cell
@@ -28,25 +29,35 @@ void require_range(const char* name, int value, int lowest, int highest) {
 /// The groups of an engine: of each pair of columns, from row 0 down.
 class Groups {
  public:
+  /// `prior`: of the last frame, empty if there is none.
   Groups(std::span<const PoolColumn> columns, std::uint32_t coarse_end,
-         const PoolPointer2Parameters& parameters)
+         const PoolPointer2Parameters& parameters, const PoolPrior& prior)
       : parameters_(parameters), rows_(static_cast<std::size_t>(parameters.group_rows)) {
     const std::size_t pairs = (columns.size() + kPairColumns - 1) / kPairColumns;
     height_ = (columns.front().size() + rows_ - 1) / rows_;
     histograms_.resize(pairs * height_);
+    if (!prior.empty() && prior.size() != histograms_.size()) {
+      throw InputError(
+          fmt::format("a prior of {} groups for an engine of {}", prior.size(), histograms_.size()));
+    }
     for (std::size_t column = 0; column < columns.size(); ++column) {
       count(columns[column], column, coarse_end);
     }
     groups_.reserve(histograms_.size());
     for (std::size_t pair = 0; pair < pairs; ++pair) {
       for (std::size_t g = 0; g < height_; ++g) {
-        groups_.push_back(decode(pair, g, pairs));
+        groups_.push_back(decode(pair, g, pairs, prior.empty() ? UsedCells() : prior[index(pair, g)]));
       }
     }
   }
 
   [[nodiscard]] const PoolGroup& at(std::size_t column, std::size_t row) const {
-    return groups_[index(column / kPairColumns, row / rows_)];
+    return groups_[group_of(column, row)];
+  }
+  [[nodiscard]] std::size_t size() const { return groups_.size(); }
+  /// Of a pixel's group.
+  [[nodiscard]] std::size_t group_of(std::size_t column, std::size_t row) const {
+    return index(column / kPairColumns, row / rows_);
   }
 
  private:
@@ -71,7 +82,8 @@ class Groups {
     }
   }
 
-  [[nodiscard]] PoolGroup decode(std::size_t pair, std::size_t g, std::size_t pairs) const {
+  [[nodiscard]] PoolGroup decode(std::size_t pair, std::size_t g, std::size_t pairs,
+                                 const UsedCells& used) const {
     const CoarseHistogram& own = histograms_[index(pair, g)];
     // A group without a neighbour on a side takes itself.
     const std::array<const CoarseHistogram*, 4> neighbours = {
@@ -83,6 +95,11 @@ class Groups {
       sums[i] = parameters_.own_weight * (own[i] + own[i + 1]);
       for (const CoarseHistogram* neighbour : neighbours) {
         sums[i] += (*neighbour)[i] + (*neighbour)[i + 1];
+      }
+      const std::int32_t middle = kCellsPerCoarseBin * (static_cast<std::int32_t>(i) + 1);
+      if (std::ranges::any_of(
+              used, [&](std::int32_t cell) { return std::abs(middle - cell) <= parameters_.prior_reach; })) {
+        sums[i] += parameters_.prior_weight;
       }
     }
     PoolGroup group{};
@@ -230,6 +247,22 @@ std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<P
   return words;
 }
 
+/// What the next frame may begin from.
+PoolPrior used_cells(const std::vector<std::vector<PoolPointerWord>>& words, const Groups& groups) {
+  PoolPrior prior(groups.size());
+  for (std::size_t column = 0; column < words.size(); ++column) {
+    for (std::size_t row = 0; row < words[column].size(); ++row) {
+      const auto leader = static_cast<std::size_t>(words[column][row].leader);
+      UsedCells& used = prior[groups.group_of(column, row)];
+      const std::int32_t cell = groups.at(column, row).centre_cell[leader];
+      if (std::ranges::find(used, cell) == used.end()) {
+        used.push_back(cell);
+      }
+    }
+  }
+  return prior;
+}
+
 PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column, const Groups& groups,
                    const PoolPointer2Parameters& parameters) {
   std::vector<ChainNode> chain;
@@ -316,7 +349,7 @@ PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t 
 }
 
 std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::uint32_t acquisitions,
-                                     const PoolPointer2Parameters& parameters) {
+                                     const PoolPointer2Parameters& parameters, PoolPrior* prior) {
   if (columns.empty()) {
     return {};
   }
@@ -326,7 +359,7 @@ std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::u
   };
   const std::uint32_t coarse_end = share(parameters.coarse_share);
   const std::uint32_t track_end = share(parameters.coarse_share + parameters.track_share);
-  const Groups groups(columns, coarse_end, parameters);
+  const Groups groups(columns, coarse_end, parameters, prior != nullptr ? *prior : PoolPrior());
   std::vector<std::vector<PoolTracks>> tracks(columns.size());
   for (std::size_t column = 0; column < columns.size(); ++column) {
     tracks[column].resize(columns[column].size());
@@ -339,6 +372,9 @@ std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::u
     }
   }
   std::vector<std::vector<PoolPointerWord>> words = choose(tracks, groups, parameters);
+  if (prior != nullptr) {
+    *prior = used_cells(words, groups);
+  }
   std::vector<PoolWinners> winners;
   for (std::size_t column = 0; column < columns.size(); ++column) {
     for (std::size_t row = 0; row < columns[column].size(); ++row) {
@@ -382,8 +418,16 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
 
 std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
                                                         std::uint32_t acquisitions,
-                                                        const PoolPointer2Parameters& parameters) {
+                                                        const PoolPointer2Parameters& parameters,
+                                                        std::vector<PoolPrior>* priors) {
   parameters.validate();
+  const int engines = (count + parameters.engine_columns - 1) / parameters.engine_columns;
+  if (priors != nullptr && !priors->empty() && priors->size() != static_cast<std::size_t>(engines)) {
+    throw InputError(fmt::format("priors of {} engines for an array of {}", priors->size(), engines));
+  }
+  if (priors != nullptr) {
+    priors->resize(static_cast<std::size_t>(engines));
+  }
   std::vector<std::vector<PixelResult>> results;
   std::vector<PoolColumn> engine;
   int rows = 0;
@@ -397,7 +441,10 @@ std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnR
     if (engine.size() < static_cast<std::size_t>(parameters.engine_columns) && number + 1 < count) {
       continue;
     }
-    const std::vector<PoolWinners> columns = read_engine(engine, acquisitions, parameters);
+    PoolPrior* prior = priors != nullptr
+                           ? &(*priors)[static_cast<std::size_t>(number / parameters.engine_columns)]
+                           : nullptr;
+    const std::vector<PoolWinners> columns = read_engine(engine, acquisitions, parameters, prior);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const PoolWinners& winners = columns[i];
       const std::vector<std::int32_t> smoothed = smoothed_positions(
@@ -419,20 +466,7 @@ namespace {
 class PoolPointer2Model final : public ReadoutModel {
  public:
   explicit PoolPointer2Model(const ReadoutParameters& parameters)
-      : np_(parameters.np),
-        parameters_({.count_width = parameters.count_width,
-                     .group_rows = parameters.pool.group_size,
-                     .labels = parameters.pool.dark_labels,
-                     .score_bits = parameters.pool.dark_score_bits,
-                     .offset_bits = parameters.pool.offset_bits,
-                     .count_bits = parameters.pool.count_bits,
-                     .pointer_shift = parameters.pool.pointer_shift,
-                     .engine_columns = parameters.pool.engine_columns,
-                     .coarse_share = parameters.pool.coarse_share,
-                     .track_share = parameters.pool.track_share,
-                     .smooth = parameters.pool.smooth}) {
-    parameters_.validate();
-  }
+      : np_(parameters.np), parameters_(pool_pointer2_parameters(parameters)) {}
 
   /// An engine of one column.
   [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
@@ -456,6 +490,22 @@ class PoolPointer2Model final : public ReadoutModel {
 };
 
 }  // namespace
+
+PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& parameters) {
+  const PoolPointer2Parameters own{.count_width = parameters.count_width,
+                                   .group_rows = parameters.pool.group_size,
+                                   .labels = parameters.pool.dark_labels,
+                                   .score_bits = parameters.pool.dark_score_bits,
+                                   .offset_bits = parameters.pool.offset_bits,
+                                   .count_bits = parameters.pool.count_bits,
+                                   .pointer_shift = parameters.pool.pointer_shift,
+                                   .engine_columns = parameters.pool.engine_columns,
+                                   .coarse_share = parameters.pool.coarse_share,
+                                   .track_share = parameters.pool.track_share,
+                                   .smooth = parameters.pool.smooth};
+  own.validate();
+  return own;
+}
 
 std::unique_ptr<ReadoutModel> make_pool_pointer2(const ReadoutParameters& parameters) {
   return std::make_unique<PoolPointer2Model>(parameters);

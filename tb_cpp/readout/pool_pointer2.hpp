@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/detection.hpp"
+#include "core/parameters.hpp"
 #include "core/result.hpp"
 #include "readout/pool_parts.hpp"
 
@@ -52,6 +53,9 @@ struct PoolPointer2Parameters {
 
   PointerWindows windows = {.weight = {1, 3, 4, 4, 4, 3, 2, 1}, .rival_reach = 6};
 
+  int prior_weight = 28;  ///< what a pair of bins gains where a candidate of the last frame was used
+  int prior_reach = 2;    ///< cells: as far from that candidate
+
   int left_needs_margin =
       0;  ///< 1: a pixel whose best two labels are equal tells the column to the right nothing
 
@@ -67,6 +71,10 @@ struct PoolPointer2Parameters {
   [[nodiscard]] int group_word_bits() const;
   bool operator==(const PoolPointer2Parameters&) const = default;
 };
+
+/// Those of a read-out as every other is described, with the numbers that have no description at their
+/// defaults. Throws InputError for illegal ones.
+PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& parameters);
 
 /// What a pixel had in an acquisition: the timestamp it prefers and its other one, the same if it has none.
 /// The first two of an acquisition count; the first is preferred in even ones, the second in odd ones.
@@ -91,9 +99,16 @@ struct PoolWinner {
 };
 using PoolWinners = std::vector<PoolWinner>;
 
+/// Cells of the candidates that some pixel of a group chose, which the group's word can keep for the next
+/// frame: the candidates are there anyway, a flag of each says whether it was used.
+using UsedCells = std::vector<std::int32_t>;
+/// Those of an engine's groups, pair of columns by pair, from row 0 down; empty before the first frame.
+using PoolPrior = std::vector<UsedCells>;
+
 /// Reads the columns of one engine, left to right, all with the same number of rows; index: column, row.
+/// With `prior`, candidates begin from what the last frame left there, and this frame leaves its own.
 std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::uint32_t acquisitions,
-                                     const PoolPointer2Parameters& parameters);
+                                     const PoolPointer2Parameters& parameters, PoolPrior* prior = nullptr);
 
 /// Positions of a column's winners after S1: each moves by a quarter of the sum of its neighbours' distances,
 /// as far as these are within T: those above and below and, with smooth_left, the one to the left. `left`:
@@ -103,9 +118,12 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
                                              const PoolPointer2Parameters& parameters);
 
 /// Reads an array of `count` columns, column by column from left to right, engine by engine; index: column,
-/// row. Throws InputError for illegal parameters, malformed streams or columns of different lengths.
+/// row. With `priors`, one for each engine or none before the first frame, a video's frame that the last one
+/// helps (read_engine). Throws InputError for illegal parameters, malformed streams, columns of different
+/// lengths or priors of another array.
 std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
                                                         std::uint32_t acquisitions,
-                                                        const PoolPointer2Parameters& parameters);
+                                                        const PoolPointer2Parameters& parameters,
+                                                        std::vector<PoolPrior>* priors = nullptr);
 
 }  // namespace dtof

@@ -70,6 +70,16 @@ std::optional<Passage> cross(const Vector& direction, const Vector& low, const V
   return passage;
 }
 
+/// What the sensor sees along `ahead` in its own axes, in those of the room.
+Vector turned(const Vector& ahead, const RoomView& view) {
+  const double roll = view.roll_degrees * kDegree;
+  const double pan = view.pan_degrees * kDegree;
+  const Vector rolled = {std::cos(roll) * ahead[0] - std::sin(roll) * ahead[1],
+                         std::sin(roll) * ahead[0] + std::cos(roll) * ahead[1], ahead[2]};
+  return {std::cos(pan) * rolled[0] + std::sin(pan) * rolled[2], rolled[1],
+          std::cos(pan) * rolled[2] - std::sin(pan) * rolled[0]};
+}
+
 std::optional<double> range_to(const Sphere& sphere, const Vector& direction) {
   double along = 0.0;
   double distance_squared = 0.0;
@@ -84,17 +94,17 @@ std::optional<double> range_to(const Sphere& sphere, const Vector& direction) {
   return along - std::sqrt(half_chord_squared);
 }
 
-PixelTarget look(const Vector& direction) {
+PixelTarget look(const Vector& direction, const Sphere& sphere) {
   // The sensor is inside the room: the ray leaves it through a wall.
   const Passage walls = *cross(direction, kRoomLow, kRoomHigh);
   const std::size_t end = direction[walls.leave_axis] > 0.0 ? 1 : 0;
   PixelTarget nearest = {.depth_m = walls.leave, .reflectivity = kRoomReflectivity[walls.leave_axis][end]};
-  if (const auto range = range_to(kSphere, direction); range && *range < nearest.depth_m) {
-    nearest = {.depth_m = *range, .reflectivity = kSphere.reflectivity};
+  if (const auto range = range_to(sphere, direction); range && *range > 0.0 && *range < nearest.depth_m) {
+    nearest = {.depth_m = *range, .reflectivity = sphere.reflectivity};
   }
   for (const Box& box : kBoxes) {
     if (const auto passage = cross(direction, box.low, box.high);
-        passage && passage->enter < nearest.depth_m) {
+        passage && passage->enter > 0.0 && passage->enter < nearest.depth_m) {
       nearest = {.depth_m = passage->enter, .reflectivity = box.reflectivity};
     }
   }
@@ -108,14 +118,17 @@ double pixel_angle(int index, int count, double field_degrees) {
 
 }  // namespace
 
-TargetMap make_room(int columns, int rows, double reflectivity) {
+TargetMap make_room(int columns, int rows, double reflectivity, const RoomView& view) {
   TargetMap map(columns, rows);
+  Sphere sphere = kSphere;
+  sphere.centre[0] += view.sphere_right_m;
   for (int column = 0; column < columns; ++column) {
     for (int row = 0; row < rows; ++row) {
       const double yaw = pixel_angle(column, columns, kWidthDegrees);
       const double pitch = pixel_angle(row, rows, kHeightDegrees);
-      PixelTarget target =
-          look({std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw)});
+      const Vector ahead = {std::cos(pitch) * std::sin(yaw), std::sin(pitch),
+                            std::cos(pitch) * std::cos(yaw)};
+      PixelTarget target = look(turned(ahead, view), sphere);
       target.reflectivity *= reflectivity;
       map.at(column, row) = target;
     }

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <map>
 #include <numeric>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -70,9 +71,13 @@ class Reference {
     bool smooth_left = false;
   };
 
-  /// One engine: columns from left to right.
-  Reference(const std::vector<ColumnStream>& columns, int np, int acquisitions, Open open)
-      : columns_(static_cast<int>(columns.size())),
+  /// Of a group (two columns, four rows) the cells that its pixels chose.
+  using Used = std::map<Place, std::set<int>>;
+
+  /// One engine: columns from left to right. `before`: of the last frame.
+  Reference(const std::vector<ColumnStream>& columns, int np, int acquisitions, Open open, Used before = {})
+      : before_(std::move(before)),
+        columns_(static_cast<int>(columns.size())),
         rows_(columns.front().rows()),
         np_(np),
         all_(acquisitions),
@@ -125,6 +130,15 @@ class Reference {
     return results;
   }
 
+  /// Behind run().
+  [[nodiscard]] Used used() const {
+    Used used;
+    for (const auto& [place, pixel] : pixels_) {
+      used[{place.column / 2, place.row / 4}].insert(pixel.chosen);
+    }
+    return used;
+  }
+
  private:
   [[nodiscard]] int coarse_end() const { return all_ * open_.coarse / 64; }
   [[nodiscard]] int track_end() const { return all_ * (open_.coarse + open_.track) / 64; }
@@ -173,6 +187,11 @@ class Reference {
         for (const Group* other : beside) {
           w.back() += other->h[i] + other->h[i + 1];
         }
+        bool wanted = false;
+        for (const int cell : before_[place]) {
+          wanted = wanted || (cell >= 4 * static_cast<int>(i) + 2 && cell <= 4 * static_cast<int>(i) + 6);
+        }
+        w.back() += wanted ? 28 : 0;
       }
     }
     own.b = 5 * *std::min_element(octets.begin(), octets.end()) / 128;
@@ -443,6 +462,7 @@ class Reference {
             static_cast<std::uint16_t>(std::abs(pixel.margin))};
   }
 
+  Used before_;
   int columns_;
   int rows_;
   int np_;
@@ -642,6 +662,61 @@ TEST_F(PoolPointer2, NothingDetectedIsNoConfidence) {
   }
 }
 
+// Frames of a scene that moves by two columns, and is another one in the end.
+TEST_F(PoolPointer2, VideosAsReference) {
+  CounterRandom draw = random(7);
+  constexpr int kAcquisitions = 500;
+  constexpr int kColumns = 7;
+  PoolPointer2Parameters parameters;
+  parameters.engine_columns = 4;
+  std::size_t changed = 0;
+  for (int video = 0; video < 6; ++video) {
+    const int rows = 5 + pick(draw, 12);
+    std::vector<PoolPrior> priors;
+    std::array<Reference::Used, 2> used;
+    const auto wide = surfaces(10, 2, kColumns + 4, rows, 0.5, 3 * kAcquisitions, draw);
+    for (int frame = 0; frame < 4; ++frame) {
+      SCOPED_TRACE(testing::Message() << "video " << video << ", frame " << frame);
+      std::vector<ColumnStream> array(kColumns);
+      for (int column = 0; column < kColumns; ++column) {
+        for (int row = 0; row < rows; ++row) {
+          // The frame's own part of the long stream; the last frame is upside down.
+          const int from = frame == 3 ? rows - 1 - row : row;
+          std::vector<Detection> pixel;
+          for (Detection detection : wide[static_cast<std::size_t>(column + 2 * (frame % 3))].row(from)) {
+            const auto part = static_cast<int>(detection.acquisition) / kAcquisitions;
+            detection.acquisition %= kAcquisitions;
+            if (part == frame % 3) {
+              pixel.push_back(detection);
+            }
+          }
+          array[static_cast<std::size_t>(column)].append_row(pixel);
+        }
+      }
+      const auto actual =
+          run_pool_pointer2(kColumns, reader_of(std::span(array)), 10, kAcquisitions, parameters, &priors);
+      const auto alone = read_array(array, 10, kAcquisitions, parameters);
+      if (frame == 0) {
+        EXPECT_EQ(actual, alone);
+      }
+      changed += actual != alone ? 1 : 0;
+      for (std::size_t engine = 0; engine < used.size(); ++engine) {
+        const std::size_t first = engine * 4;
+        const std::size_t end = std::min<std::size_t>(first + 4, kColumns);
+        Reference reference({array.begin() + static_cast<std::ptrdiff_t>(first),
+                             array.begin() + static_cast<std::ptrdiff_t>(end)},
+                            10, kAcquisitions, {}, used[engine]);
+        const auto expected = reference.run();
+        used[engine] = reference.used();
+        for (std::size_t column = 0; column < expected.size(); ++column) {
+          ASSERT_EQ(actual[first + column], expected[column]) << "engine " << engine << ", column " << column;
+        }
+      }
+    }
+  }
+  EXPECT_GT(changed, 6U) << "the prior changed nothing";
+}
+
 // All gears, the dither below a position's unit and the counts that are slowed down.
 TEST_F(PoolPointer2, LongFramesAsReference) {
   CounterRandom draw = random(3);
@@ -722,6 +797,13 @@ TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
   array[1].finish_row();
   EXPECT_THAT([&] { (void)read_array(array, 10, 6, {}); },
               ThrowsMessage<InputError>(HasSubstr("column 1 has 2 rows, column 0 has 1")));
+  std::vector<PoolPrior> priors(2);
+  const auto read_video = [&] {
+    (void)run_pool_pointer2(1, reader_of(std::span(array).first(1)), 10, 6, {}, &priors);
+  };
+  EXPECT_THAT(read_video, ThrowsMessage<InputError>(HasSubstr("priors of 2 engines for an array of 1")));
+  priors = {PoolPrior(3)};
+  EXPECT_THAT(read_video, ThrowsMessage<InputError>(HasSubstr("a prior of 3 groups for an engine of 1")));
   const auto refused = [&](auto spoil, const char* message) {
     PoolPointer2Parameters parameters;
     spoil(parameters);

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command_line/option_checks.hpp"
+#include "command_line/options.hpp"
+#include "io/atomic_file.hpp"
+#include "io/output_folder.hpp"
+#include "report/plot.hpp"
+#include "report/table.hpp"
+#include "study/video_study.hpp"
+#include "study_app/commands.hpp"
+
+namespace dtof {
+namespace {
+
+struct VideoOptions {
+  ReadoutOptions readout;
+  SensorOptions sensor;
+  std::vector<std::string> scenes = {"room"};
+  std::vector<std::string> motions = {"still", "pan", "roll", "object", "cut", "light"};
+  int frames = 16;
+  double speed = 2.0;
+  int columns = 200;
+  int rows = 160;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  std::string out = "build/video";
+  std::string command_line;
+};
+
+/// One video, read out.
+struct Video {
+  Sequence sequence;
+  std::vector<std::vector<ErrorShares>> shares;  ///< frame, estimator
+
+  [[nodiscard]] std::string name() const {
+    return fmt::format("{}_{}", scene_name(sequence.scene), motion_name(sequence.motion));
+  }
+  /// Of the frames from `first` to before `end`.
+  [[nodiscard]] ErrorShares of(std::size_t estimator, int first, int end) const {
+    std::vector<ErrorShares> frames;
+    for (int frame = first; frame < end; ++frame) {
+      frames.push_back(shares[static_cast<std::size_t>(frame)][estimator]);
+    }
+    return pooled(frames);
+  }
+};
+
+std::string change(double before, double after) {
+  return before > 0.0 ? fmt::format("{:+.1f} %", 100.0 * (after / before - 1.0)) : "-";
+}
+
+/// Every estimator's shares over a video's frames behind the first, which has no frame before it.
+Table overview(const std::vector<Video>& videos, const std::vector<std::string>& estimators) {
+  std::vector<std::string> header = {"scene", "motion"};
+  header.insert(header.end(), estimators.begin(), estimators.end());
+  Table table(std::move(header));
+  for (const Video& video : videos) {
+    std::vector<std::string> row = {std::string(scene_name(video.sequence.scene)),
+                                    std::string(motion_name(video.sequence.motion))};
+    for (std::size_t e = 0; e < estimators.size(); ++e) {
+      const ErrorShares shares = video.of(e, 1, video.sequence.frames);
+      row.push_back(
+          fmt::format("{:.2f} / {:.2f}", 100.0 * shares.above_3_percent, 100.0 * shares.above_10_percent));
+    }
+    table.add(std::move(row));
+  }
+  return table;
+}
+
+/// What the prior changes, in the frames that it is about.
+Table prior_table(const std::vector<Video>& videos, std::size_t without, std::size_t with) {
+  Table table({"scene", "motion", "frames", "above 3 %", "with prior", "change", "above 10 %", "with prior",
+               "change"});
+  const auto add = [&](const Video& video, const std::string& frames, int first, int end) {
+    const ErrorShares a = video.of(without, first, end);
+    const ErrorShares b = video.of(with, first, end);
+    table.add({std::string(scene_name(video.sequence.scene)), std::string(motion_name(video.sequence.motion)),
+               frames, fmt::format("{:.3f}", 100.0 * a.above_3_percent),
+               fmt::format("{:.3f}", 100.0 * b.above_3_percent), change(a.above_3_percent, b.above_3_percent),
+               fmt::format("{:.3f}", 100.0 * a.above_10_percent),
+               fmt::format("{:.3f}", 100.0 * b.above_10_percent),
+               change(a.above_10_percent, b.above_10_percent)});
+  };
+  for (const Video& video : videos) {
+    const int frames = video.sequence.frames;
+    if (video.sequence.motion != Motion::kCut) {
+      add(video, fmt::format("2 to {}", frames), 1, frames);
+      continue;
+    }
+    const int cut = cut_frame(video.sequence);
+    add(video, "that of the cut", cut, cut + 1);
+    if (cut + 1 < frames) {
+      add(video, "after it", cut + 1, frames);
+    }
+  }
+  return table;
+}
+
+Table frames_csv(const std::vector<Video>& videos, const std::vector<std::string>& estimators) {
+  Table table({"scene", "motion", "frame", "klux", "estimator", "pixels", "above_3_percent",
+               "above_10_percent", "relative_rmse"});
+  for (const Video& video : videos) {
+    for (std::size_t frame = 0; frame < video.shares.size(); ++frame) {
+      const double klux = sequence_frame(video.sequence, static_cast<int>(frame)).klux;
+      for (std::size_t e = 0; e < estimators.size(); ++e) {
+        const ErrorShares& shares = video.shares[frame][e];
+        table.add({std::string(scene_name(video.sequence.scene)),
+                   std::string(motion_name(video.sequence.motion)), fmt::format("{}", frame + 1),
+                   fmt::format("{:.4g}", klux), estimators[e], fmt::format("{}", shares.pixels),
+                   fmt::format("{:.6f}", shares.above_3_percent),
+                   fmt::format("{:.6f}", shares.above_10_percent), fmt::format("{:.6f}", shares.rmse)});
+      }
+    }
+  }
+  return table;
+}
+
+void write_picture(const std::filesystem::path& path, const Video& video,
+                   const std::vector<std::string>& estimators, const std::string& sensor) {
+  std::vector<PlotSeries> series;
+  for (std::size_t e = 0; e < estimators.size(); ++e) {
+    PlotSeries line{estimators[e], {}, {}};
+    for (std::size_t frame = 0; frame < video.shares.size(); ++frame) {
+      line.x.push_back(static_cast<double>(frame + 1));
+      line.y.push_back(100.0 * video.shares[frame][e].above_3_percent);
+    }
+    series.push_back(std::move(line));
+  }
+  const std::string light = video.sequence.motion == Motion::kLight
+                                ? "2 to 50 klux"
+                                : fmt::format("{:g} klux", video.sequence.klux);
+  write_plot(path, series,
+             {.title = fmt::format("Pixels above 3 % in % per frame: {}, {}, {}, sensor {}",
+                                   scene_name(video.sequence.scene), motion_name(video.sequence.motion),
+                                   light, sensor),
+              .x_label = "frame",
+              .y_label = "above 3 %, %",
+              .logarithmic_y = true});
+}
+
+bool has_motion(Scene scene, Motion motion) {
+  return scene == Scene::kRoom || (motion != Motion::kRoll && motion != Motion::kObject);
+}
+
+void run_video_command(const VideoOptions& options) {
+  const std::vector<ReadoutParameters> readouts =
+      options.readout.parameters(kModelReadouts, options.sensor.described());
+  const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
+  std::vector<Video> videos;
+  for (const std::string& scene : options.scenes) {
+    for (const std::string& motion : options.motions) {
+      Sequence sequence;
+      sequence.scene = parse_scene(scene);
+      sequence.motion = parse_motion(motion);
+      sequence.frames = options.frames;
+      sequence.parameters.columns = options.columns;
+      sequence.parameters.rows = options.rows;
+      sequence.parameters.seed = options.seed;
+      sequence.speed = options.speed;
+      sequence.klux = options.sensor.klux;
+      if (has_motion(sequence.scene, sequence.motion)) {
+        (void)sequence_frame(sequence, 0);  // what is wrong is said before hours of work
+        videos.push_back({sequence, {}});
+      }
+    }
+  }
+  if (videos.empty()) {
+    throw InputError("video: none of the scenes has one of the motions");
+  }
+  const VideoStudy study(sensor, readouts, options.sensor.klux, options.seed, options.threads);
+  const std::vector<std::string>& estimators = study.estimators();
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  Progress progress("frames", videos.size() * static_cast<std::size_t>(options.frames));
+  for (Video& video : videos) {
+    video.shares = study.measure(video.sequence, &progress);
+    write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor.name);
+  }
+  const auto pool2 =
+      std::ranges::find(estimators, readout_title(Readout::kPoolPointer2)) - estimators.begin();
+  const std::string tables = fmt::format(
+      "## Frames behind the first: above 3 % / above 10 %, per cent of pixels\n\n{}\n"
+      "## What the prior changes\n\n{}",
+      overview(videos, estimators).markdown(),
+      prior_table(videos, static_cast<std::size_t>(pool2), estimators.size() - 1).markdown());
+  std::string report = fmt::format(
+      "# Videos\n\nEvery frame has photons of its own; {} frames, sensor {}, {:g} klux unless the light "
+      "changes, seed {}. "
+      "Each read-out has a look-up table fitted at {:g} klux. With the prior poolPointer 2 begins a frame "
+      "from the "
+      "candidates that were used in the last one ([poolpointer2.md](../docs/reference/poolpointer2.md)); the "
+      "others read "
+      "each frame on its own.\n\nMotions, {:g} columns, degrees or centimetres per frame:\n\n",
+      options.frames, sensor.name, options.sensor.klux, options.seed, options.sensor.klux, options.speed);
+  for (const std::string& motion : options.motions) {
+    report += fmt::format("* {}: {}.\n", motion, motion_summary(parse_motion(motion)));
+  }
+  report += fmt::format("\n{}\nEvery frame: [video.csv](video.csv).\n", tables);
+  for (const Video& video : videos) {
+    report += fmt::format("\n![{} {}]({}.svg)\n", scene_name(video.sequence.scene),
+                          motion_name(video.sequence.motion), video.name());
+  }
+  report += fmt::format("\nCommand: `{}`\n", options.command_line);
+  write_file(folder / "video.csv", frames_csv(videos, estimators).csv());
+  write_file(folder / "video.md", report);
+  fmt::print("{}\nSeed {}. Written to {}\n", tables, options.seed, (folder / "video.md").string());
+}
+
+}  // namespace
+
+void add_video_command(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<VideoOptions>();
+  options->command_line = command_line;
+  options->readout.readouts = "hispointer,poolpointer,poolpointer2";
+  CLI::App* command = app.add_subcommand(
+      "video", "Read-outs on videos: accuracy from frame to frame, and what the last frame tells the next");
+  command->add_option("--scene", options->scenes, "scenes of `dtof list`, one or more")
+      ->capture_default_str();
+  command
+      ->add_option("--motion", options->motions,
+                   "still, pan, roll, object, cut or light, one or more; roll and object are the room's")
+      ->capture_default_str();
+  command->add_option("--frames", options->frames, "frames of each video")
+      ->check(CLI::Range(2, 10'000))
+      ->capture_default_str();
+  command->add_option("--speed", options->speed, "columns, degrees or centimetres per frame")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--array-columns", options->columns, "columns of the array")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command->add_option("--array-rows", options->rows, "rows of the array")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  options->sensor.add_to(*command);
+  options->readout.add_to(*command);
+  add_study_options(*command, options->seed, options->threads, options->out);
+  command->callback([options, command] {
+    for (const char* option : {"--fidelity", "--tolerance"}) {
+      refuse_without_effect(*command, option, "videos are drawn with exact photons");
+    }
+    options->sensor.refuse_options_without_effect(*command);
+    run_video_command(*options);
+  });
+}
+
+}  // namespace dtof
