@@ -14,14 +14,15 @@ namespace dtof {
 /// source's. Time gates, jitter, hot and dead pixels work; dead time, afterpulsing, binning, coincidence, a
 /// measured pulse and TDC code widths need the exact source.
 ///
-/// Streams (`column`): one exponential gap per detection gives acquisition and time together; empty
-/// acquisitions and events after the last slot are not visited. Times are displaced by
-/// ArrivalTable::displacement against the exact distribution; nothing else is approximated.
+/// Streams (`column`): a pixel of few events per acquisition is drawn by the exact model. For others one
+/// exponential gap per detection gives acquisition and time together; empty acquisitions and events after the
+/// last slot are not visited. Their times are displaced by ArrivalTable::displacement against the exact
+/// distribution; nothing else is approximated.
 ///
 /// Sampler (`pixel_sampler`): the number of a measurement's detections, then their times from the
 /// distribution of kept events, only those inside the asked window. Approximated beyond the table: which
 /// detections share an acquisition is forgotten. Pixels of more than 0.7 events an acquisition are walked as
-/// the streams are, without that approximation.
+/// the streams of bright pixels are, without that approximation.
 class FastPhotonSource final : public SampledSource {
  public:
   /// Throws InputError unless supports().

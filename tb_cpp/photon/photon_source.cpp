@@ -17,7 +17,6 @@
 #include "photon/physics.hpp"
 
 namespace dtof {
-namespace {
 
 /// The TDC: appends a row that keeps the first SLOTS events of every acquisition.
 class TdcRow {
@@ -79,6 +78,8 @@ class TdcRow {
   std::size_t table_ = 0;
   std::vector<std::uint32_t> acquisitions_;  // of the row's events, SLOTS times kNone before
 };
+
+namespace {
 
 using Events = std::vector<double>;
 
@@ -166,8 +167,7 @@ ColumnStream PhotonSource::column_rows(int index, RowRange range) const {
 }
 
 ColumnStream PhotonSource::plain_column(int index, RowRange range) const {
-  EventSampler sampler(model_, static_cast<std::size_t>(model_.slots));
-  TdcRow tdc(model_);
+  PixelStreams pixels(*this);
   ColumnStream stream;
   double expected = 0.0;
   const int end = range.first + range.count;
@@ -178,9 +178,28 @@ ColumnStream PhotonSource::plain_column(int index, RowRange range) const {
   // A twentieth more than the mean is rarely exceeded, and costs a copy then.
   stream.reserve(static_cast<std::size_t>(1.05 * expected * model_.acquisitions));
   for (int row = range.first; row < end; ++row) {
-    tdc.append(sampler.sample(rates(index, row), random(index, row)), pixel_number(index, row), stream);
+    pixels.append(index, row, stream);
   }
   return stream;
+}
+
+struct PixelStreams::Buffers {
+  EventSampler sampler;
+  TdcRow tdc;
+};
+
+PixelStreams::PixelStreams(const PhotonSource& source)
+    : source_(source),
+      buffers_(std::make_unique<Buffers>(
+          Buffers{EventSampler(source.model(), static_cast<std::size_t>(source.model().slots)),
+                  TdcRow(source.model())})) {}
+
+PixelStreams::~PixelStreams() = default;
+
+void PixelStreams::append(int column, int row, ColumnStream& stream, RandomPurpose purpose) {
+  buffers_->tdc.append(
+      buffers_->sampler.sample(source_.rates(column, row), source_.random(column, row, purpose)),
+      source_.pixel_number(column, row), stream);
 }
 
 ColumnStream PhotonSource::combined_column(int index, RowRange range) const {

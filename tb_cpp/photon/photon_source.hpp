@@ -58,11 +58,13 @@ class PhotonSource final : public StreamSource {
   [[nodiscard]] CounterRandom random(int column, int row,
                                      RandomPurpose purpose = RandomPurpose::kPhotons) const;
 
- private:
+  /// Row by row.
   [[nodiscard]] std::size_t pixel_number(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns()) +
            static_cast<std::size_t>(column);
   }
+
+ private:
   [[nodiscard]] ColumnStream plain_column(int index, RowRange range) const;
   [[nodiscard]] ColumnStream combined_column(int index, RowRange range) const;
 
@@ -71,6 +73,27 @@ class PhotonSource final : public StreamSource {
   double klux_;
   std::uint64_t seed_;
   std::uint32_t frame_;
+};
+
+/// Streams of single pixels of a PhotonSource without binning and coincidence, one after the other: keeps its
+/// buffers between them. The source must outlive it. Not thread-safe.
+class PixelStreams {
+ public:
+  explicit PixelStreams(const PhotonSource& source);
+  PixelStreams(const PixelStreams&) = delete;
+  PixelStreams& operator=(const PixelStreams&) = delete;
+  PixelStreams(PixelStreams&&) = delete;
+  PixelStreams& operator=(PixelStreams&&) = delete;
+  ~PixelStreams();
+
+  /// Appends the pixel's row to `stream`, drawn from random numbers of `purpose`.
+  void append(int column, int row, ColumnStream& stream, RandomPurpose purpose = RandomPurpose::kPhotons);
+
+ private:
+  struct Buffers;
+
+  const PhotonSource& source_;
+  std::unique_ptr<Buffers> buffers_;
 };
 
 }  // namespace dtof
