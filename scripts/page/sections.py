@@ -72,7 +72,7 @@ LISTED = (
            with_it=(("pool/pool.csv", "pool.csv"),)),
     Report("video", "Videos", "video", "video/video.md", "video/video.md",
            "accuracy from frame to frame, and what poolPointer 2 gains from the last one",
-           with_it=same("video/video.csv", "video/room_light.svg", "video/room_cut.svg")),
+           with_it=same("video/video.csv", "video/room_light.svg")),
     Report("walk_error", "Walk error", "walk-error", "walk_error.md", "walk/walk_error.md",
            "bias over reflectivity, and what the host corrects",
            with_it=(("walk/walk_error.csv", "walk_error.csv"), ("walk/walk_error.svg", "walk_error.svg"))),
