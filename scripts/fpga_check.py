@@ -64,12 +64,14 @@ def source_files(technology: Path) -> list[str]:
 
 
 def subsystems() -> dict[str, tuple[str, dict[str, int]]]:
-    """By name of a read-out: title and parameters."""
+    """By name of a read-out that the subsystem has: title and parameters."""
     table = readouts.load()
     found = {}
     for name, readout in table.readouts.items():
         if readout.top:
             number = readout.number if readout.number is not None else table.tops[readout.top].readout
+            if number is None:
+                continue
             own = {parameter: value for parameter, value in table.defaults(name).items() if parameter in readout.defaults}
             found[name] = (readout.title, {"READOUT": number} | own | SIZE)
     return found

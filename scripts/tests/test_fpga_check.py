@@ -47,6 +47,9 @@ class FpgaCheck(unittest.TestCase):
 
     def test_every_read_out_with_rtl_has_its_memories(self):
         subsystems = fpga_check.subsystems()
+        for name, (_, parameters) in subsystems.items():
+            self.assertIsInstance(parameters["READOUT"], int, name)
+        self.assertNotIn("poolpointer2", subsystems)  # on trial, in no subsystem
         self.assertEqual(subsystems["poolpointer-lean"][1]["GROUP_SIZE"], 16)
         self.assertEqual(sorted(fpga_check.memories(subsystems["ezpointer"][1])),
                          ["16 words x 14 bits", "16 words x 14 bits", "36 words x 20 bits"])
