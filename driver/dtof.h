@@ -78,10 +78,10 @@ typedef struct {
   uint16_t confidence;
   bool valid; /* none of the three below */
   bool weak;
-  bool empty;  /* confidence 0 */
-  bool masked; /* the column is not enabled */
+  bool empty;     /* confidence 0 */
+  bool masked;    /* the column is not enabled */
   bool saturated; /* a counter reads its largest value: more may have been seen */
-  bool raw;    /* a bin of a raw histogram: its lowest code and, as the confidence, its count */
+  bool raw;       /* a bin of a raw histogram: its lowest code and, as the confidence, its count */
   bool has_second;
   uint16_t second_position; /* where has_second: of the pixel's second target */
 } dtof_result;

@@ -197,7 +197,8 @@ void run_video_command(const VideoOptions& options) {
       "changes, seed {}. "
       "Each read-out has a look-up table fitted at {:g} klux. With the prior poolPointer 2 begins a frame "
       "from the "
-      "candidates that were used in the last one ([poolpointer2.md](../../docs/reference/poolpointer2.md)); the "
+      "candidates that were used in the last one ([poolpointer2.md](../../docs/reference/poolpointer2.md)); "
+      "the "
       "others read "
       "each frame on its own.\n\nMotions, {:g} columns, degrees or centimetres per frame:\n\n",
       options.frames, sensor.name, options.sensor.klux, options.seed, options.sensor.klux, options.speed);

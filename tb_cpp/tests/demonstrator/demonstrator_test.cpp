@@ -101,8 +101,8 @@ class Demonstrator : public testing::Test {
       EXPECT_FALSE(result.masked);
       EXPECT_EQ(result.empty, result.confidence == 0);
       EXPECT_EQ(result.valid, !result.weak && !result.empty);
-      pixels.push_back({result.row, result.column, result.position, result.confidence, result.weak,
-                        result.saturated});
+      pixels.push_back(
+          {result.row, result.column, result.position, result.confidence, result.weak, result.saturated});
     }
     return pixels;
   }
@@ -182,7 +182,8 @@ TEST_F(Demonstrator, TargetsChangeOverTheSerialLine) {
   ASSERT_EQ(ramp, expected_pixels());
 
   sender_.push(std::array<std::uint8_t, 2>{0x80 | 9, 3});  // a byte is missing: no command
-  for (std::size_t pixel = 0; pixel < pixel_count(); ++pixel) {  // steps from column to column, planes down them
+  for (std::size_t pixel = 0; pixel < pixel_count();
+       ++pixel) {  // steps from column to column, planes down them
     const auto columns = static_cast<std::size_t>(model_->columns());
     set_target(pixel, 880 - 60 * static_cast<int>(pixel % columns) + 3 * static_cast<int>(pixel / columns));
   }

@@ -96,13 +96,15 @@ TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
   constexpr std::uint32_t kAcquisitions = 4200;  // more than a bin counts, in each pass
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(parameters.slots);
-  std::vector<Line> lines(kAcquisitions * rows * slots, Line(static_cast<std::size_t>(configuration.sram_num),
-                                                             static_cast<Timestamp>(parameters.no_detection())));
+  std::vector<Line> lines(kAcquisitions * rows * slots,
+                          Line(static_cast<std::size_t>(configuration.sram_num),
+                               static_cast<Timestamp>(parameters.no_detection())));
   // One pixel of the first column sees a detection at the same code in each acquisition, the others see none.
   for (std::size_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
     lines[acquisition * rows * slots].front() = static_cast<Timestamp>(parameters.code_count() / 3);
   }
-  FrameSettings settings{.acquisitions = kAcquisitions, .gate = {0, parameters.no_detection()}, .enabled = {}};
+  FrameSettings settings{
+      .acquisitions = kAcquisitions, .gate = {0, parameters.no_detection()}, .enabled = {}};
   settings.raw_last = configuration.pixels_per_sram - 1;
   const bool has_counter = !is_pool_readout(parameters.readout);
   std::size_t frame = 0;
