@@ -115,8 +115,7 @@
 #define DTOF_IRQ_STATUS_ERROR_LSB 1
 #define DTOF_IRQ_STATUS_ERROR_MASK UINT32_C(0x00000002)
 
-/* frames whose last result was taken, since reset; begins again at 0 behind 2^32 - 1, so that differences
- * hold */
+/* frames whose last result was taken, since reset; begins again at 0 behind 2^32 - 1, so that differences hold */
 #define DTOF_FRAME_COUNT UINT32_C(0x054)
 #define DTOF_FRAME_COUNT_VALUE_LSB 0
 #define DTOF_FRAME_COUNT_VALUE_MASK UINT32_C(0xFFFFFFFF)
@@ -153,8 +152,7 @@
 #define DTOF_GATE_END_LSB 16
 #define DTOF_GATE_END_MASK UINT32_C(0xFFFF0000)
 
-/* lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller,
- * LINES.BUFFER */
+/* lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller, LINES.BUFFER */
 #define DTOF_RELEASE UINT32_C(0x074)
 #define DTOF_RELEASE_VALUE_LSB 0
 #define DTOF_RELEASE_VALUE_MASK UINT32_C(0x0000FFFF)
