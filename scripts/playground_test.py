@@ -121,7 +121,7 @@ class Playground(unittest.TestCase):
         frame = Frame()
         results = self.browser.evaluate("frames.map(f => [f.readout, [...f.results], f.figures])")
         for name, values, figures in results:
-            frame.pixels[name] = list(zip(values[0::3], values[1::3], values[2::3]))
+            frame.pixels[name] = list(zip(values[0::4], values[1::4], values[2::4]))
             frame.figures[name] = figures
         cells = self.browser.evaluate(
             "[...document.querySelectorAll('#table tbody tr')].map(r => [...r.cells].map(c => c.textContent))")

@@ -37,7 +37,7 @@ createModels().then((models) => {
       const depth = floats("depth", pixels);
       const error = floats("error_map", pixels);
       const begin = call("results", "number") / 2;
-      const results = models.HEAPU16.slice(begin, begin + 3 * pixels);
+      const results = models.HEAPU16.slice(begin, begin + 4 * pixels);
       const figures = call("figures", "string").split("\n");
       postMessage({ what: "frame", readout, depth, error, results, figures });
     });

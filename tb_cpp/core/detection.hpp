@@ -53,7 +53,7 @@ class ColumnStream {
   void append_row(std::span<const Detection> detections) {
     const std::size_t begin = detections_.size();
     detections_.resize(begin + detections.size());
-    std::ranges::copy(detections, detections_.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::copy(detections.begin(), detections.end(), detections_.begin() + static_cast<std::ptrdiff_t>(begin));
     row_end_.push_back(detections_.size());
   }
   /// Makes room for `detections` in all.
