@@ -20,10 +20,11 @@ for purpose in "$@"; do
     fuzz) packages+=(clang libclang-rt-dev) ;;  # libFuzzer, for make fuzz only
     fpga) packages+=(nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb) ;;  # places and routes the demonstrator, for make fpga only
     layout) packages+=(qflow) ;;                # with graywolf, qrouter, Magic, Netgen, for make layout only
+    wave) packages+=(gtkwave) ;;                # names the signals of a waveform, and shows it, for make wave only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
     playground)  # the models as WebAssembly, for make playground only
       packages+=(emscripten librange-v3-dev) ;;
-    *) echo "error: $purpose: packages for fuzz, fpga, layout, browser and playground are known" >&2; exit 2 ;;
+    *) echo "error: $purpose: packages for fuzz, fpga, layout, wave, browser and playground are known" >&2; exit 2 ;;
   esac
 done
 
