@@ -303,11 +303,17 @@ TEST(TimeGate, WhatIsOutsideDoesNotExist) {
 }
 
 TEST(RawHistogram, OnlyOfReadoutsThatHoldAWholeOne) {
+  for (const Readout readout : {Readout::kHisPointer1, Readout::kHisPointer, Readout::kSifh, Readout::kFifh,
+                                Readout::kThreeSteps, Readout::kHistogram}) {
+    EXPECT_GT(ReadoutParameters::defaults(readout).raw_bins(), 0) << readout_name(readout);
+  }
+  for (const Readout readout :
+       {Readout::kEzPointer, Readout::kPifh, Readout::kPoolPointer, Readout::kPoolPointerLean}) {
+    EXPECT_EQ(ReadoutParameters::defaults(readout).raw_bins(), 0) << readout_name(readout);
+  }
   for (const Readout readout : kModelReadouts) {
     const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
-    const bool none = readout == Readout::kEzPointer || readout == Readout::kPifh || is_pool_readout(readout);
-    EXPECT_EQ(parameters.raw_bins() == 0, none) << readout_name(readout);
-    if (none) {
+    if (parameters.raw_bins() == 0) {
       EXPECT_THROW((void)make_readout_model(parameters)->run_raw_column(stream_of({1, 2}), 2), InputError)
           << readout_name(readout);
     }
