@@ -254,6 +254,8 @@ std::string_view readout_summary(Readout readout);
 bool is_pointer_readout(Readout readout);
 /// The pixels of a column help each other.
 bool is_pool_readout(Readout readout);
+/// So do those of neighbouring columns (poolPointer 2).
+bool pools_columns(Readout readout);
 /// A histogram is scanned on the way to the result.
 bool has_histogram(Readout readout);
 /// There is RTL of it.
@@ -275,6 +277,7 @@ def cpp_source(table: Table) -> str:
     rows = ",\n".join(
         f'    {{"{readout.name}", "{readout.title}",\n     "{readout.summary}",\n'
         f"     {str(readout.kind == POINTER).lower()}, {str(readout.kind == 'pool').lower()}, "
+        f"{str('LABELS' in table.tops[readout.top].parameters if readout.top else False).lower()}, "
         f"{str(readout.bin_width is not None).lower()}, {str(bool(readout.top)).lower()},\n"
         f"     {{{', '.join(quoted(readout.choices))}}}}}"
         for readout in readouts
@@ -305,6 +308,7 @@ struct Description {{
   std::string_view summary;
   bool pointer;
   bool pool;
+  bool pools_columns;
   bool histogram;
   bool rtl;
   std::array<std::string_view, {most}> choices;  // empty ones are none
@@ -323,6 +327,7 @@ std::string_view readout_title(Readout readout) {{ return description(readout).t
 std::string_view readout_summary(Readout readout) {{ return description(readout).summary; }}
 bool is_pointer_readout(Readout readout) {{ return description(readout).pointer; }}
 bool is_pool_readout(Readout readout) {{ return description(readout).pool; }}
+bool pools_columns(Readout readout) {{ return description(readout).pools_columns; }}
 bool has_histogram(Readout readout) {{ return description(readout).histogram; }}
 bool has_rtl(Readout readout) {{ return description(readout).rtl; }}
 

@@ -8,7 +8,8 @@
 // The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
 // odd ones if there is one. T1 and later count from the pixel's last slot:
 //   clock   coarse                          track and point (a half of an SRAM word holds two pixels of a column)
-//   T1                                      point: which are inside; track: the candidates that the first one hits
+//   T1                                      point: which are inside; track, and point without RIVAL_MOVES: the
+//                                           candidates that the first one hits
 //   T2      of two pixels one is chosen     which one counts, and where it is; track: the candidates that the second one
 //                                           hits, or the only one, and which of the two scores
 //   T3                                      the pixel's next word; the pixels of the half change places
@@ -21,13 +22,14 @@ module pool2_column #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,
-    localparam int ADVANTAGE_WIDTH = 7,
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
-    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, 1),
+    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
-    localparam int HALF_WIDTH = 2 * PIXEL_WIDTH,
+    localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, dtof_pkg::pool_group_width(LABELS)),
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int CELLS_WIDTH = LABELS * CELL_WIDTH,
     localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS)
@@ -116,18 +118,29 @@ module pool2_column #(
     take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
   endfunction
 
-  logic first_near, second_near, first_inside_q, second_inside_q, odd_q, use_second;
+  logic first_inside, second_inside, first_inside_q, second_inside_q, odd_q, use_second;
   logic [NP-1:0] used;
+  logic [LABELS-1:0] hits;
 
-  assign first_near = near(first[NP-1-:CELL_WIDTH], next_cell_i);
-  assign second_near = near(second[NP-1-:CELL_WIDTH], next_cell_i);
+  generate
+    if (RIVAL_MOVES != 0) begin : g_near_pointer
+      assign first_inside = near(first[NP-1-:CELL_WIDTH], next_cell_i);
+      assign second_inside = near(second[NP-1-:CELL_WIDTH], next_cell_i);
+    end else begin : g_near_candidates
+      assign first_inside = |hits;
+      assign second_inside = 1'b1;
+      logic unused_cell;
+      assign unused_cell = ^next_cell_i;
+    end
+  endgenerate
+
   assign use_second = has_second_q && take_second(odd_q, first_inside_q, second_inside_q);
   assign used = use_second ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
     odd_q <= odd_t1_i;
-    first_inside_q <= first_near;
-    second_inside_q <= point_i ? second_near : odd_t1_i;  // in the other phases the preferred one counts
+    first_inside_q <= first_inside;
+    second_inside_q <= point_i ? second_inside : odd_t1_i;  // in the other phases the preferred one counts
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
@@ -156,9 +169,9 @@ module pool2_column #(
   // Track: the candidates that the timestamps hit, the first one's at T1, at T2 those of the second one or of the only
   // one. They score as the pointer phase chooses; the leader's offset follows the preferred timestamp.
 
-  logic [LABELS-1:0] hits, first_hits_q, used_hits;
+  logic [LABELS-1:0] first_hits_q, used_hits;
   logic [CELL_WIDTH-1:0] matched_q;
-  logic track_second;
+  logic track_second, hits_of_second;
 
   label_match #(
       .LABELS       (LABELS),
@@ -174,7 +187,8 @@ module pool2_column #(
   );
 
   assign track_second = take_second(odd_q, first_hits_q != '0, hits != '0);
-  assign used_hits = (has_second_q && !track_second) ? first_hits_q : hits;
+  assign hits_of_second = (RIVAL_MOVES == 0 && point_i) ? use_second : track_second;
+  assign used_hits = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin
     matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first[NP-1-:CELL_WIDTH];
@@ -206,7 +220,7 @@ module pool2_column #(
       .OFFSET_BITS    (OFFSET_BITS),
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),
-      .RIVAL_MOVES    (1),
+      .RIVAL_MOVES    (RIVAL_MOVES),
       .PIXEL_WIDTH    (PIXEL_WIDTH),
       .RIVAL_REACH    (RIVAL_REACH),
       .WEIGHTS        (WEIGHTS)
@@ -248,7 +262,7 @@ module pool2_column #(
       .LABELS         (LABELS),
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),
-      .RIVAL_MOVES    (1)
+      .RIVAL_MOVES    (RIVAL_MOVES)
   ) u_pointer_update (
       .update_i     (point_i),
       .word_i       (pixel[POINT_WIDTH-1:0]),
@@ -265,6 +279,9 @@ module pool2_column #(
   );
 
   assign moved = point_i ? PIXEL_WIDTH'(pointed) : PIXEL_WIDTH'(tracked);
-  assign updated_o = {moved, half_i[HALF_WIDTH-1:PIXEL_WIDTH]};
+  assign updated_o = HALF_WIDTH'({moved, half_i[2*PIXEL_WIDTH-1:PIXEL_WIDTH]});
+
+  logic unused;
+  assign unused = ^half_i;
 
 endmodule

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer 2: one or two columns and their single-port SRAM. A word has two halves: those of the two columns, each with
-// two pixels; or two groups; or, in the coarse phase, two octets of a group's bins, for both columns count in one
-// histogram.
+// two pixels; or two groups; or, in the coarse phase, a part of a group's bins, for both columns count in one histogram.
 //
 // All accesses are common to all pairs but those of the coarse phase, where each pair counts in a word of its own
 // choice. Each column counts one timestamp of two pixels, the second column two clocks behind the first:
@@ -10,7 +9,8 @@
 //   second column                                                    read          registered    counted  written
 // A count in the word of the count before goes on with the register, whose write may be still to come.
 //
-// Engine: what was read is on word_o two clocks after read_i, in the selected half; at all other times word_o is 0. The
+// Engine: what was read is on word_o two clocks after read_i; at all other times word_o is 0. Its low half is the half
+// that was asked for. Where eight bins need both halves, its high half is the word's. The
 // engine writes one half; the other half is written with it, so that the word must have been read before.
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
@@ -25,12 +25,14 @@ module pool2_pair #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,
-    localparam int PIXEL_WIDTH = dtof_pkg::max_of(
-        dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
-        dtof_pkg::pool_point_width(LABELS, 7, POINTER_SHIFT, 1)),
-    localparam int HALF_WIDTH = 2 * PIXEL_WIDTH,
+    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+                                                           POINTER_SHIFT, RIVAL_MOVES),
+    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int WORD_WIDTH = 2 * HALF_WIDTH,
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int DEPTH = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
@@ -74,16 +76,17 @@ module pool2_pair #(
     input  logic                  select_i,          // with read_i and write_i: this pair
     input  logic                  upper_i,           // with read_i and write_i: the word's upper half
     input  logic [HALF_WIDTH-1:0] engine_word_i,
-    output logic [HALF_WIDTH-1:0] word_o
+    output logic [LINE_WIDTH-1:0] word_o
 );
 
   localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
-  localparam int OCTET = dtof_pkg::POOL2_BINS_PER_LINE;
-  localparam int PLACE_WIDTH = $clog2(2 * OCTET);  // of a bin in a word
+  localparam int HALF_BINS = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES;
+  localparam int PLACE_WIDTH = $clog2(2 * HALF_BINS);  // of a bin in a word
+  localparam int GROUP_WORD_WIDTH = COARSE_WIDTH - PLACE_WIDTH;  // of a word in a group
   localparam int LAST = COLUMNS - 1;
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
-  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, 1);
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
 
   logic [WORD_WIDTH-1:0] read_data, write_data, word_q, next_word, next_pixels, updated, counted;
   logic [COLUMNS-1:0] valid_t2, held_valid;
@@ -111,27 +114,28 @@ module pool2_pair #(
   // Coarse: the count under way.
 
   logic [COARSE_WIDTH-1:0] bin;
-  logic bin_valid, same_line, fetch, pending_q, load_q, counted_q, write_q, line, line_q, write_line_q;
+  logic bin_valid, same_word, fetch, pending_q, load_q, counted_q, write_q;
+  logic [GROUP_WORD_WIDTH-1:0] group_word, group_word_q, write_group_word_q;
   logic [PLACE_WIDTH-1:0] place_q;
   logic [COUNT_WIDTH-1:0] count, next_count;
 
   assign bin = second_column_i ? held_bin[LAST*COARSE_WIDTH+:COARSE_WIDTH] : bin_t2[COARSE_WIDTH-1:0];
   assign bin_valid = second_column_i ? (COLUMNS > 1) && held_valid[LAST] : valid_t2[0];
-  assign same_line = counted_q && !fresh_i && (bin[COARSE_WIDTH-1] == line_q);
+  assign same_word = counted_q && !fresh_i && (bin[COARSE_WIDTH-1:PLACE_WIDTH] == group_word_q);
   assign fetch = coarse_i && read_i && bin_valid;
 
   always_ff @(posedge clk_i) begin
     if (read_i || engine_i) begin
       pending_q <= fetch;
-      load_q <= fetch && !same_line;
+      load_q <= fetch && !same_word;
       counted_q <= coarse_i && (fetch || (counted_q && !fresh_i));
     end
     if (fetch) begin
-      {line_q, place_q} <= bin;
+      {group_word_q, place_q} <= bin;
     end
     if (count_i) begin
       write_q <= pending_q;
-      write_line_q <= line_q;
+      write_group_word_q <= group_word_q;
     end
   end
 
@@ -141,14 +145,14 @@ module pool2_pair #(
   always_comb begin
     count = '0;
     counted = word_q;
-    for (b = 0; b < 2 * OCTET; b = b + 1) begin
+    for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin
       if (place_q == PLACE_WIDTH'(b)) begin
-        count = word_q[(b/OCTET)*HALF_WIDTH+(b%OCTET)*COUNT_WIDTH+:COUNT_WIDTH];
+        count = word_q[(b/HALF_BINS)*HALF_WIDTH+(b%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH];
       end
     end
-    for (b = 0; b < 2 * OCTET; b = b + 1) begin
+    for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin
       if (count_i && pending_q && place_q == PLACE_WIDTH'(b)) begin
-        counted[(b/OCTET)*HALF_WIDTH+(b%OCTET)*COUNT_WIDTH+:COUNT_WIDTH] = next_count;
+        counted[(b/HALF_BINS)*HALF_WIDTH+(b%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] = next_count;
       end
     end
   end
@@ -178,8 +182,14 @@ module pool2_pair #(
     drives_upper_q <= read_selected_q && upper_q;
   end
 
-  assign word_o = (word_q[HALF_WIDTH-1:0] & {HALF_WIDTH{drives_lower_q}})
+  assign word_o[HALF_WIDTH-1:0] = (word_q[HALF_WIDTH-1:0] & {HALF_WIDTH{drives_lower_q}})
       | (word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_upper_q}});
+
+  generate
+    if (LINE_HALVES == 2) begin : g_whole_word
+      assign word_o[WORD_WIDTH-1:HALF_WIDTH] = word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_lower_q}};
+    end
+  endgenerate
 
   // Columns.
 
@@ -191,13 +201,15 @@ module pool2_pair #(
 
       if (c < COLUMNS) begin : g_column
         pool2_column #(
-            .NP           (NP),
-            .SLOTS        (SLOTS),
-            .LABELS       (LABELS),
-            .SCORE_BITS   (SCORE_BITS),
-            .OFFSET_BITS  (OFFSET_BITS),
-            .POINTER_SHIFT(POINTER_SHIFT),
-            .TIME_GATE    (TIME_GATE)
+            .NP             (NP),
+            .SLOTS          (SLOTS),
+            .LABELS         (LABELS),
+            .SCORE_BITS     (SCORE_BITS),
+            .OFFSET_BITS    (OFFSET_BITS),
+            .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+            .POINTER_SHIFT  (POINTER_SHIFT),
+            .RIVAL_MOVES    (RIVAL_MOVES),
+            .TIME_GATE      (TIME_GATE)
         ) u_column (
             .clk_i           (clk_i),
             .timestamp_i     (timestamp_i[c*NP+:NP]),
@@ -232,10 +244,10 @@ module pool2_pair #(
 
   // SRAM. In the coarse phase the common address is a group's first word.
 
-  assign read = read_i && (engine_i ? select_i : (!coarse_i || (bin_valid && !same_line)));
+  assign read = read_i && (engine_i ? select_i : (!coarse_i || (bin_valid && !same_word)));
   assign write = write_i && (engine_i ? clear_i || select_i : (!coarse_i || write_q));
-  assign line = write_i ? write_line_q : bin[COARSE_WIDTH-1];
-  assign address = address_i | (coarse_i ? ADDR_WIDTH'(line) : '0);
+  assign group_word = write_i ? write_group_word_q : bin[COARSE_WIDTH-1:PLACE_WIDTH];
+  assign address = address_i | (coarse_i ? ADDR_WIDTH'(group_word) : '0);
 
   logic unused;
   assign unused = ^{1'b0, next_pixels, valid_t2, held_valid, bin_t2, held_bin};

@@ -25,6 +25,7 @@ module pool2_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,  // rows of a column
     parameter int GROUP_SIZE = 4,         // rows of a group
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
+    parameter int LINE_HALVES = 1,        // halves of a word that eight bins take, 1 or 2
     parameter int ENGINE_COLUMNS = 34,    // columns of an engine
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
@@ -67,6 +68,7 @@ module pool2_sequencer #(
   localparam int BINS = dtof_pkg::POOL_COARSE_BINS;
   localparam int OCTET = dtof_pkg::POOL2_BINS_PER_LINE;
   localparam int OCTETS = BINS / OCTET;
+  localparam int OCTETS_WIDTH = $clog2(OCTETS);
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
   localparam int FIRST_LATE_LABEL = 2;
 
@@ -335,6 +337,7 @@ module pool2_sequencer #(
 
   logic read_bins, group_word, fetch_right, fetch_group, toward_left, toward_right, upper_d, neighbour_d;
   logic [STEP_WIDTH-1:0] read_group;
+  logic [OCTETS_WIDTH-1:0] bins_read;  // octets of each group
 
   assign read_bins = columns.read_above || columns.read_own || columns.read_below || columns.read_left || columns.read_right;
   assign group_word = columns.read_group || columns.write_group;
@@ -353,12 +356,14 @@ module pool2_sequencer #(
   assign toward_right = neighbour_d && !last_pair;
   assign select_d = toward_left ? select_q >> 1 : toward_right ? select_q << 1 : select_q;
 
-  assign address_d_o = read_bins ? ADDR_WIDTH'(32'(read_group) * GROUP_PAIRS + 32'(t_q[T_WIDTH-1:4]))
+  assign bins_read = OCTETS_WIDTH'(t_q >> $clog2(OCTET));
+  assign address_d_o = read_bins
+      ? ADDR_WIDTH'(32'(read_group) * GROUP_PAIRS + ((LINE_HALVES == 1) ? 32'(bins_read) >> 1 : 32'(bins_read)))
       : group_word ? ADDR_WIDTH'(PIXEL_WORDS + (32'(step_q) >> 1))
       : fetch_group ? ADDR_WIDTH'(PIXEL_WORDS + 32'(fetch_row) / (2 * GROUP_SIZE))
       : (columns.fetch_pixel || columns.fetch_right_pixel) ? ADDR_WIDTH'(32'(fetch_row) >> 1)
       : ADDR_WIDTH'(32'(row_before) >> 1);
-  assign upper_d = read_bins ? t_q[3]
+  assign upper_d = read_bins ? (LINE_HALVES == 1) && bins_read[0]
       : group_word ? step_q[0]
       : fetch_group ? 1'((32'(fetch_row) / GROUP_SIZE) & 1)
       : columns.fetch_right_pixel ? !odd_q

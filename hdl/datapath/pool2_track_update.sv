@@ -8,7 +8,7 @@
 module pool2_track_update #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
-    parameter int OFFSET_BITS = 6,
+    parameter int OFFSET_BITS = 6,  // 0: neither offset nor leader
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS)
 ) (
@@ -20,35 +20,24 @@ module pool2_track_update #(
 );
 
   localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
-  localparam int SUM_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 4) + 1;
-  localparam logic signed [SUM_WIDTH-1:0] HIGHEST = SUM_WIDTH'((1 << (OFFSET_BITS - 1)) - 1);
-  // Leader's scores from which its offset moves by 2 and by 1.
-  localparam int SLOWER_FROM = 3;
-  localparam int SLOWEST_FROM = 8;
 
   // Scores.
 
   logic [LABELS-1:0] winner, gain, loss;
-  logic [LABEL_WIDTH-1:0] leader, winner_label;
-  logic [SCORE_BITS-1:0] winner_score, leader_score;
+  logic [SCORE_BITS-1:0] winner_score;
   logic [SCORES_WIDTH-1:0] score, step, next_score;
-  logic hit, full, change;
+  logic hit, full;
 
   assign winner = hits_i & (~hits_i + 1'b1);
   assign hit = |hits_i;
   assign full = (winner_score == '1);
   assign score = word_i[SCORES_WIDTH-1:0];
-  assign leader = word_i[SCORES_WIDTH+:LABEL_WIDTH];
 
   integer j;
   always_comb begin
     winner_score = '0;
-    leader_score = '0;
-    winner_label = '0;
     for (j = 0; j < LABELS; j = j + 1) begin
       winner_score = winner_score | (score[j*SCORE_BITS+:SCORE_BITS] & {SCORE_BITS{winner[j]}});
-      leader_score = leader_score | (score[j*SCORE_BITS+:SCORE_BITS] & {SCORE_BITS{leader == LABEL_WIDTH'(j)}});
-      winner_label = winner_label | (LABEL_WIDTH'(j) & {LABEL_WIDTH{winner[j]}});
     end
     for (j = 0; j < LABELS; j = j + 1) begin
       gain[j] = winner[j] && !full;
@@ -58,22 +47,52 @@ module pool2_track_update #(
     end
   end
 
-  // Offset. The limits are exact: a sum beyond them is one less or more than the numbers that OFFSET_BITS hold.
+  generate
+    if (OFFSET_BITS == 0) begin : g_scores_alone
+      assign word_o = next_score;
+      logic unused;
+      assign unused = ^{offset_up_i, offset_down_i};
+    end else begin : g_leader
+      localparam int SUM_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 4) + 1;
+      localparam logic signed [SUM_WIDTH-1:0] HIGHEST = SUM_WIDTH'((1 << (OFFSET_BITS - 1)) - 1);
+      // Leader's scores from which its offset moves by 2 and by 1.
+      localparam int SLOWER_FROM = 3;
+      localparam int SLOWEST_FROM = 8;
 
-  logic signed [SUM_WIDTH-1:0] offset, move, sum, limited;
+      logic [LABEL_WIDTH-1:0] leader, winner_label;
+      logic [SCORE_BITS-1:0] leader_score;
+      logic change;
+      integer i;
 
-  assign offset = $signed({{(SUM_WIDTH - OFFSET_BITS) {word_i[TRACK_WIDTH-1]}}, word_i[TRACK_WIDTH-1-:OFFSET_BITS]});
-  assign move = (32'(leader_score) < SLOWER_FROM) ? SUM_WIDTH'(4)
-      : (32'(leader_score) < SLOWEST_FROM) ? SUM_WIDTH'(2) : SUM_WIDTH'(1);
-  assign sum = offset_up_i ? offset + move : offset_down_i ? offset - move : offset;
-  assign limited = (sum > HIGHEST) ? HIGHEST : (sum < ~HIGHEST) ? ~HIGHEST : sum;
+      assign leader = word_i[SCORES_WIDTH+:LABEL_WIDTH];
 
-  // A full winner passes whoever led: the others lose a point.
-  assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score);
+      always_comb begin
+        leader_score = '0;
+        winner_label = '0;
+        for (i = 0; i < LABELS; i = i + 1) begin
+          leader_score = leader_score | (score[i*SCORE_BITS+:SCORE_BITS] & {SCORE_BITS{leader == LABEL_WIDTH'(i)}});
+          winner_label = winner_label | (LABEL_WIDTH'(i) & {LABEL_WIDTH{winner[i]}});
+        end
+      end
 
-  assign word_o = {change ? OFFSET_BITS'(0) : limited[OFFSET_BITS-1:0], change ? winner_label : leader, next_score};
+      // Offset. The limits are exact: a sum beyond them is one less or more than the numbers that OFFSET_BITS hold.
 
-  logic unused;
-  assign unused = ^limited;
+      logic signed [SUM_WIDTH-1:0] offset, move, sum, limited;
+
+      assign offset = $signed({{(SUM_WIDTH - OFFSET_BITS) {word_i[TRACK_WIDTH-1]}}, word_i[TRACK_WIDTH-1-:OFFSET_BITS]});
+      assign move = (32'(leader_score) < SLOWER_FROM) ? SUM_WIDTH'(4)
+          : (32'(leader_score) < SLOWEST_FROM) ? SUM_WIDTH'(2) : SUM_WIDTH'(1);
+      assign sum = offset_up_i ? offset + move : offset_down_i ? offset - move : offset;
+      assign limited = (sum > HIGHEST) ? HIGHEST : (sum < ~HIGHEST) ? ~HIGHEST : sum;
+
+      // A full winner passes whoever led: the others lose a point.
+      assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score);
+
+      assign word_o = {change ? OFFSET_BITS'(0) : limited[OFFSET_BITS-1:0], change ? winner_label : leader, next_score};
+
+      logic unused;
+      assign unused = ^limited;
+    end
+  endgenerate
 
 endmodule

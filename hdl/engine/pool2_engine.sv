@@ -26,14 +26,17 @@ module pool2_engine #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
-    localparam int ADVANTAGE_WIDTH = 7,
+    parameter int RIVAL_MOVES = 1,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
-    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, 1),
+    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
-    localparam int LINE_WIDTH = 2 * PIXEL_WIDTH,
+    localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),
+    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
     localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH
@@ -47,7 +50,7 @@ module pool2_engine #(
     input  logic                    has_right_i,    // in choose: the column in work has one to its right
     input  pool2_engine_command_t   command_i,
     input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS after its read
-    output logic [  LINE_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
+    output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
     input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of command_i.write_scratch and read_scratch
     output logic [RESULT_WIDTH-1:0] result_o        // {code, fraction, confidence}, held from one take_result to the next
 );
@@ -56,8 +59,9 @@ module pool2_engine #(
   localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH;
   localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
   localparam int LEAD_WIDTH = LABEL_WIDTH + OFFSET_BITS;  // {offset, leader}
-  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, 1);
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
+  localparam int HALF_BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES * COUNT_WIDTH;
   localparam int BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH;
   localparam int SMOOTH_BRIGHT_FROM = 6;
   localparam int CHOOSE_PENALTY_WIDTH = 4;  // 2 + (5 * 39 >> 4) at most
@@ -77,6 +81,14 @@ module pool2_engine #(
 
   // Decode.
 
+  logic [BINS_WIDTH-1:0] line_bins;
+  genvar h;
+  generate
+    for (h = 0; h < LINE_HALVES; h = h + 1) begin : g_half
+      assign line_bins[h*HALF_BINS_WIDTH+:HALF_BINS_WIDTH] = line_q[h*HALF_WIDTH+:HALF_BINS_WIDTH];
+    end
+  endgenerate
+
   logic [LABELS*CELL_WIDTH-1:0] new_cells;
   logic [BACKGROUND_WIDTH-1:0] new_background;
 
@@ -86,7 +98,7 @@ module pool2_engine #(
   ) u_candidate_decoder (
       .clk_i       (clk_i),
       .command_i   (command_i.decode),
-      .line_i      (line_q[BINS_WIDTH-1:0]),
+      .line_i      (line_bins),
       .cells_o     (new_cells),
       .background_o(new_background)
   );
@@ -98,12 +110,20 @@ module pool2_engine #(
   logic [LABELS*CHOOSE_EVIDENCE_WIDTH-1:0] choose_evidence;
   logic [LABELS*CELL_WIDTH-1:0] cells;
   logic [BACKGROUND_WIDTH-1:0] background;
-  logic [LEAD_WIDTH-1:0] next_lead_q, lead_q, last_lead_q;
+  logic [LEAD_WIDTH-1:0] prepared_lead, next_lead_q, lead_q, last_lead_q;
   logic prepared_bright_q, next_bright_q, bright_q, last_bright_q;
   logic [CELL_WIDTH-1:0] left_cell, next_left_q, left_q;
 
   assign advance = command_i.choose.advance || command_i.decide.advance;
-  assign line_pixel = command_i.odd_pixel ? line_q[LINE_WIDTH-1:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
+  assign line_pixel = command_i.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
+
+  generate
+    if (OFFSET_BITS != 0) begin : g_lead
+      assign prepared_lead = prepared_q[SCORES_WIDTH+:LEAD_WIDTH];
+    end else begin : g_no_lead
+      assign prepared_lead = '0;
+    end
+  endgenerate
 
   always_ff @(posedge clk_i) begin
     if (command_i.take_pixel) begin
@@ -112,7 +132,7 @@ module pool2_engine #(
     if (advance) begin
       prepared_q <= captured_q;
       prepared_bright_q <= (line_q[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH] >= BACKGROUND_WIDTH'(SMOOTH_BRIGHT_FROM));
-      {next_lead_q, next_bright_q, next_left_q} <= {prepared_q[SCORES_WIDTH+:LEAD_WIDTH], prepared_bright_q, left_cell};
+      {next_lead_q, next_bright_q, next_left_q} <= {prepared_lead, prepared_bright_q, left_cell};
       {lead_q, bright_q, left_q} <= {next_lead_q, next_bright_q, next_left_q};
       {last_lead_q, last_bright_q} <= {lead_q, bright_q};
     end
@@ -201,8 +221,31 @@ module pool2_engine #(
   logic [POSITION_WIDTH-1:0] leader_position, rival_position, position, unused_position;
   logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
 
-  assign leader_position = POSITION_WIDTH'(prepared_q[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
-  assign rival_position = POSITION_WIDTH'({prepared_q[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
+  generate
+    if (RIVAL_MOVES != 0) begin : g_absolute
+      assign leader_position = POSITION_WIDTH'(prepared_q[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
+      assign rival_position = POSITION_WIDTH'({prepared_q[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
+    end else begin : g_relative
+      // Both are candidates of the group, whose word is on the line while the pixel is prepared.
+      logic [LABEL_WIDTH-1:0] leader_label, rival_label;
+      logic [CELL_WIDTH-1:0] leader_cell_q, rival_cell_q;
+      logic signed [17:0] moved;
+      assign leader_label = captured_q[POINTER_WIDTH+:LABEL_WIDTH];
+      assign rival_label = captured_q[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
+      always_ff @(posedge clk_i) begin
+        if (advance) begin
+          leader_cell_q <= line_q[leader_label*CELL_WIDTH+:CELL_WIDTH];
+          rival_cell_q <= line_q[rival_label*CELL_WIDTH+:CELL_WIDTH];
+        end
+      end
+      assign moved = $signed({2'b00, leader_cell_q, 9'd0})
+          + $signed({{(18 - POINTER_WIDTH - POINTER_SHIFT) {prepared_q[POINTER_WIDTH-1]}}, prepared_q[POINTER_WIDTH-1:0],
+                     {POINTER_SHIFT{1'b0}}});
+      // Beyond the range a pointer stands for its end.
+      assign leader_position = moved[17] ? '0 : moved[16] ? POSITION_WIDTH'(17'h0ffff) : POSITION_WIDTH'(moved[15:0]);
+      assign rival_position = POSITION_WIDTH'({rival_cell_q, 9'd0});
+    end
+  endgenerate
 
   label_chain #(
       .LABELS        (2),
@@ -232,27 +275,39 @@ module pool2_engine #(
   logic [15:0] offset, best_start, second_start;
   logic [PIXEL_WIDTH-1:0] first_word;
   logic [ADVANTAGE_WIDTH-1:0] start_advantage;
-  logic [LINE_WIDTH-1:0] new_pair_q;
+  logic [2*PIXEL_WIDTH-1:0] new_pair_q;
 
   assign leader = last_lead_q[LABEL_WIDTH-1:0];
-  assign offset = {{(10 - OFFSET_BITS) {last_lead_q[LEAD_WIDTH-1]}}, last_lead_q[LABEL_WIDTH+:OFFSET_BITS], 6'd0};
+  generate
+    if (OFFSET_BITS != 0) begin : g_offset
+      assign offset = {{(10 - OFFSET_BITS) {last_lead_q[LEAD_WIDTH-1]}}, last_lead_q[LABEL_WIDTH+:OFFSET_BITS], 6'd0};
+    end else begin : g_no_offset
+      assign offset = '0;
+    end
+  endgenerate
   assign best_start = {best_cell[CELL_WIDTH-1:0], 9'd0} + ((leader == best_label) ? offset : '0);
   assign second_start = {second_cell[CELL_WIDTH-1:0], 9'd0} + ((leader == second_label) ? offset : '0);
 
   localparam int HALF_ADVANTAGE = 1 << (ADVANTAGE_WIDTH - 1);
   assign start_advantage = (32'(choose_margin) >= HALF_ADVANTAGE) ? ADVANTAGE_WIDTH'(HALF_ADVANTAGE - 1)
       : ADVANTAGE_WIDTH'(choose_margin);
-  assign first_word = PIXEL_WIDTH'({start_advantage, second_start[15:9], best_start[15:POINTER_SHIFT]});
+  generate
+    if (RIVAL_MOVES != 0) begin : g_absolute_word
+      assign first_word = PIXEL_WIDTH'({start_advantage, second_start[15:9], best_start[15:POINTER_SHIFT]});
+    end else begin : g_relative_word
+      assign first_word = PIXEL_WIDTH'({start_advantage, second_label, best_label, {POINTER_WIDTH{1'b0}}});
+    end
+  endgenerate
 
   always_ff @(posedge clk_i) begin
     if (command_i.take_choice && command_i.odd_result) begin
-      new_pair_q[LINE_WIDTH-1:PIXEL_WIDTH] <= first_word;
+      new_pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] <= first_word;
     end else if (command_i.take_choice) begin
       new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
     end
   end
 
-  assign word_o = command_i.decoding ? LINE_WIDTH'({new_background, new_cells}) : new_pair_q;
+  assign word_o = command_i.decoding ? HALF_WIDTH'({new_background, new_cells}) : HALF_WIDTH'(new_pair_q);
 
   // Decide: S1 and the result.
 

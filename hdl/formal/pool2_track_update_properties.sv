@@ -8,7 +8,9 @@ module pool2_track_update_properties #(
     parameter int OFFSET_BITS = 6,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int SCORES_WIDTH = LABELS * SCORE_BITS,
-    localparam int TRACK_WIDTH = SCORES_WIDTH + LABEL_WIDTH + OFFSET_BITS
+    localparam int OFFSET_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 1),
+    localparam int FULL_WIDTH = SCORES_WIDTH + LABEL_WIDTH + OFFSET_WIDTH,  // with leader and offset
+    localparam int TRACK_WIDTH = (OFFSET_BITS == 0) ? SCORES_WIDTH : FULL_WIDTH
 ) (
     input logic                   clk_i,
     input logic [TRACK_WIDTH-1:0] word_i,
@@ -21,6 +23,10 @@ module pool2_track_update_properties #(
   assign checking = 1'b1;
 
   logic [TRACK_WIDTH-1:0] word;
+  logic [FULL_WIDTH-1:0] full_before, full_after;
+
+  assign full_before = FULL_WIDTH'(word_i);
+  assign full_after = FULL_WIDTH'(word);
 
   pool2_track_update #(
       .LABELS     (LABELS),
@@ -35,15 +41,15 @@ module pool2_track_update_properties #(
   );
 
   localparam int FULL = (1 << SCORE_BITS) - 1;
-  localparam int END = 1 << (OFFSET_BITS - 1);
+  localparam int END = 1 << (OFFSET_WIDTH - 1);
   integer k, score, leader, leader_score, offset, step, hit_label, hit_score, next_leader, next_offset;
   integer next_hit_score, next_leader_score;
   logic [SCORES_WIDTH-1:0] next_scores;
   logic any_hit;
 
   always_comb begin
-    leader = 32'(word_i[SCORES_WIDTH+:LABEL_WIDTH]);
-    offset = 32'(word_i[TRACK_WIDTH-1-:OFFSET_BITS]);
+    leader = 32'(full_before[SCORES_WIDTH+:LABEL_WIDTH]);
+    offset = 32'(full_before[FULL_WIDTH-1-:OFFSET_WIDTH]);
     if (offset >= END) offset = offset - 2 * END;
 
     // The offset moves first, with the old leader, the more the less its score.
@@ -90,8 +96,8 @@ module pool2_track_update_properties #(
   `ASSUME(m_leader_in_use, leader < LABELS)
   `ASSUME(m_one_way, !(offset_up_i && offset_down_i))
   `PROVE(a_scores, word[SCORES_WIDTH-1:0] == next_scores)
-  `PROVE(a_leader, 32'(word[SCORES_WIDTH+:LABEL_WIDTH]) == next_leader)
-  `PROVE(a_offset, word[TRACK_WIDTH-1-:OFFSET_BITS] == OFFSET_BITS'(next_offset))
+  `PROVE(a_leader, OFFSET_BITS == 0 || 32'(full_after[SCORES_WIDTH+:LABEL_WIDTH]) == next_leader)
+  `PROVE(a_offset, OFFSET_BITS == 0 || full_after[FULL_WIDTH-1-:OFFSET_WIDTH] == OFFSET_WIDTH'(next_offset))
   `GOAL(any_hit && hit_score == FULL && offset_down_i && next_offset == -END)
 
 endmodule

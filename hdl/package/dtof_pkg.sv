@@ -97,7 +97,7 @@ package dtof_pkg;
   localparam int POOL_CHOOSE_PENALTY_WIDTH = 4;
   localparam int POOL_DECIDE_PENALTY_WIDTH = 4;
 
-  localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins in half an SRAM word of a pair of columns (poolPointer 2)
+  localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once (poolPointer 2)
   localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
@@ -122,6 +122,26 @@ package dtof_pkg;
   // Bits of a group's word: candidates and background.
   function automatic int pool_group_width(input int labels);
     pool_group_width = POOL_CELL_WIDTH * labels + POOL_BACKGROUND_WIDTH;
+  endfunction
+
+  // Bits of a pixel's word (poolPointer 2).
+  function automatic int pool2_pixel_width(input int labels, input int score_bits, input int offset_bits,
+                                           input int advantage_width, input int pointer_shift, input int rival_moves);
+    pool2_pixel_width = max_of(pool_track_width(labels, score_bits, labels, score_bits, offset_bits),
+                               pool_point_width(labels, advantage_width, pointer_shift, rival_moves));
+  endfunction
+
+  // Bits of half an SRAM word of a pair of columns (poolPointer 2): two pixels of a column, or a group.
+  function automatic int pool2_half_width(input int labels, input int score_bits, input int offset_bits,
+                                          input int advantage_width, input int pointer_shift, input int rival_moves);
+    pool2_half_width = max_of(2 * pool2_pixel_width(labels, score_bits, offset_bits, advantage_width, pointer_shift,
+                                                    rival_moves),
+                              pool_group_width(labels));
+  endfunction
+
+  // Halves of such a word that POOL2_BINS_PER_LINE coarse bins need, 1 or 2.
+  function automatic int pool2_line_halves(input int half_width, input int count_width);
+    pool2_line_halves = (POOL2_BINS_PER_LINE * count_width <= half_width) ? 1 : 2;
   endfunction
 
   // Coarse bins in an SRAM word: a power of two.

@@ -22,14 +22,16 @@ module pool_pointer2_array #(
     parameter int GROUP_SIZE = 4,         // rows of two columns that share a coarse histogram, a power of two, 4 to 32
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
     parameter int SCORE_BITS = 4,         // bits of their scores, 1 to 4
-    parameter int OFFSET_BITS = 6,        // bits of a leader's offset in the track phase, 2 to 6
-    parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2
+    parameter int OFFSET_BITS = 6,        // bits of a leader's offset in the track phase, 2 to 6; 0: none
+    parameter int ADVANTAGE_WIDTH = 7,    // bits of the leader's advantage, 4 or 7
+    parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2, or to 4 with 4
+    parameter int RIVAL_MOVES = 1,        // 1: the rival has a pointer; 0: it stays at its candidate
     parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(7),
+    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
     localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
 ) (
@@ -58,11 +60,10 @@ module pool_pointer2_array #(
     output logic                   result_tlast_o
 );
 
-  localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS);
-  localparam int PIXEL_WIDTH = dtof_pkg::max_of(
-      dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
-      dtof_pkg::pool_point_width(LABELS, 7, POINTER_SHIFT, 1));
-  localparam int HALF_WIDTH = 2 * PIXEL_WIDTH;
+  localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+                                                         POINTER_SHIFT, RIVAL_MOVES);
+  localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH);
+  localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH;
   localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
   localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2);
   localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + (GROUPS + 1) / 2);
@@ -81,14 +82,19 @@ module pool_pointer2_array #(
                 "pool_pointer2_array: GROUP_SIZE must be a power of two from 4 to 32")
   `DTOF_REQUIRE(g_illegal_labels, LABELS >= 2 && LABELS <= 8, "pool_pointer2_array: LABELS must be 2 to 8")
   `DTOF_REQUIRE(g_illegal_score, SCORE_BITS >= 1 && SCORE_BITS <= 4, "pool_pointer2_array: SCORE_BITS must be 1 to 4")
-  `DTOF_REQUIRE(g_illegal_offset, OFFSET_BITS >= 2 && OFFSET_BITS <= 6,
-                "pool_pointer2_array: OFFSET_BITS must be 2 to 6")
-  `DTOF_REQUIRE(g_illegal_shift, POINTER_SHIFT >= 0 && POINTER_SHIFT <= 2,
-                "pool_pointer2_array: POINTER_SHIFT must be 0 to 2")
-  `DTOF_REQUIRE(g_illegal_histogram, dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH <= HALF_WIDTH,
-                "pool_pointer2_array: 8 bins of COUNT_WIDTH must fit the words of two pixels")
-  `DTOF_REQUIRE(g_illegal_group_word, GROUP_WIDTH <= HALF_WIDTH,
-                "pool_pointer2_array: LABELS candidates of a group must fit the words of two pixels")
+  `DTOF_REQUIRE(g_illegal_offset, OFFSET_BITS == 0 || (OFFSET_BITS >= 2 && OFFSET_BITS <= 6),
+                "pool_pointer2_array: OFFSET_BITS must be 0 or 2 to 6")
+  `DTOF_REQUIRE(g_illegal_advantage, ADVANTAGE_WIDTH == 4 || ADVANTAGE_WIDTH == 7,
+                "pool_pointer2_array: ADVANTAGE_WIDTH must be 4 or 7")
+  `DTOF_REQUIRE(g_illegal_shift, POINTER_SHIFT >= 0 && POINTER_SHIFT <= ((ADVANTAGE_WIDTH == 4) ? 4 : 2),
+                "pool_pointer2_array: POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4")
+  `DTOF_REQUIRE(g_illegal_rival, RIVAL_MOVES == 0 || RIVAL_MOVES == 1,
+                "pool_pointer2_array: RIVAL_MOVES must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_resting, RIVAL_MOVES == 1 || OFFSET_BITS == 0,
+                "pool_pointer2_array: OFFSET_BITS must be 0 if RIVAL_MOVES is 0")
+  `DTOF_REQUIRE(g_illegal_histogram,
+                dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH <= LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,
+                "pool_pointer2_array: 32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows")
   `DTOF_REQUIRE(g_illegal_engine, ENGINE_COLUMNS >= 2 && ENGINE_COLUMNS % 2 == 0,
                 "pool_pointer2_array: ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 4 && ACQ_WIDTH <= 24,
@@ -212,6 +218,7 @@ module pool_pointer2_array #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (LABELS),
+      .LINE_HALVES    (LINE_HALVES),
       .ENGINE_COLUMNS (STEPS)
   ) u_sequencer (
       .clk_i        (clk_i),
@@ -291,8 +298,8 @@ module pool_pointer2_array #(
       localparam int PAIRS = (COLUMNS + 1) / 2;
 
       logic [HALF_WIDTH-1:0] word;
-      logic [PAIRS*HALF_WIDTH-1:0] pair_words;
-      logic [HALF_WIDTH-1:0] line;
+      logic [PAIRS*LINE_WIDTH-1:0] pair_words;
+      logic [LINE_WIDTH-1:0] line;
       logic [PAIRS*dtof_pkg::SRAM_CFG_WIDTH-1:0] pair_cfg;
       logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg, part_cfg;
       logic [PAIRS-1:0] select;
@@ -303,7 +310,7 @@ module pool_pointer2_array #(
         line = '0;
         part_cfg = '1;  // no copy of a side band that floats, on which Icarus would evaluate this block for ever
         for (i = 0; i < PAIRS; i = i + 1) begin
-          line = line | pair_words[i*HALF_WIDTH+:HALF_WIDTH];
+          line = line | pair_words[i*LINE_WIDTH+:LINE_WIDTH];
           part_cfg = part_cfg & pair_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
         end
       end
@@ -334,7 +341,9 @@ module pool_pointer2_array #(
             .LABELS         (LABELS),
             .SCORE_BITS     (SCORE_BITS),
             .OFFSET_BITS    (OFFSET_BITS),
+            .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
             .POINTER_SHIFT  (POINTER_SHIFT),
+            .RIVAL_MOVES    (RIVAL_MOVES),
             .TIME_GATE      (TIME_GATE)
         ) u_pair (
             .clk_i           (clk_i),
@@ -369,7 +378,7 @@ module pool_pointer2_array #(
             .select_i        (select[p]),
             .upper_i         (engine_upper),
             .engine_word_i   (word),
-            .word_o          (pair_words[p*HALF_WIDTH+:HALF_WIDTH])
+            .word_o          (pair_words[p*LINE_WIDTH+:LINE_WIDTH])
         );
       end
 
@@ -380,7 +389,9 @@ module pool_pointer2_array #(
           .LABELS         (LABELS),
           .SCORE_BITS     (SCORE_BITS),
           .OFFSET_BITS    (OFFSET_BITS),
-          .POINTER_SHIFT  (POINTER_SHIFT)
+          .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+          .POINTER_SHIFT  (POINTER_SHIFT),
+          .RIVAL_MOVES    (RIVAL_MOVES)
       ) u_engine (
           .clk_i        (clk_i),
           .rst_ni       (rst_ni),

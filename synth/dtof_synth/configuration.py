@@ -104,11 +104,9 @@ def pool_word_width(configuration: Configuration) -> int:
     """Two pixels or a group's word (dtof_pkg::pool_track_width, pool_point_width, pool_group_width)."""
     labels = pool_labels(configuration)
     label_width = max(1, (labels - 1).bit_length())
-    if configuration.pools_pairs:
-        track = labels * configuration["SCORE_BITS"] + label_width + configuration["OFFSET_BITS"]
-        return 2 * max(track, 7 + 16 - configuration["POINTER_SHIFT"] + 7)
-    track = max(configuration["DARK_LABELS"] * configuration["DARK_SCORE_BITS"],
-                configuration["BRIGHT_LABELS"] * configuration["BRIGHT_SCORE_BITS"])
+    track = (labels * configuration["SCORE_BITS"] if configuration.pools_pairs
+             else max(configuration["DARK_LABELS"] * configuration["DARK_SCORE_BITS"],
+                      configuration["BRIGHT_LABELS"] * configuration["BRIGHT_SCORE_BITS"]))
     if configuration["OFFSET_BITS"] > 0:
         track += label_width + configuration["OFFSET_BITS"]
     moves = configuration["RIVAL_MOVES"]

@@ -11,7 +11,9 @@ module pool_pointer2_array_bench #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,  // the vectors have no gate
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
@@ -20,7 +22,7 @@ module pool_pointer2_array_bench #(
     parameter int SEED = 1
 );
 
-  localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(7);
+  localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH);
   localparam int TDATA_WIDTH = dtof_pkg::index_width(SRAM_NUM) + dtof_pkg::index_width(PIXELS_PER_SRAM) + 16
       + CONFIDENCE_WIDTH;
 
@@ -46,7 +48,9 @@ module pool_pointer2_array_bench #(
       .LABELS           (LABELS),
       .SCORE_BITS       (SCORE_BITS),
       .OFFSET_BITS      (OFFSET_BITS),
+      .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
       .POINTER_SHIFT    (POINTER_SHIFT),
+      .RIVAL_MOVES      (RIVAL_MOVES),
       .TIME_GATE        (TIME_GATE),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
       .ACQ_WIDTH        (ACQ_WIDTH)

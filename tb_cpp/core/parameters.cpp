@@ -55,14 +55,16 @@ Readout parse_named_readout(std::string_view name) {
 PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
   constexpr int kAnyBits = 10;  // none of these depends on NP
   const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, kAnyBits); };
-  if (readout == Readout::kPoolPointer2) {
+  if (pools_columns(readout)) {
     return {.group_size = value("GROUP_SIZE"),
             .dark_labels = value("LABELS"),
             .dark_score_bits = value("SCORE_BITS"),
             .bright_labels = value("LABELS"),
             .bright_score_bits = value("SCORE_BITS"),
             .offset_bits = value("OFFSET_BITS"),
+            .count_bits = value("ADVANTAGE_WIDTH"),
             .pointer_shift = value("POINTER_SHIFT"),
+            .rival_moves = value("RIVAL_MOVES") != 0,
             .coarse_share = value("COARSE_SHARE"),
             .track_share = value("TRACK_SHARE"),
             .engine_columns = value("ENGINE_COLUMNS")};
@@ -105,14 +107,18 @@ void PoolPointerParameters::validate_pool_pointer2(int count_width) const {
           "GROUP_SIZE must be a power of two from 4 to 32", group_size);
   require_range("LABELS", dark_labels, 2, 8);
   require_range("SCORE_BITS", dark_score_bits, 1, 4);
-  require_range("OFFSET_BITS", offset_bits, 2, 6);
-  require_range("POINTER_SHIFT", pointer_shift, 0, 2);
+  require(offset_bits == 0 || (offset_bits >= 2 && offset_bits <= 6), "OFFSET_BITS must be 0 or 2 to 6",
+          offset_bits);
+  require(count_bits == 4 || count_bits == 7, "ADVANTAGE_WIDTH must be 4 or 7", count_bits);
+  require(pointer_shift >= 0 && pointer_shift <= (count_bits == 4 ? 4 : 2),
+          "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4", pointer_shift);
+  require(rival_moves || offset_bits == 0, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0", offset_bits);
   require_range("COARSE_SHARE", coarse_share, 1, 62);
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-  require(8 * count_width <= 2 * word_bits(), "8 bins of COUNT_WIDTH must fit the words of two pixels",
-          count_width);
-  require(kPoolCellBits * dark_labels + kPoolBackgroundBits <= 2 * word_bits(),
-          "LABELS candidates of a group must fit the words of two pixels", dark_labels);
+  const int half_bits = std::max(2 * word_bits(), kPoolCellBits * dark_labels + kPoolBackgroundBits);
+  const int line_halves = 8 * count_width <= half_bits ? 1 : 2;  // halves of a word that eight bins take
+  require(8 * count_width <= line_halves * half_bits && group_size >= 4 * line_halves,
+          "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows", count_width);
   require(engine_columns >= 2 && engine_columns % 2 == 0,
           "ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM", engine_columns);
 }
@@ -169,7 +175,7 @@ void ReadoutParameters::validate() const {
     require_range("SLOTS", slots, 2, 4);
     require_range("COUNT_WIDTH", count_width, 4, 8);
     require(fraction_bits == kPoolPositionBits - np, "FRACTION_BITS must be 16 - NP", fraction_bits);
-    if (readout == Readout::kPoolPointer2) {
+    if (pools_columns(readout)) {
       pool.validate_pool_pointer2(count_width);
       return;
     }
@@ -223,13 +229,14 @@ std::string ReadoutParameters::to_string() const {
   if (time_gate) {
     out += fmt::format(" TIME_GATE=1 GATE={}-{}", time_gate->begin, time_gate->end);
   }
-  if (readout == Readout::kPoolPointer2) {
+  if (pools_columns(readout)) {
     return out +
            fmt::format(
-               " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} SHIFT={} ENGINE_COLUMNS={} SHARES={},{} S1={}",
+               " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} COUNT={} SHIFT={} RIVAL={} ENGINE_COLUMNS={} "
+               "SHARES={},{} S1={}",
                count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.offset_bits,
-               pool.pointer_shift, pool.engine_columns, pool.coarse_share, pool.track_share,
-               pool.smooth ? 1 : 0);
+               pool.count_bits, pool.pointer_shift, pool.rival_moves ? "moves" : "stays", pool.engine_columns,
+               pool.coarse_share, pool.track_share, pool.smooth ? 1 : 0);
   }
   if (is_pool_readout(readout)) {
     out += fmt::format(

@@ -24,9 +24,9 @@ struct PoolPointerParameters {
   int bright_labels = 5;    ///< the same in the other groups
   int bright_score_bits = 4;
   int bright_from = 6;  ///< BRIGHT_FROM, in units of a group's background word, 0 .. 63
-  int offset_bits =
-      5;               ///< leader's offset in the track phase, 32nds of a coarse bin, signed, 2 .. 5; 0: none
-  int count_bits = 7;  ///< ADVANTAGE_WIDTH: the leader's advantage in the pointer phase, 4 or 7
+  int offset_bits = 5;  ///< leader's offset in the track phase, 32nds of a coarse bin, signed, 2 .. 5
+                        ///< (poolPointer 2: 6); 0: none
+  int count_bits = 7;   ///< ADVANTAGE_WIDTH: the leader's advantage in the pointer phase, 4 or 7
   /// The unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4 if count_bits
   /// is 4.
   int pointer_shift = 1;
@@ -100,9 +100,7 @@ struct ReadoutParameters {
 
   /// Neighbouring columns whose pixels hear each other, counted from column 0: those of poolPointer 2's
   /// engine, else 1.
-  [[nodiscard]] int columns_together() const {
-    return readout == Readout::kPoolPointer2 ? pool.engine_columns : 1;
-  }
+  [[nodiscard]] int columns_together() const { return pools_columns(readout) ? pool.engine_columns : 1; }
   /// Bins of the histogram that a raw frame shows (RAW_HISTOGRAM); 0 if the read-out holds none that is whole
   /// at a frame's end.
   [[nodiscard]] int raw_bins() const;

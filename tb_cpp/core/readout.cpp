@@ -15,6 +15,7 @@ struct Description {
   std::string_view summary;
   bool pointer;
   bool pool;
+  bool pools_columns;
   bool histogram;
   bool rtl;
   std::array<std::string_view, 6> choices;  // empty ones are none
@@ -23,47 +24,51 @@ struct Description {
 constexpr std::array<Description, kModelReadouts.size() + kTrialReadouts.size()> kDescriptions = {{
     {"ezpointer", "ezPointer",
      "one pointer a pixel steps towards each timestamp: a circular median",
-     true, false, false, true,
+     true, false, false, false, true,
      {"POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH"}},
     {"hispointer1", "hisPointer v1",
      "coarse histogram, then the pointer starts at its peak",
-     true, false, true, true,
+     true, false, false, true, true,
      {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH"}},
     {"hispointer", "hisPointer",
      "coarse histogram, then the pointer sees only a window around its peak",
-     true, false, true, true,
+     true, false, false, true, true,
      {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH", "GUARD"}},
     {"sifh", "SiFH",
      "coarse histogram, then a fine histogram shifted onto its peak",
-     false, false, true, true,
+     false, false, false, true, true,
      {"NB", "COUNT_WIDTH", "WINDOW_CENTRED"}},
     {"fifh", "FiFH",
      "coarse histogram, then a fine histogram of exactly its peak bin",
-     false, false, true, true,
+     false, false, false, true, true,
      {"NB", "COUNT_WIDTH"}},
     {"threesteps", "three steps",
      "three coarse histograms of 8 bins zoom in, then 16 fine bins",
-     false, false, true, true,
+     false, false, false, true, true,
      {"COUNT_WIDTH"}},
     {"pifh", "PiFH",
      "the range is scanned partition by partition in one small histogram",
-     false, false, true, true,
+     false, false, false, true, true,
      {"NB", "COUNT_WIDTH"}},
     {"histogram", "histogram",
      "all 2^NP bins of every pixel, the classical baseline",
-     false, false, true, true,
+     false, false, false, true, true,
      {"COUNT_WIDTH"}},
     {"poolpointer", "poolPointer",
      "neighbours share a coarse histogram; each pixel picks and refines a candidate",
-     false, true, false, true,
+     false, true, false, false, true,
      {"COUNT_WIDTH"}},
     {"poolpointer-lean", "poolPointer lean",
      "poolPointer in half the memory: larger groups, shorter words",
-     false, true, false, true,
+     false, true, false, false, true,
      {"COUNT_WIDTH"}},
     {"poolpointer2", "poolPointer 2",
      "poolPointer whose pixels help each other in two dimensions",
-     false, true, false, true,
+     false, true, true, false, true,
+     {"COUNT_WIDTH"}},
+    {"poolpointer2-lean", "poolPointer 2 lean",
+     "poolPointer 2 in half the memory: larger groups, shorter words",
+     false, true, true, false, true,
      {"COUNT_WIDTH"}},
 }};
 
@@ -76,6 +81,7 @@ std::string_view readout_title(Readout readout) { return description(readout).ti
 std::string_view readout_summary(Readout readout) { return description(readout).summary; }
 bool is_pointer_readout(Readout readout) { return description(readout).pointer; }
 bool is_pool_readout(Readout readout) { return description(readout).pool; }
+bool pools_columns(Readout readout) { return description(readout).pools_columns; }
 bool has_histogram(Readout readout) { return description(readout).histogram; }
 bool has_rtl(Readout readout) { return description(readout).rtl; }
 
@@ -162,6 +168,42 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   }
   if (readout == Readout::kPoolPointer2 && parameter == "TRACK_SHARE") {
     return 20;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "NB") {
+    return 5;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "COUNT_WIDTH") {
+    return 8;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "FRACTION_BITS") {
+    return 16 - np;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "GROUP_SIZE") {
+    return 8;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "LABELS") {
+    return 4;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "OFFSET_BITS") {
+    return 0;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "ADVANTAGE_WIDTH") {
+    return 4;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "POINTER_SHIFT") {
+    return 4;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "RIVAL_MOVES") {
+    return 0;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "ENGINE_COLUMNS") {
+    return 50;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "COARSE_SHARE") {
+    return 10;
+  }
+  if (readout == Readout::kPoolPointer2Lean && parameter == "TRACK_SHARE") {
+    return 14;
   }
   if (parameter == "NP") {
     return 10;

@@ -21,6 +21,7 @@ enum class Readout : int {
   kPoolPointer = 8,
   kPoolPointerLean = 9,
   kPoolPointer2 = 10,
+  kPoolPointer2Lean = 11,
 };
 
 /// Those of the thesis.
@@ -61,8 +62,9 @@ inline constexpr std::array<Readout, 10> kModelReadouts = {
     Readout::kPoolPointerLean};
 
 /// Those that are on trial: they have models and RTL, and are read only where they are named.
-inline constexpr std::array<Readout, 1> kTrialReadouts = {
-    Readout::kPoolPointer2};
+inline constexpr std::array<Readout, 2> kTrialReadouts = {
+    Readout::kPoolPointer2,
+    Readout::kPoolPointer2Lean};
 
 /// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram, poolpointer, poolpointer-lean.
 std::string_view readout_name(Readout readout);
@@ -74,6 +76,8 @@ std::string_view readout_summary(Readout readout);
 bool is_pointer_readout(Readout readout);
 /// The pixels of a column help each other.
 bool is_pool_readout(Readout readout);
+/// So do those of neighbouring columns (poolPointer 2).
+bool pools_columns(Readout readout);
 /// A histogram is scanned on the way to the result.
 bool has_histogram(Readout readout);
 /// There is RTL of it.

@@ -29,6 +29,7 @@ std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parame
     case Readout::kPoolPointerLean:
       return make_pool_pointer(parameters);
     case Readout::kPoolPointer2:
+    case Readout::kPoolPointer2Lean:
       return make_pool_pointer2(parameters);
   }
   throw InputError("unknown read-out number");

@@ -130,27 +130,41 @@ std::int32_t better_of_two(const PoolEvent& event, const Inside& inside) {
   return !inside(event.preferred) && inside(event.other) ? event.other : event.preferred;
 }
 
+bool near_a_candidate(std::int32_t position, const PoolGroup& group,
+                      const PoolPointer2Parameters& parameters) {
+  return std::any_of(
+      group.centre_cell.begin(), group.centre_cell.begin() + group.labels,
+      [&](std::int32_t cell) { return within(in_cells(position) - cell, parameters.track_reach); });
+}
+
 void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
            const PoolPointer2Parameters& parameters) {
-  const std::int32_t position = better_of_two(event, [&](std::int32_t x) {
-    return std::any_of(group.centre_cell.begin(), group.centre_cell.begin() + group.labels,
-                       [&](std::int32_t cell) { return within(in_cells(x) - cell, parameters.track_reach); });
-  });
-  const int score = word.score[static_cast<std::size_t>(word.leader)];
-  const int step = score < parameters.offset_gear[0] ? 4 : score < parameters.offset_gear[1] ? 2 : 1;
-  move_offset(word, group, event.preferred, step, parameters.offset_bits);
-  score_candidate(word, group, position, parameters.track_reach, true);
+  const std::int32_t position =
+      better_of_two(event, [&](std::int32_t x) { return near_a_candidate(x, group, parameters); });
+  const bool leads = parameters.offset_bits > 0;
+  if (leads) {
+    const int score = word.score[static_cast<std::size_t>(word.leader)];
+    const int step = score < parameters.offset_gear[0] ? 4 : score < parameters.offset_gear[1] ? 2 : 1;
+    move_offset(word, group, event.preferred, step, parameters.offset_bits);
+  }
+  score_candidate(word, group, position, parameters.track_reach, leads);
 }
 
 void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event,
            const PoolPointer2Parameters& parameters) {
-  const std::int32_t position = better_of_two(
-      event, [&](std::int32_t x) { return within(in_cells(x) - in_cells(word.pointer), kReachCells); });
   constexpr std::int32_t kNoLimit = std::numeric_limits<std::int32_t>::max();
-  PoolPointerParameters rules;
-  rules.count_bits = parameters.count_bits;
-  rules.pointer_shift = parameters.pointer_shift;
-  follow_pointers(word, group, position, event.acquisition, kNoLimit, parameters.windows, rules);
+  std::int32_t position = event.preferred;
+  PointerWindows windows = parameters.windows;
+  if (parameters.rival_moves != 0) {
+    position = better_of_two(
+        event, [&](std::int32_t x) { return within(in_cells(x) - in_cells(word.pointer), kReachCells); });
+  } else {
+    windows.rival_reach = parameters.track_reach;  // the rival is a candidate
+    if (event.acquisition % 2 == 0 && !near_a_candidate(event.preferred, group, parameters)) {
+      position = event.other;
+    }
+  }
+  follow_pointers(word, group, position, event.acquisition, kNoLimit, windows, parameters.common());
 }
 
 using Evidence = std::array<int, kMostLabels>;
@@ -190,18 +204,12 @@ Evidence cost_from_right(const PoolGroup& group, const PoolTracks& right_tracks,
   return cost;
 }
 
-PoolPointerWord first_word(const PoolTracks& tracks, const PoolGroup& group, std::span<const int> beliefs,
-                           const PoolPointer2Parameters& parameters) {
-  PoolPointerParameters rules;
-  rules.count_bits = parameters.count_bits;
-  return first_pointer_word(tracks, group, beliefs, rules);
-}
-
 /// Chooses in all columns from left to right; index: column, row.
 std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<PoolTracks>>& tracks,
                                                  const Groups& groups,
                                                  const PoolPointer2Parameters& parameters) {
   std::vector<std::vector<PoolPointerWord>> words(tracks.size());
+  const PoolPointerParameters common = parameters.common();
   std::vector<std::int32_t> left;  // cells chosen in the column before
   for (std::size_t column = 0; column < tracks.size(); ++column) {
     std::vector<ChainNode> chain;
@@ -236,8 +244,8 @@ std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<P
     for (std::size_t row = 0; row < chain.size(); ++row) {
       const PoolGroup& group = groups.at(column, row);
       words[column].push_back(
-          first_word(tracks[column][row], group,
-                     std::span(beliefs[row]).first(static_cast<std::size_t>(group.labels)), parameters));
+          first_pointer_word(tracks[column][row], group,
+                             std::span(beliefs[row]).first(static_cast<std::size_t>(group.labels)), common));
       const PoolPointerWord& word = words[column].back();
       left[row] = parameters.left_needs_margin != 0 && word.advantage == 0
                       ? kNoOpinion
@@ -267,10 +275,15 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
                    const PoolPointer2Parameters& parameters) {
   std::vector<ChainNode> chain;
   for (std::size_t row = 0; row < words.size(); ++row) {
-    const std::int32_t rival = words[row].rival * kUnitsPerCell + kUnitsPerCell / 2;
+    const PoolGroup& group = groups.at(column, row);
+    // Beyond the range a pointer that is kept beside a candidate stands for the range's end.
+    const std::int32_t leader = std::clamp(words[row].pointer, 0, kPoolPositions - 1);
+    const std::int32_t rival = parameters.rival_moves != 0
+                                   ? words[row].rival * kUnitsPerCell + kUnitsPerCell / 2
+                                   : group.centre(words[row].rival);
     chain.push_back({.labels = 2,
-                     .penalty = parameters.decide_penalty.at(groups.at(column, row).background),
-                     .position = {words[row].pointer, rival},
+                     .penalty = parameters.decide_penalty.at(group.background),
+                     .position = {leader, rival},
                      .evidence = {words[row].advantage, 0}});
   }
   const auto beliefs = chain_beliefs(chain);
@@ -284,42 +297,29 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
 
 }  // namespace
 
+PoolPointerParameters PoolPointer2Parameters::common() const {
+  return {.group_size = group_rows,
+          .dark_labels = labels,
+          .dark_score_bits = score_bits,
+          .bright_labels = labels,
+          .bright_score_bits = score_bits,
+          .offset_bits = offset_bits,
+          .count_bits = count_bits,
+          .pointer_shift = pointer_shift,
+          .rival_moves = rival_moves != 0,
+          .coarse_share = coarse_share,
+          .track_share = track_share,
+          .engine_columns = engine_columns,
+          .smooth = smooth};
+}
+
 void PoolPointer2Parameters::validate() const {
   require_range("COUNT_WIDTH", count_width, 4, 8);
-  require_range("LABELS", labels, 2, 8);
-  require_range("SCORE_BITS", score_bits, 1, 4);
-  require_range("OFFSET_BITS", offset_bits, 2, 6);
-  require_range("ADVANTAGE_WIDTH", count_bits, 7, 7);
-  require_range("POINTER_SHIFT", pointer_shift, 0, 2);
+  require_range("RIVAL_MOVES", rival_moves, 0, 1);
   require_range("LEFT_NEEDS_MARGIN", left_needs_margin, 0, 1);
   require_range("SMOOTH_LEFT", smooth_left, 0, 1);
-  require_range("COARSE_SHARE", coarse_share, 1, 62);
-  require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-  if (group_rows < 4 || group_rows > 32 || (group_rows & (group_rows - 1)) != 0) {
-    throw InputError(fmt::format("GROUP_SIZE must be a power of two from 4 to 32, not {}", group_rows));
-  }
-  const int pair_bits = 2 * std::max(track_word_bits(), pointer_word_bits());
-  if (8 * count_width > pair_bits) {
-    throw InputError(
-        fmt::format("8 bins of COUNT_WIDTH must fit the words of two pixels: {} bits do not", count_width));
-  }
-  if (group_word_bits() > pair_bits) {
-    throw InputError(
-        fmt::format("LABELS candidates of a group must fit the words of two pixels: {} do not", labels));
-  }
-  if (engine_columns < 2 || engine_columns % kPairColumns != 0) {
-    throw InputError(fmt::format("ENGINE_COLUMNS must be even and at least 2, not {}", engine_columns));
-  }
+  common().validate_pool_pointer2(count_width);
 }
-
-int PoolPointer2Parameters::track_word_bits() const {
-  const int label_bits = labels > 4 ? 3 : labels > 2 ? 2 : 1;
-  return labels * score_bits + label_bits + offset_bits;
-}
-
-int PoolPointer2Parameters::pointer_word_bits() const { return 16 - pointer_shift + 7 + count_bits; }
-
-int PoolPointer2Parameters::group_word_bits() const { return 7 * labels + 6; }
 
 PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions) {
   require_range("NP", np, 8, 16);
@@ -499,6 +499,7 @@ PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& paramet
                                    .offset_bits = parameters.pool.offset_bits,
                                    .count_bits = parameters.pool.count_bits,
                                    .pointer_shift = parameters.pool.pointer_shift,
+                                   .rival_moves = parameters.pool.rival_moves ? 1 : 0,
                                    .engine_columns = parameters.pool.engine_columns,
                                    .coarse_share = parameters.pool.coarse_share,
                                    .track_share = parameters.pool.track_share,

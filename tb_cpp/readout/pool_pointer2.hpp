@@ -31,9 +31,10 @@ struct PoolPointer2Parameters {
   int group_rows = 4;       ///< of two columns
   int labels = 5;           ///< candidates of a group
   int score_bits = 4;       ///< of each
-  int offset_bits = 6;      ///< leader's offset in the track phase, 32nds of a coarse bin, signed
+  int offset_bits = 6;      ///< leader's offset in the track phase, 32nds of a coarse bin, signed; 0: none
   int count_bits = 7;       ///< n, the leader's advantage
   int pointer_shift = 1;    ///< the leader's pointer has the unit 2^pointer_shift
+  int rival_moves = 1;      ///< 1: the rival has a pointer of 7 bits; 0: it stays at its candidate
   int engine_columns = 34;  ///< columns that share an engine; even
   int coarse_share = 14;    ///< 64ths of the frame: coarse phase
   int track_share = 20;     ///< 64ths of the frame: track phase
@@ -66,9 +67,8 @@ struct PoolPointer2Parameters {
 
   /// Throws InputError.
   void validate() const;
-  [[nodiscard]] int track_word_bits() const;
-  [[nodiscard]] int pointer_word_bits() const;
-  [[nodiscard]] int group_word_bits() const;
+  /// Those that other read-outs have, too.
+  [[nodiscard]] PoolPointerParameters common() const;
   bool operator==(const PoolPointer2Parameters&) const = default;
 };
 

@@ -14,7 +14,9 @@ module pool_pointer2_testbench #(
     parameter LABELS = 5,
     parameter SCORE_BITS = 4,
     parameter OFFSET_BITS = 6,
+    parameter ADVANTAGE_WIDTH = 7,
     parameter POINTER_SHIFT = 1,
+    parameter RIVAL_MOVES = 1,
     parameter TIME_GATE = 0,
     parameter ENGINE_COLUMNS = 34,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
@@ -51,7 +53,7 @@ module pool_pointer2_testbench #(
   localparam COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM);
   localparam ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
   localparam POSITION_WIDTH = 16;  // code and fraction
-  localparam CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(7);
+  localparam CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH);
   localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH;
 
   localparam POSITION_LSB = CONFIDENCE_WIDTH;
@@ -77,7 +79,9 @@ module pool_pointer2_testbench #(
       .LABELS(LABELS),
       .SCORE_BITS(SCORE_BITS),
       .OFFSET_BITS(OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT(POINTER_SHIFT),
+      .RIVAL_MOVES(RIVAL_MOVES),
       .TIME_GATE(TIME_GATE),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .ACQ_WIDTH(16)

@@ -40,6 +40,8 @@ constexpr std::array kNumbers = std::to_array<Number>({
     {"OFFSET_BITS", [](Design& d) -> int& { return d.offset_bits; }},
     {"POINTER_SHIFT", [](Design& d) -> int& { return d.pointer_shift; }},
     {"ENGINE_COLUMNS", [](Design& d) -> int& { return d.engine_columns; }},
+    {"ADVANTAGE_WIDTH", [](Design& d) -> int& { return d.count_bits; }},
+    {"RIVAL_MOVES", [](Design& d) -> int& { return d.rival_moves; }},
     {"COARSE_SHARE", [](Design& d) -> int& { return d.coarse_share; }},
     {"TRACK_SHARE", [](Design& d) -> int& { return d.track_share; }},
     {"OWN_WEIGHT", [](Design& d) -> int& { return d.own_weight; }},

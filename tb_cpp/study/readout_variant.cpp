@@ -47,7 +47,7 @@ constexpr std::array<Parameter, 8> kParameters = {{
 }};
 
 bool has(Readout readout, const Parameter& parameter) {
-  return is_pool_readout(readout) ? parameter.pool && (!parameter.two || readout == Readout::kPoolPointer2)
+  return is_pool_readout(readout) ? parameter.pool && (!parameter.two || pools_columns(readout))
                                   : parameter.pixelwise && has_parameter(readout, parameter.name);
 }
 

@@ -158,7 +158,7 @@ class VectorFiles {
 /// The third is S1's switch of poolPointer 2.
 std::array<std::uint32_t, 3> schedule_settings(const ReadoutParameters& readout, std::uint32_t acquisitions) {
   const PoolSchedule schedule(acquisitions, readout.pool);
-  const bool pairs = readout.readout == Readout::kPoolPointer2;
+  const bool pairs = pools_columns(readout.readout);
   return {schedule.coarse_end, schedule.track_end,
           pairs ? static_cast<std::uint32_t>(readout.pool.smooth ? 1 : 0) : schedule.late_begin};
 }
@@ -176,7 +176,7 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
   for (const std::uint32_t acquisitions : frames) {
     std::array<std::uint32_t, 3> settings{};
     if (is_pool_readout(array.readout.readout)) {
-      if (array.readout.readout == Readout::kPoolPointer2) {
+      if (pools_columns(array.readout.readout)) {
         frame_array.readout.pool.smooth = pick(random, 2) != 0;
       }
       settings = schedule_settings(frame_array.readout, acquisitions);

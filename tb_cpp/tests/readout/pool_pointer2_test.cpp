@@ -43,12 +43,13 @@ struct Place {
 
 struct Pixel {
   std::map<int, std::vector<int>> seen;  // acquisition: positions of the first one or two timestamps
-  std::vector<int> score = std::vector<int>(5, 0);
+  std::vector<int> score;
   int leader = 0;
   int offset = 0;
   int chosen = 0;
   bool sure = false;
   int n = 0, pa = 0, pb = 0;
+  int ka = 0, kb = 0;  // lean: whose candidates they are
   int winner = 0, margin = 0;
 };
 
@@ -69,9 +70,10 @@ class Reference {
     bool left_needs_margin = false;
     bool smooth = true;
     bool smooth_left = false;
+    bool lean = false;  ///< the numbers of poolPointer 2 lean
   };
 
-  /// Of a group (two columns, four rows) the cells that its pixels chose.
+  /// Of a group the cells that its pixels chose.
   using Used = std::map<Place, std::set<int>>;
 
   /// One engine: columns from left to right. `before`: of the last frame.
@@ -86,6 +88,7 @@ class Reference {
     for (int c = 0; c < columns_; ++c) {
       for (int r = 0; r < rows_; ++r) {
         Pixel& pixel = pixels_[{c, r}];
+        pixel.score.assign(static_cast<std::size_t>(labels()), 0);
         for (const Detection& d : columns[static_cast<std::size_t>(c)].row(r)) {
           if (d.timestamp != (1 << np) - 1) {
             std::vector<int>& times = pixel.seen[static_cast<int>(d.acquisition)];
@@ -116,7 +119,7 @@ class Reference {
     for (auto& [place, pixel] : pixels_) {
       for (const auto& [a, times] : pixel.seen) {
         if (a >= track_end()) {
-          point(pixel, a, times);
+          open_.lean ? point_lean(pixel, group(place), a, times) : point(pixel, a, times);
         }
       }
     }
@@ -134,7 +137,7 @@ class Reference {
   [[nodiscard]] Used used() const {
     Used used;
     for (const auto& [place, pixel] : pixels_) {
-      used[{place.column / 2, place.row / 4}].insert(pixel.chosen);
+      used[{place.column / 2, place.row / group_rows()}].insert(pixel.chosen);
     }
     return used;
   }
@@ -143,7 +146,11 @@ class Reference {
   [[nodiscard]] int coarse_end() const { return all_ * open_.coarse / 64; }
   [[nodiscard]] int track_end() const { return all_ * (open_.coarse + open_.track) / 64; }
 
-  Group& group(Place place) { return groups_[{place.column / 2, place.row / 4}]; }
+  [[nodiscard]] int labels() const { return open_.lean ? 4 : 5; }
+  [[nodiscard]] int group_rows() const { return open_.lean ? 8 : 4; }
+  [[nodiscard]] int largest_count() const { return open_.lean ? 255 : 127; }
+
+  Group& group(Place place) { return groups_[{place.column / 2, place.row / group_rows()}]; }
 
   static int preferred(int a, const std::vector<int>& times) {
     return a % 2 == 1 && times.size() == 2 ? times[1] : times[0];
@@ -159,7 +166,7 @@ class Reference {
             if (pixel != pixels_.end() && pixel->second.seen.contains(a)) {
               int& bin =
                   group({c, r}).h[static_cast<std::size_t>(preferred(a, pixel->second.seen[a]) / 2048)];
-              bin = bin == 127 ? 127 : bin + 1;
+              bin = std::min(largest_count(), bin + 1);
               break;
             }
           }
@@ -194,12 +201,12 @@ class Reference {
         w.back() += wanted ? 28 : 0;
       }
     }
-    own.b = 5 * *std::min_element(octets.begin(), octets.end()) / 128;
+    own.b = 5 * *std::min_element(octets.begin(), octets.end()) / (largest_count() + 1);
     const int least = *std::min_element(w.begin(), w.end());
     std::vector<int> free_pairs(31);
     std::iota(free_pairs.begin(), free_pairs.end(), 0);
     const auto value = [&](int i) { return i < 0 || i > 30 ? 0 : w[static_cast<std::size_t>(i)]; };
-    for (int k = 0; k < 5; ++k) {
+    for (int k = 0; k < labels(); ++k) {
       const int peak = *std::max_element(free_pairs.begin(), free_pairs.end(),
                                          [&](int i, int j) { return value(i) < value(j); });
       const int difference = value(peak + 1) - value(peak - 1);
@@ -235,39 +242,46 @@ class Reference {
     return first_choice;
   }
 
-  static void track(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) {
-    const auto label_of = [&](int x) {
-      for (int k = 0; k < 5; ++k) {
-        const int d = cells(x, 512 * g.cell[static_cast<std::size_t>(k)]);
-        if (d >= -4 && d <= 3) {
-          return k;
-        }
+  /// The first candidate whose window has a position; -1 if none has.
+  static int label_of(const Group& g, int x) {
+    for (std::size_t k = 0; k < g.cell.size(); ++k) {
+      if (near_candidate(g, static_cast<int>(k), x)) {
+        return static_cast<int>(k);
       }
-      return -1;
-    };
-    const int x = take(a, times, [&](int time) { return label_of(time) >= 0; });
+    }
+    return -1;
+  }
+  static bool near_candidate(const Group& g, int k, int x) {
+    const int d = cells(x, 512 * g.cell[static_cast<std::size_t>(k)]);
+    return d >= -4 && d <= 3;
+  }
+
+  void track(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) const {
+    const int x = take(a, times, [&](int time) { return label_of(g, time) >= 0; });
     auto& score = pixel.score;
     const auto lead = static_cast<std::size_t>(pixel.leader);
     const int e = cells(preferred(a, times), 512 * g.cell[lead] + 64 * pixel.offset);
     const int step = score[lead] < 3 ? 4 : score[lead] < 8 ? 2 : 1;
-    if (e >= 1 && e <= 7) {
+    if (open_.lean) {
+      // There is no offset, and who leads is asked in choose.
+    } else if (e >= 1 && e <= 7) {
       pixel.offset = std::min(31, pixel.offset + step);
     } else if (e >= -8 && e <= -2) {
       pixel.offset = std::max(-32, pixel.offset - step);
     }
-    const int label = label_of(x);
+    const int label = label_of(g, x);
     if (label < 0) {
       return;
     }
     const auto k = static_cast<std::size_t>(label);
     if (score[k] == 15) {
-      for (std::size_t other = 0; other < 5; ++other) {
+      for (std::size_t other = 0; other < score.size(); ++other) {
         score[other] = other == k ? 15 : std::max(0, score[other] - 1);
       }
     } else {
       ++score[k];
     }
-    if (score[k] > score[lead]) {
+    if (!open_.lean && score[k] > score[lead]) {
       pixel.leader = label;
       pixel.offset = 0;
     }
@@ -276,7 +290,7 @@ class Reference {
   /// Evidence of a pixel's scores alone.
   std::vector<int> own_evidence(Place place) {
     std::vector<int> e = pixels_.at(place).score;
-    for (std::size_t k = 2; k < 5; ++k) {
+    for (std::size_t k = 2; k < e.size(); ++k) {
       e[k] -= group(place).b / 8;
     }
     return e;
@@ -345,7 +359,7 @@ class Reference {
     for (int r = 0; r < rows_; ++r) {
       const Group& g = group({c, r});
       std::vector<int> e = own_evidence({c, r});
-      for (std::size_t k = 0; k < 5; ++k) {
+      for (std::size_t k = 0; k < e.size(); ++k) {
         const bool heard = c > 0 && (pixels_.at({c - 1, r}).sure || !open_.left_needs_margin);
         if (heard && std::abs(g.cell[k] - pixels_.at({c - 1, r}).chosen) > 4) {
           e[k] -= 2 + 3 * g.b / 16;
@@ -376,10 +390,44 @@ class Reference {
         return 512 * g.cell[k] + (static_cast<int>(k) == pixel.leader ? 64 * pixel.offset : 0);
       };
       pixel.chosen = g.cell[a];
-      pixel.n = std::min(63, belief[static_cast<std::size_t>(r)][a] - belief[static_cast<std::size_t>(r)][b]);
+      pixel.n = std::min(open_.lean ? 7 : 63,
+                         belief[static_cast<std::size_t>(r)][a] - belief[static_cast<std::size_t>(r)][b]);
       pixel.sure = pixel.n > 0;
       pixel.pa = start(a);
       pixel.pb = floor_divide(start(b), 512);
+      pixel.ka = static_cast<int>(a);
+      pixel.kb = static_cast<int>(b);
+    }
+  }
+
+  /// Of a rival that rests at its candidate, and a pointer that leaves its own by half a coarse bin at most.
+  static void point_lean(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) {
+    const int centre = 512 * g.cell[static_cast<std::size_t>(pixel.ka)];
+    int x = preferred(a, times);
+    if (a % 2 == 0 && times.size() == 2 && label_of(g, x) < 0) {
+      x = times[1];
+    }
+    const int distance = x - pixel.pa;
+    const bool hit = distance >= -2560 && distance < 2560;
+    const bool rival = !hit && near_candidate(g, pixel.kb, x);
+    const int n = pixel.n;
+    if (rival && n == 0) {
+      std::swap(pixel.ka, pixel.kb);
+      pixel.pa = 512 * g.cell[static_cast<std::size_t>(pixel.ka)];
+      pixel.n = 1;
+      return;
+    }
+    if (distance >= -4096 && distance < 4096) {
+      const std::map<int, int> gears = {{3, 512}, {7, 256}, {11, 128}, {13, 64}, {14, 32}, {15, 16}};
+      constexpr std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
+      const int away = distance >= 0 ? distance / 512 : (-distance - 1) / 512;
+      const int product = gears.lower_bound(n)->second * kWeight[static_cast<std::size_t>(away)];
+      const int move = (product + 16 * (a % 4) + a / 4 % 16) / 64 * 16;
+      pixel.pa = std::clamp(distance >= 0 ? pixel.pa + move : pixel.pa - move, centre - 2048, centre + 2032);
+    }
+    const int every = n < 8 ? 1 : n < 12 ? 4 : 16;
+    if (a % every == 0) {
+      pixel.n = hit ? std::min(15, n + 1) : rival ? n - 1 : n;
     }
   }
 
@@ -427,7 +475,12 @@ class Reference {
     for (int r = 0; r < rows_; ++r) {
       const Pixel& pixel = pixels_.at({c, r});
       evidence.push_back({pixel.n, 0});
-      position.push_back({pixel.pa, 512 * pixel.pb + 256});
+      if (open_.lean) {
+        position.push_back(
+            {std::clamp(pixel.pa, 0, 65535), 512 * group({c, r}).cell[static_cast<std::size_t>(pixel.kb)]});
+      } else {
+        position.push_back({pixel.pa, 512 * pixel.pb + 256});
+      }
     }
     const auto belief = beliefs(evidence, position, std::vector<int>(static_cast<std::size_t>(rows_), 2));
     for (int r = 0; r < rows_; ++r) {
@@ -478,11 +531,15 @@ std::vector<std::vector<PixelResult>> read_array(std::span<const ColumnStream> a
   return run_pool_pointer2(static_cast<int>(array.size()), reader_of(array), np, acquisitions, parameters);
 }
 
+PoolPointer2Parameters lean() {
+  return pool_pointer2_parameters(ReadoutParameters::defaults(Readout::kPoolPointer2Lean));
+}
+
 void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
                          int engine_columns = 34, Reference::Open open = {}) {
   for (const bool smooth : {false, true}) {
     open.smooth = smooth;
-    PoolPointer2Parameters parameters;
+    PoolPointer2Parameters parameters = open.lean ? lean() : PoolPointer2Parameters();
     parameters.engine_columns = engine_columns;
     parameters.smooth = smooth;
     parameters.smooth_left = open.smooth_left ? 1 : 0;
@@ -587,17 +644,21 @@ class PoolPointer2 : public testing::Test {
 };
 
 TEST_F(PoolPointer2, WordsFitTheMemory) {
-  const PoolPointer2Parameters parameters;
-  EXPECT_EQ(parameters.track_word_bits(), 29);
-  EXPECT_EQ(parameters.pointer_word_bits(), 29);
-  EXPECT_EQ(parameters.group_word_bits(), 41);
-  // A word of the pair's SRAM: two pixels of two columns, half of a group's histogram, or two group words.
-  constexpr int kWordBits = 4 * 29;
-  EXPECT_LE(16 * parameters.count_width, kWordBits);
-  EXPECT_LE(2 * parameters.group_word_bits(), kWordBits);
-  const int words = 160 / 2 + 160 / parameters.group_rows / 2;
-  EXPECT_EQ(words, 100);
-  EXPECT_LE(kWordBits * words, 40 * 2 * 160);
+  // A word of the pair's SRAM: two pixels of two columns, a part of a group's histogram, or two group words.
+  struct Case {
+    PoolPointer2Parameters parameters;
+    int pixel_bits, word_bits, bins_of_a_word, words, most_bits_per_pixel;
+  };
+  for (const Case& c : {Case{{}, 29, 2 * 58, 16, 100, 40}, Case{lean(), 16, 2 * 34, 8, 90, 20}}) {
+    const PoolPointerParameters common = c.parameters.common();
+    EXPECT_EQ(common.word_bits(), c.pixel_bits);
+    EXPECT_LE(4 * c.pixel_bits, c.word_bits);
+    EXPECT_LE(2 * (7 * c.parameters.labels + 6), c.word_bits);
+    EXPECT_LE(c.bins_of_a_word * c.parameters.count_width, c.word_bits);
+    EXPECT_GE(c.bins_of_a_word * c.parameters.group_rows / 2, 32);
+    EXPECT_EQ(160 / 2 + 160 / c.parameters.group_rows / 2, c.words);
+    EXPECT_LE(c.word_bits * c.words, c.most_bits_per_pixel * 2 * 160);
+  }
 }
 
 TEST_F(PoolPointer2, EveryKindOfStreamAsReference) {
@@ -629,6 +690,37 @@ TEST_F(PoolPointer2, SurfacesAsReference) {
     expect_as_reference(surfaces(np, 2 + pick(draw, 3), 1 + pick(draw, 9), 1 + pick(draw, 24),
                                  kBackgrounds[static_cast<std::size_t>(pick(draw, 5))], 900, draw),
                         np, 900, engine);
+  }
+}
+
+TEST_F(PoolPointer2, LeanAsReference) {
+  CounterRandom draw = random(8);
+  constexpr std::array<double, 4> kBackgrounds = {0.0, 0.02, 0.3, 0.6};
+  for (int trial = 0; trial < 40; ++trial) {
+    const int np = pick(draw, 2) == 0 ? 10 : 8 + pick(draw, 7);
+    Reference::Open open{.coarse = 10, .track = 14, .lean = true};
+    if (trial % 4 == 3) {
+      open.coarse = 1 + pick(draw, 30);
+      open.track = 1 + pick(draw, 30);
+    }
+    expect_as_reference(surfaces(np, 2 + pick(draw, 3), 1 + pick(draw, 9), 1 + pick(draw, 24),
+                                 kBackgrounds[static_cast<std::size_t>(pick(draw, 4))], 900, draw),
+                        np, 900, 2 * (1 + pick(draw, 3)), open);
+  }
+  // Two surfaces as bright as each other, one of them at an end of the range, which its pointer oversteps.
+  for (const int end : {0, 1022}) {
+    std::vector<ColumnStream> array(4);
+    for (ColumnStream& column : array) {
+      for (int row = 0; row < 24; ++row) {
+        std::vector<Detection> stream;
+        for (std::uint32_t a = 0; a < 400; ++a) {
+          const int code = std::abs(end - pick(draw, 12));
+          stream.push_back({a, static_cast<Timestamp>(pick(draw, 2) == 0 ? 500 + pick(draw, 12) : code)});
+        }
+        column.append_row(stream);
+      }
+    }
+    expect_as_reference(array, 10, 400, 34, {.coarse = 10, .track = 14, .lean = true});
   }
 }
 
@@ -810,13 +902,13 @@ TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
     EXPECT_THAT([&] { parameters.validate(); }, ThrowsMessage<InputError>(HasSubstr(message)));
   };
   refused([](PoolPointer2Parameters& p) { p.engine_columns = 3; },
-          "ENGINE_COLUMNS must be even and at least 2, not 3");
+          "ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM, not 3");
   refused([](PoolPointer2Parameters& p) { p.group_rows = 3; },
           "GROUP_SIZE must be a power of two from 4 to 32, not 3");
   refused([](PoolPointer2Parameters& p) { p.count_width = 8; },
-          "8 bins of COUNT_WIDTH must fit the words of two pixels: 8 bits do not");
-  refused([](PoolPointer2Parameters& p) { p.labels = 8, p.score_bits = 1; },
-          "LABELS candidates of a group must fit the words of two pixels: 8 do not");
+          "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows, not 8");
+  refused([](PoolPointer2Parameters& p) { p.rival_moves = 0; },
+          "OFFSET_BITS must be 0 if RIVAL_MOVES is 0, not 6");
   refused([](PoolPointer2Parameters& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
   refused([](PoolPointer2Parameters& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 49, not 60");
 }
