@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps: PNG of 8 and 16 bits, PFM and NPY, as depth, reflectivity and disparity.
+// Maps: PNG of 8 and 16 bits, PFM and NPY, as depth, reflectivity, disparity and photograph.
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -18,6 +18,10 @@ void read(const std::uint8_t* data, std::size_t size) {
   }
   try {
     (void)dtof::read_disparity_png(file, 1.0);
+  } catch (const dtof::InputError&) {  // likewise
+  }
+  try {
+    (void)dtof::read_photograph(file);
   } catch (const dtof::InputError&) {  // likewise
   }
   (void)dtof::read_depth_image(file, 0.001);

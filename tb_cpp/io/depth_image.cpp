@@ -101,8 +101,13 @@ const char* describe(GreyBits bits) {
   return bits == GreyBits::k8 ? "an 8-bit" : bits == GreyBits::k16 ? "a 16-bit" : "an 8-bit or 16-bit";
 }
 
+constexpr double kGamma = 2.2;  // of photographs
+
+/// Whether colours are turned into grey or refused.
+enum class Colours { kRefused, kLuminance };
+
 /// Returns false after a libpng error; decodes the pixels only when the format is the wanted one.
-bool decode_png(PngReader& reader, GreyBits wanted) {
+bool decode_png(PngReader& reader, GreyBits wanted, Colours colours) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) {  // NOLINT(cert-err52-cpp): libpng's error interface
     return false;
   }
@@ -111,8 +116,14 @@ bool decode_png(PngReader& reader, GreyBits wanted) {
   reader.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   reader.bit_depth = png_get_bit_depth(reader.png, reader.info);
   reader.colour_type = png_get_color_type(reader.png, reader.info);
-  if (reader.colour_type != PNG_COLOR_TYPE_GRAY || !takes(wanted, reader.bit_depth)) {
+  const bool colour = reader.colour_type == PNG_COLOR_TYPE_RGB && colours == Colours::kLuminance;
+  if ((reader.colour_type != PNG_COLOR_TYPE_GRAY && !colour) || !takes(wanted, reader.bit_depth)) {
     return true;
+  }
+  if (colour) {
+    constexpr double kUsualWeights = -1.0;
+    png_set_gamma(reader.png, kGamma, 1.0 / kGamma);  // the sum is one of light, not of the file's values
+    png_set_rgb_to_gray(reader.png, PNG_ERROR_ACTION_NONE, kUsualWeights, kUsualWeights);
   }
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(reader.width) * static_cast<std::uint64_t>(reader.height);
@@ -142,7 +153,8 @@ struct GreyImage {
   std::vector<std::uint16_t> values;
 };
 
-GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, const char* purpose) {
+GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, const char* purpose,
+                        Colours colours = Colours::kRefused) {
   const std::string file = read_file(path);
   if (!std::string_view(file).starts_with(kPngSignature)) {
     fail_in_file(path, "not a PNG file");
@@ -154,12 +166,13 @@ GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, cons
   reader.info = png_create_info_struct(reader.png);
   png_set_read_fn(reader.png, &reader, on_png_read);
   png_set_user_limits(reader.png, kLargestExtent, kLargestExtent);
-  if (!decode_png(reader, wanted)) {
+  if (!decode_png(reader, wanted, colours)) {
     fail_in_file(path, fmt::format("damaged PNG: {}", reader.error));
   }
   if (reader.rows.empty()) {
-    fail_in_file(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale PNG", reader.bit_depth,
-                                   colour_type_name(reader.colour_type), purpose, describe(wanted)));
+    fail_in_file(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale{} PNG", reader.bit_depth,
+                                   colour_type_name(reader.colour_type), purpose, describe(wanted),
+                                   colours == Colours::kLuminance ? " or RGB" : ""));
   }
   GreyImage image{
       .width = reader.width, .height = reader.height, .bit_depth = reader.bit_depth, .values = {}};
@@ -351,6 +364,17 @@ DepthImage read_disparity_png(const std::filesystem::path& path, double metres_a
   image.metres.reserve(grey.values.size());
   for (const std::uint16_t disparity : grey.values) {
     image.metres.push_back(disparity == 0 ? 0.0F : static_cast<float>(metres_at_one / disparity));
+  }
+  return image;
+}
+
+ReflectivityImage read_photograph(const std::filesystem::path& path) {
+  const GreyImage grey = read_grey_png(path, GreyBits::k8, "a photograph", Colours::kLuminance);
+  constexpr double kWhite = 255.0;
+  ReflectivityImage image{.width = grey.width, .height = grey.height};
+  image.values.reserve(grey.values.size());
+  for (const std::uint16_t value : grey.values) {
+    image.values.push_back(static_cast<float>(std::pow(value / kWhite, kGamma)));
   }
   return image;
 }

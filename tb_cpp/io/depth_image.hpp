@@ -47,6 +47,10 @@ ReflectivityImage read_reflectivity_image(const std::filesystem::path& path,
 /// disparity.
 DepthImage read_disparity_png(const std::filesystem::path& path, double metres_at_one);
 
+/// A photograph as an 8-bit greyscale or RGB PNG of gamma 2.2; its relative luminance, 0 to 1, stands for the
+/// reflectivity. Throws InputError as the others do.
+ReflectivityImage read_photograph(const std::filesystem::path& path);
+
 /// Rounds to millimetres; unknown, 0 and negative depths become 0. Throws InputError for a depth above 65.535
 /// m.
 void write_depth_png(const std::filesystem::path& path, const DepthImage& image);

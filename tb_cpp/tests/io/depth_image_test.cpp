@@ -243,6 +243,78 @@ TEST_F(DepthImageTest, Disparity) {
                            EndsWith("8-bit RGB PNG: a disparity map must be an 8-bit greyscale PNG"));
 }
 
+/// A PNG without its chunks that say how values follow from light.
+std::string without_gamma(const std::string& png) {
+  constexpr std::size_t kSignature = 8;
+  constexpr std::size_t kAround = 12;  // length, name and checksum
+  std::string kept = png.substr(0, kSignature);
+  for (std::size_t at = kSignature; at < png.size();) {
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      length = length << 8U | static_cast<unsigned char>(png[at + i]);
+    }
+    const std::string name = png.substr(at + 4, 4);
+    if (name != "sRGB" && name != "gAMA") {
+      kept += png.substr(at, length + kAround);
+    }
+    at += length + kAround;
+  }
+  return kept;
+}
+
+TEST_F(DepthImageTest, APhotographsLuminanceIsThatOfItsLight) {
+  const auto light = [](int value) { return std::pow(value / 255.0, 2.2); };
+  const ReflectivityImage grey = read_photograph(write_png("grey.png", PNG_FORMAT_GRAY));
+  EXPECT_EQ(grey.width, 3);
+  EXPECT_EQ(grey.height, 2);
+  EXPECT_THAT(grey.values, ::testing::Each(::testing::FloatNear(static_cast<float>(light(100)), 1e-6F)));
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = 5;
+  image.height = 1;
+  image.format = PNG_FORMAT_RGB;
+  const std::vector<png_byte> pixels = {255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255, 200, 100, 50};
+  png_image_write_to_file(&image, path("rgb.png").c_str(), 0, pixels.data(), 0, nullptr);
+  const std::vector<double> luminances = {0.2126, 0.7152, 0.0722, 1.0,
+                                          0.2126 * light(200) + 0.7152 * light(100) + 0.0722 * light(50)};
+  const std::string whole = contents(path("rgb.png"));
+  EXPECT_THAT(whole, HasSubstr("sRGB"));
+  const std::string bare = without_gamma(whole);
+  EXPECT_LT(bare.size(), whole.size());
+  for (const std::string& png : {whole, bare}) {
+    const ReflectivityImage colour = read_photograph(write("read.png", png));
+    ASSERT_EQ(colour.values.size(), 5U);
+    for (std::size_t i = 0; i < luminances.size(); ++i) {
+      EXPECT_NEAR(colour.values[i], luminances[i], 0.008) << i;  // the luminance has 8 bits, too
+    }
+  }
+}
+
+TEST_F(DepthImageTest, WhatIsNoPhotographIsRefused) {
+  for (const auto& [format, name] : {std::pair{PNG_FORMAT_RGBA, "8-bit RGB with alpha"},
+                                     {PNG_FORMAT_LINEAR_Y, "16-bit greyscale"},
+                                     {PNG_FORMAT_GA, "8-bit greyscale with alpha"}}) {
+    test::expect_input_error([&] { (void)read_photograph(write_png("other.png", format)); },
+                             HasSubstr(std::string("other.png: ") + name +
+                                       " PNG: a photograph must be an 8-bit greyscale or RGB PNG"));
+  }
+  test::expect_input_error([&] { (void)read_photograph(write("text.png", "hello")); },
+                           EndsWith("text.png: not a PNG file"));
+  test::expect_input_error([&] { (void)read_photograph(path("none.png")); },
+                           HasSubstr("none.png: cannot read"));
+}
+
+TEST_F(DepthImageTest, ReadsTheMiddleburyPhotograph) {
+  const auto file = test::shared_data("middlebury_Art_view1.png");
+  DTOF_SKIP_IF_ABSENT(file);
+  const ReflectivityImage image = read_photograph(file);
+  EXPECT_EQ(image.width, 695);
+  EXPECT_EQ(image.height, 555);
+  EXPECT_GE(*std::ranges::min_element(image.values), 0.0F);
+  EXPECT_LE(*std::ranges::max_element(image.values), 1.0F);
+  EXPECT_GT(*std::ranges::max_element(image.values), 0.5F);
+}
+
 TEST_F(DepthImageTest, ReadsTheMiddleburyScene) {
   const auto file = test::shared_data("middlebury_Art_disp1.png");
   DTOF_SKIP_IF_ABSENT(file);
