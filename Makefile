@@ -6,6 +6,7 @@
 # make reproduce  the thesis's accuracy statements, measured (minutes); make coverage-study: their intervals checked
 # make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
 # make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
+# make enlarge    small arrays' maps, enlarged, beside the large array's; make train-enlarger: the weights (scripts/enlarge.mk)
 # make power      power from the activity of netlists on a scene
 # make layout     columns placed and routed in OSU 0.18 um, checked, with GDS; make orfs: files for OpenROAD (synth/layout.mk)
 # make lint       RTL in three tools, C++ format and static analysis
@@ -85,6 +86,7 @@ clean:
 -include scripts/coverage_study.mk
 -include scripts/photon_report.mk
 -include scripts/study.mk
+-include scripts/enlarge.mk
 -include scripts/formal.mk
 -include scripts/faults.mk
 -include scripts/sensor_effects.mk

@@ -82,7 +82,9 @@ enum class RandomPurpose : std::uint32_t {
   kFastPhotons = 5,
   kScene = 6,
   kFaults = 7,
-  kPixelDefects = 8
+  kPixelDefects = 8,
+  kIntensityImage = 9,
+  kTrainingScene = 10
 };
 
 }  // namespace dtof

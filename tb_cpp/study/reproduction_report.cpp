@@ -597,6 +597,11 @@ class Rendering {
              .logarithmic_y = true,
              .y_limits = {1.0},
              .logarithmic_x = true});
+    text_ +=
+        "## Future work: a small array, enlarged by learning\n\n"
+        "Whether a small array's map, enlarged to 200 x 160 pixels by a trained network, comes up to the "
+        "large "
+        "array's at equal laser power: [enlarge.md](enlarge.md).\n\n";
     text_ += "## Future work: read-outs on small arrays at 50 klux\n\n";
     for (const auto& [name, study] : r_.small_arrays) {
       text_ += fmt::format(

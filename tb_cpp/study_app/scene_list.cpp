@@ -170,7 +170,7 @@ void check_scene_options(const CLI::App& command, SceneChoice& choice) {
              (choice.map_scales.metres_per_unit || choice.map_scales.reflectivity_per_unit)) {
     throw InputError("--depth-scale and --reflectivity-scale need --map");
   }
-  if (choice.disparity_file.empty()) {
+  if (choice.disparity_file.empty() && !choice.own_disparity) {
     refuse_without_effect(command, "--nearest", "it places the map of --disparity");
   }
   if (choice.surface_file.empty()) {

@@ -21,6 +21,7 @@ struct SceneChoice {
   MapScales map_scales;
   std::string disparity_file;
   double nearest_m = 1.0;
+  bool own_disparity = false;  ///< the command has disparity maps of its own, which --nearest places, too
   std::string surface_file;
   std::string surface_variable = "T_second";
   bool held_out = false;

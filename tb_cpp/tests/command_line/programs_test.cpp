@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <png.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -35,9 +37,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 9> kStudies = {"accuracy", "coverage",       "fidelity",
-                                                        "measured", "reproduce",      "scenes",
-                                                        "walk",     "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 10> kStudies = {
+      "enlarge",   "accuracy", "coverage", "fidelity",       "measured",
+      "reproduce", "scenes",   "walk",     "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -423,6 +425,74 @@ TEST_F(Programs, ScenesComparesReadoutsAndVariants) {
     EXPECT_THAT(table, HasSubstr(estimator));
   }
   EXPECT_GT(std::filesystem::file_size(path("out/planes_14klux_thesis.png")), 0U);
+}
+
+/// A sensor of 24 x 20 pixels and short frames.
+const std::string kSmallSensor =
+    "[array]\ncolumns = 24\nrows = 20\n[tdc]\nrange_ns = 45.0\ntimestamp_bits = 10\nslots = 2\n"
+    "[laser]\nacquisitions = 600\npulse_fwhm_ns = 2.0\n[light]\nsignal_events_at_1m = 0.3\n"
+    "background_events_per_klux = 0.0107\ndefault_reflectivity = 0.5\n";
+
+/// PNG of 8 bits, grey or RGB, `channels` values a pixel.
+void write_png8(const std::string& path, int columns, int rows, int channels,
+                const std::vector<std::uint8_t>& values) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(columns);
+  image.height = static_cast<png_uint_32>(rows);
+  image.format = channels == 1 ? PNG_FORMAT_GRAY : PNG_FORMAT_RGB;
+  ASSERT_NE(png_image_write_to_file(&image, path.c_str(), 0, values.data(), 0, nullptr), 0);
+}
+
+TEST_F(Programs, EnlargeComparesSmallArraysWithTheLargeOne) {
+  // Near on the left, far on the right, and between them what the disparity map does not know.
+  std::vector<std::uint8_t> disparity;
+  std::vector<std::uint8_t> photograph;
+  for (int i = 0; i < 24 * 20; ++i) {
+    const int column = i % 24;
+    disparity.push_back(column < 10 ? 200 : column < 12 ? 0 : 100);
+    photograph.insert(photograph.end(), 3, column < 10 ? 220 : 120);
+  }
+  write_png8(path("disparity.png"), 24, 20, 1, disparity);
+  write_png8(path("photograph.png"), 24, 20, 3, photograph);
+  const std::string command = "enlarge --sensor " + file("small.toml", kSmallSensor) +
+                              " --scene staircase -k 1 --photographed hut=disparity.png,photograph.png "
+                              "--array 12x10 6x5 --picture-array 12x10 -r poolpointer2 hispointer --seeds 2 ";
+  const Outcome outcome = dtof(command + "--out out");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output,
+              HasSubstr("has fewer pixels above 3 % than the map of the large array: **1 klux: "));
+  const std::string csv = read_file(path("out/enlarge.csv"));
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (1 + 2 * 3 * 4));
+  EXPECT_THAT(csv, HasSubstr("1,staircase,24 x 20,poolPointer 2,-,480,"));
+  EXPECT_THAT(csv, HasSubstr("1,hut,12 x 10,hisPointer,learned,440,"));  // 40 pixels are not known
+  const std::string report = read_file(path("out/enlarge.md"));
+  EXPECT_THAT(report, HasSubstr("](enlarge_1klux.png)"));
+  EXPECT_THAT(report, HasSubstr("Seeds 1 to 2"));
+  EXPECT_THAT(outcome.output, HasSubstr(report.substr(report.find("Small arrays whose map"), 80)));
+  EXPECT_GT(std::filesystem::file_size(path("out/enlarge_1klux.png")), 1000U);
+  ASSERT_EQ(dtof(command + "-j 1 --out again").exit_code, 0);
+  EXPECT_EQ(read_file(path("again/enlarge.csv")), csv);
+}
+
+TEST_F(Programs, EnlargeRefusesWhatDoesNotFit) {
+  const std::string sensor = "enlarge --seeds 2 --out out --sensor " + file("small.toml", kSmallSensor) + " ";
+  const std::string arrays = "--array 12x10 --picture-array 12x10 ";
+  expect_refused(sensor + "--array 12", "array '12': expected COLUMNSxROWS, such as 100x80");
+  expect_refused(sensor + "--array 25x10", "a small array has 1 to 24 columns and 1 to 20 rows, not 25 x 10");
+  expect_refused(sensor + "--array 24x20 --picture-array 24x20", "a small array of 24 x 20 is the large one");
+  expect_refused(sensor + "--array 12x10 --picture-array 6x5", "--picture-array");
+  expect_refused(sensor + arrays + "--picture-scene moon", "--picture-scene: no map has the name 'moon'");
+  expect_refused(sensor + arrays + "--photographed hut=a.png", "expected NAME=DISPARITY,PHOTOGRAPH");
+  expect_refused(sensor + arrays + "--photographed hut=a.png,b.png", "a.png: cannot read");
+  expect_refused(sensor + arrays + "--weights none.txt", "none.txt: cannot read");
+  expect_refused(sensor + arrays + "--weights " + file("w.txt", "dtof-enlarger 1\njoint_bilateral 1 x\n"),
+                 "w.txt, line 2: a width of the joint bilateral filter is 'x', which is no number");
+  expect_refused(sensor + arrays + "-r poolpointer2 hispinter", "hispinter");
+  expect_refused(sensor + arrays + "--seeds 1", "--seeds");
+  write_png8(path("dark.png"), 4, 4, 1, std::vector<std::uint8_t>(16));
+  expect_refused(sensor + arrays + "--photographed dark=dark.png,dark.png", "dark.png: no known depth");
+  EXPECT_FALSE(std::filesystem::exists(path("out/enlarge.md")));
 }
 
 /// Cell of a CSV whose lines begin with the row's name: column `column` of the row that begins with `row`.

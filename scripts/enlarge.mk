@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+# make enlarge         small arrays that share the laser, their maps enlarged to those of the large array, beside it: four
+#                      seeds, five scenes and two photographed ones (seven minutes): reports/enlarge.md
+# make train-enlarger  the learned enlarger's weights, trained by dlib on random shapes (ten minutes): build/weights.txt. The
+#                      project's are those, as tb_cpp/enlarge/weights.txt, and every build has them: only this needs dlib.
+.PHONY: enlarge train-enlarger
+# Laundry is for training (scripts/study.mk), thus not for tests.
+COMMA := ,
+PHOTOGRAPHED := $(foreach map,Art Moebius,\
+  $(map)=$(SHARED_DATA)/middlebury_$(map)_disp1.png$(COMMA)$(SHARED_DATA)/middlebury_$(map)_view1.png)
+
+# The committed report has the photographed maps, too: without them it stays as it is.
+enlarge: study
+	@if [ -f $(SHARED_DATA)/middlebury_Moebius_view1.png ]; then \
+	  $(DTOF_STUDY) enlarge --photographed $(PHOTOGRAPHED) --seed $(SEED) --out build/enlarge && scripts/publish.py enlarge; \
+	else \
+	  echo "photographed maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/enlarge_synthetic"; \
+	  $(DTOF_STUDY) enlarge --seed $(SEED) --out build/enlarge_synthetic; \
+	fi
+
+train-enlarger: configure
+	@scripts/install_packages.sh learning
+	@cmake -S tb_cpp --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@ninja -C $(BUILD) train-enlarger
+	@$(BUILD)/train_enlarger/train-enlarger --out build/weights.txt
