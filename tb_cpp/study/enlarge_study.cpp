@@ -90,6 +90,7 @@ std::string array_size_title(const ArraySize& size) {
 
 std::vector<std::string> enlarger_titles() {
   std::vector<std::string> titles;
+  titles.reserve(kEnlargers.size());
   for (const Enlarger& enlarger : kEnlargers) {
     titles.emplace_back(enlarger.title);
   }
