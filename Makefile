@@ -97,3 +97,4 @@ clean:
 -include scripts/wave.mk
 -include scripts/example.mk
 -include scripts/fpga.mk
+-include scripts/sweep.mk

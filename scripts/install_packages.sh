@@ -21,11 +21,13 @@ for purpose in "$@"; do
     fpga) packages+=(nextpnr-ice40 fpga-icestorm fpga-icestorm-chipdb) ;;  # places and routes the demonstrator, for make fpga only
     layout) packages+=(qflow) ;;                # with graywolf, qrouter, Magic, Netgen, for make layout only
     wave) packages+=(gtkwave) ;;                # names the signals of a waveform, and shows it, for make wave only
+    sweep) packages+=(snakemake) ;;             # runs the jobs of a sweep, for make sweep only
+    slurm) packages+=(snakemake slurm-wlm munge) ;;  # a cluster of one node, for make sweep-test only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
     learning) packages+=(libdlib-dev) ;;        # trains the enlarger's weights, for make train-enlarger only
     playground)  # the models as WebAssembly, for make playground only
       packages+=(emscripten librange-v3-dev) ;;
-    *) echo "error: $purpose: packages for fuzz, fpga, layout, wave, browser, learning and playground are known" >&2; exit 2 ;;
+    *) echo "error: $purpose: packages for fuzz, fpga, layout, wave, sweep, slurm, browser, learning and playground are known" >&2; exit 2 ;;
   esac
 done
 

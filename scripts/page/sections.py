@@ -86,6 +86,8 @@ LISTED = (
     Report("sensor_effects_pool", "Effects of real sensors: poolPointer", "sensor-effects", "sensor_effects_pool.md",
            "sensor_effects_pool/sensor_effects.md", "the same for poolPointer, at one light",
            with_it=(("sensor_effects_pool/sensor_effects.csv", "sensor_effects_pool.csv"),)),
+    Report("scaling", "Sweeps", "sweep-cost", "scaling.md", "sweep_cost/scaling.md",
+           "what many points cost beside their own computing"),
     Report("sram", "SRAM macros", "synth", "sram.md", says="sizes, area, access time and energy"),
     Report("power", "Power on a scene", "power", "power.md", says="from the activity of netlists, by day and at dusk"),
     Report("coverage_study", "Confidence intervals", "coverage-study", "coverage_study.md",

@@ -59,6 +59,8 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
     main = {name: results[name] for name in chosen}
     _say(report.summary(main))
+    if arguments.csv:
+        report.write_area_csv(arguments.csv, main)
     for name, result in main.items():
         for corner, timing in result.timing.items():
             if timing.slow_edges:
@@ -230,6 +232,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, with reports")
     _add_liberty(run)
     run.add_argument("--strict", action="store_true", help="fail if a figure is worse than its budget")
+    run.add_argument("--csv", type=Path, help="also the areas as this file")
     run.set_defaults(action=_run)
     for name, action, text in (("sim-icarus", _sim_icarus, "RTL against the model, four-state"),
                                ("sim-netlist", _sim_netlist, "netlist against RTL and model, four-state"),

@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""`run_batch.py SWEEP.toml FOLDER NUMBER HASH`: computes the points of a batch, one after the other, and writes its file at once."""
+
+import csv
+import hashlib
+import json
+import os
+import shlex
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import plan  # noqa: E402
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+def read_table(path: Path) -> tuple[list[str], list[list[str]]]:
+    try:
+        with path.open(newline="", encoding="utf-8") as file:
+            rows = list(csv.reader(file))
+    except OSError as error:
+        raise plan.SweepError(f"{path.name}: {error.strerror}: the command left no table") from None
+    if len(rows) < 2:
+        raise plan.SweepError(f"{path.name}: the command's table has no rows")
+    return rows[0], rows[1:]
+
+
+def compute(sweep: plan.Sweep, point: plan.Point) -> tuple[list[str], list[list[str]]]:
+    """Header and rows of the point's table."""
+    with tempfile.TemporaryDirectory() as out:
+        values = {**point.values(), "out": out}
+        command = [part.format(**values) for part in shlex.split(sweep.command)]
+        result = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+        if result.returncode != 0:
+            last = (result.stderr.strip() or result.stdout.strip()).splitlines()[-1:]
+            raise plan.SweepError(f"{shlex.join(command)}: exit {result.returncode}: {''.join(last)}")
+        return read_table(Path(out) / sweep.table)
+
+
+def checksum(header: list[str], points: list) -> str:
+    return hashlib.sha256(json.dumps([header, points]).encode()).hexdigest()
+
+
+def write(path: Path, batch: plan.Batch, header: list[str], points: list) -> None:
+    """Complete or not at all, also when the job is killed while it writes."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile("w", dir=path.parent, prefix=".", suffix=".part", encoding="utf-8", delete=False) as file:
+        json.dump({"batch": batch.name, "header": header, "points": points, "checksum": checksum(header, points)}, file)
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(file.name, path)
+
+
+def main() -> int:
+    if len(sys.argv) != 5 or not sys.argv[3].isdecimal():
+        print(__doc__, file=sys.stderr)
+        return 2
+    try:
+        sweep = plan.load(Path(sys.argv[1]), ROOT)
+        batch = sweep.batch(int(sys.argv[3]))
+        if batch.name != sys.argv[4]:
+            raise plan.SweepError(f"{sys.argv[1]}: batch {batch.number} is {batch.name} now, not {sys.argv[4]}: the description "
+                                  "or an input changed while the sweep ran; start it again")
+        header: list[str] = []
+        points = []
+        for point in batch.points:
+            found, rows = compute(sweep, point)
+            if header and found != header:
+                raise plan.SweepError(f"sweep {sweep.name}: the points' tables differ in their columns")
+            header = found
+            points.append({"coordinates": point.coordinates, "seed": point.seed, "rows": rows})
+        write(plan.batch_file(Path(sys.argv[2]), batch), batch, header, points)
+    except plan.SweepError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

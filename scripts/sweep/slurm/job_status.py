@@ -1,0 +1,26 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""`job_status.py JOB`: what Snakemake asks of a job of Slurm; prints running, success or failed.
+
+A job that Slurm has forgotten, MinJobAge after its end, counts as failed: it is run again, and finds its batch done if it was.
+"""
+
+import subprocess
+import sys
+
+RUNNING = {"PENDING", "RUNNING", "COMPLETING", "CONFIGURING", "SUSPENDED", "REQUEUED", "RESIZING"}
+
+
+def status(answer: str) -> str:
+    """Of what `scontrol --oneliner show job` prints."""
+    states = [word.removeprefix("JobState=") for word in answer.split() if word.startswith("JobState=")]
+    if not states:
+        return "failed"
+    if states[0] in RUNNING:
+        return "running"
+    return "success" if states[0] == "COMPLETED" else "failed"
+
+
+if __name__ == "__main__":
+    print(status(subprocess.run(["scontrol", "--oneliner", "show", "job", sys.argv[1]], capture_output=True, text=True,
+                                check=False).stdout))
