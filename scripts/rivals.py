@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The project's read-outs and their rivals: accuracy over bits a pixel.
+"""The project's read-outs and their rivals: accuracy over memory, area and the host's work, and which suits which sensor.
 
-`rivals.py DTOF_STUDY OPTION ...`: runs `DTOF_STUDY rivals OPTION ...` with the bits of the project's read-outs as
-synthesis reports them (reports/area.csv), and draws rivals_<klux>klux.svg for each light beside its tables.
-`rivals.py --draw FOLDER`: draws them again from FOLDER/rivals.csv.
+`rivals.py DTOF_STUDY --out FOLDER OPTION ...`: runs `DTOF_STUDY rivals OPTION ...` with the bits of the project's read-outs
+as synthesis reports them (reports/area.csv), then the sensors of SENSORS on fewer scenes in folders of their own, and writes
+the report and its pictures to FOLDER.
+`rivals.py --report FOLDER`: writes report and pictures again from the tables in FOLDER.
 """
 
 import csv
@@ -12,6 +13,7 @@ import math
 import subprocess
 import sys
 import tempfile
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,14 +21,35 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
 import plot_style  # noqa: E402
+from dtof_synth import rival_area  # noqa: E402
 
+AREA = ROOT / "reports" / "area.csv"
 WIDTH, HEIGHT = 1000, 640
-LEFT, RIGHT, TOP, BOTTOM = 75, 310, 45, 60
+LEFT, RIGHT, TOP, BOTTOM = 75, 330, 45, 60
 FONT = 13
 RIVAL_COLOUR = "#6b6b6b"
 RIVAL_MARKER = 7  # gnuplot's filled circle, small
 SHARE = "above_3_percent"
 LEAST_PERCENT = 0.02  # shares below are drawn here: a logarithmic axis has no zero
+COLUMNS, ROWS = 200, 160  # of the areas
+READOUT_OPERATIONS = 1  # of the host: the look-up table alone, which no estimator goes without
+BUDGETS = (1.0, 1.5, 5.0, math.inf)  # mm2
+INDOORS, SUN = "2", "50"  # klux
+
+
+@dataclass(frozen=True)
+class Sensor:
+    title: str
+    name: str  # a preset, or a file beside this script
+    distance_scale: float  # of the scenes, which are made for 45 ns
+
+
+SENSORS = (Sensor("phone, 200 x 160", "phone", 1.0), Sensor("robot, 80 x 64", "rivals/robot.toml", 2.0),
+           Sensor("car-like, 320 x 120", "rivals/car.toml", 8.9),
+           Sensor("small array, 64 x 50", "rivals/small.toml", 1.0))
+THESIS = "thesis, 200 x 160"
+SENSOR_OPTIONS = ("--scene", "room", "planes", "clutter", "poles", "--klux", INDOORS, SUN, "--pooled", "--seeds", "4",
+                  "--columns", "10")
 
 
 @dataclass
@@ -37,10 +60,27 @@ class Point:
     percent: float
     low: float
     high: float
+    percent_10: float = math.nan
+    mm2: float | None = None
+    operations: int | None = None  # of the host, per pixel
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What accuracy is drawn over."""
+
+    name: str  # in the file's name
+    label: str
+    value: Callable[[Point], float | None]
+
+
+AXES = (Axis("bits", "memory, bits per pixel", lambda point: point.bits),
+        Axis("mm2", f"area of {COLUMNS} x {ROWS} pixels, mm2", lambda point: point.mm2),
+        Axis("host", "operations of the host per pixel, look-up table apart", lambda point: point.operations))
 
 
 def known_bits(area: Path) -> dict[str, str]:
-    """Bits a pixel by the read-outs' names on the command line."""
+    """Bits per pixel by the read-outs' names on the command line."""
     if not area.is_file():
         return {}
     with area.open(newline="", encoding="utf-8") as file:
@@ -48,45 +88,75 @@ def known_bits(area: Path) -> dict[str, str]:
                 if row["configuration"].replace("_", "-") == row["readout"].replace("_", "-")}
 
 
+def known_areas(area: Path) -> dict[str, float]:
+    """mm2 of the thesis's array by the read-outs' titles."""
+    known = rival_area.load(ROOT / "configurations.toml")
+    with area.open(newline="", encoding="utf-8") as file:
+        return {known[row["configuration"]].title: float(row["total_mm2"]) for row in csv.DictReader(file)
+                if row["configuration"] in known and not row["variant_of"] and int(row["columns"]) == COLUMNS
+                and known[row["configuration"]]["PIXELS_PER_SRAM"] == ROWS}
+
+
+def estimated(hardware: Path) -> dict[str, tuple[float, int]]:
+    """(mm2, host's operations) of each row of a rival, by its title; pooling is the host's work alone."""
+    base = rival_area.Base.read(AREA)
+    found = {}
+    with hardware.open(newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            parts = rival_area.Hardware(*(int(row[name]) for name in ("words", "word_bits", "adder_bits", "table_bits")))
+            mm2 = rival_area.array_mm2(base, parts, COLUMNS, ROWS)
+            alone = int(row["host_operations"])
+            found[row["rival"]] = (mm2, alone)
+            found[row["rival"] + ", pooled"] = (mm2, alone + int(row["pooling_operations"]))
+    return found
+
+
 def points_of(path: Path) -> dict[str, list[Point]]:
     """By light: all scenes with depth together."""
+    areas = known_areas(AREA) if AREA.is_file() else {}
+    hardware = path.parent / "rival_hardware.csv"
+    rivals = estimated(hardware) if hardware.is_file() else {}
     lights: dict[str, list[Point]] = {}
     with path.open(newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             if row["scene"] == "all":
+                title, kind = row["estimator"], row["kind"]
                 low, high = (100 * float(row[SHARE + part]) for part in ("_low", "_high"))
+                own = (areas.get(title), READOUT_OPERATIONS if kind == "read-out" else None)
+                mm2, operations = rivals.get(title, own) if kind == "rival" else own
                 lights.setdefault(row["klux"], []).append(
-                    Point(row["estimator"], row["kind"], float(row["bits_per_pixel"]) if row["bits_per_pixel"] else None,
-                          100 * float(row[SHARE]), low, high))
+                    Point(title, kind, float(row["bits_per_pixel"]) if row["bits_per_pixel"] else None,
+                          100 * float(row[SHARE]), low, high, 100 * float(row.get("above_10_percent") or "nan"), mm2,
+                          operations))
     return lights
 
 
-def front(points: list[Point]) -> list[Point]:
-    """What no other is better than with as few bits."""
+def front(points: Iterable[Point], value: Callable[[Point], float | None] = AXES[0].value) -> list[Point]:
+    """What no other is better than at as little of an axis."""
     best, found = math.inf, []
-    for point in sorted((p for p in points if p.bits), key=lambda p: (p.bits, p.percent)):
+    for point in sorted((p for p in points if value(p)), key=lambda p: (value(p), p.percent)):
         if point.percent < best:
             best = point.percent
             found.append(point)
     return found
 
 
-def script(klux: str, points: list[Point], output: Path) -> str:
+def script(klux: str, points: list[Point], axis: Axis, output: Path) -> str:
     """Of gnuplot: numbered points, and beside them what the numbers are."""
     styles = plot_style.load()
-    shown = sorted((p for p in points if p.bits), key=lambda p: (p.bits, p.percent))
+    shown = sorted((p for p in points if axis.value(p)), key=lambda p: (axis.value(p), p.percent))
     level = lambda percent: max(percent, LEAST_PERCENT)  # noqa: E731
-    bits = [p.bits for p in shown]
+    values = [axis.value(p) for p in shown]
     lines = [f"set terminal svg size {WIDTH},{HEIGHT} font 'sans,{FONT}' background '#ffffff'", f"set output '{output}'",
              "set logscale xy", "set grid lc rgb '#dddddd'", "unset key",
              f"set lmargin at screen {LEFT / WIDTH}", f"set rmargin at screen {1 - RIGHT / WIDTH}",
              f"set tmargin at screen {1 - TOP / HEIGHT}", f"set bmargin at screen {BOTTOM / HEIGHT}",
              f"set title 'Pixels off by more than 3 %, in %: all scenes but the flats, {klux} klux' offset 0,-0.4",
-             "set xlabel 'memory, bits a pixel'", "set ylabel 'pixels above 3 %, %'",
-             f"set xrange [{min(bits) * 0.8}:{max(bits) * 1.25}]",
+             f"set xlabel '{axis.label}'", "set ylabel 'pixels above 3 %, %'",
+             f"set xrange [{min(values) * 0.8}:{max(values) * 1.25}]",
              f"set yrange [{0.7 * min(level(p.percent) for p in points)}:{min(100, 1.4 * max(level(p.high) for p in points))}]"]
-    best = front(points)
-    lines += ["$front << END"] + [f"{p.bits} {level(p.percent)}" for p in best] + ["END"]
+    best = front(points, axis.value)
+    lines += ["$front << END"] + [f"{axis.value(p)} {level(p.percent)}" for p in best] + ["END"]
     plots = ["$front with steps lc rgb '#bbbbbb' notitle"]
     height = (HEIGHT - TOP - BOTTOM) / max(len(shown), 1)
     for number, p in enumerate(shown, 1):
@@ -95,11 +165,12 @@ def script(klux: str, points: list[Point], output: Path) -> str:
         else:
             style = plot_style.style(p.title, styles)
             colour, marker, size = style.colour, style.marker, 1.1
-        lines += [f"$p{number} << END", f"{p.bits} {level(p.percent)} {level(p.low)} {level(p.high)}", "END"]
+        x = axis.value(p)
+        lines += [f"$p{number} << END", f"{x} {level(p.percent)} {level(p.low)} {level(p.high)}", "END"]
         plots.append(f"$p{number} with yerrorbars pt {marker} ps {size} lc rgb '{colour}' notitle")
         weight = "{/:Bold %d}" if p in best else "%d"
-        lines.append(f"set label '{weight % number}' at {p.bits}, {level(p.percent)} offset 0.7,0.4 tc rgb '{colour}' font ',10'")
-        lines.append(f"set label '{weight % number}  {p.title}, {p.bits:g}' at screen {1 - (RIGHT - 15) / WIDTH}, "
+        lines.append(f"set label '{weight % number}' at {x}, {level(p.percent)} offset 0.7,0.4 tc rgb '{colour}' font ',10'")
+        lines.append(f"set label '{weight % number}  {p.title}, {x:.4g}' at screen {1 - (RIGHT - 15) / WIDTH}, "
                      f"{1 - (TOP + (number - 0.5) * height) / HEIGHT} left tc rgb '{colour}' font ',{min(11, height * 0.75):.1f}'")
     for p in points:
         if p.kind == "reference" and p.bits is None:
@@ -113,30 +184,123 @@ def script(klux: str, points: list[Point], output: Path) -> str:
     return "\n".join(lines) + "\nset output\n"
 
 
-def draw(folder: Path) -> None:
-    for klux, points in points_of(folder / "rivals.csv").items():
-        if not any(p.bits for p in points):
-            continue
-        with tempfile.TemporaryDirectory() as temporary:
-            drawn = Path(temporary) / "plot.svg"
-            result = subprocess.run(["gnuplot"], input=script(klux, points, drawn), text=True, capture_output=True, check=False)
-            if result.returncode != 0 or not drawn.is_file():
-                raise SystemExit(f"error: gnuplot failed: {result.stderr.strip()}")
-            (folder / f"rivals_{klux}klux.svg").write_text(drawn.read_text(encoding="utf-8"), encoding="utf-8")
+def draw(folder: Path, lights: dict[str, list[Point]]) -> None:
+    for klux, points in lights.items():
+        for axis in AXES:
+            if not any(axis.value(p) for p in points):
+                continue
+            with tempfile.TemporaryDirectory() as temporary:
+                drawn = Path(temporary) / "plot.svg"
+                result = subprocess.run(["gnuplot"], input=script(klux, points, axis, drawn), text=True, capture_output=True,
+                                        check=False)
+                if result.returncode != 0 or not drawn.is_file():
+                    raise SystemExit(f"error: gnuplot failed: {result.stderr.strip()}")
+                (folder / f"rivals_{axis.name}_{klux}klux.svg").write_text(drawn.read_text(encoding="utf-8"),
+                                                                            encoding="utf-8")
+
+
+def share(point: Point) -> str:
+    return f"{point.percent:.2f} +-{(point.high - point.low) / 2:.2f}"
+
+
+def table(header: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
+    header = list(header)
+    lines = [header, ["---"] + ["---:"] * (len(header) - 1), *(list(row) for row in rows)]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def cost_section(lights: dict[str, list[Point]]) -> str:
+    beside = rival_area.beside_synthesis(AREA, ROOT / "configurations.toml")
+    ratios = [entry.estimated_mm2 / entry.synthesised_mm2 for entry in beside]
+    text = [f"## Area and host work\n\nmm2 of {COLUMNS} x {ROWS} pixels. Read-outs: as synthesised (reports/area.md). Rivals: "
+            "an estimate, the SRAM model and a stated rule for logic (synth/dtof_synth/rival_area.py) that counts neither "
+            "control nor pipelines of their own. The same rule on the thesis's read-outs gives "
+            f"{min(ratios):.2f} to {max(ratios):.2f} times their synthesised area. Host: multiply-adds and comparisons per "
+            "pixel beside the look-up table that all have, 1 standing for none. Bold: no row with as little area has fewer "
+            "errors.\n\n" + table(("read-out", "estimated mm2", "synthesised mm2", "ratio"),
+                                  ((entry.title, f"{entry.estimated_mm2:.2f}", f"{entry.synthesised_mm2:.2f}",
+                                    f"{entry.estimated_mm2 / entry.synthesised_mm2:.2f}") for entry in beside))]
+    for klux, points in lights.items():
+        best = front(points, AXES[1].value)
+        rows = []
+        for p in sorted((p for p in points if p.mm2), key=lambda p: (p.mm2, p.percent)):
+            title = f"**{p.title}**" if p in best else p.title
+            rows.append((title, f"{p.mm2:.2f}", f"{p.bits:g}" if p.bits else "-", f"{p.operations}", share(p),
+                         f"{p.percent_10:.2f}"))
+        text.append(f"### {klux} klux\n\n" + "".join(f"![Accuracy over {axis.label}, {klux} klux]"
+                                                      f"(rivals_{axis.name}_{klux}klux.svg)\n\n" for axis in AXES)
+                    + table(("estimator", "mm2", "bits per pixel", "host operations", "above 3 %, %", "above 10 %, %"), rows))
+    return "\n".join(text)
+
+
+def best_within(points: Iterable[Point], budget: float) -> Point | None:
+    """The one with the fewest errors; of equals the smallest, then the least work."""
+    within = [p for p in points if p.mm2 and p.mm2 <= budget]
+    return min(within, key=lambda p: (p.percent, p.mm2, p.operations), default=None)
+
+
+def sensor_section(sensors: dict[str, dict[str, list[Point]]]) -> str:
+    rows = []
+    chosen: dict[str, int] = {}
+    for title, lights in sensors.items():
+        for klux, name in ((INDOORS, "indoors"), (SUN, "in the sun")):
+            cells = []
+            for budget in BUDGETS:
+                point = best_within(lights.get(klux, []), budget)
+                cells.append(f"{point.title}: {share(point)} ({point.mm2:.2f} mm2)" if point else "-")
+                if point:
+                    chosen[point.title] = chosen.get(point.title, 0) + 1
+            rows.append((title, f"{name}, {klux} klux", *cells))
+    limits = [f"at most {budget:g} mm2" if math.isfinite(budget) else "any area" for budget in BUDGETS]
+    ranking = sorted(chosen.items(), key=lambda entry: -entry[1])
+    return ("## Which read-out for which sensor\n\nOf everything within an area (that of the thesis's array, 32,000 pixels, "
+            "whatever the sensor's own number), the one with the fewest pixels above 3 %, in per cent with half of the interval, "
+            "all scenes but the flats. \"pooled\": by the host. Sensors: `scripts/rivals/`, the "
+            "presets; scenes scaled to their ranges.\n\n" + table(("sensor", "light", *limits), rows)
+            + f"\nOf {sum(chosen.values())} cells: "
+            + ", ".join(f"{title} has {count}" for title, count in ranking) + ".\n")
+
+
+def folder_of(sensor: Sensor) -> str:
+    return Path(sensor.name).stem
+
+
+def report(folder: Path) -> None:
+    lights = points_of(folder / "rivals.csv")
+    draw(folder, lights)
+    sensors = {THESIS: lights}
+    for sensor in SENSORS:
+        tables = folder / folder_of(sensor) / "rivals.csv"
+        if tables.is_file():
+            sensors[sensor.title] = points_of(tables)
+    text = (folder / "rivals.md").read_text(encoding="utf-8")
+    own = [sensor_section(sensors), cost_section(lights)] if AREA.is_file() else []
+    first_light = text.find("\n## ", text.index("## Beside each other") + 1) + 1
+    (folder / "report.md").write_text(text[:first_light] + "".join(part + "\n" for part in own) + text[first_light:],
+                                      encoding="utf-8")
+
+
+def run(study: str, options: list[str]) -> None:
+    bits = [f"{name}={value}" for name, value in known_bits(AREA).items()]
+    result = subprocess.run([study, "rivals", *options, *(["--bits", *bits] if bits else [])], check=False)
+    if result.returncode != 0:
+        raise SystemExit(result.returncode)
 
 
 def main() -> None:
-    if len(sys.argv) == 3 and sys.argv[1] == "--draw":
-        draw(Path(sys.argv[2]))
+    if len(sys.argv) == 3 and sys.argv[1] == "--report":
+        report(Path(sys.argv[2]))
         return
-    if len(sys.argv) < 4 or "--out" not in sys.argv[2:-1]:
-        raise SystemExit(f"usage: {__doc__}\nAn option must be --out FOLDER.")
-    options = sys.argv[2:]
-    bits = [f"{name}={value}" for name, value in known_bits(ROOT / "reports" / "area.csv").items()]
-    result = subprocess.run([sys.argv[1], "rivals", *options, *(["--bits", *bits] if bits else [])], check=False)
-    if result.returncode != 0:
-        raise SystemExit(result.returncode)
-    draw(Path(options[options.index("--out") + 1]))
+    if len(sys.argv) < 4 or sys.argv[2] != "--out":
+        raise SystemExit(f"usage: {__doc__}")
+    study, folder = sys.argv[1], Path(sys.argv[3])
+    run(study, sys.argv[2:])
+    for sensor in SENSORS:
+        file = ROOT / "scripts" / sensor.name
+        run(study, ["--sensor", str(file) if file.is_file() else sensor.name, "--distance-scale", f"{sensor.distance_scale:g}",
+                    *SENSOR_OPTIONS, "--out", str(folder / folder_of(sensor))])
+    report(folder)
+    print(f"{folder / 'report.md'} written")
 
 
 if __name__ == "__main__":

@@ -2,8 +2,8 @@
 # make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
 # make pool       poolPointer 2 with and without S1 beside poolPointer and the matched filters, four seeds (half an hour)
 # make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
-# make rivals     the project's read-outs beside those that others have proposed, two seeds (hours): build/rivals;
-#                 RIVAL_COLUMNS=4 reads four columns of each map (a quarter of an hour), without poolPointer 2
+# make rivals     the project's read-outs beside those that others have proposed, four seeds (half an hour); RIVAL_COLUMNS
+#                 is how many columns of each map are judged
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
@@ -21,8 +21,8 @@ POOL_NUMBERS := COARSE_SHARE=12,14,16,18 TRACK_SHARE=16,18,20,22,24 OWN_WEIGHT L
   OFFSET_GEAR_1 LABEL_COST LABEL_COST_SLOPE CHOOSE_PENALTY CHOOSE_PENALTY_SLOPE LEFT_COST LEFT_COST_SLOPE RIGHT_LIMIT \
   RIGHT_LIMIT_SLOPE LATERAL_REACH RIVAL_REACH DECIDE_PENALTY DECIDE_PENALTY_SLOPE SMOOTH_DARK=768,1280 \
   SMOOTH_BRIGHT=1280,2048 SMOOTH_BRIGHT_FROM WEIGHT_0 WEIGHT_1 WEIGHT_5 WEIGHT_6 WEIGHT_7
-RIVAL_COLUMNS ?= 200
-RIVAL_OPTIONS := --pooled --claims --seeds 2 --columns $(RIVAL_COLUMNS)
+RIVAL_COLUMNS ?= 16
+RIVAL_OPTIONS := --pooled --claims --seeds 4 --columns $(RIVAL_COLUMNS)
 PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
   --surfaces $(SHARED_DATA)/shin2016_two_layer_obj.mat --shift -20
 
@@ -54,10 +54,12 @@ pool-search: study
 
 rivals: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
-	  scripts/rivals.py $(DTOF_STUDY) --held-out $(SCENE_MAPS) $(RIVAL_OPTIONS) --seed $(SEED) --out build/rivals; \
+	  scripts/rivals.py $(DTOF_STUDY) --out build/rivals --held-out $(SCENE_MAPS) --photographed $(PHOTOGRAPHED) \
+	    $(RIVAL_OPTIONS) --seed $(SEED) && \
+	  scripts/publish.py rivals; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/rivals_synthetic"; \
-	  scripts/rivals.py $(DTOF_STUDY) --held-out $(RIVAL_OPTIONS) --seed $(SEED) --out build/rivals_synthetic; \
+	  scripts/rivals.py $(DTOF_STUDY) --out build/rivals_synthetic --held-out $(RIVAL_OPTIONS) --seed $(SEED); \
 	fi
 
 pareto:

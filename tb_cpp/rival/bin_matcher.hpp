@@ -30,6 +30,11 @@ class BinMatcher {
   [[nodiscard]] std::vector<double> scores(std::span<const std::int32_t> counts) const;
   /// The highest, refined by the parabola through its neighbours; the score is the confidence.
   [[nodiscard]] Measurement decode(std::span<const std::int32_t> counts) const;
+  /// Multiply-adds and comparisons of decode().
+  [[nodiscard]] int operations() const {
+    constexpr std::size_t kOfABin = 4;  // pairs, sums
+    return static_cast<int>(codes_ * (taps_ + 1) + kOfABin * bins_);
+  }
 
  private:
   /// Table of the step that fits these counts.

@@ -23,6 +23,11 @@ class CoarseHistogram final : public Rival {
 
   [[nodiscard]] int bits_per_pixel() const override { return static_cast<int>(bins_) * choice_.count_bits; }
 
+  [[nodiscard]] RivalHardware hardware() const override {
+    return {.words = static_cast<int>(bins_), .word_bits = choice_.count_bits};
+  }
+  [[nodiscard]] int host_operations() const override { return matcher_.operations(); }
+
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);
     const int no_detection = (1 << sensor_.np) - 1;

@@ -33,6 +33,11 @@ class CodeMatcher {
   /// The highest, refined by the parabola through its neighbours; rho there is the confidence.
   [[nodiscard]] Measurement decode(std::span<const std::int32_t> words) const;
   [[nodiscard]] std::vector<double> evidence(std::span<const std::int32_t> words) const;
+  /// Multiply-adds and comparisons of decode().
+  [[nodiscard]] int operations() const {
+    constexpr std::size_t kOfACounter = 4;  // background, length, share
+    return static_cast<int>(codes_ * (counters_ + 1) + kOfACounter * counters_);
+  }
 
  private:
   /// Without the part along the background.

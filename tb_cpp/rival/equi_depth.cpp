@@ -33,6 +33,8 @@ void for_each_cycle(std::span<const Detection> detections, Timestamp no_detectio
   }
 }
 
+constexpr int kOperationsOfAPart = 8;  // sorting, widths, the narrowest one
+
 void check_parts(int parts) {
   if (parts < 2 || parts > 64 || !std::has_single_bit(static_cast<unsigned>(parts))) {
     throw InputError(fmt::format("equi-depth: {} parts, but it must be a power of two from 2 to 64", parts));
@@ -55,6 +57,11 @@ class Hierarchical final : public Rival {
         levels_(std::bit_width(parts_) - 1) {}
 
   [[nodiscard]] int bits_per_pixel() const override { return (static_cast<int>(parts_) - 1) * sensor_.np; }
+  /// The boundaries of the last level, half of all, are compared with the timestamp.
+  [[nodiscard]] RivalHardware hardware() const override {
+    return {.word_bits = bits_per_pixel(), .adder_bits = static_cast<int>(parts_) / 2 * sensor_.np};
+  }
+  [[nodiscard]] int host_operations() const override { return kOperationsOfAPart * static_cast<int>(parts_); }
 
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);
@@ -131,6 +138,16 @@ class Proportional final : public Rival {
     constexpr int kMomentumBits = 10 + 14;
     return (parts_ - 1) * (sensor_.np + fraction_bits() + (optimised_ ? kMomentumBits : 0));
   }
+
+  /// Each boundary is compared with the timestamp and moved by a quotient whose divisor is a power of two;
+  /// the optimised one has four products: 51 times the lag, 819 and the gain times a step, and all of it
+  /// times D.
+  [[nodiscard]] RivalHardware hardware() const override {
+    constexpr int kProducts = 6 * 10 + 10 * 14 + 10 * 10 + 10 * 24;
+    return {.word_bits = bits_per_pixel(),
+            .adder_bits = (parts_ - 1) * (2 * sensor_.np + (optimised_ ? kProducts : 0))};
+  }
+  [[nodiscard]] int host_operations() const override { return kOperationsOfAPart * parts_; }
 
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);

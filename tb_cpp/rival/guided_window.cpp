@@ -27,6 +27,12 @@ class GuidedWindow final : public Rival {
 
   [[nodiscard]] int bits_per_pixel() const override { return kBins * choice_.count_bits + sensor_.np; }
   [[nodiscard]] int frames() const override { return 3; }
+  /// The guide is one more word; its difference from the timestamp is the sum.
+  [[nodiscard]] RivalHardware hardware() const override {
+    return {
+        .words = kBins + 1, .word_bits = std::max(choice_.count_bits, sensor_.np), .adder_bits = sensor_.np};
+  }
+  [[nodiscard]] int host_operations() const override { return narrow_.operations(); }
 
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     const std::int32_t coarse_width = codes_ / kBins;

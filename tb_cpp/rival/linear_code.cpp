@@ -32,6 +32,10 @@ class LinearCodePixel final : public Rival {
     return static_cast<int>(code_.counters) * code_.count_bits +
            (code_.full == FullCounter::kFreezes ? 1 : 0);
   }
+  [[nodiscard]] RivalHardware hardware() const override {
+    return {.word_bits = bits_per_pixel(), .table_bits = code_.table_bits};
+  }
+  [[nodiscard]] int host_operations() const override { return matcher_.operations(); }
 
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);
@@ -105,6 +109,11 @@ class TwoCorrelations final : public Rival {
         matcher_(sensor, weights_, 2) {}
 
   [[nodiscard]] int bits_per_pixel() const override { return 2 * (4 + static_cast<int>(shift_)); }
+  /// The waves are the timestamp's own bits; what leaks away is one more sum for each average.
+  [[nodiscard]] RivalHardware hardware() const override {
+    return {.word_bits = bits_per_pixel(), .adder_bits = bits_per_pixel()};
+  }
+  [[nodiscard]] int host_operations() const override { return matcher_.operations(); }
 
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);
@@ -149,6 +158,12 @@ class TwoCorrelations final : public Rival {
   std::vector<std::int16_t> weights_;
   CodeMatcher matcher_;
 };
+
+/// Bits of the tables: a quarter of each wave is enough, and a wave of one bit is a bit of a multiple of the
+/// timestamp.
+int quarter_waves(int np, std::size_t waves, int bits) {
+  return bits == 1 ? 0 : static_cast<int>(waves) * bits * (1 << (np - 2));
+}
 
 void add_harmonic(std::vector<CodeWave>& waves, int harmonic, std::size_t counters) {
   for (const CodeWave wave : {CodeWave{harmonic, false}, CodeWave{harmonic, true}}) {
@@ -218,7 +233,8 @@ std::unique_ptr<Rival> make_fourier(const SensorModel& sensor, std::span<const C
   return make_linear_code(sensor, {.counters = waves.size(),
                                    .weights = wave_weights(sensor.np, waves, bits),
                                    .count_bits = kSignBits + bits - 1,
-                                   .is_signed = true});
+                                   .is_signed = true,
+                                   .table_bits = quarter_waves(sensor.np, waves.size(), bits)});
 }
 
 std::unique_ptr<Rival> make_sketch(const SensorModel& sensor, int size) {
@@ -230,7 +246,8 @@ std::unique_ptr<Rival> make_sketch(const SensorModel& sensor, int size) {
                            .weights = wave_weights(sensor.np, waves, kCodeBits),
                            .count_bits = std::min(24, static_cast<int>(std::ceil(std::log2(most))) + 1),
                            .is_signed = true,
-                           .full = FullCounter::kStays});
+                           .full = FullCounter::kStays,
+                           .table_bits = quarter_waves(sensor.np, waves.size(), kCodeBits)});
 }
 
 std::vector<std::int16_t> spline_weights(int np, int knots) {

@@ -28,6 +28,7 @@ struct LinearCode {
   int count_bits;                     ///< of a counter, 2 .. 24, its sign included
   bool is_signed;  ///< limits -2^(count_bits - 1) + 1 and 2^(count_bits - 1) - 1, else 0 and 2^count_bits - 1
   FullCounter full = FullCounter::kFreezes;
+  int table_bits = 0;  ///< of the table that a column needs; 0: the numbers follow from the timestamp's bits
 };
 std::unique_ptr<Rival> make_linear_code(const SensorModel& sensor, LinearCode code);
 

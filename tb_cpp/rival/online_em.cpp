@@ -40,6 +40,16 @@ class OnlineEm final : public Rival {
 
   [[nodiscard]] int bits_per_pixel() const override { return sensor_.np + kFractionBits + 16; }
 
+  /// Products: w times the density (16 x 10 bits), the distance times r (16 x 8). Quotients: r (8 bits by
+  /// 32), the step of mu (16 by 16).
+  [[nodiscard]] RivalHardware hardware() const override {
+    constexpr int kDensityBits = 10;
+    return {.word_bits = bits_per_pixel(),
+            .adder_bits = 16 * kDensityBits + 16 * 8 + 8 * 32 + 16 * 16,
+            .table_bits = static_cast<int>(kStages * kSteps) * kDensityBits};
+  }
+  [[nodiscard]] int host_operations() const override { return 1; }
+
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);
     const std::int32_t no_detection = (1 << sensor_.np) - 1;

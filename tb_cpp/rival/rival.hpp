@@ -22,6 +22,16 @@ using RivalWords = std::vector<std::int32_t>;
 /// Detections of one pixel, frame by frame, the oldest first.
 using PixelFrames = std::span<const std::span<const Detection>>;
 
+/// What a rival's column would be made of, for an estimate of its area (synth/dtof_synth/rival_area.py says
+/// what each part takes). Like the project's columns it takes a timestamp per clock and serves all rows.
+struct RivalHardware {
+  int words = 1;      ///< of a pixel in the column's SRAM; a timestamp reads and writes one of them
+  int word_bits = 0;  ///< words * word_bits is at least bits_per_pixel()
+  int adder_bits =
+      0;  ///< full adders beyond one for each bit of a word; a times b bits of a product or quotient
+  int table_bits = 0;  ///< of tables that the timestamps address, which each column needs for itself
+};
+
 /// A read-out that others have proposed, as an architect could choose it instead of the project's: what the
 /// pixel's memory does, bit for bit, and apart from it what the host makes of the words. It has no RTL, and
 /// its bits are those that the pixel keeps; what all pixels share (code tables, dividers, schedules) is not
@@ -37,6 +47,10 @@ class Rival {
 
   /// Bits of memory that a pixel keeps.
   [[nodiscard]] virtual int bits_per_pixel() const = 0;
+  [[nodiscard]] virtual RivalHardware hardware() const = 0;
+  /// Multiply-adds and comparisons of decode() for one pixel, to two digits. The look-up table of distances,
+  /// which every read-out has, is not counted.
+  [[nodiscard]] virtual int host_operations() const = 0;
   /// Frames that one result needs; those before the last one saw the same scene.
   [[nodiscard]] virtual int frames() const { return 1; }
 

@@ -71,6 +71,7 @@ const std::vector<ComparedFigure>& compared_figures() {
       {"edges above 10 %", "edge_above_10_percent", &SceneScore::edges, &ErrorShares::above_10_percent},
       {"other pixels above 3 %", "rest_above_3_percent", &SceneScore::rest, &ErrorShares::above_3_percent},
       {"other pixels above 10 %", "rest_above_10_percent", &SceneScore::rest, &ErrorShares::above_10_percent},
+      {"dim surfaces above 3 %", "dim_above_3_percent", &SceneScore::dims, &ErrorShares::above_3_percent},
       {"single pixels above 10 %", "single_above_10_percent", &SceneScore::singles,
        &ErrorShares::above_10_percent}};
   return figures;

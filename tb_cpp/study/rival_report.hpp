@@ -33,8 +33,8 @@ struct ComparedFigure {
   ErrorShares SceneScore::*pixels;
   double ErrorShares::*share;
 };
-/// Above 3 % and above 10 % of all pixels, of those at depth edges and of the others; of single pixels above
-/// 10 %.
+/// Above 3 % and above 10 % of all pixels, of those at depth edges and of the others; of dim surfaces above
+/// 3 %; of single pixels above 10 %.
 const std::vector<ComparedFigure>& compared_figures();
 
 /// Scores of one light level: scene, row, seed.

@@ -50,6 +50,14 @@ std::vector<Measurement> pool_pixels(const Rival& rival, std::span<const RivalWo
 
 }  // namespace
 
+int pooling_operations(const Rival& rival) {
+  constexpr int kOfACode = 10;   // two messages of a running maximum, sums, the largest belief
+  constexpr int kOfAMedian = 8;  // comparisons of five values
+  const std::vector<std::span<const Detection>> dark(static_cast<std::size_t>(rival.frames()));
+  const std::size_t codes = rival.evidence(rival.read_pixel(dark)).size();
+  return codes == 0 ? kOfAMedian : kOfACode * static_cast<int>(codes);
+}
+
 std::vector<double> running_median(std::span<const double> values, std::size_t reach) {
   std::vector<double> middle;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -74,7 +82,6 @@ RivalStudy::RivalStudy(SensorModel sensor, double klux, std::span<const RivalEnt
     for (const char* suffix : {"", ", pooled"}) {
       if (*suffix == '\0' || pooled_) {
         titles_.push_back(fmt::format("{}{}", entry.title, suffix));
-        bits_.push_back(rivals_.back()->bits_per_pixel());
       }
     }
   }

@@ -30,8 +30,10 @@ class RivalStudy {
              std::uint64_t seed, int threads, TableRule table = TableRule::kFlat);
 
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
-  /// Of each estimator.
-  [[nodiscard]] const std::vector<int>& bits_per_pixel() const { return bits_; }
+  /// The rival of an estimator.
+  [[nodiscard]] const Rival& rival(std::size_t estimator) const {
+    return *rivals_[pooled_ ? estimator / 2 : estimator];
+  }
   /// One measurement an estimator.
   [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
 
@@ -44,12 +46,14 @@ class RivalStudy {
   std::vector<std::unique_ptr<Rival>> rivals_;
   bool pooled_;
   std::vector<std::string> titles_;
-  std::vector<int> bits_;
   std::uint64_t seed_;
   int threads_;
   DepthScale scale_;
   std::vector<RangeConverter> converters_;  // of each rival; empty without look-up tables
 };
+
+/// What pooling adds to Rival::host_operations().
+int pooling_operations(const Rival& rival);
 
 /// The middle of each value and its `reach` neighbours on either side, fewer at the ends; the upper one of
 /// two.

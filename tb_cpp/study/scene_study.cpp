@@ -92,6 +92,13 @@ int picked_column(const StudyScene& scene, int index) {
 SceneTruth scene_truth(const StudyScene& scene) {
   SceneTruth truth{
       .columns = scene.columns, .rows = scene.targets.rows(), .distance_m = {}, .edge = {}, .single = {}};
+  constexpr double kDim = 0.25;
+  double brightest = 0.0;
+  for (int row = 0; row < truth.rows; ++row) {
+    for (int column = 0; column < scene.targets.columns(); ++column) {
+      brightest = std::max(brightest, scene.targets.at(column, row).reflectivity);
+    }
+  }
   const auto distance = [&](int column, int row) {
     const PixelTarget& target = scene.targets.at(column, row);
     return target.returns_signal() ? target.depth_m : 0.0;
@@ -112,9 +119,13 @@ SceneTruth scene_truth(const StudyScene& scene) {
           single = single && differs;
         }
       }
-      truth.distance_m.push_back(here);
+      const std::size_t pixel =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(scene.targets.columns()) +
+          static_cast<std::size_t>(column);
+      truth.distance_m.push_back(!scene.guessed.empty() && scene.guessed[pixel] ? 0.0 : here);
       truth.edge.push_back(edge);
       truth.single.push_back(edge && single);
+      truth.dim.push_back(scene.targets.at(column, row).reflectivity <= kDim * brightest);
     }
   }
   return truth;
@@ -124,6 +135,7 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
   Collector all;
   Collector edges;
   Collector rest;
+  Collector dims;
   Collector singles;
   std::vector<Judged> judged;
   for (std::size_t i = 0; i < truth.distance_m.size(); ++i) {
@@ -137,9 +149,13 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
     if (truth.single[i]) {
       singles.add(distance, measured);
     }
+    if (!truth.dim.empty() && truth.dim[i]) {
+      dims.add(distance, measured);
+    }
     judged.push_back({measurement.confidence[i], std::abs(measured - distance) > kOutlier * distance});
   }
-  return {all.shares(), edges.shares(), rest.shares(), singles.shares(), removed_outliers(std::move(judged))};
+  return {all.shares(),  edges.shares(),   rest.shares(),
+          dims.shares(), singles.shares(), removed_outliers(std::move(judged))};
 }
 
 double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,

@@ -21,6 +21,8 @@ struct StudyScene {
   std::string name;
   TargetMap targets;
   int columns;  ///< read out, evenly spread over the map
+  std::vector<bool> guessed =
+      {};  ///< [row][column]: distance that the map did not know, not judged; empty: none
 };
 
 /// Column of the map that is the `index`-th read.
@@ -43,6 +45,7 @@ struct SceneScore {
   ErrorShares all;
   ErrorShares edges;  ///< pixels with a neighbour whose distance differs by more than 10 %
   ErrorShares rest;
+  ErrorShares dims;     ///< pixels of at most a quarter of the scene's largest reflectivity
   ErrorShares singles;  ///< pixels whose distance differs by more than 10 % from that of all neighbours
   std::vector<double> removed;  ///< share of the outliers (above 10 %) among the pixels dropped; see kDropped
 };
@@ -57,6 +60,7 @@ struct SceneTruth {
   std::vector<double> distance_m;  ///< 0: no target, not judged
   std::vector<bool> edge;          ///< differs by more than 10 % from a neighbour (left, right, above, below)
   std::vector<bool> single;        ///< from every one of them
+  std::vector<bool> dim = {};      ///< at most a quarter of the scene's largest reflectivity; empty: unknown
 };
 SceneTruth scene_truth(const StudyScene& scene);
 

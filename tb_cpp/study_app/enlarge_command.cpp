@@ -35,7 +35,6 @@ namespace {
 struct EnlargeOptions : SceneChoice {
   std::string sensor = "thesis";
   std::vector<double> klux = {14.0, 50.0};
-  std::vector<std::string> photographed;
   std::vector<std::string> arrays = {"100x80", "80x64", "50x40"};
   std::vector<std::string> readouts = {"hispointer", "histogram32", "poolpointer2"};
   std::string weights;
@@ -47,74 +46,12 @@ struct EnlargeOptions : SceneChoice {
   std::string command_line;
 };
 
-constexpr double kDarkest = 0.05;
 constexpr std::size_t kLongestWeights = 16'000'000;
-
-/// A pixel without a disparity takes the farther of its row's nearest known neighbours: what one of the two
-/// cameras did not see is mostly background.
-void fill_unknown(DepthImage& image) {
-  for (int row = 0; row < image.height; ++row) {
-    const auto begin = image.metres.begin() + static_cast<std::ptrdiff_t>(row) * image.width;
-    std::vector<float> left(begin, begin + image.width);
-    std::vector<float> right = left;
-    for (std::size_t i = 1; i < left.size(); ++i) {
-      left[i] = left[i] > 0.0F ? left[i] : left[i - 1];
-    }
-    for (std::size_t i = right.size() - 1; i-- > 0;) {
-      right[i] = right[i] > 0.0F ? right[i] : right[i + 1];
-    }
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      begin[static_cast<std::ptrdiff_t>(i)] = std::max(left[i], right[i]);
-    }
-  }
-}
-
-EnlargeScene read_photographed(const std::string& text, double nearest_m, const SensorModel& sensor) {
-  const NamedMap named = parse_named_map(text);
-  if (named.files.reflectivity.empty()) {
-    throw InputError(fmt::format("--photographed '{}': expected NAME=DISPARITY,PHOTOGRAPH", text));
-  }
-  DepthImage image = read_disparity_png(named.files.depth, 1.0);
-  float nearest = std::numeric_limits<float>::infinity();
-  for (const float metres : image.metres) {
-    nearest = metres > 0.0F ? std::min(nearest, metres) : nearest;
-  }
-  if (!std::isfinite(nearest)) {
-    throw InputError(fmt::format("{}: no known depth", named.files.depth));
-  }
-  for (float& metres : image.metres) {
-    metres *= static_cast<float>(nearest_m) / nearest;
-  }
-  const auto targets_of = [&](const DepthImage& map) {
-    return scene_from_depth_image(map.width, map.height, map.metres, sensor.columns, sensor.rows);
-  };
-  const TargetMap known = targets_of(image);
-  fill_unknown(image);
-  EnlargeScene scene{named.name, targets_of(image), {}};
-  ReflectivityImage photograph = read_photograph(named.files.reflectivity);
-  for (float& value : photograph.values) {
-    value = static_cast<float>(std::max(kDarkest, double{value}) * sensor.default_reflectivity);
-  }
-  set_reflectivity(scene.targets, photograph.width, photograph.height, photograph.values);
-  for (int row = 0; row < sensor.rows; ++row) {
-    for (int column = 0; column < sensor.columns; ++column) {
-      scene.guessed.push_back(!known.at(column, row).returns_signal());
-    }
-  }
-  return scene;
-}
 
 std::vector<EnlargeScene> all_scenes(const EnlargeOptions& options, const SensorModel& sensor) {
   std::vector<EnlargeScene> scenes;
   for (StudyScene& scene : make_scenes(options, sensor).scenes) {
-    scenes.push_back({scene.name, std::move(scene.targets), {}});
-  }
-  for (const std::string& text : options.photographed) {
-    scenes.push_back(read_photographed(text, options.nearest_m, sensor));
-    const auto same = [&](const EnlargeScene& scene) { return scene.name == scenes.back().name; };
-    if (std::ranges::count_if(scenes, same) > 1) {
-      throw InputError(fmt::format("--photographed '{}': another map has this name", text));
-    }
+    scenes.push_back({scene.name, std::move(scene.targets), std::move(scene.guessed)});
   }
   if (scenes.empty()) {
     throw InputError("enlarge: no map is named");
@@ -220,7 +157,7 @@ void run_enlarge_command(EnlargeOptions options) {
       "that differs by more than 10 %. The best small array is chosen by the figure it is compared by, "
       "which favours it.\n\n",
       answer, sensor.columns, sensor.rows, options.sensor, options.seed, kNoError, fmt::join(names, ", "),
-      options.nearest_m, kDarkest, options.seed,
+      options.nearest_m, kDarkestPhotographed, options.seed,
       options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
   const std::string picture = fmt::format("enlarge_{:g}klux.png", lights.back().klux);
   const std::string title =
@@ -248,9 +185,6 @@ void add_enlarge_command(CLI::App& app, const std::string& command_line) {
       ->check(sensible_klux())
       ->capture_default_str();
   add_scene_options(*command, *options);
-  command->add_option("--photographed", options->photographed,
-                      "also a disparity map with its photograph, which gives the reflectivity:\n"
-                      "NAME=DISPARITY,PHOTOGRAPH (PNG of 8 bits; 0 = unknown); one or more");
   command->add_option("--array", options->arrays, "small arrays, COLUMNSxROWS, one or more")
       ->capture_default_str();
   command->add_option("-r,--readout", options->readouts, "read-outs of the small arrays, and rivals")
@@ -273,7 +207,6 @@ void add_enlarge_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->callback([options, command] {
-    options->own_disparity = !options->photographed.empty();
     check_scene_options(*command, *options);
     run_enlarge_command(*options);
   });

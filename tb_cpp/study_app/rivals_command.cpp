@@ -22,7 +22,6 @@
 #include "report/table.hpp"
 #include "rival/rival.hpp"
 #include "sensor/preset.hpp"
-#include "study/pool_study.hpp"
 #include "study/rival_report.hpp"
 #include "study/rival_study.hpp"
 #include "study_app/commands.hpp"
@@ -34,7 +33,8 @@ namespace {
 struct RivalsOptions : SceneChoice {
   std::string sensor = "thesis";
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
-  std::string readouts = "ezpointer,hispointer,sifh,fifh,threesteps,poolpointer,poolpointer-lean";
+  std::string readouts =
+      "ezpointer,hispointer,sifh,fifh,threesteps,poolpointer,poolpointer-lean,poolpointer2,poolpointer2-lean";
   std::vector<std::string> rivals;
   std::vector<std::string> bits;
   bool pooled = false;
@@ -79,17 +79,12 @@ std::vector<RivalEntry> chosen_rivals(const std::vector<std::string>& names) {
 /// The studies of one light and seed, whose measurements stand one behind the other.
 class Comparison {
  public:
-  Comparison(const RivalsOptions& options, const SensorModel& sensor, double klux, bool trial)
+  Comparison(const RivalsOptions& options, const SensorModel& sensor, double klux)
       : readouts_(parameters(options, sensor)),
         readout_study_(sensor, klux, readouts_, options.seed, options.threads,
                        parse_table_rule(options.table)),
         rival_study_(sensor, klux, chosen_rivals(options.rivals), options.pooled, options.seed,
-                     options.threads, parse_table_rule(options.table)) {
-    if (trial) {
-      trial_study_.emplace(sensor, klux, std::vector<std::string>{""}, false, options.seed, options.threads,
-                           parse_table_rule(options.table));
-    }
-  }
+                     options.threads, parse_table_rule(options.table)) {}
 
   [[nodiscard]] std::vector<ComparedRow> rows(const std::map<std::string, double>& bits) const {
     const auto known = [&](const std::string& name) {
@@ -103,28 +98,16 @@ class Comparison {
                       is_readout ? ComparedRow::Kind::kReadout : ComparedRow::Kind::kReference,
                       is_readout ? known(std::string(readout_name(readouts_[e].readout))) : std::nullopt});
     }
-    if (trial_study_) {
-      for (const std::string& title : trial_study_->estimators()) {
-        rows.push_back(
-            {title, ComparedRow::Kind::kReadout, known(std::string(readout_name(Readout::kPoolPointer2)))});
-      }
-    }
     for (std::size_t e = 0; e < rival_study_.estimators().size(); ++e) {
       rows.push_back({rival_study_.estimators()[e], ComparedRow::Kind::kRival,
-                      static_cast<double>(rival_study_.bits_per_pixel()[e])});
+                      static_cast<double>(rival_study_.rival(e).bits_per_pixel())});
     }
     return rows;
   }
 
   [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const {
     std::vector<SceneMeasurement> all = readout_study_.measure(scene);
-    const auto append = [&all](std::vector<SceneMeasurement> more) {
-      std::ranges::move(more, std::back_inserter(all));
-    };
-    if (trial_study_) {
-      append(trial_study_->measure(scene));
-    }
-    append(rival_study_.measure(scene));
+    std::ranges::move(rival_study_.measure(scene), std::back_inserter(all));
     return all;
   }
 
@@ -138,7 +121,6 @@ class Comparison {
   std::vector<ReadoutParameters> readouts_;
   SceneStudy readout_study_;
   RivalStudy rival_study_;
-  std::optional<PoolStudy> trial_study_;
 };
 
 constexpr double kClaimKlux = 50.0;
@@ -165,6 +147,24 @@ std::vector<CheckedClaim> check_claims(const RivalsOptions& options, const Senso
     }
   }
   return claims;
+}
+
+/// What the rivals' columns are made of, and what their hosts compute.
+Table hardware_of(const std::vector<RivalEntry>& rivals, const SensorModel& sensor) {
+  Table table({"rival", "option", "bits_per_pixel", "words", "word_bits", "adder_bits", "table_bits",
+               "host_operations", "pooling_operations"},
+              2);
+  for (const RivalEntry& entry : rivals) {
+    const std::unique_ptr<Rival> rival = entry.make(sensor);
+    const RivalHardware hardware = rival->hardware();
+    std::vector<std::string> cells = {std::string(entry.title), std::string(entry.name)};
+    for (const int number : {rival->bits_per_pixel(), hardware.words, hardware.word_bits, hardware.adder_bits,
+                             hardware.table_bits, rival->host_operations(), pooling_operations(*rival)}) {
+      cells.push_back(fmt::format("{}", number));
+    }
+    table.add(std::move(cells));
+  }
+  return table;
 }
 
 std::string sources_of(const std::vector<RivalEntry>& rivals) {
@@ -200,7 +200,7 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
   report +=
       "\n## Beside each other\n\nAll scenes but the flats together; rivals on the front of some light.\n";
   for (const std::string& title : rivals_on_a_front(lights)) {
-    for (const Readout other : {Readout::kHisPointer, Readout::kPoolPointer}) {
+    for (const Readout other : {Readout::kHisPointer, Readout::kPoolPointer2}) {
       const std::string sentence = comparison_sentence(lights, title, std::string(readout_title(other)));
       report += sentence.empty() ? "" : fmt::format("\n* {}", sentence);
     }
@@ -237,7 +237,6 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
 void run_rivals_command(RivalsOptions options) {
   const SensorModel sensor = find_sensor(options.sensor);
   const std::map<std::string, double> bits = parse_bits(options.bits);
-  const bool trial = options.columns >= sensor.columns;
   if (options.claims && sensor.name != "thesis") {
     throw InputError("--claims: the first estimate is of the sensor thesis");
   }
@@ -248,9 +247,6 @@ void run_rivals_command(RivalsOptions options) {
   }
   (void)chosen_rivals(options.rivals);
   std::vector<std::string> notes = make_scenes(options, sensor).notes;  // refused before anything is written
-  if (!trial) {
-    notes.emplace_back("poolPointer 2 is left out: it reads whole maps only.");
-  }
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   const std::uint64_t first_seed = options.seed;
@@ -264,7 +260,7 @@ void run_rivals_command(RivalsOptions options) {
       options.seed = first_seed + static_cast<std::uint64_t>(i);
       const SceneList list = make_scenes(options, sensor);
       Progress progress(fmt::format("{:g} klux, seed {}", klux, options.seed), list.scenes.size() + 1);
-      const Comparison comparison(options, sensor, klux, trial);
+      const Comparison comparison(options, sensor, klux);
       progress.advance();
       if (!lights.contains(klux)) {
         std::vector<std::string> names;
@@ -287,6 +283,7 @@ void run_rivals_command(RivalsOptions options) {
     }
   }
   write_file(folder / "rivals.csv", compared_csv(lights).csv());
+  write_file(folder / "rival_hardware.csv", hardware_of(chosen_rivals(options.rivals), sensor).csv());
   write_file(folder / "rivals.md", report_of(options, sensor, first_seed, notes, lights, claims));
   fmt::print("\nSeeds {} to {}. Tables are in {}\n", first_seed, options.seed, options.out);
 }
@@ -328,7 +325,7 @@ void add_rivals_command(CLI::App& app, const std::string& command_line) {
   command
       ->add_option(
           "--columns", options->columns,
-          "columns read of a scene, evenly spread; with fewer than the sensor's, poolPointer 2 is left out")
+          "columns of a scene that are judged, evenly spread; poolPointer 2 reads all of their engines")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command->add_option("-s,--seed", options->seed, "first seed of photons and random shapes")

@@ -32,9 +32,7 @@ void vary_reflectivity(TargetMap& targets, double reflectivity, std::uint64_t se
   }
 }
 
-/// The map scaled to its nearest point's distance.
-void add_depth_map(SceneList& list, const std::string& name, DepthImage image, double nearest_m,
-                   const SensorModel& sensor, const SceneChoice& options) {
+void put_nearest_at(double nearest_m, const std::string& name, DepthImage& image) {
   float nearest = std::numeric_limits<float>::infinity();
   for (const float metres : image.metres) {
     nearest = metres > 0.0F ? std::min(nearest, metres) : nearest;
@@ -45,12 +43,70 @@ void add_depth_map(SceneList& list, const std::string& name, DepthImage image, d
   for (float& metres : image.metres) {
     metres *= static_cast<float>(nearest_m) / nearest;
   }
+}
+
+/// The map scaled to its nearest point's distance.
+void add_depth_map(SceneList& list, const std::string& name, DepthImage image, double nearest_m,
+                   const SensorModel& sensor, const SceneChoice& options) {
+  put_nearest_at(nearest_m, name, image);
   TargetMap targets =
       scene_from_depth_image(image.width, image.height, image.metres, sensor.columns, sensor.rows);
   vary_reflectivity(targets, sensor.default_reflectivity, options.seed);
   const std::string note = resampling_sentence(fmt::format("nearest point put at {:g} m", nearest_m),
                                                image.width, image.height, targets);
   list.add_map(name, note, std::move(targets), std::min(options.columns, sensor.columns));
+}
+
+/// A pixel without a disparity takes the farther of its row's nearest known neighbours: what one of the two
+/// cameras did not see is mostly background.
+void fill_unknown(DepthImage& image) {
+  for (int row = 0; row < image.height; ++row) {
+    const auto begin = image.metres.begin() + static_cast<std::ptrdiff_t>(row) * image.width;
+    std::vector<float> left(begin, begin + image.width);
+    std::vector<float> right = left;
+    for (std::size_t i = 1; i < left.size(); ++i) {
+      left[i] = left[i] > 0.0F ? left[i] : left[i - 1];
+    }
+    for (std::size_t i = right.size() - 1; i-- > 0;) {
+      right[i] = right[i] > 0.0F ? right[i] : right[i + 1];
+    }
+    for (std::size_t i = 0; i < left.size(); ++i) {
+      begin[static_cast<std::ptrdiff_t>(i)] = std::max(left[i], right[i]);
+    }
+  }
+}
+
+void add_photographed(SceneList& list, const std::string& text, const SensorModel& sensor,
+                      const SceneChoice& options) {
+  const NamedMap named = parse_named_map(text);
+  if (named.files.reflectivity.empty()) {
+    throw InputError(fmt::format("--photographed '{}': expected NAME=DISPARITY,PHOTOGRAPH", text));
+  }
+  if (std::ranges::find(list.scenes, named.name, &StudyScene::name) != list.scenes.end()) {
+    throw InputError(fmt::format("--photographed '{}': another map has this name", text));
+  }
+  DepthImage image = read_disparity_png(named.files.depth, 1.0);
+  put_nearest_at(options.nearest_m, named.files.depth, image);
+  const auto targets_of = [&](const DepthImage& map) {
+    return scene_from_depth_image(map.width, map.height, map.metres, sensor.columns, sensor.rows);
+  };
+  const TargetMap known = targets_of(image);
+  fill_unknown(image);
+  TargetMap targets = targets_of(image);
+  ReflectivityImage photograph = read_photograph(named.files.reflectivity);
+  for (float& value : photograph.values) {
+    value = static_cast<float>(std::max(kDarkestPhotographed, double{value}) * sensor.default_reflectivity);
+  }
+  set_reflectivity(targets, photograph.width, photograph.height, photograph.values);
+  const std::string note = resampling_sentence(
+      fmt::format("nearest point put at {:g} m, reflectivity of the photograph", options.nearest_m),
+      image.width, image.height, known);
+  list.add_map(named.name, note, std::move(targets), std::min(options.columns, sensor.columns));
+  for (int row = 0; row < sensor.rows; ++row) {
+    for (int column = 0; column < sensor.columns; ++column) {
+      list.scenes.back().guessed.push_back(!known.at(column, row).returns_signal());
+    }
+  }
 }
 
 /// Rows become columns.
@@ -96,6 +152,21 @@ void add_held_out(const SceneChoice& options, const SensorModel& sensor, SceneLi
   }
 }
 
+/// The names of flat scenes say their distances.
+void scale_distances(StudyScene& scene, double scale) {
+  if (scale == 1.0) {
+    return;
+  }
+  for (int column = 0; column < scene.targets.columns(); ++column) {
+    for (int row = 0; row < scene.targets.rows(); ++row) {
+      scene.targets.at(column, row).depth_m *= scale;
+    }
+  }
+  if (is_flat(scene.name)) {
+    scene.name = fmt::format("flat {:g} m", scene.targets.at(0, 0).depth_m);
+  }
+}
+
 }  // namespace
 
 SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor) {
@@ -122,6 +193,9 @@ SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor) {
     add_depth_map(list, "disparity map", read_disparity_png(options.disparity_file, 1.0), options.nearest_m,
                   sensor, options);
   }
+  for (const std::string& text : options.photographed) {
+    add_photographed(list, text, sensor, options);
+  }
   for (const std::string& text : options.maps) {
     const NamedMap named = parse_named_map(text);
     if (std::ranges::find(scenes, named.name, &StudyScene::name) != scenes.end()) {
@@ -134,6 +208,9 @@ SceneList make_scenes(const SceneChoice& options, const SensorModel& sensor) {
   }
   if (options.held_out) {
     add_held_out(options, sensor, list);
+  }
+  for (StudyScene& scene : list.scenes) {
+    scale_distances(scene, options.distance_scale);
   }
   return list;
 }
@@ -149,7 +226,10 @@ void add_scene_options(CLI::App& command, SceneChoice& choice) {
   choice.map_scales.add_to(command);
   command.add_option("--disparity", choice.disparity_file,
                      "also a disparity map (8-bit PNG, 0 = unknown), its reflectivity varied in blocks");
-  command.add_option("--nearest", choice.nearest_m, "distance of the disparity map's nearest point, m")
+  command.add_option("--photographed", choice.photographed,
+                     "also a disparity map with its photograph, which gives the reflectivity:\n"
+                     "NAME=DISPARITY,PHOTOGRAPH (PNG of 8 bits; 0 = unknown); one or more");
+  command.add_option("--nearest", choice.nearest_m, "distance of the disparity maps' nearest point, m")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   command.add_option(
@@ -161,6 +241,11 @@ void add_scene_options(CLI::App& command, SceneChoice& choice) {
       "--held-out", choice.held_out,
       "also scenes that no parameter was chosen on: planes, clutter and poles of other shapes, a\n"
       "staircase, the disparity map turned and nearer");
+  command
+      .add_option("--distance-scale", choice.distance_scale,
+                  "all scenes' distances times this number, for a sensor of another range")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 void check_scene_options(const CLI::App& command, SceneChoice& choice) {
@@ -170,8 +255,8 @@ void check_scene_options(const CLI::App& command, SceneChoice& choice) {
              (choice.map_scales.metres_per_unit || choice.map_scales.reflectivity_per_unit)) {
     throw InputError("--depth-scale and --reflectivity-scale need --map");
   }
-  if (choice.disparity_file.empty() && !choice.own_disparity) {
-    refuse_without_effect(command, "--nearest", "it places the map of --disparity");
+  if (choice.disparity_file.empty() && choice.photographed.empty()) {
+    refuse_without_effect(command, "--nearest", "it places the maps of --disparity and --photographed");
   }
   if (choice.surface_file.empty()) {
     refuse_without_effect(command, "--variable", "it is in the file of --surface");

@@ -21,16 +21,17 @@ struct SceneChoice {
   MapScales map_scales;
   std::string disparity_file;
   double nearest_m = 1.0;
-  bool own_disparity = false;  ///< the command has disparity maps of its own, which --nearest places, too
+  std::vector<std::string> photographed;  ///< NAME=DISPARITY,PHOTOGRAPH
   std::string surface_file;
   std::string surface_variable = "T_second";
   bool held_out = false;
+  double distance_scale = 1.0;  ///< all distances times this: for sensors of another range
   int columns = 200;
   std::uint64_t seed = 1;
 };
 
 /// Adds the options that name scenes: --scene, --map and its scales, --disparity, --nearest, --surface,
-/// --variable and --held-out.
+/// --variable, --held-out and --distance-scale.
 void add_scene_options(CLI::App& command, SceneChoice& choice);
 /// To be called when they are parsed: own maps alone need no other scene. Throws InputError for options
 /// without effect.
@@ -46,6 +47,9 @@ struct SceneList {
     notes.push_back(fmt::format("Scene {}: {}", name, note));
   }
 };
+
+/// The least reflectivity of a photographed map, of the sensor's default.
+inline constexpr double kDarkestPhotographed = 0.05;
 
 /// One of the scenes "flat".
 inline bool is_flat(const std::string& scene) { return scene.starts_with("flat "); }

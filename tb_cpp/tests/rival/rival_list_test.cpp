@@ -44,6 +44,29 @@ TEST(RivalList, BitsOfAPixel) {
   EXPECT_EQ(bits("spline16"), 16 * 11 + 1);
 }
 
+// What the estimates of area and host work take.
+TEST(RivalList, HardwareHasAllBitsOfAPixel) {
+  for (const RivalEntry& entry : all_rivals()) {
+    const std::unique_ptr<Rival> rival = entry.make(SensorModel());
+    const RivalHardware hardware = rival->hardware();
+    EXPECT_GE(hardware.words * hardware.word_bits, rival->bits_per_pixel()) << entry.name;
+    EXPECT_LT((hardware.words - 1) * hardware.word_bits, rival->bits_per_pixel()) << entry.name;
+    EXPECT_GE(rival->host_operations(), 0) << entry.name;
+  }
+  const auto hardware = [](std::string_view name) {
+    return find_rival(name).make(SensorModel())->hardware();
+  };
+  EXPECT_EQ(hardware("histogram32").words, 32);
+  EXPECT_EQ(hardware("fourier16").table_bits, 16 * 4 * 256);
+  EXPECT_EQ(hardware("fourier16-1bit").table_bits, 0);
+  EXPECT_EQ(hardware("pedh4").adder_bits, 3 * 2 * 10);
+  const auto operations = [](std::string_view name) {
+    return find_rival(name).make(SensorModel())->host_operations();
+  };
+  EXPECT_EQ(operations("fourier8"), 1023 * 9 + 4 * 8);
+  EXPECT_EQ(operations("hedh16"), 8 * 16);
+}
+
 // What every rival owes its callers, whoever adds it.
 TEST(RivalList, EveryRivalReadsDarkBrightAndHostilePixels) {
   const SensorModel sensor;

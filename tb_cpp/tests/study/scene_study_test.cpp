@@ -38,6 +38,24 @@ TEST(SceneTruth, EdgesAreWhereANeighbourDiffersByTenPercent) {
   EXPECT_THAT(one.edge, ElementsAre(true, true, true));
 }
 
+TEST(SceneTruth, DimIsUpToAQuarterOfTheBrightest) {
+  TargetMap targets(2, 2, {2.0, 0.8});
+  targets.at(1, 0).reflectivity = 0.2;
+  targets.at(0, 1).reflectivity = 0.21;
+  EXPECT_THAT(scene_truth({"grey", targets, 2}).dim, ElementsAre(false, true, false, false));
+  // The brightest target counts though its column is not read.
+  targets.at(0, 0).reflectivity = 0.1;
+  targets.at(0, 1).reflectivity = 0.1;
+  EXPECT_THAT(scene_truth({"grey", targets, 1}).dim, ElementsAre(true, true));
+}
+
+TEST(SceneTruth, GuessedDistancesAreNotJudgedButMakeEdges) {
+  StudyScene scene{"pole", TargetMap(3, 1, {2.0, 1.0}), 3, {false, true, false}};
+  scene.targets.at(1, 0).depth_m = 3.0;
+  EXPECT_THAT(scene_truth(scene).distance_m, ElementsAre(2.0, 0.0, 2.0));
+  EXPECT_THAT(scene_truth(scene).edge, ElementsAre(true, true, true));
+}
+
 TEST(SceneScore, SharesEdgesAndConfidenceCurve) {
   SceneTruth truth{.columns = 1, .rows = 101, .distance_m = {}, .edge = {}, .single = {}};
   SceneMeasurement measurement;
@@ -45,6 +63,7 @@ TEST(SceneScore, SharesEdgesAndConfidenceCurve) {
     truth.distance_m.push_back(2.0);
     truth.edge.push_back(row < 20);
     truth.single.push_back(row < 4);
+    truth.dim.push_back(row >= 2 && row < 4);
     // Ten outliers, two of them at edges; five more above 3 %.
     const bool outlier = row % 10 == 3;
     const bool bad = row % 20 == 5;
@@ -55,6 +74,7 @@ TEST(SceneScore, SharesEdgesAndConfidenceCurve) {
   truth.distance_m.push_back(0.0);  // no target: not judged
   truth.edge.push_back(false);
   truth.single.push_back(false);
+  truth.dim.push_back(false);
   measurement.distance_m.push_back(1.0);
   measurement.confidence.push_back(0.0);
 
@@ -66,6 +86,8 @@ TEST(SceneScore, SharesEdgesAndConfidenceCurve) {
   EXPECT_EQ(score.edges.pixels, 20U);
   EXPECT_DOUBLE_EQ(score.edges.above_10_percent, 0.10);
   EXPECT_EQ(score.rest.pixels, 80U);
+  EXPECT_EQ(score.dims.pixels, 2U);
+  EXPECT_DOUBLE_EQ(score.dims.above_10_percent, 0.5);
   EXPECT_EQ(score.singles.pixels, 4U);
   EXPECT_DOUBLE_EQ(score.singles.above_10_percent, 0.25);
   const auto near = [](double value) { return DoubleNear(value, 1e-9); };
