@@ -70,6 +70,9 @@ LISTED = (
     Report("pool", "poolPointer 2 on scenes", "pool", "pool.md", "pool/pool.md",
            says="with and without its last smoothing, beside poolPointer and full histograms, over four seeds",
            with_it=(("pool/pool.csv", "pool.csv"),)),
+    Report("rivals", "Read-outs and their rivals", "rivals", "rivals.md", "rivals/report.md",
+           "what others have proposed on the same photons: accuracy over memory, area and host work, and which read-out for "
+           "which sensor", with_it=(("rivals/rivals.csv", "rivals.csv"), ("rivals/rival_hardware.csv", "rival_hardware.csv"))),
     Report("video", "Videos", "video", "video/video.md", "video/video.md",
            "accuracy from frame to frame, and what poolPointer 2 gains from the last one",
            with_it=same("video/video.csv", "video/room_light.svg")),

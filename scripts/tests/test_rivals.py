@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 import rivals
+from dtof_synth import rival_area
 
 HEADER = "klux,scene,estimator,kind,bits_per_pixel,pixels,above_3_percent,above_3_percent_low,above_3_percent_high"
 ROWS = ("50,all,hisPointer,read-out,339,100,0.2,0.1,0.3", "50,all,32-bin histogram,rival,256,100,0.1,0.05,0.2",
@@ -34,7 +35,7 @@ class Picture(unittest.TestCase):
         self.assertEqual([p.title for p in rivals.front(points)], ["a", "b"])
 
     def test_every_point_is_numbered_and_named(self) -> None:
-        text = rivals.script("50", rivals.points_of(self.path)["50"], Path("out.svg"))
+        text = rivals.script("50", rivals.points_of(self.path)["50"], rivals.AXES[0], Path("out.svg"))
         self.assertIn("set label '{/:Bold 1}  32-bin histogram, 256'", text)
         self.assertIn("set label '2  hisPointer, 339'", text)
         self.assertIn("'matched filter (single pixel)' at graph", text)
@@ -46,6 +47,40 @@ class Picture(unittest.TestCase):
                         "poolpointer_lean,poolpointer-lean,19\n", encoding="utf-8")
         self.assertEqual(rivals.known_bits(area), {"hispointer": "339", "poolpointer-lean": "19"})
         self.assertEqual(rivals.known_bits(area.with_name("none.csv")), {})
+
+    def with_hardware(self) -> list[rivals.Point]:
+        (self.path.parent / "rival_hardware.csv").write_text(
+            "rival,option,bits_per_pixel,words,word_bits,adder_bits,table_bits,host_operations,pooling_operations\n"
+            "32-bin histogram,histogram32,256,32,8,0,0,10000,200\n", encoding="utf-8")
+        return rivals.points_of(self.path)["50"]
+
+    def test_areas_are_synthesised_or_estimated(self) -> None:
+        readout, rival, reference = self.with_hardware()
+        self.assertEqual(readout.mm2, rivals.known_areas(rivals.AREA)["hisPointer"])
+        self.assertEqual((readout.operations, rival.operations), (rivals.READOUT_OPERATIONS, 10000))
+        base = rival_area.Base.read(rivals.AREA)
+        self.assertEqual(rival.mm2, rival_area.array_mm2(base, rival_area.Hardware(32, 8), 200, 160))
+        self.assertIsNone(reference.mm2)
+        self.assertNotIn("histogram", rivals.known_areas(rivals.AREA))  # synthesised for fewer pixels
+
+    def test_the_best_within_an_area(self) -> None:
+        points = self.with_hardware()
+        self.assertIsNone(rivals.best_within(points, 1.0))
+        self.assertEqual(rivals.best_within(points, 100.0).title, "32-bin histogram")
+        section = rivals.sensor_section({"mine": {"50": points}})
+        self.assertIn("| mine | in the sun, 50 klux | - | - | - | 32-bin histogram: 10.00 +-7.50 (6.83 mm2) |", section)
+        self.assertIn("Of 1 cells: 32-bin histogram has 1.", section)
+
+    def test_the_report_has_the_sections_before_the_lights(self) -> None:
+        folder = self.path.parent
+        self.with_hardware()
+        (folder / "rivals.md").write_text("# Rivals\n\n## Beside each other\n\n* a\n\n## 14 klux\n\ntable\n", encoding="utf-8")
+        rivals.report(folder)
+        text = (folder / "report.md").read_text(encoding="utf-8")
+        order = [text.index(part) for part in ("## Beside each other", "## Which read-out", "## Area and host work", "\n## 14 klux")]
+        self.assertEqual(order, sorted(order))
+        self.assertTrue((folder / "rivals_mm2_50klux.svg").is_file())
+        self.assertIn("**32-bin histogram**", text)
 
 
 if __name__ == "__main__":

@@ -74,8 +74,7 @@ class Base:
             for row in csv.DictReader(file):
                 if row["configuration"] == SMALLEST:
                     bits = float(row["bits_per_pixel"])
-                    return cls(float(row["column_um2"]) - bits * bit_um2(),
-                               float(row["shared_um2"]) + float(row["fanout_um2"]))
+                    return cls(float(row["column_um2"]) - bits * bit_um2(), float(row["shared_um2"]))
         raise FlowError(f"{area}: no configuration {SMALLEST}")
 
 

@@ -19,7 +19,7 @@ using testing::Not;
 /// A score whose pixels above 3 % are `share`, and whose other figures are far from it.
 SceneScore score(double share) {
   const ErrorShares all{1000, share, share / 2.0, share * 3.0};
-  return {all, {200, share, share, share}, {800, share, share, share}, {}, {}};
+  return {all, {200, share, share, share}, {800, share, share, share}, {}, {}, {}};
 }
 
 EnlargeRow row(const std::string& scene, const ArraySize& array, const std::string& readout,

@@ -44,9 +44,10 @@ TEST(SceneTruth, DimIsUpToAQuarterOfTheBrightest) {
   targets.at(0, 1).reflectivity = 0.21;
   EXPECT_THAT(scene_truth({"grey", targets, 2}).dim, ElementsAre(false, true, false, false));
   // The brightest target counts though its column is not read.
-  targets.at(0, 0).reflectivity = 0.1;
-  targets.at(0, 1).reflectivity = 0.1;
-  EXPECT_THAT(scene_truth({"grey", targets, 1}).dim, ElementsAre(true, true));
+  TargetMap row(3, 1, {2.0, 0.2});
+  EXPECT_THAT(scene_truth({"grey", row, 1}).dim, ElementsAre(false));
+  row.at(0, 0).reflectivity = 0.8;
+  EXPECT_THAT(scene_truth({"grey", row, 1}).dim, ElementsAre(true));
 }
 
 TEST(SceneTruth, GuessedDistancesAreNotJudgedButMakeEdges) {
