@@ -26,6 +26,8 @@ control/pool_result_output.sv
 control/pool2_sequencer.sv
 datapath/data_filter.sv
 datapath/histogram_builder.sv
+datapath/pair_detector.sv
+datapath/pair_interpolator.sv
 datapath/peak_detector.sv
 datapath/peak_histogram.sv
 datapath/pointer_update.sv
@@ -52,6 +54,7 @@ column/ez_pointer_column.sv
 column/his_pointer_column.sv
 column/interframe_histogram_column.sv
 column/partitioned_histogram_column.sv
+column/coarse_histogram_column.sv
 // end of columns
 column/pool_pointer_column.sv
 column/pool_pointer_pair.sv

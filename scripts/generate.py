@@ -121,6 +121,10 @@ def systemverilog(table: Table) -> str:
         "  // log2 of the bins that the result is searched in.",
         *choice("int", "scan_width", sizes, scanned, "0")[1:],
         "",
+        "  // Clocks between a pixel's last bin and its result, beyond those of the peak search.",
+        *choice("int", "decode_clocks", sizes + ", input int fraction_bits",
+                {name: value for name, value in of("decode_clocks").items() if value != 0}, "0")[1:],
+        "",
         "  // Bits of a result's fields beside its code.",
         *choice("int", "fraction_width", ", input int fraction_bits", of("fraction_width"), "0")[1:],
         *choice("int", "confidence_width", ", input int count_width,\n                                          "
@@ -135,9 +139,9 @@ def top_constant(top: Top) -> str:
 
 
 def offered_tops(table: Table) -> list[Top]:
-    """Without those of read-outs on trial."""
-    trials = {readout.top for readout in table.readouts.values() if readout.trial}
-    return [top for top in table.tops.values() if top.name not in trials]
+    """Without those that have read-outs on trial alone."""
+    offered = {readout.top for readout in table.readouts.values() if not readout.trial}
+    return [top for top in table.tops.values() if top.name in offered]
 
 
 def subsystem_number(table: Table, readout: Readout) -> int | None:

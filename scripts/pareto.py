@@ -197,7 +197,7 @@ WIDTH, HEIGHT = 1240, 600
 LEFT, RIGHT, TOP, BOTTOM = 75, 20, 45, 60
 FONT, LETTER, LINE = 13, 7.6, 16
 LEGEND = "small: variants; crosses: area of the thesis"
-THESIS_MARKER = 2
+THESIS_MARKER = 1  # that of a reference, which this picture draws as a line
 
 
 class Panel:

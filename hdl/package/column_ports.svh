@@ -35,7 +35,7 @@
     input  logic                    clear_all_i,              // signalled clear of the whole memory
     input  logic                    scan_s2_i,                // the count of bin_s2_i is known
     input  logic                    first_s2_i,               // ... and is the first of its pixel
-    input  logic [   BIN_WIDTH-1:0] bin_s2_i,
+    input  logic [  SCAN_WIDTH-1:0] bin_s2_i,                 // past the last bin: a clock of what follows the scan
     // word of a pixel: read, changed by timestamps, written; or set
     input  logic                    word_read_i,              // ahead of the pixel's timestamps, or for its scan
     input  logic [   ROW_WIDTH-1:0] word_read_pixel_i,

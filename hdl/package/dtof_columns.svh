@@ -13,6 +13,9 @@
         dtof_pkg::READOUT_PIFH, dtof_pkg::READOUT_HISTOGRAM: begin : g_partitioned_histogram
           `DTOF_COLUMN(partitioned_histogram_column)
         end
+        dtof_pkg::READOUT_COARSEHISTOGRAM: begin : g_coarse_histogram
+          `DTOF_COLUMN(coarse_histogram_column)
+        end
         default: begin : g_no_readout
         end
       endcase

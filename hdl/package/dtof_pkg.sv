@@ -76,6 +76,16 @@ package dtof_pkg;
     peak_width = (readout == READOUT_THREESTEPS) ? np - step_shift(np, 2) : nb;
   endfunction
 
+  // Addresses of a pixel's scan in M4: its bins, and the clocks that the result takes behind them.
+  function automatic int final_addresses(input int readout, input int np, input int nb, input int fraction_bits);
+    final_addresses = (1 << scan_width(readout, np, nb)) + decode_clocks(readout, np, nb, fraction_bits);
+  endfunction
+
+  // Bits of a scan's address.
+  function automatic int scan_address_width(input int readout, input int np, input int nb, input int fraction_bits);
+    scan_address_width = max_of(bin_width(readout, np, nb), index_width(final_addresses(readout, np, nb, fraction_bits)));
+  endfunction
+
   // Bits of a pointer's full step in units of 2^-FRACTION_BITS bin.
   function automatic int step_width(input int pointer_step, input int fraction_bits);
     step_width = $clog2(pointer_step + 1) + fraction_bits;

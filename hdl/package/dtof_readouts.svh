@@ -10,16 +10,17 @@
   localparam int READOUT_THREESTEPS = 5;
   localparam int READOUT_PIFH = 6;
   localparam int READOUT_HISTOGRAM = 7;
+  localparam int READOUT_COARSEHISTOGRAM = 8;
   localparam int READOUT_POOLPOINTER = 64;  // of dtof_subsystem alone: pool_pointer_array
-`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to 7"
+`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to 8"
 
   function automatic bit is_readout(input int readout);
-    is_readout = readout >= 0 && readout < 8;
+    is_readout = readout >= 0 && readout < 9;
   endfunction
 
   function automatic bit has_histogram(input int readout);
     case (readout)
-      READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM: has_histogram = 1'b1;
+      READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM, READOUT_COARSEHISTOGRAM: has_histogram = 1'b1;
       default: has_histogram = 1'b0;
     endcase
   endfunction
@@ -49,7 +50,7 @@
   // Passes over the stream before the final one.
   function automatic int coarse_passes(input int readout, input int np, input int nb);
     case (readout)
-      READOUT_EZPOINTER, READOUT_HISTOGRAM: coarse_passes = 0;
+      READOUT_EZPOINTER, READOUT_HISTOGRAM, READOUT_COARSEHISTOGRAM: coarse_passes = 0;
       READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_FIFH: coarse_passes = 1;
       READOUT_THREESTEPS: coarse_passes = 3;
       READOUT_PIFH: coarse_passes = (1 << (np - nb)) - 1;
@@ -60,7 +61,7 @@
   // log2 of the bins that the histogram SRAM holds for a pixel; 1 without one.
   function automatic int bin_width(input int readout, input int np, input int nb);
     case (readout)
-      READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_PIFH: bin_width = nb;
+      READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_SIFH, READOUT_PIFH, READOUT_COARSEHISTOGRAM: bin_width = nb;
       READOUT_FIFH: bin_width = max_of(nb, (np - nb));
       READOUT_THREESTEPS: bin_width = 4;
       READOUT_HISTOGRAM: bin_width = np;
@@ -72,7 +73,7 @@
   function automatic int scan_width(input int readout, input int np, input int nb);
     case (readout)
       READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: scan_width = 0;
-      READOUT_SIFH, READOUT_PIFH: scan_width = nb;
+      READOUT_SIFH, READOUT_PIFH, READOUT_COARSEHISTOGRAM: scan_width = nb;
       READOUT_FIFH: scan_width = np - nb;
       READOUT_THREESTEPS: scan_width = 4;
       READOUT_HISTOGRAM: scan_width = np;
@@ -80,10 +81,18 @@
     endcase
   endfunction
 
+  // Clocks between a pixel's last bin and its result, beyond those of the peak search.
+  function automatic int decode_clocks(input int readout, input int np, input int nb, input int fraction_bits);
+    case (readout)
+      READOUT_COARSEHISTOGRAM: decode_clocks = ((np - nb) + fraction_bits) + 4;
+      default: decode_clocks = 0;
+    endcase
+  endfunction
+
   // Bits of a result's fields beside its code.
   function automatic int fraction_width(input int readout, input int fraction_bits);
     case (readout)
-      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: fraction_width = fraction_bits;
+      READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER, READOUT_COARSEHISTOGRAM: fraction_width = fraction_bits;
       READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM: fraction_width = 0;
       default: fraction_width = 0;
     endcase
@@ -93,7 +102,7 @@
                                           input int pointer_confidence_width);
     case (readout)
       READOUT_EZPOINTER, READOUT_HISPOINTER1, READOUT_HISPOINTER: confidence_width = pointer_confidence_width;
-      READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM: confidence_width = count_width;
+      READOUT_SIFH, READOUT_FIFH, READOUT_THREESTEPS, READOUT_PIFH, READOUT_HISTOGRAM, READOUT_COARSEHISTOGRAM: confidence_width = count_width;
       default: confidence_width = 0;
     endcase
   endfunction

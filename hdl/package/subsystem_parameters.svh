@@ -6,6 +6,7 @@
     parameter int NB = (READOUT == dtof_pkg::READOUT_SIFH) ? (NP / 2) + 1
         : (READOUT == dtof_pkg::READOUT_PIFH) ? dtof_pkg::min_of(NP, 6)
         : (READOUT == dtof_pkg::READOUT_HISTOGRAM) ? NP
+        : (READOUT == dtof_pkg::READOUT_COARSEHISTOGRAM) ? dtof_pkg::min_of(NP, 5)
         : NP / 2,
     // pixels a column serves
     parameter int PIXELS_PER_SRAM = 160,
@@ -19,7 +20,8 @@
     // bins a pointer moves per timestamp
     parameter int POINTER_STEP = 1,
     // fractional bits of the pointer
-    parameter int FRACTION_BITS = 0,
+    parameter int FRACTION_BITS = (READOUT == dtof_pkg::READOUT_COARSEHISTOGRAM) ? dtof_pkg::min_of(2, (16 - NP))
+        : 0,
     // bits of a pointer's confidence, 0 for none
     parameter int CONFIDENCE_WIDTH = 4,
     // hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns

@@ -23,7 +23,7 @@
 //   frame's end, of the rows from raw_first_row_i to raw_last_row_i: row by row, bin by bin, column by column. code is
 //   the bin's lowest, limited to 0 .. 2^NP - 1, fraction 0, and confidence the count.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
-// larger of 2 SRAM_NUM and the bins to scan in M4.
+// larger of 2 SRAM_NUM and the addresses to scan in M4.
 // Cost at the defaults: ezPointer 493 um2 of logic and 2240 bits of SRAM a column, 1998 um2 in common.
 `include "dtof_macros.svh"
 
@@ -110,14 +110,15 @@ module dtof_array #(
   localparam int PASS_WIDTH = dtof_pkg::index_width(COARSE_PASSES + 1);
   localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB);
   localparam int BINS = 1 << BIN_WIDTH;
-  localparam int FINAL_BINS = 1 << dtof_pkg::scan_width(READOUT, NP, NB);
+  localparam int FINAL_ADDRESSES = dtof_pkg::final_addresses(READOUT, NP, NB, FRACTION_BITS);
+  localparam int SCAN_WIDTH = dtof_pkg::scan_address_width(READOUT, NP, NB, FRACTION_BITS);
   // The histogram that a raw frame shows: of the final pass, or, where timestamps move a word there, of the first one,
   // which then is neither cleared in M1 nor in M2.
   localparam int RAW_OF_FIRST_PASS = (RAW_HISTOGRAM != 0) ? WORD_MOVED : 0;
   localparam int RAW_BINS = (RAW_HISTOGRAM != 0) ? dtof_pkg::raw_bins(READOUT, NP, NB) : 0;
-  localparam int GEARS = dtof_pkg::fraction_width(READOUT, FRACTION_BITS);
+  localparam int GEARS = (WORD_MOVED != 0) ? dtof_pkg::fraction_width(READOUT, FRACTION_BITS) : 0;
   localparam int GEAR_WIDTH = dtof_pkg::index_width(GEARS + 1);
-  localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, GEARS);
+  localparam int STEP_WIDTH = dtof_pkg::step_width(POINTER_STEP, dtof_pkg::fraction_width(READOUT, FRACTION_BITS));
 
   // Control, once per array.
 
@@ -271,13 +272,15 @@ module dtof_array #(
 
   logic scan_s0, last_s0, clear_s1, scan_s2, first_s2, last_s3;
   logic [ROW_WIDTH-1:0] pixel_s0, pixel_s1, pixel_s3;
-  logic [BIN_WIDTH-1:0] bin_s0, bin_s1, bin_s2;
+  logic [SCAN_WIDTH-1:0] bin_s0, bin_s1, bin_s2;
+  logic unused_bin_s1;
+  assign unused_bin_s1 = ^bin_s1;  // no bit is used past the bins
 
   scan_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
-      .BIN_WIDTH      (BIN_WIDTH),
+      .BIN_WIDTH      (SCAN_WIDTH),
       .RESET_BINS     ((HISTOGRAM != 0) ? BINS : 1),
-      .FINAL_BINS     (FINAL_BINS),
+      .FINAL_BINS     (FINAL_ADDRESSES),
       .SKIP_RESET     ((HISTOGRAM != 0) ? SIGNALLED_CLEAR : 0),
       .RAW_BINS       (RAW_BINS)
   ) u_scan_sequencer (
@@ -378,7 +381,8 @@ module dtof_array #(
   logic [3:1] column_same_pixel_t3;
   logic [ROW_WIDTH-1:0] column_histogram_read_pixel, column_histogram_write_pixel, column_word_read_pixel,
       column_word_set_pixel, column_word_write_pixel;
-  logic [BIN_WIDTH-1:0] column_scan_bin_s0, column_clear_bin_s1, column_bin_s2;
+  logic [BIN_WIDTH-1:0] column_scan_bin_s0, column_clear_bin_s1;
+  logic [SCAN_WIDTH-1:0] column_bin_s2;
 
   assign column_pass = (COARSE_PASSES != 0) ? pass : '0;
   assign column_first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
@@ -391,10 +395,10 @@ module dtof_array #(
   assign column_beat_t5 = (HISTOGRAM != 0) ? beat_t5 : 1'b0;
   assign column_histogram_read_pixel = (HISTOGRAM != 0) ? histogram_read_pixel : '0;
   assign column_histogram_write_pixel = (HISTOGRAM != 0) ? histogram_write_pixel : '0;
-  assign column_scan_s0 = (HISTOGRAM != 0) ? scan_s0 : 1'b0;
-  assign column_scan_bin_s0 = (HISTOGRAM != 0) ? bin_s0 : '0;
+  assign column_scan_s0 = (HISTOGRAM != 0) ? scan_s0 && (32'(bin_s0) < BINS) : 1'b0;
+  assign column_scan_bin_s0 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s0) : '0;
   assign column_clear_s1 = (HISTOGRAM != 0) ? clear_s1 && !(keeps_counts && coarse_scan) : 1'b0;
-  assign column_clear_bin_s1 = (HISTOGRAM != 0) ? bin_s1 : '0;
+  assign column_clear_bin_s1 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s1) : '0;
   assign column_clear_all = (HISTOGRAM != 0) ? clear_all && !(keeps_counts && next_pass) : 1'b0;
   assign column_scan_s2 = (HISTOGRAM != 0) ? scan_s2 : 1'b0;
   assign column_first_s2 = (HISTOGRAM != 0) ? first_s2 : 1'b0;

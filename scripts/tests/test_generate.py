@@ -35,20 +35,20 @@ class Expressions(unittest.TestCase):
 class Descriptions(unittest.TestCase):
     def test_a_new_read_out_is_in_every_list(self):
         table = readouts.parse(TEXT + FIRST_PHOTON)
-        self.assertIn("localparam int READOUT_FIRSTPHOTON = 8;", generate.systemverilog(table))
-        self.assertIn("READOUT must be 0 to 8", generate.systemverilog(table))
-        self.assertIn("READOUT_HISTOGRAM, READOUT_FIRSTPHOTON: coarse_passes = 0;", generate.systemverilog(table))
+        self.assertIn("localparam int READOUT_FIRSTPHOTON = 9;", generate.systemverilog(table))
+        self.assertIn("READOUT must be 0 to 9", generate.systemverilog(table))
+        self.assertIn("READOUT_HISTOGRAM, READOUT_FIRSTPHOTON, READOUT_COARSEHISTOGRAM: coarse_passes = 0;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: is_word_moved = 1'b1;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: begin : g_first_photon\n          `DTOF_COLUMN(first_photon_column)",
                       generate.columns(table))
         self.assertIn("column/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
                       generate.model_table(table))
-        self.assertIn("partitioned_histogram pool_pointer first_photon pool_pointer2)", generate.cmake(table))
+        self.assertIn("partitioned_histogram pool_pointer first_photon coarse_histogram pool_pointer2)", generate.cmake(table))
         self.assertIn("kFirstPhoton = 10,", generate.cpp_header(table))
         self.assertIn('"first photon"', generate.cpp_source(table))
-        self.assertIn("set(DTOF_NUMBER_firstphoton 8)", generate.cmake(table))
-        self.assertIn("8 first photon |", generate.readme((ROOT / "README.md").read_text(), table))
+        self.assertIn("set(DTOF_NUMBER_firstphoton 9)", generate.cmake(table))
+        self.assertIn("9 first photon |", generate.readme((ROOT / "README.md").read_text(), table))
 
     def test_a_read_out_without_rtl_is_in_the_lists_of_models_alone(self):
         model_only = "\n".join(line for line in FIRST_PHOTON.splitlines() if not line.startswith(("number", "column")))

@@ -29,7 +29,8 @@ class Styles(unittest.TestCase):
             self.assertNotEqual(one.marker, other.marker, f"{one.title}, {other.title}")
             channels = zip(bytes.fromhex(one.colour[1:]), bytes.fromhex(other.colour[1:]))
             self.assertGreater(sum(abs(a - b) for a, b in channels), 60, f"{one.title}, {other.title}")
-        self.assertNotIn(pareto.THESIS_MARKER, {style.marker for style in self.styles})
+        self.assertNotIn(pareto.THESIS_MARKER, {style.marker for style in self.styles if style.title not in pareto.REFERENCES
+                                                and style.title != "matched filter"})
 
     def test_every_line_stands_out_from_white(self) -> None:
         def luminance(colour: str) -> float:  # of WCAG 2

@@ -80,6 +80,7 @@ class Readout:
     passes: Expression = 0
     bin_width: Expression | None = None
     scan_width: Expression | None = None
+    decode_clocks: Expression = 0
     word: str = ""
     memories: dict[str, list[Expression]] = field(default_factory=dict)
 

@@ -210,6 +210,7 @@ int ReadoutParameters::raw_bins() const {
     case Readout::kHisPointer1:
     case Readout::kHisPointer:
     case Readout::kSifh:
+    case Readout::kCoarseHistogram:
       return 1 << nb;
     case Readout::kFifh:
       return 1 << (np - nb);
@@ -256,6 +257,9 @@ std::string ReadoutParameters::to_string() const {
   if (is_pointer_readout(readout)) {
     out += fmt::format(" POINTER_STEP={} FRACTION_BITS={} CONFIDENCE_WIDTH={}", pointer_step, fraction_bits,
                        confidence_width);
+  }
+  if (readout == Readout::kCoarseHistogram) {
+    out += fmt::format(" FRACTION_BITS={}", fraction_bits);
   }
   if (has_parameter(readout, "GUARD")) {
     out += fmt::format(" GUARD={}", guard);

@@ -81,7 +81,7 @@ struct ReadoutParameters {
   int slots = 2;             ///< SLOTS
   int count_width = 10;      ///< COUNT_WIDTH
   int pointer_step = 1;      ///< POINTER_STEP, bins
-  int fraction_bits = 0;     ///< FRACTION_BITS (pointer read-outs)
+  int fraction_bits = 0;     ///< FRACTION_BITS (pointer read-outs, coarse histogram)
   int confidence_width = 4;  ///< CONFIDENCE_WIDTH (pointer read-outs)
   int guard = 46;            ///< GUARD, bins (hisPointer v2)
   bool window_centred = false;  ///< WINDOW_CENTRED (SiFH)

@@ -62,6 +62,10 @@ constexpr std::array<Description, kModelReadouts.size() + kTrialReadouts.size()>
      "poolPointer in half the memory: larger groups, shorter words",
      false, true, false, false, true,
      {"COUNT_WIDTH"}},
+    {"coarsehistogram", "coarse histogram",
+     "one coarse histogram for the whole frame; its highest pair of bins and their neighbours hold the place",
+     false, false, false, true, true,
+     {"NB", "COUNT_WIDTH", "FRACTION_BITS"}},
     {"poolpointer2", "poolPointer 2",
      "poolPointer whose pixels help each other in two dimensions",
      false, true, true, false, true,
@@ -147,6 +151,12 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   }
   if (readout == Readout::kPoolPointerLean && parameter == "COARSE_SHARE") {
     return 12;
+  }
+  if (readout == Readout::kCoarseHistogram && parameter == "NB") {
+    return std::min(np, 5);
+  }
+  if (readout == Readout::kCoarseHistogram && parameter == "FRACTION_BITS") {
+    return std::min(2, (16 - np));
   }
   if (readout == Readout::kPoolPointer2 && parameter == "NB") {
     return 5;

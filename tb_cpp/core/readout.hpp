@@ -20,8 +20,9 @@ enum class Readout : int {
   kHistogram = 7,
   kPoolPointer = 8,
   kPoolPointerLean = 9,
-  kPoolPointer2 = 10,
-  kPoolPointer2Lean = 11,
+  kCoarseHistogram = 10,
+  kPoolPointer2 = 11,
+  kPoolPointer2Lean = 12,
 };
 
 /// Those of the thesis.
@@ -62,7 +63,8 @@ inline constexpr std::array<Readout, 10> kModelReadouts = {
     Readout::kPoolPointerLean};
 
 /// Those that are on trial: they have models and RTL, and are read only where they are named.
-inline constexpr std::array<Readout, 2> kTrialReadouts = {
+inline constexpr std::array<Readout, 3> kTrialReadouts = {
+    Readout::kCoarseHistogram,
     Readout::kPoolPointer2,
     Readout::kPoolPointer2Lean};
 

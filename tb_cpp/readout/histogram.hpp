@@ -17,6 +17,16 @@ struct HistogramPeak {
   std::uint32_t sum = 0;    ///< sum of all saturated counts
 };
 
+/// The highest pair of neighbouring bins after a scan, and the pairs on either side of it, each of which has
+/// a bin in common with it. Bins before the first and behind the last one hold nothing.
+struct PairPeak {
+  std::uint32_t edge = 1;    ///< upper bin of the pair, at the middle of the pair; lowest on a tie
+  std::uint32_t before = 0;  ///< sum of the lower bin and the one before it
+  std::uint32_t count = 0;   ///< sum of the pair
+  std::uint32_t behind = 0;  ///< sum of the upper bin and the one behind it
+  std::uint32_t sum = 0;     ///< sum of all saturated counts
+};
+
 /// Height of the peak above the mean of the other bins of a histogram of 2^bin_bits bins, never negative
 /// (docs/reference/readouts.md, "Histogram confidence").
 constexpr std::uint16_t histogram_confidence(const HistogramPeak& peak, int bin_bits) {
@@ -67,6 +77,32 @@ class Histogram {
     }
     touched_count_ = 0;
     return {kIndexMask - (best & kIndexMask), best >> 16U, sum};
+  }
+
+  /// Finds the highest pair, at least two bins, and clears the histogram behind the scan.
+  PairPeak take_pair_peak() {
+    if (copy_ != nullptr) {
+      *copy_ = counts_;
+    }
+    const auto pair = [this](std::size_t upper) {
+      return std::uint32_t{counts_[upper - 1]} + (upper < counts_.size() ? counts_[upper] : 0U);
+    };
+    PairPeak peak;
+    peak.count = pair(1);
+    for (std::size_t upper = 2; upper < counts_.size(); ++upper) {
+      if (pair(upper) > peak.count) {
+        peak.edge = static_cast<std::uint32_t>(upper);
+        peak.count = pair(upper);
+      }
+    }
+    peak.before = peak.edge > 1 ? pair(peak.edge - 1) : counts_[0];
+    peak.behind = pair(peak.edge + 1);
+    for (std::size_t i = 0; i < touched_count_; ++i) {
+      peak.sum += counts_[touched_[i]];
+      counts_[touched_[i]] = 0;
+    }
+    touched_count_ = 0;
+    return peak;
   }
 
  private:

@@ -10,6 +10,7 @@ std::unique_ptr<ReadoutModel> make_pointer_readouts(const ReadoutParameters& par
 std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_partitioned_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters);
+std::unique_ptr<ReadoutModel> make_coarse_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_pool_pointer2(const ReadoutParameters& parameters);
 
 std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parameters) {
@@ -28,6 +29,8 @@ std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parame
     case Readout::kPoolPointer:
     case Readout::kPoolPointerLean:
       return make_pool_pointer(parameters);
+    case Readout::kCoarseHistogram:
+      return make_coarse_histogram(parameters);
     case Readout::kPoolPointer2:
     case Readout::kPoolPointer2Lean:
       return make_pool_pointer2(parameters);

@@ -46,6 +46,12 @@ std::vector<Row> parameter_limits() {
   return rows;
 }
 
+// A number of dtof_array is the read-out's place in C++, where those on trial stand behind the others.
+Readout of_number(int number) {
+  constexpr int kCoarseHistogramInRtl = 8;
+  return number == kCoarseHistogramInRtl ? Readout::kCoarseHistogram : static_cast<Readout>(number);
+}
+
 // Of the array alone: a model has no such parameter, or no other value of it.
 const std::set<std::string> kOfTheArray = {"READOUT",       "PIXELS_PER_SRAM", "SRAM_NUM",
                                            "POINTER_PORTS", "ENGINE_COLUMNS",  "ACQ_WIDTH",
@@ -82,7 +88,7 @@ ReadoutParameters of_model(const Row& row) {
                                                                   : Readout::kEzPointer);
   for (const auto& [name, value] : row.settings) {
     if (name == "READOUT") {
-      parameters = ReadoutParameters::defaults(static_cast<Readout>(value));
+      parameters = ReadoutParameters::defaults(of_number(value));
     } else if (name == "RIVAL_MOVES") {
       parameters.pool.rival_moves = value != 0;
     } else if (name == "SECOND_TARGET") {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -152,6 +153,82 @@ TEST(HisPointerModel, Version2SeesOnlyItsWindow) {
   EXPECT_EQ(run(parameters, {0, 1000}).code, 16U) << "no wrap in the filter";
 }
 
+/// As many detections of a bin's first code as `counts` has for it, one an acquisition.
+std::vector<Timestamp> codes_of(const std::vector<int>& counts, int bin_codes) {
+  std::vector<Timestamp> codes;
+  for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+    codes.insert(codes.end(), static_cast<std::size_t>(counts[bin]),
+                 static_cast<Timestamp>(static_cast<int>(bin) * bin_codes));
+  }
+  return codes;
+}
+
+ReadoutParameters eight_bins(int fraction_bits) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kCoarseHistogram, 6);
+  parameters.nb = 3;
+  parameters.fraction_bits = fraction_bits;
+  return parameters;
+}
+
+TEST(CoarseHistogramModel, PlaceBetweenTheBinsOfTheHighestPair) {
+  const auto read = [](const std::vector<int>& counts, int fraction_bits) {
+    return run(eight_bins(fraction_bits), codes_of(counts, 8));
+  };
+  // Pairs 1, 5, 8, 6, 2: the edge is code 24, the lean 1 of a height of 8, so 2 / 3 * 1 / 8 * 8 codes above
+  // it.
+  EXPECT_EQ(read({0, 1, 4, 4, 2, 0, 0, 0}, 2), (PixelResult{24, 2, 8}));
+  EXPECT_EQ(read({0, 1, 4, 4, 2, 0, 0, 0}, 0), (PixelResult{24, 0, 8}));
+  // The mirror image: as far below the edge, rounded away from it.
+  EXPECT_EQ(read({0, 2, 4, 4, 1, 0, 0, 0}, 2), (PixelResult{23, 1, 8}));
+  EXPECT_EQ(read({0, 0, 4, 4, 0, 0, 0, 0}, 4), (PixelResult{24, 0, 8})) << "in the middle";
+  // One bin alone: the lower of two equal pairs, whose pulse leans on what is behind it, 2 / 3 of a bin.
+  EXPECT_EQ(read({0, 0, 0, 6, 0, 0, 0, 0}, 2), (PixelResult{29, 1, 6}));
+}
+
+TEST(CoarseHistogramModel, BackgroundIsTheMeanOfTheOtherPairs) {
+  // The pair has 20, the others 6 * 4 = 24, which is 24 / (8 / 2) = 6 a pair: a height of 14, a lean of 4.
+  // 2 / 3 * 4 / 14 of 8 codes are 1.52.
+  EXPECT_EQ(run(eight_bins(4), codes_of({4, 4, 4, 10, 10, 8, 4, 4}, 8)).confidence, 13);
+  EXPECT_EQ(run(eight_bins(2), codes_of({3, 3, 3, 10, 10, 7, 4, 4}, 8)), (PixelResult{33, 2, 14}));
+  // A height of 18 - 54 / 4 = 5 and a lean of 9, for the pair before the first one has one bin: no more than
+  // 2 / 3 of a bin.
+  EXPECT_EQ(run(eight_bins(4), codes_of({9, 9, 9, 9, 9, 9, 9, 9}, 8)), (PixelResult{13, 5, 5}));
+}
+
+TEST(CoarseHistogramModel, BeyondEitherEndThereIsNothing) {
+  EXPECT_EQ(run(eight_bins(0), codes_of({5, 3, 0, 0, 0, 0, 0, 0}, 8)), (PixelResult{6, 0, 8}))
+      << "the pair before the first one has one bin";
+  EXPECT_EQ(run(eight_bins(0), codes_of({0, 0, 0, 0, 0, 0, 3, 5}, 8)), (PixelResult{57, 0, 8}));
+}
+
+TEST(CoarseHistogramModel, ConfidenceStaysInItsBits) {
+  ReadoutParameters parameters = eight_bins(0);
+  parameters.count_width = 3;
+  EXPECT_EQ(run(parameters, codes_of({0, 0, 9, 9, 0, 0, 0, 0}, 8)), (PixelResult{24, 0, 7}));
+  EXPECT_EQ(run(parameters, codes_of({0, 0, 3, 3, 0, 0, 0, 0}, 8)).confidence, 6);
+  EXPECT_EQ(run(parameters, codes_of({0, 0, 4, 4, 0, 0, 0, 0}, 8)).confidence, 7);
+}
+
+// Where the factor of two thirds comes from: the thesis's pulse, 2 ns of 45 ns, without noise.
+TEST(CoarseHistogramModel, AGaussianPulseIsPlacedToAHundredthOfABin) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kCoarseHistogram, 10);
+  parameters.count_width = 16;
+  constexpr double kBin = 32.0;
+  constexpr double kSigma = 2.0 / 45.0 * 1024.0 / 2.3548;
+  for (double middle = 400.0; middle < 464.0; middle += 1.0) {
+    std::vector<int> counts;
+    for (int bin = 0; bin < 32; ++bin) {
+      const auto below = [&](double code) {
+        return 0.5 * std::erfc((middle - code) / (kSigma * std::sqrt(2.0)));
+      };
+      counts.push_back(
+          static_cast<int>(std::lround(30000.0 * (below((bin + 1) * kBin) - below(bin * kBin)))));
+    }
+    const PixelResult result = run(parameters, codes_of(counts, 32));
+    EXPECT_NEAR(result.code + (result.fraction + 0.5) / 4.0, middle, 0.01 * kBin) << middle;
+  }
+}
+
 TEST(EzPointerModel, PingPongAcrossThePointer) {
   const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kEzPointer, 10);
   const std::vector<Timestamp> codes = {513, 511, 513, 511, 513, 511};
@@ -160,10 +237,10 @@ TEST(EzPointerModel, PingPongAcrossThePointer) {
 }
 
 TEST(EmptyFrame, EveryReadoutHasItsDefinedResult) {
-  const std::map<Readout, int> codes = {{Readout::kEzPointer, 512}, {Readout::kHisPointer1, 16},
-                                        {Readout::kHisPointer, 16}, {Readout::kSifh, 0},
-                                        {Readout::kFifh, 0},        {Readout::kThreeSteps, 0},
-                                        {Readout::kPifh, 0},        {Readout::kHistogram, 0}};
+  const std::map<Readout, int> codes = {
+      {Readout::kEzPointer, 512}, {Readout::kHisPointer1, 16}, {Readout::kHisPointer, 16},
+      {Readout::kSifh, 0},        {Readout::kFifh, 0},         {Readout::kThreeSteps, 0},
+      {Readout::kPifh, 0},        {Readout::kHistogram, 0},    {Readout::kCoarseHistogram, 32}};
   for (const auto& [readout, code] : codes) {
     const ReadoutParameters parameters = ReadoutParameters::defaults(readout, 10);
     const PixelResult expected{static_cast<std::uint16_t>(code), 0, 0};

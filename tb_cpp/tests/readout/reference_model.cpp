@@ -57,6 +57,8 @@ class Frame {
         return partitioned(p_.nb);
       case Readout::kHistogram:
         return partitioned(p_.np);
+      case Readout::kCoarseHistogram:
+        return coarse_histogram();
       default:
         break;  // tests of their own
     }
@@ -191,6 +193,39 @@ class Frame {
       }
     }
     return best;
+  }
+
+  // In fractions of numbers, from a list of all bins with an empty one at either end.
+  PixelResult coarse_histogram() const {
+    const std::int64_t bins = power2(p_.nb);
+    const std::int64_t width = power2(p_.np - p_.nb);
+    (void)scan(
+        0, acquisitions_, [](std::int64_t) { return true; }, [=](std::int64_t x) { return x / width; }, bins);
+    last_.width = width;
+    std::vector<std::int64_t> counts(static_cast<std::size_t>(bins) + 2, 0);
+    std::int64_t sum = 0;
+    for (const auto& [bin, count] : last_.counts) {
+      counts[static_cast<std::size_t>(bin) + 1] = count;
+      sum += count;
+    }
+    std::vector<std::int64_t> pairs;  // pair k: bins k - 1 and k
+    for (std::size_t k = 0; k + 1 < counts.size(); ++k) {
+      pairs.push_back(counts[k] + counts[k + 1]);
+    }
+    const auto highest = std::max_element(pairs.begin() + 1, pairs.end() - 1);  // the first of a tie
+    const std::int64_t height = std::max<std::int64_t>(0, *highest - (sum - *highest) / (bins / 2));
+    const std::int64_t lean = *(highest + 1) - *(highest - 1);
+
+    const std::int64_t parts = width * power2(p_.fraction_bits);  // of a bin
+    std::int64_t offset = 0;
+    while (height > 0 && 3 * height * (offset + 1) <= 2 * parts * std::min(std::abs(lean), height)) {
+      ++offset;
+    }
+    const std::int64_t edge = (highest - pairs.begin()) * parts;
+    const std::int64_t position = lean >= 0 ? edge + offset : edge - 1 - offset;
+    return {static_cast<std::uint16_t>(position / power2(p_.fraction_bits)),
+            static_cast<std::uint16_t>(position % power2(p_.fraction_bits)),
+            static_cast<std::uint16_t>(std::min(height, power2(p_.count_width) - 1))};
   }
 
   PixelResult his_pointer(bool filter) const {

@@ -107,5 +107,8 @@ TEST_P(AgainstReference, LongFrames) {
 INSTANTIATE_TEST_SUITE_P(AllReadouts, AgainstReference, testing::ValuesIn(kAllReadouts),
                          [](const auto& suite) { return std::string(readout_name(suite.param)); });
 
+INSTANTIATE_TEST_SUITE_P(OnTrial, AgainstReference, testing::Values(Readout::kCoarseHistogram),
+                         [](const auto& suite) { return std::string(readout_name(suite.param)); });
+
 }  // namespace
 }  // namespace dtof

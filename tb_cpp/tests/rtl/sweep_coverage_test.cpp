@@ -15,8 +15,8 @@ namespace {
 
 using testing::IsSupersetOf;
 
-// The four column modules of the RTL.
-enum class Kind : std::uint8_t { kEzPointer, kHisPointer, kInterframe, kPartitioned };
+// The column modules of the RTL.
+enum class Kind : std::uint8_t { kEzPointer, kHisPointer, kInterframe, kPartitioned, kCoarseHistogram };
 
 Kind kind_of(Readout readout) {
   switch (readout) {
@@ -28,13 +28,16 @@ Kind kind_of(Readout readout) {
     case Readout::kPifh:
     case Readout::kHistogram:
       return Kind::kPartitioned;
+    case Readout::kCoarseHistogram:
+      return Kind::kCoarseHistogram;
     default:
       return Kind::kInterframe;
   }
 }
 
 std::string kind_test_name(const testing::TestParamInfo<Kind>& kind) {
-  constexpr std::array<const char*, 4> kNames = {"EzPointer", "HisPointer", "Interframe", "Partitioned"};
+  constexpr std::array<const char*, 5> kNames = {"EzPointer", "HisPointer", "Interframe", "Partitioned",
+                                                 "CoarseHistogram"};
   return kNames[static_cast<std::size_t>(kind.param)];
 }
 
@@ -58,7 +61,7 @@ class SweepCoverage : public testing::TestWithParam<Kind> {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, SweepCoverage,
                          testing::Values(Kind::kEzPointer, Kind::kHisPointer, Kind::kInterframe,
-                                         Kind::kPartitioned),
+                                         Kind::kPartitioned, Kind::kCoarseHistogram),
                          kind_test_name);
 
 TEST_P(SweepCoverage, EveryValueOccurs) {
@@ -75,9 +78,11 @@ TEST_P(SweepCoverage, EveryValueOccurs) {
     EXPECT_THAT(values([](const C& c) { return c.parameters.count_width; }), IsSupersetOf(range(1, 12)));
     EXPECT_THAT(values([](const C& c) { return c.signalled_clear ? 1 : 0; }), IsSupersetOf({0, 1}));
   }
+  if (GetParam() != Kind::kInterframe && GetParam() != Kind::kPartitioned) {
+    EXPECT_THAT(values([](const C& c) { return c.parameters.fraction_bits; }), IsSupersetOf({0, 1, 2, 4}));
+  }
   if (GetParam() == Kind::kEzPointer || GetParam() == Kind::kHisPointer) {
     EXPECT_THAT(values([](const C& c) { return c.parameters.pointer_step; }), IsSupersetOf({1, 2, 3, 5}));
-    EXPECT_THAT(values([](const C& c) { return c.parameters.fraction_bits; }), IsSupersetOf({0, 1, 2, 4}));
     EXPECT_THAT(values([](const C& c) { return c.parameters.confidence_width; }), IsSupersetOf({0, 2, 4, 8}));
     EXPECT_THAT(values([](const C& c) { return c.pointer_ports; }), IsSupersetOf({1, 2}));
   }
