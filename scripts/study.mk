@@ -8,8 +8,9 @@
 # make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
 # make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
+# make pulse-widths  read-outs beside the matched filter for pulses of 8 to 90 bins (three minutes)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -71,6 +72,10 @@ trade: study
 walk-error: study
 	@$(DTOF_STUDY) walk --seed $(SEED) --out build/walk
 	@scripts/publish.py walk_error
+
+pulse-widths: study
+	@scripts/pulse_widths.py $(DTOF_STUDY) --seed $(SEED)
+	@scripts/publish.py pulse_widths
 
 video: study
 	@$(DTOF_STUDY) video --scene room planes clutter poles --frames 10 -k 50 --seed $(SEED) --out build/video

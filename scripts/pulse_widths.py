@@ -1,0 +1,150 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Read-outs beside the matched filter for pulses of other widths: build/pulse_widths/pulse_widths.md, .csv and .svg.
+
+`pulse_widths.py DTOF_STUDY [OPTION ...]`: the preset thesis with each width of FWHM_BINS and the same energy per pulse; options
+are those of `dtof-study scenes`, such as --seed. poolPointer's windows are fixed, for a pulse of 45 bins: this shows what
+that costs.
+"""
+
+import csv
+import subprocess
+import sys
+import tomllib
+from collections import defaultdict
+from pathlib import Path
+
+import plot_style
+
+ROOT = Path(__file__).resolve().parent.parent
+PRESET = ROOT / "tb_cpp" / "sensor" / "presets" / "thesis.toml"
+FOLDER = ROOT / "build" / "pulse_widths"
+FWHM_BINS = (8, 12, 20, 45, 90)
+READOUTS = ("hispointer", "poolpointer", "poolpointer2", "poolpointer2-lean")
+SCENES = ("flat", "room", "planes", "clutter", "poles")
+COLUMNS = 20
+LIGHTS = ("14", "50")
+WALL = "flat 3 m"
+
+
+def sensor_of(bins: int, preset: str) -> str:
+    """The preset with a pulse of so many bins."""
+    table = tomllib.loads(preset)
+    width = bins * table["tdc"]["range_ns"] / 2 ** table["tdc"]["timestamp_bits"]
+    return (preset.replace('name = "thesis"', f'name = "fwhm{bins}"')
+            .replace(f"pulse_fwhm_ns = {table['laser']['pulse_fwhm_ns']}", f"pulse_fwhm_ns = {width!r}"))
+
+
+class Figures:
+    """Of a read-out at a width and light."""
+
+    def __init__(self) -> None:
+        self.pixels = 0
+        self.above = {"above_3_percent": 0.0, "above_10_percent": 0.0}
+        self.sigma = float("nan")  # relative, of the wall at 3 m: its median error as that of a normal variable
+
+    def add(self, row: dict[str, str]) -> None:
+        if row["scene"] == WALL:
+            self.sigma = float(row["median_error_over_bound"]) * float(row["relative_bound"])
+        if not row["scene"].startswith("flat "):
+            pixels = int(row["pixels"])
+            self.pixels += pixels
+            for name in self.above:
+                self.above[name] += pixels * float(row[name])
+
+    def percent(self, name: str) -> float:
+        return 100 * self.above[name] / self.pixels
+
+
+def read(path: Path) -> dict[tuple[str, int, str], Figures]:
+    """By light, width and estimator."""
+    found: dict[tuple[str, int, str], Figures] = defaultdict(Figures)
+    with path.open(newline="", encoding="utf-8") as file:
+        for row in csv.DictReader(file):
+            found[row["klux"], int(row["sensor"].removeprefix("fwhm")), row["estimator"]].add(row)
+    return dict(found)
+
+
+def estimators(figures: dict[tuple[str, int, str], Figures]) -> list[str]:
+    return list(dict.fromkeys(estimator for _, _, estimator in figures))
+
+
+def tables(figures: dict[tuple[str, int, str], Figures]) -> str:
+    text = []
+    for klux in LIGHTS:
+        text.append(f"## {klux} klux\n")
+        for title, cell in (("Pixels above 3 % / 10 %, in %, all scenes but the flats",
+                             lambda f: f"{f.percent('above_3_percent'):.2f} / {f.percent('above_10_percent'):.2f}"),
+                            ("Robust sigma at 3 m, % of the distance", lambda f: f"{100 * f.sigma:.3f}")):
+            text.append(f"{title}:\n\n| estimator | " + " | ".join(f"{bins} bins" for bins in FWHM_BINS) + " |\n"
+                        + "|---|" + "---:|" * len(FWHM_BINS))
+            text += [f"| {name} | " + " | ".join(cell(figures[klux, bins, name]) for bins in FWHM_BINS) + " |"
+                     for name in estimators(figures)]
+            text.append("")
+    return "\n".join(text)
+
+
+def table_csv(figures: dict[tuple[str, int, str], Figures]) -> str:
+    lines = ["klux,fwhm_bins,estimator,above_3_percent,above_10_percent,robust_sigma"]
+    for (klux, bins, name), f in figures.items():
+        lines.append(f"{klux},{bins},{name},{f.percent('above_3_percent') / 100:.6f},{f.percent('above_10_percent') / 100:.6f},"
+                     f"{f.sigma:.6f}")
+    return "\n".join(lines) + "\n"
+
+
+def draw(figures: dict[tuple[str, int, str], Figures], output: Path) -> None:
+    styles = plot_style.load()
+    lines = ["set terminal svg size 1000,480 font 'sans,13' background '#ffffff'", f"set output '{output}'",
+             "set logscale xy", "set grid lc rgb '#dddddd'", "set key bottom left", f"set xtics ({', '.join(map(str, FWHM_BINS))})",
+             "set xlabel 'pulse, FWHM in bins'", "set ylabel 'pixels above 3 %, %'", "set multiplot layout 1,2"]
+    for klux in LIGHTS:
+        lines.append(f"set title '{klux} klux'")
+        plots = []
+        for number, name in enumerate(estimators(figures)):
+            style = plot_style.style(name, styles)
+            lines += [f"$e{number} << END", *(f"{bins} {max(figures[klux, bins, name].percent('above_3_percent'), 0.01)}"
+                                              for bins in FWHM_BINS), "END"]
+            plots.append(f"$e{number} with linespoints pt {style.marker} dt {style.dash} lc rgb '{style.colour}' title '{name}'")
+        lines.append("plot " + ", ".join(plots))
+        lines.append("unset key")
+    result = subprocess.run(["gnuplot"], input="\n".join(lines) + "\nunset multiplot\nset output\n", text=True,
+                            capture_output=True, check=False)
+    if result.returncode != 0:
+        raise SystemExit(f"error: gnuplot failed: {result.stderr.strip()}")
+
+
+def main() -> None:
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        raise SystemExit(f"usage: {__doc__}")
+    FOLDER.mkdir(parents=True, exist_ok=True)
+    files = []
+    for bins in FWHM_BINS:
+        files.append(FOLDER / f"fwhm{bins}.toml")
+        files[-1].write_text(sensor_of(bins, PRESET.read_text(encoding="utf-8")), encoding="utf-8")
+    command = [sys.argv[1], "scenes", "--sensor", *map(str, files), "--klux", *LIGHTS, "--readout", ",".join(READOUTS), "--scene",
+               *SCENES, "--columns", str(COLUMNS), "--out", str(FOLDER), *sys.argv[2:]]
+    result = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
+    if result.returncode != 0:
+        raise SystemExit(result.returncode)
+    figures = read(FOLDER / "scenes.csv")
+    draw(figures, FOLDER / "pulse_widths.svg")
+    (FOLDER / "pulse_widths.csv").write_text(table_csv(figures), encoding="utf-8")
+    text = f"""# Pulses of other widths
+
+The preset thesis with pulses of {FWHM_BINS[0]} to {FWHM_BINS[-1]} bins (FWHM) of the same energy; {COLUMNS} columns of each scene
+({', '.join(SCENES[1:])}), one seed, look-up tables of each read-out for its pulse. hisPointer's GUARD follows the
+pulse; the matched filters know it. The windows of poolPointer and poolPointer 2 do not: they are those for 45 bins (cells of
+eight bins, TRACK_REACH and the pointer's weights), and nothing in the RTL changes them. A short pulse in a wide window
+lets more background in than it must, a long one loses its flanks.
+
+![Pixels above 3 % over the pulse's width](pulse_widths.svg)
+
+{tables(figures)}
+Command: `make pulse-widths`
+"""
+    (FOLDER / "pulse_widths.md").write_text(text, encoding="utf-8")
+    print(text)
+
+
+if __name__ == "__main__":
+    main()
