@@ -2,7 +2,7 @@
 # make sweep         SWEEP=scripts/sweep/readouts.toml: all its points, on this machine (SLURM=1: as jobs of Slurm), and their
 #                    table in build/sweep/ (docs/user/scaling.md)
 # make sweep-test    a small sweep through a real Slurm of one node, with killed jobs and a killed workflow (a minute)
-# make sweep-cost    what 10^3 to 10^6 points cost beside their own computing: reports/scaling.md (four minutes)
+# make sweep-cost    what 10^3 to 10^6 points cost beside their own computing: reports/scaling.md (ten minutes)
 SWEEP ?= scripts/sweep/readouts.toml
 .PHONY: sweep sweep-test sweep-cost
 sweep: configure
@@ -15,7 +15,7 @@ sweep-test: configure
 	@ninja -C $(BUILD) dtof
 	@scripts/sweep/slurm_test.py
 
-sweep-cost:
+sweep-cost: build
 	@scripts/install_packages.sh slurm
 	@scripts/sweep/cost.py
 	@scripts/publish.py scaling

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What a sweep costs beside its points' own computing: build/sweep_cost/scaling.md.
+"""What a sweep costs: build/sweep_cost/scaling.md.
 
-Points that only copy a small table measure what a point, a batch and the merged table cost; the figures of larger sweeps
-follow from these, and one of them is measured, too.
+Points that only copy a small table measure what a point, a job and the merged table cost beside the points' own computing; two
+further sweeps tell how well this predicts. A few points of scripts/sweep/readouts.toml tell what real ones take.
 """
 
 import shutil
@@ -27,12 +27,16 @@ FOLDER = ROOT / "build" / "sweep_cost"
 REPETITIONS = 3
 POINTS = (1_000, 10_000, 100_000, 1_000_000)
 BATCH = 1_000
+REAL = HERE / "readouts.toml"
+CHECKS = ((400, 20), (1_000, 1_000))  # points, jobs
+EVERY = 13  # of REAL's points one in so many is timed: all read-outs, scenes and lights are among them
 
 
 def description(points: int, batch: int) -> Path:
     path = FOLDER / f"copies_{points}_{batch}.toml"
-    path.write_text(f'name = "copies"\ncommand = "/bin/cp build/sweep_cost/one.csv {{out}}/t.csv"\ntable = "t.csv"\n'
-                    f'inputs = ["LICENSE"]\nbatch = {batch}\nseed_of = ["x"]\n[axes]\nx = {list(range(points))}\n', encoding="utf-8")
+    text = (f'name = "copies"\ncommand = "/bin/cp build/sweep_cost/one.csv {{out}}/t.csv"\ntable = "t.csv"\n'
+            f'inputs = ["LICENSE"]\nbatch = {batch}\nseed_of = ["x"]\n[axes]\nx = {list(range(points))}\n')
+    path.write_text(text, encoding="utf-8")
     return path
 
 
@@ -103,6 +107,13 @@ def large(points: int, batch_size: int) -> Large:
     return Large(points, plan_s, merge_s, len(table.encode()) / 1e6, used / 1e6, start_s)
 
 
+def real_point() -> tuple[int, float]:
+    """(points, seconds of each) of REAL, by one processor."""
+    sweep = plan.load(REAL, ROOT)
+    numbers = range(0, sweep.points, EVERY)
+    return len(numbers), seconds(lambda: [run_batch.compute(sweep, sweep.point(i)) for i in numbers]) / len(numbers)
+
+
 def solve(one: tuple[int, int, float], other: tuple[int, int, float]) -> tuple[float, float]:
     """Seconds per point and per job from two sweeps (points, jobs, seconds)."""
     determinant = one[0] * other[1] - other[0] * one[1]
@@ -116,45 +127,46 @@ def main() -> None:
     times = {(points, jobs): sorted(whole(points, points // jobs) for _ in range(REPETITIONS))[REPETITIONS // 2]
              for points, jobs in (many, few)}
     point_s, job_s = solve((*many, times[many]), (*few, times[few]))
-    check = (400, 20)
-    expected, measured = check[0] * point_s + check[1] * job_s, whole(check[0], check[0] // check[1])
+    checks = [f"{points} points in {jobs} jobs should take {points * point_s + jobs * job_s:.1f} s by this, and took "
+              f"{whole(points, points // jobs):.1f} s" for points, jobs in CHECKS]
     slurm_jobs, slurm_s = slurm_job()
-    sizes = [large(points, BATCH) for points in POINTS[:3]]
-    largest = sizes[-1]
-    scaled = [(points, next((s for s in sizes if s.points == points), None)) for points in POINTS]
-    rows = []
-    for points, size in scaled:
-        factor = points / largest.points
-        plan_s, merge_s, table, used, start = ((size.plan_s, size.merge_s, size.table_mb, size.batches_mb, size.start_s) if size
-                                               else (v * factor for v in (largest.plan_s, largest.merge_s, largest.table_mb,
-                                                                          largest.batches_mb, largest.start_s)))
-        rows.append(f"| {points:,} | {points // BATCH:,} | {'measured' if size else 'extrapolated'} | {plan_s:.2f} | "
-                    f"{merge_s:.2f} | {start:.1f} | {table:.2f} | {used:.2f} | {points * point_s / 60:.1f} | "
-                    f"{points // BATCH * job_s / 60:.1f} |")
-    single = [f"| {points:,} | {points * job_s / 3600:.1f} | {points // BATCH * job_s / 3600:.3f} | "
-              f"{points * slurm_s / 3600:.1f} | {points // BATCH * slurm_s / 3600:.3f} |" for points in POINTS]
+    real_points, real_s = real_point()
+    rows = [f"| {size.points:,} | {size.points // BATCH:,} | {size.plan_s:.2f} | {size.merge_s:.2f} | {size.start_s:.1f} | "
+            f"{size.table_mb:.2f} | {size.batches_mb:.2f} |" for size in (large(points, BATCH) for points in POINTS)]
+    hours = [f"| {points:,} | {points * real_s / 3600:.1f} | {points * point_s / 3600:.3f} | {points * job_s / 3600:.2f} | "
+             f"{points // BATCH * job_s / 3600:.4f} | {points * slurm_s / 3600:.1f} | {points // BATCH * slurm_s / 3600:.3f} |"
+             for points in POINTS]
     text = f"""# Sweeps: what many points cost
 
-Beside their own computing, on this machine with one job at a time. From sweeps of points that copy a table of one row,
-{many[0]} points in {many[1]} and in {few[1]} jobs ({times[many]:.1f} s and {times[few]:.1f} s, medians of {REPETITIONS}): a point costs
-{1000 * point_s:.0f} ms (a process, a folder, its row) and a job {1000 * job_s:.0f} ms (Snakemake's step, an interpreter, a
-file). By these, {check[0]} points in {check[1]} jobs take {expected:.1f} s; they took {measured:.1f} s.
+On this machine, one job at a time.
+
+## Measured
+
+Beside their own computing, from sweeps of points that copy a table of one row: {many[0]} points in {many[1]} and in {few[1]} jobs
+took {times[many]:.1f} s and {times[few]:.1f} s (medians of {REPETITIONS}), thus a point {1000 * point_s:.0f} ms (a process, a folder, its row)
+and a job {1000 * job_s:.0f} ms (Snakemake's step, an interpreter, a file).
+{"; ".join(checks)}.
 
 Through Slurm on one node with one processor, {slurm_jobs} jobs of one point took {slurm_s:.1f} s each: each of them starts
 Snakemake once more, and the scheduler looks for work once per second.
 
-Batches of {BATCH:,} points. Plan: all batches' names. Merge: reading, checking and writing everything. Start: `sweep.py` when
-nothing is left to do, merging included. Points and jobs: minutes of one processor by the two figures above.
+A point of `{REAL.relative_to(ROOT)}` takes {real_s:.2f} s of one processor, in the mean of {real_points}.
 
-| points | jobs | | plan, s | merge, s | start, s | table, MB | batches, MB | points, min | jobs, min |
-|---:|---:|---|---:|---:|---:|---:|---:|---:|---:|
+Batches of {BATCH:,} points that are all done. Plan: all batches' names. Merge: reading, checking and writing everything. Start:
+`sweep.py` when nothing is left to do, merging included.
+
+| points | jobs | plan, s | merge, s | start, s | table, MB | batches, MB |
+|---:|---:|---:|---:|---:|---:|---:|
 {chr(10).join(rows)}
 
-Why batches: processor hours that the jobs alone take.
+## Extrapolated
 
-| points | one point per job | {BATCH:,} points per job | one point per job, Slurm | {BATCH:,} points per job, Slurm |
-|---:|---:|---:|---:|---:|
-{chr(10).join(single)}
+Processor hours: what the points of `{REAL.relative_to(ROOT)}` compute, and what is added by points and jobs, from the
+figures above.
+
+| points | computing | points | jobs of one point | jobs of {BATCH:,} | the same, Slurm: of one point | of {BATCH:,} |
+|---:|---:|---:|---:|---:|---:|---:|
+{chr(10).join(hours)}
 
 Command: `make sweep-cost`
 """

@@ -12,6 +12,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+import shlex
 import string
 import tomllib
 from dataclasses import dataclass
@@ -103,7 +104,7 @@ def input_hash(root: Path, inputs: list[str]) -> str:
         files = sorted(file for file in path.rglob("*") if file.is_file() and "__pycache__" not in file.parts) \
             if path.is_dir() else [path]
         for file in files:
-            digest.update(f"{file.relative_to(root)} {_file_hash(file)}\n".encode())
+            digest.update(f"{name} {file.relative_to(path)} {_file_hash(file)}\n".encode())
     return digest.hexdigest()
 
 
@@ -137,20 +138,29 @@ def _checked(table: dict, path: Path) -> None:
         texts = [_text(value) for value in values]
         need(None not in texts, f"axis '{axis}': values are texts and numbers")
         need(len(set(texts)) == len(texts), f"axis '{axis}': a value stands there twice")
-    for axis in table.get("seed_of", []):
+    seed_axes = table.get("seed_of", [])
+    need(isinstance(seed_axes, list) and all(isinstance(axis, str) for axis in seed_axes), "'seed_of' must be a list of axes")
+    for axis in seed_axes:
         need(axis in axes, f"'seed_of' names the axis '{axis}', which there is not")
-    names = {field for _, field, _, _ in string.Formatter().parse(table["command"]) if field is not None}
+    try:
+        shlex.split(table["command"])
+        fields = [field for field in string.Formatter().parse(table["command"]) if field[1] is not None]
+    except ValueError as error:
+        raise SweepError(f"{path}: 'command': {error}") from None
+    need(not any(form or conversion for _, _, form, conversion in fields),
+         "'command' may have an axis in braces, but neither ':' nor '!' behind it")
+    names = {name for _, name, _, _ in fields}
     need("out" in names, "'command' must have {out}, the folder for the table")
     for name in names:
         need(name in axes or name in ("out", "seed"), f"'command' has {{{name}}}, which is no axis")
     for axis in axes:
-        need(axis in names or axis in table.get("seed_of", []), f"axis '{axis}' is neither in 'command' nor in 'seed_of'")
+        need(axis in names or axis in seed_axes, f"axis '{axis}' is neither in 'command' nor in 'seed_of'")
 
 
 def _text(value: object) -> str | None:
     if isinstance(value, bool) or not isinstance(value, str | int | float):
         return None
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return repr(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
 def load(path: Path, root: Path) -> Sweep:

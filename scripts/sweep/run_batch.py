@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""`run_batch.py SWEEP.toml FOLDER NUMBER HASH`: computes the points of a batch, one after the other, and writes its file at once."""
+"""`run_batch.py SWEEP.toml FOLDER NUMBER HASH`: computes the points of a batch, one after the other, and writes its file."""
 
 import csv
 import hashlib
 import json
 import os
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
@@ -53,27 +54,42 @@ def write(path: Path, batch: plan.Batch, header: list[str], points: list) -> Non
         json.dump({"batch": batch.name, "header": header, "points": points, "checksum": checksum(header, points)}, file)
         file.flush()
         os.fsync(file.fileno())
+    os.chmod(file.name, 0o644)  # others of a cluster may merge it
     os.replace(file.name, path)
+
+
+def wanted(path: Path, number: int, name: str) -> tuple[plan.Sweep, plan.Batch]:
+    """The sweep and its batch, which must have this name."""
+    sweep = plan.load(path, ROOT)
+    batch = sweep.batch(number)
+    if batch.name != name:
+        raise plan.SweepError(f"{path}: batch {number} is {batch.name} now, not {name}: the description or an input changed "
+                              "while the sweep ran; start it again")
+    return sweep, batch
 
 
 def main() -> int:
     if len(sys.argv) != 5 or not sys.argv[3].isdecimal():
         print(__doc__, file=sys.stderr)
         return 2
+    for ended in (signal.SIGTERM, signal.SIGINT):  # by Slurm or at the terminal: no folder of a point stays behind
+        signal.signal(ended, lambda number, _: sys.exit(128 + number))
+    expected = Path(sys.argv[1]), int(sys.argv[3]), sys.argv[4]
     try:
-        sweep = plan.load(Path(sys.argv[1]), ROOT)
-        batch = sweep.batch(int(sys.argv[3]))
-        if batch.name != sys.argv[4]:
-            raise plan.SweepError(f"{sys.argv[1]}: batch {batch.number} is {batch.name} now, not {sys.argv[4]}: the description "
-                                  "or an input changed while the sweep ran; start it again")
+        sweep, batch = wanted(*expected)
         header: list[str] = []
         points = []
         for point in batch.points:
             found, rows = compute(sweep, point)
             if header and found != header:
                 raise plan.SweepError(f"sweep {sweep.name}: the points' tables differ in their columns")
+            twice = [column for column in found if column in sweep.header]
+            if twice:
+                raise plan.SweepError(f"sweep {sweep.name}: the command's table has a column '{twice[0]}', too: "
+                                      "name the axis otherwise")
             header = found
             points.append({"coordinates": point.coordinates, "seed": point.seed, "rows": rows})
+        wanted(*expected)  # still: a program that was built anew in the meantime has computed some of the points
         write(plan.batch_file(Path(sys.argv[2]), batch), batch, header, points)
     except plan.SweepError as error:
         print(f"error: {error}", file=sys.stderr)

@@ -15,6 +15,10 @@ from pathlib import Path
 START_SECONDS = 60
 
 
+class CannotStart(Exception):
+    """A daemon is missing or ended at once; the message has the end of its log."""
+
+
 def _free_port() -> int:
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
@@ -28,7 +32,8 @@ class SingleNodeSlurm:
         self._folder = folder
         self._processors = processors
         self._daemons: list[subprocess.Popen] = []
-        self.environment = {**os.environ, "SLURM_CONF": str(folder / "slurm.conf")}
+        self.environment = {**os.environ, "SLURM_CONF": str(folder / "slurm.conf"),
+                            "PATH": f"{os.environ.get('PATH', '')}:/usr/sbin"}  # where Debian has the daemons
 
     def __enter__(self) -> SingleNodeSlurm:
         self._configure()
@@ -101,7 +106,10 @@ PartitionName=main Nodes=node Default=YES MaxTime=INFINITE State=UP
 
     def _start(self, *command: str) -> None:
         with (self._folder / f"{command[0]}.out").open("w", encoding="utf-8") as log:
-            self._daemons.append(subprocess.Popen(command, env=self.environment, stdout=log, stderr=log))
+            try:
+                self._daemons.append(subprocess.Popen(command, env=self.environment, stdout=log, stderr=log))
+            except OSError as error:
+                raise CannotStart(f"{command[0]}: {error.strerror}") from None
 
     def _wait(self, name: str, ready) -> None:
         end = time.monotonic() + START_SECONDS
@@ -110,5 +118,5 @@ PartitionName=main Nodes=node Default=YES MaxTime=INFINITE State=UP
             if dead or time.monotonic() > end:
                 logs = "".join(path.read_text(encoding="utf-8", errors="replace")[-500:]
                                for path in (self._folder / f"{name}.out", self._folder / f"{name}.log") if path.is_file())
-                raise RuntimeError(f"{name} did not start: {logs}")
+                raise CannotStart(f"{name} did not start: {logs}")
             time.sleep(0.2)

@@ -76,6 +76,14 @@ class Plan(Folder):
             self.assertEqual(seeds[sweep.point(i).coordinates], sweep.point(i).seed)
         self.assertTrue(all(0 < seed < 1 << 31 for seed in seeds.values()))
 
+    def test_numbers_keep_all_their_digits(self) -> None:
+        sweep = self.load(DESCRIPTION.replace("[2, 0.5]", "[2.0, 0.1234567, 1234567.5, 1e-7]"))
+        self.assertEqual(sweep.axes[0][1], ("2", "0.1234567", "1234567.5", "1e-07"))
+
+    def test_inputs_may_be_anywhere(self) -> None:
+        name = self.load(DESCRIPTION.replace('"program.py"]', f'"program.py", "{sys.executable}"]')).batch(0).name
+        self.assertNotEqual(name, self.load().batch(0).name)
+
     def test_a_batch_is_named_after_everything_it_comes_from(self) -> None:
         names = {self.load().batch(0).name}
         names.add(self.load(DESCRIPTION.replace("{out}", "--fast {out}")).batch(0).name)
@@ -93,6 +101,10 @@ class Plan(Folder):
                                   ("[2, 0.5]", "[true]", "axis 'light': values are"),
                                   ('"repetition"]', '"repeat"]', "names the axis 'repeat'"),
                                   ('["light", "repetition"]', '["light"]', "axis 'repetition' is neither"),
+                                  ('["light", "repetition"]', "3", "'seed_of' must be a list of axes"),
+                                  ("{kind} ", "{kind:3} ", "neither ':' nor '!'"), ("{kind} ", "{kind!r} ", "neither ':' nor"),
+                                  ("{kind} ", "{kind ", "'command': unexpected '{'"), ("{kind} ", "'{kind} ", "'command': No closing"),
+                                  ("{kind} ", "{} ", "has {}, which is no axis"),
                                   ('"program.py"]', '"program.cc"]', "program.cc: No such file"), ("[axes]", "[axes", "")):
             with self.subTest(new=new[:20]), self.assertRaises(plan.SweepError) as caught:
                 self.load(DESCRIPTION.replace(old, new))
@@ -194,11 +206,20 @@ class Run(unittest.TestCase):
         self.assertEqual(header, ["value"])
         self.assertEqual([point["rows"] for point in points], [[["1"]], [["2"]]])
 
+    def test_a_program_that_changes_meanwhile_leaves_no_file(self) -> None:
+        with tempfile.NamedTemporaryFile() as program:
+            description = self.description(f"echo value > {{out}}/t.csv; echo {{x}} | tee -a {{out}}/t.csv >> {program.name}")
+            result, file, _ = self.run_batch(description.replace("LICENSE", program.name))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("changed while the sweep ran", result.stderr)
+        self.assertFalse(file.parent.exists())
+
     def test_a_failure_leaves_no_file(self) -> None:
         for command, message in (("echo {out} {x}; echo no light >&2; exit 3", "exit 3: no light"),
                                  ("true {out} {x}", "the command left no table"),
                                  ("echo {x} > {out}/t.csv", "table has no rows"),
-                                 ("echo {x} > {out}/t.csv; echo 1 >> {out}/t.csv", "differ in their columns")):
+                                 ("echo {x} > {out}/t.csv; echo 1 >> {out}/t.csv", "differ in their columns"),
+                                 ("echo x > {out}/t.csv; echo {x} >> {out}/t.csv", "has a column 'x', too")):
             with self.subTest(command=command):
                 result, file, _ = self.run_batch(self.description(command))
                 self.assertEqual(result.returncode, 1)
@@ -210,8 +231,11 @@ class JobStatus(unittest.TestCase):
     def test_of_what_slurm_prints(self) -> None:
         for answer, status in (("JobId=4 JobState=RUNNING Reason=None", "running"), ("JobState=PENDING", "running"),
                                ("JobId=4 JobState=COMPLETED", "success"), ("JobState=CANCELLED", "failed"),
-                               ("JobState=NODE_FAIL", "failed"), ("", "failed")):
+                               ("JobState=NODE_FAIL", "failed")):
             self.assertEqual(job_status.status(answer), status)
+        for error, status in (("slurm_load_jobs error: Invalid job id specified", "failed"),
+                              ("slurm_load_jobs error: Unable to contact slurm controller (connect failure)", "running")):
+            self.assertEqual(job_status.status("", error), status)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from . import sram_model
 from .errors import FlowError
+from .files import write_if_changed
 from .liberty import THRESHOLDS, Group, bus_type, quoted
 from .sram_model import Macro, Size
 from .standard_cells import CINV_FF, CORNERS, FO4_NS, SLOW, Corner
@@ -221,8 +222,8 @@ def write_kit(folder: Path, sizes: list[Size], macro_of: Callable[[Size], Macro]
     folder.mkdir(parents=True, exist_ok=True)
     macros = [macro_of(size) for size in sorted(sizes)]
     for corner in CORNERS:
-        (folder / f"sram40_{corner.name}.lib").write_text(liberty(macros, corner), encoding="utf-8")
-    (folder / "sram40.lef").write_text(lef(macros), encoding="utf-8")
+        write_if_changed(folder / f"sram40_{corner.name}.lib", liberty(macros, corner))
+    write_if_changed(folder / "sram40.lef", lef(macros))
     write_rtl_views(folder, sizes)
     return macros
 
@@ -234,5 +235,5 @@ def write_rtl_views(folder: Path, sizes: Iterable[Size]) -> list[Path]:
     for ports, kind in sram_model.KINDS.items():
         files[f"{kind.module}.sv"] = technology_module(ports, sizes)
     for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
+        write_if_changed(folder / name, text)
     return [folder / name for name in files]

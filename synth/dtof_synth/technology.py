@@ -10,6 +10,7 @@ from pathlib import Path
 from . import library, sram_kit, sram_model, standard_cells
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
+from .files import write_if_changed
 from .run import TARGET_MHZ, Technology
 from .sram_model import Macro, Size
 
@@ -23,11 +24,6 @@ def needed_sizes(configurations: list[Configuration]) -> dict[Size, list[str]]:
         for size in [*memories(configuration).values(), *engine_memories(configuration).values()]:
             uses.setdefault(size, []).append(configuration.name)
     return uses
-
-
-def write_if_changed(path: Path, text: str) -> None:
-    if not path.exists() or path.read_text(encoding="utf-8") != text:
-        path.write_text(text, encoding="utf-8")
 
 
 def _plain_liberty(path: Path, folder: Path) -> Path:
