@@ -29,6 +29,7 @@ module pool2_engine #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int SECOND_TARGET = 0,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
@@ -39,7 +40,7 @@ module pool2_engine #(
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
-    localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH
+    localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET)
 ) (
     input  logic                    clk_i,
     input  logic                    rst_ni,
@@ -52,7 +53,9 @@ module pool2_engine #(
     input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
     input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of command_i.write_scratch and read_scratch
-    output logic [RESULT_WIDTH-1:0] result_o        // {code, fraction, confidence}, held from one take_result to the next
+    // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}; held from one take_result
+    // to the next
+    output logic [RESULT_WIDTH-1:0] result_o
 );
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
@@ -218,7 +221,7 @@ module pool2_engine #(
   );
 
   logic decided_rival, unused_loser;
-  logic [POSITION_WIDTH-1:0] leader_position, rival_position, position, unused_position;
+  logic [POSITION_WIDTH-1:0] leader_position, rival_position, position, lost_position;
   logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
 
   generate
@@ -265,7 +268,7 @@ module pool2_engine #(
       .best_label_o     (decided_rival),
       .second_label_o   (unused_loser),
       .best_position_o  (position),
-      .second_position_o(unused_position),
+      .second_position_o(lost_position),
       .margin_o         (decide_margin)
   );
 
@@ -313,7 +316,8 @@ module pool2_engine #(
 
   smoothing #(
       .NP              (NP),
-      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .SECOND_TARGET   (SECOND_TARGET)
   ) u_smoothing (
       .clk_i           (clk_i),
       .rst_ni          (rst_ni),
@@ -321,6 +325,7 @@ module pool2_engine #(
       .take_winner_i   (command_i.take_winner),
       .has_winner_i    (command_i.has_winner),
       .position_i      (position[15:0]),
+      .lost_position_i (lost_position[15:0]),
       .margin_i        (decide_margin[CONFIDENCE_WIDTH-1:0]),
       .bright_i        (last_bright_q),
       .take_distances_i(command_i.take_distances),
@@ -329,7 +334,7 @@ module pool2_engine #(
   );
 
   logic unused;
-  assign unused = ^{decided_rival, unused_loser, unused_position, position, decide_margin, best_cell[CELL_WIDTH],
+  assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
                     second_cell[CELL_WIDTH], second_start, line_q, message_out, best_start, prepared_q};
 
 endmodule

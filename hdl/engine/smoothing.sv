@@ -8,25 +8,30 @@
 // 1. Winners of a column enter from its first row on, after the last one an entry that is none: the row in the middle is
 //    the one whose result is made.
 // 2. The distances to both neighbours are found, then a quarter of their sum, then the result.
+// 3. With SECOND_TARGET = 1 the positions that lost come along, and leave as they are, but limited in the same way.
 //
 // Schedule: take_distances_i a clock after take_winner_i or later, take_result_i two clocks after that; result_o from a
 //   clock after take_result_i until the next one.
-// Cost: three positions with confidences, four adders, per engine.
+// Cost: three positions with confidences, four adders, per engine; with SECOND_TARGET = 1 two more positions, an adder.
 module smoothing #(
     parameter int NP = 10,
-    parameter int CONFIDENCE_WIDTH = 8
+    parameter int CONFIDENCE_WIDTH = 8,
+    parameter int SECOND_TARGET = 0,
+    localparam int RESULT_WIDTH = ((SECOND_TARGET != 0) ? 32 : 16) + CONFIDENCE_WIDTH
 ) (
-    input  logic                           clk_i,
-    input  logic                           rst_ni,
-    input  logic                           smooth_i,          // 0: winners stay where they are
-    input  logic                           take_winner_i,
-    input  logic                           has_winner_i,      // with take_winner_i; 0 ends the column
-    input  logic [                   15:0] position_i,
-    input  logic [   CONFIDENCE_WIDTH-1:0] margin_i,
-    input  logic                           bright_i,          // its group is bright
-    input  logic                           take_distances_i,
-    input  logic                           take_result_i,
-    output logic [16+CONFIDENCE_WIDTH-1:0] result_o           // {code, fraction, confidence}
+    input  logic                        clk_i,
+    input  logic                        rst_ni,
+    input  logic                        smooth_i,          // 0: winners stay where they are
+    input  logic                        take_winner_i,
+    input  logic                        has_winner_i,      // with take_winner_i; 0 ends the column
+    input  logic [                15:0] position_i,
+    input  logic [                15:0] lost_position_i,   // with SECOND_TARGET = 1: of the label that lost
+    input  logic [CONFIDENCE_WIDTH-1:0] margin_i,
+    input  logic                        bright_i,          // its group is bright
+    input  logic                        take_distances_i,
+    input  logic                        take_result_i,
+    output logic [    RESULT_WIDTH-1:0] result_o           // {code, fraction, confidence}, SECOND_TARGET = 1:
+                                                           // {second code, second fraction, code, ...}
 );
 
   localparam int F = 16 - NP;
@@ -100,10 +105,36 @@ module smoothing #(
       position_q <= $signed({2'b00, centre_q}) - HALF_BIN;
     end
     quarter_q <= rounded[DISTANCE_WIDTH:2];
-    if (take_result_i) begin
-      result_o <= {limited, centre_margin_q};
-    end
   end
+
+  // The result, and with it the position that lost, which is as many rows behind as the winner.
+
+  generate
+    if (SECOND_TARGET != 0) begin : g_second_target
+      logic [15:0] centre_lost_q, below_lost_q, lost_limited;
+      logic signed [17:0] lost_shifted;
+      assign lost_shifted = $signed({2'b00, centre_lost_q}) - HALF_BIN;
+      assign lost_limited = (lost_shifted < 0) ? '0
+          : (lost_shifted > LAST_POSITION) ? 16'(LAST_POSITION) : lost_shifted[15:0];
+      always_ff @(posedge clk_i) begin
+        if (take_winner_i) begin
+          centre_lost_q <= below_lost_q;
+          below_lost_q <= lost_position_i;
+        end
+        if (take_result_i) begin
+          result_o <= {lost_limited, limited, centre_margin_q};
+        end
+      end
+    end else begin : g_one_target
+      logic unused_position;
+      assign unused_position = ^lost_position_i;
+      always_ff @(posedge clk_i) begin
+        if (take_result_i) begin
+          result_o <= {limited, centre_margin_q};
+        end
+      end
+    end
+  endgenerate
 
   logic unused;
   assign unused = ^{1'b0, centre_valid_q, rounded[1:0]};

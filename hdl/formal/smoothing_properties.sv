@@ -5,6 +5,7 @@
 
 module smoothing_properties #(
     parameter int NP = 10,
+    parameter int SECOND_TARGET = 0,
     localparam int F = 16 - NP
 ) (
     input logic clk_i,
@@ -14,6 +15,7 @@ module smoothing_properties #(
   localparam int CONFIDENCE_WIDTH = 8;
 
   (* anyconst *) logic [47:0] positions;  // of the rows above, in the middle and below
+  (* anyconst *) logic [47:0] lost;
   (* anyconst *) logic [2:0] has;
   (* anyconst *) logic [3*CONFIDENCE_WIDTH-1:0] margins;
   (* anyconst *) logic [2:0] bright;
@@ -21,7 +23,7 @@ module smoothing_properties #(
   logic [3:0] t_q = 4'd0;
   logic checking;
   logic [1:0] row;
-  logic [16+CONFIDENCE_WIDTH-1:0] result;
+  logic [((SECOND_TARGET != 0) ? 32 : 16)+CONFIDENCE_WIDTH-1:0] result;
 
   assign checking = (t_q != 4'd0);
   assign row = 2'(t_q - 4'd1);
@@ -32,7 +34,8 @@ module smoothing_properties #(
 
   smoothing #(
       .NP              (NP),
-      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .SECOND_TARGET   (SECOND_TARGET)
   ) u_dut (
       .clk_i           (clk_i),
       .rst_ni          (checking),
@@ -40,6 +43,7 @@ module smoothing_properties #(
       .take_winner_i   (t_q >= 4'd1 && t_q <= 4'd3),
       .has_winner_i    (has[row]),
       .position_i      (positions[row*16+:16]),
+      .lost_position_i (lost[row*16+:16]),
       .margin_i        (margins[row*CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]),
       .bright_i        (bright[row]),
       .take_distances_i(t_q == 4'd4),
@@ -47,7 +51,7 @@ module smoothing_properties #(
       .result_o        (result)
   );
 
-  integer centre, neighbour, reach, sum, word;
+  integer centre, neighbour, reach, sum, word, lost_word;
   integer i;
 
   always_comb begin
@@ -64,11 +68,17 @@ module smoothing_properties #(
     word = centre + ((sum >= 0) ? sum / 4 : -((-sum) / 4)) - (1 << F) / 2;
     if (word < 0) word = 0;
     if (word > 65536 - (1 << F) - 1) word = 65536 - (1 << F) - 1;
+    // The position that lost is not smoothed.
+    lost_word = 32'(lost[31:16]) - (1 << F) / 2;
+    if (lost_word < 0) lost_word = 0;
+    if (lost_word > 65536 - (1 << F) - 1) lost_word = 65536 - (1 << F) - 1;
   end
 
   `ASSUME(m_the_middle_one, has[1])
   `ASSUME(m_one_mode, smooth_i == smooth)
-  `PROVE(a_result, t_q != 4'd7 || result == {word[15:0], margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]})
+  `PROVE(a_result, t_q != 4'd7
+         || result[16+CONFIDENCE_WIDTH-1:0] == {word[15:0], margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]})
+  `PROVE(a_second, t_q != 4'd7 || SECOND_TARGET == 0 || 16'(result >> (16 + CONFIDENCE_WIDTH)) == lost_word[15:0])
   `GOAL(t_q == 4'd7 && smooth && has == 3'b111 && sum < -2000)
 
 endmodule

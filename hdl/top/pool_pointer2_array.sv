@@ -8,7 +8,9 @@
 //   start_i, too, switches S1.
 // TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
-//   each engine: column engine * ENGINE_COLUMNS + column of the engine.
+//   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
+//   second code, second fraction, code, fraction, confidence}: the label that lost the decision, not smoothed, to which
+//   the confidence belongs as well.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"
@@ -27,12 +29,12 @@ module pool_pointer2_array #(
     parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2, or to 4 with 4
     parameter int RIVAL_MOVES = 1,        // 1: the rival has a pointer; 0: it stays at its candidate
     parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
+    parameter int SECOND_TARGET = 0,      // 1: a result has the position of the label that lost, too
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
-    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
-    localparam int RESULT_WIDTH = 16 + CONFIDENCE_WIDTH,
+    localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
 ) (
     input  logic                   clk_i,
@@ -92,6 +94,8 @@ module pool_pointer2_array #(
                 "pool_pointer2_array: RIVAL_MOVES must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_resting, RIVAL_MOVES == 1 || OFFSET_BITS == 0,
                 "pool_pointer2_array: OFFSET_BITS must be 0 if RIVAL_MOVES is 0")
+  `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || SECOND_TARGET == 1,
+                "pool_pointer2_array: SECOND_TARGET must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_histogram,
                 dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH <= LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,
                 "pool_pointer2_array: 32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows")
@@ -391,7 +395,8 @@ module pool_pointer2_array #(
           .OFFSET_BITS    (OFFSET_BITS),
           .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
           .POINTER_SHIFT  (POINTER_SHIFT),
-          .RIVAL_MOVES    (RIVAL_MOVES)
+          .RIVAL_MOVES    (RIVAL_MOVES),
+          .SECOND_TARGET  (SECOND_TARGET)
       ) u_engine (
           .clk_i        (clk_i),
           .rst_ni       (rst_ni),

@@ -15,6 +15,7 @@ module pool_pointer2_array_bench #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,  // the vectors have no gate
+    parameter int SECOND_TARGET = 0,  // the vectors have one target
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
     parameter int FRAMES = 1,
@@ -52,6 +53,7 @@ module pool_pointer2_array_bench #(
       .POINTER_SHIFT    (POINTER_SHIFT),
       .RIVAL_MOVES      (RIVAL_MOVES),
       .TIME_GATE        (TIME_GATE),
+      .SECOND_TARGET    (SECOND_TARGET),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
       .ACQ_WIDTH        (ACQ_WIDTH)
   ) u_rtl (

@@ -65,6 +65,7 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
             .count_bits = value("ADVANTAGE_WIDTH"),
             .pointer_shift = value("POINTER_SHIFT"),
             .rival_moves = value("RIVAL_MOVES") != 0,
+            .second_target = value("SECOND_TARGET") != 0,
             .coarse_share = value("COARSE_SHARE"),
             .track_share = value("TRACK_SHARE"),
             .engine_columns = value("ENGINE_COLUMNS")};
@@ -234,10 +235,11 @@ std::string ReadoutParameters::to_string() const {
     return out +
            fmt::format(
                " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} COUNT={} SHIFT={} RIVAL={} ENGINE_COLUMNS={} "
-               "SHARES={},{} S1={}",
+               "SHARES={},{} S1={}{}",
                count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.offset_bits,
                pool.count_bits, pool.pointer_shift, pool.rival_moves ? "moves" : "stays", pool.engine_columns,
-               pool.coarse_share, pool.track_share, pool.smooth ? 1 : 0);
+               pool.coarse_share, pool.track_share, pool.smooth ? 1 : 0,
+               pool.second_target ? " SECOND_TARGET=1" : "");
   }
   if (is_pool_readout(readout)) {
     out += fmt::format(

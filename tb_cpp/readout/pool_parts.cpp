@@ -178,11 +178,15 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   }
 }
 
-PixelResult pool_result(std::int32_t position, int margin, unsigned fraction_bits) {
+std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits) {
   // The code's fraction counts from its low end; its middle is what a timestamp stands for.
   const auto half_bin = static_cast<std::int32_t>((1U << fraction_bits) >> 1U);
   const std::int32_t end = kPoolPositions - (1 << fraction_bits);  // 2^NP - 1 is no code
-  const auto word = static_cast<std::uint32_t>(std::clamp(position - half_bin, 0, end - 1));
+  return static_cast<std::uint16_t>(std::clamp(position - half_bin, 0, end - 1));
+}
+
+PixelResult pool_result(std::int32_t position, int margin, unsigned fraction_bits) {
+  const unsigned word = pool_word(position, fraction_bits);
   return {static_cast<std::uint16_t>(word >> fraction_bits),
           static_cast<std::uint16_t>(word & ((1U << fraction_bits) - 1)),
           static_cast<std::uint16_t>(std::abs(margin))};

@@ -62,7 +62,9 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
                      std::uint32_t acquisition, std::int32_t largest_step, const PointerWindows& windows,
                      const PoolPointerParameters& parameters);
 
-/// The result word of a winner at `position`; `half_bin` of the timestamps.
+/// Code and fraction of a position as one number.
+std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits);
+/// The result of a winner at `position`.
 PixelResult pool_result(std::int32_t position, int margin, unsigned fraction_bits);
 
 /// What two adjacent pixels of a column count in the coarse phase: a timestamp per acquisition, the even

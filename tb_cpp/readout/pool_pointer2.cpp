@@ -290,7 +290,11 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
   PoolWinners winners;
   for (std::size_t row = 0; row < words.size(); ++row) {
     const int margin = beliefs[row][0] - beliefs[row][1];
-    winners.push_back({chain[row].position[margin >= 0 ? 0 : 1], margin, groups.at(column, row).background});
+    const std::size_t winner = margin >= 0 ? 0 : 1;
+    winners.push_back({.position = chain[row].position[winner],
+                       .lost = chain[row].position[1 - winner],
+                       .margin = margin,
+                       .background = groups.at(column, row).background});
   }
   return winners;
 }
@@ -307,6 +311,7 @@ PoolPointerParameters PoolPointer2Parameters::common() const {
           .count_bits = count_bits,
           .pointer_shift = pointer_shift,
           .rival_moves = rival_moves != 0,
+          .second_target = second_target,
           .coarse_share = coarse_share,
           .track_share = track_share,
           .engine_columns = engine_columns,
@@ -451,9 +456,15 @@ std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnR
           winners, i > 0 ? std::span<const PoolWinner>(columns[i - 1]) : std::span<const PoolWinner>(),
           parameters);
       std::vector<PixelResult>& pixels = results.emplace_back();
+      const auto fraction_bits = static_cast<unsigned>(16 - np);
       for (std::size_t row = 0; row < winners.size(); ++row) {
-        pixels.push_back(pool_result(parameters.smooth ? smoothed[row] : winners[row].position,
-                                     winners[row].margin, static_cast<unsigned>(16 - np)));
+        const PoolWinner& winner = winners[row];
+        PixelResult result =
+            pool_result(parameters.smooth ? smoothed[row] : winner.position, winner.margin, fraction_bits);
+        if (parameters.second_target) {
+          result.second = pool_word(winner.lost, fraction_bits);
+        }
+        pixels.push_back(result);
       }
     }
     engine.clear();
@@ -503,7 +514,8 @@ PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& paramet
                                    .engine_columns = parameters.pool.engine_columns,
                                    .coarse_share = parameters.pool.coarse_share,
                                    .track_share = parameters.pool.track_share,
-                                   .smooth = parameters.pool.smooth};
+                                   .smooth = parameters.pool.smooth,
+                                   .second_target = parameters.pool.second_target};
   own.validate();
   return own;
 }

@@ -65,6 +65,8 @@ struct PoolPointer2Parameters {
   std::array<int, 2> smooth_reach = {1024, 1536};  ///< units: T of dark and of bright groups
   int smooth_bright_from = 6;                      ///< B from which a group is bright there
 
+  bool second_target = false;  ///< a result has the position of the label that lost, too, without S1
+
   /// Throws InputError.
   void validate() const;
   /// Those that other read-outs have, too.
@@ -94,6 +96,7 @@ PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t 
 /// A pixel after decide, before S1.
 struct PoolWinner {
   std::int32_t position;  ///< units
+  std::int32_t lost;      ///< units: of the label that lost
   int margin;             ///< belief of the leader less the rival's
   int background;         ///< B of its group
 };

@@ -18,6 +18,7 @@ module pool_pointer2_testbench #(
     parameter POINTER_SHIFT = 1,
     parameter RIVAL_MOVES = 1,
     parameter TIME_GATE = 0,
+    parameter SECOND_TARGET = 0,
     parameter ENGINE_COLUMNS = 34,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
 ) (
@@ -44,6 +45,7 @@ module pool_pointer2_testbench #(
     output logic [         15:0] result_row_o,
     output logic [         15:0] result_code_o,
     output logic [         15:0] result_fraction_o,
+    output logic [         15:0] result_second_o,
     output logic [         15:0] result_confidence_o,
     output logic                 probe_write_o,
     output logic [         15:0] probe_address_o,
@@ -54,11 +56,13 @@ module pool_pointer2_testbench #(
   localparam ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
   localparam POSITION_WIDTH = 16;  // code and fraction
   localparam CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH);
-  localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH;
+  localparam SECOND_WIDTH = SECOND_TARGET != 0 ? POSITION_WIDTH : 0;
+  localparam RESULT_WIDTH = COLUMN_WIDTH + ROW_WIDTH + SECOND_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH;
 
   localparam POSITION_LSB = CONFIDENCE_WIDTH;
   localparam CODE_LSB = POSITION_LSB + POSITION_WIDTH - NP;
-  localparam ROW_LSB = POSITION_LSB + POSITION_WIDTH;
+  localparam SECOND_LSB = POSITION_LSB + POSITION_WIDTH;
+  localparam ROW_LSB = SECOND_LSB + SECOND_WIDTH;
   localparam COLUMN_LSB = ROW_LSB + ROW_WIDTH;
 
   logic [SRAM_NUM*NP-1:0] timestamp;
@@ -83,6 +87,7 @@ module pool_pointer2_testbench #(
       .POINTER_SHIFT(POINTER_SHIFT),
       .RIVAL_MOVES(RIVAL_MOVES),
       .TIME_GATE(TIME_GATE),
+      .SECOND_TARGET(SECOND_TARGET),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .ACQ_WIDTH(16)
   ) u_array (
@@ -117,6 +122,11 @@ module pool_pointer2_testbench #(
     assign result_fraction_o = 16'(result[POSITION_LSB+:POSITION_WIDTH-NP]);
   end else begin : gen_no_fraction
     assign result_fraction_o = '0;
+  end
+  if (SECOND_TARGET != 0) begin : gen_second
+    assign result_second_o = result[SECOND_LSB+:POSITION_WIDTH];
+  end else begin : gen_no_second
+    assign result_second_o = '0;
   end
   assign result_confidence_o = 16'(result[0+:CONFIDENCE_WIDTH]);
 

@@ -50,7 +50,7 @@ struct Pixel {
   bool sure = false;
   int n = 0, pa = 0, pb = 0;
   int ka = 0, kb = 0;  // lean: whose candidates they are
-  int winner = 0, margin = 0;
+  int winner = 0, loser = 0, margin = 0;
 };
 
 struct Group {
@@ -71,6 +71,7 @@ class Reference {
     bool smooth = true;
     bool smooth_left = false;
     bool lean = false;  ///< the numbers of poolPointer 2 lean
+    bool second_target = false;
   };
 
   /// Of a group the cells that its pixels chose.
@@ -488,6 +489,7 @@ class Reference {
       const auto i = static_cast<std::size_t>(r);
       pixel.margin = belief[i][0] - belief[i][1];
       pixel.winner = position[i][pixel.margin < 0 ? 1 : 0];
+      pixel.loser = position[i][pixel.margin < 0 ? 0 : 1];
     }
   }
 
@@ -510,9 +512,11 @@ class Reference {
       position += sum >= 0 ? sum / 4 : -(-sum / 4);
     }
     const int scale = 1 << (16 - np_);
-    const int word = std::clamp(position - scale / 2, 0, 65536 - scale - 1);
+    const auto limited = [&](int x) { return std::clamp(x - scale / 2, 0, 65536 - scale - 1); };
+    const int word = limited(position);
     return {static_cast<std::uint16_t>(word / scale), static_cast<std::uint16_t>(word % scale),
-            static_cast<std::uint16_t>(std::abs(pixel.margin))};
+            static_cast<std::uint16_t>(std::abs(pixel.margin)),
+            static_cast<std::uint16_t>(open_.second_target ? limited(pixel.loser) : 0)};
   }
 
   Used before_;
@@ -546,6 +550,7 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
     parameters.left_needs_margin = open.left_needs_margin ? 1 : 0;
     parameters.coarse_share = open.coarse;
     parameters.track_share = open.track;
+    parameters.second_target = open.second_target;
     const auto actual = read_array(array, np, static_cast<std::uint32_t>(acquisitions), parameters);
     std::vector<std::vector<PixelResult>> expected;
     for (std::size_t begin = 0; begin < array.size(); begin += static_cast<std::size_t>(engine_columns)) {
@@ -565,8 +570,9 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
         ASSERT_EQ(got, want) << "NP " << np << ", S1 " << smooth << ", " << array.size()
                              << " columns, engine of " << engine_columns << ", " << acquisitions
                              << " acquisitions, column " << column << ", row " << row << ": expected "
-                             << want.code << '+' << want.fraction << " (" << want.confidence << "), got "
-                             << got.code << '+' << got.fraction << " (" << got.confidence << ')';
+                             << want.code << '+' << want.fraction << " (" << want.confidence << "; "
+                             << want.second << "), got " << got.code << '+' << got.fraction << " ("
+                             << got.confidence << "; " << got.second << ')';
       }
     }
   }
@@ -698,7 +704,7 @@ TEST_F(PoolPointer2, LeanAsReference) {
   constexpr std::array<double, 4> kBackgrounds = {0.0, 0.02, 0.3, 0.6};
   for (int trial = 0; trial < 40; ++trial) {
     const int np = pick(draw, 2) == 0 ? 10 : 8 + pick(draw, 7);
-    Reference::Open open{.coarse = 10, .track = 14, .lean = true};
+    Reference::Open open{.coarse = 10, .track = 14, .lean = true, .second_target = trial % 2 == 0};
     if (trial % 4 == 3) {
       open.coarse = 1 + pick(draw, 30);
       open.track = 1 + pick(draw, 30);
@@ -720,7 +726,7 @@ TEST_F(PoolPointer2, LeanAsReference) {
         column.append_row(stream);
       }
     }
-    expect_as_reference(array, 10, 400, 34, {.coarse = 10, .track = 14, .lean = true});
+    expect_as_reference(array, 10, 400, 34, {.coarse = 10, .track = 14, .lean = true, .second_target = true});
   }
 }
 
@@ -732,7 +738,8 @@ TEST_F(PoolPointer2, OtherSharesAndSwitchesAsReference) {
                                .track = 8 + pick(draw, 24),
                                .left_needs_margin = trial % 2 == 1,
                                .smooth = true,
-                               .smooth_left = trial / 2 % 2 == 1};
+                               .smooth_left = trial / 2 % 2 == 1,
+                               .second_target = trial % 3 != 1};
     const double background = trial % 3 == 0 ? 0.02 : 0.3;
     expect_as_reference(surfaces(10, 2, 1 + pick(draw, 9), 1 + pick(draw, 24), background, 700, draw), 10,
                         700, 2 * (1 + pick(draw, 3)), open);

@@ -167,6 +167,8 @@ TEST(PoolPointer2Sweep, EveryValueOccurs) {
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }),
               IsSupersetOf({0, 1, 2, 3, 4}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.rival_moves ? 1 : 0; }), IsSupersetOf({0, 1}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.second_target ? 1 : 0; }),
+              IsSupersetOf({0, 1}));
 }
 
 // Clocks of a frame of 200 columns. An engine takes its pairs one after the other, so that one pair and two
