@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "dtof.h"
 
-#define SHARES 64U    /* a frame in 64ths */
-#define LATE_SHARE 5U /* eighths of the pointer phase before its small steps */
+#define SHARES 64U /* a frame in 64ths */
 #define LIGHT_MM_PER_PS 0.299792458
 #define COLUMNS_OF_A_WORD 32U
 
@@ -60,8 +59,9 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
 dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions) {
   dtof_settings settings = {0};
   settings.acquisitions = acquisitions;
-  settings.coarse_share = 16;
-  settings.track_share = 16;
+  settings.coarse_share = 14;
+  settings.track_share = 20;
+  settings.smooth = true;
   settings.gate_end = (uint16_t)((UINT32_C(1) << device->timestamp_bits) - 1U);
   return settings;
 }
@@ -89,7 +89,6 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
       {DTOF_ACQUISITIONS, settings->acquisitions, true},
       {DTOF_COARSE_END, 0, device->has_schedule},
       {DTOF_TRACK_END, 0, device->has_schedule},
-      {DTOF_LATE_BEGIN, 0, device->has_schedule},
       {DTOF_GATE,
        (uint32_t)settings->gate_begin << DTOF_GATE_BEGIN_LSB | (uint32_t)settings->gate_end
                                                                    << DTOF_GATE_END_LSB,
@@ -98,17 +97,15 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
       {DTOF_WEAK_BELOW, settings->weak_below, true},
       {DTOF_OUTPUT,
        (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
-           (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U),
-       device->has_second_target || device->has_raw_histogram},
+           (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) | (settings->smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0U),
+       device->has_schedule || device->has_raw_histogram},
       {DTOF_RAW_ROWS,
        (uint32_t)settings->raw_first_row << DTOF_RAW_ROWS_FIRST_LSB | (uint32_t)settings->raw_last_row
                                                                           << DTOF_RAW_ROWS_LAST_LSB,
        settings->raw},
   };
-  uint32_t track_end = (uint32_t)((uint64_t)settings->acquisitions * shares / SHARES);
   writes[1].value = (uint32_t)((uint64_t)settings->acquisitions * settings->coarse_share / SHARES);
-  writes[2].value = track_end;
-  writes[3].value = track_end + (uint32_t)((uint64_t)(settings->acquisitions - track_end) * LATE_SHARE / 8U);
+  writes[2].value = (uint32_t)((uint64_t)settings->acquisitions * shares / SHARES);
 
   for (size_t i = 0; i < sizeof writes / sizeof writes[0]; ++i) {
     if (writes[i].there) {

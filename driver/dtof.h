@@ -45,7 +45,7 @@ typedef struct {
   uint8_t fraction_bits;   /* of a position */
   uint8_t confidence_bits; /* 0: the read-out has none */
   uint8_t acquisition_bits;
-  bool has_schedule; /* poolPointer */
+  bool has_schedule; /* poolPointer 2 */
   bool has_gate;
   bool has_second_target;
   bool has_raw_histogram;
@@ -57,14 +57,16 @@ typedef struct {
 /* What a frame uses. */
 typedef struct {
   uint32_t acquisitions;
-  uint8_t coarse_share; /* poolPointer: 64ths of the frame for the coarse and the track phase, at most 64
+  uint8_t coarse_share; /* poolPointer 2: 64ths of the frame for the coarse and the track phase, at most 64
                            together */
   uint8_t track_share;
   uint16_t gate_begin; /* a timestamp from begin to below end counts; ignored where there is no gate */
   uint16_t gate_end;
   uint16_t weak_below; /* a confidence below is weak */
   bool second_target;  /* each pixel's second target, too; DTOF_ARGUMENT where has_second_target is false */
-  bool raw; /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
+  bool
+      smooth; /* poolPointer 2: neighbours of a column on one surface are drawn together; ignored elsewhere */
+  bool raw;   /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
   uint16_t raw_first_row;
   uint16_t raw_last_row;
   uint16_t release; /* lines in the buffer before an acquisition begins; 0: as many as possible */
@@ -95,7 +97,8 @@ typedef struct {
 /* Finds the subsystem and reads what it is. */
 dtof_status dtof_probe(dtof_device *device, dtof_bus bus);
 
-/* What suits the device: everything counts, shares of poolPointer 16 and 16. */
+/* What suits the device: everything counts, poolPointer 2 smooths, its shares are 14 and 20 (lean: choose 10
+ * and 14). */
 dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions);
 
 /* Writes the settings of the next frame. DTOF_ARGUMENT, with nothing written, for what the hardware cannot

@@ -5,8 +5,8 @@
 #define DTOF_REGISTERS_H
 
 #define DTOF_ID_EXPECTED UINT32_C(0x444F4650)
-#define DTOF_VERSION_MAJOR_EXPECTED UINT32_C(1)
-#define DTOF_VERSION_MINOR_EXPECTED UINT32_C(1)
+#define DTOF_VERSION_MAJOR_EXPECTED UINT32_C(2)
+#define DTOF_VERSION_MINOR_EXPECTED UINT32_C(0)
 
 /* says that this is the subsystem */
 #define DTOF_ID UINT32_C(0x000)
@@ -130,20 +130,15 @@
 #define DTOF_ACQUISITIONS_VALUE_LSB 0
 #define DTOF_ACQUISITIONS_VALUE_MASK UINT32_C(0x00FFFFFF)
 
-/* poolPointer: the coarse phase ends before this acquisition */
+/* poolPointer 2: the coarse phase ends before this acquisition */
 #define DTOF_COARSE_END UINT32_C(0x064)
 #define DTOF_COARSE_END_VALUE_LSB 0
 #define DTOF_COARSE_END_VALUE_MASK UINT32_C(0x00FFFFFF)
 
-/* poolPointer: the track phase ends before this acquisition */
+/* poolPointer 2: the track phase ends before this acquisition */
 #define DTOF_TRACK_END UINT32_C(0x068)
 #define DTOF_TRACK_END_VALUE_LSB 0
 #define DTOF_TRACK_END_VALUE_MASK UINT32_C(0x00FFFFFF)
-
-/* poolPointer: the pointers' small steps begin with this acquisition */
-#define DTOF_LATE_BEGIN UINT32_C(0x06C)
-#define DTOF_LATE_BEGIN_VALUE_LSB 0
-#define DTOF_LATE_BEGIN_VALUE_MASK UINT32_C(0x00FFFFFF)
 
 /* with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all of them */
 #define DTOF_GATE UINT32_C(0x070)
@@ -168,6 +163,8 @@
 #define DTOF_OUTPUT_SECOND_TARGET_MASK UINT32_C(0x00000001)
 #define DTOF_OUTPUT_RAW_LSB 1
 #define DTOF_OUTPUT_RAW_MASK UINT32_C(0x00000002)
+#define DTOF_OUTPUT_SMOOTH_LSB 2
+#define DTOF_OUTPUT_SMOOTH_MASK UINT32_C(0x00000004)
 
 /* register k: columns 32 k and up; at reset all are enabled */
 #define DTOF_COLUMN_ENABLE UINT32_C(0x080)

@@ -146,13 +146,21 @@ def offered_tops(table: Table) -> list[Top]:
 
 def subsystem_number(table: Table, readout: Readout) -> int | None:
     """dtof_subsystem's READOUT for it."""
+    if not readout.top:
+        return None
     return readout.number if readout.number is not None else table.tops[readout.top].readout
 
 
+def subsystem_tops(table: Table) -> list[Top]:
+    """The arrays that dtof_subsystem may have."""
+    there = {readout.top for readout in table.readouts.values() if subsystem_number(table, readout) is not None}
+    return [top for top in table.tops.values() if top.name in there]
+
+
 def subsystem_parameters(table: Table) -> str:
-    """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
+    """The parameters of dtof_subsystem: those of all its arrays, each with the default of the read-out that is chosen."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
-    tops = offered_tops(table)
+    tops = subsystem_tops(table)
     names = dict.fromkeys(name for top in tops for name in top.parameters)
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
@@ -185,8 +193,8 @@ def all_connections(table: Table) -> dict[str, str]:
     """The arrays in dtof_subsystem, which has a time gate of its own for all of them, and dtof_subsystem in its benches."""
     lists = {f"hdl/package/{top.name}_parameters.svh":
              connections(top.name, "dtof_subsystem", [name for name in top.parameters if name != "TIME_GATE"])
-             for top in offered_tops(table)}  # fmt: skip
-    union = list(dict.fromkeys(name for top in offered_tops(table) for name in top.parameters))
+             for top in subsystem_tops(table)}  # fmt: skip
+    union = list(dict.fromkeys(name for top in subsystem_tops(table) for name in top.parameters))
     lists["hdl/package/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", union)
     return lists
 
@@ -399,7 +407,7 @@ def cmake(table: Table) -> str:
         *(f"set(DTOF_NUMBER_{readout.name} {readout.number})" for readout in table.readouts.values()
           if readout.number is not None),
         *(f"set(DTOF_SUBSYSTEM_NUMBER_{readout.name} {subsystem_number(table, readout)})"
-          for readout in table.readouts.values() if readout.top and not readout.trial),
+          for readout in table.readouts.values() if subsystem_number(table, readout) is not None),
         *(f"set(DTOF_TOP_{readout.name} {readout.top})" for readout in table.readouts.values() if readout.top),
         f"set(DTOF_MODELS {' '.join(dict.fromkeys(readout.model for readout in table.readouts.values()))})  # of readout/",
         *(f"set(DTOF_DEFAULT_{name} {values(parameter.default)})" for name, parameter in table.parameters.items()),

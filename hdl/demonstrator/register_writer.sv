@@ -2,8 +2,8 @@
 // In the place of a processor: writes the registers of dtof_subsystem once behind the reset, so that it reads frames without
 // an end.
 //
-// Order: ACQUISITIONS, WEAK_BELOW, poolPointer's schedule (COARSE_END, TRACK_END, LATE_BEGIN, as pool_pointer_array
-// recommends) where there is one, CONTROL with START and CONTINUOUS.
+// Order: ACQUISITIONS, WEAK_BELOW, poolPointer 2's schedule (COARSE_END, TRACK_END, as pool_pointer2_array recommends)
+// where there is one, CONTROL with START and CONTINUOUS.
 // Schedule: a write takes APB's two clocks and what the slave waits.
 // Cost: five state bits.
 module register_writer #(
@@ -20,10 +20,9 @@ module register_writer #(
     input  logic        pready_i
 );
 
-  localparam int COARSE_END = (ACQUISITIONS * 16) >> 6;
-  localparam int TRACK_END = (ACQUISITIONS * 32) >> 6;
-  localparam int LATE_BEGIN = TRACK_END + (((ACQUISITIONS - TRACK_END) * 5) >> 3);
-  localparam logic [2:0] CONTROL = 3'd5;
+  localparam int COARSE_END = (ACQUISITIONS * 14) >> 6;
+  localparam int TRACK_END = (ACQUISITIONS * 34) >> 6;
+  localparam logic [2:0] CONTROL = 3'd4;
 
   logic [2:0] index_q;
   logic enable_q, done_q;
@@ -64,10 +63,6 @@ module register_writer #(
       3'd3: begin
         paddr_o = dtof_registers_pkg::TRACK_END;
         pwdata_o = 32'(TRACK_END);
-      end
-      3'd4: begin
-        paddr_o = dtof_registers_pkg::LATE_BEGIN;
-        pwdata_o = 32'(LATE_BEGIN);
       end
       default: begin
         paddr_o = dtof_registers_pkg::CONTROL;

@@ -211,10 +211,9 @@ module example_bench #(
     fraction_bits = int'(value[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:dtof_registers_pkg::WIDTHS_FRACTION_WIDTH]);
 
     write(dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    // Of poolPointer: a quarter for the coarse phase, a quarter for the track phase, then 5/8 of the rest.
-    write(dtof_registers_pkg::COARSE_END, ACQUISITIONS / 4);
-    write(dtof_registers_pkg::TRACK_END, ACQUISITIONS / 2);
-    write(dtof_registers_pkg::LATE_BEGIN, ACQUISITIONS / 2 + ACQUISITIONS / 2 * 5 / 8);
+    // Of poolPointer 2: 14/64 of the frame for the coarse phase, 20/64 for the track phase.
+    write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
+    write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
     write(dtof_registers_pkg::WEAK_BELOW, 2);
     write(dtof_registers_pkg::IRQ_ENABLE, 32'd1 << dtof_registers_pkg::IRQ_ENABLE_FRAME_LSB);
     write(dtof_registers_pkg::CONTROL, 32'd1 << dtof_registers_pkg::CONTROL_START_LSB);

@@ -155,9 +155,8 @@ module timing_bench #(
   task automatic frame;
     int index;
     transfer(1'b1, dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    transfer(1'b1, dtof_registers_pkg::COARSE_END, ACQUISITIONS / 4);
-    transfer(1'b1, dtof_registers_pkg::TRACK_END, ACQUISITIONS / 2);
-    transfer(1'b1, dtof_registers_pkg::LATE_BEGIN, ACQUISITIONS / 2 + ACQUISITIONS / 2 * 5 / 8);
+    transfer(1'b1, dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
+    transfer(1'b1, dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
     line_valid = 1'b1;
     line = {WIDTH{1'b1}};
     clocks(2 * LINES + 8);  // the buffer is full

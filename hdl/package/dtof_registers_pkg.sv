@@ -4,7 +4,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00010001;
+  localparam logic [31:0] VERSION_VALUE = 32'h00020000;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -128,20 +128,15 @@ package dtof_registers_pkg;
   localparam int ACQUISITIONS_VALUE_LSB = 0;
   localparam int ACQUISITIONS_VALUE_WIDTH = 24;
 
-  // poolPointer: the coarse phase ends before this acquisition
+  // poolPointer 2: the coarse phase ends before this acquisition
   localparam logic [11:0] COARSE_END = 12'h064;
   localparam int COARSE_END_VALUE_LSB = 0;
   localparam int COARSE_END_VALUE_WIDTH = 24;
 
-  // poolPointer: the track phase ends before this acquisition
+  // poolPointer 2: the track phase ends before this acquisition
   localparam logic [11:0] TRACK_END = 12'h068;
   localparam int TRACK_END_VALUE_LSB = 0;
   localparam int TRACK_END_VALUE_WIDTH = 24;
-
-  // poolPointer: the pointers' small steps begin with this acquisition
-  localparam logic [11:0] LATE_BEGIN = 12'h06c;
-  localparam int LATE_BEGIN_VALUE_LSB = 0;
-  localparam int LATE_BEGIN_VALUE_WIDTH = 24;
 
   // with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all of them
   localparam logic [11:0] GATE = 12'h070;
@@ -166,6 +161,8 @@ package dtof_registers_pkg;
   localparam int OUTPUT_SECOND_TARGET_WIDTH = 1;
   localparam int OUTPUT_RAW_LSB = 1;
   localparam int OUTPUT_RAW_WIDTH = 1;
+  localparam int OUTPUT_SMOOTH_LSB = 2;
+  localparam int OUTPUT_SMOOTH_WIDTH = 1;
 
   // register k: columns 32 k and up; at reset all are enabled
   localparam logic [11:0] COLUMN_ENABLE = 12'h080;
@@ -208,13 +205,15 @@ package dtof_registers_pkg;
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h01c)
         || (offset >= 12'h040 && offset <= 12'h058)
-        || (offset >= 12'h060 && offset <= 12'h100);
+        || (offset >= 12'h060 && offset <= 12'h068)
+        || (offset >= 12'h070 && offset <= 12'h100);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
-        || (offset >= 12'h060 && offset <= 12'h100);
+        || (offset >= 12'h060 && offset <= 12'h068)
+        || (offset >= 12'h070 && offset <= 12'h100);
   endfunction
 
 endpackage

@@ -15,7 +15,7 @@
     // timestamps per pixel and acquisition
     parameter int SLOTS = 2,
     // bits of a histogram bin; counters saturate
-    parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 7
+    parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 7
         : 10,
     // bins a pointer moves per timestamp
     parameter int POINTER_STEP = 1,
@@ -39,19 +39,15 @@
     // bits of the run-time number of acquisitions
     parameter int ACQ_WIDTH = 16,
     // pixels that share a coarse histogram
-    parameter int GROUP_SIZE = 8,
-    // candidates of a group in little light
-    parameter int DARK_LABELS = 5,
+    parameter int GROUP_SIZE = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 4
+        : 8,
+    // candidates of a group
+    parameter int LABELS = 5,
     // bits of their scores
-    parameter int DARK_SCORE_BITS = 4,
-    // candidates of a group in much light
-    parameter int BRIGHT_LABELS = 5,
-    // bits of their scores
-    parameter int BRIGHT_SCORE_BITS = 4,
-    // background of a group from which there is much light
-    parameter int BRIGHT_FROM = 6,
+    parameter int SCORE_BITS = 4,
     // bits of a leader's offset in the track phase, 0 for none
-    parameter int OFFSET_BITS = 5,
+    parameter int OFFSET_BITS = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 6
+        : 5,
     // bits of the leader's advantage
     parameter int ADVANTAGE_WIDTH = 7,
     // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins

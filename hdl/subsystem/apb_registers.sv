@@ -50,7 +50,7 @@ module apb_registers #(
     output logic [ACQ_WIDTH-1:0] acquisitions_o,
     output logic [ACQ_WIDTH-1:0] coarse_end_o,   // these three are 0 without HAS_SCHEDULE
     output logic [ACQ_WIDTH-1:0] track_end_o,
-    output logic [ACQ_WIDTH-1:0] late_begin_o,
+    output logic                 smooth_o,
     output logic [       NP-1:0] gate_begin_o,   // these two are 0 without TIME_GATE
     output logic [       NP-1:0] gate_end_o,
     output logic [         15:0] release_o,
@@ -173,20 +173,23 @@ module apb_registers #(
 
   generate
     if (HAS_SCHEDULE != 0) begin : g_schedule
-      logic [ACQ_WIDTH-1:0] coarse_end_q, track_end_q, late_begin_q;
+      logic [ACQ_WIDTH-1:0] coarse_end_q, track_end_q;
+      logic smooth_q;
       always_ff @(posedge clk_i or negedge rst_ni) begin
         if (!rst_ni) begin
           coarse_end_q <= '0;
           track_end_q <= '0;
-          late_begin_q <= '0;
+          smooth_q <= 1'b1;
         end else if (write) begin
           case (offset)
             dtof_registers_pkg::COARSE_END:
             coarse_end_q <= (coarse_end_q & ~mask[ACQ_WIDTH-1:0]) | written[ACQ_WIDTH-1:0];
             dtof_registers_pkg::TRACK_END:
             track_end_q <= (track_end_q & ~mask[ACQ_WIDTH-1:0]) | written[ACQ_WIDTH-1:0];
-            dtof_registers_pkg::LATE_BEGIN:
-            late_begin_q <= (late_begin_q & ~mask[ACQ_WIDTH-1:0]) | written[ACQ_WIDTH-1:0];
+            dtof_registers_pkg::OUTPUT:
+            if (mask[dtof_registers_pkg::OUTPUT_SMOOTH_LSB]) begin
+              smooth_q <= written[dtof_registers_pkg::OUTPUT_SMOOTH_LSB];
+            end
             default: begin
             end
           endcase
@@ -194,11 +197,11 @@ module apb_registers #(
       end
       assign coarse_end_o = coarse_end_q;
       assign track_end_o = track_end_q;
-      assign late_begin_o = late_begin_q;
+      assign smooth_o = smooth_q;
     end else begin : g_no_schedule
       assign coarse_end_o = '0;
       assign track_end_o = '0;
-      assign late_begin_o = '0;
+      assign smooth_o = 1'b0;
     end
 
     if (TIME_GATE != 0) begin : g_gate
@@ -337,7 +340,6 @@ module apb_registers #(
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
       dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end_o);
       dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end_o);
-      dtof_registers_pkg::LATE_BEGIN: prdata_o = 32'(late_begin_o);
       dtof_registers_pkg::GATE: begin
         prdata_o[dtof_registers_pkg::GATE_BEGIN_LSB+:16] = 16'(gate_begin_o);
         prdata_o[dtof_registers_pkg::GATE_END_LSB+:16] = 16'(gate_end_o);
@@ -347,6 +349,7 @@ module apb_registers #(
       dtof_registers_pkg::OUTPUT: begin
         prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second_o;
         prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw_o;
+        prdata_o[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth_o;
       end
       dtof_registers_pkg::RAW_ROWS: begin
         prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first_o;

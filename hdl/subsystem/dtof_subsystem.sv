@@ -12,7 +12,7 @@
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
 // 6. Between frames the array's clock is gated (clock_gate of the technology folder).
 //
-// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER is pool_pointer_array. The parameters
+// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is pool_pointer2_array. The parameters
 // that follow (package/subsystem_parameters.svh) are the arrays'; each has the default of the read-out.
 // Latency: two clocks from a line to the array, one from the array to a result.
 // Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts' (reports/fpga_check.md).
@@ -57,7 +57,7 @@ module dtof_subsystem #(
     output logic                     m_axis_tlast_o    // a frame's last
 );
 
-  localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0;
+  localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 1 : 0;
   localparam int ACQUISITION_LINES = PIXELS_PER_SRAM * SLOTS;
   localparam int MOST_RELEASE = dtof_pkg::min_of(ACQUISITION_LINES, BUFFER_LINES);
   localparam int LEVEL_WIDTH = $clog2(BUFFER_LINES + 2);
@@ -79,9 +79,9 @@ module dtof_subsystem #(
   `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT) || POOL != 0,
                 "dtof_subsystem: READOUT must be one of dtof_pkg::READOUT_*")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || POOL != 0,
-                "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER")
+                "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER2")
   `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (POOL == 0 && RASTER_ORDER == 0),
-                "dtof_subsystem: RAW_HISTOGRAM must be 0 for READOUT_POOLPOINTER, and where RASTER_ORDER is 1")
+                "dtof_subsystem: RAW_HISTOGRAM must be 0 for READOUT_POOLPOINTER2, and where RASTER_ORDER is 1")
   `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1 && SRAM_NUM <= 1024, "dtof_subsystem: SRAM_NUM must be 1 to 1024")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1 && PIXELS_PER_SRAM <= 4096,
                 "dtof_subsystem: PIXELS_PER_SRAM must be 1 to 4096")
@@ -92,9 +92,9 @@ module dtof_subsystem #(
 
   // Registers and frames.
 
-  logic start, flush, continuous, second, raw, begin_frame, busy, done, frame;
+  logic start, flush, continuous, second, raw, smooth, begin_frame, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, misframed, overrun;
-  logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end, late_begin;
+  logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
   logic [15:0] release_lines, weak_below;
   logic [11:0] raw_first, raw_last;
@@ -142,7 +142,7 @@ module dtof_subsystem #(
       .acquisitions_o    (acquisitions),
       .coarse_end_o      (coarse_end),
       .track_end_o       (track_end),
-      .late_begin_o      (late_begin),
+      .smooth_o          (smooth),
       .gate_begin_o      (gate_begin),
       .gate_end_o        (gate_end),
       .release_o         (release_lines),
@@ -176,7 +176,6 @@ module dtof_subsystem #(
       .acquisitions_i    (acquisitions),
       .coarse_end_i      (coarse_end),
       .track_end_i       (track_end),
-      .late_begin_i      (late_begin),
       .release_i         (release_lines),
       .raw_i             (raw),
       .raw_first_i       (raw_first),
@@ -294,8 +293,8 @@ module dtof_subsystem #(
 
   generate
     if (POOL != 0) begin : g_pool
-      pool_pointer_array #(
-`include "pool_pointer_array_parameters.svh"
+      pool_pointer2_array #(
+`include "pool_pointer2_array_parameters.svh"
       ) u_array (
           .clk_i          (array_clk),
           .rst_ni         (rst_ni),
@@ -307,7 +306,7 @@ module dtof_subsystem #(
           .gate_end_i     ({NP{1'b0}}),
           .coarse_end_i   (coarse_end),
           .track_end_i    (track_end),
-          .late_begin_i   (late_begin),
+          .smooth_i       (smooth),
           .busy_o         (array_busy),
           .done_o         (done),
           .state_o        (state),
@@ -321,6 +320,8 @@ module dtof_subsystem #(
           .result_tlast_o (result_tlast)
       );
     end else begin : g_array
+      logic unused_smooth;
+      assign unused_smooth = smooth;
       dtof_array #(
           .READOUT(READOUT),
 `include "dtof_array_parameters.svh"

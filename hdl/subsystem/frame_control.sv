@@ -6,9 +6,9 @@
 // 3. What is illegal begins no frame and ends the continuous frames; start_i while busy_o does nothing. Either is told
 //    with a pulse.
 //
-// Legal is a schedule in order (HAS_SCHEDULE = 1), coarse_end <= track_end <= late_begin <= acquisitions;
+// Legal is a schedule in order (HAS_SCHEDULE = 1), coarse_end <= track_end <= acquisitions;
 // 1 <= release <= MOST_RELEASE; and with raw_i (RAW_HISTOGRAM = 1) raw_first <= raw_last < PIXELS_PER_SRAM.
-// Cost: a cycle counter and the last frame's cycles, a frame counter, three comparators of ACQ_WIDTH bits.
+// Cost: a cycle counter and the last frame's cycles, a frame counter, two comparators of ACQ_WIDTH bits.
 `include "dtof_macros.svh"
 
 module frame_control #(
@@ -25,7 +25,6 @@ module frame_control #(
     input  logic [ACQ_WIDTH-1:0] acquisitions_i,
     input  logic [ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [ACQ_WIDTH-1:0] track_end_i,
-    input  logic [ACQ_WIDTH-1:0] late_begin_i,
     input  logic [         15:0] release_i,
     input  logic                 raw_i,               // these three are 0 without RAW_HISTOGRAM
     input  logic [         11:0] raw_first_i,
@@ -44,11 +43,10 @@ module frame_control #(
 
   generate
     if (HAS_SCHEDULE != 0) begin : g_schedule
-      assign legal_schedule = (coarse_end_i <= track_end_i) && (track_end_i <= late_begin_i)
-          && (late_begin_i <= acquisitions_i);
+      assign legal_schedule = (coarse_end_i <= track_end_i) && (track_end_i <= acquisitions_i);
     end else begin : g_no_schedule
       logic unused_schedule;
-      assign unused_schedule = ^{coarse_end_i, track_end_i, late_begin_i, acquisitions_i};
+      assign unused_schedule = ^{coarse_end_i, track_end_i, acquisitions_i};
       assign legal_schedule = 1'b1;
     end
 

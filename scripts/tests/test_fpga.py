@@ -68,18 +68,19 @@ class Fpga(unittest.TestCase):
             text = fpga.report([fpga.Outcome(fpga.DESIGNS[0], FOUND, CELLS, 30, "passed `X`"),
                                 fpga.Outcome(fpga.DESIGNS[1], FOUND, CELLS, 13, "passed `Y`")])  # fmt: skip
         for part in ("3,762 of 7,680 (49 %)", "30 of 32 (94 %)", "68.2 MHz", "62.5 MHz", "| 1,195 |", "1,234 bytes | 5,678 bytes",
-                     "1,000 kbit/s", "| 30 | 13 |", "| 8 x 8 | 2 x 8 |", "* poolPointer: passed `Y`"):  # fmt: skip
+                     "1,000 kbit/s", "| 30 | 13 |", "| 8 x 8 | 2 x 8 |", "* poolPointer 2: passed `Y`"):  # fmt: skip
             self.assertIn(part, text)
 
     def test_the_netlists_tests_expect_what_the_designs_are(self):
         expected = (ROOT / "tb_cpp/tests/demonstrator/CMakeLists.txt").read_text(encoding="utf-8")
         package = (ROOT / "hdl/package/dtof_readouts.svh").read_text(encoding="utf-8")
         for design in fpga.DESIGNS:
-            arguments = [f"k{design.readout[0].upper()}{design.readout[1:]}", str(design.parameters["COLUMNS"]),
-                         *(f"{name}={value}" for name, value in design.settings.items())]  # fmt: skip
+            name = design.readout.replace(" ", "")
+            arguments = [f"k{name[0].upper()}{name[1:]}", str(design.parameters["COLUMNS"]),
+                         *(f"{parameter}={value}" for parameter, value in design.settings.items())]  # fmt: skip
             self.assertIn(f"dtof_demonstrator({design.name} {' '.join(arguments)})", expected)
             if "READOUT" in design.settings:
-                self.assertIn(f"READOUT_{design.readout.upper()} = {design.settings['READOUT']};", package)
+                self.assertIn(f"READOUT_{name.upper()} = {design.settings['READOUT']};", package)
 
 
 if __name__ == "__main__":

@@ -76,12 +76,9 @@ RtlSourceFrame run_frame_in_groups(const StreamSource& source, const RtlConfigur
   return frame;
 }
 
-namespace {
-
-/// Each engine of poolPointer 2 in an array of its own, with all its columns.
-RtlSourceFrame run_engines(const StreamSource& source, std::span<const int> selected,
-                           std::span<const ColumnGroup> engines, std::span<const RtlConfiguration> arrays,
-                           int threads, const RtlRunOptions& options, Progress* progress) {
+RtlSourceFrame run_frame_by_engines(const StreamSource& source, std::span<const int> selected,
+                                    std::span<const ColumnGroup> engines, int threads, const RunEngine& run,
+                                    Progress* progress) {
   const auto rows = static_cast<std::size_t>(source.rows());
   const std::size_t width = selected.size();
   RtlSourceFrame frame;
@@ -95,7 +92,7 @@ RtlSourceFrame run_engines(const StreamSource& source, std::span<const int> sele
     for (int column = 0; column < engine.count; ++column) {
       streams.push_back(source.column(engine.first + column));
     }
-    const RtlFrame part = RtlReadout(arrays[index]).run(streams, source.acquisitions(), options);
+    const RtlFrame part = run(index, streams, source.acquisitions());
     for (const std::size_t place : engine.asked) {
       const auto column = static_cast<std::size_t>(selected[place] - engine.first);
       for (std::size_t row = 0; row < rows; ++row) {
@@ -112,8 +109,6 @@ RtlSourceFrame run_engines(const StreamSource& source, std::span<const int> sele
   });
   return frame;
 }
-
-}  // namespace
 
 std::vector<RtlConfiguration> find_rtl_configurations(const ReadoutParameters& parameters, int rows,
                                                       int source_columns, std::span<const int> selected,
@@ -145,9 +140,12 @@ RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters
   const std::vector<RtlConfiguration> arrays =
       find_rtl_configurations(parameters, source.rows(), source.columns(), selected, waveform);
   if (parameters.columns_together() > 1) {
-    return run_engines(source, selected,
-                       column_groups(selected, parameters.columns_together(), source.columns()), arrays,
-                       threads, options, progress);
+    return run_frame_by_engines(
+        source, selected, column_groups(selected, parameters.columns_together(), source.columns()), threads,
+        [&](std::size_t engine, std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
+          return RtlReadout(arrays[engine]).run(streams, acquisitions, options);
+        },
+        progress);
   }
   return run_frame_in_groups(
       source, arrays.front(), threads, selected, !waveform,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -10,6 +11,7 @@
 #include "core/parameters.hpp"
 #include "core/progress.hpp"
 #include "core/result.hpp"
+#include "core/select_columns.hpp"
 #include "rtl/rtl_readout.hpp"
 
 namespace dtof {
@@ -38,6 +40,16 @@ std::vector<RtlConfiguration> find_rtl_configurations(const ReadoutParameters& p
 RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters& parameters, int threads = 0,
                              std::span<const int> columns = {}, const RtlRunOptions& options = {},
                              Progress* progress = nullptr);
+
+/// Reads an engine's columns; `engine`: of those that are read.
+using RunEngine = std::function<RtlFrame(std::size_t engine, std::span<const ColumnStream> columns,
+                                         std::uint32_t acquisitions)>;
+
+/// A frame by engines, whose columns hear each other (column_groups): `run` reads each with all its columns,
+/// from several threads at a time. The result has the columns `selected`.
+RtlSourceFrame run_frame_by_engines(const StreamSource& source, std::span<const int> selected,
+                                    std::span<const ColumnGroup> engines, int threads, const RunEngine& run,
+                                    Progress* progress = nullptr);
 
 /// Reads `columns` streams, of as many rows as the array has or fewer.
 using RunGroup = std::function<RtlFrame(std::span<const ColumnStream> columns, std::uint32_t acquisitions)>;

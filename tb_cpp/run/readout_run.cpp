@@ -36,13 +36,14 @@ void verify_subsystem(const StreamSource& source, const ReadoutParameters& param
   const std::vector<Mismatch> mismatches =
       compare_frames(columns, expected, frame.results, frame.result_cycles);
   if (!mismatches.empty()) {
-    throw RtlError(
-        describe_mismatches(mismatches, expected.size(),
-                            {.configuration = find_subsystem(parameters, source.rows()).configuration,
-                             .acquisitions = source.acquisitions(),
-                             .seed = options.seed,
-                             .reproduce = command,
-                             .shortest_failing_frame = std::nullopt}));
+    throw RtlError(describe_mismatches(
+        mismatches, expected.size(),
+        {.configuration =
+             find_subsystems(parameters, source.rows(), source.columns(), columns).front().configuration,
+         .acquisitions = source.acquisitions(),
+         .seed = options.seed,
+         .reproduce = command,
+         .shortest_failing_frame = std::nullopt}));
   }
 }
 
@@ -61,7 +62,7 @@ void check_engine(const StreamSource& source, std::span<const ReadoutParameters>
   for (const ReadoutParameters& parameters : readouts) {
     const ArrayRows array = array_rows(source, region.rows, parameters.readout);
     if (options.subsystem()) {
-      find_subsystem(parameters, array.source->rows());
+      (void)find_subsystems(parameters, array.source->rows(), source.columns(), region.columns);
       continue;
     }
     (void)find_rtl_configurations(parameters, array.source->rows(), source.columns(), region.columns,

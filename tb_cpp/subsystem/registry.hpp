@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "rtl/configuration.hpp"
@@ -26,9 +27,12 @@ bool register_subsystem(const RtlConfiguration& configuration, SubsystemModelFac
 /// Subsystems linked into this program, by their read-outs' numbers.
 std::vector<CompiledSubsystem> compiled_subsystems();
 
-/// The one with these parameters (parameters that the read-out does not use are not compared) and at least so
-/// many rows. Its configuration has the gate and the shares of `parameters`. Throws InputError naming what is
+/// Those with these parameters (parameters that the read-out does not use are not compared) and at least so
+/// many rows that read the columns `selected` of a source of `source_columns`: of poolPointer 2 one for each
+/// engine that has one of them, with just so many columns, in their order, else one for all. Their
+/// configurations have the gate, the shares and S1 of `parameters`. Throws InputError naming what is
 /// compiled.
-CompiledSubsystem find_subsystem(const ReadoutParameters& parameters, int rows);
+std::vector<CompiledSubsystem> find_subsystems(const ReadoutParameters& parameters, int rows,
+                                               int source_columns, std::span<const int> selected);
 
 }  // namespace dtof

@@ -11,6 +11,7 @@
 
 #include "core/progress.hpp"
 #include "core/random.hpp"
+#include "core/select_columns.hpp"
 #include "dtof.h"
 #include "rtl/error.hpp"
 #include "rtl/tdc_driver.hpp"
@@ -99,6 +100,7 @@ class SubsystemFrame {
     settings_ = dtof_default_settings(&device, acquisitions);
     settings_.coarse_share = static_cast<std::uint8_t>(parameters.pool.coarse_share);
     settings_.track_share = static_cast<std::uint8_t>(parameters.pool.track_share);
+    settings_.smooth = parameters.pool.smooth;
     if (parameters.time_gate) {
       settings_.gate_begin = static_cast<std::uint16_t>(parameters.time_gate->begin);
       settings_.gate_end = static_cast<std::uint16_t>(parameters.time_gate->end);
@@ -227,11 +229,21 @@ class SubsystemFrame {
 RtlSourceFrame run_frame_subsystem(const StreamSource& source, const ReadoutParameters& parameters,
                                    int threads, std::span<const int> columns, Progress* progress) {
   parameters.validate();
-  const CompiledSubsystem subsystem = find_subsystem(parameters, source.rows());
+  const std::vector<int> selected = select_columns(source, columns);
+  const std::vector<CompiledSubsystem> subsystems =
+      find_subsystems(parameters, source.rows(), source.columns(), selected);
+  if (parameters.columns_together() > 1) {
+    return run_frame_by_engines(
+        source, selected, column_groups(selected, parameters.columns_together(), source.columns()), threads,
+        [&](std::size_t engine, std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
+          return SubsystemFrame(subsystems[engine]).run(streams, acquisitions);
+        },
+        progress);
+  }
   return run_frame_in_groups(
-      source, subsystem.configuration, threads, columns, true,
+      source, subsystems.front().configuration, threads, selected, true,
       [&](std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
-        return SubsystemFrame(subsystem).run(streams, acquisitions);
+        return SubsystemFrame(subsystems.front()).run(streams, acquisitions);
       },
       progress);
 }

@@ -10,7 +10,7 @@
 
 namespace dtof {
 
-/// Reads out a frame with the Verilated subsystem that suits (find_subsystem), as run_frame_rtl does with an
+/// Reads out a frame with the Verilated subsystems that suit (find_subsystems), as run_frame_rtl does with an
 /// array: the C driver (driver/dtof.h) sets it up through APB, starts it and unpacks its result stream;
 /// source and sink never pause. Throws InputError as run_frame_rtl does, RtlError for an error that the
 /// subsystem tells.

@@ -130,13 +130,14 @@ TEST_F(Programs, FrameThroughTheRtlEqualsTheModelAndIsWritten) {
 
 TEST_F(Programs, FrameThroughTheSubsystemIsThatOfTheBareArray) {
   const std::string frame =
-      fmt::format("frame -r ezpointer,hispointer,poolpointer --verify {} ", kSmallScene);
+      "frame -r ezpointer,hispointer,poolpointer2 --verify --array-columns 34 --array-rows 5 --acquisitions "
+      "300 ";
   for (const char* engine : {"rtl", "subsystem"}) {
     const Outcome outcome = run(DTOF_FULL_PROGRAM, frame + fmt::format("--engine {0} --out {0}", engine));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr(fmt::format("engine {} (every pixel equal to the model)", engine)));
   }
-  for (const char* name : {"ezpointer", "hispointer", "poolpointer"}) {
+  for (const char* name : {"ezpointer", "hispointer", "poolpointer2"}) {
     EXPECT_EQ(read_file(path("subsystem") + "/" + name + ".csv"),
               read_file(path("rtl") + "/" + name + ".csv"));
   }

@@ -76,12 +76,14 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
               }
               return enabled;
             }(),
-        .second_target = device_.has_second_target && frame % 2 == 0};
+        .second_target = device_.has_second_target && frame % 2 == 0,
+        .smooth = frame % 4 < 2};
     dtof_settings chosen = dtof_default_settings(&device_, settings.acquisitions);
     chosen.gate_begin = static_cast<std::uint16_t>(settings.gate.begin);
     chosen.gate_end = static_cast<std::uint16_t>(settings.gate.end);
     chosen.weak_below = static_cast<std::uint16_t>(settings.weak_below);
     chosen.second_target = settings.second_target;
+    chosen.smooth = settings.smooth;
     std::vector<std::uint32_t> mask((columns + 31) / 32);
     for (std::size_t i = 0; i < columns; ++i) {
       mask[i / 32] |= settings.enabled[i] ? 1U << (i % 32) : 0U;
@@ -232,7 +234,7 @@ TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
     settings.raw = true;
     settings.raw_last_row = 1000;
   }));
-  EXPECT_EQ(refused([](dtof_settings& settings) { settings.track_share = 49; }), device_.has_schedule);
+  EXPECT_EQ(refused([](dtof_settings& settings) { settings.track_share = 51; }), device_.has_schedule);
 }
 
 // Registers without hardware behind them.

@@ -122,12 +122,10 @@ TEST_P(SubsystemErrors, AnIllegalScheduleBeginsNoFrame) {
   }
   bench_.set(DTOF_RELEASE, most);
   const bool pool = is_pool_readout(bench_.configuration().parameters.readout);
-  for (const auto& [coarse, track, late, all] :
-       {std::array{5U, 4U, 8U, 10U}, std::array{2U, 9U, 8U, 10U}, std::array{2U, 4U, 11U, 10U}}) {
+  for (const auto& [coarse, track, all] : {std::array{5U, 4U, 10U}, std::array{2U, 11U, 10U}}) {
     if (pool) {
       bench_.set(DTOF_COARSE_END, coarse);
       bench_.set(DTOF_TRACK_END, track);
-      bench_.set(DTOF_LATE_BEGIN, late);
       bench_.set(DTOF_ACQUISITIONS, all);
       bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
       bench_.clocks(20);

@@ -18,7 +18,8 @@ FrameSettings random_settings(const RtlConfiguration& configuration, CounterRand
                          .weak_below = static_cast<std::uint32_t>(pick(random, 6)),
                          .enabled = {},
                          .second_target = pick(random, 2) == 0,
-                         .raw = pick(random, 2) == 0};
+                         .raw = pick(random, 2) == 0,
+                         .smooth = pick(random, 2) == 0};
   settings.raw_first = pick(random, configuration.pixels_per_sram);
   settings.raw_last = settings.raw_first + pick(random, configuration.pixels_per_sram - settings.raw_first);
   if (pick(random, 3) == 0) {

@@ -40,6 +40,7 @@ TEST_P(Subsystem, SaysWhatItIs) {
   EXPECT_EQ(bench_.get(DTOF_LINES) & DTOF_LINES_ACQUISITION_MASK, bench_.acquisition_lines());
   EXPECT_EQ(bench_.get(DTOF_SLOTS), static_cast<std::uint32_t>(parameters.slots));
   EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
+  EXPECT_EQ(bench_.get(DTOF_OUTPUT), pool ? DTOF_OUTPUT_SMOOTH_MASK : 0U);
   EXPECT_EQ(bench_.get(DTOF_RELEASE),
             std::min<std::uint32_t>(static_cast<std::uint32_t>(bench_.acquisition_lines()),
                                     bench_.get(DTOF_LINES) >> DTOF_LINES_BUFFER_LSB));
@@ -61,12 +62,12 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
   }
   if (offset == DTOF_OUTPUT) {
     return (parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
-           (configuration.raw_histogram ? DTOF_OUTPUT_RAW_MASK : 0);
+           (configuration.raw_histogram ? DTOF_OUTPUT_RAW_MASK : 0) | (pool ? DTOF_OUTPUT_SMOOTH_MASK : 0);
   }
   if (offset == DTOF_RAW_ROWS) {
     return configuration.raw_histogram ? DTOF_RAW_ROWS_FIRST_MASK | DTOF_RAW_ROWS_LAST_MASK : 0;
   }
-  if (offset == DTOF_COARSE_END || offset == DTOF_TRACK_END || offset == DTOF_LATE_BEGIN) {
+  if (offset == DTOF_COARSE_END || offset == DTOF_TRACK_END) {
     return pool ? 0xFFFF : 0;
   }
   if (offset == DTOF_GATE) {
@@ -82,9 +83,8 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
 
 TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   CounterRandom random = this->random(1);
-  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END,
-                                        DTOF_TRACK_END,  DTOF_LATE_BEGIN,   DTOF_GATE,
-                                        DTOF_RELEASE,    DTOF_OUTPUT,       DTOF_RAW_ROWS};
+  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END, DTOF_TRACK_END,
+                                        DTOF_GATE,       DTOF_RELEASE,      DTOF_OUTPUT,     DTOF_RAW_ROWS};
   for (std::uint32_t i = 0; i < DTOF_COLUMN_ENABLE_NUMBER; ++i) {
     offsets.push_back(DTOF_COLUMN_ENABLE + 4 * i);
   }
@@ -112,7 +112,7 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
 }
 
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x020U, 0x03CU, 0x05CU, 0x104U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x020U, 0x03CU, 0x05CU, 0x06CU, 0x104U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }

@@ -67,6 +67,7 @@ struct FrameSettings {
   std::vector<bool> enabled;   ///< columns; empty: all
   bool second_target = false;  ///< without effect where there is none
   bool raw = false;            ///< likewise
+  bool smooth = true;          ///< likewise
   int raw_first = 0;
   int raw_last = 0;
 };
@@ -78,13 +79,13 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
     const PoolSchedule schedule(settings.acquisitions, configuration.parameters.pool);
     bench.set(DTOF_COARSE_END, schedule.coarse_end);
     bench.set(DTOF_TRACK_END, schedule.track_end);
-    bench.set(DTOF_LATE_BEGIN, schedule.late_begin);
   }
   bench.set(DTOF_GATE, static_cast<std::uint32_t>(settings.gate.begin) << DTOF_GATE_BEGIN_LSB |
                            static_cast<std::uint32_t>(settings.gate.end) << DTOF_GATE_END_LSB);
   bench.set(DTOF_WEAK_BELOW, settings.weak_below);
   bench.set(DTOF_OUTPUT, (settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
-                             (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0));
+                             (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0) |
+                             (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0));
   bench.set(DTOF_RAW_ROWS, static_cast<std::uint32_t>(settings.raw_first) << DTOF_RAW_ROWS_FIRST_LSB |
                                static_cast<std::uint32_t>(settings.raw_last) << DTOF_RAW_ROWS_LAST_LSB);
   for (std::size_t first = 0; first < settings.enabled.size(); first += 32) {
@@ -96,7 +97,7 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
   }
 }
 
-/// The words of a frame whose array took `lines`: the C++ model of every column, and the status.
+/// The words of a frame whose array took `lines`: the C++ model's results, and the status.
 inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const FrameSettings& settings,
                                                   const std::vector<Line>& lines) {
   const RtlConfiguration& configuration = bench.configuration();
@@ -104,9 +105,10 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
   if (parameters.time_gate) {
     parameters.time_gate = settings.gate;
   }
+  parameters.pool.smooth = settings.smooth;
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(parameters.slots);
-  std::vector<std::vector<PixelResult>> results;
+  std::vector<ColumnStream> streams;
   std::vector<std::vector<std::vector<PixelResult>>> histograms;  // of a raw frame: column, row, bin
   const bool raw = settings.raw && configuration.raw_histogram;
   for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
@@ -122,9 +124,8 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     }
     if (raw) {
       histograms.push_back(make_readout_model(parameters)->run_raw_column(stream, settings.acquisitions));
-    } else {
-      results.push_back(make_readout_model(parameters)->run_column(stream, settings.acquisitions));
     }
+    streams.push_back(std::move(stream));
   }
   const bool has_confidence = !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
   const bool counts = has_confidence && !is_pool_readout(parameters.readout);
@@ -151,6 +152,8 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
   if (raw) {
     return expected;
   }
+  const std::vector<std::vector<PixelResult>> results =
+      make_readout_model(parameters)->run_columns(streams, settings.acquisitions);
   for (const ResultAddress& address : configuration.result_order()) {
     const auto column = static_cast<std::size_t>(address.column);
     const PixelResult& result = results[column][static_cast<std::size_t>(address.row)];

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Written by scripts/generate.py from readouts.toml. A part of dtof_subsystem: the parameters of pool_pointer_array.
+// Written by scripts/generate.py from readouts.toml. A part of dtof_subsystem: the parameters of pool_pointer2_array.
           .NP(NP),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
           .SRAM_NUM(SRAM_NUM),
           .SLOTS(SLOTS),
           .COUNT_WIDTH(COUNT_WIDTH),
           .GROUP_SIZE(GROUP_SIZE),
-          .DARK_LABELS(DARK_LABELS),
-          .DARK_SCORE_BITS(DARK_SCORE_BITS),
-          .BRIGHT_LABELS(BRIGHT_LABELS),
-          .BRIGHT_SCORE_BITS(BRIGHT_SCORE_BITS),
-          .BRIGHT_FROM(BRIGHT_FROM),
+          .LABELS(LABELS),
+          .SCORE_BITS(SCORE_BITS),
           .OFFSET_BITS(OFFSET_BITS),
           .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
           .POINTER_SHIFT(POINTER_SHIFT),
