@@ -21,7 +21,6 @@ control/stream_rules.sv
 control/result_output.sv
 control/pair_sequencer.sv
 control/pool_controller.sv
-control/engine_sequencer.sv
 control/pool_result_output.sv
 control/pool2_sequencer.sv
 datapath/data_filter.sv
@@ -40,11 +39,8 @@ datapath/minimum.sv
 datapath/pixel_distance.sv
 datapath/pool2_track_update.sv
 datapath/time_gate.sv
-datapath/track_update.sv
 datapath/twin_pointer_update.sv
-engine/candidate_decoder.sv
 engine/label_chain.sv
-engine/pool_engine.sv
 engine/beside_evidence.sv
 engine/smoothing.sv
 engine/pool2_candidate_decoder.sv
@@ -56,12 +52,9 @@ column/interframe_histogram_column.sv
 column/partitioned_histogram_column.sv
 column/coarse_histogram_column.sv
 // end of columns
-column/pool_pointer_column.sv
-column/pool_pointer_pair.sv
 column/pool2_column.sv
 column/pool2_pair.sv
 top/dtof_array.sv
-top/pool_pointer_array.sv
 top/pool_pointer2_array.sv
 subsystem/line_buffer.sv
 subsystem/line_filter.sv

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # make coverage-study  whether the confidence intervals hold over 40 seeds: reports/coverage_study.md (minutes), with runs
-#                      of 10,000 frames coverage_study_long.md, of poolPointer coverage_study_pool.md
+#                      of 10,000 frames coverage_study_long.md, of poolPointer 2 coverage_study_pool.md
 # It fails where an interval does not hold, after all three reports are written.
 .PHONY: coverage-study
 coverage-study: study
@@ -8,6 +8,6 @@ coverage-study: study
 	$(DTOF_STUDY) coverage --frames 100 1000 --seed $(SEED) --out reports || all_hold=false; \
 	$(DTOF_STUDY) coverage --klux 14 50 --distances 1 4 --frames 10000 --other-calibrations 0 --seed $(SEED) \
 	  --name coverage_study_long --out reports || all_hold=false; \
-	$(DTOF_STUDY) coverage --readout poolpointer,poolpointer-lean --klux 50 --distances 3 --frames 100 200 \
+	$(DTOF_STUDY) coverage --readout poolpointer2,poolpointer2-lean --klux 50 --distances 3 --frames 100 200 \
 	  --other-calibrations 0 --seed $(SEED) --name coverage_study_pool --out reports || all_hold=false; \
 	$$all_hold

@@ -138,29 +138,15 @@ def top_constant(top: Top) -> str:
     return f"READOUT_{top.name.upper().removesuffix('_ARRAY').replace('_', '')}"
 
 
-def offered_tops(table: Table) -> list[Top]:
-    """Without those that have read-outs on trial alone."""
-    offered = {readout.top for readout in table.readouts.values() if not readout.trial}
-    return [top for top in table.tops.values() if top.name in offered]
-
-
 def subsystem_number(table: Table, readout: Readout) -> int | None:
     """dtof_subsystem's READOUT for it."""
-    if not readout.top:
-        return None
     return readout.number if readout.number is not None else table.tops[readout.top].readout
 
 
-def subsystem_tops(table: Table) -> list[Top]:
-    """The arrays that dtof_subsystem may have."""
-    there = {readout.top for readout in table.readouts.values() if subsystem_number(table, readout) is not None}
-    return [top for top in table.tops.values() if top.name in there]
-
-
 def subsystem_parameters(table: Table) -> str:
-    """The parameters of dtof_subsystem: those of all its arrays, each with the default of the read-out that is chosen."""
+    """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
-    tops = subsystem_tops(table)
+    tops = table.tops.values()
     names = dict.fromkeys(name for top in tops for name in top.parameters)
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
@@ -193,8 +179,8 @@ def all_connections(table: Table) -> dict[str, str]:
     """The arrays in dtof_subsystem, which has a time gate of its own for all of them, and dtof_subsystem in its benches."""
     lists = {f"hdl/package/{top.name}_parameters.svh":
              connections(top.name, "dtof_subsystem", [name for name in top.parameters if name != "TIME_GATE"])
-             for top in subsystem_tops(table)}  # fmt: skip
-    union = list(dict.fromkeys(name for top in subsystem_tops(table) for name in top.parameters))
+             for top in table.tops.values()}  # fmt: skip
+    union = list(dict.fromkeys(name for top in table.tops.values() for name in top.parameters))
     lists["hdl/package/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", union)
     return lists
 
@@ -221,9 +207,7 @@ def columns(table: Table) -> str:
 def cpp_header(table: Table) -> str:
     readouts = list(table.readouts.values())
     thesis = [readout for readout in readouts if readout.thesis]
-    offered = [readout for readout in readouts if not readout.trial]
-    trial = [readout for readout in readouts if readout.trial]
-    hardware = [readout for readout in offered if readout.top]
+    hardware = [readout for readout in readouts if readout.top]
     array = lambda chosen: ",\n    ".join(f"Readout::k{readout.enumerator}" for readout in chosen)  # noqa: E731
     return f"""// SPDX-License-Identifier: Apache-2.0
 // {WRITTEN}
@@ -235,7 +219,7 @@ def cpp_header(table: Table) -> str:
 
 namespace dtof {{
 
-/// The read-outs of spec section 3, and poolPointer (docs/reference/poolpointer.md).
+/// The read-outs of the thesis, and ours (docs/reference/readouts.md).
 enum class Readout : int {{
 {chr(10).join(f"  k{readout.enumerator} = {i}," for i, readout in enumerate(readouts))}
 }};
@@ -244,19 +228,15 @@ enum class Readout : int {{
 inline constexpr std::array<Readout, {len(thesis)}> kAllReadouts = {{
     {array(thesis)}}};
 
-/// Those that `dtof` offers and that have RTL, in dtof_array or an array of their own.
+/// Those that have RTL, in dtof_array or an array of their own.
 inline constexpr std::array<Readout, {len(hardware)}> kRtlReadouts = {{
     {array(hardware)}}};
 
-/// All that `dtof` offers.
-inline constexpr std::array<Readout, {len(offered)}> kModelReadouts = {{
-    {array(offered)}}};
+/// All.
+inline constexpr std::array<Readout, {len(readouts)}> kModelReadouts = {{
+    {array(readouts)}}};
 
-/// Those that are on trial: they have models and RTL, and are read only where they are named.
-inline constexpr std::array<Readout, {len(trial)}> kTrialReadouts = {{
-    {array(trial)}}};
-
-/// Command-line name: {", ".join(readout.name for readout in offered)}.
+/// Command-line name: {", ".join(readout.name for readout in readouts)}.
 std::string_view readout_name(Readout readout);
 /// Display name as the thesis writes it, e.g. "hisPointer v1".
 std::string_view readout_title(Readout readout);
@@ -264,10 +244,8 @@ std::string_view readout_title(Readout readout);
 std::string_view readout_summary(Readout readout);
 /// The result is a pointer.
 bool is_pointer_readout(Readout readout);
-/// The pixels of a column help each other.
+/// The pixels of an engine's columns help each other.
 bool is_pool_readout(Readout readout);
-/// So do those of neighbouring columns (poolPointer 2).
-bool pools_columns(Readout readout);
 /// A histogram is scanned on the way to the result.
 bool has_histogram(Readout readout);
 /// There is RTL of it.
@@ -289,7 +267,6 @@ def cpp_source(table: Table) -> str:
     rows = ",\n".join(
         f'    {{"{readout.name}", "{readout.title}",\n     "{readout.summary}",\n'
         f"     {str(readout.kind == POINTER).lower()}, {str(readout.kind == 'pool').lower()}, "
-        f"{str('LABELS' in table.tops[readout.top].parameters if readout.top else False).lower()}, "
         f"{str(readout.bin_width is not None).lower()}, {str(bool(readout.top)).lower()},\n"
         f"     {{{', '.join(quoted(readout.choices))}}}}}"
         for readout in readouts
@@ -320,13 +297,12 @@ struct Description {{
   std::string_view summary;
   bool pointer;
   bool pool;
-  bool pools_columns;
   bool histogram;
   bool rtl;
   std::array<std::string_view, {most}> choices;  // empty ones are none
 }};
 
-constexpr std::array<Description, kModelReadouts.size() + kTrialReadouts.size()> kDescriptions = {{{{
+constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{{{
 {rows},
 }}}};
 
@@ -339,7 +315,6 @@ std::string_view readout_title(Readout readout) {{ return description(readout).t
 std::string_view readout_summary(Readout readout) {{ return description(readout).summary; }}
 bool is_pointer_readout(Readout readout) {{ return description(readout).pointer; }}
 bool is_pool_readout(Readout readout) {{ return description(readout).pool; }}
-bool pools_columns(Readout readout) {{ return description(readout).pools_columns; }}
 bool has_histogram(Readout readout) {{ return description(readout).histogram; }}
 bool has_rtl(Readout readout) {{ return description(readout).rtl; }}
 
@@ -407,7 +382,7 @@ def cmake(table: Table) -> str:
         *(f"set(DTOF_NUMBER_{readout.name} {readout.number})" for readout in table.readouts.values()
           if readout.number is not None),
         *(f"set(DTOF_SUBSYSTEM_NUMBER_{readout.name} {subsystem_number(table, readout)})"
-          for readout in table.readouts.values() if subsystem_number(table, readout) is not None),
+          for readout in table.readouts.values() if readout.top),
         *(f"set(DTOF_TOP_{readout.name} {readout.top})" for readout in table.readouts.values() if readout.top),
         f"set(DTOF_MODELS {' '.join(dict.fromkeys(readout.model for readout in table.readouts.values()))})  # of readout/",
         *(f"set(DTOF_DEFAULT_{name} {values(parameter.default)})" for name, parameter in table.parameters.items()),
@@ -427,12 +402,12 @@ def column_files(text: str, table: Table) -> str:
 
 
 def readme(text: str, table: Table) -> str:
-    for top in offered_tops(table):
+    for top in table.tops.values():
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
             raise FlowError(f"README.md has no place for the parameters of {top.name}")
         head, rest = text.split(begin)
-        users = [name for name, readout in table.readouts.items() if readout.top == top.name and not readout.trial]
+        users = [name for name, readout in table.readouts.items() if readout.top == top.name]
         lines = ["| parameter | default | meaning |", "|---|---|---|"]
         if top.name == "dtof_array":
             numbers = ", ".join(f"{table.readouts[name].number} {table.readouts[name].title}" for name in users)

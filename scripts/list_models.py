@@ -3,11 +3,11 @@
 """Prints the models of a top module to Verilate, one per line: name, then names and values for dtof_verilate() of CMake.
 
 `list_models.py readouts dtof_array`: the read-outs of configurations.toml, with many columns.
-`list_models.py waveforms dtof_array`: the same to look at: with waveforms.
+`list_models.py waveforms dtof_array`: the same to look at: with one column and waveforms.
 `list_models.py variants dtof_array`: its variants, with one column.
-The same with pool_pointer_array.
-`list_models.py engines pool_pointer2_array`: the engines that the read-outs' columns cut into, with waveforms: columns of
-one hear each other, and an array that has other columns reads something else.
+`list_models.py readouts|waveforms pool_pointer2_array`: the engines that the read-outs' columns cut into: columns of one
+hear each other, and an array that has other columns reads something else. Those without waveforms also have engines of so
+many columns as short recordings have.
 """
 
 import sys
@@ -19,13 +19,14 @@ sys.path.insert(0, str(ROOT / "synth"))
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
+RECORDED_COLUMNS = [3]  # zones of a TMF8820
 HARNESS_ACQ_WIDTH = 16  # of tb_cpp/rtl/*_testbench.sv
 
 
 def line(name: str, configuration: Configuration, **size: int) -> str:
     if configuration["ACQ_WIDTH"] != HARNESS_ACQ_WIDTH:
         raise FlowError(f"{configuration.name}: the simulation harness drives ACQ_WIDTH = {HARNESS_ACQ_WIDTH} only")
-    parameters = {**configuration.parameters, **configuration.simulation, **size}
+    parameters = configuration.parameters | configuration.simulation | size
     del parameters["ACQ_WIDTH"]
     words = [f"{key} {value}" for key, value in parameters.items()]
     return f"{name} READOUT {configuration.readout} {' '.join(words)}"
@@ -38,7 +39,7 @@ def engine_widths(configuration: Configuration) -> list[int]:
 
 
 def main() -> int:
-    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "waveforms", "variants", "engines"):
+    if len(sys.argv) != 3 or sys.argv[1] not in ("readouts", "waveforms", "variants"):
         print(__doc__, file=sys.stderr)
         return 2
     try:
@@ -48,15 +49,16 @@ def main() -> int:
             if sys.argv[1] == "variants":
                 if configuration.variant_of:
                     print(line(f"variant_{name}", configuration, SRAM_NUM=1))
-            elif configuration.variant_of:
                 continue
-            elif sys.argv[1] == "engines":
-                for columns in engine_widths(configuration):
-                    print(line(f"{name}_{columns}", configuration, SRAM_NUM=columns))
-            elif sys.argv[1] == "waveforms":
-                # Columns of pool_pointer_array look at each other; of the others, one shows everything.
-                columns = {} if configuration.top == "pool_pointer_array" else {"SRAM_NUM": 1}
-                print(line(f"{name}_waveform", configuration, **columns))
+            if configuration.variant_of:
+                continue
+            waveforms = sys.argv[1] == "waveforms"
+            if configuration.is_pool:
+                for columns in engine_widths(configuration) + ([] if waveforms else RECORDED_COLUMNS):
+                    print(line(f"{name}_{columns}{'_waveform' if waveforms else ''}", configuration, SRAM_NUM=columns),
+                          "" if waveforms else "NO_WAVEFORM")
+            elif waveforms:
+                print(line(f"{name}_waveform", configuration, SRAM_NUM=1))  # one column shows everything
             else:
                 print(line(name, configuration), "NO_WAVEFORM")
     except FlowError as error:

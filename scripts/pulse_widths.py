@@ -3,7 +3,7 @@
 """Read-outs beside the matched filter for pulses of other widths: build/pulse_widths/pulse_widths.md, .csv and .svg.
 
 `pulse_widths.py DTOF_STUDY [OPTION ...]`: the preset thesis with each width of FWHM_BINS and the same energy per pulse; options
-are those of `dtof-study scenes`, such as --seed. poolPointer's windows are fixed, for a pulse of 45 bins: this shows what
+are those of `dtof-study scenes`, such as --seed. poolPointer 2's windows are fixed, for a pulse of 45 bins: this shows what
 that costs.
 """
 
@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PRESET = ROOT / "tb_cpp" / "sensor" / "presets" / "thesis.toml"
 FOLDER = ROOT / "build" / "pulse_widths"
 FWHM_BINS = (8, 12, 20, 45, 90)
-READOUTS = ("hispointer", "poolpointer", "poolpointer2", "poolpointer2-lean")
+READOUTS = ("hispointer", "poolpointer2", "poolpointer2-lean")
 SCENES = ("flat", "room", "planes", "clutter", "poles")
 COLUMNS = 20
 LIGHTS = ("14", "50")
@@ -133,7 +133,7 @@ def main() -> None:
 
 The preset thesis with pulses of {FWHM_BINS[0]} to {FWHM_BINS[-1]} bins (FWHM) of the same energy; {COLUMNS} columns of each scene
 ({', '.join(SCENES[1:])}), one seed, look-up tables of each read-out for its pulse. hisPointer's GUARD follows the
-pulse; the matched filters know it. The windows of poolPointer and poolPointer 2 do not: they are those for 45 bins (cells of
+pulse; the matched filters know it. The windows of poolPointer 2 do not: they are those for 45 bins (cells of
 eight bins, TRACK_REACH and the pointer's weights), and nothing in the RTL changes them. A short pulse in a wide window
 lets more background in than it must, a long one loses its flanks.
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the engine's schedule into docs/reference/blocks/pool_control.md: in which clocks of a step each command is
 given, found by simulating both products' arrays in Icarus Verilog, and what the command means, taken from
-hdl/package/engine_command.svh. --check only says whether the page is stale."""
+hdl/package/pool2_command.svh. --check only says whether the page is stale."""
 
 import re
 import subprocess
@@ -17,12 +17,12 @@ sys.path.insert(0, str(ROOT / "synth"))
 
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 
-COMMANDS = HDL / "package" / "engine_command.svh"
+COMMANDS = HDL / "package" / "pool2_command.svh"
 PAGE = ROOT / "docs" / "reference" / "blocks" / "pool_control.md"
 BEGIN = "<!-- schedule: written by scripts/schedule.py -->\n"
 END = "<!-- end of schedule -->\n"
-PRODUCTS = ("poolpointer", "poolpointer_lean")
-STRUCTS = ("column_command_t", "engine_command_t")  # in the order in which the bench prints them
+PRODUCTS = ("poolpointer2", "poolpointer2_lean")
+STRUCTS = ("pool2_column_command_t", "pool2_engine_command_t")  # in the order in which the bench prints them
 OPERATIONS = {"decode": "a group", "choose": "a pixel", "decide": "a pixel"}  # and what a step is
 STRUCT = re.compile(r"typedef struct packed \{\n(.*?)\} (\w+);", re.DOTALL)
 FIELD = re.compile(r"^  (\w+)(?: \[(\d+):0\])? (\w+);(?: +// (.*))?$")
@@ -30,20 +30,20 @@ WITH = "with "  # so begins the meaning of what goes with a command and is none 
 SMALL = {"PIXELS_PER_SRAM": 48, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2}  # groups and pixels between others; two columns
 # A frame without acquisitions: one operation after the other.
 BENCH = """
-`include "engine_command.svh"
+`include "pool2_command.svh"
 module schedule_bench;
   logic clk = 1'b0, rst_n = 1'b0, start = 1'b0;
   wire done;
-  pool_pointer_array #(PARAMETERS) u_array (
+  pool_pointer2_array #(PARAMETERS) u_array (
       .clk_i(clk), .rst_ni(rst_n), .sram_cfg_i('0), .sram_cfg_o(), .start_i(start), .acq_num_i(ACQ_WIDTH'd0),
       .gate_begin_i('0), .gate_end_i('0), .coarse_end_i(ACQ_WIDTH'd0), .track_end_i(ACQ_WIDTH'd0),
-      .late_begin_i(ACQ_WIDTH'd0), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),
+      .smooth_i(1'b1), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),
       .tdc_timestamp_i('0), .result_tvalid_o(), .result_tready_i(1'b1), .result_tdata_o(), .result_tlast_o());
   always #1 clk = !clk;
   always @(negedge clk) begin
-    $display("%b%b%b %b %0d %b", u_array.u_engine_sequencer.decoding, u_array.u_engine_sequencer.choosing,
-             u_array.u_engine_sequencer.deciding, u_array.u_engine_sequencer.back_q, u_array.u_engine_sequencer.t_q,
-             {u_array.u_engine_sequencer.columns, u_array.u_engine_sequencer.command});
+    $display("%b%b%b %b %0d %b", u_array.u_sequencer.decoding, u_array.u_sequencer.choosing,
+             u_array.u_sequencer.deciding, u_array.u_sequencer.back_q, u_array.u_sequencer.t_q,
+             {u_array.u_sequencer.columns, u_array.u_sequencer.command});
   end
   initial begin
     #4 rst_n = 1'b1;

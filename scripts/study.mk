@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
-# make pool       poolPointer 2 with and without S1 beside poolPointer and the matched filters, four seeds (half an hour)
+# make pool       poolPointer 2 with and without S1 beside the matched filters, four seeds (half an hour)
 # make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
 # make rivals     the project's read-outs beside those that others have proposed, four seeds (half an hour); RIVAL_COLUMNS
 #                 is how many columns of each map are judged
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
-# make trade      poolPointer's goals that collide, as curves (areas: make synth-growth; two minutes)
+# make trade      poolPointer 2's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
 # make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
 # make pulse-widths  read-outs beside the matched filter for pulses of 8 to 90 bins (three minutes)
@@ -43,11 +43,11 @@ scenes: study
 pool: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
-	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --seed $(SEED) --out build/pool; \
+	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --before reports/pool_before.csv --seed $(SEED) --out build/pool; \
 	  scripts/publish.py pool; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/pool_synthetic"; \
-	  $(DTOF_STUDY) pool --held-out --seed $(SEED) --out build/pool_synthetic; \
+	  $(DTOF_STUDY) pool --held-out --before reports/pool_before.csv --seed $(SEED) --out build/pool_synthetic; \
 	fi
 
 pool-search: study

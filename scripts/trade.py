@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""poolPointer's goals that collide, as curves: how the frame is shared among its phases, and how many candidates a
+"""poolPointer 2's goals that collide, as curves: how the frame is shared among its phases, and how many candidates a
 group keeps at what area.
 
 `trade.py DTOF`: runs `DTOF scenes` with the variants, takes the areas of `make synth-growth` (reports/growth.csv),
@@ -24,13 +24,13 @@ from dtof_synth.configuration import load  # noqa: E402
 from dtof_synth.goals import ARRAY_MM2  # noqa: E402
 
 # 64ths of the frame: coarse, track; the rest is the pointer phase.
-SCHEDULES = ((20, 16), (16, 16), (16, 12), (14, 14), (14, 13), (14, 12), (13, 13), (12, 14), (12, 12), (10, 12))
+SCHEDULES = ((18, 20), (16, 20), (16, 16), (14, 24), (14, 20), (14, 16), (12, 24), (12, 20), (12, 16), (10, 20))
 SCENES = ("flat", "room", "planes", "clutter", "poles", "isolated")
 COLUMNS = 50
 SINGLE_COLUMNS = 200  # single pixels are few
 SEED = 1
 BOUND_GOAL = 1.5
-OTHER_MARKER = 4  # gnuplot's open square, for poolPointer's second figure in a panel
+OTHER_MARKER = 4  # gnuplot's open square, for the second figure in a panel
 FIGURES = {"bound_ratio_1m_14klux": "flat 1 m, 14: rmse / bound", "rmse_4m_50klux": "flat 4 m, 50: rmse, %",
            "lost_14klux": "single pixels lost, 14, %", "outliers_14klux": "scenes, 14: above 10 %, %",
            "above_3_50klux": "scenes, 50: above 3 %, %", "outliers_50klux": "scenes, 50: above 10 %, %"}
@@ -106,9 +106,9 @@ def areas() -> dict[str, float]:
     if path.is_file():
         with path.open(newline="", encoding="utf-8") as file:
             found = {row["value"]: float(row["total_mm2"]) for row in csv.DictReader(file)
-                     if row["readout"] == "poolpointer" and row["parameter"] == "LABELS"}
+                     if row["readout"] == "poolpointer2" and row["parameter"] == "LABELS"}
     if not found:
-        raise SystemExit("error: reports/growth.csv has no areas of poolpointer: run `make synth-growth` first")
+        raise SystemExit("error: reports/growth.csv has no areas of poolpointer2: run `make synth-growth` first")
     return found
 
 
@@ -116,7 +116,7 @@ def plot(schedules: list[Point], candidates: list[Point], limit: float, path: Pa
     def block(name: str, data: list[tuple[float, float, str]]) -> list[str]:
         return [f"${name} << EOD", *(f'{x} {y} "{label}"' for x, y, label in data), "EOD"]
 
-    style = plot_style.style("poolPointer", plot_style.load())
+    style = plot_style.style("poolPointer 2", plot_style.load())
 
     def points(name: str, title: str, marker: int = style.marker) -> str:
         return (f"${name} using 1:2 with points pt {marker} lc rgb '{style.colour}' title '{title}', "
@@ -211,32 +211,32 @@ def main() -> int:
     if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    base = load(ROOT / "configurations.toml")["poolpointer"]
+    base = load(ROOT / "configurations.toml")["poolpointer2"]
     area = areas()
-    schedules = [Point(f"{coarse}/{track}", f"poolpointer:COARSE_SHARE={coarse},TRACK_SHARE={track}", {})
+    schedules = [Point(f"{coarse}/{track}", f"poolpointer2:COARSE_SHARE={coarse},TRACK_SHARE={track}", {})
                  for coarse, track in SCHEDULES]
-    candidates = [Point(f"{labels}x{bits}", f"poolpointer:LABELS={labels},SCORE_BITS={bits}", {}, area[f"{labels}x{bits}"])
+    candidates = [Point(f"{labels}x{bits}", f"poolpointer2:LABELS={labels},SCORE_BITS={bits}", {}, area[f"{labels}x{bits}"])
                   for labels, bits in growth.CANDIDATES]
     if sys.argv[1] == "--draw":
         read(schedules + candidates)
-        plot(schedules, candidates, ARRAY_MM2["poolpointer"], REPORTS / "trade.svg")
+        plot(schedules, candidates, ARRAY_MM2["poolpointer2"], REPORTS / "trade.svg")
         return 0
     try:
         measure(sys.argv[1], schedules + candidates)
     except subprocess.CalledProcessError as error:
         print(f"error: dtof-study scenes ended with exit code {error.returncode}", file=sys.stderr)
         return 1
-    limit = ARRAY_MM2["poolpointer"]
+    limit = ARRAY_MM2["poolpointer2"]
     BUILD.mkdir(parents=True, exist_ok=True)
     plot(schedules, candidates, limit, REPORTS / "trade.svg")
-    lines = ["# Goals of poolPointer that collide", "",
+    lines = ["# Goals of poolPointer 2 that collide", "",
              f"Written by `make trade`: preset `thesis`, seed {SEED}, {COLUMNS} columns of the scenes "
              f"{', '.join(SCENES[1:])} ({SINGLE_COLUMNS} of isolated for the single pixels), 14 and 50 klux; areas of "
              "`make synth-growth`.", "", "![trade](trade.svg)", "", "## Shares of the frame", "",
              "64ths of the acquisitions in the coarse and the track phase; registers, no area. "
              + schedule_sentence(schedules), "",
              *table("coarse/track", schedules, with_area=False), "", "## Candidates of a group", "",
-             f"Number and bits of a score; {base['DARK_LABELS']}x{base['DARK_SCORE_BITS']} is the product. "
+             f"Number and bits of a score; {base['LABELS']}x{base['SCORE_BITS']} is the product. "
              + candidate_sentence(candidates), "",
              *table("candidates", candidates, with_area=True), ""]
     (REPORTS / "trade.md").write_text("\n".join(lines), encoding="utf-8")

@@ -26,7 +26,7 @@ module pool2_column #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,
-    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
     localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, dtof_pkg::pool_group_width(LABELS)),
@@ -61,8 +61,6 @@ module pool2_column #(
 
   localparam int TRACK_REACH = 4;
   localparam int POINT_REACH = 8;
-  localparam int RIVAL_REACH = 6;
-  localparam logic [23:0] WEIGHTS = 24'o12344431;
 
   // The first two timestamps, complete at T1.
 
@@ -174,16 +172,13 @@ module pool2_column #(
   logic track_second, hits_of_second;
 
   label_match #(
-      .LABELS       (LABELS),
-      .DARK_LABELS  (LABELS),
-      .BRIGHT_LABELS(LABELS),
-      .WINDOW       (TRACK_REACH)
+      .LABELS(LABELS),
+      .WINDOW(TRACK_REACH)
   ) u_label_match (
-      .valid_i (has_first_q),
-      .cell_i  (matched_q),
-      .bright_i(1'b0),
-      .cells_i (cells_i),
-      .hits_o  (hits)
+      .valid_i(has_first_q),
+      .cell_i (matched_q),
+      .cells_i(cells_i),
+      .hits_o (hits)
   );
 
   assign track_second = take_second(odd_q, first_hits_q != '0, hits != '0);
@@ -221,14 +216,11 @@ module pool2_column #(
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES),
-      .PIXEL_WIDTH    (PIXEL_WIDTH),
-      .RIVAL_REACH    (RIVAL_REACH),
-      .WEIGHTS        (WEIGHTS)
+      .PIXEL_WIDTH    (PIXEL_WIDTH)
   ) u_pixel_distance (
       .valid_i      (has_first_q),
       .position_i   (position),
       .point_i      (point_i),
-      .late_i       (1'b0),
       .word_i       (pixel),
       .cells_i      (cells_i),
       .hits_i       (used_hits),

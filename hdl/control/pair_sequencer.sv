@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: counts the timestamps of an acquisition, handshakes with the TDC stream and schedules the columns'
+// poolPointer 2: counts the timestamps of an acquisition, handshakes with the TDC stream and schedules the columns'
 // single-port SRAMs, two pixels a word, once per array.
 //
 // Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
@@ -33,7 +33,6 @@ module pair_sequencer #(
     input  logic                  coarse_i,          // it is the coarse phase
     input  logic                  more_i,            // another acquisition belongs to it
     input  logic [           3:0] acquisition_i,     // low bits of its number
-    input  logic                  late_i,
     input  logic                  tdc_valid_i,
     output logic                  tdc_ready_o,
     output logic                  acq_done_o,        // last timestamp of an acquisition in this clock
@@ -46,7 +45,6 @@ module pair_sequencer #(
     output logic                  odd_t1_o,
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
     output logic                  second_row_t2_o,   // coarse: its second one is
-    output logic                  late_t2_o,
     output logic                  update_t2_o,       // a clock before words are updated, for the columns to register
     output logic [           3:0] acquisition_t2_o,
     // coarse, both columns' turns
@@ -139,7 +137,7 @@ module pair_sequencer #(
 
   // T1
 
-  logic busy_t1_q, beat_t1_q, first_slot_t1_q, second_pixel_t1_q, late_t1_q;
+  logic busy_t1_q, beat_t1_q, first_slot_t1_q, second_pixel_t1_q;
   logic [3:0] acquisition_t1_q;
   logic [STEP_WIDTH-1:0] step_t1_q;
   logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
@@ -164,7 +162,6 @@ module pair_sequencer #(
     pair_t1_q <= pair_q;
     second_pixel_t1_q <= second_pixel;
     acquisition_t1_q <= acquisition_i;
-    late_t1_q <= late_i;
   end
 
   assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
@@ -200,7 +197,6 @@ module pair_sequencer #(
   always_ff @(posedge clk_i) begin
     pair_tn_q <= {pair_tn_q[4*PAIR_WIDTH-1:0], pair_t1_q};
     acquisition_t2_q <= acquisition_t1_q;
-    late_t2_o <= late_t1_q;
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
     fresh_o <= fetch_t1 && (GROUPS > 1) && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
   end

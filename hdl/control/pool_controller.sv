@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: the state machine of a frame and its acquisition counter, once per array.
+// poolPointer 2: the state machine of a frame and its acquisition counter, once per array.
 //
 // IDLE -> RESET -> COARSE -> DECODE -> RESET -> TRACK -> CHOOSE -> POINT -> DECIDE -> IDLE
 //   RESET clears the pixels' words, one address a clock. COARSE, TRACK and POINT take timestamps. DECODE, CHOOSE and
 //   DECIDE are the engines' work; DECIDE also sends the results.
 // A phase takes acquisitions until its end of the schedule: coarse_end_i, track_end_i, acq_num_i, all sampled
 // with start_i in IDLE; start_i while busy does nothing. done_o is high for the frame's last clock.
-// Cost: an acquisition counter, four registers of ACQ_WIDTH bits, three comparators, per array.
+// Cost: an acquisition counter, three registers of ACQ_WIDTH bits, two comparators, per array.
 `include "dtof_macros.svh"
 
 module pool_controller #(
@@ -20,7 +20,6 @@ module pool_controller #(
     input  logic [ ACQ_WIDTH-1:0] acq_num_i,
     input  logic [ ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [ ACQ_WIDTH-1:0] track_end_i,
-    input  logic [ ACQ_WIDTH-1:0] late_begin_i,
     output logic                  busy_o,
     output logic                  done_o,
     output logic [           2:0] state_o,
@@ -31,7 +30,6 @@ module pool_controller #(
     output logic                  point_o,
     output logic                  more_o,
     output logic [           3:0] acquisition_o,
-    output logic                  late_o,
     input  logic                  acq_done_i,
     input  logic                  stream_idle_i,
     // clear
@@ -47,8 +45,8 @@ module pool_controller #(
   localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(CLEAR_WORDS - 1);
 
   logic [2:0] state_d, state_q;
-  logic start_q, done_q, decoded_q, entered_q, more_q, late_q, more_then_q, late_then_q;
-  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, late_begin_q, acquisition_then, acquisition_q, phase_end;
+  logic start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
+  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, acquisition_then, acquisition_q, phase_end;
   logic [ADDR_WIDTH-1:0] address_q;
   logic accept, cleared;
 
@@ -114,13 +112,10 @@ module pool_controller #(
       decoded_q <= 1'b0;
       entered_q <= 1'b0;
       more_q <= 1'b0;
-      late_q <= 1'b0;
       more_then_q <= 1'b0;
-      late_then_q <= 1'b0;
       acq_num_q <= '0;
       coarse_end_q <= '0;
       track_end_q <= '0;
-      late_begin_q <= '0;
       acquisition_q <= '0;
       address_q <= '0;
     end else begin
@@ -132,7 +127,6 @@ module pool_controller #(
         acq_num_q <= acq_num_i;
         coarse_end_q <= coarse_end_i;
         track_end_q <= track_end_i;
-        late_begin_q <= late_begin_i;
         acquisition_q <= '0;
         decoded_q <= 1'b0;
       end else begin
@@ -144,17 +138,14 @@ module pool_controller #(
         end
       end
       more_q <= acq_done_i ? more_then_q : (acquisition_q < phase_end);
-      late_q <= acq_done_i ? late_then_q : (acquisition_q >= late_begin_q);
       more_then_q <= (acquisition_then < phase_end);
-      late_then_q <= (acquisition_then >= late_begin_q);
       address_q <= (state_q == dtof_pkg::STATE_RESET && !cleared) ? address_q + 1'b1 : '0;
     end
   end
 
-  assign illegal_schedule_o = start_q && !(coarse_end_q <= track_end_q && track_end_q <= late_begin_q
-                                           && late_begin_q <= acq_num_q);
+  assign illegal_schedule_o = start_q && !(coarse_end_q <= track_end_q && track_end_q <= acq_num_q);
   `DTOF_ASSERT(a_schedule, !illegal_schedule_o,
-               "the schedule must be coarse_end_i <= track_end_i <= late_begin_i <= acq_num_i")
+               "the schedule must be coarse_end_i <= track_end_i <= acq_num_i")
 
   assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
   assign done_o = done_q;
@@ -164,7 +155,6 @@ module pool_controller #(
   assign point_o = (state_q == dtof_pkg::POOL_STATE_POINT);
   assign more_o = more_q;
   assign acquisition_o = acquisition_q[3:0];
-  assign late_o = late_q;
   assign clear_o = (state_q == dtof_pkg::STATE_RESET);
   assign clear_address_o = address_q;
   assign decode_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECODE);

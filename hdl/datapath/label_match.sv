@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which candidates of a group a timestamp supports. Combinational.
 //
-// Equation (docs/reference/poolpointer.md, Track): hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW), for the
-// candidates in use.
+// Equation (docs/reference/poolpointer2.md, Track): hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW).
 // Cost: a 7-bit subtractor and a range check a candidate.
 module label_match #(
-    parameter int LABELS = 6,
-    parameter int DARK_LABELS = 6,
-    parameter int BRIGHT_LABELS = 6,
-    parameter int WINDOW = 5  // cells to either side of a candidate
+    parameter int LABELS = 5,
+    parameter int WINDOW = 4  // cells to either side of a candidate
 ) (
     input  logic                                       valid_i,   // there is a timestamp
     input  logic [        dtof_pkg::POOL_CELL_WIDTH-1:0] cell_i,    // its cell, X >> 9
-    input  logic                                       bright_i,
     input  logic [LABELS*dtof_pkg::POOL_CELL_WIDTH-1:0] cells_i,   // the candidates'
     output logic [                           LABELS-1:0] hits_o
 );
@@ -51,7 +47,7 @@ module label_match #(
         end else begin
           near = (distance < (CELL_WIDTH + 1)'(2 * WINDOW));
         end
-        hits_o[k] = (bright_i ? (k < BRIGHT_LABELS) : (k < DARK_LABELS)) && near;
+        hits_o[k] = near;
       end
     end
   end

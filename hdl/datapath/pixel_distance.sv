@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a timestamp is from where a pixel's word points: what the word's update needs to know. Combinational.
 //
-// Equations (docs/reference/poolpointer.md, Track and Point), distances floored to cells of 512 positions:
+// Equations (docs/reference/poolpointer2.md, Track and Point), distances floored to cells of 512 positions:
 //   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
 //   point  d = (X - leader's position) >> 9: in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
 //          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
@@ -17,13 +17,12 @@ module pixel_distance #(
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
     parameter int PIXEL_WIDTH = 32,
-    parameter int RIVAL_REACH = 5,                      // cells to either side of the rival
-    parameter logic [23:0] WEIGHTS = 24'o12344321       // of the distances 0 to 7, one octal digit each, 0 lowest
+    parameter int RIVAL_REACH = 6,                      // cells to either side of the rival
+    parameter logic [23:0] WEIGHTS = 24'o12344431       // of the distances 0 to 7, one octal digit each, 0 lowest
 ) (
     input  logic                                        valid_i,         // there is a timestamp
     input  logic [                                15:0] position_i,      // X
     input  logic                                        point_i,         // the word is a pointer word
-    input  logic                                        late_i,
     input  logic [                     PIXEL_WIDTH-1:0] word_i,
     input  logic [LABELS*dtof_pkg::POOL_CELL_WIDTH-1:0] cells_i,
     input  logic [                          LABELS-1:0] hits_i,
@@ -42,8 +41,6 @@ module pixel_distance #(
   localparam logic [CELLS_WIDTH-1:0] REACH = CELLS_WIDTH'(8);
   localparam logic [2:0] NEAR = 3'd4;  // cells to the leader, 0 the one in which it is
   localparam logic [2:0] RIVAL_NEAR = 3'(RIVAL_REACH - 1);
-  // 64 units of 2^-11 coarse bin.
-  localparam logic [3:0] LATE_GEAR = 4'(6 - ((ADVANTAGE_WIDTH == 4) ? POINTER_SHIFT : 0));
 
   logic [LABEL_WIDTH-1:0] track_leader, point_leader, leader, resting_rival;
   logic [CELL_WIDTH-1:0] leader_cell;
@@ -56,7 +53,6 @@ module pixel_distance #(
   logic below, reach, hit, rival_below;
   logic [CELLS_WIDTH-1:0] point_cells;
   logic [2:0] cells_away, rival_away;
-  logic [3:0] gear;
   logic [6:0] advantage;
 
   assign position = {2'b00, position_i[15:POINTER_SHIFT]};
@@ -83,7 +79,6 @@ module pixel_distance #(
     hit = 1'b0;
     rival_below = 1'b0;
     rival_away = '0;
-    gear = '0;
     advantage = '0;
     if (valid_i) begin
       // Which candidate the word leans on.
@@ -120,24 +115,23 @@ module pixel_distance #(
 
       advantage = 7'(ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH)));
       if (ADVANTAGE_WIDTH == 7) begin
-        if (advantage >= 7'd124) gear = 4'd0;
-        else if (advantage >= 7'd116) gear = 4'd1;
-        else if (advantage >= 7'd100) gear = 4'd2;
-        else if (advantage >= 7'd80) gear = 4'd3;
-        else if (advantage >= 7'd64) gear = 4'd4;
-        else if (advantage >= 7'd32) gear = 4'd5;
-        else if (advantage >= 7'd16) gear = 4'd6;
-        else if (advantage >= 7'd8) gear = 4'd7;
-        else gear = 4'd8;
+        if (advantage >= 7'd124) distance_o.gear = 4'd0;
+        else if (advantage >= 7'd116) distance_o.gear = 4'd1;
+        else if (advantage >= 7'd100) distance_o.gear = 4'd2;
+        else if (advantage >= 7'd80) distance_o.gear = 4'd3;
+        else if (advantage >= 7'd64) distance_o.gear = 4'd4;
+        else if (advantage >= 7'd32) distance_o.gear = 4'd5;
+        else if (advantage >= 7'd16) distance_o.gear = 4'd6;
+        else if (advantage >= 7'd8) distance_o.gear = 4'd7;
+        else distance_o.gear = 4'd8;
       end else begin
-        if (advantage == 7'd15) gear = 4'(4 - POINTER_SHIFT);
-        else if (advantage == 7'd14) gear = 4'(5 - POINTER_SHIFT);
-        else if (advantage >= 7'd12) gear = 4'(6 - POINTER_SHIFT);
-        else if (advantage >= 7'd8) gear = 4'(7 - POINTER_SHIFT);
-        else if (advantage >= 7'd4) gear = 4'(8 - POINTER_SHIFT);
-        else gear = 4'(9 - POINTER_SHIFT);
+        if (advantage == 7'd15) distance_o.gear = 4'(4 - POINTER_SHIFT);
+        else if (advantage == 7'd14) distance_o.gear = 4'(5 - POINTER_SHIFT);
+        else if (advantage >= 7'd12) distance_o.gear = 4'(6 - POINTER_SHIFT);
+        else if (advantage >= 7'd8) distance_o.gear = 4'(7 - POINTER_SHIFT);
+        else if (advantage >= 7'd4) distance_o.gear = 4'(8 - POINTER_SHIFT);
+        else distance_o.gear = 4'(9 - POINTER_SHIFT);
       end
-      distance_o.gear = (late_i && gear > LATE_GEAR) ? LATE_GEAR : gear;
 
       // Point: rival.
       rival_cells = 8'(position_i >> 9) - 8'(RIVAL_WIDTH'(word_i >> POINTER_WIDTH));

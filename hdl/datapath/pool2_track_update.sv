@@ -10,7 +10,7 @@ module pool2_track_update #(
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,  // 0: neither offset nor leader
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
-    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS)
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS)
 ) (
     input  logic [TRACK_WIDTH-1:0] word_i,         // {offset, leader, scores}
     input  logic [     LABELS-1:0] hits_i,         // none without a timestamp

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Max-product messages along a chain of pixels, each with a few labels: one engine's arithmetic.
 //
-// Equations (docs/reference/poolpointer.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
+// Equations (docs/reference/poolpointer2.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
 // label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
 // message from the other side. Near: positions at most REACH apart.
 //
@@ -12,9 +12,9 @@
 //    the same number its belief, which is ranked a clock later.
 // 4. The chain advances: the next pixel becomes this one, the one at the port the next.
 //
-// Schedule: the table of engine_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
+// Schedule: the table of pool2_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
 // Cost: LABELS comparators of positions and of differences.
-`include "engine_command.svh"
+`include "pool2_command.svh"
 
 module label_chain #(
     parameter int LABELS = 8,           // of a pixel

@@ -32,7 +32,7 @@ module pool2_engine #(
     parameter int SECOND_TARGET = 0,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
-    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
     localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),

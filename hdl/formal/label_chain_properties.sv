@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two labels, three pixels, driven by engine_sequencer and with the messages in an SRAM, as in pool_engine: label and
+// Two labels, three pixels, driven by pool2_sequencer and with the messages in an SRAM, as in pool2_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
-// of the one that is farther from the pixel in question (docs/reference/poolpointer.md, Chain: the sender's lambda).
-`include "engine_command.svh"
+// of the one that is farther from the pixel in question (docs/reference/poolpointer2.md, Chain: the sender's lambda).
+`include "pool2_command.svh"
 `include "properties.svh"
 
 module label_chain_properties #(
@@ -28,19 +28,20 @@ module label_chain_properties #(
   (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
   (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
 
-  engine_command_t command;
-  logic [1:0] message_row;
-  logic unused_done, unused_select, unused_read, unused_write, unused_load, unused_column, unused_send, unused_last;
+  pool2_engine_command_t command;
+  logic [1:0] scratch_row;
+  logic unused_done, unused_select, unused_read, unused_write, unused_upper, unused_neighbour, unused_column, unused_send,
+      unused_send_column, unused_last;
   logic [1:0] unused_row;
-  logic [2:0] unused_address;
+  logic [1:0] unused_address;
 
-  engine_sequencer #(
+  pool2_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
-      .GROUP_SIZE     (8),
+      .GROUP_SIZE     (4),
       .LABELS         (LABELS),
-      .BINS_PER_WORD  (8),
+      .LINE_HALVES    (1),
       .ENGINE_COLUMNS (1)
-  ) u_engine_sequencer (
+  ) u_sequencer (
       .clk_i        (clk_i),
       .rst_ni       (checking),
       .decode_i     (1'b0),
@@ -50,29 +51,32 @@ module label_chain_properties #(
       .read_d_o     (unused_read),
       .write_d_o    (unused_write),
       .address_d_o  (unused_address),
-      .load_d_o     (unused_load),
       .select_o     (unused_select),
+      .upper_o      (unused_upper),
+      .neighbour_o  (unused_neighbour),
       .command_o    (command),
-      .message_row_o(message_row),
+      .scratch_row_o(scratch_row),
+      .column_o     (unused_column),
       .send_o       (unused_send),
-      .send_column_o(unused_column),
+      .send_column_o(unused_send_column),
       .send_row_o   (unused_row),
       .send_last_o  (unused_last),
       .send_waits_i (1'b0),
       .send_busy_i  (1'b0)
   );
 
-  // The pixel prepared: from the last to the first, then back.
-  localparam int STEPS = PIXELS + 3;  // of a pass
+  // The pixel prepared, fetched a step before: from the last to the first, then back. The first step has none.
+  localparam int STEPS = PIXELS + 4;  // of the first pass
   logic [3:0] steps_q;
   logic [1:0] results_q;
   logic [1:0] prepared;
   logic [LABELS*PENALTY_WIDTH-1:0] message, other_message;
-  logic best_label, second_label;
+  logic best_label, second_label, found;
   logic [POSITION_WIDTH-1:0] best_position, second_position;
   logic [BELIEF_WIDTH-1:0] margin;
 
-  assign prepared = (32'(steps_q) < STEPS) ? 2'(PIXELS - 1 - 32'(steps_q)) : 2'(32'(steps_q) - STEPS);
+  assign found = command.take_winner && command.has_winner;
+  assign prepared = (32'(steps_q) < STEPS) ? 2'(PIXELS - 32'(steps_q)) : 2'(32'(steps_q) - STEPS - 1);
 
   always_ff @(posedge clk_i) begin
     if (!checking) begin
@@ -80,7 +84,7 @@ module label_chain_properties #(
       results_q <= '0;
     end else begin
       if (command.decide.advance) steps_q <= steps_q + 1'b1;
-      if (command.take_result) results_q <= results_q + 1'b1;
+      if (found) results_q <= results_q + 1'b1;
     end
   end
 
@@ -91,11 +95,11 @@ module label_chain_properties #(
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (checking),
-      .read_en_i   (command.read_message),
-      .read_addr_i (message_row),
+      .read_en_i   (command.read_scratch),
+      .read_addr_i (scratch_row),
       .read_data_o (other_message),
-      .write_en_i  (command.write_message),
-      .write_addr_i(message_row),
+      .write_en_i  (command.write_scratch),
+      .write_addr_i(scratch_row),
       .write_data_i(message)
   );
 
@@ -161,11 +165,11 @@ module label_chain_properties #(
   logic expected_label;
   assign expected_label = (best1 > best0);
 
-  `PROVE(a_label, !command.take_result || best_label == expected_label)
-  `PROVE(a_other_label, !command.take_result || second_label == !expected_label)
-  `PROVE(a_margin, !command.take_result || 32'(margin) == (expected_label ? best1 - best0 : best0 - best1))
-  `PROVE(a_position, !command.take_result || best_position
+  `PROVE(a_label, !found || best_label == expected_label)
+  `PROVE(a_other_label, !found || second_label == !expected_label)
+  `PROVE(a_margin, !found || 32'(margin) == (expected_label ? best1 - best0 : best0 - best1))
+  `PROVE(a_position, !found || best_position
          == POSITION_WIDTH'(position >> ((32'(results_q) * LABELS + 32'(best_label)) * POSITION_WIDTH)))
-  `GOAL(command.take_result && results_q == 2'd2 && margin != '0 && best_label)
+  `GOAL(found && results_q == 2'd2 && margin != '0 && best_label)
 
 endmodule

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a timestamp is from where a pixel's word points: docs/reference/poolpointer.md, Track and Point, on integers;
-// with POOL_POINTER_2 the windows of docs/reference/poolpointer2.md.
+// How far a timestamp is from where a pixel's word points: docs/reference/poolpointer2.md, Track and Point, on integers.
 `include "properties.svh"
 
 `include "pixel_distance.svh"
@@ -8,14 +7,13 @@
 module pixel_distance_properties #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
-    parameter int OFFSET_BITS = 5,
+    parameter int OFFSET_BITS = 6,
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
-    parameter int POOL_POINTER_2 = 0,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int SCORES_WIDTH = LABELS * SCORE_BITS,
-    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, LABELS, SCORE_BITS, OFFSET_BITS),
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
     localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH)
@@ -24,7 +22,6 @@ module pixel_distance_properties #(
     input logic                   valid_i,
     input logic [           15:0] position_i,
     input logic                   point_i,
-    input logic                   late_i,
     input logic [PIXEL_WIDTH-1:0] word_i,
     input logic [   LABELS*7-1:0] cells_i
 );
@@ -36,13 +33,10 @@ module pixel_distance_properties #(
   pixel_distance_t distance;
 
   label_match #(
-      .LABELS       (LABELS),
-      .DARK_LABELS  (LABELS),
-      .BRIGHT_LABELS(LABELS)
+      .LABELS(LABELS)
   ) u_label_match (
       .valid_i (valid_i),
       .cell_i  (position_i[15:9]),
-      .bright_i(1'b0),
       .cells_i (cells_i),
       .hits_o  (hits)
   );
@@ -54,14 +48,11 @@ module pixel_distance_properties #(
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES),
-      .PIXEL_WIDTH    (PIXEL_WIDTH),
-      .RIVAL_REACH    ((POOL_POINTER_2 != 0) ? 6 : 5),
-      .WEIGHTS        ((POOL_POINTER_2 != 0) ? 24'o12344431 : 24'o12344321)
+      .PIXEL_WIDTH    (PIXEL_WIDTH)
   ) u_dut (
       .valid_i      (valid_i),
       .position_i   (position_i),
       .point_i      (point_i),
-      .late_i       (late_i),
       .word_i       (word_i),
       .cells_i      (cells_i),
       .hits_i       (hits),
@@ -89,6 +80,7 @@ module pixel_distance_properties #(
 
   // Point: Qa and Qb of the word, e and f.
   integer a, b, qa, rival_cell, pointer, e, f, n, away, step, expected_weight;
+  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // one at rest is a candidate, with its window
   logic expected_reach, expected_hit, expected_rival_hit;
   always_comb begin
     pointer = 32'(word_i) & ((1 << POINTER_WIDTH) - 1);
@@ -109,13 +101,11 @@ module pixel_distance_properties #(
     f = (x >>> 9) - rival_cell;
     expected_reach = valid_i && (e >= -8) && (e <= 7);
     expected_hit = valid_i && (e >= -5) && (e <= 4);
-    expected_rival_hit = valid_i && !expected_hit && (f >= ((POOL_POINTER_2 != 0) ? -6 : -5)) && (f <= ((POOL_POINTER_2 != 0) ? 5 : 4));
+    expected_rival_hit = valid_i && !expected_hit && (f >= -RIVAL_REACH) && (f < RIVAL_REACH);
     away = (e >= 0) ? e : -1 - e;
     case (away)
       0, 7: expected_weight = 1;
-      1: expected_weight = (POOL_POINTER_2 != 0) ? 3 : 2;
-      2: expected_weight = (POOL_POINTER_2 != 0) ? 4 : 3;
-      5: expected_weight = 3;
+      1, 5: expected_weight = 3;
       6: expected_weight = 2;
       default: expected_weight = 4;
     endcase
@@ -125,7 +115,6 @@ module pixel_distance_properties #(
     end else begin
       step = (n >= 15) ? 16 : (n >= 14) ? 32 : (n >= 12) ? 64 : (n >= 8) ? 128 : (n >= 4) ? 256 : 512;
     end
-    if (late_i && step > 64) step = 64;
   end
 
   // The gear of the short advantage is in the pointer's units.

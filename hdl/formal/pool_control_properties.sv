@@ -1,40 +1,40 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of pool_pointer_array with one pair of columns: pool_controller, pair_sequencer, the registers between
-// them and the columns, pool_pointer_pair. The engine is replaced by anything that keeps to what
-// engine_sequencer_properties proves of engine_sequencer. That the single-port SRAM has one access a clock, and in
+// The control of pool_pointer2_array with one pair of columns: pool_controller, pair_sequencer, the registers between
+// them and the columns, pool2_pair. The engine is replaced by anything that keeps to what
+// pool2_sequencer_properties proves of pool2_sequencer. That the single-port SRAM has one access a clock, and in
 // range, are assertions of dtof_sram.
 //
 // Every frame ends, as in control_properties; clocks in which the engine works are left out here, for the operations of
-// engine_sequencer end in time.
+// pool2_sequencer end in time.
 `include "properties.svh"
 
 module pool_control_properties #(
     parameter int COLUMNS = 2,
     parameter int PIXELS = 3,
     parameter int SLOTS = 2,
-    parameter int GROUP_SIZE = 8,
+    parameter int GROUP_SIZE = 4,
     parameter int ACQ_WIDTH = 4,
     parameter int LONGEST_STAY = 24,
     localparam int NP = 8,
     localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
-    localparam int WORDS = PIXEL_WORDS + GROUPS,
+    localparam int WORDS = PIXEL_WORDS + (GROUPS + 1) / 2,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
-    localparam int WORD_WIDTH = 2 * dtof_pkg::pool_point_width(2, 4, 0, 1)
+    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(2, 1, 0, 4, 0, 1)
 ) (
     input logic                  clk_i,
     input logic                  start_i,
     input logic [ ACQ_WIDTH-1:0] acq_num_i,
     input logic [ ACQ_WIDTH-1:0] coarse_end_i,
     input logic [ ACQ_WIDTH-1:0] track_end_i,
-    input logic [ ACQ_WIDTH-1:0] late_begin_i,
     input logic                  tdc_valid_i,
     input logic [COLUMNS*NP-1:0] timestamp_i,
     // what an engine may do
     input logic                  engine_read_i,
     input logic                  engine_write_i,
     input logic [ADDR_WIDTH-1:0] engine_address_i,
-    input logic [   COLUMNS-1:0] engine_select_i,
+    input logic                  engine_select_i,
+    input logic                  engine_upper_i,
     input logic                  engine_done_i
 );
 
@@ -43,7 +43,7 @@ module pool_control_properties #(
     checking <= 1'b1;
   end
 
-  logic busy, done, stream, coarse, point, more, late, acq_done, stream_idle, clear, decode, choose, decide;
+  logic busy, done, stream, coarse, point, more, acq_done, stream_idle, clear, decode, choose, decide;
   logic [2:0] state;
   logic [3:0] acquisition;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address;
@@ -59,7 +59,6 @@ module pool_control_properties #(
       .acq_num_i      (acq_num_i),
       .coarse_end_i   (coarse_end_i),
       .track_end_i    (track_end_i),
-      .late_begin_i   (late_begin_i),
       .busy_o         (busy),
       .done_o         (done),
       .state_o        (state),
@@ -68,7 +67,6 @@ module pool_control_properties #(
       .point_o        (point),
       .more_o         (more),
       .acquisition_o  (acquisition),
-      .late_o         (late),
       .acq_done_i     (acq_done),
       .stream_idle_i  (stream_idle),
       .clear_o        (clear),
@@ -79,14 +77,15 @@ module pool_control_properties #(
       .engine_done_i  (engine_done_i)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, late_t2, update_t2, ready;
-  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, last_slot_t1, update_t2, ready;
+  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .SLOTS          (SLOTS),
-      .GROUP_SIZE     (GROUP_SIZE)
+      .GROUP_SIZE     (GROUP_SIZE),
+      .GROUPS_PER_WORD(2)
   ) u_pair_sequencer (
       .clk_i            (clk_i),
       .rst_ni           (checking),
@@ -94,18 +93,16 @@ module pool_control_properties #(
       .coarse_i         (coarse),
       .more_i           (more),
       .acquisition_i    (acquisition),
-      .late_i           (late),
       .tdc_valid_i      (tdc_valid_i),
       .tdc_ready_o      (ready),
       .acq_done_o       (acq_done),
       .idle_o           (stream_idle),
       .beat_t1_o        (beat_t1),
       .first_slot_t1_o  (first_slot_t1),
-      .last_slot_t1_o   (),
+      .last_slot_t1_o   (last_slot_t1),
       .odd_t1_o         (odd_t1),
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
-      .late_t2_o        (late_t2),
       .update_t2_o      (update_t2),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
@@ -117,11 +114,11 @@ module pool_control_properties #(
       .address_d_o      (stream_address),
       .word_load_d_o    (stream_word_load),
       .group_load_d_o   (group_load),
-      .group_place_d_o  ()
+      .group_place_d_o  (group_place)
   );
 
-  // As in pool_pointer_array.
-  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, word_load_q, group_load_q;
+  // As in pool_pointer2_array.
+  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, group_load_q, group_upper_q;
   logic [ADDR_WIDTH-1:0] address_q;
 
   always_ff @(posedge clk_i or negedge checking) begin
@@ -140,27 +137,25 @@ module pool_control_properties #(
     engine_q <= !stream;
     clear_q <= clear;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address_i);
-    word_load_q <= stream_word_load;
     group_load_q <= group_load;
+    group_upper_q <= group_place;
   end
 
-  logic [WORD_WIDTH-1:0] unused_word;
+  logic [HALF_WIDTH-1:0] unused_word;
 
-  pool_pointer_pair #(
-      .COLUMNS          (COLUMNS),
-      .NP               (NP),
-      .PIXELS_PER_SRAM  (PIXELS),
-      .COUNT_WIDTH      (4),
-      .GROUP_SIZE       (GROUP_SIZE),
-      .DARK_LABELS      (2),
-      .DARK_SCORE_BITS  (1),
-      .BRIGHT_LABELS    (2),
-      .BRIGHT_SCORE_BITS(1),
-      .BRIGHT_FROM      (6),
-      .OFFSET_BITS      (0),
-      .ADVANTAGE_WIDTH  (4),
-      .POINTER_SHIFT    (0),
-      .RIVAL_MOVES      (1)
+  pool2_pair #(
+      .COLUMNS        (COLUMNS),
+      .NP             (NP),
+      .PIXELS_PER_SRAM(PIXELS),
+      .SLOTS          (SLOTS),
+      .COUNT_WIDTH    (4),
+      .GROUP_SIZE     (GROUP_SIZE),
+      .LABELS         (2),
+      .SCORE_BITS     (1),
+      .OFFSET_BITS    (0),
+      .ADVANTAGE_WIDTH(4),
+      .POINTER_SHIFT  (0),
+      .RIVAL_MOVES    (1)
   ) u_pair (
       .clk_i           (clk_i),
       .rst_ni          (checking),
@@ -169,10 +164,10 @@ module pool_control_properties #(
       .point_i         (point_q),
       .beat_t1_i       (beat_t1),
       .first_slot_t1_i (first_slot_t1),
+      .last_slot_t1_i  (last_slot_t1),
       .odd_t1_i        (odd_t1),
       .first_row_t2_i  (first_row_t2),
       .second_row_t2_i (second_row_t2),
-      .late_t2_i       (late_t2),
       .update_t2_i     (update_t2),
       .acquisition_t2_i(acquisition_t2),
       .second_column_i (second_column),
@@ -182,11 +177,13 @@ module pool_control_properties #(
       .read_i          (read_q),
       .write_i         (write_q),
       .address_i       (address_q),
-      .word_load_i     (word_load_q),
+      .word_load_d_i   (stream_word_load),
       .group_load_i    (group_load_q),
+      .group_upper_i   (group_upper_q),
       .engine_i        (engine_q),
       .clear_i         (clear_q),
       .select_i        (engine_select_i),
+      .upper_i         (engine_upper_i),
       .engine_word_i   ('0),
       .word_o          (unused_word)
   );
@@ -195,7 +192,7 @@ module pool_control_properties #(
   (* anyconst *) logic [ADDR_WIDTH-1:0] watched;
   logic frame_q, accepted_q, accepted_before_q, working_q, decoded_q;
   logic [2:0] state_q;
-  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, late_begin_q, acquisitions_q;
+  logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, acquisitions_q;
   logic [1:0] clears_q;
   logic [5:0] stay_q;
   logic [7:0] place_q;
@@ -226,7 +223,7 @@ module pool_control_properties #(
       working_q <= decode || choose || decide || (working_q && !engine_done_i);
       state_q <= state;
       if (start_i && !frame_q) begin
-        {acq_num_q, coarse_end_q, track_end_q, late_begin_q} <= {acq_num_i, coarse_end_i, track_end_i, late_begin_i};
+        {acq_num_q, coarse_end_q, track_end_q} <= {acq_num_i, coarse_end_i, track_end_i};
         acquisitions_q <= '0;
         decoded_q <= 1'b0;
       end else begin
@@ -256,12 +253,11 @@ module pool_control_properties #(
   end
 
   `ASSUME(m_contiguous, place_q == '0 || tdc_valid_i)
-  `ASSUME(m_schedule, coarse_end_i <= track_end_i && track_end_i <= late_begin_i && late_begin_i <= acq_num_i)
+  `ASSUME(m_schedule, coarse_end_i <= track_end_i && track_end_i <= acq_num_i)
   `ASSUME(m_engine_works_when_asked, working_q || (!engine_read_i && !engine_write_i && !engine_done_i))
   `ASSUME(m_engine_one_access, !(engine_read_i && engine_write_i))
   `ASSUME(m_engine_done_last, !engine_done_i || (!engine_read_i && !engine_write_i))
   `ASSUME(m_engine_address, 32'(engine_address_i) < WORDS)
-  `ASSUME(m_engine_select, (engine_select_i & (engine_select_i - 1'b1)) == '0)
   `ASSUME(m_watched, 32'(watched) < PIXEL_WORDS)
   `PROVE(a_busy, busy == frame_q)
   `PROVE(a_start_is_not_lost, !accepted_before_q || state == dtof_pkg::STATE_RESET)
@@ -270,7 +266,6 @@ module pool_control_properties #(
   `PROVE(a_no_state_lasts, 32'(stay_q) < LONGEST_STAY)
   `PROVE(a_reset_clears_once, !(stay_ends && state_q == dtof_pkg::STATE_RESET) || clears_q == 2'd1)
   `PROVE(a_stream_alone, !(accepted && (clear || working_q)))
-  `PROVE(a_late, !(acquisition_begins && point) || late == (acquisitions_q >= late_begin_q))
   `PROVE(a_acquisition_number, !acquisition_begins || acquisition == 4'(acquisitions_q))
   `GOAL(done && acq_num_q == ACQ_WIDTH'(3) && coarse_end_q == ACQ_WIDTH'(1) && track_end_q == ACQ_WIDTH'(2))
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's pointer word after one timestamp: docs/reference/poolpointer.md, Point, on integers, from timestamp and
+// A pixel's pointer word after one timestamp: docs/reference/poolpointer2.md, Point, on integers, from timestamp and
 // word to the next word. Distances come from pixel_distance and label_match, so that the three are proved together.
 `include "properties.svh"
 
@@ -18,7 +18,6 @@ module twin_pointer_update_properties #(
     input logic                   update_i,
     input logic                   valid_i,
     input logic [           15:0] position_i,
-    input logic                   late_i,
     input logic [            3:0] acquisition_i,
     input logic [POINT_WIDTH-1:0] word_i,
     input logic [   LABELS*7-1:0] cells_i
@@ -32,13 +31,10 @@ module twin_pointer_update_properties #(
   logic [POINT_WIDTH-1:0] word;
 
   label_match #(
-      .LABELS       (LABELS),
-      .DARK_LABELS  (LABELS),
-      .BRIGHT_LABELS(LABELS)
+      .LABELS(LABELS)
   ) u_label_match (
       .valid_i (valid_i),
       .cell_i  (position_i[15:9]),
-      .bright_i(1'b0),
       .cells_i (cells_i),
       .hits_o  (hits)
   );
@@ -55,7 +51,6 @@ module twin_pointer_update_properties #(
       .valid_i      (valid_i),
       .position_i   (position_i),
       .point_i      (1'b1),
-      .late_i       (late_i),
       .word_i       (word_i),
       .cells_i      (cells_i),
       .hits_i       (hits),
@@ -84,6 +79,7 @@ module twin_pointer_update_properties #(
 
   localparam int U = 1 << POINTER_SHIFT;
   localparam int HALF = 1 << (ADVANTAGE_WIDTH - 1);
+  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // one at rest is a candidate, with its window
   localparam int FULL = (1 << ADVANTAGE_WIDTH) - 1;
 
   function automatic integer cell_of(input integer label);
@@ -120,18 +116,17 @@ module twin_pointer_update_properties #(
     pa = origin + pointer * U;
     e = (x - pa) >>> 9;
     expected_hit = valid_i && e >= -5 && e <= 4;
-    rival = valid_i && !expected_hit && f >= -5 && f <= 4;
+    rival = valid_i && !expected_hit && f >= -RIVAL_REACH && f < RIVAL_REACH;
 
     // The move.
     away = (e >= 0) ? e : -1 - e;
-    w = (away == 0 || away == 7) ? 1 : (away == 1 || away == 6) ? 2 : (away == 2 || away == 5) ? 3 : 4;
+    w = (away == 0 || away == 7) ? 1 : (away == 6) ? 2 : (away == 1 || away == 5) ? 3 : 4;
     if (ADVANTAGE_WIDTH == 7) begin
       step = (n >= 124) ? 1 : (n >= 116) ? 2 : (n >= 100) ? 4 : (n >= 80) ? 8 : (n >= 64) ? 16 : (n >= 32) ? 32
           : (n >= 16) ? 64 : (n >= 8) ? 128 : 256;
     end else begin
       step = (n >= 15) ? 16 : (n >= 14) ? 32 : (n >= 12) ? 64 : (n >= 8) ? 128 : (n >= 4) ? 256 : 512;
     end
-    if (late_i && step > 64) step = 64;
     dither = 32'(acquisition_i[1:0]) * U + (32'(acquisition_i[3:2]) & (U - 1));
     move = ((step * w + dither) >>> 2) & ~(U - 1);
     next_pa = pa;

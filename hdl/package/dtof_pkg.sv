@@ -12,7 +12,7 @@ package dtof_pkg;
   localparam logic [2:0] STATE_M4 = 3'd6;
   localparam logic [2:0] STATE_M5 = 3'd7;
 
-  // Values of state_o of pool_pointer_array beside IDLE and RESET.
+  // Values of state_o of pool_pointer2_array beside IDLE and RESET.
   localparam logic [2:0] POOL_STATE_COARSE = STATE_M0;
   localparam logic [2:0] POOL_STATE_DECODE = STATE_M1;
   localparam logic [2:0] POOL_STATE_TRACK = STATE_M2;
@@ -36,12 +36,11 @@ package dtof_pkg;
   // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
   localparam int HISTOGRAM_WRITE_STAGE = 5;          // histogram_builder: a timestamp of T0 is written at T5
   localparam int POOL_LAST_COMMAND_STAGE = 6;        // pair_sequencer: the write of a second column's count, given at T6
-  localparam int POOL_PAIR_READ_CLOCKS = 2;          // pool_pointer_pair: from read_i to word_o, and to a write with it
-  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // pool_engine: from line_i to what its commands find on the line
-  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // pool_engine: from read_message to the message
-  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // pool_engine: from take_result to result_o
-  localparam int POOL_DECODER_FILL_CLOCKS = 4;       // candidate_decoder: from capture_above to the first pair sum
-  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // candidate_decoder: from a turn's last pair to its candidate
+  localparam int POOL_PAIR_READ_CLOCKS = 2;          // pool2_pair: from read_i to word_o, and to a write with it
+  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // pool2_engine: from line_i to what its commands find on the line
+  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // pool2_engine: from read_scratch to the message
+  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // pool2_engine: from take_result to result_o
+  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // pool2_candidate_decoder: from a turn's last pair to its candidate
   localparam int POOL_CHAIN_SPREAD_CLOCKS = 3;       // label_chain: from begin_step to spread; then the labels pass
   localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // label_chain: from a label's target to its pass_label
   localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // label_chain: from the last pass_label to the two best beliefs
@@ -98,16 +97,12 @@ package dtof_pkg;
         + confidence_width(readout, count_width, pointer_confidence_width);
   endfunction
 
-  // poolPointer (docs/reference/poolpointer.md). Positions have 16 bits for the whole range; a cell is 512 of them.
+  // poolPointer 2 (docs/reference/poolpointer2.md). Positions have 16 bits for the whole range; a cell is 512 of them.
   localparam int POOL_COARSE_BINS = 32;
   localparam int POOL_CELL_WIDTH = 7;
   localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
-  // Largest penalties along a column: 2 + (39 >> 2) in choose, 4 + (39 >> 3) in decide.
-  localparam int POOL_CHOOSE_PENALTY_WIDTH = 4;
-  localparam int POOL_DECIDE_PENALTY_WIDTH = 4;
-
-  localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once (poolPointer 2)
+  localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
@@ -116,10 +111,8 @@ package dtof_pkg;
   endfunction
 
   // Bits of a pixel's word in the track phase: scores, leader, offset.
-  function automatic int pool_track_width(input int dark_labels, input int dark_score_bits, input int bright_labels,
-                                          input int bright_score_bits, input int offset_bits);
-    pool_track_width = max_of(dark_labels * dark_score_bits, bright_labels * bright_score_bits)
-        + ((offset_bits > 0) ? offset_bits + index_width(max_of(dark_labels, bright_labels)) : 0);
+  function automatic int pool_track_width(input int labels, input int score_bits, input int offset_bits);
+    pool_track_width = labels * score_bits + ((offset_bits > 0) ? offset_bits + index_width(labels) : 0);
   endfunction
 
   // Bits of a pixel's word in the pointer phase: advantage, rival, pointer.
@@ -134,14 +127,14 @@ package dtof_pkg;
     pool_group_width = POOL_CELL_WIDTH * labels + POOL_BACKGROUND_WIDTH;
   endfunction
 
-  // Bits of a pixel's word (poolPointer 2).
+  // Bits of a pixel's word.
   function automatic int pool2_pixel_width(input int labels, input int score_bits, input int offset_bits,
                                            input int advantage_width, input int pointer_shift, input int rival_moves);
-    pool2_pixel_width = max_of(pool_track_width(labels, score_bits, labels, score_bits, offset_bits),
+    pool2_pixel_width = max_of(pool_track_width(labels, score_bits, offset_bits),
                                pool_point_width(labels, advantage_width, pointer_shift, rival_moves));
   endfunction
 
-  // Bits of half an SRAM word of a pair of columns (poolPointer 2): two pixels of a column, or a group.
+  // Bits of half an SRAM word of a pair of columns: two pixels of a column, or a group.
   function automatic int pool2_half_width(input int labels, input int score_bits, input int offset_bits,
                                           input int advantage_width, input int pointer_shift, input int rival_moves);
     pool2_half_width = max_of(2 * pool2_pixel_width(labels, score_bits, offset_bits, advantage_width, pointer_shift,
@@ -152,11 +145,6 @@ package dtof_pkg;
   // Halves of such a word that POOL2_BINS_PER_LINE coarse bins need, 1 or 2.
   function automatic int pool2_line_halves(input int half_width, input int count_width);
     pool2_line_halves = (POOL2_BINS_PER_LINE * count_width <= half_width) ? 1 : 2;
-  endfunction
-
-  // Coarse bins in an SRAM word: a power of two.
-  function automatic int pool_bins_per_word(input int word_width, input int count_width);
-    pool_bins_per_word = 1 << ($clog2(word_width / count_width + 1) - 1);
   endfunction
 
   // Bits of a result's confidence: the advantage and both neighbours' penalties.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pool2_sequencer commands in a clock, with what each command means to who gets it. In which clocks it is given
-// stands in the table in pool2_sequencer.
+// stands in the table in pool2_sequencer; docs/reference/blocks/pool_control.md shows both, written by
+// scripts/schedule.py from this file and from the table in simulation.
 //
 // Types of the compilation unit, included at the head of a file: Icarus Verilog 11 takes none of a package.
 `ifndef POOL2_COMMAND_SVH
 `define POOL2_COMMAND_SVH
-`include "engine_command.svh"
 
 // What the columns and the output do for the engines: at most one access of the columns' SRAMs a clock.
 typedef struct packed {
@@ -41,6 +41,16 @@ typedef struct packed {
   logic candidate;      // the turn before has found its candidate
 } pool2_decode_command_t;
 
+// To label_chain.
+typedef struct packed {
+  logic begin_step;     // evidence and message are added
+  logic spread;         // how far each label is behind the largest sum is known
+  logic pass_label;     // a label of the next pixel gets its message, the same label of this pixel its belief
+  logic [2:0] target;   // with pass_label two clocks later: the label of the next pixel
+  logic advance;        // the next pixel becomes this one, the prepared one the next
+  logic clear_message;  // with advance: the pixel that becomes this one begins the chain
+} chain_command_t;
+
 // To beside_evidence.
 typedef struct packed {
   logic take_right_pixel;  // the line is the word of the pixel to the right
@@ -56,7 +66,7 @@ typedef struct packed {
 // To pool2_engine.
 typedef struct packed {
   logic decoding;       // with write_group, in all of decode: the engine's word is the group's
-  logic deciding;       // with write_message, in all of decide: the message is decide's
+  logic deciding;       // with write_scratch, in all of decide: the message is decide's
   logic back;           // the second pass of a chain
   pool2_decode_command_t decode;
   beside_command_t beside;

@@ -38,16 +38,14 @@
     parameter int RAW_HISTOGRAM = 0,
     // bits of the run-time number of acquisitions
     parameter int ACQ_WIDTH = 16,
-    // pixels that share a coarse histogram
-    parameter int GROUP_SIZE = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 4
-        : 8,
+    // rows of a group, which shares a coarse histogram
+    parameter int GROUP_SIZE = 4,
     // candidates of a group
     parameter int LABELS = 5,
     // bits of their scores
     parameter int SCORE_BITS = 4,
     // bits of a leader's offset in the track phase, 0 for none
-    parameter int OFFSET_BITS = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 6
-        : 5,
+    parameter int OFFSET_BITS = 6,
     // bits of the leader's advantage
     parameter int ADVANTAGE_WIDTH = 7,
     // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins

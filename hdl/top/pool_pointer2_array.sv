@@ -106,7 +106,7 @@ module pool_pointer2_array #(
 
   // Control, once per array.
 
-  logic stream, coarse, point, more, unused_late, acq_done, stream_idle, clear;
+  logic stream, coarse, point, more, acq_done, stream_idle, clear;
   logic [3:0] acquisition;
   logic decode, choose, decide, engine_done, underrun, illegal_schedule;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
@@ -122,7 +122,6 @@ module pool_pointer2_array #(
       .acq_num_i      (acq_num_i),
       .coarse_end_i   (coarse_end_i),
       .track_end_i    (track_end_i),
-      .late_begin_i   (acq_num_i),  // there is no late part
       .busy_o         (busy_o),
       .done_o         (done_o),
       .state_o        (state_o),
@@ -132,7 +131,6 @@ module pool_pointer2_array #(
       .point_o        (point),
       .more_o         (more),
       .acquisition_o  (acquisition),
-      .late_o         (unused_late),
       .acq_done_i     (acq_done),
       .stream_idle_i  (stream_idle),
       .clear_o        (clear),
@@ -143,7 +141,7 @@ module pool_pointer2_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, unused_late_t2, last_slot_t1, update_t2;
+  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, last_slot_t1, update_t2;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
   logic [3:0] acquisition_t2;
 
@@ -184,7 +182,6 @@ module pool_pointer2_array #(
       .coarse_i         (coarse),
       .more_i           (more),
       .acquisition_i    (acquisition),
-      .late_i           (1'b0),
       .tdc_valid_i      (tdc_valid_i),
       .tdc_ready_o      (tdc_ready_o),
       .acq_done_o       (acq_done),
@@ -196,7 +193,6 @@ module pool_pointer2_array #(
       .odd_t1_o         (odd_t1),
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
-      .late_t2_o        (unused_late_t2),
       .update_t2_o      (update_t2),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),

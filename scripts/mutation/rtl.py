@@ -54,10 +54,9 @@ MORE_PARAMETERS = {
     ],
     "pifh": [{"NP": 6, "NB": 3, "PIXELS_PER_SRAM": 3, "SRAM_NUM": 3, "SLOTS": 3, "COUNT_WIDTH": 3}],
     "histogram": [{"NP": 4, "NB": 4, "PIXELS_PER_SRAM": 7, "SRAM_NUM": 3, "SLOTS": 4, "COUNT_WIDTH": 4}],
-    "poolpointer": [
-        {"PIXELS_PER_SRAM": 11, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "SLOTS": 3, "DARK_LABELS": 6,
-         "DARK_SCORE_BITS": 3, "BRIGHT_LABELS": 5, "BRIGHT_SCORE_BITS": 2, "BRIGHT_FROM": 1, "OFFSET_BITS": 0,
-         "POINTER_SHIFT": 2},
+    "poolpointer2": [
+        {"PIXELS_PER_SRAM": 11, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "SLOTS": 3, "LABELS": 6, "SCORE_BITS": 3,
+         "OFFSET_BITS": 0, "POINTER_SHIFT": 2},
         {"PIXELS_PER_SRAM": 3, "SRAM_NUM": 6, "ENGINE_COLUMNS": 4},  # the last engine has fewer columns
         {"NP": 12, "PIXELS_PER_SRAM": 10, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "COUNT_WIDTH": 6, "OFFSET_BITS": 4},
     ],
@@ -68,11 +67,11 @@ LONG_FRAME = {
     "ezpointer": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2},
     "hispointer": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2},
     "sifh": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2},
-    "poolpointer": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
-    "poolpointer_lean": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
+    "poolpointer2": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
+    "poolpointer2_lean": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
 }
-# Quick frames of poolPointer, tried first: a group and a pixel, one engine.
-FIRST_POOL = {"poolpointer": 9, "poolpointer_lean": 17}
+# Quick frames of the pool read-outs, tried first: a group and a pixel, one engine.
+FIRST_POOL = {"poolpointer2": 5, "poolpointer2_lean": 9}
 
 
 def cases(seed: int) -> list[simulation.Case]:

@@ -37,15 +37,15 @@ class Descriptions(unittest.TestCase):
         table = readouts.parse(TEXT + FIRST_PHOTON)
         self.assertIn("localparam int READOUT_FIRSTPHOTON = 9;", generate.systemverilog(table))
         self.assertIn("READOUT must be 0 to 9", generate.systemverilog(table))
-        self.assertIn("READOUT_HISTOGRAM, READOUT_FIRSTPHOTON, READOUT_COARSEHISTOGRAM: coarse_passes = 0;", generate.systemverilog(table))
+        self.assertIn("READOUT_HISTOGRAM, READOUT_COARSEHISTOGRAM, READOUT_FIRSTPHOTON: coarse_passes = 0;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: is_word_moved = 1'b1;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: begin : g_first_photon\n          `DTOF_COLUMN(first_photon_column)",
                       generate.columns(table))
         self.assertIn("column/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
                       generate.model_table(table))
-        self.assertIn("partitioned_histogram pool_pointer first_photon coarse_histogram pool_pointer2)", generate.cmake(table))
-        self.assertIn("kFirstPhoton = 10,", generate.cpp_header(table))
+        self.assertIn("partitioned_histogram coarse_histogram pool_pointer2 first_photon)", generate.cmake(table))
+        self.assertIn("kFirstPhoton = 11,", generate.cpp_header(table))
         self.assertIn('"first photon"', generate.cpp_source(table))
         self.assertIn("set(DTOF_NUMBER_firstphoton 9)", generate.cmake(table))
         self.assertIn("9 first photon |", generate.readme((ROOT / "README.md").read_text(), table))
@@ -54,7 +54,7 @@ class Descriptions(unittest.TestCase):
         model_only = "\n".join(line for line in FIRST_PHOTON.splitlines() if not line.startswith(("number", "column")))
         table = readouts.parse(TEXT + model_only)
         self.assertIn("return make_first_photon(parameters);", generate.model_table(table))
-        self.assertIn("kFirstPhoton = 10,", generate.cpp_header(table))
+        self.assertIn("kFirstPhoton = 11,", generate.cpp_header(table))
         hardware, models = generate.cpp_header(table).split("kRtlReadouts")[1].split("kModelReadouts")
         self.assertNotIn("kFirstPhoton", hardware)
         self.assertIn("kFirstPhoton", models)
@@ -74,7 +74,7 @@ class Descriptions(unittest.TestCase):
             (("number = 6", "number = 9"), "numbers must be"),
             (('kind = "pool"', 'kind = "puddle"'), "kind 'puddle'"),
             (('choices = ["COUNT_WIDTH"]', 'choices = ["COUNTS"]'), "unknown parameter COUNTS"),
-            (('top = "pool_pointer_array"', 'top = "nowhere"'), "no top 'nowhere'"),
+            (('top = "pool_pointer2_array"', 'top = "nowhere"'), "no top 'nowhere'"),
             (('column = "ez_pointer_column"\n', ""), "have a number and a column"),
             (("number = 0\n", ""), "have a number and a column"),
             (('word = "moved"', 'word = "stirred"'), "the word 'stirred'"),

@@ -40,17 +40,12 @@ class Configuration:
         return self.described.kind == "pool"
 
     @property
-    def pools_pairs(self) -> bool:
-        """A group belongs to two columns (poolPointer 2)."""
-        return self.is_pool and "LABELS" in self.parameters
-
-    @property
     def top(self) -> str:
         return self.described.top
 
     @property
     def module_columns(self) -> int:
-        """Columns of a column module: two of poolPointer's share an SRAM."""
+        """Columns of a column module: two of a pool read-out's share an SRAM."""
         return min(2, self["SRAM_NUM"]) if self.is_pool else 1
 
     @property
@@ -81,32 +76,20 @@ def bin_width(configuration: Configuration) -> int:
 
 def memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one column module by what they hold. The RTL asks for the same sizes, or elaboration stops."""
-    if configuration.pools_pairs:
+    if configuration.is_pool:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2) + -(-groups // 2)
         return {"pixels and groups": Size(1, words, 2 * pool_word_width(configuration))}
-    if configuration.is_pool:
-        groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
-        words = groups * (configuration["GROUP_SIZE"] // 2 + 1)
-        return {"pixels and groups": Size(1, words, configuration.module_columns * pool_word_width(configuration))}
     sizes = {name: Size(*(readouts.evaluate(part, configuration.parameters) for part in size))
              for name, size in configuration.described.memories.items()}
     return {name: size for name, size in sizes.items() if size.words > 0}
 
 
-def pool_labels(configuration: Configuration) -> int:
-    if configuration.pools_pairs:
-        return configuration["LABELS"]
-    return max(configuration["DARK_LABELS"], configuration["BRIGHT_LABELS"])
-
-
 def pool_word_width(configuration: Configuration) -> int:
     """Two pixels or a group's word (dtof_pkg::pool_track_width, pool_point_width, pool_group_width)."""
-    labels = pool_labels(configuration)
+    labels = configuration["LABELS"]
     label_width = max(1, (labels - 1).bit_length())
-    track = (labels * configuration["SCORE_BITS"] if configuration.pools_pairs
-             else max(configuration["DARK_LABELS"] * configuration["DARK_SCORE_BITS"],
-                      configuration["BRIGHT_LABELS"] * configuration["BRIGHT_SCORE_BITS"]))
+    track = labels * configuration["SCORE_BITS"]
     if configuration["OFFSET_BITS"] > 0:
         track += label_width + configuration["OFFSET_BITS"]
     moves = configuration["RIVAL_MOVES"]
@@ -119,9 +102,8 @@ def engine_memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one engine."""
     if not configuration.is_pool:
         return {}
-    if configuration.pools_pairs:  # beside the messages the cell chosen in the column to the left
-        return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], 7 + 4 * pool_labels(configuration))}
-    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(4 * pool_labels(configuration), 8))}
+    # Beside the messages the cell chosen in the column to the left.
+    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], 7 + 4 * configuration["LABELS"])}
 
 
 def bits_per_pixel(configuration: Configuration) -> float:

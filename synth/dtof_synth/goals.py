@@ -9,7 +9,7 @@ from .run import FAST_MHZ, TARGET_MHZ, Result
 
 COLUMN_UM2 = {"ezpointer": 700.0}
 COLUMN_UM2_OTHERS = 1200.0
-ARRAY_MM2 = {"poolpointer": 1.3, "poolpointer_lean": 0.9, "poolpointer2": 1.26, "poolpointer2_lean": 0.81}
+ARRAY_MM2 = {"poolpointer2": 1.26, "poolpointer2_lean": 0.81}
 ONE_PORT_EZPOINTER_MM2 = 0.65
 # Table 1 of the thesis: rank by area, equal where alike. It ranks SiFH apart from FiFH at a ratio of 1.35 and
 # FiFH with hisPointer; areas within this ratio count as alike.

@@ -17,22 +17,22 @@ SWEEPS = {"NP": (8, 9, 10, 11, 12), "NB": (4, 5, 6, 7), "PIXELS_PER_SRAM": (40, 
           "SRAM_NUM": (50, 100, 200, 400)}
 FWHM_NS, RANGE_NS = 2.0, 45.0
 
-# poolPointer's candidates: labels and bits of a score. Their accuracy: scripts/trade.py.
+# poolPointer 2's candidates: labels and bits of a score. Their accuracy: scripts/trade.py.
 CANDIDATES = ((4, 4), (5, 4), (6, 3), (6, 4), (7, 3), (8, 3))
 ENGINE_CLOCKS = 333_440 - 220  # of a frame of 33,333 acquisitions in 11.0e6 clocks, less clears and pauses
 
 
 def engine_columns(configuration: Configuration) -> int:
-    """Columns that one engine of poolPointer has time for, evenly shared among the engines
-    (docs/reference/poolpointer.md, Cycle budget)."""
-    columns, labels = configuration["SRAM_NUM"], configuration["DARK_LABELS"]
+    """Columns that one engine of poolPointer 2 has time for, evenly shared among the engines
+    (docs/reference/poolpointer2.md, Cycle budget)."""
+    columns, labels = configuration["SRAM_NUM"], configuration["LABELS"]
     groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
-    chain = configuration["PIXELS_PER_SRAM"] + 3
+    rows = configuration["PIXELS_PER_SRAM"]
     for engines in range(1, columns + 1):
         share = -(-columns // engines)
         share += share % 2  # two columns share an SRAM
-        clocks = groups * (32 * labels + 43) + 2 * chain * max(labels + 4, 6) + chain * (6 + max(6, engines + 1))
-        if share * clocks <= ENGINE_CLOCKS:
+        columns_clocks = 2 * (rows + 4) * max(labels + 4, 9) + (rows + 9) * 6 + rows * max(6, engines + 1)
+        if share // 2 * groups * (32 * labels + 45) + share * columns_clocks <= ENGINE_CLOCKS:
             return share
     raise FlowError(f"{configuration.name}: no engine has time for even one column")
 
@@ -41,11 +41,10 @@ def candidates(base: Configuration) -> list[tuple[str, str, Configuration]]:
     """(parameter, value, configuration) for each number and width of candidates; the base is one of them."""
     points = []
     for labels, bits in CANDIDATES:
-        if (labels, bits) == (base["DARK_LABELS"], base["DARK_SCORE_BITS"]):
+        if (labels, bits) == (base["LABELS"], base["SCORE_BITS"]):
             item = base
         else:
-            item = base.with_parameters(f"{base.name}_labels{labels}x{bits}", DARK_LABELS=labels, DARK_SCORE_BITS=bits,
-                                        BRIGHT_LABELS=labels, BRIGHT_SCORE_BITS=bits)
+            item = base.with_parameters(f"{base.name}_labels{labels}x{bits}", LABELS=labels, SCORE_BITS=bits)
             item = item.with_parameters(item.name, ENGINE_COLUMNS=engine_columns(item))
         points.append(("LABELS", f"{labels}x{bits}", item))
     return points
@@ -71,7 +70,7 @@ def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int | str
             for value in values:
                 at_base = base[parameter] == value
                 points.append((parameter, value, base if at_base else point(base, parameter, value)))
-    return points + candidates(configurations["poolpointer"])
+    return points + candidates(configurations["poolpointer2"])
 
 
 def jobs(configurations: dict[str, Configuration]) -> list[Job]:

@@ -73,7 +73,6 @@ class Readout:
     number: int | None = None
     column: str = ""
     thesis: bool = False
-    trial: bool = False
     defaults: dict[str, Expression] = field(default_factory=dict)
     fraction_width: Expression = 0
     confidence_width: Expression = 0
@@ -124,11 +123,9 @@ def parse(text: str) -> Table:
         table = tomllib.loads(text)
         parameters = {name: Parameter(name, **entry) for name, entry in table["parameter"].items()}
         tops = {name: Top(name, **entry) for name, entry in table["top"].items()}
-        listed = {name: Readout(name, **entry) for name, entry in table["readout"].items()}
+        readouts = {name: Readout(name, **entry) for name, entry in table["readout"].items()}
     except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
         raise FlowError(f"readouts.toml: {error}") from None
-    # Those on trial stand behind the others, so that the others' numbers in C++ are their places.
-    readouts = dict(sorted(listed.items(), key=lambda item: item[1].trial))
     for readout in readouts.values():
         where = f"readouts.toml: {readout.name}"
         if readout.kind not in KINDS:

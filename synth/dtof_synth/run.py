@@ -20,7 +20,7 @@ from .standard_cells import CINV_FF, FO4_NS
 
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
-# Namings to map with (synth/yosys/4_map.tcl), 0 for the names as they are; fewer for poolPointer, whose parts take ABC
+# Namings to map with (synth/yosys/4_map.tcl), 0 for the names as they are; fewer for the pool read-outs, whose parts take ABC
 # longer.
 NAMING_SEEDS = list(range(16))
 POOL_NAMING_SEEDS = NAMING_SEEDS[:4]

@@ -25,13 +25,13 @@ from .errors import FlowError
 from .library import Library
 from .run import TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
 
-CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer", "fifh", "poolpointer")
+CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer", "fifh", "poolpointer2")
 KLUX = {"day": 50.0, "dusk": 2.0}
 SCENE = "room"
 ACQUISITIONS = 64
 FRAME_ACQUISITIONS = 33_333
 FRAMES_PER_S = 30
-GOALS_MW = {"poolpointer": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
+GOALS_MW = {"poolpointer2": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
 
 
 @dataclass(frozen=True)

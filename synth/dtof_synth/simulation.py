@@ -25,7 +25,7 @@ BEHAVIOURAL = Path("hdl/technology/behavioural")
 SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
 LONG_FRAME = 3333
 FULL_FRAME = 96
-FULL_WIDTH = ("ezpointer", "hispointer", "poolpointer")
+FULL_WIDTH = ("ezpointer", "hispointer", "poolpointer2")
 LONGEST_RUN_S = 1200
 NETLIST_SUFFIX = "_netlist"
 
@@ -72,12 +72,10 @@ def short_frames(seed: int, count: int) -> tuple[int, ...]:
 
 
 def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
-    """The RTL alone, of three columns, or of two engines with two columns each and two groups of pixels; where pairs of
-    columns hear each other, of an engine with two pairs and one with one."""
-    if configuration.pools_pairs:
+    """The RTL alone, of three columns; of a pool read-out an engine with two pairs of columns and one with one, two groups
+    high."""
+    if configuration.is_pool:
         small = {"SRAM_NUM": 6, "ENGINE_COLUMNS": 4, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
-    elif configuration.is_pool:
-        small = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
     else:
         small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 3 if configuration.readout == "histogram" else 5}
     return Case(configuration.with_parameters(configuration.name, **small), short_frames(seed, 4), seed, trace)
@@ -85,7 +83,7 @@ def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None)
 
 def netlist_cases(configuration: Configuration, seed: int, trace: Path | None = None) -> list[Case]:
     """The netlist beside the RTL. Three pixels are the fewest for which the histograms forward counts as they do in a
-    full array. poolPointer's long frame has an array of its own, of two pixels and one engine, to save time."""
+    full array. A pool read-out's long frame has an array of its own, of two pixels and one engine, to save time."""
     if not configuration.is_pool:
         small = configuration.with_parameters(configuration.name, SRAM_NUM=2, PIXELS_PER_SRAM=3)
         return [Case(small, (*short_frames(seed, 2), LONG_FRAME), seed, trace)]

@@ -23,16 +23,16 @@ def result(name: str, engines: Counts) -> Result:
 
 class Parts(unittest.TestCase):
     def test_they_sum_to_the_total(self):
-        for name, engines in (("ezpointer", NONE), ("hispointer", NONE), ("poolpointer", ENGINES)):
+        for name, engines in (("ezpointer", NONE), ("hispointer", NONE), ("poolpointer2", ENGINES)):
             one = result(name, engines)
             self.assertAlmostEqual(area_parts.parts(one).total, one.total_mm2 * 1e6, places=3)
 
     def test_each_part(self):
-        parts = area_parts.parts(result("poolpointer", ENGINES))
+        parts = area_parts.parts(result("poolpointer2", ENGINES))
         self.assertAlmostEqual(parts.column_logic, 100 * 2400.0)  # a column module is a pair
         self.assertAlmostEqual(parts.column_sram, 100 * sram_model.macro(Size(1, 100, 116)).area)
         self.assertAlmostEqual(parts.engines, 6000.0 - 120.0)
-        self.assertAlmostEqual(parts.scratch_sram, 6 * sram_model.macro(Size(1, 160, 20)).area)
+        self.assertAlmostEqual(parts.scratch_sram, 6 * sram_model.macro(Size(1, 160, 27)).area)
         self.assertAlmostEqual(parts.control, 9000.0 - 500.0 - 5880.0)
         self.assertAlmostEqual(parts.fan_out, 500.0)
 
@@ -48,7 +48,7 @@ class Parts(unittest.TestCase):
                                places=3)
 
     def test_macros_that_the_points_do_not_cover(self):
-        plain, pool = result("ezpointer", NONE), result("poolpointer", ENGINES)
+        plain, pool = result("ezpointer", NONE), result("poolpointer2", ENGINES)
         self.assertEqual(area_parts.doubtful_macros([plain]), [])
         self.assertEqual(area_parts.doubtful_macros([plain, pool]), [Size(1, 100, 116)])
         self.assertAlmostEqual(area_parts.total_with_other_mux(plain), plain.total_mm2 * 1e6, places=3)
@@ -60,9 +60,9 @@ class Parts(unittest.TestCase):
 class Report(unittest.TestCase):
     def test_sentences_follow_the_figures(self):
         self.assertIn("No macro lacks", report._doubtful_section([result("ezpointer", NONE)]))
-        text = report._doubtful_section([result("ezpointer", NONE), result("poolpointer", ENGINES)])
+        text = report._doubtful_section([result("ezpointer", NONE), result("poolpointer2", ENGINES)])
         self.assertIn("| sram_1rw_100x116 | 1 | 6435 | 8105 | yes |", text)
-        self.assertRegex(text, r"With a multiplexer of 2: poolPointer [0-9.]+ instead of [0-9.]+ mm2\.")
+        self.assertRegex(text, r"With a multiplexer of 2: poolPointer 2 [0-9.]+ instead of [0-9.]+ mm2\.")
 
 
 @unittest.skipUnless(NANGATE.exists(), f"{NANGATE} is not here")

@@ -5,7 +5,7 @@
 #
 # `synth` up to its fine part, and that without opt_share: merging the +step and -step of a pointer behind one
 # multiplexed adder saves some area but puts the comparison in front of the adder.
-# poolPointer's columns share an SRAM by twos: there the pair is the module.
+# A pool read-out's columns share an SRAM by twos: there the pair is the module.
 setattr -mod -set keep_hierarchy 1 *_column *_pair *_engine
 setattr -mod -unset keep_hierarchy *pool_pointer_column *pool2_column
 synth -flatten -noshare -top $top -run coarse:fine

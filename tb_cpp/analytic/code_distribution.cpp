@@ -104,8 +104,8 @@ class ReadoutDistribution {
       case Readout::kHistogram:
         partitioned();
         break;
-      case Readout::kPoolPointer:
-      case Readout::kPoolPointerLean:
+      case Readout::kPoolPointer2:
+      case Readout::kPoolPointer2Lean:
         throw InputError("the analytic model knows no read-out that pools pixels");
       default:
         throw InputError(

@@ -355,7 +355,7 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& 
 
 void run_frame_command(const FrameOptions& options) {
   check_run_options(options.run);
-  const std::vector<ReadoutParameters> readouts =
+  std::vector<ReadoutParameters> readouts =
       options.readout.parameters(options.run.readouts(), options.sensor.described());
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
@@ -375,6 +375,9 @@ void run_frame_command(const FrameOptions& options) {
   const DepthImage truth = true_depth(scene.targets(), region);
   if (options.precision_percent && std::ranges::all_of(truth.metres, [](float m) { return std::isnan(m); })) {
     throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
+  }
+  if (options.readout.all()) {
+    readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
   }
   check_engine(scene, readouts, options.run, region);
   check_ply_size(options.out, truth.width, truth.height);

@@ -267,7 +267,7 @@ void run_replay_command(const ReplayOptions& options) {
   if (options.truth_scale && options.truth_file.empty()) {
     throw InputError("--truth-scale needs --truth");
   }
-  const std::vector<ReadoutParameters> readouts = options.readout.parameters(options.run.readouts());
+  std::vector<ReadoutParameters> readouts = options.readout.parameters(options.run.readouts());
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }
@@ -286,6 +286,9 @@ void run_replay_command(const ReplayOptions& options) {
   Recording recording = open_recording(recording_options);
   const Region region{.columns = parse_columns(options.run.columns, recording.source->columns()),
                       .rows = parse_rows(options.run.rows, recording.source->rows())};
+  if (options.readout.all()) {
+    readouts = without_unfit_engines(*recording.source, std::move(readouts), options.run, region);
+  }
   check_engine(*recording.source, readouts, options.run, region);
   if (!options.truth_file.empty()) {
     recording.true_distance = read_truth_map(options.truth_file, options.truth_scale,

@@ -1,19 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 #
-# Verilated models of dtof_array, pool_pointer_array and pool_pointer2_array.
+# Verilated models of dtof_array and pool_pointer2_array.
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
 #                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [RAW_HISTOGRAM 0|1] [PROBE]
 #                 [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
-#   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
-#                 [COUNT_WIDTH n] [GROUP_SIZE n] [DARK_LABELS n] [DARK_SCORE_BITS n] [BRIGHT_LABELS n]
-#                 [BRIGHT_SCORE_BITS n] [BRIGHT_FROM n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
+#   dtof_verilate(<name> READOUT poolpointer2|poolpointer2-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
+#                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
 #                 [RIVAL_MOVES 0|1] [SECOND_TARGET 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
 #                 [NO_WAVEFORM] TARGET <library>)
-#   dtof_verilate(<name> READOUT poolpointer2 [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
-#                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [POINTER_SHIFT n] [ENGINE_COLUMNS n]
-#                 [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
 #
 # and, with SUBSYSTEM [BUFFER_LINES n] [RASTER_ORDER 0|1] [AXI_LITE 0|1] instead of PROBE and what follows it, dtof_subsystem around either,
 #
@@ -24,7 +20,7 @@
 #
 #   dtof_rtl_models(<library> [BATCH n] [OPTIONS ...])
 #
-#   dtof_verilate_named(readouts|waveforms|variants|engines <top module> <library>)
+#   dtof_verilate_named(readouts|waveforms|variants <top module> <library>)
 #
 # adds configurations of configurations.toml (scripts/list_models.py).
 #
@@ -110,10 +106,8 @@ function(dtof_verilate name)
   elseif(array STREQUAL dtof_array)
     set(top dtof_array_testbench)
     set(overrides -GREADOUT=${DTOF_NUMBER_${P_READOUT}})
-  elseif(array STREQUAL pool_pointer2_array)
-    set(top pool_pointer2_testbench)
   else()
-    set(top pool_pointer_testbench)
+    set(top pool_pointer2_testbench)
   endif()
 
   if(NOT DEFINED P_NP)
@@ -149,13 +143,6 @@ function(dtof_verilate name)
       list(APPEND overrides -G${parameter}=${P_${parameter}})
     endif()
   endforeach()
-  if(array STREQUAL pool_pointer2_array)  # the model has one format for all groups
-    foreach(light DARK BRIGHT)
-      foreach(what LABELS SCORE_BITS)
-        set(P_${light}_${what} ${P_${what}})
-      endforeach()
-    endforeach()
-  endif()
   set(P_REGISTRY rtl/registry)
   set(P_REGISTER register_rtl_configuration)
   set(P_BASE ArrayModel)

@@ -62,7 +62,7 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
     if (name == "all") {
       chosen.insert(chosen.end(), all.begin(), all.end());
     } else {
-      chosen.push_back(parse_named_readout(name));
+      chosen.push_back(parse_readout(name));
     }
   }
   struct Override {
@@ -161,7 +161,8 @@ void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsyst
       ->add_option(
           "--rows", settings.rows,
           "rows to read out: all, or one range, e.g. 40-79: with --columns a region of interest; others\n"
-          "are off and cost nothing. poolPointer's array always has at least 160 rows; those that are off,\n"
+          "are off and cost nothing. poolPointer 2's array always has at least 160 rows; those that are "
+          "off,\n"
           "and those beyond the sensor's, are dark neighbours")
       ->take_last()
       ->capture_default_str();
@@ -195,7 +196,7 @@ void SensorOptions::add_sensor_to(CLI::App& command) {
           "--fidelity", fidelity,
           "photon model: exact (event by event), fast (times from tables), analytic (expected\n"
           "detections, no noise; frame only), auto (the cheapest with noise that keeps --tolerance;\n"
-          "streams for the RTL, poolPointer, accuracy and recordings are always drawn exactly)")
+          "streams for the RTL, poolPointer 2, accuracy and recordings are always drawn exactly)")
       ->check(CLI::IsMember({"exact", "fast", "analytic", "auto"}))
       ->capture_default_str();
   group

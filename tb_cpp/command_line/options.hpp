@@ -30,6 +30,8 @@ struct ReadoutOptions {
   std::vector<int> code_gate;
 
   void add_to(CLI::App& command);
+  /// Whether "all" is all that is asked for.
+  [[nodiscard]] bool all() const { return readouts == "all"; }
   /// One set of parameters for each read-out asked for; "all" stands for those of `all`. Throws InputError,
   /// also for an override that none of the read-outs has. What no option says is that of default_parameters
   /// (sensor/default_parameters.hpp).

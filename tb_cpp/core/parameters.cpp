@@ -47,35 +47,12 @@ Readout parse_readout(std::string_view name) {
   throw InputError(unknown_name("read-out", name, known));
 }
 
-Readout parse_named_readout(std::string_view name) {
-  const auto* const found = std::ranges::find(kTrialReadouts, name, readout_name);
-  return found != kTrialReadouts.end() ? *found : parse_readout(name);
-}
-
 PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
   constexpr int kAnyBits = 10;  // none of these depends on NP
   const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, kAnyBits); };
-  if (pools_columns(readout)) {
-    return {.group_size = value("GROUP_SIZE"),
-            .dark_labels = value("LABELS"),
-            .dark_score_bits = value("SCORE_BITS"),
-            .bright_labels = value("LABELS"),
-            .bright_score_bits = value("SCORE_BITS"),
-            .offset_bits = value("OFFSET_BITS"),
-            .count_bits = value("ADVANTAGE_WIDTH"),
-            .pointer_shift = value("POINTER_SHIFT"),
-            .rival_moves = value("RIVAL_MOVES") != 0,
-            .second_target = value("SECOND_TARGET") != 0,
-            .coarse_share = value("COARSE_SHARE"),
-            .track_share = value("TRACK_SHARE"),
-            .engine_columns = value("ENGINE_COLUMNS")};
-  }
   return {.group_size = value("GROUP_SIZE"),
-          .dark_labels = value("DARK_LABELS"),
-          .dark_score_bits = value("DARK_SCORE_BITS"),
-          .bright_labels = value("BRIGHT_LABELS"),
-          .bright_score_bits = value("BRIGHT_SCORE_BITS"),
-          .bright_from = value("BRIGHT_FROM"),
+          .labels = value("LABELS"),
+          .score_bits = value("SCORE_BITS"),
           .offset_bits = value("OFFSET_BITS"),
           .count_bits = value("ADVANTAGE_WIDTH"),
           .pointer_shift = value("POINTER_SHIFT"),
@@ -86,28 +63,11 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
           .engine_columns = value("ENGINE_COLUMNS")};
 }
 
-void PoolPointerParameters::validate() const {
-  require(group_size >= 4 && group_size <= 64 && std::has_single_bit(static_cast<unsigned>(group_size)),
-          "GROUP_SIZE must be a power of two from 4 to 64", group_size);
-  require_range("DARK_LABELS", dark_labels, 2, 8);
-  require_range("DARK_SCORE_BITS", dark_score_bits, 1, 4);
-  require_range("BRIGHT_LABELS", bright_labels, 2, 8);
-  require_range("BRIGHT_SCORE_BITS", bright_score_bits, 1, 4);
-  require_range("BRIGHT_FROM", bright_from, 0, 63);
-  require(offset_bits == 0 || (offset_bits >= 2 && offset_bits <= 5), "OFFSET_BITS must be 0 or 2 to 5",
-          offset_bits);
-  require(count_bits == 4 || count_bits == 7, "ADVANTAGE_WIDTH must be 4 or 7", count_bits);
-  require(pointer_shift >= 0 && pointer_shift <= (count_bits == 4 ? 4 : 2),
-          "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4", pointer_shift);
-  require_range("COARSE_SHARE", coarse_share, 1, 62);
-  require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-}
-
-void PoolPointerParameters::validate_pool_pointer2(int count_width) const {
+void PoolPointerParameters::validate(int count_width) const {
   require(group_size >= 4 && group_size <= 32 && std::has_single_bit(static_cast<unsigned>(group_size)),
           "GROUP_SIZE must be a power of two from 4 to 32", group_size);
-  require_range("LABELS", dark_labels, 2, 8);
-  require_range("SCORE_BITS", dark_score_bits, 1, 4);
+  require_range("LABELS", labels, 2, 8);
+  require_range("SCORE_BITS", score_bits, 1, 4);
   require(offset_bits == 0 || (offset_bits >= 2 && offset_bits <= 6), "OFFSET_BITS must be 0 or 2 to 6",
           offset_bits);
   require(count_bits == 4 || count_bits == 7, "ADVANTAGE_WIDTH must be 4 or 7", count_bits);
@@ -116,7 +76,7 @@ void PoolPointerParameters::validate_pool_pointer2(int count_width) const {
   require(rival_moves || offset_bits == 0, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0", offset_bits);
   require_range("COARSE_SHARE", coarse_share, 1, 62);
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-  const int half_bits = std::max(2 * word_bits(), kPoolCellBits * dark_labels + kPoolBackgroundBits);
+  const int half_bits = std::max(2 * word_bits(), kPoolCellBits * labels + kPoolBackgroundBits);
   const int line_halves = 8 * count_width <= half_bits ? 1 : 2;  // halves of a word that eight bins take
   require(8 * count_width <= line_halves * half_bits && group_size >= 4 * line_halves,
           "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows", count_width);
@@ -125,20 +85,11 @@ void PoolPointerParameters::validate_pool_pointer2(int count_width) const {
 }
 
 int PoolPointerParameters::word_bits() const {
-  const auto label_bits =
-      static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(dark_labels, bright_labels) - 1)));
-  const int scores = std::max(dark_labels * dark_score_bits, bright_labels * bright_score_bits);
-  const int track_word = scores + (offset_bits > 0 ? label_bits + offset_bits : 0);
+  const auto label_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(labels - 1)));
+  const int track_word = labels * score_bits + (offset_bits > 0 ? label_bits + offset_bits : 0);
   const int pointer_word = count_bits + (rival_moves ? kPoolPositionBits - pointer_shift + kPoolRivalBits
                                                      : 12 - pointer_shift + 2 * label_bits);
   return std::max(track_word, pointer_word);
-}
-
-bool PoolPointerParameters::histogram_fits(int count_width) const {
-  const int group_bits = kPoolCellBits * std::max(dark_labels, bright_labels) + kPoolBackgroundBits;
-  const int bins = std::max(2 * word_bits(), group_bits) / count_width;
-  const auto bins_of_a_word = static_cast<int>(std::bit_floor(static_cast<unsigned>(bins)));
-  return bins_of_a_word >= 4 && bins_of_a_word * (group_size / 2) >= 1 << kPoolCoarseBits;
 }
 
 PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {
@@ -148,7 +99,6 @@ PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParamete
   };
   coarse_end = share(parameters.coarse_share);
   track_end = share(parameters.coarse_share + parameters.track_share);
-  late_begin = track_end + static_cast<std::uint32_t>((std::uint64_t{acquisitions - track_end} * 5) >> 3U);
 }
 
 ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
@@ -176,16 +126,7 @@ void ReadoutParameters::validate() const {
     require_range("SLOTS", slots, 2, 4);
     require_range("COUNT_WIDTH", count_width, 4, 8);
     require(fraction_bits == kPoolPositionBits - np, "FRACTION_BITS must be 16 - NP", fraction_bits);
-    if (pools_columns(readout)) {
-      pool.validate_pool_pointer2(count_width);
-      return;
-    }
-    pool.validate();
-    if (!pool.histogram_fits(count_width)) {
-      throw InputError(
-          fmt::format("32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE pixels: {} bits do not fit {}",
-                      count_width, pool.group_size));
-    }
+    pool.validate(count_width);
   } else {
     require_range("NP", np, kFewestBits, kMostBits);
     require(nb >= 1 && nb <= np, "NB must be 1 to NP", nb);
@@ -231,24 +172,15 @@ std::string ReadoutParameters::to_string() const {
   if (time_gate) {
     out += fmt::format(" TIME_GATE=1 GATE={}-{}", time_gate->begin, time_gate->end);
   }
-  if (pools_columns(readout)) {
+  if (is_pool_readout(readout)) {
     return out +
            fmt::format(
                " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} COUNT={} SHIFT={} RIVAL={} ENGINE_COLUMNS={} "
                "SHARES={},{} S1={}{}",
-               count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.offset_bits,
-               pool.count_bits, pool.pointer_shift, pool.rival_moves ? "moves" : "stays", pool.engine_columns,
+               count_width, pool.group_size, pool.labels, pool.score_bits, pool.offset_bits, pool.count_bits,
+               pool.pointer_shift, pool.rival_moves ? "moves" : "stays", pool.engine_columns,
                pool.coarse_share, pool.track_share, pool.smooth ? 1 : 0,
                pool.second_target ? " SECOND_TARGET=1" : "");
-  }
-  if (is_pool_readout(readout)) {
-    out += fmt::format(
-        " COUNT_WIDTH={} G={} LABELS={}x{}/{}x{} BRIGHT_FROM={} OFFSET={} COUNT={} SHIFT={} RIVAL={} "
-        "SHARES={},{}",
-        count_width, pool.group_size, pool.dark_labels, pool.dark_score_bits, pool.bright_labels,
-        pool.bright_score_bits, pool.bright_from, pool.offset_bits, pool.count_bits, pool.pointer_shift,
-        pool.rival_moves ? "moves" : "stays", pool.coarse_share, pool.track_share);
-    return out + (pool.second_target ? " SECOND_TARGET=1" : "");
   }
   if (has_parameter(readout, "NB")) {
     out += fmt::format(" NB={}", nb);

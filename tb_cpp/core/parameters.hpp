@@ -12,42 +12,32 @@ namespace dtof {
 
 /// Throws InputError naming the legal names.
 Readout parse_readout(std::string_view name);
-/// The same, and those on trial.
-Readout parse_named_readout(std::string_view name);
 
-/// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
+/// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer2.md).
 /// Lengths are fractions of a coarse bin, a 32nd of the range.
 struct PoolPointerParameters {
-  int group_size = 8;       ///< G, pixels of a column that share a coarse histogram, a power of two, 4 .. 64
-  int dark_labels = 5;      ///< candidate depths of a group with background below BRIGHT_FROM, 2 .. 8
-  int dark_score_bits = 4;  ///< width of a candidate's score in a pixel word there, 1 .. 4
-  int bright_labels = 5;    ///< the same in the other groups
-  int bright_score_bits = 4;
-  int bright_from = 6;  ///< BRIGHT_FROM, in units of a group's background word, 0 .. 63
-  int offset_bits = 5;  ///< leader's offset in the track phase, 32nds of a coarse bin, signed, 2 .. 5
-                        ///< (poolPointer 2: 6); 0: none
-  int count_bits = 7;   ///< ADVANTAGE_WIDTH: the leader's advantage in the pointer phase, 4 or 7
+  int group_size =
+      4;           ///< GROUP_SIZE, rows of a group, which shares a coarse histogram, a power of two, 4 .. 32
+  int labels = 5;  ///< candidate depths of a group, 2 .. 8
+  int score_bits = 4;  ///< width of a candidate's score in a pixel word, 1 .. 4
+  int offset_bits =
+      6;               ///< leader's offset in the track phase, 32nds of a coarse bin, signed, 2 .. 6; 0: none
+  int count_bits = 7;  ///< ADVANTAGE_WIDTH: the leader's advantage in the pointer phase, 4 or 7
   /// The unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4 if count_bits
   /// is 4.
   int pointer_shift = 1;
   bool rival_moves = true;     ///< the rival has a pointer of 7 bits; else it stays at its candidate
   bool second_target = false;  ///< SECOND_TARGET: a result has the position of the label that lost, too
-  int coarse_share = 16;       ///< 64ths of the frame: coarse phase
-  int track_share = 16;        ///< 64ths of the frame: track phase
-  /// ENGINE_COLUMNS, columns that share an engine, even; it changes no result of poolPointer, but some of
-  /// poolPointer 2, where nothing crosses an engine's border.
-  int engine_columns = 34;
-  bool smooth = true;  ///< poolPointer 2: S1 is on
+  int coarse_share = 14;       ///< 64ths of the frame: coarse phase
+  int track_share = 20;        ///< 64ths of the frame: track phase
+  int engine_columns = 34;     ///< ENGINE_COLUMNS, columns that share an engine and hear each other, even
+  bool smooth = true;          ///< S1 is on
 
   static PoolPointerParameters defaults(Readout readout);
-  /// Throws InputError.
-  void validate() const;
-  /// The same for poolPointer 2, which has no labels of its own for bright groups.
-  void validate_pool_pointer2(int count_width) const;
+  /// Throws InputError; `count_width`: bits of a coarse bin.
+  void validate(int count_width) const;
   /// Bits of a pixel word.
   [[nodiscard]] int word_bits() const;
-  /// Whether a group's coarse histogram fits the words of its pixels, bins in powers of two, at least 4.
-  [[nodiscard]] bool histogram_fits(int count_width) const;
   bool operator==(const PoolPointerParameters&) const = default;
 };
 
@@ -55,7 +45,6 @@ struct PoolPointerParameters {
 struct PoolSchedule {
   std::uint32_t coarse_end;
   std::uint32_t track_end;
-  std::uint32_t late_begin;
 
   PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters);
 };
@@ -98,9 +87,9 @@ struct ReadoutParameters {
   /// Throws InputError with the RTL's own sentence and the value if a parameter is outside its range.
   void validate() const;
 
-  /// Neighbouring columns whose pixels hear each other, counted from column 0: those of poolPointer 2's
+  /// Neighbouring columns whose pixels hear each other, counted from column 0: those of a pool read-out's
   /// engine, else 1.
-  [[nodiscard]] int columns_together() const { return pools_columns(readout) ? pool.engine_columns : 1; }
+  [[nodiscard]] int columns_together() const { return is_pool_readout(readout) ? pool.engine_columns : 1; }
   /// Bins of the histogram that a raw frame shows (RAW_HISTOGRAM); 0 if the read-out holds none that is whole
   /// at a frame's end.
   [[nodiscard]] int raw_bins() const;

@@ -15,64 +15,55 @@ struct Description {
   std::string_view summary;
   bool pointer;
   bool pool;
-  bool pools_columns;
   bool histogram;
   bool rtl;
   std::array<std::string_view, 6> choices;  // empty ones are none
 };
 
-constexpr std::array<Description, kModelReadouts.size() + kTrialReadouts.size()> kDescriptions = {{
+constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{
     {"ezpointer", "ezPointer",
      "one pointer a pixel steps towards each timestamp: a circular median",
-     true, false, false, false, true,
+     true, false, false, true,
      {"POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH"}},
     {"hispointer1", "hisPointer v1",
      "coarse histogram, then the pointer starts at its peak",
-     true, false, false, true, true,
+     true, false, true, true,
      {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH"}},
     {"hispointer", "hisPointer",
      "coarse histogram, then the pointer sees only a window around its peak",
-     true, false, false, true, true,
+     true, false, true, true,
      {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH", "GUARD"}},
     {"sifh", "SiFH",
      "coarse histogram, then a fine histogram shifted onto its peak",
-     false, false, false, true, true,
+     false, false, true, true,
      {"NB", "COUNT_WIDTH", "WINDOW_CENTRED"}},
     {"fifh", "FiFH",
      "coarse histogram, then a fine histogram of exactly its peak bin",
-     false, false, false, true, true,
+     false, false, true, true,
      {"NB", "COUNT_WIDTH"}},
     {"threesteps", "three steps",
      "three coarse histograms of 8 bins zoom in, then 16 fine bins",
-     false, false, false, true, true,
+     false, false, true, true,
      {"COUNT_WIDTH"}},
     {"pifh", "PiFH",
      "the range is scanned partition by partition in one small histogram",
-     false, false, false, true, true,
+     false, false, true, true,
      {"NB", "COUNT_WIDTH"}},
     {"histogram", "histogram",
      "all 2^NP bins of every pixel, the classical baseline",
-     false, false, false, true, true,
-     {"COUNT_WIDTH"}},
-    {"poolpointer", "poolPointer",
-     "neighbours share a coarse histogram; each pixel picks and refines a candidate",
-     false, true, false, false, true,
-     {"COUNT_WIDTH"}},
-    {"poolpointer-lean", "poolPointer lean",
-     "poolPointer in half the memory: larger groups, shorter words",
-     false, true, false, false, true,
+     false, false, true, true,
      {"COUNT_WIDTH"}},
     {"coarsehistogram", "coarse histogram",
      "one coarse histogram for the whole frame; its highest pair of bins and their neighbours hold the place",
-     false, false, false, true, true,
+     false, false, true, true,
      {"NB", "COUNT_WIDTH", "FRACTION_BITS"}},
     {"poolpointer2", "poolPointer 2",
-     "poolPointer whose pixels help each other in two dimensions",
-     false, true, true, false, true,
+     "neighbours in two dimensions share coarse histograms; each pixel picks and refines a candidate",
+     false, true, false, true,
      {"COUNT_WIDTH"}},
     {"poolpointer2-lean", "poolPointer 2 lean",
      "poolPointer 2 in half the memory: larger groups, shorter words",
-     false, true, true, false, true,
+     false, true, false, true,
      {"COUNT_WIDTH"}},
 }};
 
@@ -85,7 +76,6 @@ std::string_view readout_title(Readout readout) { return description(readout).ti
 std::string_view readout_summary(Readout readout) { return description(readout).summary; }
 bool is_pointer_readout(Readout readout) { return description(readout).pointer; }
 bool is_pool_readout(Readout readout) { return description(readout).pool; }
-bool pools_columns(Readout readout) { return description(readout).pools_columns; }
 bool has_histogram(Readout readout) { return description(readout).histogram; }
 bool has_rtl(Readout readout) { return description(readout).rtl; }
 
@@ -104,54 +94,6 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (readout == Readout::kHistogram && parameter == "NB") {
     return np;
   }
-  if (readout == Readout::kPoolPointer && parameter == "NB") {
-    return 5;
-  }
-  if (readout == Readout::kPoolPointer && parameter == "COUNT_WIDTH") {
-    return 7;
-  }
-  if (readout == Readout::kPoolPointer && parameter == "FRACTION_BITS") {
-    return 16 - np;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "NB") {
-    return 5;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "COUNT_WIDTH") {
-    return 8;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "FRACTION_BITS") {
-    return 16 - np;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "GROUP_SIZE") {
-    return 16;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "DARK_LABELS") {
-    return 4;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "BRIGHT_LABELS") {
-    return 4;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "BRIGHT_FROM") {
-    return 0;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "OFFSET_BITS") {
-    return 0;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "ADVANTAGE_WIDTH") {
-    return 4;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "POINTER_SHIFT") {
-    return 4;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "RIVAL_MOVES") {
-    return 0;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "ENGINE_COLUMNS") {
-    return 50;
-  }
-  if (readout == Readout::kPoolPointerLean && parameter == "COARSE_SHARE") {
-    return 12;
-  }
   if (readout == Readout::kCoarseHistogram && parameter == "NB") {
     return std::min(np, 5);
   }
@@ -166,18 +108,6 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   }
   if (readout == Readout::kPoolPointer2 && parameter == "FRACTION_BITS") {
     return 16 - np;
-  }
-  if (readout == Readout::kPoolPointer2 && parameter == "GROUP_SIZE") {
-    return 4;
-  }
-  if (readout == Readout::kPoolPointer2 && parameter == "OFFSET_BITS") {
-    return 6;
-  }
-  if (readout == Readout::kPoolPointer2 && parameter == "COARSE_SHARE") {
-    return 14;
-  }
-  if (readout == Readout::kPoolPointer2 && parameter == "TRACK_SHARE") {
-    return 20;
   }
   if (readout == Readout::kPoolPointer2Lean && parameter == "NB") {
     return 5;
@@ -261,22 +191,7 @@ int default_value(Readout readout, std::string_view parameter, int np) {
     return 0;
   }
   if (parameter == "GROUP_SIZE") {
-    return 8;
-  }
-  if (parameter == "DARK_LABELS") {
-    return 5;
-  }
-  if (parameter == "DARK_SCORE_BITS") {
     return 4;
-  }
-  if (parameter == "BRIGHT_LABELS") {
-    return 5;
-  }
-  if (parameter == "BRIGHT_SCORE_BITS") {
-    return 4;
-  }
-  if (parameter == "BRIGHT_FROM") {
-    return 6;
   }
   if (parameter == "LABELS") {
     return 5;
@@ -285,7 +200,7 @@ int default_value(Readout readout, std::string_view parameter, int np) {
     return 4;
   }
   if (parameter == "OFFSET_BITS") {
-    return 5;
+    return 6;
   }
   if (parameter == "ADVANTAGE_WIDTH") {
     return 7;
@@ -306,10 +221,10 @@ int default_value(Readout readout, std::string_view parameter, int np) {
     return 16;
   }
   if (parameter == "COARSE_SHARE") {
-    return 16;
+    return 14;
   }
   if (parameter == "TRACK_SHARE") {
-    return 16;
+    return 20;
   }
   throw std::logic_error("no parameter of this name");
 }

@@ -8,7 +8,7 @@
 
 namespace dtof {
 
-/// The read-outs of spec section 3, and poolPointer (docs/reference/poolpointer.md).
+/// The read-outs of the thesis, and ours (docs/reference/readouts.md).
 enum class Readout : int {
   kEzPointer = 0,
   kHisPointer1 = 1,
@@ -18,11 +18,9 @@ enum class Readout : int {
   kThreeSteps = 5,
   kPifh = 6,
   kHistogram = 7,
-  kPoolPointer = 8,
-  kPoolPointerLean = 9,
-  kCoarseHistogram = 10,
-  kPoolPointer2 = 11,
-  kPoolPointer2Lean = 12,
+  kCoarseHistogram = 8,
+  kPoolPointer2 = 9,
+  kPoolPointer2Lean = 10,
 };
 
 /// Those of the thesis.
@@ -36,8 +34,8 @@ inline constexpr std::array<Readout, 8> kAllReadouts = {
     Readout::kPifh,
     Readout::kHistogram};
 
-/// Those that `dtof` offers and that have RTL, in dtof_array or an array of their own.
-inline constexpr std::array<Readout, 10> kRtlReadouts = {
+/// Those that have RTL, in dtof_array or an array of their own.
+inline constexpr std::array<Readout, 11> kRtlReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
     Readout::kHisPointer,
@@ -46,29 +44,25 @@ inline constexpr std::array<Readout, 10> kRtlReadouts = {
     Readout::kThreeSteps,
     Readout::kPifh,
     Readout::kHistogram,
-    Readout::kPoolPointer,
-    Readout::kPoolPointerLean};
-
-/// All that `dtof` offers.
-inline constexpr std::array<Readout, 10> kModelReadouts = {
-    Readout::kEzPointer,
-    Readout::kHisPointer1,
-    Readout::kHisPointer,
-    Readout::kSifh,
-    Readout::kFifh,
-    Readout::kThreeSteps,
-    Readout::kPifh,
-    Readout::kHistogram,
-    Readout::kPoolPointer,
-    Readout::kPoolPointerLean};
-
-/// Those that are on trial: they have models and RTL, and are read only where they are named.
-inline constexpr std::array<Readout, 3> kTrialReadouts = {
     Readout::kCoarseHistogram,
     Readout::kPoolPointer2,
     Readout::kPoolPointer2Lean};
 
-/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram, poolpointer, poolpointer-lean.
+/// All.
+inline constexpr std::array<Readout, 11> kModelReadouts = {
+    Readout::kEzPointer,
+    Readout::kHisPointer1,
+    Readout::kHisPointer,
+    Readout::kSifh,
+    Readout::kFifh,
+    Readout::kThreeSteps,
+    Readout::kPifh,
+    Readout::kHistogram,
+    Readout::kCoarseHistogram,
+    Readout::kPoolPointer2,
+    Readout::kPoolPointer2Lean};
+
+/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram, coarsehistogram, poolpointer2, poolpointer2-lean.
 std::string_view readout_name(Readout readout);
 /// Display name as the thesis writes it, e.g. "hisPointer v1".
 std::string_view readout_title(Readout readout);
@@ -76,10 +70,8 @@ std::string_view readout_title(Readout readout);
 std::string_view readout_summary(Readout readout);
 /// The result is a pointer.
 bool is_pointer_readout(Readout readout);
-/// The pixels of a column help each other.
+/// The pixels of an engine's columns help each other.
 bool is_pool_readout(Readout readout);
-/// So do those of neighbouring columns (poolPointer 2).
-bool pools_columns(Readout readout);
 /// A histogram is scanned on the way to the result.
 bool has_histogram(Readout readout);
 /// There is RTL of it.

@@ -71,13 +71,6 @@ std::string_view sram_title(SramKind kind) {
   throw std::logic_error("an SRAM of no kind");
 }
 
-ColumnRange ArraySram::columns_of_bit(int bit) const {
-  if (kind != SramKind::kPoolPair) {
-    return columns;
-  }
-  return {columns.first + bit / (sram.width() / columns.count), 1};
-}
-
 std::vector<ArraySram> array_srams(const RtlReadout& rtl) {
   std::vector<ArraySram> srams;
   for (const RtlSram& sram : rtl.srams()) {

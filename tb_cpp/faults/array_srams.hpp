@@ -28,9 +28,6 @@ struct ArraySram {
   SramKind kind = SramKind::kHistogram;
   ColumnRange columns;
   RtlSram sram;
-
-  /// The columns that use this bit of a word: a pair of columns has a half each.
-  [[nodiscard]] ColumnRange columns_of_bit(int bit) const;
 };
 
 /// All SRAMs of the array in the order of their columns. Throws std::logic_error for one that has no kind.

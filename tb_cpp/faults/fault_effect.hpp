@@ -18,7 +18,8 @@ struct PixelPlace {
   bool operator==(const PixelPlace&) const = default;
 };
 
-/// The pixels that a fault may touch: those of its columns, without the faulty pixel itself.
+/// The pixels that a fault may touch: those of its columns, of a pool read-out its engine's, without the
+/// faulty pixel itself.
 struct FaultReach {
   ColumnRange columns;
   std::optional<PixelPlace> faulty_pixel;

@@ -20,19 +20,18 @@ namespace {
 
 constexpr double kPercent = 100.0;
 constexpr double kMillimetres = 1000.0;
-constexpr double kOthers = kFaultRows - 1;  // pixels of a column besides the faulty one
+constexpr double kOthers = kFaultEngineColumns * kFaultRows - 1;  // pixels besides the faulty one, at most
 
 // Columns, rows, acquisitions, command, seed, conclusions, and the tables.
 constexpr std::string_view kReport = R"(# Faults
 
-What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels (poolPointer: six
+What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels (poolPointer 2: six
 columns per engine) that see a part of the scene `room`, preset `thesis`, 14 klux, {} acquisitions per frame.
 Command: `{}`, seed {}.
 
 {}
-A fault is compared with the frame without it. A frame holds several faults, at most one per column, and a third of
-the columns (or SRAMs) has none; "other columns" counts the pixels that changed there, or in the other column of a
-pair. A pixel is spoilt if its depth moved by more than 3 % of its distance. In brackets: 95 % intervals (shares of
+A fault is compared with the frame without it. A frame holds several faults, at most one per column (poolPointer 2: one per engine, whose columns hear each other),
+and a third of the columns (or engines) has none; "other columns" counts the pixels that changed there. A pixel is spoilt if its depth moved by more than 3 % of its distance. In brackets: 95 % intervals (shares of
 faults: Wilson's; means over faults: Student's).
 
 ## One flipped bit

@@ -25,15 +25,21 @@ constexpr int kFlipsPerScratchFlip = 6;
 constexpr int kFlipsPerColumnFault = 12;
 constexpr int kResetsPerState = 3;
 constexpr int kFramesPerJob = 6;
-/// poolPointer's engines decode, choose and decide in these.
+/// poolPointer 2's engines decode, choose and decide in these.
 constexpr std::array kEngineStates = {RtlState::kM1, RtlState::kM3, RtlState::kM5};
 
 int pick(CounterRandom& random, int count) {
   return static_cast<int>(random.bits64() % static_cast<std::uint64_t>(count));
 }
 
-/// Of `places` on an array those that have a fault in this frame: two of three, in turns.
+/// Of the columns, or engines, of an array those that have a fault in this frame: two of three, in turns.
 bool has_fault(int place, int frame) { return (place + frame) % 3 != 0; }
+
+/// A column with a fault, and the columns that hear it.
+struct FaultPlace {
+  int column;
+  ColumnRange reach;
+};
 
 /// A frame's worth of faults: what it feeds the array with, and what happens in its clocks.
 struct FaultyFrame {
@@ -64,6 +70,27 @@ class FaultPlan {
   }
 
  private:
+  /// Columns that hear each other have one fault between them.
+  std::vector<FaultPlace> places() {
+    const int together = subject_.parameters().columns_together();
+    std::vector<FaultPlace> found;
+    for (int first = 0; first < kFaultColumns; first += together) {
+      if (has_fault(first / together, frame_)) {
+        found.push_back({together > 1 ? first + pick(random_, together) : first, {first, together}});
+      }
+    }
+    return found;
+  }
+
+  [[nodiscard]] const RtlSram& sram_of(int column) const {
+    const auto found = std::ranges::find_if(
+        srams_, [&](const ArraySram& candidate) { return candidate.columns.contains(column); });
+    if (found == srams_.end()) {
+      throw std::logic_error(fmt::format("column {} has no SRAM of this kind", column));
+    }
+    return found->sram;
+  }
+
   struct Flip {
     RtlSram sram;
     std::uint64_t clock;
@@ -96,13 +123,10 @@ class FaultPlan {
   FaultyFrame flipped_bits() {
     FaultyFrame faulty;
     std::vector<Flip> flips;
-    for (std::size_t i = 0; i < srams_.size(); ++i) {
-      if (!has_fault(static_cast<int>(i), frame_)) {
-        continue;
-      }
-      const RtlSram& sram = srams_[i].sram;
+    for (const FaultPlace& place : places()) {
+      const RtlSram& sram = sram_of(place.column);
       flips.push_back({sram, random_clock(), pick(random_, sram.words()), pick(random_, sram.width())});
-      faulty.reaches.push_back({srams_[i].columns_of_bit(flips.back().bit), std::nullopt});
+      faulty.reaches.push_back({place.reach, std::nullopt});
     }
     faulty.disturbance = [flips](const RtlCycle& clock) mutable {
       for (Flip& flip : flips) {
@@ -122,13 +146,10 @@ class FaultPlan {
     };
     FaultyFrame faulty;
     std::vector<Stuck> stuck;
-    for (std::size_t i = 0; i < srams_.size(); ++i) {
-      if (!has_fault(static_cast<int>(i), frame_)) {
-        continue;
-      }
-      const RtlSram& sram = srams_[i].sram;
+    for (const FaultPlace& place : places()) {
+      const RtlSram& sram = sram_of(place.column);
       stuck.push_back({sram, pick(random_, sram.width()), pick(random_, 2) != 0});
-      faulty.reaches.push_back({srams_[i].columns_of_bit(stuck.back().bit), std::nullopt});
+      faulty.reaches.push_back({place.reach, std::nullopt});
     }
     // A bit that reads the same from every word: the word that is read in this clock has it.
     faulty.disturbance = [stuck](const RtlCycle&) mutable {
@@ -145,14 +166,11 @@ class FaultPlan {
   FaultyFrame stream_faults() {
     FaultyFrame faulty;
     faulty.columns = subject_.scene().frame;
-    for (int column = 0; column < kFaultColumns; ++column) {
-      if (!has_fault(column, frame_)) {
-        continue;
-      }
+    for (const FaultPlace& place : places()) {
       const int row = pick(random_, kFaultRows);
-      ColumnStream& stream = faulty.columns[static_cast<std::size_t>(column)];
+      ColumnStream& stream = faulty.columns[static_cast<std::size_t>(place.column)];
       stream = faulty_stream(stream, row);
-      FaultReach reach{{column, 1}, PixelPlace{column, row}};
+      FaultReach reach{place.reach, PixelPlace{place.column, row}};
       if (fault_.kind == FaultKind::kStuckTimestamps) {
         reach.faulty_pixel.reset();
       }

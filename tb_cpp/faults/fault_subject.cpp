@@ -43,6 +43,12 @@ DepthScale depth_scale(int np) {
   return {sensor.integration_time_s, np, sensor.pulse_fwhm_s};
 }
 
+ReadoutParameters parameters_of(Readout readout) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(readout);
+  parameters.pool.engine_columns = kFaultEngineColumns;
+  return parameters;
+}
+
 }  // namespace
 
 FaultScene make_fault_scene(std::uint32_t acquisitions, std::uint64_t seed) {
@@ -69,7 +75,7 @@ FaultScene make_fault_scene(std::uint32_t acquisitions, std::uint64_t seed) {
 
 FaultSubject::FaultSubject(Readout readout, const FaultScene& scene)
     : scene_(scene),
-      configuration_(find_rtl_configuration(ReadoutParameters::defaults(readout), kFaultRows, kFaultColumns)),
+      configuration_(find_rtl_configuration(parameters_of(readout), kFaultRows, kFaultColumns)),
       scale_(depth_scale(configuration_.parameters.np)),
       expected_(model(scene.frame, scene.acquisitions)),
       expected_next_(model(scene.next, scene.next_acquisitions)) {
@@ -86,11 +92,11 @@ FaultSubject::FaultSubject(Readout readout, const FaultScene& scene)
 std::vector<PixelResult> FaultSubject::model(std::span<const ColumnStream> columns,
                                              std::uint32_t acquisitions) const {
   std::vector<PixelResult> results(columns.size() * static_cast<std::size_t>(kFaultRows));
-  const std::unique_ptr<ReadoutModel> model = make_readout_model(parameters());
+  const std::vector<std::vector<PixelResult>> read =
+      make_readout_model(parameters())->run_columns(columns, acquisitions);
   for (std::size_t column = 0; column < columns.size(); ++column) {
-    const std::vector<PixelResult> read = model->run_column(columns[column], acquisitions);
-    for (std::size_t row = 0; row < read.size(); ++row) {
-      results[row * columns.size() + column] = read[row];
+    for (std::size_t row = 0; row < read[column].size(); ++row) {
+      results[row * columns.size() + column] = read[column][row];
     }
   }
   return results;

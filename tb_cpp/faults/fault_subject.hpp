@@ -26,6 +26,7 @@ struct FaultScene {
 
 inline constexpr int kFaultRows = 64;
 inline constexpr int kFaultColumns = 12;
+inline constexpr int kFaultEngineColumns = 6;
 
 /// Throws InputError unless there are 1 to 65,535 acquisitions.
 FaultScene make_fault_scene(std::uint32_t acquisitions, std::uint64_t seed);

@@ -37,12 +37,25 @@ CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) {
   }
 }
 
-std::vector<double> CsvTable::column(std::string_view name) const {
+std::size_t CsvTable::field_of(std::string_view name) const {
   const auto found = std::ranges::find(lines_.front(), name);
   if (found == lines_.front().end()) {
     throw InputError(fmt::format("{}: no column is called '{}'", path_.string(), name));
   }
-  const auto field = static_cast<std::size_t>(found - lines_.front().begin());
+  return static_cast<std::size_t>(found - lines_.front().begin());
+}
+
+std::vector<std::string> CsvTable::texts(std::string_view name) const {
+  const std::size_t field = field_of(name);
+  std::vector<std::string> values;
+  for (std::size_t line = 1; line < lines_.size(); ++line) {
+    values.push_back(lines_[line][field]);
+  }
+  return values;
+}
+
+std::vector<double> CsvTable::column(std::string_view name) const {
+  const std::size_t field = field_of(name);
   std::vector<double> values;
   for (std::size_t line = 1; line < lines_.size(); ++line) {
     values.push_back(number(line, field));

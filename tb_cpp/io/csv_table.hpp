@@ -20,12 +20,15 @@ class CsvTable {
   /// Numbers below a column's name. Throws InputError for a name that there is not and for a field that is no
   /// number.
   [[nodiscard]] std::vector<double> column(std::string_view name) const;
+  /// Fields below a column's name, as they are. Throws InputError for a name that there is not.
+  [[nodiscard]] std::vector<std::string> texts(std::string_view name) const;
   /// Numbers that follow a line's name.
   [[nodiscard]] std::vector<double> row(std::string_view name) const;
   /// Numbers of every line, without the lines' names; lines whose other fields are all empty are left out.
   [[nodiscard]] std::vector<std::vector<double>> rows() const;
 
  private:
+  [[nodiscard]] std::size_t field_of(std::string_view name) const;
   [[nodiscard]] double number(std::size_t line, std::size_t field) const;
   [[nodiscard]] std::vector<double> numbers(std::size_t line) const;
 

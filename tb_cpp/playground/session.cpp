@@ -63,6 +63,7 @@ PlaygroundSession::PlaygroundSession(const PlaygroundRequest& request)
   for (const std::string& name : request.readouts) {
     readouts_.push_back(default_parameters(parse_readout(name), scene_.model()));
   }
+  waiting_.resize(readouts_.size());
   results_.assign(readouts_.size(), std::vector<PixelResult>(truth_.size()));
 }
 
@@ -81,15 +82,22 @@ void PlaygroundSession::read_column(int column) {
   const auto rows = static_cast<std::size_t>(scene_.rows());
   const ColumnStream stream = scene_.column(column);
   for (std::size_t r = 0; r < readouts_.size(); ++r) {
-    const auto model = make_readout_model(readouts_[r]);
     // Arrays of pool read-outs may have more rows than the sensor.
     const ArrayRows array = array_rows(scene_, {.first = 0, .count = scene_.rows()}, readouts_[r].readout);
-    const std::vector<PixelResult> results = model->run_column(
-        array.source->rows() == scene_.rows() ? stream : array.source->column(column), scene_.acquisitions());
-    for (std::size_t row = 0; row < rows; ++row) {
-      results_[r][row * static_cast<std::size_t>(scene_.columns()) + static_cast<std::size_t>(column)] =
-          results[static_cast<std::size_t>(array.region.first) + row];
+    std::vector<ColumnStream>& waiting = waiting_[r];
+    waiting.push_back(array.source->rows() == scene_.rows() ? stream : array.source->column(column));
+    if (static_cast<int>(waiting.size()) < readouts_[r].columns_together() && column + 1 < scene_.columns()) {
+      continue;
     }
+    const auto results = make_readout_model(readouts_[r])->run_columns(waiting, scene_.acquisitions());
+    const std::size_t first = static_cast<std::size_t>(column) + 1 - results.size();
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      for (std::size_t row = 0; row < rows; ++row) {
+        results_[r][row * static_cast<std::size_t>(scene_.columns()) + first + i] =
+            results[i][static_cast<std::size_t>(array.region.first) + row];
+      }
+    }
+    waiting.clear();
   }
 }
 

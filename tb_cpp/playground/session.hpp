@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/detection.hpp"
 #include "core/parameters.hpp"
 #include "core/result.hpp"
 #include "host/range_converter.hpp"
@@ -53,7 +54,8 @@ class PlaygroundSession {
 
   /// Fits the look-up tables.
   void calibrate();
-  /// Reads a column out.
+  /// Reads a column out; all of them are to be read, from left to right. Columns that hear each other wait
+  /// for the last of them.
   void read_column(int column);
   /// What a read-out of the request (by its place there) made of the columns, after all were read.
   [[nodiscard]] PlaygroundFrame frame(std::size_t readout) const;
@@ -65,7 +67,8 @@ class PlaygroundSession {
   std::vector<float> reflectivity_;
   std::vector<ReadoutParameters> readouts_;
   std::vector<RangeConverter> tables_;
-  std::vector<std::vector<PixelResult>> results_;  // of each read-out, row-major
+  std::vector<std::vector<ColumnStream>> waiting_;  // of each read-out, the last columns, not yet read
+  std::vector<std::vector<PixelResult>> results_;   // of each read-out, row-major
 };
 
 }  // namespace dtof

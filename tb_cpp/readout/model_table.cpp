@@ -9,7 +9,6 @@ namespace dtof {
 std::unique_ptr<ReadoutModel> make_pointer_readouts(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_partitioned_histogram(const ReadoutParameters& parameters);
-std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_coarse_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_pool_pointer2(const ReadoutParameters& parameters);
 
@@ -26,9 +25,6 @@ std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parame
     case Readout::kPifh:
     case Readout::kHistogram:
       return make_partitioned_histogram(parameters);
-    case Readout::kPoolPointer:
-    case Readout::kPoolPointerLean:
-      return make_pool_pointer(parameters);
     case Readout::kCoarseHistogram:
       return make_coarse_histogram(parameters);
     case Readout::kPoolPointer2:

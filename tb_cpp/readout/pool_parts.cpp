@@ -127,8 +127,21 @@ BestLabels best_labels(std::span<const int> values) {
   return {first, best(first)};
 }
 
+PoolPointerWord first_pointer_word(const PoolTracks& tracks, const PoolGroup& group,
+                                   std::span<const int> beliefs, const PoolPointerParameters& parameters) {
+  const auto start = [&](int label) {
+    return group.centre(label) + (label == tracks.leader ? tracks.offset * kUnitsPerOffset : 0);
+  };
+  const auto [leader, rival] = best_labels(beliefs);
+  const int margin = beliefs[static_cast<std::size_t>(leader)] - beliefs[static_cast<std::size_t>(rival)];
+  return {.leader = leader,
+          .advantage = std::min(margin, (1 << (parameters.count_bits - 1)) - 1),
+          .pointer = start(leader),
+          .rival = parameters.rival_moves ? start(rival) / kUnitsPerCell : rival};
+}
+
 void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,
-                     std::uint32_t acquisition, std::int32_t largest_step, const PointerWindows& windows,
+                     std::uint32_t acquisition, const PointerWindows& windows,
                      const PoolPointerParameters& parameters) {
   const PoolPointerWord before = word;
   const std::int32_t distance = in_cells(position - before.pointer);
@@ -139,10 +152,9 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   const bool rival_hit = !hit && within(rival_distance, windows.rival_reach);
 
   if (within(distance, kReachCells)) {
-    const std::int32_t step = std::min(
+    const std::int32_t step =
         gear_step(parameters.count_bits <= kShortCountBits ? std::span<const Gear>(kShortGears) : kGears,
-                  before.advantage),
-        largest_step);
+                  before.advantage);
     const std::int32_t weight =
         windows.weight[static_cast<std::size_t>(distance >= 0 ? distance : ~distance)];
     // A quarter of the product, whose part below the pointer's unit becomes a probability.
@@ -176,6 +188,46 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   } else if (rival_hit && counted) {
     word.advantage = before.advantage - 1;
   }
+}
+
+std::vector<std::array<int, kMostLabels>> chain_beliefs(std::span<const ChainNode> chain) {
+  using Messages = std::array<int, kMostLabels>;
+  const auto send = [](const ChainNode& from, const Messages& incoming, const ChainNode& to) {
+    Messages sums{};
+    int best = std::numeric_limits<int>::min();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(from.labels); ++k) {
+      sums[k] = from.evidence[k] + incoming[k];
+      best = std::max(best, sums[k]);
+    }
+    Messages message{};
+    for (std::size_t l = 0; l < static_cast<std::size_t>(to.labels); ++l) {
+      message[l] = -from.penalty;
+      for (std::size_t k = 0; k < static_cast<std::size_t>(from.labels); ++k) {
+        if (std::abs(from.position[k] - to.position[l]) <= kUnitsPerCoarseBin) {
+          message[l] = std::max(message[l], sums[k] - best);
+        }
+      }
+    }
+    return message;
+  };
+  std::vector<Messages> beliefs(chain.size());
+  Messages incoming{};
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    if (i > 0) {
+      incoming = send(chain[i - 1], incoming, chain[i]);
+    }
+    beliefs[i] = incoming;
+  }
+  incoming = {};
+  for (std::size_t i = chain.size(); i-- > 0;) {
+    if (i + 1 < chain.size()) {
+      incoming = send(chain[i + 1], incoming, chain[i]);
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(chain[i].labels); ++k) {
+      beliefs[i][k] += chain[i].evidence[k] + incoming[k];
+    }
+  }
+  return beliefs;
 }
 
 std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits) {

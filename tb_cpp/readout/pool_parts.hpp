@@ -5,19 +5,56 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
-#include "readout/pool_pointer.hpp"
+#include "core/parameters.hpp"
+#include "core/result.hpp"
 
 namespace dtof {
 
-// What poolPointer and poolPointer 2 share below the level of their phases.
+// The parts of poolPointer 2 below the level of its phases (docs/reference/poolpointer2.md, which has the
+// same names). Positions are in units of 2^-11 coarse bin: 16 bits for the range, whatever NP. A cell is a
+// quarter of a coarse bin, 512 units.
 
+inline constexpr std::size_t kCoarseBins = 32;
+inline constexpr std::size_t kMostLabels = 8;
+inline constexpr std::int32_t kUnitsPerCoarseBin = 2048;
+inline constexpr std::int32_t kUnitsPerCell = 512;
 inline constexpr std::size_t kCoarsePairs = kCoarseBins - 1;
 inline constexpr int kFirstPenalisedLabel = 2;
 inline constexpr std::int32_t kHitCells = 5;    // a timestamp this near to a pointer supports it
 inline constexpr std::int32_t kReachCells = 8;  // farther timestamps move nothing
 inline constexpr std::int32_t kUnitsPerOffset = kUnitsPerCoarseBin / 32;
 inline constexpr std::int32_t kPoolPositions = 1 << 16;
+
+using CoarseHistogram = std::array<std::uint16_t, kCoarseBins>;
+
+/// What a group keeps of its coarse histogram: the group word.
+struct PoolGroup {
+  int labels;                                         ///< candidates in use
+  int score_limit;                                    ///< 2^score bits - 1
+  int background;                                     ///< B, 0 .. 39
+  std::array<std::int32_t, kMostLabels> centre_cell;  ///< 0 .. 127; the candidate's position is its low end
+
+  [[nodiscard]] std::int32_t centre(int label) const {
+    return kUnitsPerCell * centre_cell[static_cast<std::size_t>(label)];
+  }
+};
+
+/// Track word of a pixel.
+struct PoolTracks {
+  std::array<int, kMostLabels> score{};
+  int leader = 0;
+  int offset = 0;  ///< of the leader, 32nds of a coarse bin
+};
+
+/// Pointer word of a pixel.
+struct PoolPointerWord {
+  int leader;            ///< its label; only kept if the rival does not move
+  int advantage;         ///< of the leader over the rival, 0 .. 2^count_bits - 1
+  std::int32_t pointer;  ///< of the leader, units
+  int rival;             ///< rival's pointer, cells, or its label if it does not move
+};
 
 /// Sums over adjacent pairs of coarse bins, and which of them are taken by a candidate or beside one.
 using PairSums = std::array<int, kCoarsePairs>;
@@ -51,16 +88,31 @@ struct BestLabels {
 };
 BestLabels best_labels(std::span<const int> values);
 
+/// What a pixel begins the pointer phase with.
+PoolPointerWord first_pointer_word(const PoolTracks& tracks, const PoolGroup& group,
+                                   std::span<const int> beliefs, const PoolPointerParameters& parameters);
+
 /// Windows of the pointer phase, in cells.
 struct PointerWindows {
   std::array<std::int32_t, 8> weight;  ///< of a timestamp by its distance: a redescending M-estimator
   std::int32_t rival_reach;            ///< a timestamp this near supports the rival
   bool operator==(const PointerWindows&) const = default;
 };
-/// The word after a timestamp at `position` of acquisition `acquisition`; steps are at most `largest_step`.
+/// The word after a timestamp at `position` of acquisition `acquisition`.
 void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t position,
-                     std::uint32_t acquisition, std::int32_t largest_step, const PointerWindows& windows,
+                     std::uint32_t acquisition, const PointerWindows& windows,
                      const PoolPointerParameters& parameters);
+
+/// A pixel's labels in a chain along the column.
+struct ChainNode {
+  int labels;
+  int penalty;                                     ///< lambda of messages that this pixel sends
+  std::array<std::int32_t, kMostLabels> position;  ///< units
+  std::array<int, kMostLabels> evidence;
+};
+/// Max-marginals: for each pixel and label the largest sum of evidences along the chain less `penalty`
+/// wherever neighbours are more than a coarse bin apart, but for a constant of the pixel.
+std::vector<std::array<int, kMostLabels>> chain_beliefs(std::span<const ChainNode> chain);
 
 /// Code and fraction of a position as one number.
 std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
-#include <limits>
 #include <memory>
 
 #include "core/error.hpp"
@@ -152,7 +151,6 @@ void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
 
 void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event,
            const PoolPointer2Parameters& parameters) {
-  constexpr std::int32_t kNoLimit = std::numeric_limits<std::int32_t>::max();
   std::int32_t position = event.preferred;
   PointerWindows windows = parameters.windows;
   if (parameters.rival_moves != 0) {
@@ -164,7 +162,7 @@ void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event
       position = event.other;
     }
   }
-  follow_pointers(word, group, position, event.acquisition, kNoLimit, windows, parameters.common());
+  follow_pointers(word, group, position, event.acquisition, windows, parameters.common());
 }
 
 using Evidence = std::array<int, kMostLabels>;
@@ -303,10 +301,8 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
 
 PoolPointerParameters PoolPointer2Parameters::common() const {
   return {.group_size = group_rows,
-          .dark_labels = labels,
-          .dark_score_bits = score_bits,
-          .bright_labels = labels,
-          .bright_score_bits = score_bits,
+          .labels = labels,
+          .score_bits = score_bits,
           .offset_bits = offset_bits,
           .count_bits = count_bits,
           .pointer_shift = pointer_shift,
@@ -323,7 +319,7 @@ void PoolPointer2Parameters::validate() const {
   require_range("RIVAL_MOVES", rival_moves, 0, 1);
   require_range("LEFT_NEEDS_MARGIN", left_needs_margin, 0, 1);
   require_range("SMOOTH_LEFT", smooth_left, 0, 1);
-  common().validate_pool_pointer2(count_width);
+  common().validate(count_width);
 }
 
 PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions) {
@@ -505,8 +501,8 @@ class PoolPointer2Model final : public ReadoutModel {
 PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& parameters) {
   const PoolPointer2Parameters own{.count_width = parameters.count_width,
                                    .group_rows = parameters.pool.group_size,
-                                   .labels = parameters.pool.dark_labels,
-                                   .score_bits = parameters.pool.dark_score_bits,
+                                   .labels = parameters.pool.labels,
+                                   .score_bits = parameters.pool.score_bits,
                                    .offset_bits = parameters.pool.offset_bits,
                                    .count_bits = parameters.pool.count_bits,
                                    .pointer_shift = parameters.pool.pointer_shift,

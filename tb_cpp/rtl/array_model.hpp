@@ -24,8 +24,7 @@ class ArrayModel {
     std::uint16_t* raw_last_row;
     std::uint16_t* coarse_end;  ///< schedule; these are null in dtof_array
     std::uint16_t* track_end;
-    std::uint16_t* late_begin;  ///< of pool_pointer_array only
-    std::uint8_t* smooth;       ///< of pool_pointer2_array only
+    std::uint8_t* smooth;
     std::uint8_t* tdc_valid;
     std::uint32_t* timestamps;  ///< 16 bits per column, column 0 in the low half of word 0
     std::size_t timestamp_words;
@@ -43,7 +42,7 @@ class ArrayModel {
     const std::uint16_t* result_code;
     const std::uint16_t* result_fraction;
     const std::uint16_t* result_confidence;
-    const std::uint16_t* result_second;  ///< of pool_pointer_array only, else null
+    const std::uint16_t* result_second;  ///< of pool_pointer2_array only, else null
 
     const std::uint8_t*
         probe_write;  ///< column 0's histogram or pointer SRAM; silent unless built with PROBE

@@ -8,11 +8,7 @@ namespace dtof {
 std::string RtlConfiguration::to_string() const {
   std::string out = parameters.to_string();
   if (is_pool_readout(parameters.readout)) {
-    // poolPointer 2 has it among what changes its results.
-    const std::string engine = pools_columns(parameters.readout)
-                                   ? ""
-                                   : fmt::format(" ENGINE_COLUMNS={}", parameters.pool.engine_columns);
-    return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={}{}", pixels_per_sram, sram_num, engine);
+    return out + fmt::format(" PIXELS_PER_SRAM={} SRAM_NUM={}", pixels_per_sram, sram_num);
   }
   if (is_pointer_readout(parameters.readout)) {
     out += fmt::format(" POINTER_PORTS={}", pointer_ports);

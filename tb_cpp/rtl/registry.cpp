@@ -63,14 +63,10 @@ InputError no_engine_compiled(const std::string& wanted, int rows, int columns) 
       compiled += fmt::format("{}{}", compiled.empty() ? "" : " | ", text);
     }
   }
-  if (compiled.empty()) {
-    return InputError{
-        fmt::format("no RTL is compiled for {}in this program; dtof-full has its arrays (make full)", name)};
-  }
   return InputError{
       fmt::format("no RTL is compiled for {} with at least {} rows and an engine of just {} columns, which "
                   "hear each other; compiled are: {}",
-                  wanted, rows, columns, compiled)};
+                  wanted, rows, columns, compiled.empty() ? "none" : compiled)};
 }
 
 }  // namespace

@@ -204,11 +204,7 @@ class RtlReadout::Simulation {
       const PoolSchedule schedule(acquisitions, configuration_.parameters.pool);
       *ports_.coarse_end = static_cast<std::uint16_t>(schedule.coarse_end);
       *ports_.track_end = static_cast<std::uint16_t>(schedule.track_end);
-      if (ports_.late_begin != nullptr) {
-        *ports_.late_begin = static_cast<std::uint16_t>(schedule.late_begin);
-      } else {
-        *ports_.smooth = configuration_.parameters.pool.smooth == (acquisitions == acquisitions_) ? 1 : 0;
-      }
+      *ports_.smooth = configuration_.parameters.pool.smooth == (acquisitions == acquisitions_) ? 1 : 0;
     }
   }
 

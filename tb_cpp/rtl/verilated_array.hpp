@@ -27,13 +27,9 @@ class VerilatedArray : public ArrayModel {
     if constexpr (requires { model_.result_second_o; }) {
       second = &model_.result_second_o;
     }
-    if constexpr (requires { model_.smooth_i; }) {
+    if constexpr (requires { model_.coarse_end_i; }) {
       registers = {
           .coarse_end = &model_.coarse_end_i, .track_end = &model_.track_end_i, .smooth = &model_.smooth_i};
-    } else if constexpr (requires { model_.coarse_end_i; }) {
-      registers = {.coarse_end = &model_.coarse_end_i,
-                   .track_end = &model_.track_end_i,
-                   .late_begin = &model_.late_begin_i};
     } else {
       registers = {.raw = &model_.raw_i,
                    .raw_first_row = &model_.raw_first_row_i,
@@ -50,7 +46,6 @@ class VerilatedArray : public ArrayModel {
             .raw_last_row = registers.raw_last_row,
             .coarse_end = registers.coarse_end,
             .track_end = registers.track_end,
-            .late_begin = registers.late_begin,
             .smooth = registers.smooth,
             .tdc_valid = &model_.tdc_valid_i,
             .timestamps = model_.tdc_timestamp_i.data(),
@@ -87,7 +82,6 @@ class VerilatedArray : public ArrayModel {
     std::uint16_t* raw_last_row = nullptr;
     std::uint16_t* coarse_end = nullptr;
     std::uint16_t* track_end = nullptr;
-    std::uint16_t* late_begin = nullptr;
     std::uint8_t* smooth = nullptr;
   };
 

@@ -70,6 +70,26 @@ void check_engine(const StreamSource& source, std::span<const ReadoutParameters>
   }
 }
 
+std::vector<ReadoutParameters> without_unfit_engines(const StreamSource& source,
+                                                     std::vector<ReadoutParameters> readouts,
+                                                     const RunSettings& options, const Region& region) {
+  std::erase_if(readouts, [&](const ReadoutParameters& parameters) {
+    if (!options.rtl() || !is_pool_readout(parameters.readout)) {
+      return false;
+    }
+    try {
+      const ArrayRows array = array_rows(source, region.rows, parameters.readout);
+      (void)find_rtl_configurations(parameters, array.source->rows(), source.columns(), region.columns);
+      return false;
+    } catch (const InputError&) {
+      fmt::print("{} is left out: its RTL is not compiled for {} columns (--readout {} says which are).\n",
+                 readout_title(parameters.readout), source.columns(), readout_name(parameters.readout));
+      return true;
+    }
+  });
+  return readouts;
+}
+
 bool reads_samples(Readout readout, const RunSettings& options) {
   return !options.hardware() && !options.streams_only && !is_pool_readout(readout);
 }

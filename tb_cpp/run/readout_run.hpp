@@ -27,6 +27,12 @@ struct ReadoutRun {
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
                   const RunSettings& options, const Region& region);
 
+/// The read-outs of `--readout all` without those that pool pixels and whose RTL is not compiled for the
+/// source's columns, each of which is named on standard output. All of them if the engine is not the RTL.
+std::vector<ReadoutParameters> without_unfit_engines(const StreamSource& source,
+                                                     std::vector<ReadoutParameters> readouts,
+                                                     const RunSettings& options, const Region& region);
+
 /// True if run_readout asks a photon source that can be sampled (SampledSource) for the photons of one
 /// measurement at a time; false if it reads streams: hardware, the pool read-outs, --record.
 bool reads_samples(Readout readout, const RunSettings& options);

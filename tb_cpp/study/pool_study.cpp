@@ -92,8 +92,10 @@ PoolWinners as_winners(std::span<const Measurement> column, const PoolWinners& g
   const double units = std::ldexp(1.0, kFractionOf16 - np);
   PoolWinners winners;
   for (std::size_t row = 0; row < column.size(); ++row) {
-    winners.push_back(
-        {static_cast<std::int32_t>(std::lround(column[row].position * units)), 0, groups[row].background});
+    winners.push_back({.position = static_cast<std::int32_t>(std::lround(column[row].position * units)),
+                       .lost = 0,
+                       .margin = 0,
+                       .background = groups[row].background});
   }
   return winners;
 }
@@ -134,7 +136,7 @@ FullHistograms read_full_histograms(const ColumnStream& stream, const SensorMode
   return read;
 }
 
-constexpr std::size_t kReferences = 4;  // estimators that are no design
+constexpr std::size_t kReferences = 3;  // estimators that are no design
 
 }  // namespace
 
@@ -203,7 +205,7 @@ PoolStudy::PoolStudy(SensorModel sensor, double klux, std::span<const std::strin
       threads_(threads),
       scale_(sensor_.integration_time_s, sensor_.np, sensor_.pulse_fwhm_s) {
   if (references_) {
-    titles_ = {"poolPointer", "matched filter (single pixel)", "matched filter, S1", "pooled matched filter"};
+    titles_ = {"matched filter (single pixel)", "matched filter, S1", "pooled matched filter"};
   }
   for (const std::string& text : designs) {
     designs_.push_back(parse_pool_design(text));
@@ -230,7 +232,7 @@ PoolStudy::PoolStudy(SensorModel sensor, double klux, std::span<const std::strin
     for (std::size_t i = 1; i < positions[e].size(); i += 2) {
       right.push_back(positions[e][i]);
     }
-    const bool continuous = references_ && e > 0 && e < kReferences;
+    const bool continuous = references_ && e < kReferences;
     converters_.push_back(
         calibration.fit(right, continuous ? 0.0 : std::ldexp(1.0, sensor_.np - kFractionOf16), seed_));
   }
@@ -257,16 +259,9 @@ PoolStudy::Positions PoolStudy::read(const TargetMap& targets, std::uint32_t fra
       const ColumnStream stream = source.column(static_cast<int>(column));
       events.push_back(pool_column_events(stream, sensor_.np, sensor_.acquisitions));
       if (references_) {
-        const ReadoutParameters today = default_parameters(Readout::kPoolPointer, sensor_);
-        std::vector<Measurement> measured;
-        for (const PixelResult& result :
-             make_readout_model(today)->run_column(stream, sensor_.acquisitions)) {
-          measured.push_back(to_measurement(result, today.fraction_bits));
-        }
-        store(0, column, measured);
         const FullHistograms full = read_full_histograms(stream, sensor_, source, static_cast<int>(column));
-        store(1, column, full.single);
-        store(3, column, full.pooled);
+        store(0, column, full.single);
+        store(2, column, full.pooled);
         single.push_back(full.single);
       }
     }
@@ -298,7 +293,7 @@ PoolStudy::Positions PoolStudy::read(const TargetMap& targets, std::uint32_t fra
           for (std::size_t row = 0; row < rows; ++row) {
             values[row].position += std::ldexp(moved[row] - filter[row].position, -fraction_bits);
           }
-          store(2, begin + i, values);
+          store(1, begin + i, values);
           filter_left = filter;
         }
       }

@@ -33,15 +33,15 @@ struct PoolFrame {
 PoolFrame draw_pool_frame(const SensorModel& sensor, const TargetMap& targets, double klux,
                           std::uint64_t seed, std::uint32_t frame, int engine_columns, int threads);
 
-/// Reads whole maps out with today's poolPointer and designs of poolPointer 2, each with and without S1, and
-/// with the matched filters of SceneStudy, the single pixel's also with S1. All see the same photons.
+/// Reads whole maps out with designs of poolPointer 2, each with and without S1, and with the matched filters
+/// of SceneStudy, the single pixel's also with S1. All see the same photons.
 class PoolStudy {
  public:
   /// All designs have the same engine_columns. `references`: also those that are no design.
   PoolStudy(SensorModel sensor, double klux, std::span<const std::string> designs, bool references,
             std::uint64_t seed, int threads, TableRule table);
 
-  /// Today's poolPointer, the matched filters, then each design without and with S1.
+  /// The matched filters, then each design without and with S1.
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
   /// One measurement an estimator; the scene's map is read whole. Throws InputError if the scene wants less.
   [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;

@@ -18,43 +18,40 @@ namespace {
 
 struct Parameter {
   std::string_view name;
-  bool pool;       ///< of the pool read-outs, of those only of poolPointer 2 where `two` says so
+  bool pool;       ///< of the pool read-outs
   bool pixelwise;  ///< of the others
-  bool two;
   int (*get)(const ReadoutParameters&);
   void (*set)(ReadoutParameters&, int);
 };
 
-// LABELS and SCORE_BITS: of dark and bright groups alike.
 constexpr std::array<Parameter, 8> kParameters = {{
-    {"COUNT_WIDTH", true, true, false, [](const ReadoutParameters& p) { return p.count_width; },
+    {"COUNT_WIDTH", true, true, [](const ReadoutParameters& p) { return p.count_width; },
      [](ReadoutParameters& p, int value) { p.count_width = value; }},
-    {"FRACTION_BITS", false, true, false, [](const ReadoutParameters& p) { return p.fraction_bits; },
+    {"FRACTION_BITS", false, true, [](const ReadoutParameters& p) { return p.fraction_bits; },
      [](ReadoutParameters& p, int value) { p.fraction_bits = value; }},
-    {"WINDOW_CENTRED", false, true, false,
-     [](const ReadoutParameters& p) { return p.window_centred ? 1 : 0; },
+    {"WINDOW_CENTRED", false, true, [](const ReadoutParameters& p) { return p.window_centred ? 1 : 0; },
      [](ReadoutParameters& p, int value) { p.window_centred = value != 0; }},
-    {"LABELS", true, false, false, [](const ReadoutParameters& p) { return p.pool.bright_labels; },
-     [](ReadoutParameters& p, int value) { p.pool.dark_labels = p.pool.bright_labels = value; }},
-    {"SCORE_BITS", true, false, false, [](const ReadoutParameters& p) { return p.pool.bright_score_bits; },
-     [](ReadoutParameters& p, int value) { p.pool.dark_score_bits = p.pool.bright_score_bits = value; }},
-    {"COARSE_SHARE", true, false, false, [](const ReadoutParameters& p) { return p.pool.coarse_share; },
+    {"LABELS", true, false, [](const ReadoutParameters& p) { return p.pool.labels; },
+     [](ReadoutParameters& p, int value) { p.pool.labels = value; }},
+    {"SCORE_BITS", true, false, [](const ReadoutParameters& p) { return p.pool.score_bits; },
+     [](ReadoutParameters& p, int value) { p.pool.score_bits = value; }},
+    {"COARSE_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.coarse_share; },
      [](ReadoutParameters& p, int value) { p.pool.coarse_share = value; }},
-    {"TRACK_SHARE", true, false, false, [](const ReadoutParameters& p) { return p.pool.track_share; },
+    {"TRACK_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.track_share; },
      [](ReadoutParameters& p, int value) { p.pool.track_share = value; }},
-    {"SMOOTH", true, false, true, [](const ReadoutParameters& p) { return p.pool.smooth ? 1 : 0; },
+    {"SMOOTH", true, false, [](const ReadoutParameters& p) { return p.pool.smooth ? 1 : 0; },
      [](ReadoutParameters& p, int value) { p.pool.smooth = value != 0; }},
 }};
 
 bool has(Readout readout, const Parameter& parameter) {
-  return is_pool_readout(readout) ? parameter.pool && (!parameter.two || pools_columns(readout))
+  return is_pool_readout(readout) ? parameter.pool
                                   : parameter.pixelwise && has_parameter(readout, parameter.name);
 }
 
 std::string names(bool Parameter::*owner) {
   std::string list;
   for (const Parameter& parameter : kParameters) {
-    if (parameter.*owner && (!parameter.two || owner == &Parameter::two)) {
+    if (parameter.*owner) {
       list += (list.empty() ? "" : ", ") + std::string(parameter.name);
     }
   }
@@ -70,8 +67,7 @@ bool parse_number(std::string_view text, int& value) {
 }  // namespace
 
 std::string variant_parameters_help() {
-  return fmt::format("{}; pool read-outs: {}; poolpointer2 also: {}", names(&Parameter::pixelwise),
-                     names(&Parameter::pool), names(&Parameter::two));
+  return fmt::format("{}; pool read-outs: {}", names(&Parameter::pixelwise), names(&Parameter::pool));
 }
 
 ReadoutParameters parse_variant(const std::string& text, const SensorModel& sensor) {
@@ -82,7 +78,7 @@ ReadoutParameters parse_variant(const std::string& text, const SensorModel& sens
   if (colon == std::string::npos) {
     throw malformed();
   }
-  ReadoutParameters parameters = default_parameters(parse_named_readout(text.substr(0, colon)), sensor);
+  ReadoutParameters parameters = default_parameters(parse_readout(text.substr(0, colon)), sensor);
   std::string_view rest = std::string_view(text).substr(colon + 1);
   for (bool more = true; more;) {
     const std::size_t comma = rest.find(',');

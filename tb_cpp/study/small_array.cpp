@@ -51,7 +51,7 @@ SensorModel sharing_the_laser(const SensorModel& sensor, const SpotGrid& grid) {
 void check_small_readout(const std::string& name, const SensorModel& sensor) {
   const RivalEntry* const entry = rival_or_none(name);
   if (entry == nullptr) {
-    (void)parse_named_readout(name);
+    (void)parse_readout(name);
   } else if (const int frames = entry->make(sensor)->frames(); frames != 1) {
     throw InputError(fmt::format("small array: {} needs {} frames, not one", name, frames));
   }
@@ -69,7 +69,7 @@ SmallArray::SmallArray(const SensorModel& sensor, SpotGrid grid, double klux,
     const RivalEntry* const entry = rival_or_none(name);
     Reader& reader = readers_.emplace_back();
     if (entry == nullptr) {
-      reader.readout = {default_parameters(parse_named_readout(name), sensor_)};
+      reader.readout = {default_parameters(parse_readout(name), sensor_)};
       titles_.emplace_back(readout_title(reader.readout.front().readout));
       tables_.push_back(calibration.fit(photons, reader.readout, calibration_seed, threads_).front());
       continue;

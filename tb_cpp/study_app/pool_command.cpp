@@ -21,6 +21,7 @@
 #include "metrics/confidence_interval.hpp"
 #include "report/table.hpp"
 #include "sensor/preset.hpp"
+#include "study/earlier_shares.hpp"
 #include "study/pool_study.hpp"
 #include "study_app/commands.hpp"
 #include "study_app/scene_list.hpp"
@@ -34,6 +35,7 @@ struct PoolOptions : SceneChoice {
   std::vector<std::string> designs = {""};
   bool references = true;
   int seeds = 4;
+  std::string before;  ///< file of EarlierShares, none if empty
   std::string table = "flat";
   int threads = 0;
   std::string out = "build/pool";
@@ -140,7 +142,27 @@ std::string per_cent(const Estimate& share) {
                      50.0 * (share.interval.high - share.interval.low));
 }
 
-Table pooled_table(const Scores& scores) {
+/// Share of the scenes' pixels together; none where the earlier run lacks a scene.
+std::optional<double> earlier_share(const EarlierShares& before, double klux, const Scores& scores,
+                                    const std::vector<std::size_t>& scenes, const Figure& figure) {
+  double pixels = 0.0;
+  double hits = 0.0;
+  for (const std::size_t s : scenes) {
+    const auto count = static_cast<double>(scores.pixels({s}, figure));
+    if (count == 0.0) {
+      continue;
+    }
+    const std::optional<Estimate> share = before.share(klux, scores.scenes()[s], figure.column);
+    if (!share) {
+      return std::nullopt;
+    }
+    pixels += count;
+    hits += count * share->value;
+  }
+  return pixels > 0.0 ? std::optional(hits / pixels) : std::nullopt;
+}
+
+Table pooled_table(double klux, const Scores& scores, const std::optional<EarlierShares>& before) {
   std::vector<std::string> header = {"estimator"};
   for (const Figure& figure : kFigures) {
     header.emplace_back(figure.name);
@@ -151,6 +173,14 @@ Table pooled_table(const Scores& scores) {
     std::vector<std::string> row = {scores.estimators()[e]};
     for (const Figure& figure : kFigures) {
       row.push_back(scores.pixels(scenes, figure) == 0 ? "-" : per_cent(scores.estimate(scenes, e, figure)));
+    }
+    table.add(std::move(row));
+  }
+  if (before) {
+    std::vector<std::string> row = {before->estimator() + ", an earlier run"};
+    for (const Figure& figure : kFigures) {
+      const std::optional<double> share = earlier_share(*before, klux, scores, scenes, figure);
+      row.push_back(share ? fmt::format("{:.2f}", 100.0 * *share) : "-");
     }
     table.add(std::move(row));
   }
@@ -175,35 +205,35 @@ Table scene_table(const Scores& scores, const Figure& first, const Figure& secon
   return table;
 }
 
-/// Where a design is worse than today's read-out by more than the interval of the difference over the seeds.
-void add_losses(Table& table, double klux, const Scores& scores) {
-  const std::size_t today = scores.estimator("poolPointer");
+/// Where a design is worse than the earlier read-out by more than the interval of the difference, both being
+/// independent.
+void add_losses(Table& table, double klux, const Scores& scores, const EarlierShares& before) {
   for (std::size_t e = 0; e < scores.estimators().size(); ++e) {
     if (!scores.estimators()[e].starts_with("poolPointer 2")) {
       continue;
     }
     for (std::size_t s = 0; s < scores.scenes().size(); ++s) {
       for (const Figure& figure : kFigures) {
-        if (scores.pixels({s}, figure) == 0) {
+        const std::optional<Estimate> earlier = before.share(klux, scores.scenes()[s], figure.column);
+        if (scores.pixels({s}, figure) == 0 || !earlier) {
           continue;
         }
-        const std::vector<double> before = scores.shares({s}, today, figure);
-        std::vector<double> difference = scores.shares({s}, e, figure);
-        for (std::size_t seed = 0; seed < difference.size(); ++seed) {
-          difference[seed] -= before[seed];
-        }
-        const Estimate estimate = estimate_mean(difference);
-        if (estimate.interval.low > 0.0) {
+        const Estimate now = scores.estimate({s}, e, figure);
+        const double difference = now.value - earlier->value;
+        const double reach =
+            std::hypot(now.value - now.interval.low, earlier->interval.high - earlier->value);
+        if (difference > reach) {
           table.add({scores.scenes()[s], fmt::format("{:g}", klux), figure.name, scores.estimators()[e],
-                     per_cent(scores.estimate({s}, today, figure)), per_cent(scores.estimate({s}, e, figure)),
-                     per_cent(estimate)});
+                     per_cent(*earlier), per_cent(now),
+                     fmt::format("{:.2f} +-{:.2f}", 100.0 * difference, 100.0 * reach)});
         }
       }
     }
   }
 }
 
-/// A goal: at most `factor` times `of` (1 if empty), of an estimator at a light.
+/// A goal: at most `factor` times `of` (1 if empty), of an estimator at a light; kBefore: of the earlier
+/// read-out.
 struct Goal {
   double klux;
   const char* estimator;
@@ -211,6 +241,7 @@ struct Goal {
   double factor;
   const char* of;
 };
+constexpr const char* kBefore = "before";
 constexpr const char* kWith = "poolPointer 2";
 constexpr const char* kWithout = "poolPointer 2, no S1";
 constexpr std::array<Goal, 11> kGoals = {{{50.0, kWith, 0, 0.020, ""},
@@ -219,35 +250,54 @@ constexpr std::array<Goal, 11> kGoals = {{{50.0, kWith, 0, 0.020, ""},
                                           {50.0, kWithout, 1, 0.009, ""},
                                           {14.0, kWith, 0, 0.0030, ""},
                                           {14.0, kWithout, 0, 0.0060, ""},
-                                          {100.0, kWith, 0, 0.5, "poolPointer"},
-                                          {100.0, kWithout, 0, 0.5, "poolPointer"},
+                                          {100.0, kWith, 0, 0.5, kBefore},
+                                          {100.0, kWithout, 0, 0.5, kBefore},
                                           {2.0, kWith, 0, 1.0, "matched filter (single pixel)"},
-                                          {14.0, kWith, 2, 0.5, "poolPointer"},
-                                          {14.0, kWithout, 2, 0.5, "poolPointer"}}};
+                                          {14.0, kWith, 2, 0.5, kBefore},
+                                          {14.0, kWithout, 2, 0.5, kBefore}}};
 
-Table goal_table(const std::map<double, Scores>& lights) {
+/// What `goal` is a factor of; none where that was not measured.
+std::optional<double> compared_with(const Goal& goal, const Scores& scores,
+                                    const std::vector<std::size_t>& scenes,
+                                    const std::optional<EarlierShares>& before) {
+  const std::string of = goal.of;
+  const Figure& figure = kFigures.at(goal.figure);
+  if (of == kBefore) {
+    return before ? earlier_share(*before, goal.klux, scores, scenes, figure) : std::nullopt;
+  }
+  const std::size_t reference = scores.estimator(of);
+  if (reference == scores.estimators().size()) {
+    return std::nullopt;
+  }
+  return scores.estimate(scenes, reference, figure).value;
+}
+
+Table goal_table(const std::map<double, Scores>& lights, const std::optional<EarlierShares>& before) {
   Table table({"goal", "measured", "limit", "met"});
   for (const Goal& goal : kGoals) {
     const auto light = lights.find(goal.klux);
-    if (light == lights.end()) {
+    if (light == lights.end() ||
+        light->second.estimator(goal.estimator) == light->second.estimators().size()) {
       continue;
     }
     const Scores& scores = light->second;
     const std::vector<std::size_t> scenes = scores.all_but_flats();
-    const std::string of = goal.of;
     const Figure& figure = kFigures.at(goal.figure);
-    if (scores.estimator(goal.estimator) == scores.estimators().size() ||
-        (!of.empty() && scores.estimator(of) == scores.estimators().size())) {
-      continue;
+    std::string of = goal.of;
+    double limit = goal.factor;
+    if (!of.empty()) {
+      const std::optional<double> other = compared_with(goal, scores, scenes, before);
+      if (!other) {
+        continue;
+      }
+      limit *= *other;
+      of = fmt::format(", at most {:g} times that of the {}", goal.factor,
+                       of == kBefore ? before->estimator() : of);
     }
     const Estimate measured = scores.estimate(scenes, scores.estimator(goal.estimator), figure);
-    const double limit =
-        goal.factor * (of.empty() ? 1.0 : scores.estimate(scenes, scores.estimator(of), figure).value);
-    table.add(
-        {fmt::format("{}: {:g} klux, {}{}", goal.estimator, goal.klux, figure.name,
-                     of.empty() ? "" : fmt::format(", at most {:g} times that of the {}", goal.factor, of)),
-         per_cent(measured), fmt::format("{:.2f}", 100.0 * limit),
-         measured.value <= limit ? "yes" : "**no**"});
+    table.add({fmt::format("{}: {:g} klux, {}{}", goal.estimator, goal.klux, figure.name, of),
+               per_cent(measured), fmt::format("{:.2f}", 100.0 * limit),
+               measured.value <= limit ? "yes" : "**no**"});
   }
   return table;
 }
@@ -264,6 +314,8 @@ void run_pool_command(PoolOptions options) {
   for (const std::string& design : options.designs) {
     (void)parse_pool_design(design);
   }
+  const std::optional<EarlierShares> before =
+      options.before.empty() ? std::nullopt : std::optional<EarlierShares>(options.before);
   (void)make_scenes(options, sensor);  // what cannot be read is refused before anything is written
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
@@ -316,22 +368,22 @@ void run_pool_command(PoolOptions options) {
       options.sensor, first_seed, options.seed, table_sentence(rule, sensor, first_seed),
       options.command_line);
   if (options.references) {
-    report +=
-        fmt::format("\n## Goals\n\nAll scenes but the flats together.\n\n{}", goal_table(lights).markdown());
-    Table losses({"scene", "klux", "figure", "estimator", "poolPointer", "its own", "difference"}, 4);
-    if (options.seeds > 1) {
-      for (const auto& [klux, scores] : lights) {
-        add_losses(losses, klux, scores);
-      }
-      report += fmt::format(
-          "\n## Worse than poolPointer\n\nEvery scene, light and figure at which the interval of the "
-          "difference over the "
-          "seeds lies above 0.\n\n{}",
-          losses.markdown());
+    report += fmt::format("\n## Goals\n\nAll scenes but the flats together.\n\n{}",
+                          goal_table(lights, before).markdown());
+  }
+  if (before) {
+    Table losses({"scene", "klux", "figure", "estimator", before->estimator(), "its own", "difference"}, 4);
+    for (const auto& [klux, scores] : lights) {
+      add_losses(losses, klux, scores, *before);
     }
+    report += fmt::format(
+        "\n## Worse than {0}\n\nEvery scene, light and figure at which the difference is larger than its 95 "
+        "% interval. "
+        "{0}'s figures are of an earlier run, `{1}`: its code is gone.\n\n{2}",
+        before->estimator(), options.before, losses.markdown());
   }
   for (const auto& [klux, scores] : lights) {
-    const Table pooled = pooled_table(scores);
+    const Table pooled = pooled_table(klux, scores, before);
     fmt::print("\n## {:g} klux\n\n{}", klux, pooled.markdown());
     report +=
         fmt::format("\n## {:g} klux\n\n### All scenes but the flats together\n\n{}", klux, pooled.markdown());
@@ -370,7 +422,7 @@ void add_pool_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<PoolOptions>();
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
-      "pool", "poolPointer 2 with and without S1 beside today's and the matched filters, over several seeds");
+      "pool", "poolPointer 2 with and without S1 beside the matched filters, over several seeds");
   command->add_option("--sensor,-p,--preset", options->sensor, "a preset of `dtof list` or a sensor file")
       ->capture_default_str();
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
@@ -379,8 +431,9 @@ void add_pool_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--design", options->designs,
                       "numbers to change, NAME=NUMBER,..., one design each (\"\" changes none)\nnames: " +
                           fmt::format("{}", fmt::join(pool_design_names(), ", ")));
-  command->add_flag("!--no-references", options->references,
-                    "leave out today's poolPointer and the matched filters");
+  command->add_flag("!--no-references", options->references, "leave out the matched filters");
+  command->add_option("--before", options->before,
+                      "pool.csv of an earlier run, of one estimator, to compare with");
   add_scene_options(*command, *options);
   command->add_option("--table", options->table, "host look-up table: flat or none (Eq. 3.11 alone)")
       ->check(CLI::IsMember({"none", "flat"}))

@@ -34,7 +34,7 @@ struct RivalsOptions : SceneChoice {
   std::string sensor = "thesis";
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
   std::string readouts =
-      "ezpointer,hispointer,sifh,fifh,threesteps,poolpointer,poolpointer-lean,poolpointer2,poolpointer2-lean";
+      "ezpointer,hispointer,sifh,fifh,threesteps,coarsehistogram,poolpointer2,poolpointer2-lean";
   std::vector<std::string> rivals;
   std::vector<std::string> bits;
   bool pooled = false;
@@ -58,7 +58,7 @@ std::map<std::string, double> parse_bits(const std::vector<std::string>& texts) 
       throw InputError(fmt::format("--bits {}: expected READOUT=BITS", text));
     }
     const std::string name = text.substr(0, equals);
-    (void)parse_named_readout(name);
+    (void)parse_readout(name);
     bits[name] = value;
   }
   return bits;
@@ -188,7 +188,8 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
       "pixels with "
       "a neighbour that differs by more than 10 %; single pixels: those unlike all their neighbours. Scenes "
       "\"held\": no "
-      "parameter of poolPointer was chosen on them. Bits are those of the pixel's memory alone. \"pooled\": "
+      "parameter of poolPointer 2 was chosen on them. Bits are those of the pixel's memory alone. "
+      "\"pooled\": "
       "the host "
       "lets the pixels of a column help each other. References have full histograms, which no chip could "
       "hold.\n\n{}\n\nCommand: `{}`\n",

@@ -33,8 +33,7 @@ int run(int argc, char** argv) {
       app.add_option("--scene", scene, "photons of this scene instead of random streams");
   app.add_option("--klux", klux, "background light of the scene")->needs(scene_option);
   CLI11_PARSE(app, argc, argv);
-  const dtof::ArrayParameters array =
-      dtof::parse_rtl_parameters(dtof::parse_named_readout(readout), settings);
+  const dtof::ArrayParameters array = dtof::parse_rtl_parameters(dtof::parse_readout(readout), settings);
   if (scene.empty()) {
     dtof::write_vectors(array, frames, seed, folder);
   } else {

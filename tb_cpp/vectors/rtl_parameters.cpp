@@ -43,21 +43,8 @@ std::map<std::string_view, Setter> setters(ArrayParameters& array, int& time_gat
           {"WINDOW_CENTRED", flag(readout.window_centred)},
           {"TIME_GATE", number(time_gate)},
           {"GROUP_SIZE", number(pool.group_size)},
-          {"DARK_LABELS", number(pool.dark_labels)},
-          {"DARK_SCORE_BITS", number(pool.dark_score_bits)},
-          {"BRIGHT_LABELS", number(pool.bright_labels)},
-          {"BRIGHT_SCORE_BITS", number(pool.bright_score_bits)},
-          {"BRIGHT_FROM", number(pool.bright_from)},
-          {"LABELS",
-           [&pool](int value) {
-             pool.dark_labels = value;
-             pool.bright_labels = value;
-           }},
-          {"SCORE_BITS",
-           [&pool](int value) {
-             pool.dark_score_bits = value;
-             pool.bright_score_bits = value;
-           }},
+          {"LABELS", number(pool.labels)},
+          {"SCORE_BITS", number(pool.score_bits)},
           {"OFFSET_BITS", number(pool.offset_bits)},
           {"ADVANTAGE_WIDTH", number(pool.count_bits)},
           {"POINTER_SHIFT", number(pool.pointer_shift)},

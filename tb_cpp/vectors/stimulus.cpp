@@ -26,7 +26,7 @@ constexpr std::uint32_t kLongFrame = 1000;
 constexpr std::uint32_t kShortestFrameToReset = 2;
 constexpr int kBitsPerDigit = 4;
 
-/// One depth for the whole column in strong light: what lets poolPointer's advantages grow to their end.
+/// One depth for the whole column in strong light: what lets poolPointer 2's advantages grow to their end.
 ColumnStream surface_column(const ArrayParameters& array, std::uint32_t acquisitions, CounterRandom& random) {
   const int codes = array.readout.code_count();
   const int depth = pick(random, codes);
@@ -155,12 +155,10 @@ class VectorFiles {
   std::optional<fmt::ostream> results_;
 };
 
-/// The third is S1's switch of poolPointer 2.
+/// The third is S1's switch.
 std::array<std::uint32_t, 3> schedule_settings(const ReadoutParameters& readout, std::uint32_t acquisitions) {
   const PoolSchedule schedule(acquisitions, readout.pool);
-  const bool pairs = pools_columns(readout.readout);
-  return {schedule.coarse_end, schedule.track_end,
-          pairs ? static_cast<std::uint32_t>(readout.pool.smooth ? 1 : 0) : schedule.late_begin};
+  return {schedule.coarse_end, schedule.track_end, readout.pool.smooth ? 1U : 0U};
 }
 
 }  // namespace
@@ -176,9 +174,7 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
   for (const std::uint32_t acquisitions : frames) {
     std::array<std::uint32_t, 3> settings{};
     if (is_pool_readout(array.readout.readout)) {
-      if (pools_columns(array.readout.readout)) {
-        frame_array.readout.pool.smooth = pick(random, 2) != 0;
-      }
+      frame_array.readout.pool.smooth = pick(random, 2) != 0;
       settings = schedule_settings(frame_array.readout, acquisitions);
     } else if (array.readout.time_gate) {
       const int codes = array.readout.code_count();

@@ -13,7 +13,7 @@ namespace dtof {
 /// Writes what a test bench drives and expects, for one frame after the other:
 ///   frames.txt      a line per frame: acquisitions, three settings (gate begin, gate end, 0, or the schedule
 ///   of a
-///                   pool read-out: coarse_end, track_end, late_begin), per cent of clocks in which the
+///                   pool read-out: coarse_end, track_end, S1), per cent of clocks in which the
 ///                   source pauses between acquisitions, per cent of clocks in which the sink stalls, 1 if
 ///                   the frame is then run again and reset on the way
 ///   timestamps.hex  a line per clock of an acquisition: the timestamps of all columns, column 0 in the

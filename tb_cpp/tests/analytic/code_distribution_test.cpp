@@ -104,7 +104,7 @@ TEST(PredictedErrors, AreThoseOfTheSameDrawnErrors) {
 
 TEST(CodeDistributionRefusals, ReadoutsThatPoolPixels) {
   EXPECT_THROW(
-      code_distribution(parse_preset("thesis"), {}, ReadoutParameters::defaults(Readout::kPoolPointer)),
+      code_distribution(parse_preset("thesis"), {}, ReadoutParameters::defaults(Readout::kPoolPointer2)),
       InputError);
 }
 

@@ -48,7 +48,7 @@ TEST(Fidelity, AutoKeepsTheToleranceForEveryReadoutOfTheFrame) {
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(largest, kAllReadouts)), Fidelity::kFast);
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(0.999 * largest, kAllReadouts)), Fidelity::kExact);
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, kModelReadouts)), Fidelity::kExact)
-      << "poolPointer's differences were not measured";
+      << "poolPointer 2's differences were not measured";
 }
 
 TEST(Fidelity, OneDearReadoutDoesNotSpoilAFrameOfCheapOnes) {

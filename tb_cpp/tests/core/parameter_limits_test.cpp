@@ -46,12 +46,6 @@ std::vector<Row> parameter_limits() {
   return rows;
 }
 
-// A number of dtof_array is the read-out's place in C++, where those on trial stand behind the others.
-Readout of_number(int number) {
-  constexpr int kCoarseHistogramInRtl = 8;
-  return number == kCoarseHistogramInRtl ? Readout::kCoarseHistogram : static_cast<Readout>(number);
-}
-
 // Of the array alone: a model has no such parameter, or no other value of it.
 const std::set<std::string> kOfTheArray = {"READOUT",       "PIXELS_PER_SRAM", "SRAM_NUM",
                                            "POINTER_PORTS", "ENGINE_COLUMNS",  "ACQ_WIDTH",
@@ -69,26 +63,20 @@ const std::map<std::string, int ReadoutParameters::*> kOfEveryReadout = {
 
 const std::map<std::string, int PoolPointerParameters::*> kOfPoolReadouts = {
     {"GROUP_SIZE", &PoolPointerParameters::group_size},
-    {"DARK_LABELS", &PoolPointerParameters::dark_labels},
-    {"DARK_SCORE_BITS", &PoolPointerParameters::dark_score_bits},
-    {"BRIGHT_LABELS", &PoolPointerParameters::bright_labels},
-    {"BRIGHT_SCORE_BITS", &PoolPointerParameters::bright_score_bits},
-    {"BRIGHT_FROM", &PoolPointerParameters::bright_from},
     {"OFFSET_BITS", &PoolPointerParameters::offset_bits},
     {"ADVANTAGE_WIDTH", &PoolPointerParameters::count_bits},
     {"POINTER_SHIFT", &PoolPointerParameters::pointer_shift},
-    {"LABELS", &PoolPointerParameters::dark_labels},
-    {"SCORE_BITS", &PoolPointerParameters::dark_score_bits}};
+    {"LABELS", &PoolPointerParameters::labels},
+    {"SCORE_BITS", &PoolPointerParameters::score_bits}};
 
 ReadoutParameters of_model(const Row& row) {
   const bool pool = row.top != "dtof_array";
   ReadoutParameters parameters =
-      ReadoutParameters::defaults(row.top == "pool_pointer_array" ? Readout::kPoolPointer
-                                  : pool                          ? Readout::kPoolPointer2
-                                                                  : Readout::kEzPointer);
+      ReadoutParameters::defaults(pool ? Readout::kPoolPointer2 : Readout::kEzPointer);
   for (const auto& [name, value] : row.settings) {
     if (name == "READOUT") {
-      parameters = ReadoutParameters::defaults(of_number(value));
+      // A number of dtof_array is the read-out's place in C++.
+      parameters = ReadoutParameters::defaults(static_cast<Readout>(value));
     } else if (name == "RIVAL_MOVES") {
       parameters.pool.rival_moves = value != 0;
     } else if (name == "SECOND_TARGET") {
@@ -144,10 +132,9 @@ TEST(ParameterLimits, ARefusalNamesTheValue) {
   ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh);
   parameters.nb = 11;
   EXPECT_EQ(refusal(parameters), "NB must be 1 to NP, not 11");
-  parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
-  parameters.pool.group_size = 4;
-  EXPECT_EQ(refusal(parameters),
-            "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE pixels: 7 bits do not fit 4");
+  parameters = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  parameters.pool.group_size = 5;
+  EXPECT_EQ(refusal(parameters), "GROUP_SIZE must be a power of two from 4 to 32, not 5");
 }
 
 }  // namespace

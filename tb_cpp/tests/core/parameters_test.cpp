@@ -31,19 +31,16 @@ TEST(ParameterDefaults, AreThoseOfTheRtl) {
   EXPECT_FALSE(readout.window_centred);
   EXPECT_FALSE(readout.time_gate);
   const PoolPointerParameters pool;
-  EXPECT_EQ(pool, PoolPointerParameters::defaults(Readout::kPoolPointer));
-  EXPECT_EQ(pool.group_size, 8);
-  EXPECT_EQ(pool.dark_labels, 5);
-  EXPECT_EQ(pool.dark_score_bits, 4);
-  EXPECT_EQ(pool.bright_labels, 5);
-  EXPECT_EQ(pool.bright_score_bits, 4);
-  EXPECT_EQ(pool.bright_from, 6);
-  EXPECT_EQ(pool.offset_bits, 5);
+  EXPECT_EQ(pool, PoolPointerParameters::defaults(Readout::kPoolPointer2));
+  EXPECT_EQ(pool.group_size, 4);
+  EXPECT_EQ(pool.labels, 5);
+  EXPECT_EQ(pool.score_bits, 4);
+  EXPECT_EQ(pool.offset_bits, 6);
   EXPECT_EQ(pool.count_bits, 7);
   EXPECT_EQ(pool.pointer_shift, 1);
   EXPECT_TRUE(pool.rival_moves);
-  EXPECT_EQ(pool.coarse_share, 16);
-  EXPECT_EQ(pool.track_share, 16);
+  EXPECT_EQ(pool.coarse_share, 14);
+  EXPECT_EQ(pool.track_share, 20);
 }
 
 TEST(ReadoutNames, RoundTripAndUnique) {
@@ -84,8 +81,8 @@ TEST(ReadoutNames, EveryReadoutHasItsOwn) {
     EXPECT_FALSE(is_pool_readout(readout) && is_pointer_readout(readout));
   }
   EXPECT_EQ(names.size(), kModelReadouts.size());
-  EXPECT_EQ(parse_readout("poolpointer"), Readout::kPoolPointer);
-  EXPECT_EQ(parse_readout("poolpointer-lean"), Readout::kPoolPointerLean);
+  EXPECT_EQ(parse_readout("poolpointer2"), Readout::kPoolPointer2);
+  EXPECT_EQ(parse_readout("poolpointer2-lean"), Readout::kPoolPointer2Lean);
 }
 
 TEST(ReadoutParameters, DefaultsOfTheSpecification) {

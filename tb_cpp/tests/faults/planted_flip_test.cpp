@@ -133,7 +133,7 @@ TEST_P(PlantedHistogramFlip, MovesThePeakOfItsPixel) {
 
 class PlantedPoolFlip : public PlantedFlip {};
 INSTANTIATE_TEST_SUITE_P(Pools, PlantedPoolFlip,
-                         testing::Values(Readout::kPoolPointer, Readout::kPoolPointerLean),
+                         testing::Values(Readout::kPoolPointer2, Readout::kPoolPointer2Lean),
                          readout_test_name);
 
 // Each bit of a word with two pixels' pointers, one after the other: some change their column, none the other

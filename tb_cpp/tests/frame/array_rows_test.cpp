@@ -39,7 +39,7 @@ TEST(ArrayRows, IndependentPixelsAreThoseOfTheRegion) {
 
 TEST(ArrayRows, AnArrayOfAPoolReadoutIsWholeAndItsRegionIsRead) {
   const PhotonSource source = scene();
-  const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer);
+  const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer2);
   EXPECT_EQ(array.source->rows(), kArrayRows);
   EXPECT_EQ(array.first, 0);
   const std::vector<PixelResult> read = array.read(counted(kArrayRows));

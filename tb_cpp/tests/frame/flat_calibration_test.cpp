@@ -100,7 +100,7 @@ TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;
   const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kSifh),
-                                                   ReadoutParameters::defaults(Readout::kPoolPointerLean)};
+                                                   ReadoutParameters::defaults(Readout::kPoolPointer2Lean)};
   TargetMap targets(3, 160, {2.0, 0.6});
   targets.at(1, 5).depth_m = 3.0;
   const SceneStudy study(sensor, 14.0, readouts, 5, 1);
@@ -117,9 +117,10 @@ TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
   const PhotonSource scene(sensor, targets, 14.0, 5, scene_frame(0));
   const DepthScale scale(sensor.integration_time_s, sensor.np, sensor.pulse_fwhm_s);
   for (std::size_t r = 0; r < readouts.size(); ++r) {
+    const std::vector<ColumnStream> streams = {scene.column(0), scene.column(1), scene.column(2)};
+    const auto read = make_readout_model(readouts[r])->run_columns(streams, sensor.acquisitions);
     for (int column = 0; column < 3; ++column) {
-      const std::vector<PixelResult> results =
-          make_readout_model(readouts[r])->run_column(scene.column(column), sensor.acquisitions);
+      const std::vector<PixelResult>& results = read[static_cast<std::size_t>(column)];
       for (std::size_t row = 0; row < results.size(); ++row) {
         const double position = code_position(results[row], readouts[r].fraction_bits);
         const std::size_t i = row * 3 + static_cast<std::size_t>(column);
@@ -135,7 +136,7 @@ TEST(FlatCalibration, ColumnsThatHearEachOtherAreFittedInPairs) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;
   const FlatCalibration calibration(sensor);
-  const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kPoolPointer);
+  const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kFifh);
   const ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer2);
   const auto photons = [&](const TargetMap& targets) {
     return std::make_unique<PhotonSource>(sensor, targets, 14.0, 5, FlatCalibration::kFrame);

@@ -48,6 +48,7 @@ TEST_F(CsvTableTest, ColumnsLinesAndAll) {
   const CsvTable numbers = table("pixel,a,b\r\n0,1.5,-2\r\n7,3e2,4\r\n");
   EXPECT_THAT(numbers.column("b"), ElementsAre(-2.0, 4.0));
   EXPECT_THAT(numbers.column("pixel"), ElementsAre(0.0, 7.0));
+  EXPECT_THAT(numbers.texts("a"), ElementsAre("1.5", "3e2"));
   EXPECT_THAT(numbers.row("7"), ElementsAre(300.0, 4.0));
   EXPECT_THAT(numbers.rows(), ElementsAre(ElementsAre(1.5, -2.0), ElementsAre(300.0, 4.0)));
 }

@@ -669,7 +669,7 @@ TEST_F(PoolPointer2, WordsFitTheMemory) {
 
 TEST_F(PoolPointer2, EveryKindOfStreamAsReference) {
   CounterRandom draw = random(1);
-  ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer);
+  ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer2);
   for (const StreamKind kind : kStreamKinds) {
     SCOPED_TRACE(std::string(stream_name(kind)));
     for (const auto& [columns, rows] :
@@ -835,7 +835,7 @@ TEST_F(PoolPointer2, LongFramesAsReference) {
 
 TEST_F(PoolPointer2, ShortFramesAsReference) {
   CounterRandom draw = random(4);
-  const ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer);
+  const ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer2);
   for (const int acquisitions : {1, 2, 3, 4, 5, 8, 9}) {
     std::vector<ColumnStream> array(5);
     for (ColumnStream& column : array) {

@@ -43,9 +43,6 @@ class ArrayErrors : public testing::Test {
       *ports_.coarse_end = 1;
       *ports_.track_end = 2;
     }
-    if (ports_.late_begin != nullptr) {
-      *ports_.late_begin = 3;
-    }
     clock();
     *ports_.reset_n = 1;
     clock();

@@ -159,9 +159,8 @@ TEST(PoolPointer2Sweep, EveryValueOccurs) {
   EXPECT_THAT(values([](const C& c) { return c.parameters.slots; }), IsSupersetOf({2, 3, 4}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.count_width; }), IsSupersetOf({4, 5, 6, 7, 8}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.group_size; }), IsSupersetOf({4, 8, 16, 32}));
-  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.dark_labels; }),
-              IsSupersetOf({2, 3, 4, 5, 6, 7}));
-  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.dark_score_bits; }), IsSupersetOf({1, 3, 4}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.labels; }), IsSupersetOf({2, 3, 4, 5, 6, 7}));
+  EXPECT_THAT(values([](const C& c) { return c.parameters.pool.score_bits; }), IsSupersetOf({1, 3, 4}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.offset_bits; }), IsSupersetOf({0, 2, 4, 6}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.count_bits; }), IsSupersetOf({4, 7}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }),

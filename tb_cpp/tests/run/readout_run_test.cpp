@@ -67,14 +67,17 @@ TEST(ReadoutRun, APixelsResultDoesNotDependOnTheRegion) {
 TEST(ReadoutRun, APoolReadoutsArrayIsWholeAndDarkOutsideTheRegion) {
   const PhotonSource source = scene();
   const Region region{.columns = {2}, .rows = {.first = 3, .count = 6}};
-  const ColumnStream lit = source.column_rows(2, region.rows);
-  ColumnStream array;
-  for (int row = 0; row < kArrayRows; ++row) {
-    array.append_row(row >= 3 && row < 9 ? lit.row(row - 3) : std::span<const Detection>());
+  std::vector<ColumnStream> array(kColumns);
+  for (int column = 0; column < kColumns; ++column) {
+    const ColumnStream lit = source.column_rows(column, region.rows);
+    for (int row = 0; row < kArrayRows; ++row) {
+      array[static_cast<std::size_t>(column)].append_row(row >= 3 && row < 9 ? lit.row(row - 3)
+                                                                             : std::span<const Detection>());
+    }
   }
-  for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
+  for (const Readout readout : {Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
     const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
-    const std::vector<PixelResult> whole = make_readout_model(parameters)->run_column(array, 500);
+    const std::vector<PixelResult> whole = make_readout_model(parameters)->run_columns(array, 500)[2];
     const std::vector<PixelResult> expected(whole.begin() + 3, whole.begin() + 9);
     EXPECT_EQ(run_readout(source, parameters, {}, region, "dtof").results, expected);
   }

@@ -167,7 +167,7 @@ TEST(AccuracyStudy, PooledPixelsAreIndependent) {
   settings.klux = 50.0;
   settings.frames = 8;
   settings.lookup_table = false;
-  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
+  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer2)};
   int columns = 0;
   int rows = 0;
   settings.make_source = [&](const SensorModel& sensor, const TargetMap& targets, double klux,
@@ -177,7 +177,7 @@ TEST(AccuracyStudy, PooledPixelsAreIndependent) {
     return make_exact_source(sensor, targets, klux, seed, frame);
   };
   EXPECT_EQ(run_accuracy_study(settings).points.front().frames, 8U);
-  EXPECT_EQ(columns, 8);  // one pixel of each counts
+  EXPECT_EQ(columns, 8 * 6);  // one pixel counts of six columns each
   EXPECT_EQ(rows, 160);
 }
 
@@ -218,7 +218,7 @@ TEST(AccuracyStudy, AnEngineOfColumnsIsOnePixelsAlone) {
   settings.calibration_frames = 8;
   settings.calibration_step_m = 0.5;
   settings.matched_filter = false;
-  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
+  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer2Lean)};
   const AccuracyStudy alone = run_accuracy_study(settings);
   settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer2));
   const AccuracyStudy both = run_accuracy_study(settings);

@@ -79,20 +79,20 @@ TEST(PoolStudy, EveryEstimatorFindsTwoWalls) {
     const PoolStudy study(short_frames(), 2.0, std::vector<std::string>{"", "SMOOTH_DARK=0"}, true, 5, 1,
                           table);
     EXPECT_THAT(study.estimators(),
-                ElementsAre("poolPointer", "matched filter (single pixel)", "matched filter, S1",
-                            "pooled matched filter", "poolPointer 2, no S1", "poolPointer 2",
-                            "poolPointer 2 SMOOTH_DARK=0, no S1", "poolPointer 2 SMOOTH_DARK=0"));
+                ElementsAre("matched filter (single pixel)", "matched filter, S1", "pooled matched filter",
+                            "poolPointer 2, no S1", "poolPointer 2", "poolPointer 2 SMOOTH_DARK=0, no S1",
+                            "poolPointer 2 SMOOTH_DARK=0"));
     const std::vector<SceneMeasurement> measured = study.measure(scene);
     ASSERT_EQ(measured.size(), study.estimators().size());
     for (std::size_t e = 0; e < measured.size(); ++e) {
       EXPECT_GT(share_near(truth, measured[e]), 0.95) << study.estimators()[e];
     }
     // S1 moves something, and within no distance it moves nothing; the tables of both may differ.
-    EXPECT_NE(measured[1].distance_m, measured[2].distance_m);
-    EXPECT_NE(measured[4].distance_m, measured[5].distance_m);
+    EXPECT_NE(measured[0].distance_m, measured[1].distance_m);
+    EXPECT_NE(measured[3].distance_m, measured[4].distance_m);
     if (table == TableRule::kNone) {
-      EXPECT_EQ(measured[6].distance_m, measured[4].distance_m);
-      EXPECT_EQ(measured[7].distance_m, measured[6].distance_m);
+      EXPECT_EQ(measured[5].distance_m, measured[3].distance_m);
+      EXPECT_EQ(measured[6].distance_m, measured[5].distance_m);
     }
   }
 }
@@ -111,7 +111,7 @@ TEST(PoolStudy, TheMatchedFiltersS1KeepsStepsBeyondItsReach) {
   double largest_m = 0.0;
   for (std::size_t column = 0; column < 6; ++column) {
     const auto moved = [&](std::size_t row) {
-      return measured[2].distance_m[row * 6 + column] - measured[1].distance_m[row * 6 + column];
+      return measured[1].distance_m[row * 6 + column] - measured[0].distance_m[row * 6 + column];
     };
     approach_m += (moved(11) - moved(12)) / 6.0;
     largest_m = std::max(largest_m, std::abs(moved(5)));

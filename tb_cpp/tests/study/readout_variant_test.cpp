@@ -22,11 +22,9 @@ TEST(ReadoutVariant, ChangesWhatIsNamed) {
   EXPECT_TRUE(parse_variant("sifh:WINDOW_CENTRED=1").window_centred);
 
   const ReadoutParameters pool =
-      parse_variant("poolpointer:LABELS=7,SCORE_BITS=3,COARSE_SHARE=12,TRACK_SHARE=14");
-  EXPECT_EQ(pool.pool.dark_labels, 7);
-  EXPECT_EQ(pool.pool.bright_labels, 7);
-  EXPECT_EQ(pool.pool.dark_score_bits, 3);
-  EXPECT_EQ(pool.pool.bright_score_bits, 3);
+      parse_variant("poolpointer2:LABELS=7,SCORE_BITS=3,COARSE_SHARE=12,TRACK_SHARE=14");
+  EXPECT_EQ(pool.pool.labels, 7);
+  EXPECT_EQ(pool.pool.score_bits, 3);
   EXPECT_EQ(pool.pool.coarse_share, 12);
   EXPECT_EQ(pool.pool.track_share, 14);
 
@@ -40,9 +38,9 @@ TEST(ReadoutVariant, TitleNamesTheChanges) {
   EXPECT_EQ(variant_title(parse_variant("hispointer:COUNT_WIDTH=8")), "hisPointer COUNT_WIDTH=8");
   EXPECT_EQ(variant_title(parse_variant("sifh:WINDOW_CENTRED=1,COUNT_WIDTH=12")),
             "SiFH COUNT_WIDTH=12 WINDOW_CENTRED=1");
-  EXPECT_EQ(variant_title(parse_variant("poolpointer:LABELS=6,COARSE_SHARE=12")),
-            "poolPointer LABELS=6 COARSE_SHARE=12");
-  EXPECT_EQ(variant_title(ReadoutParameters::defaults(Readout::kPoolPointer)), "poolPointer");
+  EXPECT_EQ(variant_title(parse_variant("poolpointer2:LABELS=6,COARSE_SHARE=12")),
+            "poolPointer 2 LABELS=6 COARSE_SHARE=12");
+  EXPECT_EQ(variant_title(ReadoutParameters::defaults(Readout::kPoolPointer2)), "poolPointer 2");
   EXPECT_EQ(variant_title(parse_variant("poolpointer2:LABELS=4,SMOOTH=0")),
             "poolPointer 2 LABELS=4 SMOOTH=0");
   EXPECT_EQ(variant_title(ReadoutParameters::defaults(Readout::kPoolPointer2)), "poolPointer 2");
@@ -58,12 +56,12 @@ TEST(ReadoutVariant, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(parse("nothing:NP=8"), ThrowsMessage<InputError>(HasSubstr("nothing")));
   EXPECT_THAT(parse("hispointer:COARSE_SHARE=8"),
               ThrowsMessage<InputError>(HasSubstr("has no COARSE_SHARE")));
-  EXPECT_THAT(parse("poolpointer:FRACTION_BITS=4"),
+  EXPECT_THAT(parse("poolpointer2:FRACTION_BITS=4"),
               ThrowsMessage<InputError>(HasSubstr("has no FRACTION_BITS")));
-  EXPECT_THAT(parse("poolpointer:SMOOTH=0"),
-              ThrowsMessage<InputError>(HasSubstr("poolpointer has no SMOOTH to change; known are")));
-  EXPECT_THAT(parse("poolpointer:LABELS=9"),
-              ThrowsMessage<InputError>(HasSubstr("DARK_LABELS must be 2 to 8, not 9")));
+  EXPECT_THAT(parse("hispointer:SMOOTH=0"),
+              ThrowsMessage<InputError>(HasSubstr("hispointer has no SMOOTH to change; known are")));
+  EXPECT_THAT(parse("poolpointer2:LABELS=9"),
+              ThrowsMessage<InputError>(HasSubstr("LABELS must be 2 to 8, not 9")));
   EXPECT_THAT(parse("hispointer:COUNT_WIDTH=99"), ThrowsMessage<InputError>(HasSubstr("COUNT_WIDTH")));
 }
 

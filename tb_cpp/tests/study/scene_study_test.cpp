@@ -132,7 +132,7 @@ TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 1000;
   const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kHisPointer),
-                                                   ReadoutParameters::defaults(Readout::kPoolPointer)};
+                                                   ReadoutParameters::defaults(Readout::kPoolPointer2)};
   const StudyScene scene{"wall", TargetMap(4, 40, {3.0, 1.0}), 4};
   const SceneTruth truth = scene_truth(scene);
   const SceneStudy one(sensor, 14.0, readouts, 3, 1);
@@ -153,7 +153,7 @@ TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
 TEST(SceneStudy, ReadsWholeEnginesOfColumnsThatHearEachOther) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;
-  const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kPoolPointer);
+  const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kFifh);
   ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer2);
   together.pool.engine_columns = 4;
   TargetMap targets(10, 24, {2.0, 0.6});

@@ -51,7 +51,7 @@ TEST(WalkStudy, DimTargetsSeemFartherThanTheTablesBrightOnes) {
 
 TEST(WalkStudy, DoesNotDependOnTheThreads) {
   WalkSettings settings = small_study();
-  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer));
+  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer2));
   settings.threads = 1;
   const std::vector<WalkReadout> one = run_walk_study(settings);
   settings.threads = 3;

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// engine_sequencer with pool_result_output: one column selected, one access a clock, addresses, labels and scratch rows
+// pool2_sequencer with pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
 // in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
-`include "engine_command.svh"
+`include "pool2_command.svh"
 `include "properties.svh"
 
-module engine_sequencer_properties #(
+module pool2_sequencer_properties #(
     parameter int PIXELS = 3,
-    parameter int GROUP_SIZE = 8,
+    parameter int GROUP_SIZE = 4,
     parameter int LABELS = 2,
-    parameter int BINS_PER_WORD = 8,
+    parameter int LINE_HALVES = 1,
     parameter int ENGINE_COLUMNS = 2,
     localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
-    localparam int WORDS = GROUPS * (GROUP_SIZE / 2) + GROUPS,
+    localparam int WORDS = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS),
-    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS)
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS),
+    localparam int PAIRS = (ENGINE_COLUMNS + 1) / 2
 ) (
     input logic clk_i,
     input logic decode_i,
@@ -28,20 +29,20 @@ module engine_sequencer_properties #(
     checking <= 1'b1;
   end
 
-  engine_command_t command;
-  logic done, read, write, load, send, send_last, waits, busy;
-  logic [ENGINE_COLUMNS-1:0] select;
+  pool2_engine_command_t command;
+  logic done, read, write, upper, neighbour, send, send_last, waits, busy;
+  logic [PAIRS-1:0] select;
   logic [ADDR_WIDTH-1:0] address;
-  logic [ROW_WIDTH-1:0] message_row, send_row;
-  logic [COLUMN_WIDTH-1:0] send_column;
+  logic [ROW_WIDTH-1:0] scratch_row, send_row;
+  logic [COLUMN_WIDTH-1:0] column, send_column;
   logic tvalid, tlast;
   logic [COLUMN_WIDTH+ROW_WIDTH:0] tdata;
 
-  engine_sequencer #(
+  pool2_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (LABELS),
-      .BINS_PER_WORD  (BINS_PER_WORD),
+      .LINE_HALVES    (LINE_HALVES),
       .ENGINE_COLUMNS (ENGINE_COLUMNS)
   ) u_dut (
       .clk_i        (clk_i),
@@ -53,10 +54,12 @@ module engine_sequencer_properties #(
       .read_d_o     (read),
       .write_d_o    (write),
       .address_d_o  (address),
-      .load_d_o     (load),
       .select_o     (select),
+      .upper_o      (upper),
+      .neighbour_o  (neighbour),
       .command_o    (command),
-      .message_row_o(message_row),
+      .scratch_row_o(scratch_row),
+      .column_o     (column),
       .send_o       (send),
       .send_column_o(send_column),
       .send_row_o   (send_row),
@@ -87,13 +90,15 @@ module engine_sequencer_properties #(
       .tlast_o  (tlast)
   );
 
-  localparam int PERIOD = (LABELS + 4 > 6) ? LABELS + 4 : 6;
-  localparam int DECODE_CLOCKS = ENGINE_COLUMNS * GROUPS * (32 * LABELS + 43);
-  localparam int CHAIN_CLOCKS = ENGINE_COLUMNS * 2 * (PIXELS + 3) * PERIOD + 6;
-  localparam int CLOCKS = (DECODE_CLOCKS > CHAIN_CLOCKS) ? DECODE_CLOCKS : CHAIN_CLOCKS;
+  // The latencies that the module states, and the last commands and results.
+  localparam int PERIOD = (LABELS + 4 > 9) ? LABELS + 4 : 9;
+  localparam int DECODE_CLOCKS = PAIRS * GROUPS * (32 * LABELS + 45) + 6;
+  localparam int CHOOSE_CLOCKS = ENGINE_COLUMNS * 2 * (PIXELS + 4) * PERIOD + 6;
+  localparam int DECIDE_CLOCKS = ENGINE_COLUMNS * (2 * PIXELS + 9) * 6 + 6;
 
   logic working_q, sending_q;
-  logic [15:0] clocks_q, sent_q, passed_q;
+  logic choosing_q, decoding_q;
+  logic [15:0] clocks_q, sent_q, passed_q, most_clocks;
   logic [2:0] target_q, target_before_q;
   logic pass_label;
   logic start;
@@ -104,6 +109,8 @@ module engine_sequencer_properties #(
     if (!checking) begin
       working_q <= 1'b0;
       sending_q <= 1'b0;
+      choosing_q <= 1'b0;
+      decoding_q <= 1'b0;
       clocks_q <= '0;
       sent_q <= '0;
       passed_q <= '0;
@@ -111,7 +118,9 @@ module engine_sequencer_properties #(
       working_q <= start || (working_q && !done);
       clocks_q <= working_q ? clocks_q + 16'(!(tvalid && !tready_i)) : '0;
       if (start) begin
-        sending_q <= decide_i && !decode_i && !choose_i;
+        sending_q <= decide_i;
+        choosing_q <= choose_i;
+        decoding_q <= decode_i;
         sent_q <= '0;
       end else if (send) begin
         sent_q <= sent_q + 1'b1;
@@ -122,20 +131,22 @@ module engine_sequencer_properties #(
     target_before_q <= target_q;
   end
 
+  assign most_clocks = decoding_q ? 16'(DECODE_CLOCKS) : choosing_q ? 16'(CHOOSE_CLOCKS) : 16'(DECIDE_CLOCKS);
+
   `ASSUME(m_start_when_idle, !start || (!working_q && !busy))
   `ASSUME(m_one_start, 32'(decode_i) + 32'(choose_i) + 32'(decide_i) <= 1)
-  `PROVE(a_one_column_at_most, (select & (select - 1'b1)) == '0)
+  `PROVE(a_one_pair_at_most, (select & (select - 1'b1)) == '0)
   `PROVE(a_one_access, !(read && write))
   `PROVE(a_address, !(read || write) || 32'(address) < WORDS)
-  `PROVE(a_scratch_one_access, !(command.read_message && command.write_message))
-  `PROVE(a_scratch_row, !(command.read_message || command.write_message) || 32'(message_row) < PIXELS)
+  `PROVE(a_scratch_one_access, !(command.read_scratch && command.write_scratch))
+  `PROVE(a_scratch_row, !(command.read_scratch || command.write_scratch) || 32'(scratch_row) < PIXELS)
   `PROVE(a_label, !pass_label || 16'(target_before_q) == passed_q)
   `PROVE(a_labels, 32'(passed_q) <= LABELS)
   `PROVE(a_send_when_free, !(send && waits))
   `PROVE(a_results_in_order, !send || (32'(sent_q) == 32'(send_column) * PIXELS + 32'(send_row)))
   `PROVE(a_last_result, !send || send_last == (32'(sent_q) == PIXELS * ENGINE_COLUMNS - 1))
   `PROVE(a_all_results, !(done && sending_q) || 32'(sent_q) == PIXELS * ENGINE_COLUMNS)
-  `PROVE(a_done_in_time, !working_q || 32'(clocks_q) <= CLOCKS)
+  `PROVE(a_done_in_time, !working_q || clocks_q <= most_clocks)
   `PROVE(a_done_once, !done || working_q)
   `GOAL(done && sending_q)
 
