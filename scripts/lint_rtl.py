@@ -24,7 +24,6 @@ from dtof_synth.configuration import Configuration, load  # noqa: E402
 
 SIZE = {  # enough to see every connection between columns, and between engines
     "dtof_array": {"SRAM_NUM": 2},
-    "pool_pointer_array": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
     "dtof_subsystem": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
     "pool_pointer2_array": {"SRAM_NUM": 7, "ENGINE_COLUMNS": 4},
 }

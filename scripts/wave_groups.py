@@ -82,7 +82,7 @@ def groups(signals: list[Signal]) -> dict[str, list[Signal]]:
             stages.setdefault((stage[1], int(stage[2])), []).append(signal)
         elif signal.scopes[-1].endswith("_sram") and signal.name in MEMORY_PORTS:
             memories.setdefault(signal.scopes, []).append(signal)
-        elif signal.scopes[-1] == "u_engine_sequencer" and signal.name.endswith(("_i", "_o", "_q")):
+        elif signal.scopes[-1] == "u_sequencer" and signal.name.endswith(("_i", "_o", "_q")):
             engine.append(signal)
     for (pipeline, number), members in sorted(stages.items(), key=lambda item: (item[0][0] != "t", item[0][1])):
         what = "Stream" if pipeline == "t" else "Scan"
