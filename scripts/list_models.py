@@ -6,8 +6,8 @@
 `list_models.py waveforms dtof_array`: the same to look at: with one column and waveforms.
 `list_models.py variants dtof_array`: its variants, with one column.
 `list_models.py readouts|waveforms pool_pointer2_array`: the engines that the read-outs' columns cut into: columns of one
-hear each other, and an array that has other columns reads something else. Those without waveforms also have engines of so
-many columns as short recordings have.
+hear each other, and an array that has other columns reads something else. Those without waveforms also have an engine of
+few columns.
 """
 
 import sys
@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT / "synth"))
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
-RECORDED_COLUMNS = [3]  # zones of a TMF8820
+SMALL_COLUMNS = [3]  # of an engine for small sensors
 HARNESS_ACQ_WIDTH = 16  # of tb_cpp/rtl/*_testbench.sv
 
 
@@ -54,7 +54,7 @@ def main() -> int:
                 continue
             waveforms = sys.argv[1] == "waveforms"
             if configuration.is_pool:
-                for columns in engine_widths(configuration) + ([] if waveforms else RECORDED_COLUMNS):
+                for columns in engine_widths(configuration) + ([] if waveforms else SMALL_COLUMNS):
                     print(line(f"{name}_{columns}{'_waveform' if waveforms else ''}", configuration, SRAM_NUM=columns),
                           "" if waveforms else "NO_WAVEFORM")
             elif waveforms:
