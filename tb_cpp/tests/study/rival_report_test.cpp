@@ -58,6 +58,29 @@ TEST(ComparedScores, WeighsScenesByTheirPixels) {
   EXPECT_NEAR(scores.estimate({0, 1}, 0, compared_figures()[0]).value, 0.2, 1e-12);
 }
 
+TEST(ComparedScores, EachFigureIsOfItsOwnPixels) {
+  ComparedScores scores({"room"}, {{"pointer", Kind::kReadout, 300.0}});
+  SceneScore parts = score(1000, 0.01, 0.02);
+  parts.edges = {100, 0.03, 0.04, 0.0};
+  parts.rest = {900, 0.05, 0.06, 0.0};
+  parts.dims = {200, 0.07, 0.08, 0.0};
+  parts.singles = {50, 0.09, 0.10, 0.0};
+  scores.add(0, 0, parts);
+  std::vector<double> shares;
+  for (const ComparedFigure& figure : compared_figures()) {
+    shares.push_back(scores.estimate({0}, 0, figure).value);
+  }
+  EXPECT_THAT(shares, ElementsAre(0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.10));
+}
+
+TEST(RivalReport, AReferenceIsOnNoFrontEvenWithBits) {
+  ComparedScores scores({"room"},
+                        {{"pointer", Kind::kReadout, 300.0}, {"whole histogram", Kind::kReference, 200.0}});
+  scores.add(0, 0, score(1000, 0.2));
+  scores.add(0, 1, score(1000, 0.1));
+  EXPECT_THAT(accuracy_front(scores, {0}, compared_figures()[0]), ElementsAre(0));
+}
+
 TEST(RivalReport, TheFrontIsOfReadoutsAndRivalsWithBits) {
   const ComparedFigure& figure = compared_figures()[0];
   EXPECT_THAT(accuracy_front(made_up(0.30, 0.10), {0, 1}, figure), ElementsAre(1));
