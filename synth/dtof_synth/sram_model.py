@@ -4,7 +4,8 @@
 Area: A = (Wp + w*C) * (Hp + h*R) with C = bits*mux columns and R = ceil(words/mux) rows, the mux that
 minimises the area with 16 <= R <= 512 and an aspect ratio of at most 4. Nothing is fitted to the thesis.
 Time, energy and leakage grow with size as CACTI 7's 40 nm low-standby-power arrays do (power laws in
-words and bits); access time is anchored at 1.2 ns typical and 2.2 ns slow for the thesis's largest
+words and bits; a read's energy is linear in the bits, since the points end at 64 of them and each further bit
+has its own bit lines, sense amplifier and output); access time is anchored at 1.2 ns typical and 2.2 ns slow for the thesis's largest
 column memory. Sources and fit errors: docs/reference/technology.md.
 """
 
@@ -38,8 +39,20 @@ class PowerLaw:
 
 
 @dataclass(frozen=True)
+class LinearInBits:
+    """scale * words^words_exponent * (bits + offset); the offset is what a word costs of itself, in bits."""
+
+    scale: float
+    words_exponent: float
+    offset: float
+
+    def __call__(self, words: int, bits: int) -> float:
+        return self.scale * words**self.words_exponent * (bits + self.offset)
+
+
+@dataclass(frozen=True)
 class PortKind:
-    """Geometry in um and the CACTI power laws (ns, pJ, pJ, uW) of one port organisation."""
+    """Geometry in um and the laws of the CACTI points (ns, pJ, pJ, uW) of one port organisation."""
 
     module: str
     strip_width: float
@@ -47,7 +60,7 @@ class PortKind:
     cell_area: float
     cell_height: float
     access: PowerLaw
-    read_energy: PowerLaw
+    read_energy: LinearInBits
     write_energy: PowerLaw
     leakage: PowerLaw
 
@@ -60,12 +73,12 @@ class PortKind:
 KINDS = {
     1: PortKind("sram_1rw", 29.0, 22.5, 0.242, 0.30,
                 access=PowerLaw(0.16173, 0.18204, 0.16401),
-                read_energy=PowerLaw(1.7217e-3, 0.65880, 0.80206),
+                read_energy=LinearInBits(7.7239e-4, 0.66146, 3.6932),
                 write_energy=PowerLaw(4.0184e-3, 0.43953, 1.06473),
                 leakage=PowerLaw(5.1345e-6, 0.96475, 0.93028)),
     2: PortKind("sram_1r1w", 55.6, 35.7, 0.472, 0.356,
                 access=PowerLaw(0.17081, 0.17758, 0.16504),
-                read_energy=PowerLaw(3.5199e-3, 0.61995, 0.75289),
+                read_energy=LinearInBits(1.28916e-3, 0.62510, 4.6459),
                 write_energy=PowerLaw(4.1414e-3, 0.45769, 1.05031),
                 leakage=PowerLaw(5.4041e-6, 0.97710, 0.94414)),
 }

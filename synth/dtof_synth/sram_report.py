@@ -4,11 +4,12 @@
 from __future__ import annotations
 
 import csv
+import math
 from pathlib import Path
 from statistics import mean
 
 from . import sram_model
-from .sram_model import Size
+from .sram_model import LinearInBits, PowerLaw, Size
 
 CACTI_CELLS = "itrs-lstp"
 
@@ -34,11 +35,63 @@ def cacti_points(pdk: Path, ports: int) -> list[dict[str, str]]:
             if row["tech_nm"] == "40" and row["cell"] == CACTI_CELLS and (row["rw"], row["r"], row["w"]) == wanted]
 
 
+def _range(ratios: list[float]) -> str:
+    return f"{min(ratios):.2f} to {max(ratios):.2f}"
+
+
+def fit(rows: list[tuple[float, ...]], values: list[float]) -> list[float]:
+    """Least squares of values = rows times the result, by the normal equations."""
+    size = len(rows[0])
+    matrix = [[sum(row[i] * row[j] for row in rows) for j in range(size)]
+              + [sum(row[i] * value for row, value in zip(rows, values))] for i in range(size)]
+    for i in range(size):
+        for k in range(size):
+            if k != i:
+                factor = matrix[k][i] / matrix[i][i]
+                matrix[k] = [x - factor * y for x, y in zip(matrix[k], matrix[i])]
+    return [matrix[i][size] / matrix[i][i] for i in range(size)]
+
+
+def fit_power_law(points: list[tuple[int, int, float]]) -> PowerLaw:
+    """Of (words, bits, value): least squares of log(value) = a + b log(words) + c log(bits)."""
+    a, b, c = fit([(1.0, math.log(words), math.log(bits)) for words, bits, _ in points],
+                  [math.log(value) for *_, value in points])
+    return PowerLaw(math.exp(a), b, c)
+
+
+def fit_linear_in_bits(points: list[tuple[int, int, float]]) -> LinearInBits:
+    """Likewise of log(value) = a + b log(words) + log(bits + offset), the offset by a ternary search."""
+    def best(offset: float) -> tuple[float, float, float]:
+        rows = [(1.0, math.log(words)) for words, _, _ in points]
+        logs = [math.log(value / (bits + offset)) for _, bits, value in points]
+        a, b = fit(rows, logs)
+        return sum((a + b * row[1] - log) ** 2 for row, log in zip(rows, logs)), a, b
+
+    low, high = 0.0, 64.0
+    while high - low > 1e-6:
+        left, right = low + (high - low) / 3, high - (high - low) / 3
+        if best(left)[0] < best(right)[0]:
+            high = right
+        else:
+            low = left
+    _, a, b = best(low)
+    return LinearInBits(math.exp(a), b, low)
+
+
+def _extrapolated(rows: list[dict[str, str]], most_bits: int) -> tuple[float, float]:
+    """Read energy of the widest words over CACTI's, by laws fitted to words of at most `most_bits`: linear, power."""
+    points = [(int(row["words"]), int(row["bits"]), float(row["read_pJ"])) for row in rows]
+    known = [point for point in points if point[1] <= most_bits]
+    words, bits, energy = max(points, key=lambda point: point[1])
+    return tuple(law(known)(words, bits) / energy for law in (fit_linear_in_bits, fit_power_law))
+
+
 def _cacti_lines(pdk: Path) -> list[str]:
     lines = ["### CACTI 7, 40 nm, low standby power", "",
              "Area, access time over the anchor's and read energy of the model, divided by CACTI's.", "",
              "| size | area | access | read energy |", "|---|---:|---:|---:|"]
     areas: dict[int, list[float]] = {1: [], 2: []}
+    energies: dict[int, list[float]] = {1: [], 2: []}
     for ports in (1, 2):
         points = cacti_points(pdk, ports)
         kind = sram_model.KINDS[ports]
@@ -49,9 +102,17 @@ def _cacti_lines(pdk: Path) -> list[str]:
             access = kind.access(size.words, size.bits) / float(point["access_ns"])
             energy = macro.read_energy / float(point["read_pJ"])
             areas[ports].append(area)
+            energies[ports].append(energy)
             lines.append(f"| {size.name} | {area:.2f} | {access:.2f} | {energy:.2f} |")
     lines += ["", f"Mean area ratio: one port {mean(areas[1]):.2f}, two ports {mean(areas[2]):.2f}. CACTI's arrays carry "
-              "no power ring, test logic or margin, so compiled macros are larger; its small arrays most of all."]
+              "no power ring, test logic or margin, so compiled macros are larger; its small arrays most of all.",
+              "", f"Read energy: one port {_range(energies[1])}, two ports {_range(energies[2])} of CACTI's, in words of up "
+              "to 64 bits. Wider words are extrapolated, linearly in the bits; how well that does is what laws that were fitted "
+              "to narrower words alone make of wider ones:", "",
+              "| | fitted to | of 64 bits, linear in bits | of 64 bits, power law |", "|---|---|---:|---:|"]
+    lines += [f"| {title} | at most {most} bits | {linear:.2f} | {power:.2f} |"
+              for ports, title in ((1, "one port"), (2, "two ports")) for most in (16, 32)
+              for linear, power in [_extrapolated(cacti_points(pdk, ports), most)]]
     return lines
 
 
@@ -69,7 +130,7 @@ def _openram_lines(pdk: Path) -> list[str]:
     return lines
 
 
-def _fit(points: list[tuple[float, float]]) -> tuple[float, float, float]:
+def _straight_line(points: list[tuple[float, float]]) -> tuple[float, float, float]:
     """(offset, slope, largest relative error) of a straight line."""
     mean_x, mean_y = mean(x for x, _ in points), mean(y for _, y in points)
     slope = sum((x - mean_x) * (y - mean_y) for x, y in points) / sum((x - mean_x) ** 2 for x, _ in points)
@@ -79,8 +140,8 @@ def _fit(points: list[tuple[float, float]]) -> tuple[float, float, float]:
 
 def _ihp_lines(pdk: Path) -> list[str]:
     rows = _read(pdk / "sram_points" / "ihp130_1p.csv")
-    width = _fit([(float(row["cols"]), float(row["w_um"])) for row in rows])
-    height = _fit([(float(row["rows"]), float(row["h_um"])) for row in rows])
+    width = _straight_line([(float(row["cols"]), float(row["w_um"])) for row in rows])
+    height = _straight_line([(float(row["rows"]), float(row["h_um"])) for row in rows])
     slow = [float(row["clk2q_slow_ns"]) / float(row["clk2q_typ_ns"]) for row in rows if row["clk2q_slow_ns"]]
     return ["### IHP 130 nm compiled macros", "",
             f"Width = {width[0]:.1f} + {width[1]:.3f} x columns um (largest error {width[2]:.1%}), height = "
