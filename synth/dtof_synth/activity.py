@@ -4,7 +4,8 @@
 Icarus Verilog simulates the netlist beside its RTL (simulation.py, so it is the RTL's netlist) and writes the changes of
 all nets between cells. A transition of a net costs half of C V^2 (pins and wire load behind it) and the internal
 energy of the cell that drives it, both of the Liberty; glitches do not count, because the models have no delay. The
-clock is charged apart, per flip-flop and for the estimated tree, and an SRAM per access.
+clock is charged apart: what the tree feeds in every clock (scene_power.py), what is behind a clock gate in those clocks that
+the gate lets through. An SRAM is charged per access.
 """
 
 from __future__ import annotations
@@ -223,10 +224,11 @@ class Energy:
     nets: float = 0.0
     cells: float = 0.0
     sram: float = 0.0  # of the macros in it
+    gated_clock: float = 0.0  # gates' outputs and the registers behind them
 
     @property
     def total(self) -> float:
-        return self.nets + self.cells + self.sram
+        return self.nets + self.cells + self.sram + self.gated_clock
 
 
 def energy(scope: Scope, phase: str, design: dict, library: Library, internal: dict[tuple[str, str], float],
@@ -234,6 +236,7 @@ def energy(scope: Scope, phase: str, design: dict, library: Library, internal: d
     module = netlist.modules(design)[scope.module]
     transitions = scope.transitions.get(phase, {})
     clocks = netlist.clock_nets(module)
+    gated = clocks - netlist.port_clock_nets(module)
     load: dict[int, float] = {}
     result = Energy()
     for cell in module["cells"].values():
@@ -241,7 +244,11 @@ def energy(scope: Scope, phase: str, design: dict, library: Library, internal: d
         for pin, bits in cell["connections"].items():
             if cell["port_directions"].get(pin) == "output":
                 for bit in bits:
-                    result.cells += transitions.get(bit, 0) * internal.get((kind, pin), 0.0)
+                    of_output = transitions.get(bit, 0) * internal.get((kind, pin), 0.0)
+                    if bit in gated:
+                        result.gated_clock += of_output
+                    else:
+                        result.cells += of_output
                 continue
             if kind in library.input_ff:
                 pin_ff = library.input_ff[kind].get(pin, 0.0)
@@ -250,7 +257,10 @@ def energy(scope: Scope, phase: str, design: dict, library: Library, internal: d
             else:
                 continue  # a module's own pins are counted in it
             for bit in bits:
-                if isinstance(bit, int) and bit not in clocks:
+                if bit in gated:  # a clock is two transitions
+                    result.gated_clock += transitions.get(bit, 0) / 2 * (
+                        library.clock_energy_fj.get(kind, 0.0) + (pin_ff + library.wire_ff_per_sink) * library.voltage**2)
+                elif isinstance(bit, int) and bit not in clocks:
                     load[bit] = load.get(bit, 0.0) + pin_ff + library.wire_ff_per_sink
     result.nets = sum(0.5 * ff * library.voltage**2 * transitions.get(bit, 0) for bit, ff in load.items())
     for (instance, kind), number in scope.accesses.get(phase, {}).items():

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulation models of the standard cells that a netlist uses, generated from their Liberty.
 
-Zero delay; the one parameter POWER_UP is a register's state at time 0. Netlists are simulated with the functions of
+Zero delay; the one parameter POWER_UP is a register's state at time 0. A clock gate is closed until its enable was first
+known while the clock was low. Netlists are simulated with the functions of
 the library that they were mapped to, whichever it is.
 """
 
@@ -113,9 +114,25 @@ def _register(state: Group, where: str) -> list[str]:
     return lines
 
 
+def _clock_gate(cell: Group, where: str) -> str:
+    """A latch that is open while the clock is low, and an AND. The Liberty gives them no function, but pins with roles."""
+    pins = {}
+    for role in ("clock", "enable", "out"):
+        found = [pin.name for pin in cell.children("pin") if pin.get(f"clock_gate_{role}_pin").strip('"') == "true"]
+        if len(found) != 1:
+            raise FlowError(f"{where}: the clock gate has no {role} pin")
+        pins[role] = found[0]
+    clock, enable, output = pins.values()
+    return "\n".join([f"module {cell.name} (", f"    input wire {clock},\n    input wire {enable},\n    output wire {output}",
+                      ");", "  reg held = 1'b0;", "  always @* begin", f"    if (!{clock}) held = {enable};", "  end",
+                      f"  assign {output} = {clock} & held;", "endmodule", ""])
+
+
 def model(cell: Group) -> str:
     """Verilog of one cell; FlowError for a cell that has no function or a state that is not modelled."""
     where = f"cell {cell.name}"
+    if cell.get("clock_gating_integrated_cell").strip('"') == "latch_posedge":
+        return _clock_gate(cell, where)
     unsupported = [kind for kind in _UNSUPPORTED if cell.children(kind)]
     if unsupported:
         raise FlowError(f"{where}: a '{unsupported[0]}' group is not modelled")

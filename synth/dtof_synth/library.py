@@ -24,6 +24,18 @@ class Buffer:
     max_load_ff: float
 
 
+@dataclass(frozen=True)
+class ClockGate:
+    """An integrated clock gate: a latch that is open while the clock is low, and an AND."""
+
+    name: str
+    clock_pin: str
+    enable_pin: str
+    output_pin: str
+    area: float
+    max_load_ff: float
+
+
 @dataclass
 class Library:
     """Cells of one Liberty. Areas in um2 as the Liberty has them, capacitances in fF."""
@@ -46,6 +58,7 @@ class Library:
     clock_pin_ff: dict[str, float] = field(default_factory=dict)
     clock_energy_fj: dict[str, float] = field(default_factory=dict)
     energy_fj: float = 1.0  # the Liberty's unit of energy
+    clock_gate: ClockGate | None = None  # the smallest
 
 
 def _capacitance_unit_ff(library: Group, where: Path) -> float:
@@ -98,6 +111,17 @@ def _internal_clock_energy(pin: Group) -> float:
     return sum(float(text.split(",")[0]) for text in firsts) / max(len(powers), 1)
 
 
+def _clock_gate(cell: Group, unit: float) -> ClockGate | None:
+    """Of a cell for rising-edge registers, without a pin for scan mode."""
+    if cell.get("clock_gating_integrated_cell").strip('"') != "latch_posedge":
+        return None
+    pins = [next((pin for pin in cell.children("pin") if pin.get(f"clock_gate_{role}_pin").strip('"') == "true"), None)
+            for role in ("clock", "enable", "out")]
+    if None in pins:
+        return None
+    return ClockGate(cell.name, *(pin.name for pin in pins), cell.number("area"), pins[2].number("max_capacitance") * unit)
+
+
 def read(path: Path) -> Library:
     """FlowError if the file is no Liberty or lacks an inverter, buffer, NAND2 or flip-flop."""
     root = liberty.read(path)
@@ -116,6 +140,14 @@ def read(path: Path) -> Library:
         outputs = [pin for pin in pins if pin.get("direction") == "output"]
         result.input_ff[name] = {pin.name: pin.number("capacitance") * unit for pin in inputs}
         result.max_load_ff[name] = {pin.name: pin.number("max_capacitance") * unit for pin in outputs}
+        gate = _clock_gate(cell, unit)
+        if gate is not None:
+            clock = next(pin for pin in inputs if pin.name == gate.clock_pin)
+            result.clock_pin_ff[name] = clock.number("capacitance") * unit
+            result.clock_energy_fj[name] = _internal_clock_energy(clock) * unit
+            if result.clock_gate is None or gate.area < result.clock_gate.area:
+                result.clock_gate = gate
+            continue
         if cell.children("ff"):
             result.sequential.add(name)
             clock = next((pin for pin in inputs if pin.get("clock") == "true"), None)

@@ -22,6 +22,7 @@ ENGINE_SUFFIX = "_engine"
 STUB = "column_stub"
 TREE_PREFIX = "fanout_"
 COPY_SUFFIX = "_copy"
+CLOCK_GATE_PREFIX = "clock_gate_"  # instances that clock_gating.py put in
 # A driver is given a tree when its load exceeds this share of its max_capacitance; trees fill to it.
 TREE_LOAD_SHARE = 0.5
 
@@ -35,8 +36,9 @@ class Counts:
     area: float
     buffers: int
     buffer_area: float
-    clock_ff: float
-    clock_energy_fj: float
+    clock_ff: float  # of what the clock tree feeds: flip-flops that are not gated, and gates
+    clock_energy_fj: float  # in a clock cycle, of the same
+    clock_sinks: int = 0  # how many they are
 
     def share(self, columns: int) -> Counts:
         """What one of a module's columns has of it."""
@@ -89,13 +91,18 @@ def count(module: Module, library: Library) -> Counts:
     kinds = Counter(cell["type"] for cell in module["cells"].values())
     trees = Counter(cell["type"] for name, cell in module["cells"].items() if name.startswith(TREE_PREFIX))
     flops = {kind: number for kind, number in kinds.items() if kind in library.sequential}
+    gated = clock_nets(module) - port_clock_nets(module)
+    fed = Counter(cell["type"] for cell in module["cells"].values() if cell["type"] in library.clock_pin_ff
+                  and not any(bit in gated for pin, bits in cell["connections"].items()
+                              if cell["port_directions"].get(pin) == "input" for bit in bits))
     return Counts(sum(number for kind, number in kinds.items() if kind in library.area),
                   sum(flops.values()),
                   sum(library.area.get(kind, 0) * number for kind, number in kinds.items()),
                   sum(trees.values()),
                   sum(library.area[kind] * number for kind, number in trees.items()),
-                  sum(library.clock_pin_ff[kind] * number for kind, number in flops.items()),
-                  sum(library.clock_energy_fj[kind] * number for kind, number in flops.items()))
+                  sum(library.clock_pin_ff[kind] * number for kind, number in fed.items()),
+                  sum(library.clock_energy_fj[kind] * number for kind, number in fed.items()),
+                  sum(fed.values()))
 
 
 def count_engines(design: dict, library: Library) -> Counts:
@@ -269,8 +276,15 @@ def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[st
         builder.relieve(net, drivers[net], far or sinks, copy=bool(far) and net in registers)
 
 
-def clock_nets(module: Module) -> set[int]:
+def port_clock_nets(module: Module) -> set[int]:
     return {bit for name, port in module["ports"].items() if name.startswith("clk") for bit in port["bits"]}
+
+
+def clock_nets(module: Module) -> set[int]:
+    """Of the ports, and those behind clock gates."""
+    return port_clock_nets(module) | {bit for name, cell in module["cells"].items() if name.startswith(CLOCK_GATE_PREFIX)
+                                      for pin, bits in cell["connections"].items()
+                                      if cell["port_directions"].get(pin) == "output" for bit in bits}
 
 
 def port_loads(module: Module, pin_load: Callable[[str, str], float], wire: float) -> dict[str, list[float]]:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from . import netlist, power, sram_kit, sram_model, tools
+from . import clock_gating, netlist, power, sram_kit, sram_model, tools
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
 from .library import Library
@@ -156,7 +156,7 @@ def rtl_files(root: Path) -> list[Path]:
 
 
 def elaborate(configuration: Configuration, technology: Technology, folder: Path) -> None:
-    """RTL to the technology-independent netlist generic.il, checks passed."""
+    """RTL to the technology-independent netlist generic.il with clock gates, checks passed."""
     folder.mkdir(parents=True, exist_ok=True)
     scripts = technology.root / "synth" / "yosys"
     settings = folder / "generic_settings.tcl"
@@ -170,6 +170,7 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
         "technology_files": technology_files, "black_boxes": black_boxes, "liberty": technology.slow.path,
         "parameters": configuration.rtl_parameters(), "generic_netlist": folder / "generic.il"})
     tools.run_yosys(scripts / "generic.tcl", settings, folder / "generic.log", configuration.name)
+    clock_gating.insert(folder / "generic.il", technology.slow)
 
 
 def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort) -> dict:
@@ -328,7 +329,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     modules = configuration.column_modules
     macros = modules * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))
     tree = power.clock_tree(
-        modules * best.column_module.flip_flops + best.shared.flip_flops + macros,
+        modules * best.column_module.clock_sinks + best.shared.clock_sinks + macros,
         modules * best.column_module.clock_ff + best.shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
     timing = {"slow": best.slow}
     figures: Power | None = None

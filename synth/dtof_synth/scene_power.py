@@ -59,7 +59,7 @@ class ScenePower:
     column_rate: float  # transitions of a column's data net per clock while streaming
     streaming: Parts
     other: Parts  # clear, scan, decision, results
-    idle_mw: float  # clock and leakage
+    idle_mw: float  # clock with the columns' gates shut, and leakage
     leakage_mw: float  # what is left of it with the clock gated
     streaming_clocks: int  # of a frame
     other_clocks: int
@@ -178,10 +178,11 @@ def power(configuration: Configuration, light: str, result: Result, technology: 
 
         one, control = of(column), of(counted.scopes[""])
         shared = of(engine) if engine else activity.Energy()
+        gated_mw = (one.gated_clock * modules + shared.gated_clock * engine_scale) * to_mw
         return Parts((one.nets + one.cells) * modules * to_mw, (shared.nets + shared.cells) * engine_scale * to_mw,
                      (control.nets + control.cells) * control_scale * to_mw,
                      (one.sram * modules + control.sram * modules + shared.sram * configuration.engines) * to_mw,
-                     clock_mw, leak_mw)
+                     clock_mw + gated_mw, leak_mw)
 
     streaming_clocks = FRAME_ACQUISITIONS * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
     return ScenePower(configuration, light, activity.toggle_rate(column, STREAMING, design, counted.clocks[STREAMING]),
@@ -207,8 +208,8 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
                      f"{part.engines:.1f} | {part.control:.1f} | {part.sram:.1f} | {part.clock:.1f} | "
                      f"{part.leakage:.1f} | {part.total:.1f} | {assumed.total:.1f} |")
     lines += ["", f"A frame of {FRAME_ACQUISITIONS} acquisitions, {FRAMES_PER_S} frames/s. Other: clear, scan, decision and "
-              "results. Idle: clock and leakage of a bare array; in `dtof_subsystem` the array's clock rests between frames, and "
-              "leakage is left (gated).", "",
+              "results. Idle: leakage and what the clock tree feeds of a bare array; in `dtof_subsystem` the array's clock rests "
+              "between frames, and leakage is left (gated).", "",
               "| read-out | light | streaming mW | other mW | idle mW | gated | streaming | other | frame mJ | pixel nJ | mean mW | "
               "gated |", "|---|---|" + "---:|" * 10]
     for one in found:

@@ -132,6 +132,21 @@ class Counting(unittest.TestCase):
         self.assertAlmostEqual(one.cells, 0.25 * 2)
         self.assertAlmostEqual(one.sram, 1000 * sram_model.macro(Size(1, 160, 14)).write_energy)
 
+    def test_what_is_behind_a_clock_gate_is_charged_when_it_ticks(self):
+        netlist, found = counted(VCD.replace("#6\n1!", "#6\n1!\n1'"))
+        column = netlist["modules"]["column"]
+        # The net of bit 7 is the gate's now: it rises once, while the array does not stream.
+        column["cells"] = {"clock_gate_0": cell("GATE", {"CK": [2], "E": [4]}, {"GCK": [7]}),
+                           "register": cell("DFF", {"CK": [7], "D": [3]}, {"Q": [5]})}
+        kinds = library()
+        kinds.input_ff |= {"GATE": {"CK": 0.9, "E": 1.1}, "DFF": {"CK": 0.8, "D": 1.0}}
+        kinds.clock_energy_fj |= {"DFF": 6.0}
+        scope = found.scopes["p0"]
+        scope.accesses = {}
+        one = activity.energy(scope, OTHER, netlist, kinds, {("GATE", "GCK"): 0.7}, 3.0)
+        self.assertAlmostEqual(one.gated_clock, 0.7 + 0.5 * (6.0 + (0.8 + 0.5) * 1.1**2))
+        self.assertAlmostEqual(activity.energy(scope, STREAMING, netlist, kinds, {("GATE", "GCK"): 0.7}, 3.0).gated_clock, 0)
+
     def test_rate(self):
         netlist, found = counted()
         self.assertAlmostEqual(activity.toggle_rate(found.scopes["p0"], STREAMING, netlist, 1), 2 / 3)

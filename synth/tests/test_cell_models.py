@@ -82,6 +82,19 @@ class Models(unittest.TestCase):
         self.assertEqual(self.simulate(cell_models.verilog(cell, ["F"]), bench).split(),
                          ["taken", "10", "kept", "10", "cleared", "01", "both", "10"])
 
+    def test_a_clock_gate_takes_its_enable_while_the_clock_is_low(self) -> None:
+        library = liberty.parse(standard_cells.library(standard_cells.TYPICAL), "generated")
+        bench = """reg ck, e; wire gck; integer edges = 0; CLKGATE_X1 g(.CK(ck), .E(e), .GCK(gck));
+          always @(posedge gck) edges = edges + 1;
+          initial begin
+            ck = 0; e = 0; #1 ck = 1; #1 e = 1; #1 $display("late %b%0d", gck, edges);
+            ck = 0; #1 ck = 1; #1 $display("open %b%0d", gck, edges); e = 0; #1 $display("whole %b%0d", gck, edges);
+            ck = 0; #1 ck = 1; #1 $display("shut %b%0d", gck, edges);
+            ck = 0; #1 e = 1; #1 e = 0; #1 ck = 1; #1 $display("settled %b%0d", gck, edges);
+          end"""
+        self.assertEqual(self.simulate(cell_models.verilog(library, ["CLKGATE_X1"]), bench).split(),
+                         ["late", "00", "open", "11", "whole", "11", "shut", "01", "settled", "01"])
+
     def test_cells_that_are_not_modelled_are_refused(self) -> None:
         library = self.parse("""cell (L) { latch (IQ, IQN) { enable : "G"; data_in : "D"; } }
           cell (N) { pin (Y) { direction : output; } }

@@ -86,6 +86,11 @@ class FlowChecks(unittest.TestCase):
                           " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); DFF_X1 s(.D(n), .CK(clk_i), .Q(q)); endmodule")
         self.assertIn("DTOF_SLACK", output)
 
+    def test_opensta_times_the_enable_of_a_clock_gate(self):
+        output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n, gck; DFF_X1 r(.D(a), .CK(clk_i), .Q(n));"
+                          " CLKGATE_X1 g(.CK(clk_i), .E(n), .GCK(gck)); DFF_X1 s(.D(n), .CK(gck), .Q(q)); endmodule")
+        self.assertIn("clock gating-check end-point", output)
+
     def test_opensta_errors_are_seen_although_it_exits_0(self):
         good = "module t(clk_i); input clk_i; endmodule"
         for verilog, libraries in (("module t(clk_i; endmodule", None), (good, [self.folder / "absent.lib"]),
