@@ -33,6 +33,7 @@ module coarse_histogram_column #(
   localparam int PLACE_BITS = dtof_pkg::max_of(PLACE_WIDTH, 1);
   localparam int POSITION_WIDTH = NP + FRACTION_BITS;
 
+  logic unused_detected, unused_low_bits, detected_t1;
   logic [NP-1:0] timestamp_t1;
   logic [COUNT_WIDTH-1:0] count_s2, last_count, confidence;
   logic [COUNT_WIDTH:0] pair_count;
@@ -52,6 +53,8 @@ module coarse_histogram_column #(
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
+      .detected_t0_o (unused_detected),
+      .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
@@ -66,7 +69,7 @@ module coarse_histogram_column #(
       .rst_ni         (rst_ni),
       .sram_cfg_i     (sram_cfg_i),
       .sram_cfg_o     (sram_cfg_o),
-      .hit_t1_i       (beat_t1_i && timestamp_t1 != '1),
+      .hit_t1_i       (beat_t1_i && detected_t1),
       .bin_t1_i       (timestamp_t1[NP-1-:NB]),
       .same_pixel_t3_i(same_pixel_t3_i),
       .beat_t5_i      (beat_t5_i),
@@ -79,6 +82,8 @@ module coarse_histogram_column #(
       .clear_all_i    (clear_all_i),
       .count_s2_o     (count_s2)
   );
+
+  assign unused_low_bits = ^timestamp_t1;
 
   // Addresses past the last bin are the clocks of the computation.
   assign past_s2 = (bin_s2_i >= SCAN_WIDTH'(BINS));

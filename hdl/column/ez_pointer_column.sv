@@ -22,6 +22,7 @@ module ez_pointer_column #(
   localparam int CONFIDENCE_BITS = dtof_pkg::max_of(CONFIDENCE_WIDTH, 1);
   localparam logic [POINTER_WIDTH-1:0] MIDDLE = POINTER_WIDTH'(1) << (POINTER_WIDTH - 1);
 
+  logic detected_t0, detected_t1;
   logic [NP-1:0] timestamp_t1;
   logic [POINTER_WIDTH-1:0] pointer;
   logic [CONFIDENCE_BITS-1:0] confidence;
@@ -35,6 +36,8 @@ module ez_pointer_column #(
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
+      .detected_t0_o (detected_t0),
+      .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
@@ -61,7 +64,8 @@ module ez_pointer_column #(
       .write_i        (word_write_i),
       .write_pixel_i  (word_write_pixel_i),
       .step_t0_i      (step_t0_i),
-      .hit_t1_i       (beat_t1_i && timestamp_t1 != '1),
+      .may_hit_t0_i   (detected_t0),
+      .hit_t1_i       (beat_t1_i && detected_t1),
       .timestamp_t1_i (timestamp_t1),
       .tag_t1_o       (unused_tag),
       .start_write_i  (word_set_i),

@@ -30,6 +30,7 @@ module his_pointer_column #(
   localparam int TAG_BITS = dtof_pkg::max_of(TAG_WIDTH, 1);
   localparam int HALF_BIN = (1 << (NP - NB)) >> 1;
 
+  logic detected_t0, detected_t1;
   logic [NP-1:0] timestamp_t1, centre;
   logic hit, in_window;
   logic [BIN_WIDTH-1:0] scan_peak;
@@ -50,6 +51,8 @@ module his_pointer_column #(
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
+      .detected_t0_o (detected_t0),
+      .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
@@ -66,7 +69,7 @@ module his_pointer_column #(
       .rst_ni         (rst_ni),
       .sram_cfg_i     (sram_cfg_i),
       .sram_cfg_o     (histogram_cfg),
-      .build_t1_i     (beat_t1_i && !final_pass_i),
+      .build_t1_i     (beat_t1_i && detected_t1 && !final_pass_i),
       .timestamp_t1_i (timestamp_t1),
       .peak_i         (dtof_pkg::peak_width(READOUT, NP, NB)'(0)),
       .pass_i         (1'b0),
@@ -114,7 +117,7 @@ module his_pointer_column #(
     end
   endgenerate
 
-  assign hit = beat_t1_i && (timestamp_t1 != '1) && in_window;
+  assign hit = beat_t1_i && final_pass_i && detected_t1 && in_window;
 
   pointer_builder #(
       .NP              (NP),
@@ -139,6 +142,7 @@ module his_pointer_column #(
       .write_i        (word_write_i),
       .write_pixel_i  (word_write_pixel_i),
       .step_t0_i      (step_t0_i),
+      .may_hit_t0_i   (detected_t0 && final_pass_i),
       .hit_t1_i       (hit),
       .timestamp_t1_i (timestamp_t1),
       .tag_t1_o       (tag_t1),

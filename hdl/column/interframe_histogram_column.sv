@@ -26,6 +26,7 @@ module interframe_histogram_column #(
 
   localparam int PEAK_WIDTH = dtof_pkg::peak_width(READOUT, NP, NB);
 
+  logic unused_detected, detected_t1;
   logic [NP-1:0] timestamp_t1;
   logic [PEAK_WIDTH-1:0] peak_data, peak_q, new_peak;
   logic [BIN_WIDTH-1:0] scan_peak;
@@ -50,6 +51,8 @@ module interframe_histogram_column #(
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
+      .detected_t0_o (unused_detected),
+      .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
@@ -67,7 +70,7 @@ module interframe_histogram_column #(
       .rst_ni         (rst_ni),
       .sram_cfg_i     (sram_cfg_i),
       .sram_cfg_o     (histogram_cfg),
-      .build_t1_i     (beat_t1_i),
+      .build_t1_i     (beat_t1_i && detected_t1),
       .timestamp_t1_i (timestamp_t1),
       .peak_i         (peak_q),
       .pass_i         (pass_i),

@@ -22,6 +22,7 @@ module partitioned_histogram_column #(
     `include "column_ports.svh"
 );
 
+  logic unused_detected, detected_t1;
   logic [NP-1:0] timestamp_t1;
   logic [BIN_WIDTH-1:0] scan_peak;
   logic [NP-1:0] scan_code;
@@ -39,6 +40,8 @@ module partitioned_histogram_column #(
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
+      .detected_t0_o (unused_detected),
+      .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
@@ -55,7 +58,7 @@ module partitioned_histogram_column #(
       .rst_ni         (rst_ni),
       .sram_cfg_i     (sram_cfg_i),
       .sram_cfg_o     (histogram_cfg),
-      .build_t1_i     (beat_t1_i),
+      .build_t1_i     (beat_t1_i && detected_t1),
       .timestamp_t1_i (timestamp_t1),
       .peak_i         (dtof_pkg::peak_width(READOUT, NP, NB)'(0)),
       .pass_i         (pass_i),

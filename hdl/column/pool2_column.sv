@@ -65,7 +65,7 @@ module pool2_column #(
   // The first two timestamps, complete at T1.
 
   logic [NP-1:0] timestamp_t1, first, first_q, second, second_q;
-  logic valid_t1, has_first_q, has_second, has_second_q;
+  logic valid_t1, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
 
   time_gate #(
       .NP       (NP),
@@ -75,10 +75,12 @@ module pool2_column #(
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
+      .detected_t0_o (unused_detected),
+      .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
-  assign valid_t1 = beat_t1_i && !(&timestamp_t1);
+  assign valid_t1 = beat_t1_i && detected_t1;
   assign first = (first_slot_t1_i || !has_first_q) ? timestamp_t1 : first_q;
 
   always_ff @(posedge clk_i) begin

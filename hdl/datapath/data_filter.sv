@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides which timestamps a histogram counts, and in which bin (thesis Fig. 4.7, "data filter").
-// Combinational; the all-ones code is never kept.
+// Combinational.
 //
 // Coarse pass (all but three steps and PiFH): bin = x >> (NP-NB).
 // SiFH, final (Eq. 2.4 to 2.7): start = (P << (NP-NB)) - 2^(NB-1) + 1 (+ 2^(NP-NB-1) - 1 if WINDOW_CENTRED), signed;
@@ -19,7 +19,7 @@ module data_filter #(
     localparam int PEAK_WIDTH = dtof_pkg::peak_width(READOUT, NP, NB),
     localparam int PASS_WIDTH = dtof_pkg::index_width(dtof_pkg::coarse_passes(READOUT, NP, NB) + 1)
 ) (
-    input  logic [        NP-1:0] timestamp_i,
+    input  logic [        NP-1:0] timestamp_i,   // a detection
     input  logic [PEAK_WIDTH-1:0] peak_i,        // the pixel's coarse peak so far
     input  logic [PASS_WIDTH-1:0] pass_i,
     input  logic                  final_pass_i,
@@ -32,19 +32,16 @@ module data_filter #(
   localparam int SIDE_BAND = 1 << (NB - 1);
   localparam int CENTRE = (WINDOW_CENTRED != 0 && NP > NB) ? (1 << (NP - NB - 1)) - 1 : 0;
 
-  logic detected;
-  assign detected = (timestamp_i != '1);
-
   generate
     if (READOUT == dtof_pkg::READOUT_SIFH) begin : g_sifh
       logic signed [NP+1:0] offset;
       assign start_o = $signed((NP + 2)'(peak_i) << COARSE_SHIFT) + $signed((NP + 2)'(CENTRE + 1 - SIDE_BAND));
       assign offset = $signed({2'b00, timestamp_i}) - start_o;
-      assign keep_o = detected && (!final_pass_i || (offset[NP+1:NB] == '0));
+      assign keep_o = !final_pass_i || (offset[NP+1:NB] == '0);
       assign bin_o = final_pass_i ? offset[NB-1:0] : timestamp_i[NP-1-:NB];
     end else if (READOUT == dtof_pkg::READOUT_FIFH) begin : g_fifh
       assign start_o = $signed((NP + 2)'(peak_i) << COARSE_SHIFT);
-      assign keep_o = detected && (!final_pass_i || (timestamp_i[NP-1-:NB] == peak_i));
+      assign keep_o = !final_pass_i || (timestamp_i[NP-1-:NB] == peak_i);
       assign bin_o = final_pass_i ? BIN_WIDTH'(timestamp_i & NP'((1 << COARSE_SHIFT) - 1))
           : BIN_WIDTH'(timestamp_i >> COARSE_SHIFT);
     end else if (READOUT == dtof_pkg::READOUT_THREESTEPS) begin : g_threesteps
@@ -61,29 +58,31 @@ module data_filter #(
       always_comb begin
         case (pass_i)
           2'd0: begin
-            keep_o = detected;
+            keep_o = 1'b1;
             bin_o = BIN_WIDTH'(code >> S0);
           end
           2'd1: begin
-            keep_o = detected && ((code >> S0) == peak);
+            keep_o = ((code >> S0) == peak);
             bin_o = BIN_WIDTH'((code >> S1) & WIDE'((1 << (S0 - S1)) - 1));
           end
           2'd2: begin
-            keep_o = detected && ((code >> S1) == peak);
+            keep_o = ((code >> S1) == peak);
             bin_o = BIN_WIDTH'((code >> S2) & WIDE'((1 << (S1 - S2)) - 1));
           end
           default: begin
-            keep_o = detected && ((offset >>> 4) == '0);
+            keep_o = ((offset >>> 4) == '0);
             bin_o = BIN_WIDTH'(offset);
           end
         endcase
       end
     end else if (READOUT == dtof_pkg::READOUT_PIFH && NP > NB) begin : g_pifh
-      assign keep_o = detected && (timestamp_i[NP-1:NB] == pass_i);
+      assign keep_o = (timestamp_i[NP-1:NB] == pass_i);
       assign bin_o = timestamp_i[NB-1:0];
       assign start_o = '0;
     end else begin : g_coarse
-      assign keep_o = detected;
+      logic unused_low_bits;
+      assign unused_low_bits = ^timestamp_i;
+      assign keep_o = 1'b1;
       assign bin_o = timestamp_i[NP-1-:BIN_WIDTH];
       assign start_o = '0;
     end

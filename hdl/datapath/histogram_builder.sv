@@ -17,8 +17,8 @@
 //   T4 / S2  + 1                                   the count is at count_s2_o
 //   T5       SRAM write
 //
-// The registers need no reset: beat_t5_i masks every write.
-// Cost at the defaults: 46 flip-flops, an incrementer, one bin comparator; block RAM on an FPGA.
+// The registers need no reset: beat_t5_i masks every write. They rest where there is no hit and no scan.
+// Cost at the defaults: 47 flip-flops, an incrementer, one bin comparator; block RAM on an FPGA.
 `include "dtof_macros.svh"
 
 module histogram_builder #(
@@ -57,7 +57,7 @@ module histogram_builder #(
   localparam int NEXT_VISIT = (PIXELS_PER_SRAM - 1) * SLOTS + 1;
   localparam int FORWARD_DEPTH = (NEXT_VISIT <= 3) ? 3 : ((SLOTS - 1 < 3) ? SLOTS - 1 : 3);
 
-  logic hit_t2_q, hit_t3_q, hit_t4_q, hit_t5_q;
+  logic hit_t2_q, hit_t3_q, hit_t4_q, hit_t5_q, read_done_q;
   logic [BIN_WIDTH-1:0] bin_t2_q, bin_t3_q, bin_t4_q, bin_t5_q;
   logic [COUNT_WIDTH-1:0] sram_data, valid_data, count_q, operand, incremented, written_q;
   logic [ADDR_WIDTH-1:0] read_addr, write_addr;
@@ -114,12 +114,23 @@ module histogram_builder #(
     hit_t3_q <= hit_t2_q;
     hit_t4_q <= hit_t3_q;
     hit_t5_q <= hit_t4_q;
-    bin_t2_q <= bin_t1_i;
-    bin_t3_q <= bin_t2_q;
-    bin_t4_q <= bin_t3_q;
-    bin_t5_q <= bin_t4_q;
-    count_q <= valid_data;
-    written_q <= incremented;
+    read_done_q <= read_en;
+    if (hit_t1_i) begin
+      bin_t2_q <= bin_t1_i;
+    end
+    if (hit_t2_q) begin
+      bin_t3_q <= bin_t2_q;
+    end
+    if (hit_t3_q) begin
+      bin_t4_q <= bin_t3_q;
+    end
+    if (hit_t4_q) begin
+      bin_t5_q <= bin_t4_q;
+      written_q <= incremented;
+    end
+    if (read_done_q) begin
+      count_q <= valid_data;
+    end
   end
 
   assign count_s2_o = count_q;

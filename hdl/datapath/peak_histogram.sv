@@ -28,8 +28,8 @@ module peak_histogram #(
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp at T1
-    input  logic                   build_t1_i,       // it belongs to an acquisition whose pass has a histogram
-    input  logic [         NP-1:0] timestamp_t1_i,   // all ones: no detection
+    input  logic                   build_t1_i,       // it is a detection of an acquisition whose pass has a histogram
+    input  logic [         NP-1:0] timestamp_t1_i,
     input  logic [ PEAK_WIDTH-1:0] peak_i,           // its pixel's coarse peak so far
     input  logic [ PASS_WIDTH-1:0] pass_i,           // its pass
     input  logic                   final_pass_i,

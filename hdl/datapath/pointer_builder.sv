@@ -6,7 +6,7 @@
 // handed to the user's window test through tag_t1_o, so that it can decide hit_t1_i in the same clock.
 //
 // A broadcast signal arrives late in a column: the step is registered here, like the timestamp, where it changes.
-// Cost at the defaults: 29 flip-flops of a column, one pointer_update, PIXELS_PER_SRAM words of SRAM.
+// Cost at the defaults: 31 flip-flops of a column, one pointer_update, PIXELS_PER_SRAM words of SRAM.
 module pointer_builder #(
     parameter int NP = 10,               // bits of a timestamp
     parameter int PIXELS_PER_SRAM = 160,  // pointers
@@ -38,7 +38,8 @@ module pointer_builder #(
     input  logic [      ROW_WIDTH-1:0] write_pixel_i,
     input  logic [     STEP_WIDTH-1:0] step_t0_i,        // (POINTER_STEP << FRACTION_BITS) >> gear
     // timestamp at T1
-    input  logic                       hit_t1_i,         // it moves the pointer
+    input  logic                       may_hit_t0_i,     // the one at T0 may move the pointer
+    input  logic                       hit_t1_i,         // it moves the pointer, or its confidence
     input  logic [             NP-1:0] timestamp_t1_i,
     output logic [       TAG_BITS-1:0] tag_t1_o,         // of its pixel
     // start value of a pixel, never in the clock of write_i; its confidence is 0
@@ -76,6 +77,8 @@ module pointer_builder #(
       .first_acq_t1_i (first_acq_t1_i),
       .write_i        (write_i),
       .write_pixel_i  (write_pixel_i),
+      .may_change_t0_i(may_hit_t0_i),
+      .changes_t1_i   (hit_t1_i),
       .word_t1_o      (current),
       .next_t1_i      (moved),
       .start_write_i  (start_write_i),

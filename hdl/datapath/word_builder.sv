@@ -4,7 +4,7 @@
 // 1. The word is read while the pixel before is served, and registered a clock later.
 // 2. It is shown at word_t1_o beside each of the pixel's timestamps at T1, and next_t1_i takes its place: what lies
 //    between the two ports, combinational, is the user's update (pointer_builder: a step of a pointer).
-// 3. Two clocks after the pixel's last timestamp it is written.
+// 3. Two clocks after the pixel's last timestamp it is written, if one of them changed it.
 // 4. Outside the stream a word is set to start_word_i, or read for the result: word_o has the word last read.
 //
 // With very few pixels a pixel's word is read before its last visit was written; its place in the cycle is then
@@ -18,7 +18,10 @@
 //
 // Reads fall on first-slot clocks and writes one clock behind, so PORTS = 1 works for SLOTS >= 2. A broadcast flag
 // arrives late in a column: the first slot is registered here, like the timestamp.
-// Cost: 2 WIDTH + 1 flip-flops, a multiplexer, PIXELS_PER_SRAM words of SRAM; an FPGA's block RAM fits.
+//
+// Where nothing is detected the registers rest: word_q takes a word only if a timestamp of its visit may change it, and
+// the multiplexer before the update turns to word_q only for a timestamp behind the first slot that may.
+// Cost: 2 WIDTH + 3 flip-flops, a multiplexer, PIXELS_PER_SRAM words of SRAM; an FPGA's block RAM fits.
 `include "dtof_macros.svh"
 
 module word_builder #(
@@ -43,7 +46,9 @@ module word_builder #(
     input  logic                 write_i,          // last slot at T2
     input  logic [ROW_WIDTH-1:0] write_pixel_i,
     // the update, between these two
-    output logic [    WIDTH-1:0] word_t1_o,        // of the pixel whose timestamp is at T1
+    input  logic                 may_change_t0_i,  // the timestamp at T0 may change the word
+    input  logic                 changes_t1_i,     // the timestamp at T1 does, of those that may
+    output logic [    WIDTH-1:0] word_t1_o,        // of the pixel whose timestamp is at T1, where that may change it
     input  logic [    WIDTH-1:0] next_t1_i,        // ... behind that timestamp
     // start value of a pixel, never in the clock of write_i
     input  logic                 start_write_i,
@@ -60,7 +65,7 @@ module word_builder #(
   localparam int NEEDS_HISTORY = (PIXELS_PER_SRAM * SLOTS < 2 * SLOTS + 2) ? 1 : 0;
 
   logic [WIDTH-1:0] sram_data, read_q, fetched, word_q;
-  logic first_slot_t1_q, take_fetched;
+  logic first_slot_t1_q, take_fetched, load_word, write_changed;
 
   dtof_sram #(
       .PORTS(PORTS),
@@ -74,7 +79,7 @@ module word_builder #(
       .read_en_i   (read_i),
       .read_addr_i (read_pixel_i),
       .read_data_o (sram_data),
-      .write_en_i  (write_i || start_write_i),
+      .write_en_i  (write_changed || start_write_i),
       .write_addr_i(start_write_i ? start_pixel_i : write_pixel_i),
       .write_data_i(start_write_i ? start_word_i : word_q)
   );
@@ -83,7 +88,9 @@ module word_builder #(
     if (read_done_i) begin
       read_q <= sram_data;
     end
-    word_q <= next_t1_i;
+    if (load_word) begin
+      word_q <= next_t1_i;
+    end
     first_slot_t1_q <= first_slot_t0_i;
   end
 
@@ -101,15 +108,29 @@ module word_builder #(
       end else begin : g_few_pixels
         assign fetched = first_acq_t1_i ? read_q : history_q[(PIXELS_PER_SRAM-2)*WIDTH+:WIDTH];
       end
+      // The history takes word_q over at each visit, changed or not.
+      assign take_fetched = visit_t1_i;
+      assign load_word = 1'b1;
+      assign write_changed = write_i;
+      logic unused_changes;
+      assign unused_changes = ^{may_change_t0_i, changes_t1_i, first_slot_t1_q};
     end else begin : g_no_history
       logic unused_history;
       assign unused_history = first_acq_t1_i ^ visit_t1_i;
       assign fetched = read_q;
+      logic take_fetched_q, changed_q, later_slot_may;
+      always_ff @(posedge clk_i) begin
+        take_fetched_q <= first_slot_t0_i || (take_fetched_q && !may_change_t0_i);
+        changed_q <= changes_t1_i || (changed_q && !first_slot_t1_q);
+      end
+      assign take_fetched = take_fetched_q;
+      // In a visit's first slot a word is kept for a later one: with two slots that is the one at T0.
+      assign later_slot_may = (SLOTS > 2) || (SLOTS == 2 && may_change_t0_i);
+      assign load_word = changes_t1_i || (first_slot_t1_q && later_slot_may);
+      assign write_changed = write_i && changed_q;
     end
   endgenerate
 
-  // Between acquisitions word_q may be overwritten, but where the history takes it over.
-  assign take_fetched = (NEEDS_HISTORY != 0) ? visit_t1_i : first_slot_t1_q;
   assign word_t1_o = take_fetched ? fetched : word_q;
   assign word_o = read_q;
 

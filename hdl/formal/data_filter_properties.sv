@@ -105,9 +105,6 @@ module data_filter_properties #(
       dtof_pkg::READOUT_HISTOGRAM: expected_bin = x;
       default: expected_bin = x >>> (NP - NB);  // hisPointer's measurement 1
     endcase
-    if (x == (1 << NP) - 1) begin
-      expected_keep = 1'b0;
-    end
   end
 
   `ASSUME(m_pass, 32'(pass_i) <= COARSE_PASSES)

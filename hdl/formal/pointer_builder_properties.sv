@@ -21,6 +21,7 @@ module pointer_builder_properties #(
     input logic                     begin_i,
     input logic                     more_i,
     input logic                     tdc_valid_i,
+    input logic                     may_hit_i,     // at T0: what the window at T1 can keep
     input logic                     keep_i,
     input logic [           NP-1:0] timestamp_i,   // at T1
     input logic [   STEP_WIDTH-1:0] step_i,        // after an acquisition and before a pass
@@ -40,6 +41,7 @@ module pointer_builder_properties #(
   logic stream_q, more_q, ready, acq_done, idle, accepted;
   logic [2:0] quiet_q;
   logic [STEP_WIDTH-1:0] step_q, step_t1_q;
+  logic may_hit_q, keep;
   logic fetch, beat_t1, first_slot, visit, first_acq, last_slot, beat_t5, read_done_q, read;
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
   logic [3:1] same_pixel;
@@ -67,7 +69,10 @@ module pointer_builder_properties #(
       step_q <= (FRACTION_BITS == 0) ? STEP_WIDTH'(1) : step_i;
     end
     step_t1_q <= step_q;
+    may_hit_q <= may_hit_i;
   end
+
+  assign keep = may_hit_q && keep_i;
 
   pixel_sequencer #(
       .PIXELS_PER_SRAM    (PIXELS),
@@ -116,7 +121,8 @@ module pointer_builder_properties #(
       .write_i        (last_slot),
       .write_pixel_i  (pixel_t2),
       .step_t0_i      (step_q),
-      .hit_t1_i       (beat_t1 && keep_i),
+      .may_hit_t0_i   (may_hit_i),
+      .hit_t1_i       (beat_t1 && keep),
       .timestamp_t1_i (timestamp_i),
       .tag_t1_o       (tag_t1),
       .start_write_i  (start_i),
@@ -142,7 +148,7 @@ module pointer_builder_properties #(
       .FRACTION_BITS   (FRACTION_BITS),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)
   ) u_reference_move (
-      .hit_i       (keep_i),
+      .hit_i       (keep),
       .timestamp_i (timestamp_i),
       .step_i      (step_t1_q),
       .pointer_i   (pointer_q),
@@ -188,7 +194,7 @@ module pointer_builder_properties #(
   `ASSUME(m_read_and_start_between_passes, !stream_q || (!read_i && !start_i))
   `ASSUME(m_one_access, !(read_i && start_i))
   `ASSUME(m_in_range, 32'(read_pixel_i) < PIXELS && 32'(start_pixel_i) < PIXELS && 32'(watched_pixel) < PIXELS)
-  `PROVE(a_tag, TAG_WIDTH == 0 || !(watched_t1_q && known_q) || tag_t1 == tag_q)
+  `PROVE(a_tag, TAG_WIDTH == 0 || !(watched_t1_q && known_q && may_hit_q) || tag_t1 == tag_q)
   `PROVE(a_pointer, !(check_s2_q && !started) || pointer == pointer_q)
   `PROVE(a_confidence, !(check_s2_q && !started) || confidence == confidence_q)
   `GOAL(check_s2_q && confidence == '1 && pointer != '0)

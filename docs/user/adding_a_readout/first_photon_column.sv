@@ -22,7 +22,7 @@ module first_photon_column #(
 
   logic [NP-1:0] timestamp_t1;
   logic [WORD_WIDTH-1:0] word_t1, next_t1, word;
-  logic found, hit;
+  logic found, hit, detected_t0, detected_t1;
 
   time_gate #(
       .NP       (NP),
@@ -32,12 +32,14 @@ module first_photon_column #(
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
       .gate_end_i    (gate_end_i),
+      .detected_t0_o (detected_t0),
+      .detected_t1_o (detected_t1),
       .timestamp_t1_o(timestamp_t1)
   );
 
   assign found = word_t1[0];
-  assign hit = beat_t1_i && timestamp_t1 != '1;
-  assign next_t1 = (hit && !found) ? {timestamp_t1, 1'b1} : word_t1;
+  assign hit = beat_t1_i && detected_t1 && !found;
+  assign next_t1 = hit ? {timestamp_t1, 1'b1} : word_t1;
 
   word_builder #(
       .WIDTH          (WORD_WIDTH),
@@ -57,6 +59,8 @@ module first_photon_column #(
       .first_acq_t1_i (first_acq_t1_i),
       .write_i        (word_write_i),
       .write_pixel_i  (word_write_pixel_i),
+      .may_change_t0_i(detected_t0),
+      .changes_t1_i   (hit),
       .word_t1_o      (word_t1),
       .next_t1_i      (next_t1),
       .start_write_i  (word_set_i),
