@@ -10,6 +10,7 @@ acquisitions, for a whole frame with its idle time, and beside what `make synth`
 from __future__ import annotations
 
 import csv
+import json
 import os
 import subprocess
 import threading
@@ -18,14 +19,16 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import activity, liberty, netlist, simulation, sram_kit, sram_model
+from . import activity, liberty, netlist, simulation, sram_kit, sram_model, tools
+from . import power as power_model
 from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .library import Library
 from .run import TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
 
-CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer", "fifh", "poolpointer2")
+CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer1", "hispointer", "sifh", "fifh", "threesteps", "pifh",
+                  "histogram", "coarsehistogram", "poolpointer2", "poolpointer2_lean")
 KLUX = {"day": 50.0, "dusk": 2.0}
 SCENE = "room"
 ACQUISITIONS = 64
@@ -57,6 +60,7 @@ class ScenePower:
     configuration: Configuration
     light: str
     column_rate: float  # transitions of a column's data net per clock while streaming
+    uniform_mw: float  # of all columns' logic, if each of its data nets had this rate: OpenSTA
     streaming: Parts
     other: Parts  # clear, scan, decision, results
     idle_mw: float  # clock with the columns' gates shut, and leakage
@@ -94,6 +98,27 @@ def _streams(ports: dict[str, int]) -> bool:
     return ports.get("tdc_ready_o") == 1 and ports.get("tdc_valid_i") == 1
 
 
+def _write_verilog(design: dict, technology: Technology, folder: Path, name: str, configuration: str) -> None:
+    (folder / f"{name}.json").write_text(json.dumps(design), encoding="utf-8")
+    settings = folder / f"{name}_settings.tcl"
+    tools.write_settings(settings, {"netlist_json": folder / f"{name}.json", "netlist": folder / f"{name}.v"})
+    tools.run_yosys(technology.root / "synth" / "yosys" / "write_verilog.tcl", settings, folder / f"{name}.log",
+                    configuration)
+
+
+def uniform_mw(configuration: Configuration, technology: Technology, folder: Path, rate: float) -> float:
+    """OpenSTA's power of all columns' logic, which knows one rate for all data nets and no waveform."""
+    library = technology.typical
+    settings = folder / "power_settings.tcl"
+    tools.write_settings(settings, {
+        "liberty_files": [library.path, technology.kit / "sram40_typical.lib"], "netlist": folder / "static.v",
+        "top": configuration.top, "wire_load": library.wire_load, "period": f"{1000 / TARGET_MHZ:.6f}",
+        "column": "u_pair" if configuration.is_pool else "u_column", "activity": f"{rate:.6f}"})
+    output = tools.run_sta(technology.root / "synth" / "sta" / "power.tcl", settings, folder / "sta_power.log",
+                           configuration.name)
+    return power_model.data_mw(output) * configuration.column_modules
+
+
 def simulate(configuration: Configuration, technology: Technology, folder: Path, klux: float,
              seed: int) -> tuple[dict, Activity]:
     """The small array's netlist on the scene, checked against RTL and model while it is counted."""
@@ -102,6 +127,7 @@ def simulate(configuration: Configuration, technology: Technology, folder: Path,
     elaborate(case.configuration, technology, folder)
     design = map_to_cells(case.configuration, technology, folder, efforts(case.configuration)[0])
     netlist.finish(design, technology.slow, sram_kit.PIN_FF)
+    _write_verilog(design, technology, folder, "static", case.name)
     activity.name_for_counting(design)
     files = simulation.write_simulation_netlist(design, case.configuration, technology, folder, seed)
     simulation.write_vectors(case, root, folder, ("--scene", SCENE, "--klux", f"{klux:g}"))
@@ -185,7 +211,8 @@ def power(configuration: Configuration, light: str, result: Result, technology: 
                      clock_mw + gated_mw, leak_mw)
 
     streaming_clocks = FRAME_ACQUISITIONS * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
-    return ScenePower(configuration, light, activity.toggle_rate(column, STREAMING, design, counted.clocks[STREAMING]),
+    rate = activity.toggle_rate(column, STREAMING, design, counted.clocks[STREAMING])
+    return ScenePower(configuration, light, rate, uniform_mw(configuration, technology, folder, rate),
                       parts(STREAMING), parts(OTHER), clock_mw + leak_mw, leak_mw, streaming_clocks,
                       counted.clocks[OTHER] + configuration.pixels)
 
@@ -198,14 +225,15 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
              f"every net counted, {TARGET_MHZ:g} MHz, typical corner, seed {seed}; inputs `{digest[:12]}`. Method: "
              "[docs/reference/synthesis.md](../docs/reference/synthesis.md#power-from-activity).", "",
              "mW of the whole array while acquisitions stream in. Rate: transitions of a column's data net per clock. "
+             "OpenSTA: the columns' figure by the tool that knows no waveform, from this one rate for all of their data nets. "
              "Assumed: what [timing.md](timing.md) has for the same array.", "",
-             "| read-out | light | rate | columns | engines | control | SRAM | clock | leakage | total | assumed |",
-             "|---|---|" + "---:|" * 9]
+             "| read-out | light | rate | columns | OpenSTA | engines | control | SRAM | clock | leakage | total | assumed |",
+             "|---|---|" + "---:|" * 10]
     for one in found:
         part = one.streaming
         assumed = results[one.configuration.name].power
         lines.append(f"| {one.configuration.title} | {one.light} | {one.column_rate:.2f} | {part.columns:.1f} | "
-                     f"{part.engines:.1f} | {part.control:.1f} | {part.sram:.1f} | {part.clock:.1f} | "
+                     f"{one.uniform_mw:.1f} | {part.engines:.1f} | {part.control:.1f} | {part.sram:.1f} | {part.clock:.1f} | "
                      f"{part.leakage:.1f} | {part.total:.1f} | {assumed.total:.1f} |")
     lines += ["", f"A frame of {FRAME_ACQUISITIONS} acquisitions, {FRAMES_PER_S} frames/s. Other: clear, scan, decision and "
               "results. Idle: leakage and what the clock tree feeds of a bare array; in `dtof_subsystem` the array's clock rests "
@@ -232,14 +260,14 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
 def write_csv(path: Path, found: list[ScenePower]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(["configuration", "light", "klux", "column_rate", "phase", "columns_mw", "engines_mw", "control_mw",
+        writer.writerow(["configuration", "light", "klux", "column_rate", "opensta_columns_mw", "phase", "columns_mw", "engines_mw", "control_mw",
                          "sram_mw", "clock_mw", "leakage_mw", "total_mw", "clocks_of_a_frame", "frame_mj"])
         for one in found:
             for phase, part, clocks in ((STREAMING, one.streaming, one.streaming_clocks),
                                         (OTHER, one.other, one.other_clocks)):
                 figures = (part.columns, part.engines, part.control, part.sram, part.clock, part.leakage, part.total)
                 writer.writerow([one.configuration.name, one.light, f"{KLUX[one.light]:g}", f"{one.column_rate:.4f}",
-                                 phase, *(f"{figure:.3f}" for figure in figures), clocks, f"{one.frame_mj:.4f}"])
+                                 f"{one.uniform_mw:.3f}", phase, *(f"{figure:.3f}" for figure in figures), clocks, f"{one.frame_mj:.4f}"])
 
 
 def run(chosen: list[Configuration], results: dict[str, Result], technology: Technology, folder: Path, seed: int,

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: Apache-2.0
+import tempfile
+import unittest
+from pathlib import Path
+
+from dtof_synth import power, standard_cells, tools
+
+SYNTH = Path(__file__).resolve().parents[1]
+
+
+class DataPower(unittest.TestCase):
+    def test_the_clock_and_leakage_are_taken_off(self):
+        output = ("DTOF_POWER_CLOCK\n 4.0e-06 1.0e-06 5.0e-09 5.0e-06 u_column/a\n"
+                  "DTOF_POWER_ALL\n 6.0e-06 2.5e-06 5.0e-09 8.5e-06 u_column/a\n 1.0e-06 5.0e-07 5.0e-09 1.5e-06 u_column/b\n")
+        self.assertAlmostEqual(power.data_mw(output), ((6.0 + 1.0 - 4.0) / 2 + 2.5 + 0.5 - 1.0) * 1e-3)
+
+    def test_opensta_charges_a_column_by_the_rate_of_its_nets(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "typical.lib").write_text(standard_cells.library(standard_cells.TYPICAL), encoding="utf-8")
+            (folder / "netlist.v").write_text(
+                "module t(clk_i, a, y); input clk_i, a; output y; wire n; INV_X1 out(.A(n), .Y(y));\n"
+                " own u_column(.clk_i(clk_i), .a(a), .y(n)); endmodule\n"
+                "module own(clk_i, a, y); input clk_i, a; output y; wire m, g;\n"
+                " CLKGATE_X1 e(.CK(clk_i), .E(a), .GCK(g)); DFF_X1 r(.D(a), .CK(g), .Q(m)); INV_X1 i(.A(m), .Y(y)); endmodule\n",
+                encoding="utf-8")
+            found = []
+            for rate in (0.1, 0.3):
+                settings = folder / "settings.tcl"
+                tools.write_settings(settings, {
+                    "liberty_files": [folder / "typical.lib"], "netlist": folder / "netlist.v", "top": "t",
+                    "wire_load": standard_cells.WIRE_LOAD, "period": "3.0", "column": "u_column", "activity": f"{rate}"})
+                output = tools.run_sta(SYNTH / "sta" / "power.tcl", settings, folder / "sta.log", "test")
+                self.assertNotIn(" out\n", output)
+                found.append(power.data_mw(output))
+            # The net behind the register carries an inverter and two micrometres of wire.
+            inverter = standard_cells.inverter()
+            internal = sum(standard_cells._path_energy(path, 1.1) for path in ((inverter,) * 4, (inverter,)))
+            wire = standard_cells.WIRE_FF_PER_UM * standard_cells.WIRE_UM_PER_FANOUT
+            nets = 0.5 * 2 * (standard_cells.CINV_FF + wire) * 1.1**2
+            self.assertAlmostEqual(found[0] / (0.1 * (internal + nets) / 3.0 * 1e-3), 1, delta=0.02)
+            self.assertAlmostEqual(found[1] / found[0], 3, delta=0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
