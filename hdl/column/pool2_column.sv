@@ -48,6 +48,7 @@ module pool2_column #(
     input  logic                    second_row_t2_i,   // coarse: its second one is
     input  logic [             3:0] acquisition_t3_i,  // mod 16
     // coarse bin of the timestamp that counts: at T2 of the second pixel, and registered
+    output logic                    detected_t2_o,  // the pixel at T2 has a timestamp
     output logic                    valid_t2_o,
     output logic [COARSE_WIDTH-1:0] bin_t2_o,
     output logic                    held_valid_o,
@@ -149,6 +150,7 @@ module pool2_column #(
   logic held_valid_q;
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
+  assign detected_t2_o = has_first_q;
   assign bin = used[NP-1-:COARSE_WIDTH];
   assign valid_t2_o = has_first_q || held_valid_q;
   assign bin_t2_o = (held_valid_q && !(odd_q && has_first_q)) ? held_bin_q : bin;

@@ -89,7 +89,7 @@ module pool2_pair #(
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
 
   logic [WORD_WIDTH-1:0] read_data, write_data, word_q, next_word, next_pixels, updated, counted;
-  logic [COLUMNS-1:0] valid_t2, held_valid;
+  logic [COLUMNS-1:0] detected_t2, valid_t2, held_valid;
   logic [COLUMNS*COARSE_WIDTH-1:0] bin_t2, held_bin;
   logic read, write, word_load;
   logic [ADDR_WIDTH-1:0] address;
@@ -159,7 +159,7 @@ module pool2_pair #(
 
   // The word in work, and the group of its pixels.
 
-  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, word_load_q, update_q;
+  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, word_load_q, update_q, changed_q;
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [3:0] acquisition_t3_q;
 
@@ -170,7 +170,10 @@ module pool2_pair #(
 
   always_ff @(posedge clk_i) begin
     acquisition_t3_q <= acquisition_t2_i;
-    word_q <= next_word;
+    if (word_load || update_q || (count_i && pending_q)) begin
+      word_q <= next_word;
+    end
+    changed_q <= (update_t2_i && (detected_t2 != '0)) || (changed_q && !word_load_q);
     word_load_q <= word_load_d_i;
     update_q <= update_t2_i;
     if (group_load_i) begin
@@ -223,6 +226,7 @@ module pool2_pair #(
             .first_row_t2_i  (first_row_t2_i),
             .second_row_t2_i (second_row_t2_i),
             .acquisition_t3_i(acquisition_t3_q),
+            .detected_t2_o   (detected_t2[c]),
             .valid_t2_o      (valid_t2[c]),
             .bin_t2_o        (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),
             .held_valid_o    (held_valid[c]),
@@ -242,10 +246,11 @@ module pool2_pair #(
     end
   endgenerate
 
-  // SRAM. In the coarse phase the common address is a group's first word.
+  // SRAM. In the coarse phase the common address is a group's first word. Pixels without a timestamp stay what they are, and
+  // a word of them alone is not written.
 
   assign read = read_i && (engine_i ? select_i : (!coarse_i || (bin_valid && !same_word)));
-  assign write = write_i && (engine_i ? clear_i || select_i : (!coarse_i || write_q));
+  assign write = write_i && (engine_i ? clear_i || select_i : (coarse_i ? write_q : changed_q));
   assign group_word = write_i ? write_group_word_q : bin[COARSE_WIDTH-1:PLACE_WIDTH];
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(group_word) : '0);
 
