@@ -87,8 +87,12 @@ module pool2_column #(
   always_ff @(posedge clk_i) begin
     has_first_q <= valid_t1 || (has_first_q && !first_slot_t1_i);
     has_second_q <= has_second;
-    first_q <= first;
-    second_q <= second;
+    if (valid_t1 && (first_slot_t1_i || !has_first_q)) begin
+      first_q <= first;
+    end
+    if (has_second) begin
+      second_q <= second;
+    end
   end
 
   generate
@@ -190,7 +194,9 @@ module pool2_column #(
   assign used_hits = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin
-    matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first[NP-1-:CELL_WIDTH];
+    if (valid_t1 || last_slot_t1_i) begin
+      matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first[NP-1-:CELL_WIDTH];
+    end
     first_hits_q <= hits;
   end
 
