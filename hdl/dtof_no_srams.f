@@ -10,6 +10,7 @@ control/gate_register.sv
 control/pass_sequencer.sv
 control/pixel_sequencer.sv
 control/scan_sequencer.sv
+control/broadcast.sv
 control/controller.sv
 control/column_rules.sv
 control/stream_rules.sv

@@ -55,11 +55,11 @@ module pool2_sequencer #(
     output logic [   ROW_WIDTH-1:0] scratch_row_o,    // of write_scratch and read_scratch
     output logic [COLUMN_WIDTH-1:0] column_o,         // of a chain: the column in work
     // results of all engines: column e ENGINE_COLUMNS + send_column_o of engine e, column by column, row by row
-    output logic                    send_o,           // only while send_waits_i is low
+    output logic                    send_o,           // in a step that began while send_waits_i was low
     output logic [COLUMN_WIDTH-1:0] send_column_o,    // held until the next
     output logic [   ROW_WIDTH-1:0] send_row_o,
     output logic                    send_last_o,      // the frame's last pixel
-    input  logic                    send_waits_i,     // the results given last have not been taken
+    input  logic                    send_waits_i,     // there is no room for another pixel's results
     input  logic                    send_busy_i       // results are still being sent
 );
 
@@ -214,7 +214,7 @@ module pool2_sequencer #(
   assign result_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 2));  // the one before that has its neighbours
   assign pair_done = done_before && (row_before[0] || last_step);
 
-  assign stall = deciding && (t_q == '0) && (send_waits_i || (send_o && send_busy_i));
+  assign stall = deciding && (t_q == '0) && send_waits_i;
 
   // The schedule.
 

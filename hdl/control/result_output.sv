@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // AXI4-Stream from the columns' result chain: one beat a column for the pixel (row) just read out.
 //
-// The columns' result registers form a shift chain whose head is column 0; each accepted beat shifts it by
-// one column. The shift is a register's output, so no path leads from tready to 200 columns in one clock.
+// The columns' result registers form a shift chain whose head is column 0. The way to the columns takes LATENCY clocks, so
+// that the chain is shifted ahead of the beats: as long as there is room for what will come, whether or not the sink takes
+// it. The shift is a register's output, so no path leads from tready to 200 columns in one clock.
 // tdata = {column, row, code, fraction, confidence}; tlast on the last column of the last row.
-// Latency: 2 SRAM_NUM + 1 clocks a row when tready stays high; the next row is scanned meanwhile. tvalid never
+// Latency: SRAM_NUM + LATENCY + 1 clocks a row when tready stays high; the next row is scanned meanwhile. tvalid never
 // falls before tready.
-// Cost: a column counter, four flip-flops.
+// Cost: LATENCY + 2 results, three counters.
 `include "dtof_macros.svh"
 
 module result_output #(
     parameter int SRAM_NUM = 200,
     parameter int ROW_WIDTH = 8,
     parameter int RESULT_WIDTH = 14,
+    parameter int LATENCY = 2,  // clocks until the columns hear shift_o; as many as until the chain holds what start_i says
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM)
 ) (
     input  logic                                           clk_i,
     input  logic                                           rst_ni,
-    input  logic                                           start_i,     // the chain holds a row's results
+    input  logic                                           start_i,     // the chain holds a row's results in LATENCY clocks
     input  logic                                           last_row_i,
     input  logic [                          ROW_WIDTH-1:0] row_i,
     input  logic [                       RESULT_WIDTH-1:0] head_i,      // result register of column 0
@@ -30,43 +32,76 @@ module result_output #(
     output logic                                           tlast_o
 );
 
+  localparam int PLACES = LATENCY + 2;  // a beat per clock
+  localparam int PLACES_WIDTH = $clog2(PLACES + 1);
   localparam logic [COLUMN_WIDTH-1:0] LAST_COLUMN = COLUMN_WIDTH'(SRAM_NUM - 1);
 
-  logic valid_q, shift_q, done_q;
-  logic [COLUMN_WIDTH-1:0] column_q;
-  logic last_column, accepted;
+  logic busy_q, shift_q, done_q, valid_q, last_column, accepted, shift_d, shifted_all, arrives;
+  logic [COLUMN_WIDTH-1:0] column_q, head_column_q;  // of the beat; at the chain's head behind all shifts so far
+  logic [LATENCY:0] arrives_q;                       // a column's result is at the head, lowest bit last
+  logic [PLACES_WIDTH-1:0] promised_q, promised_d;   // results that are kept or on their way
+  logic [PLACES_WIDTH-1:0] kept_q, kept_d, place;
+  logic [PLACES*RESULT_WIDTH-1:0] results_q, results_d;
 
   assign last_column = (column_q == LAST_COLUMN);
   assign accepted = valid_q && tready_i;
+  assign arrives = arrives_q[0];
+  assign shifted_all = (head_column_q == LAST_COLUMN);
+  assign shift_d = busy_q && !shifted_all && (32'(promised_q) < PLACES);
+  assign promised_d = promised_q + PLACES_WIDTH'(start_i || shift_d) - PLACES_WIDTH'(accepted);
+  assign place = kept_q - PLACES_WIDTH'(accepted);
+  assign kept_d = place + PLACES_WIDTH'(arrives);
 
-  always_ff @(posedge clk_i or negedge rst_ni) begin
-    if (!rst_ni) begin
-      valid_q <= 1'b0;
-      shift_q <= 1'b0;
-      done_q <= 1'b0;
-      column_q <= '0;
-    end else begin
-      shift_q <= accepted && !last_column;
-      done_q <= accepted && last_column;
-      if (start_i) begin
-        valid_q <= 1'b1;
-        column_q <= '0;
-      end else if (accepted) begin
-        valid_q <= 1'b0;
-        column_q <= last_column ? column_q : column_q + 1'b1;
-      end else if (shift_q) begin
-        valid_q <= 1'b1;
+  integer i;
+  always_comb begin
+    results_d = accepted ? results_q >> RESULT_WIDTH : results_q;
+    for (i = 0; i < PLACES; i = i + 1) begin
+      if (arrives && place == PLACES_WIDTH'(i)) begin
+        results_d[i*RESULT_WIDTH+:RESULT_WIDTH] = head_i;
       end
     end
   end
 
-  `DTOF_ASSERT(a_one_row, !(start_i && (valid_q || shift_q)), "a row of results is started while another is sent")
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      busy_q <= 1'b0;
+      shift_q <= 1'b0;
+      done_q <= 1'b0;
+      valid_q <= 1'b0;
+      arrives_q <= '0;
+      promised_q <= '0;
+      kept_q <= '0;
+      column_q <= '0;
+      head_column_q <= '0;
+    end else begin
+      busy_q <= start_i || (busy_q && !(accepted && last_column));
+      shift_q <= shift_d;
+      done_q <= accepted && last_column;
+      valid_q <= (kept_d != '0);
+      arrives_q <= (LATENCY + 1)'({start_i || shift_q, arrives_q} >> 1);
+      promised_q <= promised_d;
+      kept_q <= kept_d;
+      if (start_i) begin
+        column_q <= '0;
+        head_column_q <= '0;
+      end else begin
+        column_q <= (accepted && !last_column) ? column_q + 1'b1 : column_q;
+        head_column_q <= shift_d ? head_column_q + 1'b1 : head_column_q;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    results_q <= results_d;
+  end
+
+  `DTOF_ASSERT(a_one_row, !(start_i && busy_q), "a row of results is started while another is sent")
 
   assign shift_o = shift_q;
   assign done_o = done_q;
-  assign busy_o = valid_q || shift_q;
+  assign busy_o = busy_q;
   assign tvalid_o = valid_q;
-  assign tdata_o = {column_q, row_i, head_i};
+  assign tdata_o = {column_q, row_i, results_q[RESULT_WIDTH-1:0]};
   assign tlast_o = last_row_i && last_column;
 
 `ifndef SYNTHESIS

@@ -38,6 +38,8 @@
     parameter int RAW_HISTOGRAM = 0,
     // bits of the run-time number of acquisitions
     parameter int ACQ_WIDTH = 16,
+    // registers between the shared logic and the columns; they delay, and change no result
+    parameter int BROADCAST_STAGES = 2,
     // rows of a group, which shares a coarse histogram
     parameter int GROUP_SIZE = 4,
     // candidates of a group

@@ -22,8 +22,10 @@
 // Raw frame (RAW_HISTOGRAM = 1, raw_i with start_i): instead of the results, the histograms that the read-out holds at the
 //   frame's end, of the rows from raw_first_row_i to raw_last_row_i: row by row, bin by bin, column by column. code is
 //   the bin's lowest, limited to 0 .. 2^NP - 1, fraction 0, and confidence the count.
+// Borders: every signal between the shared logic and the columns, and every timestamp, goes from a register to a register
+//   (broadcast.sv); of what comes back there is only the result chain's head.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
-// larger of 2 SRAM_NUM and the addresses to scan in M4.
+// larger of SRAM_NUM + BROADCAST_STAGES and the addresses to scan in M4.
 // Cost at the defaults: ezPointer 493 um2 of logic and 2240 bits of SRAM a column, 1998 um2 in common.
 `include "dtof_macros.svh"
 
@@ -45,6 +47,7 @@ module dtof_array #(
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: raw_i is there; a confidence has at least COUNT_WIDTH bits
     parameter int ACQ_WIDTH = 16,        // bits of the run-time number of acquisitions
+    parameter int BROADCAST_STAGES = 2,  // registers between the shared logic and the columns, 1 to 8
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int KEPT_CONFIDENCE_WIDTH = dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM),
@@ -100,6 +103,9 @@ module dtof_array #(
   `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (RAW_HISTOGRAM == 1 && dtof_pkg::has_whole_histogram(READOUT, NP, NB)),
                 "dtof_array: RAW_HISTOGRAM must be 0, or 1 with a histogram that is whole at a frame's end")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 1 && ACQ_WIDTH <= 24, "dtof_array: ACQ_WIDTH must be 1 to 24")
+
+  `DTOF_REQUIRE(g_illegal_broadcast, BROADCAST_STAGES >= 1 && BROADCAST_STAGES <= 8,
+                "dtof_array: BROADCAST_STAGES must be 1 to 8")
 
   localparam int HISTOGRAM = dtof_pkg::has_histogram(READOUT) ? 1 : 0;
   localparam int WORD = dtof_pkg::has_word(READOUT) ? 1 : 0;  // a word a pixel beside the histogram
@@ -371,41 +377,87 @@ module dtof_array #(
   logic [(SRAM_NUM+1)*RESULT_WIDTH-1:0] chain;
   assign chain[SRAM_NUM*RESULT_WIDTH+:RESULT_WIDTH] = '0;
 
-  // What the columns are told. What the read-out has no use for is zero: synthesis keeps the columns as modules, and
-  // with their ports what drives them.
+  // What the columns are told, on its way to them. What the read-out has no use for is zero: synthesis keeps the columns
+  // as modules, and with their ports what drives them.
 
-  logic [PASS_WIDTH-1:0] column_pass;
-  logic column_first_pass, column_final_pass, column_first_slot_t0, column_visit_t1, column_first_acq_t1,
-      column_beat_t5, column_scan_s0, column_clear_s1, column_clear_all, column_scan_s2, column_first_s2;
-  logic [STEP_WIDTH-1:0] column_step_t0;
-  logic [3:1] column_same_pixel_t3;
-  logic [ROW_WIDTH-1:0] column_histogram_read_pixel, column_histogram_write_pixel, column_word_read_pixel,
-      column_word_set_pixel, column_word_write_pixel;
-  logic [BIN_WIDTH-1:0] column_scan_bin_s0, column_clear_bin_s1;
-  logic [SCAN_WIDTH-1:0] column_bin_s2;
+  localparam int TOLD_WIDTH = 2 * NP + PASS_WIDTH + STEP_WIDTH + 5 * ROW_WIDTH + 2 * BIN_WIDTH + SCAN_WIDTH + 21;
 
-  assign column_pass = (COARSE_PASSES != 0) ? pass : '0;
-  assign column_first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
-  assign column_final_pass = (COARSE_PASSES != 0) ? final_pass && !(keeps_counts && final_scan) : 1'b1;
-  assign column_first_slot_t0 = (WORD_MOVED != 0) ? first_slot_t0 : 1'b0;
-  assign column_visit_t1 = (WORD_MOVED != 0) ? visit_t1 : 1'b0;
-  assign column_first_acq_t1 = (WORD_MOVED != 0) ? first_acq_t1 : 1'b0;
-  assign column_step_t0 = (WORD_MOVED != 0) ? step_t0 : '0;
-  assign column_same_pixel_t3 = (HISTOGRAM != 0) ? same_pixel_t3 : '0;
-  assign column_beat_t5 = (HISTOGRAM != 0) ? beat_t5 : 1'b0;
-  assign column_histogram_read_pixel = (HISTOGRAM != 0) ? histogram_read_pixel : '0;
-  assign column_histogram_write_pixel = (HISTOGRAM != 0) ? histogram_write_pixel : '0;
-  assign column_scan_s0 = (HISTOGRAM != 0) ? scan_s0 && (32'(bin_s0) < BINS) : 1'b0;
-  assign column_scan_bin_s0 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s0) : '0;
-  assign column_clear_s1 = (HISTOGRAM != 0) ? clear_s1 && !(keeps_counts && coarse_scan) : 1'b0;
-  assign column_clear_bin_s1 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s1) : '0;
-  assign column_clear_all = (HISTOGRAM != 0) ? clear_all && !(keeps_counts && next_pass) : 1'b0;
-  assign column_scan_s2 = (HISTOGRAM != 0) ? scan_s2 : 1'b0;
-  assign column_first_s2 = (HISTOGRAM != 0) ? first_s2 : 1'b0;
-  assign column_bin_s2 = (HISTOGRAM != 0) ? bin_s2 : '0;
-  assign column_word_read_pixel = (WORD != 0) ? word_read_pixel : '0;
-  assign column_word_set_pixel = (WORD != 0) ? word_set_pixel : '0;
-  assign column_word_write_pixel = (WORD_MOVED != 0) ? pixel_t2 : '0;
+  logic [PASS_WIDTH-1:0] told_pass, column_pass;
+  logic told_first_pass, column_first_pass, told_final_pass, column_final_pass;
+  logic told_first_slot_t0, column_first_slot_t0, told_visit_t1, column_visit_t1;
+  logic told_first_acq_t1, column_first_acq_t1, told_beat_t5, column_beat_t5, column_beat_t1;
+  logic told_scan_s0, column_scan_s0, told_clear_s1, column_clear_s1, told_clear_all, column_clear_all;
+  logic told_scan_s2, column_scan_s2, told_first_s2, column_first_s2;
+  logic [STEP_WIDTH-1:0] told_step_t0, column_step_t0;
+  logic [3:1] told_same_pixel_t3, column_same_pixel_t3;
+  logic [ROW_WIDTH-1:0] told_histogram_read_pixel, column_histogram_read_pixel;
+  logic [ROW_WIDTH-1:0] told_histogram_write_pixel, column_histogram_write_pixel;
+  logic [ROW_WIDTH-1:0] told_word_read_pixel, column_word_read_pixel, told_word_set_pixel, column_word_set_pixel;
+  logic [ROW_WIDTH-1:0] told_word_write_pixel, column_word_write_pixel;
+  logic [BIN_WIDTH-1:0] told_scan_bin_s0, column_scan_bin_s0, told_clear_bin_s1, column_clear_bin_s1;
+  logic [SCAN_WIDTH-1:0] told_bin_s2, column_bin_s2;
+  logic column_word_read, column_word_read_done, column_word_set, column_word_write;
+  logic column_result_load, column_result_shift;
+  logic [NP-1:0] column_gate_begin, column_gate_end;
+  logic [TOLD_WIDTH-1:0] told, heard;
+  logic [SRAM_NUM*NP-1:0] timestamps;
+
+  assign told_pass = (COARSE_PASSES != 0) ? pass : '0;
+  assign told_first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
+  assign told_final_pass = (COARSE_PASSES != 0) ? final_pass && !(keeps_counts && final_scan) : 1'b1;
+  assign told_first_slot_t0 = (WORD_MOVED != 0) ? first_slot_t0 : 1'b0;
+  assign told_visit_t1 = (WORD_MOVED != 0) ? visit_t1 : 1'b0;
+  assign told_first_acq_t1 = (WORD_MOVED != 0) ? first_acq_t1 : 1'b0;
+  assign told_step_t0 = (WORD_MOVED != 0) ? step_t0 : '0;
+  assign told_same_pixel_t3 = (HISTOGRAM != 0) ? same_pixel_t3 : '0;
+  assign told_beat_t5 = (HISTOGRAM != 0) ? beat_t5 : 1'b0;
+  assign told_histogram_read_pixel = (HISTOGRAM != 0) ? histogram_read_pixel : '0;
+  assign told_histogram_write_pixel = (HISTOGRAM != 0) ? histogram_write_pixel : '0;
+  assign told_scan_s0 = (HISTOGRAM != 0) ? scan_s0 && (32'(bin_s0) < BINS) : 1'b0;
+  assign told_scan_bin_s0 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s0) : '0;
+  assign told_clear_s1 = (HISTOGRAM != 0) ? clear_s1 && !(keeps_counts && coarse_scan) : 1'b0;
+  assign told_clear_bin_s1 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s1) : '0;
+  assign told_clear_all = (HISTOGRAM != 0) ? clear_all && !(keeps_counts && next_pass) : 1'b0;
+  assign told_scan_s2 = (HISTOGRAM != 0) ? scan_s2 : 1'b0;
+  assign told_first_s2 = (HISTOGRAM != 0) ? first_s2 : 1'b0;
+  assign told_bin_s2 = (HISTOGRAM != 0) ? bin_s2 : '0;
+  assign told_word_read_pixel = (WORD != 0) ? word_read_pixel : '0;
+  assign told_word_set_pixel = (WORD != 0) ? word_set_pixel : '0;
+  assign told_word_write_pixel = (WORD_MOVED != 0) ? pixel_t2 : '0;
+
+  assign told = {gate_begin, gate_end, told_pass, told_first_pass, told_final_pass, told_first_slot_t0, beat_t1,
+                 told_visit_t1, told_first_acq_t1, told_step_t0, told_same_pixel_t3, told_beat_t5,
+                 told_histogram_read_pixel, told_histogram_write_pixel, told_scan_s0, told_scan_bin_s0, told_clear_s1,
+                 told_clear_bin_s1, told_clear_all, told_scan_s2, told_first_s2, told_bin_s2, word_read,
+                 told_word_read_pixel, word_read_done_q, word_set, told_word_set_pixel, word_write,
+                 told_word_write_pixel, result_load, result_shift};
+  assign {column_gate_begin, column_gate_end, column_pass, column_first_pass, column_final_pass, column_first_slot_t0,
+          column_beat_t1, column_visit_t1, column_first_acq_t1, column_step_t0, column_same_pixel_t3, column_beat_t5,
+          column_histogram_read_pixel, column_histogram_write_pixel, column_scan_s0, column_scan_bin_s0,
+          column_clear_s1, column_clear_bin_s1, column_clear_all, column_scan_s2, column_first_s2, column_bin_s2,
+          column_word_read, column_word_read_pixel, column_word_read_done, column_word_set, column_word_set_pixel,
+          column_word_write, column_word_write_pixel, column_result_load, column_result_shift} = heard;
+
+  broadcast #(
+      .WIDTH (TOLD_WIDTH),
+      .STAGES(BROADCAST_STAGES)
+  ) u_broadcast (
+      .clk_i (clk_i),
+      .rst_ni(rst_ni),
+      .from_i(told),
+      .to_o  (heard)
+  );
+
+  broadcast #(
+      .WIDTH (SRAM_NUM * NP),
+      .STAGES(BROADCAST_STAGES),
+      .RESET (0)
+  ) u_timestamps (
+      .clk_i (clk_i),
+      .rst_ni(rst_ni),
+      .from_i(tdc_timestamp_i),
+      .to_o  (timestamps)
+  );
 
   // Column c, of whatever read-out: all have the same ports. (Signals alone are connected: Yosys 0.23 stops at an
   // expression that takes its width from a port of a module with included ports.)
@@ -431,14 +483,14 @@ module dtof_array #(
       .rst_ni                 (rst_ni), \
       .sram_cfg_i             (sram_cfg_i), \
       .sram_cfg_o             (column_cfg[c*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]), \
-      .timestamp_i            (tdc_timestamp_i[c*NP+:NP]), \
-      .gate_begin_i           (gate_begin), \
-      .gate_end_i             (gate_end), \
+      .timestamp_i            (timestamps[c*NP+:NP]), \
+      .gate_begin_i           (column_gate_begin), \
+      .gate_end_i             (column_gate_end), \
       .pass_i                 (column_pass), \
       .first_pass_i           (column_first_pass), \
       .final_pass_i           (column_final_pass), \
       .first_slot_t0_i        (column_first_slot_t0), \
-      .beat_t1_i              (beat_t1), \
+      .beat_t1_i              (column_beat_t1), \
       .visit_t1_i             (column_visit_t1), \
       .first_acq_t1_i         (column_first_acq_t1), \
       .step_t0_i              (column_step_t0), \
@@ -454,15 +506,15 @@ module dtof_array #(
       .scan_s2_i              (column_scan_s2), \
       .first_s2_i             (column_first_s2), \
       .bin_s2_i               (column_bin_s2), \
-      .word_read_i            (word_read), \
+      .word_read_i            (column_word_read), \
       .word_read_pixel_i      (column_word_read_pixel), \
-      .word_read_done_i       (word_read_done_q), \
-      .word_set_i             (word_set), \
+      .word_read_done_i       (column_word_read_done), \
+      .word_set_i             (column_word_set), \
       .word_set_pixel_i       (column_word_set_pixel), \
-      .word_write_i           (word_write), \
+      .word_write_i           (column_word_write), \
       .word_write_pixel_i     (column_word_write_pixel), \
-      .result_load_i          (result_load), \
-      .result_shift_i         (result_shift), \
+      .result_load_i          (column_result_load), \
+      .result_shift_i         (column_result_shift), \
       .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]), \
       .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH]) \
   );
@@ -488,7 +540,8 @@ module dtof_array #(
   result_output #(
       .SRAM_NUM    (SRAM_NUM),
       .ROW_WIDTH   (ROW_WIDTH),
-      .RESULT_WIDTH(RESULT_WIDTH)
+      .RESULT_WIDTH(RESULT_WIDTH),
+      .LATENCY     (BROADCAST_STAGES)
   ) u_result_output (
       .clk_i     (clk_i),
       .rst_ni    (rst_ni),

@@ -11,6 +11,9 @@
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
 //   second code, second fraction, code, fraction, confidence}: the label that lost the decision, not smoothed, to which
 //   the confidence belongs as well.
+// Borders: every signal between the shared logic and columns or engines, and every timestamp, goes from a register to a
+//   register (broadcast.sv). An engine's word goes to its pairs behind a multiplexer, and their words come to it through an
+//   OR: these are a few columns wide.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"
@@ -32,6 +35,7 @@ module pool_pointer2_array #(
     parameter int SECOND_TARGET = 0,      // 1: a result has the position of the label that lost, too
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
+    parameter int BROADCAST_STAGES = 2,   // registers between the shared logic and columns and engines, 1 to 8
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET),
@@ -73,6 +77,8 @@ module pool_pointer2_array #(
   localparam int STEP_WIDTH = dtof_pkg::index_width(STEPS);
   localparam int STEP_PAIRS = (STEPS + 1) / 2;
   localparam int ENGINES = (SRAM_NUM + STEPS - 1) / STEPS;
+  localparam int LAST_COLUMNS = SRAM_NUM - (ENGINES - 1) * STEPS;  // of the last engine
+  localparam int LAST_PAIRS = (LAST_COLUMNS + 1) / 2;
 
   `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "pool_pointer2_array: NP must be 8 to 16")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "pool_pointer2_array: PIXELS_PER_SRAM must be at least 1")
@@ -103,6 +109,8 @@ module pool_pointer2_array #(
                 "pool_pointer2_array: ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 4 && ACQ_WIDTH <= 24,
                 "pool_pointer2_array: ACQ_WIDTH must be 4 to 24")
+  `DTOF_REQUIRE(g_illegal_broadcast, BROADCAST_STAGES >= 1 && BROADCAST_STAGES <= 8,
+                "pool_pointer2_array: BROADCAST_STAGES must be 1 to 8")
 
   // Control, once per array.
 
@@ -252,30 +260,98 @@ module pool_pointer2_array #(
     end
   end
 
-  // What every pair gets, registered to spread it.
+  // What pairs and engines are told, on its way to them. The last engine may have fewer columns: its last pair is then its
+  // own missing neighbour.
 
-  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, group_load_q, group_upper_q;
-  logic [ADDR_WIDTH-1:0] address_q;
+  localparam int COMMAND_WIDTH = $bits(pool2_engine_command_t);
+  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 24;
 
+  logic told_read, told_write, has_right, last_has_right;
+  logic [ADDR_WIDTH-1:0] told_address;
+  logic [LAST_PAIRS-1:0] last_select;
+
+  // A clock later than what is told, as the sequencers give read, write and address a clock early.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      read_q <= 1'b0;
-      write_q <= 1'b0;
+      told_read <= 1'b0;
+      told_write <= 1'b0;
     end else begin
-      read_q <= stream_read || engine_read;
-      write_q <= stream_write || engine_write || clear;
+      told_read <= stream_read || engine_read;
+      told_write <= stream_write || engine_write || clear;
     end
   end
+
+  logic coarse_q, point_q, engine_q, clear_q, group_load_q, group_upper_q;
 
   always_ff @(posedge clk_i) begin
     coarse_q <= coarse;
     point_q <= point;
     engine_q <= !stream;
     clear_q <= clear;
-    address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
+    told_address <= clear ? clear_address : (stream ? stream_address : engine_address);
     group_load_q <= group_load;
     group_upper_q <= group_place;
   end
+
+  generate
+    if (LAST_PAIRS < STEP_PAIRS) begin : g_fewer
+      assign last_select = engine_select[LAST_PAIRS-1:0]
+          | (LAST_PAIRS'(engine_neighbour && engine_select[LAST_PAIRS]) << (LAST_PAIRS - 1));
+    end else begin : g_all
+      assign last_select = engine_select;
+      logic unused_neighbour;
+      assign unused_neighbour = engine_neighbour;
+    end
+  endgenerate
+
+  assign has_right = (engine_column != STEP_WIDTH'(STEPS - 1));
+  assign last_has_right = (engine_column != STEP_WIDTH'(LAST_COLUMNS - 1));
+
+  logic [TOLD_WIDTH-1:0] told, heard;
+  logic [COMMAND_WIDTH-1:0] heard_command;
+  logic [NP-1:0] heard_gate_begin, heard_gate_end;
+  logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
+  logic heard_first_row_t2, heard_second_row_t2, heard_update_t2, heard_second_column, heard_fresh, heard_load, heard_count;
+  logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear;
+  logic heard_upper, heard_has_right, heard_last_has_right;
+  logic [3:0] heard_acquisition_t2;
+  logic [ADDR_WIDTH-1:0] heard_address;
+  logic [STEP_PAIRS-1:0] heard_select;
+  logic [LAST_PAIRS-1:0] heard_last_select;
+  logic [ROW_WIDTH-1:0] heard_scratch_row;
+  logic [SRAM_NUM*NP-1:0] timestamps;
+
+  assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
+                 first_row_t2, second_row_t2, update_t2, acquisition_t2, second_column, fresh, load, count, told_read,
+                 told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, clear_q,
+                 engine_select, last_select, engine_upper, has_right, last_has_right, scratch_row, command};
+  assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
+          heard_last_slot_t1, heard_odd_t1, heard_first_row_t2, heard_second_row_t2, heard_update_t2,
+          heard_acquisition_t2, heard_second_column, heard_fresh, heard_load, heard_count, heard_read, heard_write,
+          heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear, heard_select,
+          heard_last_select, heard_upper, heard_has_right, heard_last_has_right, heard_scratch_row,
+          heard_command} = heard;
+
+  broadcast #(
+      .WIDTH (TOLD_WIDTH),
+      .STAGES(BROADCAST_STAGES)
+  ) u_broadcast (
+      .clk_i (clk_i),
+      .rst_ni(rst_ni),
+      .from_i(told),
+      .to_o  (heard)
+  );
+
+  broadcast #(
+      .WIDTH (SRAM_NUM * NP),
+      .STAGES(BROADCAST_STAGES),
+      .RESET (0)
+  ) u_timestamps (
+      .clk_i (clk_i),
+      .rst_ni(rst_ni),
+      .from_i(tdc_timestamp_i),
+      .to_o  (timestamps)
+  );
 
   // Engines with their pairs of columns.
 
@@ -303,7 +379,7 @@ module pool_pointer2_array #(
       logic [PAIRS*dtof_pkg::SRAM_CFG_WIDTH-1:0] pair_cfg;
       logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg, part_cfg;
       logic [PAIRS-1:0] select;
-      logic has_right;
+      logic has_right_here;
       integer i;
 
       always_comb begin
@@ -317,16 +393,13 @@ module pool_pointer2_array #(
 
       assign cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH] = part_cfg & engine_cfg;
 
-      // The last pair is its own missing neighbour, in an engine with fewer columns, too.
-      if (PAIRS < STEP_PAIRS) begin : g_fewer
-        assign select = engine_select[PAIRS-1:0] | (PAIRS'(engine_neighbour && engine_select[PAIRS]) << (PAIRS - 1));
-      end else begin : g_all
-        assign select = engine_select;
-        logic unused_neighbour;
-        assign unused_neighbour = engine_neighbour;
+      if (e == ENGINES - 1) begin : g_last
+        assign select = heard_last_select;
+        assign has_right_here = heard_last_has_right;
+      end else begin : g_full
+        assign select = heard_select;
+        assign has_right_here = heard_has_right;
       end
-
-      assign has_right = (engine_column != STEP_WIDTH'(COLUMNS - 1));
 
       for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
         localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
@@ -350,33 +423,33 @@ module pool_pointer2_array #(
             .rst_ni          (rst_ni),
             .sram_cfg_i      (sram_cfg_i),
             .sram_cfg_o      (pair_cfg[p*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
-            .gate_begin_i    (gate_begin),
-            .gate_end_i      (gate_end),
-            .timestamp_i     (tdc_timestamp_i[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
-            .coarse_i        (coarse_q),
-            .point_i         (point_q),
-            .beat_t1_i       (beat_t1),
-            .first_slot_t1_i (first_slot_t1),
-            .last_slot_t1_i  (last_slot_t1),
-            .odd_t1_i        (odd_t1),
-            .first_row_t2_i  (first_row_t2),
-            .second_row_t2_i (second_row_t2),
-            .update_t2_i     (update_t2),
-            .acquisition_t2_i(acquisition_t2),
-            .second_column_i (second_column),
-            .fresh_i         (fresh),
-            .load_i          (load),
-            .count_i         (count),
-            .read_i          (read_q),
-            .write_i         (write_q),
-            .address_i       (address_q),
-            .word_load_d_i   (stream_word_load),
-            .group_load_i    (group_load_q),
-            .group_upper_i   (group_upper_q),
-            .engine_i        (engine_q),
-            .clear_i         (clear_q),
+            .gate_begin_i    (heard_gate_begin),
+            .gate_end_i      (heard_gate_end),
+            .timestamp_i     (timestamps[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
+            .coarse_i        (heard_coarse),
+            .point_i         (heard_point),
+            .beat_t1_i       (heard_beat_t1),
+            .first_slot_t1_i (heard_first_slot_t1),
+            .last_slot_t1_i  (heard_last_slot_t1),
+            .odd_t1_i        (heard_odd_t1),
+            .first_row_t2_i  (heard_first_row_t2),
+            .second_row_t2_i (heard_second_row_t2),
+            .update_t2_i     (heard_update_t2),
+            .acquisition_t2_i(heard_acquisition_t2),
+            .second_column_i (heard_second_column),
+            .fresh_i         (heard_fresh),
+            .load_i          (heard_load),
+            .count_i         (heard_count),
+            .read_i          (heard_read),
+            .write_i         (heard_write),
+            .address_i       (heard_address),
+            .word_load_d_i   (heard_word_load),
+            .group_load_i    (heard_group_load),
+            .group_upper_i   (heard_group_upper),
+            .engine_i        (heard_engine),
+            .clear_i         (heard_clear),
             .select_i        (select[p]),
-            .upper_i         (engine_upper),
+            .upper_i         (heard_upper),
             .engine_word_i   (word),
             .word_o          (pair_words[p*LINE_WIDTH+:LINE_WIDTH])
         );
@@ -398,12 +471,12 @@ module pool_pointer2_array #(
           .rst_ni       (rst_ni),
           .sram_cfg_i   (sram_cfg_i),
           .sram_cfg_o   (engine_cfg),
-          .smooth_i     (smooth_q),
-          .has_right_i  (has_right),
-          .command_i    (command),
+          .smooth_i     (heard_smooth),
+          .has_right_i  (has_right_here),
+          .command_i    (heard_command),
           .line_i       (line),
           .word_o       (word),
-          .scratch_row_i(scratch_row),
+          .scratch_row_i(heard_scratch_row),
           .result_o     (results[e*RESULT_WIDTH+:RESULT_WIDTH])
       );
     end
@@ -414,7 +487,8 @@ module pool_pointer2_array #(
       .ENGINE_COLUMNS(STEPS),
       .SRAM_NUM      (SRAM_NUM),
       .ROW_WIDTH     (ROW_WIDTH),
-      .RESULT_WIDTH  (RESULT_WIDTH)
+      .RESULT_WIDTH  (RESULT_WIDTH),
+      .LATENCY       (BROADCAST_STAGES)
   ) u_result_output (
       .clk_i    (clk_i),
       .rst_ni   (rst_ni),

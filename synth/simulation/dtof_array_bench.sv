@@ -18,6 +18,7 @@ module dtof_array_bench #(
     parameter int TIME_GATE = 0,
     parameter int RAW_HISTOGRAM = 0,  // the vectors have results alone
     parameter int ACQ_WIDTH = 16,
+    parameter int BROADCAST_STAGES = 2,
     parameter int FRAMES = 1,
     parameter int BEATS = 1,
     parameter int SEED = 1
@@ -56,7 +57,8 @@ module dtof_array_bench #(
       .SIGNALLED_CLEAR (SIGNALLED_CLEAR),
       .TIME_GATE       (TIME_GATE),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
-      .ACQ_WIDTH       (ACQ_WIDTH)
+      .ACQ_WIDTH       (ACQ_WIDTH),
+      .BROADCAST_STAGES(BROADCAST_STAGES)
   ) u_rtl (
       .clk_i          (clk),
       .rst_ni         (rst_n),

@@ -18,6 +18,7 @@ module pool_pointer2_array_bench #(
     parameter int SECOND_TARGET = 0,  // the vectors have one target
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
+    parameter int BROADCAST_STAGES = 2,
     parameter int FRAMES = 1,
     parameter int BEATS = 1,
     parameter int SEED = 1
@@ -55,7 +56,8 @@ module pool_pointer2_array_bench #(
       .TIME_GATE        (TIME_GATE),
       .SECOND_TARGET    (SECOND_TARGET),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
-      .ACQ_WIDTH        (ACQ_WIDTH)
+      .ACQ_WIDTH        (ACQ_WIDTH),
+      .BROADCAST_STAGES(BROADCAST_STAGES)
   ) u_rtl (
       .clk_i          (clk),
       .rst_ni         (rst_n),

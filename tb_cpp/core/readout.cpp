@@ -220,6 +220,9 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (parameter == "ACQ_WIDTH") {
     return 16;
   }
+  if (parameter == "BROADCAST_STAGES") {
+    return 2;
+  }
   if (parameter == "COARSE_SHARE") {
     return 14;
   }

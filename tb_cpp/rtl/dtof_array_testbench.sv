@@ -23,6 +23,7 @@ module dtof_array_testbench #(
     parameter SIGNALLED_CLEAR = 0,
     parameter TIME_GATE = 0,
     parameter RAW_HISTOGRAM = 0,
+    parameter BROADCAST_STAGES = 2,
     parameter PROBE = 0,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
 ) (
@@ -92,7 +93,8 @@ module dtof_array_testbench #(
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
       .TIME_GATE(TIME_GATE),
       .RAW_HISTOGRAM(RAW_HISTOGRAM),
-      .ACQ_WIDTH(16)
+      .ACQ_WIDTH(16),
+      .BROADCAST_STAGES(BROADCAST_STAGES)
   ) u_array (
       .clk_i,
       .rst_ni,

@@ -20,6 +20,7 @@ module pool_pointer2_testbench #(
     parameter TIME_GATE = 0,
     parameter SECOND_TARGET = 0,
     parameter ENGINE_COLUMNS = 34,
+    parameter BROADCAST_STAGES = 2,
     localparam BUS_WIDTH = SRAM_NUM > 8 ? 16 * SRAM_NUM : 128
 ) (
     input  logic                 clk_i,
@@ -89,6 +90,7 @@ module pool_pointer2_testbench #(
       .TIME_GATE(TIME_GATE),
       .SECOND_TARGET(SECOND_TARGET),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
+      .BROADCAST_STAGES(BROADCAST_STAGES),
       .ACQ_WIDTH(16)
   ) u_array (
       .clk_i,

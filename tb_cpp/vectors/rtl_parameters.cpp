@@ -54,7 +54,8 @@ std::map<std::string_view, Setter> setters(ArrayParameters& array, int& time_gat
           {"SIGNALLED_CLEAR", nothing},
           {"RAW_HISTOGRAM", nothing},
           {"ENGINE_COLUMNS", number(pool.engine_columns)},
-          {"ACQ_WIDTH", nothing}};
+          {"ACQ_WIDTH", nothing},
+          {"BROADCAST_STAGES", nothing}};
 }
 
 }  // namespace
