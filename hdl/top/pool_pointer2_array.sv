@@ -263,7 +263,7 @@ module pool_pointer2_array #(
   // What pairs and engines are told, on its way to them. The last engine may have fewer columns: its last pair is then its
   // own missing neighbour.
 
-  localparam int COMMAND_WIDTH = $bits(pool2_engine_command_t);
+  localparam int COMMAND_WIDTH = $bits(command);
   localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 24;
 
   logic told_read, told_write, has_right, last_has_right;
