@@ -9,7 +9,8 @@
 //   second column                                                    read          registered    counted  written
 // A count in the word of the count before goes on with the register, whose write may be still to come.
 //
-// Engine: what was read is on word_o two clocks after read_i; at all other times word_o is 0. Its low half is the half
+// Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
+// of an engine's pairs are combined by OR from pair to pair (beside_word_i), so that no wire is longer than a pair. The low half is the half
 // that was asked for. Where eight bins need both halves, its high half is the word's. The
 // engine writes one half; the other half is written with it, so that the word must have been read before.
 // Cost at the defaults: see reports/area.md.
@@ -76,6 +77,7 @@ module pool2_pair #(
     input  logic                  select_i,          // with read_i and write_i: this pair
     input  logic                  upper_i,           // with read_i and write_i: the word's upper half
     input  logic [HALF_WIDTH-1:0] engine_word_i,
+    input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs beyond this one, seen from the engine
     output logic [LINE_WIDTH-1:0] word_o
 );
 
@@ -185,12 +187,13 @@ module pool2_pair #(
     drives_upper_q <= read_selected_q && upper_q;
   end
 
-  assign word_o[HALF_WIDTH-1:0] = (word_q[HALF_WIDTH-1:0] & {HALF_WIDTH{drives_lower_q}})
+  assign word_o[HALF_WIDTH-1:0] = beside_word_i[HALF_WIDTH-1:0] | (word_q[HALF_WIDTH-1:0] & {HALF_WIDTH{drives_lower_q}})
       | (word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_upper_q}});
 
   generate
     if (LINE_HALVES == 2) begin : g_whole_word
-      assign word_o[WORD_WIDTH-1:HALF_WIDTH] = word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_lower_q}};
+      assign word_o[WORD_WIDTH-1:HALF_WIDTH] = beside_word_i[WORD_WIDTH-1:HALF_WIDTH]
+          | (word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_lower_q}});
     end
   endgenerate
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // AXI4-Stream from the columns' result chain: one beat a column for the pixel (row) just read out.
 //
-// The columns' result registers form a shift chain whose head is column 0. The way to the columns takes LATENCY clocks, so
+// The columns' result registers form a shift chain whose head is column 0. The way to it and back takes LATENCY clocks, so
 // that the chain is shifted ahead of the beats: as long as there is room for what will come, whether or not the sink takes
 // it. The shift is a register's output, so no path leads from tready to 200 columns in one clock.
 // tdata = {column, row, code, fraction, confidence}; tlast on the last column of the last row.
@@ -14,12 +14,12 @@ module result_output #(
     parameter int SRAM_NUM = 200,
     parameter int ROW_WIDTH = 8,
     parameter int RESULT_WIDTH = 14,
-    parameter int LATENCY = 2,  // clocks until the columns hear shift_o; as many as until the chain holds what start_i says
+    parameter int LATENCY = 3,  // clocks to the columns and back
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM)
 ) (
     input  logic                                           clk_i,
     input  logic                                           rst_ni,
-    input  logic                                           start_i,     // the chain holds a row's results in LATENCY clocks
+    input  logic                                           start_i,     // a row's first result is at head_i LATENCY + 1 clocks later
     input  logic                                           last_row_i,
     input  logic [                          ROW_WIDTH-1:0] row_i,
     input  logic [                       RESULT_WIDTH-1:0] head_i,      // result register of column 0

@@ -103,6 +103,9 @@ package dtof_pkg;
   localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
+  // Bits of pool2_engine_command_t, of which Yosys 0.23 cannot take $bits, nor Icarus 11 of a variable of it. Every lint
+  // finds a wrong number.
+  localparam int POOL2_COMMAND_WIDTH = 57;
   localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.

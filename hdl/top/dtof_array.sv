@@ -25,7 +25,7 @@
 // Borders: every signal between the shared logic and the columns, and every timestamp, goes from a register to a register
 //   (broadcast.sv); of what comes back there is only the result chain's head.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
-// larger of SRAM_NUM + BROADCAST_STAGES and the addresses to scan in M4.
+// larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: ezPointer 493 um2 of logic and 2240 bits of SRAM a column, 1998 um2 in common.
 `include "dtof_macros.svh"
 
@@ -537,18 +537,24 @@ module dtof_array #(
   endgenerate
 `undef DTOF_COLUMN
 
+  // The way back from column 0.
+  logic [RESULT_WIDTH-1:0] head_q;
+  always_ff @(posedge clk_i) begin
+    head_q <= chain[RESULT_WIDTH-1:0];
+  end
+
   result_output #(
       .SRAM_NUM    (SRAM_NUM),
       .ROW_WIDTH   (ROW_WIDTH),
       .RESULT_WIDTH(RESULT_WIDTH),
-      .LATENCY     (BROADCAST_STAGES)
+      .LATENCY     (BROADCAST_STAGES + 1)
   ) u_result_output (
       .clk_i     (clk_i),
       .rst_ni    (rst_ni),
       .start_i   (result_start),
       .last_row_i(scan_last_row),
       .row_i     (row),
-      .head_i    (chain[RESULT_WIDTH-1:0]),
+      .head_i    (head_q),
       .shift_o   (result_shift),
       .done_o    (result_done),
       .busy_o    (result_busy),

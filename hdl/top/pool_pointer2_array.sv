@@ -263,7 +263,7 @@ module pool_pointer2_array #(
   // What pairs and engines are told, on its way to them. The last engine may have fewer columns: its last pair is then its
   // own missing neighbour.
 
-  localparam int COMMAND_WIDTH = $bits(command);
+  localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
   localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 24;
 
   logic told_read, told_write, has_right, last_has_right;
@@ -375,18 +375,25 @@ module pool_pointer2_array #(
 
       logic [HALF_WIDTH-1:0] word;
       logic [PAIRS*LINE_WIDTH-1:0] pair_words;
-      logic [LINE_WIDTH-1:0] line;
+      logic [LINE_WIDTH-1:0] line, right_words;
       logic [PAIRS*dtof_pkg::SRAM_CFG_WIDTH-1:0] pair_cfg;
       logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg, part_cfg;
       logic [PAIRS-1:0] select;
       logic has_right_here;
       integer i;
 
+      // The words of the pairs come from both ends to the middle, where the engine is.
+      localparam int MIDDLE = PAIRS / 2;
+      assign line = pair_words[MIDDLE*LINE_WIDTH+:LINE_WIDTH] | right_words;
+      if (PAIRS > MIDDLE + 1) begin : g_right
+        assign right_words = pair_words[(MIDDLE+1)*LINE_WIDTH+:LINE_WIDTH];
+      end else begin : g_no_right
+        assign right_words = '0;
+      end
+
       always_comb begin
-        line = '0;
         part_cfg = '1;  // no copy of a side band that floats, on which Icarus would evaluate this block for ever
         for (i = 0; i < PAIRS; i = i + 1) begin
-          line = line | pair_words[i*LINE_WIDTH+:LINE_WIDTH];
           part_cfg = part_cfg & pair_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
         end
       end
@@ -403,6 +410,14 @@ module pool_pointer2_array #(
 
       for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
         localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
+        localparam int BEYOND = (p <= MIDDLE) ? p - 1 : p + 1;  // the pair on the side away from the engine
+
+        logic [LINE_WIDTH-1:0] beside_word;
+        if (BEYOND >= 0 && BEYOND < PAIRS) begin : g_beyond
+          assign beside_word = pair_words[BEYOND*LINE_WIDTH+:LINE_WIDTH];
+        end else begin : g_end
+          assign beside_word = '0;
+        end
 
         pool2_pair #(
             .COLUMNS        (PAIR_COLUMNS),
@@ -451,6 +466,7 @@ module pool_pointer2_array #(
             .select_i        (select[p]),
             .upper_i         (heard_upper),
             .engine_word_i   (word),
+            .beside_word_i   (beside_word),
             .word_o          (pair_words[p*LINE_WIDTH+:LINE_WIDTH])
         );
       end

@@ -2,8 +2,9 @@
 """Mapped netlists as Yosys writes them in JSON: counts, fan-out trees, and the reduced array for timing.
 
 The array is synthesised as it is, instances of one column module (of one column, or two that share an SRAM). A net that drives more than its
-driver can is given a tree of buffers, so that the broadcast from the shared logic to all columns is counted
-and timed. For timing, all but a few columns are replaced by stubs with the same input load.
+driver can is given a tree of buffers; between the shared logic and the columns trees follow the floorplan
+(floorplan.py), so that the broadcast is counted and timed with its wires. For timing, all but a few columns are replaced by
+stubs with the same input load.
 """
 
 from __future__ import annotations
@@ -127,28 +128,30 @@ def foreign_cells(design: dict, library: Library, macros: set[str]) -> set[str]:
 
 
 @dataclass
-class _Sink:
-    """One load of a net: the connection list and index to rewire, and its capacitance."""
+class Sink:
+    """One load of a net: the cell, the connection list and index to rewire, and its capacitance."""
 
+    cell: str
     bits: list
     index: int
     load: float
 
 
-def _sinks(module: Module, pin_load: Callable[[str, str], float], wire: float) -> dict[int, list[_Sink]]:
-    nets: dict[int, list[_Sink]] = {}
-    for cell in module["cells"].values():
+def sinks_of(module: Module, pin_load: Callable[[str, str], float], wire: float) -> dict[int, list[Sink]]:
+    """The loads of every net; `wire`: capacitance of the wire of each."""
+    nets: dict[int, list[Sink]] = {}
+    for name, cell in module["cells"].items():
         for pin, bits in cell["connections"].items():
             if cell["port_directions"].get(pin) == "output":
                 continue
             load = pin_load(cell["type"], pin) + wire
             for index, bit in enumerate(bits):
                 if isinstance(bit, int):
-                    nets.setdefault(bit, []).append(_Sink(bits, index, load))
+                    nets.setdefault(bit, []).append(Sink(name, bits, index, load))
     return nets
 
 
-def _drivers(module: Module, library: Library, port_drive: float) -> Iterator[tuple[int, float]]:
+def drivers_of(module: Module, library: Library, port_drive: float) -> Iterator[tuple[int, float]]:
     """(net, load the driver takes) of every driven net; an input port drives like the smallest buffer."""
     for port in module["ports"].values():
         if port["direction"] == "input":
@@ -167,11 +170,11 @@ def _next_net(module: Module) -> int:
     return max(used, default=1) + 1
 
 
-def _clusters(sinks: list[_Sink], limit: float) -> list[list[_Sink]]:
+def clusters(sinks: list[Sink], limit: float) -> list[list[Sink]]:
     """As few clusters as the limit allows, evenly filled."""
     total = sum(sink.load for sink in sinks)
     share = total / max(1, -(-total // limit))
-    clusters: list[list[_Sink]] = [[]]
+    clusters: list[list[Sink]] = [[]]
     filled = 0.0
     for sink in sinks:
         if clusters[-1] and filled + sink.load > share * 1.0001:
@@ -186,7 +189,7 @@ def _smallest(buffers: list[Buffer], load: float) -> Buffer:
     return next((buffer for buffer in buffers if buffer.max_load_ff * TREE_LOAD_SHARE >= load), buffers[-1])
 
 
-class _TreeBuilder:
+class TreeBuilder:
     """Adds buffers and register copies to one module."""
 
     def __init__(self, module: Module, library: Library, pin_load: Callable[[str, str], float]) -> None:
@@ -195,85 +198,68 @@ class _TreeBuilder:
         self.wire = library.wire_ff_per_sink
         self.library = library
         self.pin_load = pin_load
-        self.nets = _sinks(module, pin_load, self.wire)
+        self.nets = sinks_of(module, pin_load, self.wire)
         self.fresh = _next_net(module)
         self.drivers = {bits[0]: name for name, cell in module["cells"].items()
                         for pin, bits in cell["connections"].items()
                         if cell["port_directions"].get(pin) == "output" and len(bits) == 1}
 
-    def _rewire(self, cluster: list[_Sink]) -> int:
+    def _rewire(self, cluster: list[Sink]) -> int:
         for sink in cluster:
             sink.bits[sink.index] = self.fresh
         self.fresh += 1
         return self.fresh - 1
 
-    def _buffer(self, net: int, cluster: list[_Sink]) -> _Sink:
-        """Puts the smallest sufficient buffer between a net and a cluster of its sinks."""
-        buffer = _smallest(self.buffers, _load(cluster))
+    def buffer(self, net: int, cluster: list[Sink], wire_ff: float = 0.0) -> Sink:
+        """Puts the smallest sufficient buffer between a net and a cluster of its sinks; `wire_ff` it drives as well."""
+        buffer = _smallest(self.buffers, load_of(cluster) + wire_ff)
         output = self._rewire(cluster)
+        name = f"{TREE_PREFIX}{net}_{output}"
         cell = {"hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
                 "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
                 "connections": {buffer.input_pin: [net], buffer.output_pin: [output]}}
-        self.module["cells"][f"{TREE_PREFIX}{net}_{output}"] = cell
-        return _Sink(cell["connections"][buffer.input_pin], 0, buffer.input_ff + self.wire)
+        self.module["cells"][name] = cell
+        return Sink(name, cell["connections"][buffer.input_pin], 0, buffer.input_ff + self.wire)
 
-    def _copy_register(self, net: int, cluster: list[_Sink]) -> None:
-        """Gives a cluster its own copy of the register that drives the net."""
+    def copy_register(self, net: int, cluster: list[Sink]) -> tuple[str, int]:
+        """Gives a cluster its own copy of the register that drives the net; returns its name and the net that it drives."""
         original = self.module["cells"][self.drivers[net]]
         output = self._rewire(cluster)
         pins = {pin: list(bits) for pin, bits in original["connections"].items()
                 if original["port_directions"][pin] == "input"}
         out = next(pin for pin, bits in original["connections"].items() if bits == [net])
-        self.module["cells"][f"{self.drivers[net]}{COPY_SUFFIX}{output}"] = {
-            **original, "connections": {**pins, out: [output]}}
+        name = f"{self.drivers[net]}{COPY_SUFFIX}{output}"
+        self.module["cells"][name] = {**original, "connections": {**pins, out: [output]}}
         for pin, bits in pins.items():
             load = self.pin_load(original["type"], pin) + self.wire
-            self.nets.setdefault(bits[0], []).append(_Sink(bits, 0, load))
+            self.nets.setdefault(bits[0], []).append(Sink(name, bits, 0, load))
+        self.nets[output] = cluster
+        return name, output
 
-    def relieve(self, net: int, maximum: float, far: list[_Sink], copy: bool) -> None:
-        """Takes load off a net until its driver can carry it. `far` sinks go behind the tree, light ones stay
-        with the driver; `copy` replaces the root of the tree by copies of the driving register."""
+    def relieve(self, net: int, maximum: float) -> None:
+        """Takes load off a net until its driver can carry it."""
         limit = maximum * TREE_LOAD_SHARE
-        near = [sink for sink in self.nets[net] if all(sink is not other for other in far)]
-        if _load(near) > limit / 2:
-            far, near = self.nets[net], []
-        room = limit - _load(near)
         leaf = self.buffers[-1].max_load_ff * TREE_LOAD_SHARE
-        sinks, first = far, True
-        while len(sinks) > 1 and _load(sinks) > room:
-            parents = [self._buffer(net, cluster) for cluster in _clusters(sinks, leaf)]
-            if copy and first and len(parents) > 1:
-                for cluster in _clusters(parents, limit):
-                    self._copy_register(net, cluster)
-                parents = []
-            first = False
+        sinks = self.nets[net]
+        while len(sinks) > 1 and load_of(sinks) > limit:
+            parents = [self.buffer(net, cluster) for cluster in clusters(sinks, leaf)]
             if len(parents) == len(sinks):
                 break
             sinks = parents
-        self.nets[net] = near + sinks
+        self.nets[net] = sinks
 
 
-def _load(sinks: list[_Sink]) -> float:
+def load_of(sinks: list[Sink]) -> float:
     return sum(sink.load for sink in sinks)
 
 
 def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[str, str], float],
-                        skip: set[int], far_module: str = "") -> None:
-    """Relieves every overloaded net of a module. `skip` are clock nets. Sinks on instances of `far_module`
-    (the columns, spread over the die) go behind the tree; a register that broadcasts to them is copied."""
-    builder = _TreeBuilder(module, library, pin_load)
-    far_bits = {id(bits) for cell in module["cells"].values() if cell["type"] == far_module
-                for bits in cell["connections"].values()}
-    drivers = dict(_drivers(module, library, library.buffers[0].max_load_ff))
-    registers = {net for net, name in builder.drivers.items()
-                 if module["cells"][name]["type"] in library.sequential}
-    # Registers first: copies add load to the nets before them.
-    for net in sorted(drivers, key=lambda net: net not in registers):
-        sinks = builder.nets.get(net, [])
-        if net in skip or _load(sinks) <= drivers[net] * TREE_LOAD_SHARE:
-            continue
-        far = [sink for sink in sinks if id(sink.bits) in far_bits]
-        builder.relieve(net, drivers[net], far or sinks, copy=bool(far) and net in registers)
+                        skip: set[int]) -> None:
+    """Relieves every overloaded net of a module whose cells are close to each other. `skip` are clock nets."""
+    builder = TreeBuilder(module, library, pin_load)
+    for net, maximum in list(drivers_of(module, library, library.buffers[0].max_load_ff)):
+        if net not in skip and load_of(builder.nets.get(net, [])) > maximum * TREE_LOAD_SHARE:
+            builder.relieve(net, maximum)
 
 
 def port_clock_nets(module: Module) -> set[int]:
@@ -287,35 +273,19 @@ def clock_nets(module: Module) -> set[int]:
                                       if cell["port_directions"].get(pin) == "output" for bit in bits}
 
 
+def constant_nets(module: Module, library: Library) -> set[int]:
+    """Nets of tie cells, of which a layout puts one wherever a constant is needed."""
+    ties = {cell for cell, _ in library.tie.values()}
+    return {bit for cell in module["cells"].values() if cell["type"] in ties
+            for bits in cell["connections"].values() for bit in bits}
+
+
 def port_loads(module: Module, pin_load: Callable[[str, str], float], wire: float) -> dict[str, list[float]]:
     """Load behind each bit of each input port, fF."""
-    nets = _sinks(module, pin_load, wire)
+    nets = sinks_of(module, pin_load, wire)
     return {name: [sum(sink.load for sink in nets.get(bit, [])) if isinstance(bit, int) else 0.0
                    for bit in port["bits"]]
             for name, port in module["ports"].items() if port["direction"] == "input"}
-
-
-def finish(design: dict, library: Library, macro_pin_ff: float) -> dict[str, list[float]]:
-    """Inserts the fan-out trees of column, engine and top; returns the load of the column's input ports."""
-    wire = library.wire_ff_per_sink
-    name = column_module(design)
-    mean: dict[str, dict[str, float]] = {}
-
-    def cell_load(kind: str, pin: str) -> float:
-        return library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
-
-    for part in filter(None, (engine_module(design), name)):
-        module = modules(design)[part]
-        insert_fanout_trees(module, library, cell_load, clock_nets(module))
-        loads = port_loads(module, cell_load, wire)
-        mean[part] = {port: max(values, default=0.0) for port, values in loads.items()}
-
-    def top_load(kind: str, pin: str) -> float:
-        return mean[kind].get(pin, 0.0) if kind in mean else cell_load(kind, pin)
-
-    array = top(design)
-    insert_fanout_trees(array, library, top_load, clock_nets(array), name)
-    return loads
 
 
 def cell_kinds(design: dict, library: Library) -> set[str]:

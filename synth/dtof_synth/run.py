@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from . import clock_gating, netlist, power, sram_kit, sram_model, tools
+from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, tools
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
 from .library import Library
@@ -27,6 +27,7 @@ POOL_NAMING_SEEDS = NAMING_SEEDS[:4]
 KEPT_COLUMNS = 3
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 BOTH_CORNERS = ("typical", "slow")
+WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
 
 
 @dataclass(frozen=True)
@@ -199,20 +200,31 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     return design
 
 
-def _write_timing_netlist(design: dict, loads: dict[str, list[float]], technology: Technology,
-                          folder: Path, name: str) -> None:
-    """Verilog of the array with few real columns, and the stub's Liberty."""
+def _write_timing_netlist(design: dict, loads: dict[str, list[float]], plan: floorplan.Floorplan,
+                          technology: Technology, folder: Path, configuration: Configuration) -> None:
+    """Verilog of the array with few real columns, the stub's Liberty, the wires between the blocks and what cells were
+    called."""
     netlist.keep_columns(design, KEPT_COLUMNS)
+    called = spef.plain_names(design)
+    plan.rename(called[configuration.top])
+    clocks = netlist.clock_nets(netlist.top(design))
+    for corner, wire in WIRES.items():
+        (folder / f"wires_{corner}.spef").write_text(
+            spef.write(design, plan, technology.library("slow"), wire, clocks), encoding="utf-8")
+    names = {plain: name for before in called.values() for plain, name in before.items()}
+    (folder / "names.json").write_text(json.dumps(names), encoding="utf-8")
     (folder / "column_stub.lib").write_text(
         netlist.stub_liberty(design, loads, technology.typical.voltage), encoding="utf-8")
     (folder / "timing.json").write_text(json.dumps(design), encoding="utf-8")
     settings = folder / "write_settings.tcl"
     tools.write_settings(settings, {"netlist_json": folder / "timing.json", "netlist": folder / "timing.v"})
-    tools.run_yosys(technology.root / "synth" / "yosys" / "write_verilog.tcl", settings, folder / "write.log", name)
+    tools.run_yosys(technology.root / "synth" / "yosys" / "write_verilog.tcl", settings, folder / "write.log",
+                    configuration.name)
 
 
-def _readable(name: str) -> str:
+def _readable(name: str, called: dict[str, str]) -> str:
     """A register's or macro's name without generate levels, cell type and copy number."""
+    name = "/".join(called.get(part, part) for part in name.split("/"))
     name = re.sub(r"\\+\w+$", "", name)
     name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
     return re.sub(r"(\.(g_\w+|genblk\d+|u_macro))+$", "", name)
@@ -222,7 +234,7 @@ def _section(output: str, name: str) -> str:
     return output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]
 
 
-def _critical_path(report: str) -> tuple[str, str, int]:
+def _critical_path(report: str, folder: Path) -> tuple[str, str, int]:
     """(start, end, cells between them) of a report_checks path."""
     start = re.search(r"Startpoint: (\S+)", report)
     end = re.search(r"Endpoint: (\S+)", report)
@@ -231,7 +243,8 @@ def _critical_path(report: str) -> tuple[str, str, int]:
     data = report.split("data arrival time")[0]
     pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
     gates = [pin for pin in pins if not pin.startswith((start.group(1), end.group(1)))]
-    return _readable(start.group(1)), _readable(end.group(1)), len(gates)
+    called = json.loads((folder / "names.json").read_text(encoding="utf-8"))
+    return _readable(start.group(1), called), _readable(end.group(1), called), len(gates)
 
 
 def _number(output: str, label: str, index: int = 0) -> float:
@@ -246,7 +259,8 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     settings = folder / f"sta_{corner}_settings.tcl"
     tools.write_settings(settings, {
         "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
-        "netlist": folder / "timing.v", "top": configuration.top, "wire_load": library.wire_load,
+        "netlist": folder / "timing.v", "wires": folder / f"wires_{corner}.spef", "top": configuration.top,
+        "wire_load": library.wire_load,
         "constraints": technology.root / "constraints" / "dtof.sdc",
         "target_period": f"{1000 / technology.target_mhz:.6f}", "fast_period": f"{1000 / FAST_MHZ:.6f}",
         "activity": power.ACTIVITY, "with_power": int(corner == "typical")})
@@ -259,7 +273,7 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     slow_edges = _section(output, "DTOF_TRANSITION").count("VIOLATED")
     timing = Timing(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
                     _number(output, "DTOF_FAST_SLACK"), 1000 / _number(output, "DTOF_CLOSING_PERIOD"),
-                    *_critical_path(_section(output, "DTOF_PATH_MAX")), slow_edges)
+                    *_critical_path(_section(output, "DTOF_PATH_MAX"), folder), slow_edges)
     return timing, output
 
 
@@ -269,13 +283,14 @@ def time_margins(configuration: Configuration, technology: Technology, corner: s
     settings = folder / f"margins_{corner}_settings.tcl"
     tools.write_settings(settings, {
         "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
-        "netlist": folder / "timing.v", "top": configuration.top, "wire_load": library.wire_load,
+        "netlist": folder / "timing.v", "wires": folder / f"wires_{corner}.spef", "top": configuration.top,
+        "wire_load": library.wire_load,
         "constraints": technology.root / "constraints" / "dtof.sdc",
         "margins": technology.root / "constraints" / "margins.sdc", "period": f"{1000 / technology.target_mhz:.6f}",
         "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}"})
     output = tools.run_sta(technology.root / "synth" / "sta" / "margins.tcl", settings, folder / f"margins_{corner}.log",
                            f"{configuration.name}, {corner} corner with margins")
-    start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"))
+    start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"), folder)
     return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1), start, end)
 
 
@@ -302,13 +317,17 @@ class _Attempt:
 def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int) -> _Attempt:
     design = map_to_cells(configuration, technology, folder, efforts(configuration)[number])
     library = technology.slow
-    loads = netlist.finish(design, library, sram_kit.PIN_FF)
+    loads, plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration.module_columns)
+    try:
+        floorplan.check_borders(design, library)
+    except FlowError as error:
+        raise FlowError(f"{configuration.name}: {error}") from None
     column_module = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
     shared = netlist.count_shared(design, library)
     engines = netlist.count_engines(design, library)
     own = folder / f"effort{number}"
     own.mkdir(exist_ok=True)
-    _write_timing_netlist(design, loads, technology, own, configuration.name)
+    _write_timing_netlist(design, loads, plan, technology, own, configuration)
     slow, _ = time_corner(configuration, technology, "slow", own)
     margin = time_margins(configuration, technology, "slow", own) if technology.fast is not None else None
     return _Attempt(column_module, shared, engines, slow, margin, own)

@@ -19,7 +19,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import activity, liberty, netlist, simulation, sram_kit, sram_model, tools
+from . import activity, floorplan, liberty, netlist, simulation, sram_kit, sram_model, tools
 from . import power as power_model
 from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
@@ -126,7 +126,7 @@ def simulate(configuration: Configuration, technology: Technology, folder: Path,
     case = simulation.Case(small(configuration), (ACQUISITIONS,), seed)
     elaborate(case.configuration, technology, folder)
     design = map_to_cells(case.configuration, technology, folder, efforts(case.configuration)[0])
-    netlist.finish(design, technology.slow, sram_kit.PIN_FF)
+    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
     _write_verilog(design, technology, folder, "static", case.name)
     activity.name_for_counting(design)
     files = simulation.write_simulation_netlist(design, case.configuration, technology, folder, seed)

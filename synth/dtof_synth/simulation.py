@@ -14,7 +14,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from . import cell_models, liberty, netlist, sram_kit, tools
+from . import cell_models, floorplan, liberty, netlist, sram_kit, tools
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .run import Technology, efforts, elaborate, map_to_cells, rtl_files
@@ -104,7 +104,7 @@ def write_netlist(configuration: Configuration, technology: Technology, folder: 
     """The configuration through the flow's own steps, its cells and macros as models; the Verilog files."""
     elaborate(configuration, technology, folder)
     design = map_to_cells(configuration, technology, folder, efforts(configuration)[0])
-    netlist.finish(design, technology.slow, sram_kit.PIN_FF)
+    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
     return write_simulation_netlist(design, configuration, technology, folder, seed)
 
 

@@ -3,11 +3,12 @@
 # errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command succeeded.
 
 proc run {} {
-  global liberty_files netlist top wire_load
+  global liberty_files netlist wires top wire_load
   foreach file $liberty_files { read_liberty $file }
   read_verilog $netlist
   link_design $top
   if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
+  read_spef $wires
   uplevel #0 source $::constraints
   uplevel #0 source $::margins
   puts "DTOF_SLACK [worst_slack -max] [worst_slack -min]"

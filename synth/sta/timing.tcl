@@ -27,11 +27,12 @@ proc closing_period {start} {
 }
 
 proc run {} {
-  global liberty_files netlist top wire_load target_period activity
+  global liberty_files netlist wires top wire_load target_period activity
   foreach file $liberty_files { read_liberty $file }
   read_verilog $netlist
   link_design $top
   if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
+  read_spef $wires
   puts "DTOF_CLOSING_PERIOD [closing_period $target_period]"
   constrain $::fast_period
   puts "DTOF_FAST_SLACK [worst_slack -max]"

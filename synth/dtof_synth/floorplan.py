@@ -1,0 +1,316 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Where things stand on the die, and what the ways between them need.
+
+Columns stand side by side in order, the shared logic under their middle, an engine under the middle of its pairs of
+columns, and the registers of a column's timestamps above it. Only the distance along the row counts: a column is 0.02 mm
+wide and the row 5 mm.
+
+Between the shared logic and the columns a signal goes from a register to a register (hdl/control/broadcast.sv). The last
+one is copied, so that each copy serves the columns near it through few buffers. Longer ways get a repeater every
+REPEATER_UM. All of it is in the netlist, so that it is counted, timed (spef.py) and simulated like any other cell.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from . import netlist
+from .errors import FlowError
+from .library import Library
+from .netlist import TREE_LOAD_SHARE, Module, Sink, TreeBuilder
+
+PITCH_UM = 25.0  # of the columns: that of the pixels above them
+REPEATER_UM = 400.0  # a wire's own delay there is that of the repeater behind it
+LEAF_UM = 200.0  # the columns that one buffer serves lie within it
+COPY_UM = 800.0  # the buffers that a copy of a register serves
+TIMESTAMP_PORT = "tdc_timestamp_i"
+# Ports of columns and engines whose way is shorter than an engine is wide, and has gates on it: an engine's word goes to its
+# pairs behind a multiplexer, and their words are combined by OR on the way to it (docs/reference/poolpointer2.md).
+GATED_PORTS = {"line_i", "beside_word_i", "engine_word_i"}
+UNTIMED_PORTS = {"clk_i", "rst_ni", "sram_cfg_i"}
+
+
+@dataclass(frozen=True)
+class Wire:
+    """A metal: resistance and capacitance with neighbours on both sides."""
+
+    ohm_per_um: float
+    ff_per_um: float
+
+
+# Resistance: metal 4 to 6 of FreePDK45's technology LEF (0.21 ohm per square, 0.14 um wide). Capacitance: the roadmap's 2 pF
+# per cm of intermediate wires (ITRS 2007, Interconnect). Pessimistic: a quarter more of each.
+TYPICAL = Wire(1.5, 0.20)
+PESSIMISTIC = Wire(1.875, 0.25)
+
+
+def _place_numbers(name: str) -> tuple[int, ...]:
+    return tuple(int(number) for number in re.findall(r"\[(\d+)\]", name))
+
+
+class Floorplan:
+    """Places of a mapped array's cells along the row, um."""
+
+    def __init__(self, design: dict, columns_per_module: int, pitch_um: float = PITCH_UM) -> None:
+        self.array = netlist.top(design)
+        column, engine = netlist.column_module(design), netlist.engine_module(design)
+        self.blocks = {name for name, cell in self.array["cells"].items() if cell["type"] in (column, engine)}
+        columns = sorted((name for name in self.blocks if self.array["cells"][name]["type"] == column), key=_place_numbers)
+        self.module_um = pitch_um * columns_per_module
+        self.width_um = self.module_um * len(columns)
+        self.centre_um = self.width_um / 2
+        self.places = {name: (index + 0.5) * self.module_um for index, name in enumerate(columns)}
+        for name in self.blocks - set(columns):
+            own = [self.places[pair] for pair in columns if _place_numbers(pair)[0] == _place_numbers(name)[0]]
+            self.places[name] = sum(own) / len(own)
+        self.timestamps = set(self.array["ports"].get(TIMESTAMP_PORT, {"bits": []})["bits"])
+        self._place_timestamps()
+        self._place_gates()
+
+    def rename(self, called: dict[str, str]) -> None:
+        """Follows cells that have got new names; `called`: what each was called before."""
+        self.places = {name: self.places[before] for name, before in called.items() if before in self.places}
+
+    def __getitem__(self, cell: str) -> float:
+        return self.places.get(cell, self.centre_um)
+
+    def port_um(self, net: int, sink: str) -> float:
+        """Place of an input port: above its column, or beside the shared logic."""
+        return self[sink] if net in self.timestamps else self.centre_um
+
+    def _place_timestamps(self) -> None:
+        """Registers between the timestamps' ports and the columns stand above their column."""
+        behind: dict[int, str] = {}  # by the net that it drives
+        before: dict[str, int] = {}
+        for name, cell in self.array["cells"].items():
+            pins = cell["connections"]
+            outputs = [bits for pin, bits in pins.items() if cell["port_directions"].get(pin) == "output"]
+            if name not in self.blocks and "D" in pins and len(outputs) == 1 and len(pins["D"]) == 1:
+                behind[outputs[0][0]] = name
+                before[name] = pins["D"][0]
+        def comes_from_port(register: str) -> bool:
+            net = before[register]
+            return net in self.timestamps or (net in behind and comes_from_port(behind[net]))
+
+        for block in sorted(self.blocks):
+            for bit in self.array["cells"][block]["connections"].get("timestamp_i", []):
+                register = behind.get(bit)
+                while register is not None and comes_from_port(register):
+                    self.places[register] = self.places[block]
+                    register = behind.get(before[register])
+
+    def _place_gates(self) -> None:
+        """Gates whose inputs all come from columns stand in the middle of these: the OR of an engine's pairs."""
+        driver: dict[int, str] = {}
+        for name, cell in self.array["cells"].items():
+            for pin, bits in cell["connections"].items():
+                if cell["port_directions"].get(pin) == "output":
+                    driver.update((bit, name) for bit in bits if isinstance(bit, int))
+        known: dict[str, float | None] = {name: self.places[name] for name in self.blocks}
+
+        def place(name: str) -> float | None:
+            if name not in known:
+                known[name] = None  # a loop through registers ends here
+                cell = self.array["cells"][name]
+                if "CK" not in cell["connections"] and name not in self.places:
+                    inputs = [bit for pin, bits in cell["connections"].items()
+                              if cell["port_directions"].get(pin) == "input" for bit in bits if isinstance(bit, int)]
+                    places = [place(driver[bit]) if bit in driver else None for bit in inputs]
+                    if places and all(where is not None for where in places):
+                        known[name] = sum(where for where in places if where is not None) / len(places)
+            return known[name]
+
+        for name in self.array["cells"]:
+            where = place(name)
+            if where is not None and name not in self.blocks:
+                self.places[name] = where
+
+
+class _Spreader:
+    """Takes the top's nets to where their sinks are."""
+
+    def __init__(self, plan: Floorplan, builder: TreeBuilder, library: Library, wire: Wire) -> None:
+        self.plan = plan
+        self.builder = builder
+        self.wire = wire
+        self.leaf_ff = library.buffers[-1].max_load_ff * TREE_LOAD_SHARE
+
+    def _clusters(self, sinks: Iterable[Sink], limit_ff: float, span_um: float) -> list[list[Sink]]:
+        """Neighbours, within a span and a load."""
+        found: list[list[Sink]] = []
+        for sink in sorted(sinks, key=lambda sink: self.plan[sink.cell]):
+            last = found[-1] if found else []
+            if (not last or self.plan[sink.cell] - self.plan[last[0].cell] > span_um
+                    or netlist.load_of(last) + sink.load > limit_ff):
+                found.append([sink])
+            else:
+                last.append(sink)
+        return found
+
+    def _centre(self, cluster: list[Sink]) -> float:
+        return (self.plan[cluster[0].cell] + self.plan[cluster[-1].cell]) / 2
+
+    def _span_ff(self, cluster: list[Sink], start_um: float) -> float:
+        places = [start_um, *(self.plan[sink.cell] for sink in cluster)]
+        return (max(places) - min(places)) * self.wire.ff_per_um
+
+    def _buffer(self, net: int, cluster: list[Sink], place_um: float) -> Sink:
+        sink = self.builder.buffer(net, cluster, self._span_ff(cluster, place_um))
+        self.plan.places[sink.cell] = place_um
+        return sink
+
+    def spread(self, net: int, driver: str | None, maximum_ff: float, copy: bool) -> None:
+        """Gives a net's sinks what its way needs. `copy`: the net's driver is a register that may be copied."""
+        sinks = self.builder.nets[net]
+        start = self.plan[driver] if driver is not None else self.plan.port_um(net, sinks[0].cell)
+        limit = maximum_ff * TREE_LOAD_SHARE
+        if netlist.load_of(sinks) + self._span_ff(sinks, start) <= limit and all(
+                abs(self.plan[sink.cell] - start) <= REPEATER_UM for sink in sinks):
+            return
+        near = [sink for sink in sinks if abs(self.plan[sink.cell] - start) <= self.plan.module_um]
+        if netlist.load_of(near) > limit / 2:
+            near = []
+        far = [sink for sink in sinks if all(sink is not other for other in near)]
+        leaves = [self._buffer(net, cluster, self._centre(cluster))
+                  if len(cluster) > 1 or cluster[0].load > limit / 4 else cluster[0]
+                  for cluster in self._clusters(far, self.leaf_ff - LEAF_UM * self.wire.ff_per_um, LEAF_UM)]
+        if copy and driver is not None:
+            for cluster in self._clusters(leaves, self.leaf_ff - COPY_UM * self.wire.ff_per_um, COPY_UM):
+                name, copied = self.builder.copy_register(net, cluster)
+                self.plan.places[name] = self._centre(cluster)
+                self.builder.nets[copied] = self._relieve(copied, self.plan[name], cluster, limit)
+            self.builder.nets[net] = near
+        else:
+            self.builder.nets[net] = self._relieve(net, start, near + self._trunk(net, start, leaves), limit)
+
+    def _trunk(self, net: int, start: float, sinks: list[Sink]) -> list[Sink]:
+        """What of a wire to both sides its driver itself drives; the rest is behind repeaters."""
+        first: list[Sink] = []
+        for side in (-1, 1):
+            hops: dict[int, list[Sink]] = {}
+            for sink in sinks:
+                way = (self.plan[sink.cell] - start) * side
+                if way > 0 or (way == 0 and side == 1):
+                    hops.setdefault(int(way // REPEATER_UM), []).append(sink)
+            for hop in range(max(hops, default=0), 0, -1):
+                repeater = self._buffer(net, hops.get(hop, []), start + side * hop * REPEATER_UM)
+                hops.setdefault(hop - 1, []).append(repeater)
+            first += hops.get(0, [])
+        return first
+
+    def _relieve(self, net: int, start: float, sinks: list[Sink], limit: float) -> list[Sink]:
+        """Buffers beside the driver where it is too weak."""
+        while netlist.load_of(sinks) + self._span_ff(sinks, start) > limit:
+            room = self.leaf_ff - REPEATER_UM * self.wire.ff_per_um
+            parents = [self._buffer(net, cluster, start) for cluster in self._clusters(sinks, room, 2 * REPEATER_UM)]
+            if len(parents) == 1 or len(parents) == len(sinks):
+                return parents
+            sinks = parents
+        return sinks
+
+
+def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], float], skip: set[int],
+           wire: Wire = PESSIMISTIC) -> None:
+    """Trees, copies of registers and repeaters of the top. `skip`: clocks and constants."""
+    array = plan.array
+    builder = TreeBuilder(array, library, pin_load)
+    spreader = _Spreader(plan, builder, library, wire)
+    drivers = dict(netlist.drivers_of(array, library, library.buffers[0].max_load_ff))
+    cell_of = {bit: name for name, cell in array["cells"].items() for pin, bits in cell["connections"].items()
+               if cell["port_directions"].get(pin) == "output" for bit in bits if isinstance(bit, int)}
+    registers = {net for net, name in builder.drivers.items() if array["cells"][name]["type"] in library.sequential}
+    # The last registers of a broadcast first: copies add sinks to the nets before them.
+    copied = {net for net in registers if any(sink.cell in plan.blocks for sink in builder.nets.get(net, []))}
+    order: list[int] = []
+
+    def put(net: int) -> None:
+        for sink in builder.nets.get(net, []):
+            behind = [bit for bits in array["cells"][sink.cell]["connections"].values() for bit in bits if bit in copied]
+            if array["cells"][sink.cell]["type"] in library.sequential:
+                for other in behind:
+                    if other != net and other not in order and cell_of[other] == sink.cell:
+                        put(other)
+        if net not in order:
+            order.append(net)
+
+    for net in sorted(copied):
+        put(net)
+    for net in [*order, *sorted(drivers.keys() - copied)]:
+        if net not in skip and builder.nets.get(net):
+            spreader.spread(net, cell_of.get(net), drivers[net], net in copied)
+
+
+def finish(design: dict, library: Library, macro_pin_ff: float, columns_per_module: int
+           ) -> tuple[dict[str, list[float]], Floorplan]:
+    """Inserts the trees of column, engine and top; returns the load of the column's input ports, and the places."""
+    wire = library.wire_ff_per_sink
+    name = netlist.column_module(design)
+    mean: dict[str, dict[str, float]] = {}
+
+    def cell_load(kind: str, pin: str) -> float:
+        return library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
+
+    for part in filter(None, (netlist.engine_module(design), name)):
+        module = netlist.modules(design)[part]
+        netlist.insert_fanout_trees(module, library, cell_load, netlist.clock_nets(module))
+        loads = netlist.port_loads(module, cell_load, wire)
+        mean[part] = {port: max(values, default=0.0) for port, values in loads.items()}
+
+    def top_load(kind: str, pin: str) -> float:
+        return mean[kind].get(pin, 0.0) if kind in mean else cell_load(kind, pin)
+
+    array = netlist.top(design)
+    plan = Floorplan(design, columns_per_module)
+    spread(plan, library, top_load, netlist.clock_nets(array) | netlist.constant_nets(array, library))
+    return loads, plan
+
+
+def check_borders(design: dict, library: Library) -> None:
+    """FlowError if a column or an engine hears something that does not come from a register through buffers alone."""
+    array = netlist.top(design)
+    blocks = {netlist.column_module(design), netlist.engine_module(design)}
+    through = {buffer.name for buffer in library.buffers} | {kind for kind in library.area if kind.startswith("INV")}
+    constant = {cell for cells in library.tie.values() for cell in cells[:1]}
+    registered = {part: _registered_ports(netlist.modules(design)[part], library, through) for part in blocks if part}
+    driver: dict[int, tuple[Module, str]] = {}
+    for cell in array["cells"].values():
+        for pin, bits in cell["connections"].items():
+            if cell["port_directions"].get(pin) == "output":
+                driver.update((bit, (cell, pin)) for bit in bits if isinstance(bit, int))
+    for name, cell in array["cells"].items():
+        if cell["type"] not in blocks:
+            continue
+        for port, bits in cell["connections"].items():
+            if cell["port_directions"].get(port) != "input" or port in UNTIMED_PORTS | GATED_PORTS:
+                continue
+            for index, bit in enumerate(bits):
+                while bit in driver and driver[bit][0]["type"] in through:
+                    source = driver[bit][0]
+                    bit = next(net[0] for pin, net in source["connections"].items()
+                               if source["port_directions"][pin] == "input")
+                if not isinstance(bit, int):
+                    continue
+                kind, pin = (driver[bit][0]["type"], driver[bit][1]) if bit in driver else ("a port of the array", "")
+                if kind not in library.sequential | constant and pin not in registered.get(kind, set()):
+                    raise FlowError(f"{name}.{port}[{index}] does not come from a register but from {kind}")
+
+
+def _registered_ports(module: Module, library: Library, through: set[str]) -> set[str]:
+    """Outputs of a module that come from registers through buffers alone."""
+    driver = {bits[0]: cell for cell in module["cells"].values() for pin, bits in cell["connections"].items()
+              if cell["port_directions"].get(pin) == "output" and len(bits) == 1}
+    found = set()
+    for port, description in module["ports"].items():
+        if description["direction"] != "output":
+            continue
+        for bit in description["bits"]:
+            while bit in driver and driver[bit]["type"] in through:
+                bit = next(net[0] for pin, net in driver[bit]["connections"].items()
+                           if driver[bit]["port_directions"][pin] == "input")
+            if isinstance(bit, int) and (bit not in driver or driver[bit]["type"] not in library.sequential):
+                break
+        else:
+            found.add(port)
+    return found
