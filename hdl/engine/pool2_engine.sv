@@ -310,7 +310,10 @@ module pool2_engine #(
     end
   end
 
-  assign word_o = command_i.decoding ? HALF_WIDTH'({new_background, new_cells}) : HALF_WIDTH'(new_pair_q);
+  // Registered here, for the way to the pairs is long. It is known a clock before it is written.
+  always_ff @(posedge clk_i) begin
+    word_o <= command_i.decoding ? HALF_WIDTH'({new_background, new_cells}) : HALF_WIDTH'(new_pair_q);
+  end
 
   // Decide: S1 and the result.
 

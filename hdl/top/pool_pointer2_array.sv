@@ -12,8 +12,7 @@
 //   second code, second fraction, code, fraction, confidence}: the label that lost the decision, not smoothed, to which
 //   the confidence belongs as well.
 // Borders: every signal between the shared logic and columns or engines, and every timestamp, goes from a register to a
-//   register (broadcast.sv). An engine's word goes to its pairs behind a multiplexer, and their words come to it through an
-//   OR: these are a few columns wide.
+//   register (broadcast.sv). The words of an engine's pairs are combined by OR on the way to it, from pair to pair.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"

@@ -24,11 +24,11 @@ from .netlist import TREE_LOAD_SHARE, Module, Sink, TreeBuilder
 PITCH_UM = 25.0  # of the columns: that of the pixels above them
 REPEATER_UM = 400.0  # a wire's own delay there is that of the repeater behind it
 LEAF_UM = 200.0  # the columns that one buffer serves lie within it
-COPY_UM = 800.0  # the buffers that a copy of a register serves
+COPY_UM = 400.0  # the buffers that a copy of a register serves
 TIMESTAMP_PORT = "tdc_timestamp_i"
-# Ports of columns and engines whose way is shorter than an engine is wide, and has gates on it: an engine's word goes to its
-# pairs behind a multiplexer, and their words are combined by OR on the way to it (docs/reference/poolpointer2.md).
-GATED_PORTS = {"line_i", "beside_word_i", "engine_word_i"}
+# Ports whose way is shorter than an engine is wide, and has gates on it: the words of an engine's pairs are combined by OR from
+# pair to pair on the way to it (docs/reference/poolpointer2.md).
+GATED_PORTS = {"line_i", "beside_word_i"}
 UNTIMED_PORTS = {"clk_i", "rst_ni", "sram_cfg_i"}
 
 
