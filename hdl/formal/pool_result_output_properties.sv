@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pool_result_output: AXI4-Stream rules, every engine's result once and in order, whatever the back-pressure and from
-// reset at any time. The harness keeps what was given in a queue of two entries and watches one arbitrary engine.
+// reset at any time. The harness keeps what was given in a queue of three entries and watches one arbitrary engine.
 `include "properties.svh"
 
 module pool_result_output_properties #(
@@ -9,6 +9,7 @@ module pool_result_output_properties #(
     parameter int SRAM_NUM = 5,
     parameter int ROW_WIDTH = 2,
     parameter int RESULT_WIDTH = 2,
+    parameter int LATENCY = 1,
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int STEP_WIDTH = dtof_pkg::index_width(ENGINE_COLUMNS),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
@@ -38,7 +39,8 @@ module pool_result_output_properties #(
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .SRAM_NUM      (SRAM_NUM),
       .ROW_WIDTH     (ROW_WIDTH),
-      .RESULT_WIDTH  (RESULT_WIDTH)
+      .RESULT_WIDTH  (RESULT_WIDTH),
+      .LATENCY       (LATENCY)
   ) u_dut (
       .clk_i    (clk_i),
       .rst_ni   (rst_n),
@@ -55,55 +57,58 @@ module pool_result_output_properties #(
       .tlast_o  (tlast)
   );
 
-  // An entry of the queue: {last, row, column, result of the watched engine}.
-  localparam int ENTRY_WIDTH = 1 + ROW_WIDTH + STEP_WIDTH + RESULT_WIDTH;
+  // An entry of the queue: {last, row, column, result of the watched engine}. It enters when its results arrive.
+  localparam int PLACE_WIDTH = 1 + ROW_WIDTH + STEP_WIDTH;
+  localparam int ENTRY_WIDTH = PLACE_WIDTH + RESULT_WIDTH;
   (* anyconst *) logic [7:0] watched;
-  logic [ENTRY_WIDTH-1:0] given, front_q, back_q, given_q;
-  logic [1:0] entries_q;
+  logic [LATENCY*(1+PLACE_WIDTH)-1:0] way_q;  // {sent, place} of each clock on the way, the oldest highest
+  logic arrives;
+  logic [PLACE_WIDTH-1:0] place;
+  logic [ENTRY_WIDTH-1:0] given;
+  logic [3*ENTRY_WIDTH-1:0] queue_q, shifted;  // the oldest lowest
+  logic [1:0] entries_q, asked_q, left;
   logic [7:0] beats_q, beats_of_front;
   logic [1:0] pause_q;
-  logic tvalid_q, tready_q, tlast_q, accepted, last_beat, waited_q;
+  logic tvalid_q, tready_q, tlast_q, accepted, last_beat;
   logic [TDATA_WIDTH-1:0] tdata_q;
-  logic [ENGINES*RESULT_WIDTH-1:0] results_q;
   logic front_last;
   logic [ROW_WIDTH-1:0] front_row;
   logic [STEP_WIDTH-1:0] front_column;
   logic [RESULT_WIDTH-1:0] front_result;
 
-  assign given = {last_i, row_i, column_i, RESULT_WIDTH'(results_i >> (watched * RESULT_WIDTH))};
-  assign {front_last, front_row, front_column, front_result} = front_q;
+  assign {arrives, place} = way_q[LATENCY*(1+PLACE_WIDTH)-1-:1+PLACE_WIDTH];
+  assign given = {place, RESULT_WIDTH'(results_i >> (watched * RESULT_WIDTH))};
+  assign {front_last, front_row, front_column, front_result} = queue_q[ENTRY_WIDTH-1:0];
   // The last engine may have no such column.
   assign beats_of_front = ((ENGINES - 1) * ENGINE_COLUMNS + 32'(front_column) < SRAM_NUM) ? 8'(ENGINES)
       : 8'(ENGINES - 1);
   assign accepted = tvalid && tready_i;
   assign last_beat = accepted && (beats_q == beats_of_front - 8'd1);
+  assign shifted = last_beat ? queue_q >> ENTRY_WIDTH : queue_q;
+  assign left = entries_q - 2'(last_beat);
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
+      way_q <= '0;
       entries_q <= '0;
+      asked_q <= '0;
       beats_q <= '0;
       pause_q <= '0;
       tvalid_q <= 1'b0;
       tready_q <= 1'b0;
-      waited_q <= 1'b0;
     end else begin
-      entries_q <= entries_q + 2'(send_i) - 2'(last_beat);
+      way_q <= (LATENCY * (1 + PLACE_WIDTH))'({way_q, send_i, last_i, row_i, column_i});
+      entries_q <= left + 2'(arrives);
+      asked_q <= asked_q + 2'(send_i) - 2'(last_beat);
       beats_q <= last_beat ? '0 : beats_q + 8'(accepted);
       pause_q <= (tvalid || entries_q == '0) ? '0 : pause_q + 2'd1;
       tvalid_q <= tvalid;
       tready_q <= tready_i;
-      waited_q <= waits || (send_i && tvalid);
     end
-    if (last_beat && entries_q == 2'd2) begin
-      front_q <= back_q;
-    end else if (send_i && (entries_q == '0 || last_beat)) begin
-      front_q <= given;
+    queue_q <= shifted;
+    if (arrives) begin
+      queue_q[left*ENTRY_WIDTH+:ENTRY_WIDTH] <= given;
     end
-    if (send_i) begin
-      back_q <= given;
-    end
-    given_q <= {last_i, row_i, column_i, {RESULT_WIDTH{1'b0}}};
-    results_q <= results_i;
     tdata_q <= tdata;
     tlast_q <= tlast;
   end
@@ -115,19 +120,17 @@ module pool_result_output_properties #(
 
   `ASSUME(m_watched, 32'(watched) < ENGINES)
   `ASSUME(m_column, 32'(column_i) < ENGINE_COLUMNS && (ENGINES > 1 || 32'(column_i) < SRAM_NUM))
-  `ASSUME(m_send_unless_waits, !(send_i && waits))
-  `ASSUME(m_held_while_waiting, !waited_q
-          || (results_i == results_q && {last_i, row_i, column_i, {RESULT_WIDTH{1'b0}}} == given_q))
+  `ASSUME(m_room, !(send_i && asked_q == 2'd3))
   `PROVE(a_tvalid_holds, !(running && tvalid_q && !tready_q) || tvalid)
   `PROVE(a_tdata_stable, !(running && tvalid_q && !tready_q) || (tdata == tdata_q && tlast == tlast_q))
   `PROVE(a_nothing_unasked, !(running && tvalid) || entries_q != '0)
-  `PROVE(a_never_three, !running || entries_q <= 2'd2)
   `PROVE(a_column, !(running && tvalid) || 32'(tdata[TDATA_WIDTH-1-:COLUMN_WIDTH]) == expected_column)
   `PROVE(a_row, !(running && tvalid) || tdata[RESULT_WIDTH+:ROW_WIDTH] == front_row)
   `PROVE(a_result, !(running && tvalid && beats_q == watched) || tdata[RESULT_WIDTH-1:0] == front_result)
   `PROVE(a_tlast, !(running && tvalid) || tlast == (front_last && beats_q == beats_of_front - 8'd1))
-  `PROVE(a_busy, !running || busy == (entries_q != '0))
+  `PROVE(a_waits, !running || waits == (32'(asked_q) + 32'(send_i) >= 3))
+  `PROVE(a_busy, !running || busy == (asked_q != '0))
   `PROVE(a_goes_on, !running || pause_q < 2'd2)
-  `GOAL(running && last_beat && entries_q == 2'd2 && front_last)
+  `GOAL(running && last_beat && entries_q == 2'd3 && front_last)
 
 endmodule

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// result_output with the columns' result registers: AXI4-Stream rules, every column's result once and in order,
+// result_output with the columns' result registers and the ways there and back: AXI4-Stream rules, every column's result once and in order,
 // whatever the back-pressure and from reset at any time. One arbitrary column is watched.
 `include "properties.svh"
 
@@ -7,6 +7,7 @@ module result_output_properties #(
     parameter int SRAM_NUM = 3,
     parameter int ROW_WIDTH = 2,
     parameter int RESULT_WIDTH = 2,
+    parameter int STAGES = 1,  // of the way to the columns
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH
 ) (
@@ -32,15 +33,34 @@ module result_output_properties #(
   logic [(SRAM_NUM+1)*RESULT_WIDTH-1:0] chain;
   assign chain[SRAM_NUM*RESULT_WIDTH+:RESULT_WIDTH] = '0;
 
+  // The way to the columns, and the register behind the chain's head.
+  logic column_load, column_shift;
+  logic [SRAM_NUM*RESULT_WIDTH-1:0] column_results;
+  logic [RESULT_WIDTH-1:0] head_q;
+
+  broadcast #(
+      .WIDTH (2 + SRAM_NUM * RESULT_WIDTH),
+      .STAGES(STAGES)
+  ) u_broadcast (
+      .clk_i (clk_i),
+      .rst_ni(rst_n),
+      .from_i({load_i, shift, results_i}),
+      .to_o  ({column_load, column_shift, column_results})
+  );
+
+  always_ff @(posedge clk_i) begin
+    head_q <= chain[RESULT_WIDTH-1:0];
+  end
+
   genvar c;
   generate
     for (c = 0; c < SRAM_NUM; c = c + 1) begin : g_column
       result_register #(.WIDTH(RESULT_WIDTH)) u_result_register (
           .clk_i        (clk_i),
           .rst_ni       (rst_n),
-          .load_i       (load_i),
-          .shift_i      (shift),
-          .result_i     (results_i[c*RESULT_WIDTH+:RESULT_WIDTH]),
+          .load_i       (column_load),
+          .shift_i      (column_shift),
+          .result_i     (column_results[c*RESULT_WIDTH+:RESULT_WIDTH]),
           .next_column_i(chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]),
           .result_o     (chain[c*RESULT_WIDTH+:RESULT_WIDTH])
       );
@@ -50,14 +70,15 @@ module result_output_properties #(
   result_output #(
       .SRAM_NUM    (SRAM_NUM),
       .ROW_WIDTH   (ROW_WIDTH),
-      .RESULT_WIDTH(RESULT_WIDTH)
+      .RESULT_WIDTH(RESULT_WIDTH),
+      .LATENCY     (STAGES + 1)
   ) u_dut (
       .clk_i     (clk_i),
       .rst_ni    (rst_n),
       .start_i   (start_i),
       .last_row_i(last_row_i),
       .row_i     (row_i),
-      .head_i    (chain[RESULT_WIDTH-1:0]),
+      .head_i    (head_q),
       .shift_o   (shift),
       .done_o    (done),
       .busy_o    (busy),
@@ -71,7 +92,7 @@ module result_output_properties #(
   (* anyconst *) logic [COLUMN_WIDTH-1:0] watched;
   logic loaded_q, sending_q, tvalid_q, tready_q, tlast_q, last_row_q, finished_q;
   logic [COLUMN_WIDTH:0] beats_q;
-  logic [1:0] pause_q;
+  logic [3:0] pause_q;
   logic [RESULT_WIDTH-1:0] expected_q, result;
   logic [ROW_WIDTH-1:0] row_q;
   logic [COLUMN_WIDTH-1:0] column;
@@ -134,7 +155,7 @@ module result_output_properties #(
   `PROVE(a_tlast, !(running && tvalid) || tlast == (last_row_q && 32'(beats_q) == SRAM_NUM - 1))
   `PROVE(a_done, !running || done == finished_q)
   `PROVE(a_busy, !running || !sending_q || busy)
-  `PROVE(a_goes_on, !running || !sending_q || pause_q < 2)
+  `PROVE(a_goes_on, !running || !sending_q || 32'(pause_q) < STAGES + 3)
   `GOAL(running && done && last_row_q && 32'(watched) == SRAM_NUM - 1)
 
 endmodule

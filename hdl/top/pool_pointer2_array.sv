@@ -114,7 +114,7 @@ module pool_pointer2_array #(
   // Control, once per array.
 
   logic stream, coarse, point, more, acq_done, stream_idle, clear;
-  logic [3:0] acquisition;
+  logic [3:0] acquisition_t1;
   logic decode, choose, decide, engine_done, underrun, illegal_schedule;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
 
@@ -137,7 +137,7 @@ module pool_pointer2_array #(
       .coarse_o       (coarse),
       .point_o        (point),
       .more_o         (more),
-      .acquisition_o  (acquisition),
+      .acquisition_t1_o(acquisition_t1),
       .acq_done_i     (acq_done),
       .stream_idle_i  (stream_idle),
       .clear_o        (clear),
@@ -188,7 +188,7 @@ module pool_pointer2_array #(
       .stream_i         (stream),
       .coarse_i         (coarse),
       .more_i           (more),
-      .acquisition_i    (acquisition),
+      .acquisition_t1_i (acquisition_t1),
       .tdc_valid_i      (tdc_valid_i),
       .tdc_ready_o      (tdc_ready_o),
       .acq_done_o       (acq_done),
