@@ -52,7 +52,7 @@ module controller #(
   logic [2:0] state_d, state_q;
   logic [PASS_WIDTH-1:0] pass_q;
   logic [ACQ_WIDTH-1:0] acq_num_q;
-  logic first_pass_q, final_pass_q, start_q, done_q, accept;
+  logic stream_q, first_pass_q, final_pass_q, start_q, done_q, accept;
 
   always_comb begin
     state_d = state_q;
@@ -102,6 +102,7 @@ module controller #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= dtof_pkg::STATE_IDLE;
+      stream_q <= 1'b0;
       pass_q <= '0;
       first_pass_q <= 1'b1;
       final_pass_q <= 1'b0;
@@ -110,6 +111,8 @@ module controller #(
       done_q <= 1'b0;
     end else begin
       state_q <= state_d;
+      // Registered beside the state: whether a timestamp is taken depends on it.
+      stream_q <= (state_d == dtof_pkg::STATE_M0) || (state_d == dtof_pkg::STATE_M3);
       start_q <= accept;
       done_q <= (state_q == dtof_pkg::STATE_M5) && (state_d == dtof_pkg::STATE_IDLE);
       if (accept) begin
@@ -144,7 +147,7 @@ module controller #(
   assign pass_o = pass_q;
   assign first_pass_o = first_pass_q;
   assign final_pass_o = final_pass_q;
-  assign stream_o = (state_q == dtof_pkg::STATE_M0) || (state_q == dtof_pkg::STATE_M3);
+  assign stream_o = stream_q;
   assign scan_reset_o = entering && (state_d == dtof_pkg::STATE_RESET);
   assign scan_final_o = entering && ((state_q == dtof_pkg::STATE_M3) || (result_start_o && !scan_last_row_i));
   assign scan_start_o = scan_reset_o || scan_final_o || (entering && state_d == dtof_pkg::STATE_M1);

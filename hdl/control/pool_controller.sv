@@ -45,7 +45,7 @@ module pool_controller #(
   localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(CLEAR_WORDS - 1);
 
   logic [2:0] state_d, state_q;
-  logic acq_done_q, start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
+  logic stream_q, coarse_q, point_q, acq_done_q, start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
   logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, acquisition_then, acquisition_q, phase_end;
   logic [ADDR_WIDTH-1:0] address_q;
   logic accept, cleared;
@@ -108,6 +108,9 @@ module pool_controller #(
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       state_q <= dtof_pkg::STATE_IDLE;
+      stream_q <= 1'b0;
+      coarse_q <= 1'b0;
+      point_q <= 1'b0;
       acq_done_q <= 1'b0;
       start_q <= 1'b0;
       done_q <= 1'b0;
@@ -123,6 +126,11 @@ module pool_controller #(
     end else begin
       state_q <= state_d;
       entered_q <= (state_d != state_q);
+      // Registered beside the state: whether a timestamp is taken depends on them.
+      stream_q <= (state_d == dtof_pkg::POOL_STATE_COARSE) || (state_d == dtof_pkg::POOL_STATE_TRACK)
+          || (state_d == dtof_pkg::POOL_STATE_POINT);
+      coarse_q <= (state_d == dtof_pkg::POOL_STATE_COARSE);
+      point_q <= (state_d == dtof_pkg::POOL_STATE_POINT);
       acq_done_q <= acq_done_i;
       start_q <= accept;
       done_q <= (state_q == dtof_pkg::POOL_STATE_DECIDE) && (state_d == dtof_pkg::STATE_IDLE);
@@ -153,9 +161,9 @@ module pool_controller #(
   assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
   assign done_o = done_q;
   assign state_o = state_q;
-  assign stream_o = coarse_o || (state_q == dtof_pkg::POOL_STATE_TRACK) || point_o;
-  assign coarse_o = (state_q == dtof_pkg::POOL_STATE_COARSE);
-  assign point_o = (state_q == dtof_pkg::POOL_STATE_POINT);
+  assign stream_o = stream_q;
+  assign coarse_o = coarse_q;
+  assign point_o = point_q;
   assign more_o = more_q;
   assign acquisition_t1_o = acquisition_q[3:0];
   assign clear_o = (state_q == dtof_pkg::STATE_RESET);

@@ -34,14 +34,18 @@ module result_output #(
 
   localparam int PLACES = LATENCY + 2;  // a beat per clock
   localparam int PLACES_WIDTH = $clog2(PLACES + 1);
+  localparam int PLACE_WIDTH = $clog2(PLACES);
+  localparam logic [PLACE_WIDTH-1:0] LAST_PLACE = PLACE_WIDTH'(PLACES - 1);
   localparam logic [COLUMN_WIDTH-1:0] LAST_COLUMN = COLUMN_WIDTH'(SRAM_NUM - 1);
 
   logic busy_q, shift_q, done_q, valid_q, last_column, accepted, shift_d, shifted_all, arrives;
   logic [COLUMN_WIDTH-1:0] column_q, head_column_q;  // of the beat; at the chain's head behind all shifts so far
   logic [LATENCY:0] arrives_q;                       // a column's result is at the head, lowest bit last
   logic [PLACES_WIDTH-1:0] promised_q, promised_d;   // results that are kept or on their way
-  logic [PLACES_WIDTH-1:0] kept_q, kept_d, place;
-  logic [PLACES*RESULT_WIDTH-1:0] results_q, results_d;
+  logic [PLACES_WIDTH-1:0] kept_q, kept_d;
+  logic [PLACE_WIDTH-1:0] read_q, write_q;
+  logic [PLACES*RESULT_WIDTH-1:0] results_q;
+  logic [RESULT_WIDTH-1:0] result;
 
   assign last_column = (column_q == LAST_COLUMN);
   assign accepted = valid_q && tready_i;
@@ -49,18 +53,7 @@ module result_output #(
   assign shifted_all = (head_column_q == LAST_COLUMN);
   assign shift_d = busy_q && !shifted_all && (32'(promised_q) < PLACES);
   assign promised_d = promised_q + PLACES_WIDTH'(start_i || shift_d) - PLACES_WIDTH'(accepted);
-  assign place = kept_q - PLACES_WIDTH'(accepted);
-  assign kept_d = place + PLACES_WIDTH'(arrives);
-
-  integer i;
-  always_comb begin
-    results_d = accepted ? results_q >> RESULT_WIDTH : results_q;
-    for (i = 0; i < PLACES; i = i + 1) begin
-      if (arrives && place == PLACES_WIDTH'(i)) begin
-        results_d[i*RESULT_WIDTH+:RESULT_WIDTH] = head_i;
-      end
-    end
-  end
+  assign kept_d = kept_q + PLACES_WIDTH'(arrives) - PLACES_WIDTH'(accepted);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -71,6 +64,8 @@ module result_output #(
       arrives_q <= '0;
       promised_q <= '0;
       kept_q <= '0;
+      read_q <= '0;
+      write_q <= '0;
       column_q <= '0;
       head_column_q <= '0;
     end else begin
@@ -81,6 +76,12 @@ module result_output #(
       arrives_q <= (LATENCY + 1)'({start_i || shift_q, arrives_q} >> 1);
       promised_q <= promised_d;
       kept_q <= kept_d;
+      if (accepted) begin
+        read_q <= (read_q == LAST_PLACE) ? '0 : read_q + 1'b1;
+      end
+      if (arrives) begin
+        write_q <= (write_q == LAST_PLACE) ? '0 : write_q + 1'b1;
+      end
       if (start_i) begin
         column_q <= '0;
         head_column_q <= '0;
@@ -91,8 +92,24 @@ module result_output #(
     end
   end
 
+  // Where a result goes does not depend on the sink, so that tready has a short way.
+  integer i;
   always_ff @(posedge clk_i) begin
-    results_q <= results_d;
+    for (i = 0; i < PLACES; i = i + 1) begin
+      if (arrives && write_q == PLACE_WIDTH'(i)) begin
+        results_q[i*RESULT_WIDTH+:RESULT_WIDTH] <= head_i;
+      end
+    end
+  end
+
+  integer j;
+  always_comb begin
+    result = '0;
+    for (j = 0; j < PLACES; j = j + 1) begin
+      if (read_q == PLACE_WIDTH'(j)) begin
+        result = results_q[j*RESULT_WIDTH+:RESULT_WIDTH];
+      end
+    end
   end
 
   `DTOF_ASSERT(a_one_row, !(start_i && busy_q), "a row of results is started while another is sent")
@@ -101,7 +118,7 @@ module result_output #(
   assign done_o = done_q;
   assign busy_o = busy_q;
   assign tvalid_o = valid_q;
-  assign tdata_o = {column_q, row_i, results_q[RESULT_WIDTH-1:0]};
+  assign tdata_o = {column_q, row_i, result};
   assign tlast_o = last_row_i && last_column;
 
 `ifndef SYNTHESIS

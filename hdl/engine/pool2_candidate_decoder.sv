@@ -66,16 +66,19 @@ module pool2_candidate_decoder #(
   // Background.
 
   logic [OCTET_WIDTH-1:0] octet, octet_q, least_octet_q;
+  logic octet_done_q, first_octet_q;
   logic [OCTET_WIDTH+2:0] five_octets;
 
   assign octet = ((command_i.own_bin[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin);
 
   always_ff @(posedge clk_i) begin
+    octet_done_q <= command_i.count_own && command_i.own_bin[2:0] == 3'd7;
+    first_octet_q <= (command_i.own_bin[4:3] == 2'd0);
     if (command_i.count_own) begin
       octet_q <= octet;
-      if (command_i.own_bin[2:0] == 3'd7 && (command_i.own_bin[4:3] == 2'd0 || octet < least_octet_q)) begin
-        least_octet_q <= octet;
-      end
+    end
+    if (octet_done_q && (first_octet_q || octet_q < least_octet_q)) begin
+      least_octet_q <= octet_q;
     end
   end
 
