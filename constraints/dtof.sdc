@@ -8,6 +8,7 @@ set hold_uncertainty 0.05
 set tdc_share 0.30
 set control_share 0.30
 set stream_share 0.30
+set reset_share 0.20
 
 create_clock -name clk -period $period [get_ports clk_i]
 set_clock_uncertainty -setup $setup_uncertainty [get_clocks clk]
@@ -23,8 +24,8 @@ set_output_delay [expr {$control_share * $period}] -clock clk [get_ports {busy_o
 set_input_delay [expr {$stream_share * $period}] -clock clk [get_ports result_tready_i]
 set_output_delay [expr {$stream_share * $period}] -clock clk [get_ports {result_tvalid_o result_tdata_o* result_tlast_o}]
 
-# The reset is asserted asynchronously and released synchronously outside; its tree has a clock of its own time.
-set_false_path -from [get_ports rst_ni]
+# The reset comes from reset_synchroniser: its release is a flip-flop and a multiplexer behind the clock's edge.
+set_input_delay [expr {$reset_share * $period}] -clock clk [get_ports rst_ni]
 
 # The SRAMs' side band rests while the array works.
 set_false_path -from [get_ports sram_cfg_i*]

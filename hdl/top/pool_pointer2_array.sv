@@ -352,6 +352,13 @@ module pool_pointer2_array #(
       .to_o  (timestamps)
   );
 
+  generate
+    if (ENGINES == 1) begin : g_one_engine
+      logic unused_of_the_others;
+      assign unused_of_the_others = ^{heard_select, heard_has_right};
+    end
+  endgenerate
+
   // Engines with their pairs of columns.
 
   logic [ENGINES*RESULT_WIDTH-1:0] results;

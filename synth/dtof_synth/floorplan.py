@@ -24,6 +24,7 @@ from .netlist import TREE_LOAD_SHARE, Module, Sink, TreeBuilder
 PITCH_UM = 25.0  # of the columns: that of the pixels above them
 REPEATER_UM = 400.0  # a wire's own delay there is that of the repeater behind it
 LEAF_UM = 200.0  # the columns that one buffer serves lie within it
+LIGHT_FF = 4.0  # a pin that needs no buffer of its own
 COPY_UM = 400.0  # the buffers that a copy of a register serves
 TIMESTAMP_PORT = "tdc_timestamp_i"
 # Ports whose way is shorter than an engine is wide, and has gates on it: the words of an engine's pairs are combined by OR from
@@ -174,7 +175,7 @@ class _Spreader:
             near = []
         far = [sink for sink in sinks if all(sink is not other for other in near)]
         leaves = [self._buffer(net, cluster, self._centre(cluster))
-                  if len(cluster) > 1 or cluster[0].load > limit / 4 else cluster[0]
+                  if len(cluster) > 1 or cluster[0].load > LIGHT_FF else cluster[0]
                   for cluster in self._clusters(far, self.leaf_ff - LEAF_UM * self.wire.ff_per_um, LEAF_UM)]
         if copy and driver is not None:
             for cluster in self._clusters(leaves, self.leaf_ff - COPY_UM * self.wire.ff_per_um, COPY_UM):

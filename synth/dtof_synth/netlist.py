@@ -23,6 +23,7 @@ ENGINE_SUFFIX = "_engine"
 STUB = "column_stub"
 TREE_PREFIX = "fanout_"
 COPY_SUFFIX = "_copy"
+HOLD_PREFIX = "hold_"
 CLOCK_GATE_PREFIX = "clock_gate_"  # instances that clock_gating.py put in
 # A driver is given a tree when its load exceeds this share of its max_capacitance; trees fill to it.
 TREE_LOAD_SHARE = 0.5
@@ -264,6 +265,32 @@ def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[st
 
 def port_clock_nets(module: Module) -> set[int]:
     return {bit for name, port in module["ports"].items() if name.startswith("clk") for bit in port["bits"]}
+
+
+def delay_pins(design: dict, pins: list[str], library: Library) -> dict[str, str]:
+    """Puts the smallest buffer in front of each pin, named as OpenSTA does: [block/]cell/pin or pin[bit]. A block is delayed
+    with all of its kind. Returns beside which cell of the top each new buffer of the top stands."""
+    buffer = library.buffers[0]
+    found: dict[tuple[str, str, str], None] = {}
+    for name in pins:
+        *block, cell, pin = name.split("/")
+        module = top(design)["cells"][block[0]]["type"] if block else ""
+        found[module, cell, pin] = None
+    beside: dict[str, str] = {}
+    for kind, cell, pin in found:
+        module = modules(design)[kind] if kind else top(design)
+        index = int(pin[pin.index("[") + 1:-1]) if "[" in pin else 0
+        bits = module["cells"][cell]["connections"][pin.split("[")[0]]
+        output = _next_net(module)
+        name = f"{HOLD_PREFIX}{output}"
+        if not kind:
+            beside[name] = cell
+        module["cells"][name] = {
+            "hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
+            "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
+            "connections": {buffer.input_pin: [bits[index]], buffer.output_pin: [output]}}
+        bits[index] = output
+    return beside
 
 
 def clock_nets(module: Module) -> set[int]:

@@ -25,6 +25,7 @@ FAST_MHZ = 500.0
 NAMING_SEEDS = list(range(16))
 POOL_NAMING_SEEDS = NAMING_SEEDS[:4]
 KEPT_COLUMNS = 3
+HOLD_ROUNDS = 4  # in which a pin that data reaches too early gets a buffer
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 BOTH_CORNERS = ("typical", "slow")
 WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
@@ -93,6 +94,7 @@ class Margin:
 
     slack: float
     hold_slack: float
+    reset_slack: float  # the lesser of recovery and removal
     start: str  # of the slowest path
     end: str
 
@@ -200,26 +202,57 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     return design
 
 
-def _write_timing_netlist(design: dict, loads: dict[str, list[float]], plan: floorplan.Floorplan,
-                          technology: Technology, folder: Path, configuration: Configuration) -> None:
-    """Verilog of the array with few real columns, the stub's Liberty, the wires between the blocks and what cells were
-    called."""
-    netlist.keep_columns(design, KEPT_COLUMNS)
-    called = spef.plain_names(design)
-    plan.rename(called[configuration.top])
-    clocks = netlist.clock_nets(netlist.top(design))
-    for corner, wire in WIRES.items():
-        (folder / f"wires_{corner}.spef").write_text(
-            spef.write(design, plan, technology.library("slow"), wire, clocks), encoding="utf-8")
-    names = {plain: name for before in called.values() for plain, name in before.items()}
-    (folder / "names.json").write_text(json.dumps(names), encoding="utf-8")
-    (folder / "column_stub.lib").write_text(
-        netlist.stub_liberty(design, loads, technology.typical.voltage), encoding="utf-8")
-    (folder / "timing.json").write_text(json.dumps(design), encoding="utf-8")
-    settings = folder / "write_settings.tcl"
-    tools.write_settings(settings, {"netlist_json": folder / "timing.json", "netlist": folder / "timing.v"})
-    tools.run_yosys(technology.root / "synth" / "yosys" / "write_verilog.tcl", settings, folder / "write.log",
-                    configuration.name)
+@dataclass(frozen=True)
+class _Netlist:
+    """What is timed: the design with few real columns, where its cells stand, and the folder of its files."""
+
+    design: dict
+    plan: floorplan.Floorplan
+    configuration: Configuration
+    technology: Technology
+    folder: Path
+
+    def prepare(self, loads: dict[str, list[float]]) -> None:
+        """Puts stubs in place of columns; writes the stub's Liberty and what cells were called."""
+        self.folder.mkdir(exist_ok=True)
+        netlist.keep_columns(self.design, KEPT_COLUMNS)
+        called = spef.plain_names(self.design)
+        self.plan.rename(called[self.configuration.top])
+        names = {plain: name for before in called.values() for plain, name in before.items()}
+        (self.folder / "names.json").write_text(json.dumps(names), encoding="utf-8")
+        (self.folder / "column_stub.lib").write_text(
+            netlist.stub_liberty(self.design, loads, self.technology.typical.voltage), encoding="utf-8")
+        self.write()
+
+    def write(self) -> None:
+        """Verilog, and the wires between the blocks."""
+        clocks = netlist.clock_nets(netlist.top(self.design))
+        for corner, wire in WIRES.items():
+            (self.folder / f"wires_{corner}.spef").write_text(
+                spef.write(self.design, self.plan, self.technology.slow, wire, clocks), encoding="utf-8")
+        (self.folder / "timing.json").write_text(json.dumps(self.design), encoding="utf-8")
+        settings = self.folder / "write_settings.tcl"
+        tools.write_settings(settings, {"netlist_json": self.folder / "timing.json", "netlist": self.folder / "timing.v"})
+        tools.run_yosys(self.technology.root / "synth" / "yosys" / "write_verilog.tcl", settings,
+                        self.folder / "write.log", self.configuration.name)
+
+    def fix_hold(self) -> Margin:
+        """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner."""
+        margin, early = time_margins(self.configuration, self.technology, "fast", self.folder)
+        for _ in range(HOLD_ROUNDS):
+            if not early:
+                break
+            beside = netlist.delay_pins(self.design, early, self.technology.slow)
+            self.plan.places |= {name: self.plan[cell] for name, cell in beside.items()}
+            self.write()
+            margin, early = time_margins(self.configuration, self.technology, "fast", self.folder)
+        return margin
+
+    def counts(self) -> tuple[Counts, Counts, Counts]:
+        """Of a column module, of everything shared, of the engines in it."""
+        library = self.technology.slow
+        return (netlist.count(netlist.modules(self.design)[netlist.column_module(self.design)], library),
+                netlist.count_shared(self.design, library), netlist.count_engines(self.design, library))
 
 
 def _readable(name: str, called: dict[str, str]) -> str:
@@ -277,8 +310,9 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     return timing, output
 
 
-def time_margins(configuration: Configuration, technology: Technology, corner: str, folder: Path) -> Margin:
-    """The same netlist in one corner with margins."""
+def time_margins(configuration: Configuration, technology: Technology, corner: str, folder: Path
+                 ) -> tuple[Margin, list[str]]:
+    """The same netlist in one corner with margins, and the pins at which data comes too early."""
     library = technology.library(corner)
     settings = folder / f"margins_{corner}_settings.tcl"
     tools.write_settings(settings, {
@@ -291,19 +325,19 @@ def time_margins(configuration: Configuration, technology: Technology, corner: s
     output = tools.run_sta(technology.root / "synth" / "sta" / "margins.tcl", settings, folder / f"margins_{corner}.log",
                            f"{configuration.name}, {corner} corner with margins")
     start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"), folder)
-    return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1), start, end)
+    early = re.findall(r"^(\S+/\S+) \(\S+\).* -\d+\.\d+ \(VIOLATED\)$", _section(output, "DTOF_EARLY"), re.MULTILINE)
+    reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", _section(output, "DTOF_RESET"), re.MULTILINE)
+    return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
+                  min((float(slack) for slack in reset), default=0.0), start, end), early
 
 
 @dataclass(frozen=True)
 class _Attempt:
-    """Mapped with one effort and timed in the slow corner; its files are in a folder of its own."""
+    """Mapped with one effort and timed in the slow corner."""
 
-    column_module: Counts
-    shared: Counts
-    engines: Counts
+    netlist: _Netlist
     slow: Timing
     margin: Margin | None  # in the slow corner, where the technology has a fast one
-    folder: Path
 
     @property
     def closes(self) -> bool:
@@ -314,6 +348,14 @@ class _Attempt:
         return self.closes and (self.margin is None or self.margin.slack >= 0)
 
 
+def _timed(timed: _Netlist) -> _Attempt:
+    slow, _ = time_corner(timed.configuration, timed.technology, "slow", timed.folder)
+    margin = None
+    if timed.technology.fast is not None:
+        margin, _ = time_margins(timed.configuration, timed.technology, "slow", timed.folder)
+    return _Attempt(timed, slow, margin)
+
+
 def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int) -> _Attempt:
     design = map_to_cells(configuration, technology, folder, efforts(configuration)[number])
     library = technology.slow
@@ -322,15 +364,9 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
         floorplan.check_borders(design, library)
     except FlowError as error:
         raise FlowError(f"{configuration.name}: {error}") from None
-    column_module = netlist.count(netlist.modules(design)[netlist.column_module(design)], library)
-    shared = netlist.count_shared(design, library)
-    engines = netlist.count_engines(design, library)
-    own = folder / f"effort{number}"
-    own.mkdir(exist_ok=True)
-    _write_timing_netlist(design, loads, plan, technology, own, configuration)
-    slow, _ = time_corner(configuration, technology, "slow", own)
-    margin = time_margins(configuration, technology, "slow", own) if technology.fast is not None else None
-    return _Attempt(column_module, shared, engines, slow, margin, own)
+    timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}")
+    timed.prepare(loads)
+    return _timed(timed)
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
@@ -345,21 +381,24 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         if attempts[-1].closes if configuration.is_pool else attempts[-1].closes_with_margins:
             break
     best = max(attempts, key=lambda attempt: attempt.slow.slack)
+    margins: dict[str, Margin] = {}
+    if "typical" in corners and best.margin is not None:
+        fast = best.netlist.fix_hold()
+        best = _timed(best.netlist)
+        margins = {"slow": best.margin, "fast": fast}
+    column_module, shared, engines = best.netlist.counts()
     modules = configuration.column_modules
     macros = modules * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))
     tree = power.clock_tree(
-        modules * best.column_module.clock_sinks + best.shared.clock_sinks + macros,
-        modules * best.column_module.clock_ff + best.shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
+        modules * column_module.clock_sinks + shared.clock_sinks + macros,
+        modules * column_module.clock_ff + shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
     timing = {"slow": best.slow}
     figures: Power | None = None
-    margins: dict[str, Margin] = {}
     if "typical" in corners:
-        timing["typical"], output = time_corner(configuration, technology, "typical", best.folder)
+        timing["typical"], output = time_corner(configuration, technology, "typical", best.netlist.folder)
         figures = Power(power.logic_mw(output, modules), power.sram_mw(configuration, TARGET_MHZ),
                         power.clock_mw(output, modules, tree, technology.typical, TARGET_MHZ))
-        if best.margin is not None:
-            margins = {"slow": best.margin, "fast": time_margins(configuration, technology, "fast", best.folder)}
-    return Result(configuration, best.column_module, best.shared, best.engines, tree, technology.slow.nand2_area,
+    return Result(configuration, column_module, shared, engines, tree, technology.slow.nand2_area,
                   technology.slow.mux2_area, timing, figures, margins)
 
 

@@ -16,6 +16,10 @@ proc run {} {
   report_checks -path_delay max -digits 4 -fields {slew cap}
   puts "DTOF_PATH_MIN"
   report_checks -path_delay min -digits 4 -fields {slew cap}
+  puts "DTOF_EARLY"
+  report_checks -path_delay min -slack_max 0 -endpoint_count 100000 -format end -digits 4
+  puts "DTOF_RESET"
+  report_check_types -recovery -removal
   puts "DTOF_END"
 }
 
