@@ -51,8 +51,8 @@ module result_output #(
   assign accepted = valid_q && tready_i;
   assign arrives = arrives_q[0];
   assign shifted_all = (head_column_q == LAST_COLUMN);
-  assign shift_d = busy_q && !shifted_all && (32'(promised_q) < PLACES);
-  assign promised_d = promised_q + PLACES_WIDTH'(start_i || shift_d) - PLACES_WIDTH'(accepted);
+  assign shift_d = start_i ? (SRAM_NUM > 1) : busy_q && !shifted_all && (32'(promised_q) < PLACES);
+  assign promised_d = promised_q + PLACES_WIDTH'(start_i) + PLACES_WIDTH'(shift_d) - PLACES_WIDTH'(accepted);
   assign kept_d = kept_q + PLACES_WIDTH'(arrives) - PLACES_WIDTH'(accepted);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -84,7 +84,7 @@ module result_output #(
       end
       if (start_i) begin
         column_q <= '0;
-        head_column_q <= '0;
+        head_column_q <= COLUMN_WIDTH'(shift_d);
       end else begin
         column_q <= (accepted && !last_column) ? column_q + 1'b1 : column_q;
         head_column_q <= shift_d ? head_column_q + 1'b1 : head_column_q;

@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import area_parts, goals, power, sram_model
+from . import area_parts, floorplan, goals, power, sram_model
 from .configuration import memories
 from .run import FAST_MHZ, TARGET_MHZ, Result
 
@@ -146,7 +146,8 @@ def area(results: dict[str, Result], extra: str, library: str, digest: str) -> s
         f"{area_parts.FITTED_BITS} bits are extrapolated from narrower ones.", "", _doubtful_section(main),
         "## Beside the thesis (Table 5)", "", _thesis_section(main),
         "## Shared logic and fan-out", "",
-        "Buffers and register copies that carry the shared signals to all columns are counted in the shared logic. "
+        "Buffers, repeaters and register copies that carry the shared signals to all columns, and the timestamps' registers, are "
+        "counted in the shared logic. "
         "The clock tree is an estimate from the clock loads and not in any total.", "",
         _table(["read-out", "cells", "flip-flops", "um2", "of it fan-out buffers", "um2", "clock tree buffers",
                 "um2"],
@@ -174,10 +175,11 @@ def _margin_rows(results: Iterable[Result]) -> list[list[str]]:
     rows = []
     for result in results:
         slow, fast = result.margins["slow"], result.margins["fast"]
-        setup, hold = ("yes" if worst >= 0 else "**no**" for worst in (min(slow.slack, fast.slack),
-                                                                          min(slow.hold_slack, fast.hold_slack)))
-        rows.append([result.configuration.title, f"{slow.slack:+.3f}", f"{slow.hold_slack:+.3f}", f"{fast.slack:+.3f}",
-                     f"{fast.hold_slack:+.3f}", setup, hold, f"`{slow.start}`", f"`{slow.end}`"])
+        met = ["yes" if worst >= 0 else "**no**" for worst in (
+            min(slow.slack, fast.slack), min(slow.hold_slack, fast.hold_slack), min(slow.reset_slack, fast.reset_slack))]
+        rows.append([result.configuration.title, f"{slow.slack:+.3f}", f"{slow.hold_slack:+.3f}", f"{slow.reset_slack:+.2f}",
+                     f"{fast.slack:+.3f}", f"{fast.hold_slack:+.3f}", f"{fast.reset_slack:+.2f}", *met,
+                     f"`{slow.start}`", f"`{slow.end}`"])
     return rows
 
 
@@ -185,14 +187,13 @@ def _margin_section(results: list[Result]) -> list[str]:
     results = [result for result in results if result.margins]
     if not results:
         return []
-    lacking = max(0.0, -min(corner.hold_slack for result in results for corner in result.margins.values()))
     return ["## With margins", "",
             "The same netlists with the margins of [constraints/margins.sdc](../constraints/margins.sdc): cells 5 % slower or "
             "faster where that hurts, 0.15 ns of uncertainty, edges at the inputs and loads at the outputs; slow corner, and "
-            f"the fast one for hold. Met: no slack is negative. Hold lacks at most {lacking:.3f} ns, which is left to layout; no total "
-            "has the buffers for it.", "",
-            _table(["read-out", "slow: setup", "hold", "fast: setup", "hold", "setup met", "hold met", "slowest from", "to"],
-                   _margin_rows(results))]
+            "the fast one for hold. Reset: the lesser of recovery and removal behind reset_synchroniser. Met: no slack is "
+            "negative. Buffers that hold needs are in the netlist and in every total.", "",
+            _table(["read-out", "slow: setup", "hold", "reset", "fast: setup", "hold", "reset", "setup met", "hold met",
+                    "reset met", "slowest from", "to"], _margin_rows(results))]
 
 
 def _power_rows(results: Iterable[Result]) -> list[list[str]]:
@@ -208,9 +209,10 @@ def timing(results: dict[str, Result], library: str, digest: str) -> str:
         "# Timing and power", "", _provenance(library, digest),
         "Slacks in ns, ideal clock with the uncertainty and port budgets of "
         "[constraints/dtof.sdc](../constraints/dtof.sdc). fmax: the shortest period without a setup violation, port "
-        "budgets scaled with it. Stages: cells between start and end. Hold is left to layout. "
-        "Wires inside a block are a wire load; the length of "
-        "the wires to the columns is not modelled.", "",
+        "budgets scaled with it. Stages: cells between start and end. Wires inside a block are a wire load; those between "
+        f"blocks are those of a floorplan with columns of {floorplan.PITCH_UM:g} um, with {floorplan.TYPICAL.ohm_per_um:g} ohm and "
+        f"{floorplan.TYPICAL.ff_per_um:g} fF per um, in the slow corner {floorplan.PESSIMISTIC.ohm_per_um:g} ohm and "
+        f"{floorplan.PESSIMISTIC.ff_per_um:g} fF.", "",
         _table(header, _timing_rows(main)),
         *_margin_section(main),
         "## Power", "",

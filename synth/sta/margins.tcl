@@ -8,7 +8,7 @@ proc run {} {
   read_verilog $netlist
   link_design $top
   if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
-  read_spef $wires
+  if {$wires ne ""} { read_spef $wires }
   uplevel #0 source $::constraints
   uplevel #0 source $::margins
   puts "DTOF_SLACK [worst_slack -max] [worst_slack -min]"

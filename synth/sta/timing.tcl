@@ -32,7 +32,7 @@ proc run {} {
   read_verilog $netlist
   link_design $top
   if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
-  read_spef $wires
+  if {$wires ne ""} { read_spef $wires }
   puts "DTOF_CLOSING_PERIOD [closing_period $target_period]"
   constrain $::fast_period
   puts "DTOF_FAST_SLACK [worst_slack -max]"

@@ -44,7 +44,7 @@ class FlowChecks(unittest.TestCase):
         settings = self.folder / "sta.tcl"
         tools.write_settings(settings, {
             "liberty_files": libraries or [self.folder / "typical.lib"], "netlist": self.folder / "netlist.v",
-            "top": "t", "wire_load": "block_1k", "constraints": self.folder / "test.sdc",
+            "wires": "", "top": "t", "wire_load": "block_1k", "constraints": self.folder / "test.sdc",
             "target_period": 3.0, "fast_period": 2.0, "activity": 0.1, "with_power": 1})
         return tools.run_sta(SYNTH / "sta" / "timing.tcl", settings, self.folder / "sta.log", "test")
 

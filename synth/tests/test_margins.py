@@ -25,15 +25,17 @@ def slacks(text: str) -> tuple[float, float]:
 class Margins(unittest.TestCase):
     def test_a_negative_slack_anywhere_is_not_met(self):
         chosen = configuration.load(ROOT / "configurations.toml")["ezpointer"]
-        good = Margin(0.2, 0.1, "a", "b")
+        good = Margin(0.2, 0.1, 0.3, "a", "b")
 
         def verdict(slow: Margin, fast: Margin) -> str:
             result = Result(chosen, NONE, NONE, NONE, ClockTree(1, 1.0, 0.0), 0.8, 2.0, {},
                             margins={"slow": slow, "fast": fast})
             return report._margin_section([result])[-1]
 
-        self.assertIn("| yes | yes |", verdict(good, good))
-        for bad, said in ((Margin(-0.001, 0.1, "a", "b"), "| **no** | yes |"), (Margin(0.2, -0.001, "a", "b"), "| yes | **no** |")):
+        self.assertIn("| yes | yes | yes |", verdict(good, good))
+        for bad, said in ((Margin(-0.001, 0.1, 0.3, "a", "b"), "| **no** | yes | yes |"),
+                          (Margin(0.2, -0.001, 0.3, "a", "b"), "| yes | **no** | yes |"),
+                          (Margin(0.2, 0.1, -0.001, "a", "b"), "| yes | yes | **no** |")):
             self.assertIn(said, verdict(bad, good))
             self.assertIn(said, verdict(good, bad))
 
@@ -57,7 +59,7 @@ class Margins(unittest.TestCase):
 
             def timed(margins: Path) -> tuple[float, float, float]:
                 tools.write_settings(folder / "settings.tcl", {
-                    "liberty_files": [liberty], "netlist": folder / "chain.v", "top": "chain",
+                    "liberty_files": [liberty], "netlist": folder / "chain.v", "wires": "", "top": "chain",
                     "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc", "margins": margins,
                     "period": f"{PERIOD_NS}", "slew": "0.028", "load": "10"})
                 output = tools.run_sta(ROOT / "synth/sta/margins.tcl", folder / "settings.tcl", folder / "log", "chain")

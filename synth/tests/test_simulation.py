@@ -9,7 +9,7 @@ import unittest
 from dataclasses import replace
 from pathlib import Path
 
-from dtof_synth import configuration, netlist, simulation, sram_kit, technology
+from dtof_synth import configuration, floorplan, netlist, simulation, sram_kit, technology
 from dtof_synth.errors import FlowError
 from dtof_synth.run import efforts, elaborate, map_to_cells
 
@@ -121,7 +121,7 @@ class NetlistBench(unittest.TestCase):
         cls.case = short(simulation.netlist_cases(NAMED["ezpointer"], SEED)[0])
         elaborate(cls.case.configuration, cls.technology, cls.folder)
         cls.design = map_to_cells(cls.case.configuration, cls.technology, cls.folder, efforts(cls.case.configuration)[0])
-        netlist.finish(cls.design, cls.technology.slow, sram_kit.PIN_FF)
+        floorplan.finish(cls.design, cls.technology.slow, sram_kit.PIN_FF, cls.case.configuration.module_columns)
 
     @classmethod
     def tearDownClass(cls) -> None:

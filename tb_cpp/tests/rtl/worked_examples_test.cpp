@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <map>
 
 #include "tests/rtl/rtl_test_support.hpp"
@@ -12,29 +13,36 @@ namespace {
 
 using testing::ElementsAre;
 
-// Follows a frame: the states in order, and the SRAM as it stands when a state ends.
+// Clocks from the control to the columns: BROADCAST_STAGES of the models here.
+constexpr std::size_t kWayClocks = 2;
+
+// Follows a frame: the states in order, and the SRAM as it stands when a state ends, as the columns hear of it.
 class Follower {
  public:
   void operator()(const RtlCycle& clock) {
     if (states_.empty() || states_.back() != clock.state) {
       states_.push_back(clock.state);
     }
-    ++clocks_[clock.state];
+    on_the_way_.push_back(clock.state);
+    if (on_the_way_.size() > kWayClocks + 1) {
+      on_the_way_.pop_front();
+    }
+    const RtlState heard = on_the_way_.front();
     if (clock.sram_write) {
       memory_[clock.sram_address] = clock.sram_data;
-      writes_[clock.state].push_back(clock.sram_data);
+      writes_[heard].push_back(clock.sram_data);
     }
-    at_end_of_[clock.state] = memory_;
+    at_end_of_[heard] = memory_;
   }
 
   using Memory = std::map<int, int>;
   std::vector<RtlState> states_;
-  std::map<RtlState, int> clocks_;
   std::map<RtlState, Memory> at_end_of_;
   std::map<RtlState, std::vector<int>> writes_;  // data, in order
 
  private:
   Memory memory_;
+  std::deque<RtlState> on_the_way_;
 };
 
 // Tables 3 and 4, Fig. 4.13 and 4.14: NP = 4, NB = 3, one pixel, two slots. 15 is "no detection".
