@@ -256,7 +256,8 @@ class _Netlist:
 
 
 def _readable(name: str, called: dict[str, str]) -> str:
-    """A register's or macro's name without generate levels, cell type and copy number."""
+    """A register's or macro's name without generate levels, cell type and copy number. `called`: what its parts were called
+    before spef.plain_names."""
     name = "/".join(called.get(part, part) for part in name.split("/"))
     name = re.sub(r"\\+\w+$", "", name)
     name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
@@ -267,7 +268,11 @@ def _section(output: str, name: str) -> str:
     return output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]
 
 
-def _critical_path(report: str, folder: Path) -> tuple[str, str, int]:
+def _names(folder: Path) -> dict[str, str]:
+    return json.loads((folder / "names.json").read_text(encoding="utf-8"))
+
+
+def _critical_path(report: str, called: dict[str, str]) -> tuple[str, str, int]:
     """(start, end, cells between them) of a report_checks path."""
     start = re.search(r"Startpoint: (\S+)", report)
     end = re.search(r"Endpoint: (\S+)", report)
@@ -276,7 +281,6 @@ def _critical_path(report: str, folder: Path) -> tuple[str, str, int]:
     data = report.split("data arrival time")[0]
     pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
     gates = [pin for pin in pins if not pin.startswith((start.group(1), end.group(1)))]
-    called = json.loads((folder / "names.json").read_text(encoding="utf-8"))
     return _readable(start.group(1), called), _readable(end.group(1), called), len(gates)
 
 
@@ -306,7 +310,7 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     slow_edges = _section(output, "DTOF_TRANSITION").count("VIOLATED")
     timing = Timing(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
                     _number(output, "DTOF_FAST_SLACK"), 1000 / _number(output, "DTOF_CLOSING_PERIOD"),
-                    *_critical_path(_section(output, "DTOF_PATH_MAX"), folder), slow_edges)
+                    *_critical_path(_section(output, "DTOF_PATH_MAX"), _names(folder)), slow_edges)
     return timing, output
 
 
@@ -324,7 +328,7 @@ def time_margins(configuration: Configuration, technology: Technology, corner: s
         "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}"})
     output = tools.run_sta(technology.root / "synth" / "sta" / "margins.tcl", settings, folder / f"margins_{corner}.log",
                            f"{configuration.name}, {corner} corner with margins")
-    start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"), folder)
+    start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"), _names(folder))
     early = re.findall(r"^(\S+/\S+) \(\S+\).* -\d+\.\d+ \(VIOLATED\)$", _section(output, "DTOF_EARLY"), re.MULTILINE)
     reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", _section(output, "DTOF_RESET"), re.MULTILINE)
     return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),

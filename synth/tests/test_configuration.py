@@ -71,11 +71,12 @@ class Configurations(unittest.TestCase):
 
 class Names(unittest.TestCase):
     def test_register_names_are_rtl_names(self):
-        self.assertEqual(_readable(r"u_pixel_sequencer.first_slot_t1_o\\DFFR_X1_copy5604"),
+        self.assertEqual(_readable("u_pixel_sequencer_first_slot_t1_o_DFFR_X1_copy5604", {
+            "u_pixel_sequencer_first_slot_t1_o_DFFR_X1_copy5604": r"u_pixel_sequencer.first_slot_t1_o\\DFFR_X1_copy5604"}),
                          "u_pixel_sequencer.first_slot_t1_o")
-        self.assertEqual(_readable(r"g_column[9].g_ez_pointer.u_column/u_pointer_builder.word_q[12]\\DFF_X1"),
+        self.assertEqual(_readable(r"g_column[9].g_ez_pointer.u_column/u_pointer_builder.word_q[12]\\DFF_X1", {}),
                          "column u_pointer_builder.word_q[12]")
-        self.assertEqual(_readable("g_column[0].genblk1.u_column/u_b.u_peak_sram.g_one_port.u_macro.g_160x6.u_macro"),
+        self.assertEqual(_readable("g_column[0].genblk1.u_column/u_b.u_peak_sram.g_one_port.u_macro.g_160x6.u_macro", {}),
                          "column u_b.u_peak_sram")
 
     def test_stages_are_the_cells_between_start_and_end(self):
@@ -89,7 +90,7 @@ Endpoint: b (rising edge-triggered flip-flop clocked by clk)
        0.30   data arrival time
   0.00 3.00 ^ b/CK (DFF_X1)
 """
-        self.assertEqual(_critical_path(report), ("a", "b", 2))
+        self.assertEqual(_critical_path(report, {}), ("a", "b", 2))
 
 
 class Ranks(unittest.TestCase):

@@ -42,10 +42,10 @@ def short(case: simulation.Case, *frames: int) -> simulation.Case:
 RTL_FAULTS = (
     ("datapath/pointer_update.sv", "left ? down : up", "left ? up : down", "the model: "),
     ("control/result_output.sv", "= valid_q && tready_i;", "= valid_q;", "changed before tready"),
-    ("control/result_output.sv", "      valid_q <= 1'b0;\n      shift_q", "      shift_q", "control output is X"),
+    ("control/result_output.sv", "      valid_q <= 1'b0;\n      arrives_q", "      arrives_q", "control output is X"),
     ("datapath/result_register.sv", "if (load_i)", "if (load_i && 1'b0)", "valid result is X"),
     ("control/result_output.sv", "last_row_i && last_column;", "last_column;", "tlast 1; the model: .* tlast 0"),
-    ("control/result_output.sv", "tdata_o = {column_q, row_i, head_i}", "tdata_o = {column_q, ~row_i, head_i}",
+    ("control/result_output.sv", "tdata_o = {column_q, row_i, result}", "tdata_o = {column_q, ~row_i, result}",
      "the model: "),
     ("control/pixel_sequencer.sv", "tdc_ready_o = active_q || at_start", "tdc_ready_o = at_start",
      "fell inside an acquisition"),
