@@ -48,6 +48,6 @@ module broadcast #(
     end
   endgenerate
 
-  assign to_o = stages_q[STAGES*WIDTH-1-:WIDTH];
+  assign to_o = stages_q[STAGES*WIDTH-1:(STAGES-1)*WIDTH];
 
 endmodule
