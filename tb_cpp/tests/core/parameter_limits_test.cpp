@@ -47,9 +47,9 @@ std::vector<Row> parameter_limits() {
 }
 
 // Of the array alone: a model has no such parameter, or no other value of it.
-const std::set<std::string> kOfTheArray = {"READOUT",       "PIXELS_PER_SRAM", "SRAM_NUM",
-                                           "POINTER_PORTS", "ENGINE_COLUMNS",  "ACQ_WIDTH",
-                                           "RIVAL_MOVES",   "SECOND_TARGET",   "RAW_HISTOGRAM",   "BROADCAST_STAGES"};
+const std::set<std::string> kOfTheArray = {
+    "READOUT",   "PIXELS_PER_SRAM", "SRAM_NUM",      "POINTER_PORTS", "ENGINE_COLUMNS",
+    "ACQ_WIDTH", "RIVAL_MOVES",     "SECOND_TARGET", "RAW_HISTOGRAM", "BROADCAST_STAGES"};
 
 const std::map<std::string, int ReadoutParameters::*> kOfEveryReadout = {
     {"NP", &ReadoutParameters::np},

@@ -12,7 +12,8 @@ constexpr std::uint32_t kAcquisitions = 33'333;
 constexpr std::uint64_t kCycleLimit = 11'000'000;
 constexpr int kRows = 160;
 constexpr int kColumns = 200;
-// From a row's last address to its first beat, which a sink that stalls does not wait for: the way to the columns and back.
+// From a row's last address to its first beat, which a sink that stalls does not wait for: the way to the
+// columns and back.
 constexpr std::uint64_t kFirstBeatClocks = 6;
 
 class FrameCycles : public testing::TestWithParam<Readout> {};

@@ -16,7 +16,8 @@ using testing::ElementsAre;
 // Clocks from the control to the columns: BROADCAST_STAGES of the models here.
 constexpr std::size_t kWayClocks = 2;
 
-// Follows a frame: the states in order, and the SRAM as it stands when a state ends, as the columns hear of it.
+// Follows a frame: the states in order, and the SRAM as it stands when a state ends, as the columns hear of
+// it.
 class Follower {
  public:
   void operator()(const RtlCycle& clock) {
