@@ -68,7 +68,8 @@ class Picture(unittest.TestCase):
         self.assertIsNone(rivals.best_within(points, 1.0))
         self.assertEqual(rivals.best_within(points, 100.0).title, "32-bin histogram")
         section = rivals.sensor_section({"mine": {"50": points}})
-        self.assertIn("| mine | in the sun, 50 klux | - | - | - | 32-bin histogram: 10.00 +-7.50 (6.83 mm2) |", section)
+        area = f"{points[1].mm2:.2f} mm2"
+        self.assertIn(f"| mine | in the sun, 50 klux | - | - | - | 32-bin histogram: 10.00 +-7.50 ({area}) |", section)
         self.assertIn("Of 1 cells: 32-bin histogram has 1.", section)
 
     def test_the_report_has_the_sections_before_the_lights(self) -> None:
