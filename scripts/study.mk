@@ -4,13 +4,14 @@
 # make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
 # make rivals     the project's read-outs beside those that others have proposed, four seeds (half an hour); RIVAL_COLUMNS
 #                 is how many columns of each map are judged
+# make claims     what the rivals' papers claim, tested on photons as those papers have them (one minute)
 # make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
 # make trade      poolPointer 2's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
 # make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
 # make pulse-widths  read-outs beside the matched filter for pulses of 8 to 90 bins (three minutes)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -62,6 +63,10 @@ rivals: study
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/rivals_synthetic"; \
 	  scripts/rivals.py $(DTOF_STUDY) --out build/rivals_synthetic --held-out $(RIVAL_OPTIONS) --seed $(SEED); \
 	fi
+
+claims: study
+	@$(DTOF_STUDY) claims --seed $(SEED) --out build/claims
+	@scripts/publish.py claims
 
 pareto:
 	@/usr/bin/python3 scripts/pareto.py

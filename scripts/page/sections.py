@@ -73,6 +73,8 @@ LISTED = (
     Report("rivals", "Read-outs and their rivals", "rivals", "rivals.md", "rivals/report.md",
            "what others have proposed on the same photons: accuracy over memory, area and host work, and which read-out for "
            "which sensor", with_it=(("rivals/rivals.csv", "rivals.csv"), ("rivals/rival_hardware.csv", "rival_hardware.csv"))),
+    Report("claims", "What the rivals' papers claim", "claims", "claims.md", "claims/claims.md",
+           "the models beside their papers, on photons without pile-up", with_it=(("claims/claims.csv", "claims.csv"),)),
     Report("video", "Videos", "video", "video/video.md", "video/video.md",
            "accuracy from frame to frame, and what poolPointer 2 gains from the last one",
            with_it=same("video/video.csv", "video/room_light.svg")),

@@ -84,7 +84,8 @@ enum class RandomPurpose : std::uint32_t {
   kFaults = 7,
   kPixelDefects = 8,
   kIntensityImage = 9,
-  kTrainingScene = 10
+  kTrainingScene = 10,
+  kIndependentPhotons = 11
 };
 
 }  // namespace dtof

@@ -100,6 +100,15 @@ class LinearCodePixel final : public Rival {
   CodeMatcher matcher_;
 };
 
+/// The lowest `bits` of a number in reverse order: over successive numbers it is spread evenly.
+std::int32_t reversed_bits(std::uint32_t number, unsigned bits) {
+  std::uint32_t reversed = 0;
+  for (unsigned bit = 0; bit < bits; ++bit) {
+    reversed = (reversed << 1U) | ((number >> bit) & 1U);
+  }
+  return static_cast<std::int32_t>(reversed);
+}
+
 class TwoCorrelations final : public Rival {
  public:
   TwoCorrelations(const SensorModel& sensor, int shift)
@@ -118,13 +127,13 @@ class TwoCorrelations final : public Rival {
   [[nodiscard]] RivalWords read_pixel(PixelFrames frames) const override {
     check_rival_frame(frames.back(), sensor_);
     const int no_detection = (1 << sensor_.np) - 1;
-    const std::int32_t half = std::int32_t{1} << (shift_ - 1);
     RivalWords averages(2, 0);
     for (const Detection& detection : frames.back()) {
       if (detection.timestamp != no_detection) {
+        const std::int32_t dither = reversed_bits(detection.acquisition, shift_);
         for (std::size_t k = 0; k < 2; ++k) {
           averages[k] +=
-              weights_[std::size_t{detection.timestamp} * 2 + k] - ((averages[k] + half) >> shift_);
+              weights_[std::size_t{detection.timestamp} * 2 + k] - ((averages[k] + dither) >> shift_);
         }
       }
     }
@@ -277,9 +286,9 @@ std::unique_ptr<Rival> make_spline_sketch(const SensorModel& sensor, int knots, 
 }
 
 std::unique_ptr<Rival> make_two_correlations(const SensorModel& sensor, int shift) {
-  if (shift < 1 || shift > 16) {
+  if (shift < 1 || shift > 24) {
     throw InputError(
-        fmt::format("two correlations: an average over 2^{}, but it must be 2^1 to 2^16", shift));
+        fmt::format("two correlations: an average over 2^{}, but it must be 2^1 to 2^24", shift));
   }
   return std::make_unique<TwoCorrelations>(sensor, shift);
 }

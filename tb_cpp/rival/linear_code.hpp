@@ -68,10 +68,12 @@ std::vector<std::int16_t> spline_weights(int np, int knots);
 /// Correlation-assisted dToF (Kuijk, Sensors 2025, 25(21) 6772): the moving averages of two triangular waves,
 /// a quarter of the range apart, at the detections. In numbers: with a wave w[k] of -7 .. 7
 ///
-///     v[k] += w[k][x] - ((v[k] + 2^(shift - 1)) >> shift)
+///     v[k] += w[k][x] - ((v[k] + d) >> shift)
 ///
-/// so that v is 2^shift times the average over about that many detections. Without the rounding half, weak
-/// waves would drown in the bias of what is cut off. Words of 4 + shift bits.
+/// so that v is 2^shift times the average over about that many detections. d is the acquisition's number with
+/// its lowest `shift` bits in reverse order, which all pixels share: over many detections exactly v / 2^shift
+/// leaks away. With a constant in its place, averages below one half of the wave's unit would never leak, and
+/// larger ones would stand on whole units: centimetres of error. Words of 4 + shift bits, `shift` of 1 .. 24.
 std::unique_ptr<Rival> make_two_correlations(const SensorModel& sensor, int shift);
 
 }  // namespace dtof

@@ -20,6 +20,7 @@ void add_scenes_command(CLI::App& app, const std::string& command_line);
 void add_pool_command(CLI::App& app, const std::string& command_line);
 void add_pool_search_command(CLI::App& app, const std::string& command_line);
 void add_rivals_command(CLI::App& app, const std::string& command_line);
+void add_claims_command(CLI::App& app, const std::string& command_line);
 void add_measured_command(CLI::App& app, const std::string& command_line);
 void add_reproduce_command(CLI::App& app, const std::string& command_line);
 void add_coverage_command(CLI::App& app, const std::string& command_line);

@@ -18,6 +18,7 @@ Program study_program() {
         add_pool_command(app, command_line);
         add_pool_search_command(app, command_line);
         add_rivals_command(app, command_line);
+        add_claims_command(app, command_line);
         add_measured_command(app, command_line);
         add_reproduce_command(app, command_line);
         add_coverage_command(app, command_line);

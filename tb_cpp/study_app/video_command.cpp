@@ -11,6 +11,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
 #include "report/plot.hpp"

@@ -37,9 +37,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 10> kStudies = {
-      "enlarge",   "accuracy", "coverage", "fidelity",       "measured",
-      "reproduce", "scenes",   "walk",     "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 11> kStudies = {
+      "claims",    "enlarge", "accuracy", "coverage",       "fidelity",   "measured",
+      "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -645,6 +645,16 @@ TEST_F(Programs, WalkWritesItsReportAndPicture) {
   expect_refused("walk --binning 2 --out out", "binning");
   expect_refused("walk --reflectivities 0 1 --out out", "reflectivity");
   expect_refused("walk --distances 0 --out out", "distance");
+}
+
+TEST_F(Programs, ClaimsWritesItsReportAndPictures) {
+  const Outcome outcome = dtof("claims --pixels 100 --out claims");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("Seed 1."));
+  EXPECT_THAT(read_file(path("claims/claims.csv")), HasSubstr("\nnarrow,sketch,sketch M = 2,4,"));
+  EXPECT_THAT(read_file(path("claims/claims.md")), HasSubstr("## sunlit photons"));
+  EXPECT_GT(std::filesystem::file_size(path("claims/even.svg")), 0U);
+  expect_refused("claims --pixels 99 --out out", "--pixels");
 }
 
 TEST_F(Programs, ReplayAgainstATruthMap) {

@@ -267,11 +267,33 @@ TEST(TwoCorrelations, MovesTowardsEachDetection) {
 }
 
 TEST(TwoCorrelations, ForgetsWhatIsLongPast) {
-  const SensorModel sensor;
-  const std::unique_ptr<Rival> rival = make_two_correlations(sensor, 4);
-  std::vector<int> timestamps(300, 700);
-  timestamps.insert(timestamps.end(), 300, 200);
-  EXPECT_NEAR(rival->decode(read_one_frame(*rival, one_each(timestamps))).position, 200.0, 12.0);
+  SensorModel sensor;
+  sensor.acquisitions = 5000;
+  const std::unique_ptr<Rival> rival = make_two_correlations(sensor, 8);
+  std::vector<int> timestamps(2500, 700);
+  timestamps.insert(timestamps.end(), 2500, 200);
+  // A step of the wave is 37 codes wide.
+  EXPECT_NEAR(rival->decode(read_one_frame(*rival, one_each(timestamps))).position, 200.0, 20.0);
+}
+
+// What leaks is exactly the average, however small: the fixed point of a mean of 1/8 is 1/8 of 2^shift.
+TEST(TwoCorrelations, SmallAveragesLeakToo) {
+  SensorModel sensor = of_np(4);
+  sensor.acquisitions = 40'000;
+  constexpr int kShift = 10;
+  const std::unique_ptr<Rival> rival = make_two_correlations(sensor, kShift);
+  // In 16 detections: codes 0 and 8 take each other's place away, and one of code 2 adds its wave.
+  std::vector<int> timestamps;
+  for (int i = 0; i < 40'000; ++i) {
+    timestamps.push_back(i % 16 == 0 ? 2 : i % 2 == 0 ? 8 : 0);
+  }
+  const std::vector<int> even(timestamps.begin(), timestamps.begin() + 16);
+  const RivalWords one =
+      read_one_frame(*make_two_correlations(sensor, 24), one_each(even));  // nothing leaks yet
+  const RivalWords words = read_one_frame(*rival, one_each(timestamps));
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(words[k], std::ldexp(one[k], kShift) / 16.0, 40.0) << k;
+  }
 }
 
 // Whatever the code, a pulse without noise is where it is, on dark and on bright background.
