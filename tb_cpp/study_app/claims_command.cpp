@@ -76,7 +76,7 @@ void write_picture(const std::filesystem::path& path, const PaperScene& scene) {
   }
   std::erase_if(series, [](const PlotSeries& line) { return line.x.size() < 2; });
   write_plot(path, series,
-             {.title = fmt::format("Root mean square error over the Cramer-Rao bound: {}", scene.description),
+             {.title = fmt::format("Error over the Cramer-Rao bound, {} photons", scene.name),
               .x_label = "numbers that leave a pixel",
               .y_label = "error / bound",
               .logarithmic_y = true,
