@@ -277,11 +277,15 @@ def delay_pins(design: dict, pins: list[str], library: Library) -> dict[str, str
         module = top(design)["cells"][block[0]]["type"] if block else ""
         found[module, cell, pin] = None
     beside: dict[str, str] = {}
+    fresh: dict[str, int] = {}
     for kind, cell, pin in found:
         module = modules(design)[kind] if kind else top(design)
         index = int(pin[pin.index("[") + 1:-1]) if "[" in pin else 0
         bits = module["cells"][cell]["connections"][pin.split("[")[0]]
-        output = _next_net(module)
+        if kind not in fresh:
+            fresh[kind] = _next_net(module)
+        output = fresh[kind]
+        fresh[kind] += 1
         name = f"{HOLD_PREFIX}{output}"
         if not kind:
             beside[name] = cell

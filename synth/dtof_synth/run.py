@@ -227,9 +227,10 @@ class _Netlist:
     def write(self) -> None:
         """Verilog, and the wires between the blocks."""
         clocks = netlist.clock_nets(netlist.top(self.design))
+        kinds = list(dict.fromkeys(WIRES.values()))
+        texts = dict(zip(kinds, spef.write(self.design, self.plan, self.technology.slow, kinds, clocks)))
         for corner, wire in WIRES.items():
-            (self.folder / f"wires_{corner}.spef").write_text(
-                spef.write(self.design, self.plan, self.technology.slow, wire, clocks), encoding="utf-8")
+            (self.folder / f"wires_{corner}.spef").write_text(texts[wire], encoding="utf-8")
         (self.folder / "timing.json").write_text(json.dumps(self.design), encoding="utf-8")
         settings = self.folder / "write_settings.tcl"
         tools.write_settings(settings, {"netlist_json": self.folder / "timing.json", "netlist": self.folder / "timing.v"})
@@ -329,7 +330,7 @@ def time_margins(configuration: Configuration, technology: Technology, corner: s
     output = tools.run_sta(technology.root / "synth" / "sta" / "margins.tcl", settings, folder / f"margins_{corner}.log",
                            f"{configuration.name}, {corner} corner with margins")
     start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"), _names(folder))
-    early = re.findall(r"^(\S+/\S+) \(\S+\).* -\d+\.\d+ \(VIOLATED\)$", _section(output, "DTOF_EARLY"), re.MULTILINE)
+    early = re.findall(r"^(\S+/\S+) \(\S+\).* -?\d+\.\d+ \(VIOLATED\)$", _section(output, "DTOF_EARLY"), re.MULTILINE)
     reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", _section(output, "DTOF_RESET"), re.MULTILINE)
     return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
                   min((float(slack) for slack in reset), default=0.0), start, end), early

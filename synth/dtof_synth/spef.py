@@ -9,6 +9,7 @@ has a description of its own.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from . import netlist
@@ -113,9 +114,8 @@ def _bit(pin: str, index: int, bits: list) -> str:
     return pin if len(bits) == 1 else f"{pin}[{index}]"
 
 
-def _wire(number: int, net: str, pins: list[_Pin], wire: Wire) -> list[str]:
-    """One *D_NET: a row of nodes with the pins on them."""
-    rows = sorted(pins, key=lambda pin: (pin.place_um, pin.name))
+def _wire(net: str, rows: list[_Pin], wire: Wire) -> list[str]:
+    """One *D_NET: a row of nodes with the pins on them, from left to right."""
     pieces = [(left, right, right.place_um - left.place_um) for left, right in zip(rows, rows[1:])]
     caps = {pin.name: pin.wire_ff for pin in rows}
     for left, right, length in pieces:
@@ -140,14 +140,15 @@ def _node(pin: _Pin) -> str:
     return ":".join(pin.name.rsplit("/", 1)) if "/" in pin.name else pin.name
 
 
-def write(design: dict, plan: Floorplan, library: Library, wire: Wire, skip: set[int]) -> str:
-    """SPEF of the design as it is, columns replaced by stubs or not; gives each net that it describes a name of its own.
-    `skip` are clock nets."""
+def write(design: dict, plan: Floorplan, library: Library, wires: Iterable[Wire], skip: set[int]) -> list[str]:
+    """SPEF of the design as it is, columns replaced by stubs or not, with each kind of wire; gives each net that it
+    describes a name of its own. `skip` are clock nets."""
     array: Module = netlist.top(design)
     ports = {bit: (name, index, port["bits"]) for name, port in array["ports"].items()
              for index, bit in enumerate(port["bits"])}
     ties = netlist.constant_nets(array, library)
-    text = [_HEADER.format(design=next(name for name, module in netlist.modules(design).items() if module is array))]
+    header = _HEADER.format(design=next(name for name, module in netlist.modules(design).items() if module is array))
+    described: list[tuple[str, list[_Pin]]] = []
     named: dict[str, dict] = {}
     for bit, pins in sorted(_Nets(design, plan, library).pins().items()):
         places = [pin.place_um for pin in pins]
@@ -157,6 +158,6 @@ def write(design: dict, plan: Floorplan, library: Library, wire: Wire, skip: set
         net = _bit(*ports[bit]) if bit in ports else f"wire_{bit}"
         if bit not in ports:
             named[net] = {"hide_name": 0, "bits": [bit], "attributes": {}}
-        text += _wire(bit, net, pins, wire)
+        described.append((net, sorted(pins, key=lambda pin: (pin.place_um, pin.name))))
     array["netnames"] = {name: net for name, net in array["netnames"].items() if name in array["ports"]} | named
-    return "\n".join(text)
+    return ["\n".join([header, *(line for net, rows in described for line in _wire(net, rows, wire))]) for wire in wires]

@@ -131,7 +131,7 @@ class Wires(WithLibrary):
         plan = Floorplan(design, 1, 100.0)
         spef.plain_names(design)
         plan.places = {re.sub(r"\W", "_", name): place for name, place in plan.places.items()}
-        text = spef.write(design, plan, self.library, Wire(2.0, 0.5), {2})
+        text, = spef.write(design, plan, self.library, [Wire(2.0, 0.5)], {2})
         net = next(part for part in text.split("*D_NET ") if "far:Q" in part)
         ohm = [float(line.split()[3]) for line in net.split("*RES\n")[1].split("*END")[0].splitlines()]
         ff = sum(float(line.split()[2]) for line in net.split("*CAP\n")[1].split("*RES")[0].splitlines())
