@@ -211,9 +211,9 @@ class TreeBuilder:
         self.fresh += 1
         return self.fresh - 1
 
-    def buffer(self, net: int, cluster: list[Sink], wire_ff: float = 0.0) -> Sink:
-        """Puts the smallest sufficient buffer between a net and a cluster of its sinks; `wire_ff` it drives as well."""
-        buffer = _smallest(self.buffers, load_of(cluster) + wire_ff)
+    def buffer(self, net: int, cluster: list[Sink], wire_ff: float = 0.0, strength: float = 1.0) -> Sink:
+        """Puts the smallest buffer that can drive `strength` times a cluster of a net's sinks and a wire in front of them."""
+        buffer = _smallest(self.buffers, strength * (load_of(cluster) + wire_ff))
         output = self._rewire(cluster)
         name = f"{TREE_PREFIX}{net}_{output}"
         cell = {"hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
@@ -267,15 +267,17 @@ def port_clock_nets(module: Module) -> set[int]:
     return {bit for name, port in module["ports"].items() if name.startswith("clk") for bit in port["bits"]}
 
 
+def local_pin(design: dict, name: str) -> tuple[str, str, str]:
+    """(kind of block, cell, pin) of a pin named as OpenSTA does: [block/]cell/pin or pin[bit]. The top's kind is empty."""
+    *block, cell, pin = name.split("/")
+    return top(design)["cells"][block[0]]["type"] if block else "", cell, pin
+
+
 def delay_pins(design: dict, pins: list[str], library: Library) -> dict[str, str]:
-    """Puts the smallest buffer in front of each pin, named as OpenSTA does: [block/]cell/pin or pin[bit]. A block is delayed
-    with all of its kind. Returns beside which cell of the top each new buffer of the top stands."""
+    """Puts the smallest buffer in front of each pin (local_pin). A block is delayed with all of its kind. Returns beside which
+    cell of the top each new buffer of the top stands."""
     buffer = library.buffers[0]
-    found: dict[tuple[str, str, str], None] = {}
-    for name in pins:
-        *block, cell, pin = name.split("/")
-        module = top(design)["cells"][block[0]]["type"] if block else ""
-        found[module, cell, pin] = None
+    found = dict.fromkeys(local_pin(design, name) for name in pins)
     beside: dict[str, str] = {}
     fresh: dict[str, int] = {}
     for kind, cell, pin in found:

@@ -25,7 +25,8 @@ FAST_MHZ = 500.0
 NAMING_SEEDS = list(range(16))
 POOL_NAMING_SEEDS = NAMING_SEEDS[:4]
 KEPT_COLUMNS = 3
-HOLD_ROUNDS = 4  # in which a pin that data reaches too early gets a buffer
+HOLD_ROUNDS = 4  # in which a path that is too early gets a buffer
+TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 BOTH_CORNERS = ("typical", "slow")
 WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
@@ -237,16 +238,18 @@ class _Netlist:
         tools.run_yosys(self.technology.root / "synth" / "yosys" / "write_verilog.tcl", settings,
                         self.folder / "write.log", self.configuration.name)
 
-    def fix_hold(self) -> Margin:
+    def fix_hold(self, tight: list[list[str]]) -> Margin:
         """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner."""
-        margin, early = time_margins(self.configuration, self.technology, "fast", self.folder)
+        taken = {netlist.local_pin(self.design, pin) for path in tight for pin in path}
+        margin, paths = time_margins(self.configuration, self.technology, "fast", self.folder)
         for _ in range(HOLD_ROUNDS):
-            if not early:
+            if not paths.early:
                 break
-            beside = netlist.delay_pins(self.design, early, self.technology.slow)
+            pins = [_last_free_pin(self.design, path, taken) for path in paths.early]
+            beside = netlist.delay_pins(self.design, pins, self.technology.slow)
             self.plan.places |= {name: self.plan[cell] for name, cell in beside.items()}
             self.write()
-            margin, early = time_margins(self.configuration, self.technology, "fast", self.folder)
+            margin, paths = time_margins(self.configuration, self.technology, "fast", self.folder)
         return margin
 
     def counts(self) -> tuple[Counts, Counts, Counts]:
@@ -315,9 +318,33 @@ def time_corner(configuration: Configuration, technology: Technology, corner: st
     return timing, output
 
 
+@dataclass(frozen=True)
+class Paths:
+    """Each as the input pins from behind its first register to its end."""
+
+    early: list[list[str]]
+    tight: list[list[str]]
+
+
+def _paths(reports: str) -> list[list[str]]:
+    """Of reports with input pins, those that do not end at a port: from the end on every second pin is an input, the last of
+    them the clock pin that a path begins at."""
+    found = []
+    for report in reports.split("Startpoint: ")[1:]:
+        pins = re.findall(r"[v^] (\S+) \(\S+\)$", report.split("data arrival time")[0], re.MULTILINE)
+        if "/" in pins[-1]:
+            found.append(pins[:0:-2][::-1])
+    return found
+
+
+def _last_free_pin(design: dict, path: list[str], taken: set[tuple[str, str, str]]) -> str:
+    """Where a buffer delays an early path and none that is tight; the end, where there is no such pin."""
+    return next((pin for pin in reversed(path) if netlist.local_pin(design, pin) not in taken), path[-1])
+
+
 def time_margins(configuration: Configuration, technology: Technology, corner: str, folder: Path
-                 ) -> tuple[Margin, list[str]]:
-    """The same netlist in one corner with margins, and the pins at which data comes too early."""
+                 ) -> tuple[Margin, Paths]:
+    """The same netlist in one corner with margins."""
     library = technology.library(corner)
     settings = folder / f"margins_{corner}_settings.tcl"
     tools.write_settings(settings, {
@@ -326,14 +353,14 @@ def time_margins(configuration: Configuration, technology: Technology, corner: s
         "wire_load": library.wire_load,
         "constraints": technology.root / "constraints" / "dtof.sdc",
         "margins": technology.root / "constraints" / "margins.sdc", "period": f"{1000 / technology.target_mhz:.6f}",
-        "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}"})
+        "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}", "tight": f"{TIGHT_NS}"})
     output = tools.run_sta(technology.root / "synth" / "sta" / "margins.tcl", settings, folder / f"margins_{corner}.log",
                            f"{configuration.name}, {corner} corner with margins")
     start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"), _names(folder))
-    early = re.findall(r"^(\S+/\S+) \(\S+\).* -?\d+\.\d+ \(VIOLATED\)$", _section(output, "DTOF_EARLY"), re.MULTILINE)
     reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", _section(output, "DTOF_RESET"), re.MULTILINE)
     return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
-                  min((float(slack) for slack in reset), default=0.0), start, end), early
+                  min((float(slack) for slack in reset), default=0.0), start, end), Paths(
+                      _paths(_section(output, "DTOF_EARLY")), _paths(_section(output, "DTOF_TIGHT")))
 
 
 @dataclass(frozen=True)
@@ -343,6 +370,7 @@ class _Attempt:
     netlist: _Netlist
     slow: Timing
     margin: Margin | None  # in the slow corner, where the technology has a fast one
+    tight: list[list[str]]  # paths with little to spare there
 
     @property
     def closes(self) -> bool:
@@ -355,10 +383,10 @@ class _Attempt:
 
 def _timed(timed: _Netlist) -> _Attempt:
     slow, _ = time_corner(timed.configuration, timed.technology, "slow", timed.folder)
-    margin = None
-    if timed.technology.fast is not None:
-        margin, _ = time_margins(timed.configuration, timed.technology, "slow", timed.folder)
-    return _Attempt(timed, slow, margin)
+    if timed.technology.fast is None:
+        return _Attempt(timed, slow, None, [])
+    margin, paths = time_margins(timed.configuration, timed.technology, "slow", timed.folder)
+    return _Attempt(timed, slow, margin, paths.tight)
 
 
 def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int) -> _Attempt:
@@ -388,7 +416,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     best = max(attempts, key=lambda attempt: attempt.slow.slack)
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
-        fast = best.netlist.fix_hold()
+        fast = best.netlist.fix_hold(best.tight)
         best = _timed(best.netlist)
         margins = {"slow": best.margin, "fast": fast}
     column_module, shared, engines = best.netlist.counts()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Slacks of one configuration in one corner with the margins of constraints/margins.sdc. OpenSTA exits 0 even after
-# errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command succeeded.
+# Slacks of one configuration in one corner with the margins of constraints/margins.sdc, and the paths that are too early or
+# have less than `tight` ns to spare. OpenSTA exits 0 even after errors, so the flow looks for the marker DTOF_STA_OK, which is
+# printed only after every command succeeded.
 
 proc run {} {
   global liberty_files netlist wires top wire_load
@@ -17,7 +18,9 @@ proc run {} {
   puts "DTOF_PATH_MIN"
   report_checks -path_delay min -digits 4 -fields {slew cap}
   puts "DTOF_EARLY"
-  report_checks -path_delay min -slack_max 0 -endpoint_count 100000 -format end -digits 4
+  report_checks -path_delay min -slack_max 0 -group_count 100000 -format full -fields {input_pins} -digits 4
+  puts "DTOF_TIGHT"
+  report_checks -path_delay max -slack_max $::tight -group_count 100000 -format full -fields {input_pins} -digits 4
   puts "DTOF_RESET"
   report_check_types -recovery -removal
   puts "DTOF_END"

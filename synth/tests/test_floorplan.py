@@ -152,10 +152,11 @@ class Wires(WithLibrary):
 
         def arrival(of: Wire) -> float:
             (self.folder / "t.spef").write_text(
-                spef._HEADER.format(design="t") + "\n".join(spef._wire(1, "m", pins, of)), encoding="utf-8")
+                spef._HEADER.format(design="t") + "\n".join(spef._wire("m", pins, of)), encoding="utf-8")
             tools.write_settings(self.folder / "t.tcl", {
                 "liberty_files": [self.liberty], "netlist": self.folder / "t.v", "wires": self.folder / "t.spef", "top": "t",
-                "wire_load": "", "constraints": self.folder / "t.sdc", "margins": self.folder / "none.sdc", "period": "9"})
+                "wire_load": "", "constraints": self.folder / "t.sdc", "margins": self.folder / "none.sdc", "period": "9",
+                "tight": "0"})
             output = tools.run_sta(ROOT / "synth/sta/margins.tcl", self.folder / "t.tcl", self.folder / "log", "t")
             rows = re.findall(r"([\d.]+) +[\d.]+ [v^] s/D", output.split("DTOF_PATH_MAX")[1])
             return float(rows[0])  # of the wire alone

@@ -6,7 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import configuration, library, report, standard_cells, tools
+from dtof_synth import configuration, library, netlist, report, run, standard_cells, tools
 from dtof_synth.netlist import Counts
 from dtof_synth.power import ClockTree
 from dtof_synth.run import Margin, Result
@@ -39,6 +39,40 @@ class Margins(unittest.TestCase):
             self.assertIn(said, verdict(bad, good))
             self.assertIn(said, verdict(good, bad))
 
+    def test_a_buffer_delays_the_early_path_and_not_the_tight_one(self):
+        # A register reaches a gate directly and through a chain; the gate's output is the end of both ways. Delaying that
+        # end would make the late way later.
+        stages = 60
+        nets = [f"n{index}" for index in range(stages + 1)]
+        gates = "".join(f"  INV_X1 i{index} (.A({a}), .Y({b}));\n" for index, (a, b) in enumerate(zip(nets, nets[1:])))
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            liberty = folder / "slow.lib"
+            liberty.write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
+            (folder / "fork.v").write_text(
+                f"module fork_and_join (clk_i, result_tready_i);\n  input clk_i; input result_tready_i;\n"
+                f"  wire q, d, {', '.join(nets)};\n"
+                f"  DFF_X1 a (.D(result_tready_i), .CK(clk_i), .Q({nets[0]}));\n{gates}"
+                f"  NAND2_X1 g (.A1({nets[-1]}), .A2({nets[0]}), .Y(d));\n"
+                f"  DFF_X1 b (.D(d), .CK(clk_i), .Q(q));\nendmodule\n", encoding="utf-8")
+            (folder / "dtof.sdc").write_text(
+                "create_clock -name clk -period $period [get_ports clk_i]\nset_clock_uncertainty -hold 0.5 [get_clocks clk]\n",
+                encoding="utf-8")
+            (folder / "none.sdc").write_text("", encoding="utf-8")
+            tools.write_settings(folder / "settings.tcl", {
+                "liberty_files": [liberty], "netlist": folder / "fork.v", "wires": "", "top": "fork_and_join",
+                "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc",
+                "margins": folder / "none.sdc", "period": f"{PERIOD_NS}", "slew": "0.028", "load": "10", "tight": "0.15"})
+            output = tools.run_sta(ROOT / "synth/sta/margins.tcl", folder / "settings.tcl", folder / "log", "fork_and_join")
+        early = run._paths(run._section(output, "DTOF_EARLY"))
+        tight = run._paths(run._section(output, "DTOF_TIGHT"))
+        self.assertIn(["g/A2", "b/D"], early)
+        self.assertIn([*(f"i{index}/A" for index in range(stages)), "g/A1", "b/D"], tight)
+        design = {"modules": {"fork_and_join": {"attributes": {"top": "1"}, "cells": {}}}}
+        taken = {netlist.local_pin(design, pin) for path in tight for pin in path}
+        self.assertEqual(run._last_free_pin(design, ["g/A2", "b/D"], taken), "g/A2")
+        self.assertEqual(run._last_free_pin(design, ["g/A1", "b/D"], taken), "b/D")
+
     def test_derate_and_uncertainty_cost_what_they_should(self):
         # A chain between two flip-flops: the margins take 5 % of what arrives late and 0.05 ns more of uncertainty; hold
         # loses 5 % of the shortest path.
@@ -61,7 +95,7 @@ class Margins(unittest.TestCase):
                 tools.write_settings(folder / "settings.tcl", {
                     "liberty_files": [liberty], "netlist": folder / "chain.v", "wires": "", "top": "chain",
                     "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc", "margins": margins,
-                    "period": f"{PERIOD_NS}", "slew": "0.028", "load": "10"})
+                    "period": f"{PERIOD_NS}", "slew": "0.028", "load": "10", "tight": "0"})
                 output = tools.run_sta(ROOT / "synth/sta/margins.tcl", folder / "settings.tcl", folder / "log", "chain")
                 arrival = float(re.search(r"^ +([0-9.]+) +data arrival time", output.split("DTOF_PATH_MAX")[1],
                                           re.MULTILINE).group(1))
