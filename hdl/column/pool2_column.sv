@@ -11,7 +11,7 @@
 //   T1                                      point: which are inside; track, and point without RIVAL_MOVES: the
 //                                           candidates that the first one hits
 //   T2      of two pixels one is chosen     which one counts, and where it is; track: the candidates that the second one
-//                                           hits, or the only one, and which of the two scores
+//                                           hits, or the only one, and which of the two scores; the leader's score
 //   T3                                      the pixel's next word; the pixels of the half change places
 // Cost at the defaults: see reports/area.md.
 `include "pixel_distance.svh"
@@ -32,7 +32,8 @@ module pool2_column #(
     localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, dtof_pkg::pool_group_width(LABELS)),
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int CELLS_WIDTH = LABELS * CELL_WIDTH,
-    localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS)
+    localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS),
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
 ) (
     input  logic                    clk_i,
     input  logic [          NP-1:0] timestamp_i,
@@ -123,7 +124,7 @@ module pool2_column #(
     take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
   endfunction
 
-  logic first_inside, second_inside, first_inside_q, second_inside_q, odd_q, use_second;
+  logic first_inside, second_inside, odd_q, use_second_q;
   logic [NP-1:0] used;
   logic [LABELS-1:0] hits;
 
@@ -139,13 +140,12 @@ module pool2_column #(
     end
   endgenerate
 
-  assign use_second = has_second_q && take_second(odd_q, first_inside_q, second_inside_q);
-  assign used = use_second ? second_q : first_q;
+  assign used = use_second_q ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
     odd_q <= odd_t1_i;
-    first_inside_q <= first_inside;
-    second_inside_q <= point_i ? second_inside : odd_t1_i;  // in the other phases the preferred one counts
+    // In the other phases the preferred one counts.
+    use_second_q <= has_second && (point_i ? take_second(odd_t1_i, first_inside, second_inside) : odd_t1_i);
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
@@ -190,7 +190,7 @@ module pool2_column #(
   );
 
   assign track_second = take_second(odd_q, first_hits_q != '0, hits != '0);
-  assign hits_of_second = (RIVAL_MOVES == 0 && point_i) ? use_second : track_second;
+  assign hits_of_second = (RIVAL_MOVES == 0 && point_i) ? use_second_q : track_second;
   assign used_hits = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin
@@ -218,6 +218,7 @@ module pool2_column #(
 
   pixel_distance_t distance, distance_t3_q;
   logic [LABELS-1:0] hits_t3_q;
+  logic [SCORE_BITS-1:0] leader_score, leader_score_t3_q;
 
   pixel_distance #(
       .LABELS         (LABELS),
@@ -237,8 +238,25 @@ module pool2_column #(
       .distance_o   (distance)
   );
 
+  generate
+    if (OFFSET_BITS == 0) begin : g_no_leader
+      assign leader_score = '0;
+    end else begin : g_leader
+      logic [LABEL_WIDTH-1:0] leader;
+      integer k;
+      assign leader = pixel[LABELS*SCORE_BITS+:LABEL_WIDTH];
+      always_comb begin
+        leader_score = '0;
+        for (k = 0; k < LABELS; k = k + 1) begin
+          leader_score = leader_score | (SCORE_BITS'(pixel >> (k * SCORE_BITS)) & {SCORE_BITS{leader == LABEL_WIDTH'(k)}});
+        end
+      end
+    end
+  endgenerate
+
   always_ff @(posedge clk_i) begin
     hits_t3_q <= used_hits;
+    leader_score_t3_q <= leader_score;
     distance_t3_q <= distance;
   end
 
@@ -253,11 +271,12 @@ module pool2_column #(
       .SCORE_BITS (SCORE_BITS),
       .OFFSET_BITS(OFFSET_BITS)
   ) u_track_update (
-      .word_i       (pixel[TRACK_WIDTH-1:0]),
-      .hits_i       (hits_t3_q),
-      .offset_up_i  (distance_t3_q.offset_up),
-      .offset_down_i(distance_t3_q.offset_down),
-      .word_o       (tracked)
+      .word_i        (pixel[TRACK_WIDTH-1:0]),
+      .leader_score_i(leader_score_t3_q),
+      .hits_i        (hits_t3_q),
+      .offset_up_i   (distance_t3_q.offset_up),
+      .offset_down_i (distance_t3_q.offset_down),
+      .word_o        (tracked)
   );
 
   twin_pointer_update #(

@@ -92,11 +92,12 @@ module pool_controller #(
     endcase
   end
 
+  // Of the phase under way or, before it, of the next one, so that the comparison waits for no change of state.
   always_comb begin
-    phase_end = acq_num_q;
-    if (state_d == dtof_pkg::POOL_STATE_COARSE) begin
-      phase_end = coarse_end_q;
-    end else if (state_d == dtof_pkg::POOL_STATE_TRACK) begin
+    phase_end = coarse_end_q;
+    if (state_q == dtof_pkg::POOL_STATE_CHOOSE || state_q == dtof_pkg::POOL_STATE_POINT) begin
+      phase_end = acq_num_q;
+    end else if (decoded_q) begin
       phase_end = track_end_q;
     end
   end

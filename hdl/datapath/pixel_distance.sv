@@ -6,7 +6,7 @@
 //   point  d = (X - leader's position) >> 9: in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
 //          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
 //          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
-// Cost: a subtractor of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
+// Cost: a row of carries and an adder of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
 `include "pixel_distance.svh"
 
 module pixel_distance #(
@@ -45,8 +45,8 @@ module pixel_distance #(
   logic [LABEL_WIDTH-1:0] track_leader, point_leader, leader, resting_rival;
   logic [CELL_WIDTH-1:0] leader_cell;
   logic [OFFSET_WIDTH-1:0] offset;
-  logic [9:0] track_position;  // in units of 64; within the range, since the offset follows timestamps
-  logic [10:0] track_distance;
+  // In units of 64; the leader's position is within the range, since the offset follows timestamps.
+  logic [10:0] track_position, minus_leader, minus_offset, track_sum, track_carry, track_distance;
   logic [7:0] track_cells, rival_cells;
   logic [POINTER_WIDTH-1:0] pointer;
   logic [DISTANCE_WIDTH-1:0] position, distance;
@@ -67,6 +67,10 @@ module pixel_distance #(
     leader_cell = '0;
     offset = '0;
     track_position = '0;
+    minus_leader = '0;
+    minus_offset = '0;
+    track_sum = '0;
+    track_carry = '0;
     track_distance = '0;
     track_cells = '0;
     rival_cells = '0;
@@ -89,8 +93,13 @@ module pixel_distance #(
 
       // Track: offset.
       offset = OFFSET_WIDTH'(word_i >> (SCORES_WIDTH + LABEL_WIDTH));
-      track_position = {leader_cell, 3'b000} + {{(10 - OFFSET_WIDTH) {1'(offset >> (OFFSET_WIDTH - 1))}}, offset};
-      track_distance = 11'(position_i >> 6) - {1'b0, track_position};
+      // Both are taken away in one addition: sums and carries of the three, and 1 for each complement.
+      track_position = 11'(position_i >> 6);
+      minus_leader = ~{1'b0, leader_cell, 3'b000};
+      minus_offset = ~{{(11 - OFFSET_WIDTH) {1'(offset >> (OFFSET_WIDTH - 1))}}, offset};
+      track_sum = track_position ^ minus_leader ^ minus_offset;
+      track_carry = (track_position & minus_leader) | (track_position & minus_offset) | (minus_leader & minus_offset);
+      track_distance = track_sum + ((track_carry << 1) | 11'd1) + 11'd1;
       track_cells = 8'(track_distance >> 3);
       distance_o.offset_up = (OFFSET_BITS > 0) && (track_cells != 8'd0) && (track_cells < 8'd8);
       distance_o.offset_down = (OFFSET_BITS > 0) && (track_cells >= -8'd8) && (track_cells != -8'd1);

@@ -13,6 +13,7 @@ module pool2_track_update #(
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS)
 ) (
     input  logic [TRACK_WIDTH-1:0] word_i,         // {offset, leader, scores}
+    input  logic [ SCORE_BITS-1:0] leader_score_i,
     input  logic [     LABELS-1:0] hits_i,         // none without a timestamp
     input  logic                   offset_up_i,
     input  logic                   offset_down_i,
@@ -51,7 +52,7 @@ module pool2_track_update #(
     if (OFFSET_BITS == 0) begin : g_scores_alone
       assign word_o = next_score;
       logic unused;
-      assign unused = ^{offset_up_i, offset_down_i};
+      assign unused = ^{leader_score_i, offset_up_i, offset_down_i};
     end else begin : g_leader
       localparam int SUM_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 4) + 1;
       localparam logic signed [SUM_WIDTH-1:0] HIGHEST = SUM_WIDTH'((1 << (OFFSET_BITS - 1)) - 1);
@@ -60,17 +61,14 @@ module pool2_track_update #(
       localparam int SLOWEST_FROM = 8;
 
       logic [LABEL_WIDTH-1:0] leader, winner_label;
-      logic [SCORE_BITS-1:0] leader_score;
       logic change;
       integer i;
 
       assign leader = word_i[SCORES_WIDTH+:LABEL_WIDTH];
 
       always_comb begin
-        leader_score = '0;
         winner_label = '0;
         for (i = 0; i < LABELS; i = i + 1) begin
-          leader_score = leader_score | (score[i*SCORE_BITS+:SCORE_BITS] & {SCORE_BITS{leader == LABEL_WIDTH'(i)}});
           winner_label = winner_label | (LABEL_WIDTH'(i) & {LABEL_WIDTH{winner[i]}});
         end
       end
@@ -80,13 +78,13 @@ module pool2_track_update #(
       logic signed [SUM_WIDTH-1:0] offset, move, sum, limited;
 
       assign offset = $signed({{(SUM_WIDTH - OFFSET_BITS) {word_i[TRACK_WIDTH-1]}}, word_i[TRACK_WIDTH-1-:OFFSET_BITS]});
-      assign move = (32'(leader_score) < SLOWER_FROM) ? SUM_WIDTH'(4)
-          : (32'(leader_score) < SLOWEST_FROM) ? SUM_WIDTH'(2) : SUM_WIDTH'(1);
+      assign move = (32'(leader_score_i) < SLOWER_FROM) ? SUM_WIDTH'(4)
+          : (32'(leader_score_i) < SLOWEST_FROM) ? SUM_WIDTH'(2) : SUM_WIDTH'(1);
       assign sum = offset_up_i ? offset + move : offset_down_i ? offset - move : offset;
       assign limited = (sum > HIGHEST) ? HIGHEST : (sum < ~HIGHEST) ? ~HIGHEST : sum;
 
       // A full winner passes whoever led: the others lose a point.
-      assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score);
+      assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score_i);
 
       assign word_o = {change ? OFFSET_BITS'(0) : limited[OFFSET_BITS-1:0], change ? winner_label : leader, next_score};
 

@@ -32,7 +32,8 @@ module twin_pointer_update #(
   // Bits of a move below the pointer's unit, which decide with the dither whether it goes one farther.
   localparam int BELOW_UNIT = (ADVANTAGE_WIDTH == 4) ? 0 : POINTER_SHIFT;
   localparam int MOVE_WIDTH = ((ADVANTAGE_WIDTH == 4) ? 10 : 9) - POINTER_SHIFT;
-  localparam int PRODUCT_WIDTH = MOVE_WIDTH + BELOW_UNIT + 2;
+  localparam int DITHER_WIDTH = BELOW_UNIT + 2;
+  localparam int PRODUCT_WIDTH = MOVE_WIDTH + DITHER_WIDTH;
 
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
   localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
@@ -41,7 +42,8 @@ module twin_pointer_update #(
 
   localparam logic [ADVANTAGE_WIDTH-1:0] HALF_ADVANTAGE = ADVANTAGE_WIDTH'(1 << (ADVANTAGE_WIDTH - 1));
 
-  logic [BELOW_UNIT+1:0] dither;
+  // Stands below the pointer, so that one adder adds it and rounds down; downwards it is its complement.
+  logic [DITHER_WIDTH-1:0] dither;
   generate
     if (BELOW_UNIT == 0) begin : g_dither
       assign dither = acquisition_i[1:0];
@@ -53,13 +55,12 @@ module twin_pointer_update #(
   logic [ADVANTAGE_WIDTH-1:0] advantage, next_advantage;
   logic [POINTER_WIDTH-1:0] pointer, moved, swapped, limited, next_pointer;
   logic [PRODUCT_WIDTH-1:0] product;
-  logic [BELOW_UNIT+2:0] below;
-  logic [MOVE_WIDTH-1:0] move;
-  logic carry, counted, swap, gain, loss;
+  logic counted, swap, gain, loss;
   logic [RIVAL_WIDTH-1:0] rival, rival_step, next_rival;
-  logic [POINTER_WIDTH:0] absolute_sum;
+  logic [POINTER_WIDTH+DITHER_WIDTH:0] absolute_sum;
   logic [LABEL_WIDTH-1:0] leader_label, rival_label;
-  logic signed [SUM_WIDTH-1:0] start, step, sum;
+  logic [SUM_WIDTH+DITHER_WIDTH-1:0] start, step, fine_sum;
+  logic signed [SUM_WIDTH-1:0] sum;
 
   logic fourth, sixteenth;  // acquisition of 4, of 16
   assign fourth = (acquisition_i[1:0] == 2'd0);
@@ -76,9 +77,6 @@ module twin_pointer_update #(
     limited = '0;
     next_pointer = '0;
     product = '0;
-    below = '0;
-    move = '0;
-    carry = 1'b0;
     counted = 1'b0;
     swap = 1'b0;
     gain = 1'b0;
@@ -91,16 +89,13 @@ module twin_pointer_update #(
     rival_label = '0;
     start = '0;
     step = '0;
+    fine_sum = '0;
     sum = '0;
     if (update_i) begin
       pointer = POINTER_WIDTH'(word_i);
       advantage = ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH));
 
-      // The dither only matters by its carry, which the pointer's adder takes along.
       product = PRODUCT_WIDTH'(weight_i) << gear_i;
-      below = {1'b0, (BELOW_UNIT + 2)'(product)} + {1'b0, dither};
-      carry = 1'(below >> (BELOW_UNIT + 2));
-      move = MOVE_WIDTH'(product >> (BELOW_UNIT + 2));
 
       // Counts beyond half of the range are slowed down.
       counted = (advantage < HALF_ADVANTAGE)
@@ -114,10 +109,12 @@ module twin_pointer_update #(
 
       if (RIVAL_MOVES != 0) begin
         rival = RIVAL_WIDTH'(word_i >> POINTER_WIDTH);
-        // One adder: down by move + carry is up by its complement. Saturates at both ends of the range.
-        absolute_sum = {1'b0, pointer} + ((POINTER_WIDTH + 1)'(move) ^ {(POINTER_WIDTH + 1) {!up_i}})
-            + (POINTER_WIDTH + 1)'(carry == up_i);
-        moved = 1'(absolute_sum >> POINTER_WIDTH) ? {POINTER_WIDTH{up_i}} : POINTER_WIDTH'(absolute_sum);
+        // Saturates at both ends of the range.
+        absolute_sum = {1'b0, pointer, dither ^ {DITHER_WIDTH{!up_i}}}
+            + ((POINTER_WIDTH + DITHER_WIDTH + 1)'(product) ^ {(POINTER_WIDTH + DITHER_WIDTH + 1) {!up_i}})
+            + (POINTER_WIDTH + DITHER_WIDTH + 1)'(!up_i);
+        moved = 1'(absolute_sum >> (POINTER_WIDTH + DITHER_WIDTH)) ? {POINTER_WIDTH{up_i}}
+            : POINTER_WIDTH'(absolute_sum >> DITHER_WIDTH);
         swapped = POINTER_WIDTH'({rival, 1'b1}) << (POINTER_WIDTH - 1 - RIVAL_WIDTH);
         next_pointer = swap ? swapped : (reach_i ? moved : pointer);
         rival_step = {{(RIVAL_WIDTH - 1) {rival_hit_i && rival_down_i}},
@@ -127,9 +124,10 @@ module twin_pointer_update #(
       end else begin
         leader_label = LABEL_WIDTH'(word_i >> POINTER_WIDTH);
         rival_label = LABEL_WIDTH'(word_i >> (POINTER_WIDTH + LABEL_WIDTH));
-        start = $signed({{(SUM_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer});
-        step = $signed({{(SUM_WIDTH - MOVE_WIDTH) {1'b0}}, move} ^ {SUM_WIDTH{!up_i}});
-        sum = start + step + $signed(SUM_WIDTH'(carry == up_i));
+        start = {{(SUM_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer, dither ^ {DITHER_WIDTH{!up_i}}};
+        step = (SUM_WIDTH + DITHER_WIDTH)'(product) ^ {(SUM_WIDTH + DITHER_WIDTH) {!up_i}};
+        fine_sum = start + step + (SUM_WIDTH + DITHER_WIDTH)'(!up_i);
+        sum = $signed(SUM_WIDTH'(fine_sum >> DITHER_WIDTH));
         limited = (sum > HIGHEST) ? POINTER_WIDTH'(HIGHEST)
             : (sum < ~HIGHEST) ? POINTER_WIDTH'(~HIGHEST) : POINTER_WIDTH'(sum);
         next_pointer = swap ? '0 : (reach_i ? limited : pointer);

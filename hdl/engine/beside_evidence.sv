@@ -55,13 +55,20 @@ module beside_evidence #(
   logic [LABELS*SCORE_BITS-1:0] right_scores_q;
   logic [LABELS*CELL_WIDTH-1:0] right_cells, right_cells_q;
   logic [LATENESS_WIDTH-1:0] right_lateness_q;
-  logic signed [EVIDENCE_WIDTH-1:0] right_evidence, best_q, second_q;
+  logic signed [EVIDENCE_WIDTH-1:0] right_score, lateness, right_evidence, best_q, second_q;
+  logic signed [EVIDENCE_WIDTH:0] to_best, to_second;
   logic [CELL_WIDTH-1:0] best_cell_q, second_cell_q;
   logic second_rank_q;
 
   assign right_cells = command_i.first_rank ? group_i[LABELS*CELL_WIDTH-1:0] : right_cells_q;
-  assign right_evidence = $signed(EVIDENCE_WIDTH'(right_scores_q[SCORE_BITS-1:0]))
-      - (command_i.late_rank ? $signed(EVIDENCE_WIDTH'(right_lateness_q)) : '0);
+  assign right_evidence = right_score - lateness;
+  assign right_score = $signed(EVIDENCE_WIDTH'(right_scores_q[SCORE_BITS-1:0]));
+  assign lateness = command_i.late_rank ? $signed(EVIDENCE_WIDTH'(right_lateness_q)) : '0;
+
+  // Compared with one addition instead of a subtraction and then a comparison.
+  assign to_best = (EVIDENCE_WIDTH + 1)'(best_q) + (EVIDENCE_WIDTH + 1)'(lateness) - (EVIDENCE_WIDTH + 1)'(right_score);
+  assign to_second = (EVIDENCE_WIDTH + 1)'(second_q) + (EVIDENCE_WIDTH + 1)'(lateness)
+      - (EVIDENCE_WIDTH + 1)'(right_score);
 
   always_ff @(posedge clk_i) begin
     if (command_i.take_right_pixel) begin
@@ -75,12 +82,12 @@ module beside_evidence #(
       if (command_i.first_rank) begin
         right_lateness_q <= group_i[GROUP_WIDTH-1-:LATENESS_WIDTH];
       end
-      if (command_i.first_rank || right_evidence > best_q) begin
+      if (command_i.first_rank || to_best < 0) begin
         best_q <= right_evidence;
         best_cell_q <= right_cells[CELL_WIDTH-1:0];
         second_q <= best_q;
         second_cell_q <= best_cell_q;
-      end else if (second_rank_q || right_evidence > second_q) begin
+      end else if (second_rank_q || to_second < 0) begin
         second_q <= right_evidence;
         second_cell_q <= right_cells[CELL_WIDTH-1:0];
       end

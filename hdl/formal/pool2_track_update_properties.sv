@@ -33,11 +33,12 @@ module pool2_track_update_properties #(
       .SCORE_BITS (SCORE_BITS),
       .OFFSET_BITS(OFFSET_BITS)
   ) u_dut (
-      .word_i       (word_i),
-      .hits_i       (hits_i),
-      .offset_up_i  (offset_up_i),
-      .offset_down_i(offset_down_i),
-      .word_o       (word)
+      .word_i        (word_i),
+      .leader_score_i(SCORE_BITS'(leader_score)),
+      .hits_i        (hits_i),
+      .offset_up_i   (offset_up_i),
+      .offset_down_i (offset_down_i),
+      .word_o        (word)
   );
 
   localparam int FULL = (1 << SCORE_BITS) - 1;
