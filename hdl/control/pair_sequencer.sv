@@ -20,12 +20,10 @@ module pair_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int SLOTS = 2,
     parameter int GROUP_SIZE = 8,
-    parameter int GROUPS_PER_WORD = 1,  // groups in an SRAM word, a power of two
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
-    localparam int GROUP_WORDS = (GROUPS + GROUPS_PER_WORD - 1) / GROUPS_PER_WORD,
-    localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUP_WORDS),
-    localparam int PLACE_WIDTH = dtof_pkg::index_width(GROUPS_PER_WORD)
+    localparam int GROUP_WORDS = (GROUPS + 1) / 2,  // of two groups each
+    localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUP_WORDS)
 ) (
     input  logic                  clk_i,
     input  logic                  rst_ni,
@@ -58,7 +56,7 @@ module pair_sequencer #(
     output logic [ADDR_WIDTH-1:0] address_d_o,
     output logic                  word_load_d_o,
     output logic                  group_load_d_o,
-    output logic [PLACE_WIDTH-1:0] group_place_d_o  // with group_load_d_o: which group of the word
+    output logic                  group_upper_d_o    // with group_load_d_o: the group is the word's upper one
 );
 
   localparam int PAIRS = (PIXELS_PER_SRAM + 1) / 2;
@@ -224,7 +222,7 @@ module pair_sequencer #(
   assign group_load_d_o = prime_word || (busy_t1_q && !coarse_i && next_group_t1 && step_t1_q == LAST_STEP);
   assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || (second_visit_t2_q && (PAIRS > 1));
 
-  assign group_place_d_o = prime_word ? '0 : PLACE_WIDTH'((32'(next_pair_t1) >> GROUP_SHIFT) % GROUPS_PER_WORD);
+  assign group_upper_d_o = !prime_word && 1'(32'(next_pair_t1) >> GROUP_SHIFT);
 
   // The histogram read or written next.
   logic [PAIR_WIDTH-1:0] counted_pair;
@@ -235,7 +233,7 @@ module pair_sequencer #(
   always_comb begin
     address_d_o = '0;
     if (read_group) begin
-      address_d_o = ADDR_WIDTH'(PIXEL_WORDS + (32'(next_pair_t1) >> GROUP_SHIFT) / GROUPS_PER_WORD);
+      address_d_o = ADDR_WIDTH'(PIXEL_WORDS + (32'(next_pair_t1) >> (GROUP_SHIFT + 1)));
     end else if (prime_group) begin
       address_d_o = ADDR_WIDTH'(PIXEL_WORDS);
     end else if (read_word) begin

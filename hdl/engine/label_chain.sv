@@ -27,8 +27,7 @@ module label_chain #(
 ) (
     input  logic                             clk_i,
     input  chain_command_t                   command_i,
-    // the pixel prepared, taken with command_i.advance; label 0 is always in use
-    input  logic [               LABELS-1:0] in_use_i,
+    // the pixel prepared, taken with command_i.advance
     input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
     input  logic [LABELS*POSITION_WIDTH-1:0] position_i,
     input  logic [        PENALTY_WIDTH-1:0] penalty_i,
@@ -46,7 +45,6 @@ module label_chain #(
 
   localparam logic signed [POSITION_WIDTH:0] FAR = (POSITION_WIDTH + 1)'(REACH);
 
-  logic [LABELS-1:0] in_use_q, next_in_use_q;
   logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_q, next_evidence_q;
   logic [LABELS*POSITION_WIDTH-1:0] position_q, next_position_q;
   logic [PENALTY_WIDTH-1:0] penalty_q, next_penalty_q;
@@ -54,11 +52,9 @@ module label_chain #(
 
   always_ff @(posedge clk_i) begin
     if (command_i.advance) begin
-      in_use_q <= next_in_use_q;
       evidence_q <= next_evidence_q;
       position_q <= next_position_q;
       penalty_q <= next_penalty_q;
-      next_in_use_q <= in_use_i;
       next_evidence_q <= evidence_i;
       next_position_q <= position_i;
       next_penalty_q <= penalty_i;
@@ -82,7 +78,7 @@ module label_chain #(
       assign sum[k*BELIEF_WIDTH+:BELIEF_WIDTH] = evidence - received;
       assign difference = largest_q - sum_q[k*BELIEF_WIDTH+:BELIEF_WIDTH];
       assign behind[k*PENALTY_WIDTH+:PENALTY_WIDTH] =
-          (in_use_q[k] && difference < BELIEF_WIDTH'(penalty_q)) ? difference[PENALTY_WIDTH-1:0] : penalty_q;
+          (difference < BELIEF_WIDTH'(penalty_q)) ? difference[PENALTY_WIDTH-1:0] : penalty_q;
     end
   endgenerate
 
@@ -95,8 +91,7 @@ module label_chain #(
     for (k = 0; k < LABELS; k = k + 1) begin : g_complement
       logic [BELIEF_WIDTH-1:0] term;
       assign term = sum_q[k*BELIEF_WIDTH+:BELIEF_WIDTH];
-      assign complement[k*BELIEF_WIDTH+:BELIEF_WIDTH] =
-          in_use_q[k] ? {term[BELIEF_WIDTH-1], ~term[BELIEF_WIDTH-2:0]} : '1;
+      assign complement[k*BELIEF_WIDTH+:BELIEF_WIDTH] = {term[BELIEF_WIDTH-1], ~term[BELIEF_WIDTH-2:0]};
     end
   endgenerate
 
@@ -184,16 +179,15 @@ module label_chain #(
   logic signed [BELIEF_WIDTH-1:0] belief_q, best_q, second_q;
   logic [LABEL_WIDTH-1:0] passing_q, label_q, best_label_q, second_label_q;
   logic [POSITION_WIDTH-1:0] passed_position_q, best_position_q, second_position_q;
-  logic passed_q, passed_in_use_q, better, runner_up;
+  logic passed_q, better, runner_up;
 
-  assign better = (label_q == '0) || (passed_in_use_q && belief_q > best_q);
-  assign runner_up = (label_q == LABEL_WIDTH'(1)) || (passed_in_use_q && belief_q > second_q);
+  assign better = (label_q == '0) || (belief_q > best_q);
+  assign runner_up = (label_q == LABEL_WIDTH'(1)) || (belief_q > second_q);
 
   always_ff @(posedge clk_i) begin
     passing_q <= command_i.spread ? '0 : passing_q + 1'b1;
     passed_q <= command_i.pass_label;
     label_q <= passing_q;
-    passed_in_use_q <= in_use_q[passing_q];
     passed_position_q <= position_q[passing_q*POSITION_WIDTH+:POSITION_WIDTH];
     belief_q <= $signed(sum_q[passing_q*BELIEF_WIDTH+:BELIEF_WIDTH])
         - $signed(BELIEF_WIDTH'(other_q[passing_q*PENALTY_WIDTH+:PENALTY_WIDTH]));

@@ -207,7 +207,6 @@ module pool2_engine #(
   ) u_choose (
       .clk_i            (clk_i),
       .command_i        (command_i.choose),
-      .in_use_i         ({LABELS{1'b1}}),
       .evidence_i       (choose_evidence),
       .position_i       (choose_position),
       .penalty_i        (choose_penalty),
@@ -259,7 +258,6 @@ module pool2_engine #(
   ) u_decide (
       .clk_i            (clk_i),
       .command_i        (command_i.decide),
-      .in_use_i         (2'b11),
       .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
       .position_i       ({rival_position, leader_position}),
       .penalty_i        (DECIDE_PENALTY_WIDTH'(2)),

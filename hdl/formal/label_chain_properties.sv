@@ -112,7 +112,6 @@ module label_chain_properties #(
   ) u_dut (
       .clk_i            (clk_i),
       .command_i        (command.decide),
-      .in_use_i         (2'b11),
       .evidence_i       ((LABELS*EVIDENCE_WIDTH)'(evidence >> (prepared * LABELS * EVIDENCE_WIDTH))),
       .position_i       ((LABELS*POSITION_WIDTH)'(position >> (prepared * LABELS * POSITION_WIDTH))),
       .penalty_i        (PENALTY_WIDTH'(penalty >> (prepared * PENALTY_WIDTH))),

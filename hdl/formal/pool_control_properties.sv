@@ -78,14 +78,13 @@ module pool_control_properties #(
   );
 
   logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, last_slot_t1, update_t2, ready;
-  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
+  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .SLOTS          (SLOTS),
-      .GROUP_SIZE     (GROUP_SIZE),
-      .GROUPS_PER_WORD(2)
+      .GROUP_SIZE     (GROUP_SIZE)
   ) u_pair_sequencer (
       .clk_i            (clk_i),
       .rst_ni           (checking),
@@ -114,7 +113,7 @@ module pool_control_properties #(
       .address_d_o      (stream_address),
       .word_load_d_o    (stream_word_load),
       .group_load_d_o   (group_load),
-      .group_place_d_o  (group_place)
+      .group_upper_d_o  (group_upper)
   );
 
   // As in pool_pointer2_array.
@@ -138,7 +137,7 @@ module pool_control_properties #(
     clear_q <= clear;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address_i);
     group_load_q <= group_load;
-    group_upper_q <= group_place;
+    group_upper_q <= group_upper;
   end
 
   logic [HALF_WIDTH-1:0] unused_word;

@@ -149,7 +149,7 @@ module pool_pointer2_array #(
   );
 
   logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, last_slot_t1, update_t2;
-  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_place;
+  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
 
   logic [NP-1:0] gate_begin, gate_end;
@@ -180,8 +180,7 @@ module pool_pointer2_array #(
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
-      .GROUP_SIZE     (GROUP_SIZE),
-      .GROUPS_PER_WORD(2)
+      .GROUP_SIZE     (GROUP_SIZE)
   ) u_pair_sequencer (
       .clk_i            (clk_i),
       .rst_ni           (rst_ni),
@@ -211,7 +210,7 @@ module pool_pointer2_array #(
       .address_d_o      (stream_address),
       .word_load_d_o    (stream_word_load),
       .group_load_d_o   (group_load),
-      .group_place_d_o  (group_place)
+      .group_upper_d_o  (group_upper)
   );
 
   logic [STEP_WIDTH-1:0] engine_column, send_column;
@@ -289,7 +288,7 @@ module pool_pointer2_array #(
     clear_q <= clear;
     told_address <= clear ? clear_address : (stream ? stream_address : engine_address);
     group_load_q <= group_load;
-    group_upper_q <= group_place;
+    group_upper_q <= group_upper;
   end
 
   generate
