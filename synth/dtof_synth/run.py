@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -20,10 +21,8 @@ from .standard_cells import CINV_FF, FO4_NS
 
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
-# Namings to map with (synth/yosys/4_map.tcl), 0 for the names as they are; fewer for the pool read-outs, whose parts take ABC
-# longer.
-NAMING_SEEDS = list(range(16))
-POOL_NAMING_SEEDS = NAMING_SEEDS[:4]
+NAMINGS = 16
+POOL_NAMINGS = 4  # whose parts take ABC longer
 KEPT_COLUMNS = 3
 HOLD_ROUNDS = 4  # in which a path that is too early gets a buffer
 TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
@@ -35,10 +34,12 @@ WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": fl
 @dataclass(frozen=True)
 class Effort:
     """How hard ABC tries: its script, and its delay target as a share of the period (what clock-to-data, setup,
-    uncertainty and the late broadcast signals, of which ABC knows nothing, leave)."""
+    uncertainty and the late broadcast signals, of which ABC knows nothing, leave). `naming_seeds`: the namings that it maps
+    with (synth/yosys/4_map.tcl), 0 for the names as they are."""
 
     share: float
     script: str
+    naming_seeds: range = range(NAMINGS)
 
 
 _SIZING = "topo;buffer,-c;upsize,{D};dnsize,{D};stime,-p"
@@ -47,11 +48,11 @@ _BALANCE = "dch,-f;if,-g;strash"
 _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
-# From small to fast; the first that closes timing is taken, of the thesis's read-outs the first that closes with margins as
-# well. The larger parts of the pool read-outs become slower as well as larger where ABC tries harder.
+# From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
+# as well as larger where ABC tries harder, so that they are given other names instead.
 EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
-SMALL_EFFORT = Effort(0.68, _SMALL)
-POOL_EFFORTS = (SMALL_EFFORT, Effort(0.68, _FAST))
+POOL_EFFORTS = tuple(Effort(0.68, _SMALL, range(first, first + POOL_NAMINGS)) for first in range(0, NAMINGS, POOL_NAMINGS))
+SMALL_EFFORT = POOL_EFFORTS[0]
 
 
 def efforts(configuration: Configuration) -> tuple[Effort, ...]:
@@ -189,7 +190,7 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     tools.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / technology.target_mhz * effort.share:.0f}",
-        "abc_script": effort.script, "naming_seeds": POOL_NAMING_SEEDS if configuration.is_pool else NAMING_SEEDS,
+        "abc_script": effort.script, "naming_seeds": list(effort.naming_seeds),
         "area_log": folder / "area.log",
         "tie_low": list(library.tie.get("0", ())),
         "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
@@ -373,12 +374,13 @@ class _Attempt:
     tight: list[list[str]]  # paths with little to spare there
 
     @property
-    def closes(self) -> bool:
-        return self.slow.slack >= DEMANDED_SLACK_NS
+    def closes_with_margins(self) -> bool:
+        return self.rank >= 0
 
     @property
-    def closes_with_margins(self) -> bool:
-        return self.closes and (self.margin is None or self.margin.slack >= 0)
+    def rank(self) -> float:
+        """By how much it closes."""
+        return min(self.slow.slack - DEMANDED_SLACK_NS, self.margin.slack if self.margin is not None else math.inf)
 
 
 def _timed(timed: _Netlist) -> _Attempt:
@@ -405,15 +407,14 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
 def run(configuration: Configuration, technology: Technology, folder: Path,
         corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None) -> Result:
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
-    timed: with rising effort until it closes with DEMANDED_SLACK_NS, those of the thesis with margins as well, else the best
-    attempt stands."""
+    timed: with further efforts until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
     elaborate(configuration, technology, folder)
     attempts: list[_Attempt] = []
     for number in range(len(efforts(configuration)[:most_attempts])):
         attempts.append(_attempt(configuration, technology, folder, number))
-        if attempts[-1].closes if configuration.is_pool else attempts[-1].closes_with_margins:
+        if attempts[-1].closes_with_margins:
             break
-    best = max(attempts, key=lambda attempt: attempt.slow.slack)
+    best = max(attempts, key=lambda attempt: attempt.rank)
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
         fast = best.netlist.fix_hold(best.tight)

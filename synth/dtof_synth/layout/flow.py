@@ -86,7 +86,7 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
     steps.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / run.TARGET_MHZ * effort.share:.0f}",
-        "abc_script": effort.script, "naming_seeds": run.POOL_NAMING_SEEDS, "area_log": folder / "area.log",
+        "abc_script": effort.script, "naming_seeds": list(effort.naming_seeds), "area_log": folder / "area.log",
         "tie_low": list(library.tie.get("0", ())), "tie_high": list(library.tie.get("1", ())),
         "netlist_json": folder / "column.json"})
     steps.run_yosys(scripts / "map_column.tcl", settings, folder / "column.log", configuration.name)
