@@ -109,6 +109,34 @@ TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheSchedule) {
   }
 }
 
+// Surfaces at both ends of the range and pointer phases so short that the steps are still coarse: the last
+// one often goes beyond the end, for which a pointer that is kept beside a candidate stands.
+TEST_P(SmallPoolPointer2, AgreesWithModelBeyondTheEndsOfTheRange) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 44);
+  const int codes = GetParam().parameters.code_count();
+  RtlConfiguration configuration = GetParam();
+  configuration.parameters.pool.coarse_share = 20;
+  configuration.parameters.pool.track_share = 20;
+  RtlReadout rtl(configuration);
+  RtlRunOptions options = default_options(test_seed());
+  for (std::uint32_t acquisitions = 8; acquisitions <= 64; acquisitions += 4) {
+    SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
+    std::vector<ColumnStream> columns(static_cast<std::size_t>(std::min(configuration.sram_num, 4)));
+    for (std::size_t index = 0; index < columns.size(); ++index) {
+      const int begin = index % 2 == 0 ? 0 : codes - 3;  // the last code is that of no detection
+      for (int row = 0; row < configuration.pixels_per_sram; ++row) {
+        for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
+          columns[index].append({acquisition, static_cast<Timestamp>(begin + pick(random, 2))});
+        }
+        columns[index].finish_row();
+      }
+    }
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, options));
+    options.reset_first = false;
+  }
+}
+
 // Frames as long as a sensor's in strong light, so that pointers settle and move by the fine gears' dithered
 // steps.
 TEST_P(SmallPoolPointer2, AgreesWithModelInTheFineGears) {
