@@ -3,6 +3,7 @@
 #                      LIBERTY=<typical.lib> LIBERTY_SLOW=<slow.lib>   other standard cells (table only)
 #                      CONFIGURATIONS="sifh fifh"                      some configurations (table only)
 #                      STRICT=1                                        fail if a figure is worse than its budget
+#                      SEARCH=1                                        search for namings that synth/namings.csv has, too
 # make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um; IHP 130 nm with
 #                      its own SRAM macros (../shared/pdk)
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
@@ -18,7 +19,7 @@
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
-	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict)
+	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict) $(if $(SEARCH),--search)
 
 synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*

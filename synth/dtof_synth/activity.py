@@ -62,9 +62,15 @@ def scopes_of(design: dict) -> dict[str, str]:
     """Path of every module instance below the top, as the waveform has it, to its module; the top is ""."""
     found = {"": next(name for name, module in netlist.modules(design).items()
                       if module is netlist.top(design))}
-    for instance, cell in netlist.top(design)["cells"].items():
-        if netlist.modules(design).get(cell["type"], {}).get("cells"):
-            found[instance] = cell["type"]
+
+    def enter(module: dict, above: str) -> None:
+        for instance, cell in module["cells"].items():
+            inner = netlist.modules(design).get(cell["type"], {})
+            if inner.get("cells"):
+                found[above + instance] = cell["type"]
+                enter(inner, f"{above}{instance}.")
+
+    enter(netlist.top(design), "")
     return found
 
 

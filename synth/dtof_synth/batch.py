@@ -11,7 +11,9 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
+from . import namings
 from .configuration import Configuration
+from .namings import Naming
 from .run import BOTH_CORNERS, Result, Technology, input_digest, run
 
 
@@ -24,13 +26,13 @@ class Job:
     most_attempts: int | None = None  # all
 
 
-def _key(job: Job, digest: str) -> str:
-    text = json.dumps([job.configuration.rtl_parameters(), job.corners, job.most_attempts, digest], sort_keys=True)
+def _key(job: Job, digest: str, search: bool) -> str:
+    text = json.dumps([job.configuration.rtl_parameters(), job.corners, job.most_attempts, digest, search], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _work(job: Job, technology: Technology, folder: Path, key: str) -> Result:
-    result = run(job.configuration, technology, folder, job.corners, job.most_attempts)
+def _work(job: Job, technology: Technology, folder: Path, key: str, known: Naming | None) -> Result:
+    result = run(job.configuration, technology, folder, job.corners, job.most_attempts, known)
     (folder / "result.pickle").write_bytes(pickle.dumps((key, result)))
     return result
 
@@ -44,16 +46,17 @@ def _kept(folder: Path, key: str) -> Result | None:
 
 
 def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: int,
-            progress: Callable[[str], None]) -> dict[str, Result]:
+            progress: Callable[[str], None], search: bool = False) -> dict[str, Result]:
     """Results by configuration name, in the order of the jobs; the longest, with engines, run first. The first
-    failure stops everything."""
+    failure stops everything. `search`: for namings, whether they are known or not."""
     digest = input_digest(technology)
+    known = {} if search else namings.read(technology.root / namings.FILE)
     jobs = list(jobs)
     results: dict[str, Result] = {}
     waiting = []
     for job in jobs:
         name = job.configuration.name
-        kept = _kept(build / name, _key(job, digest))
+        kept = _kept(build / name, _key(job, digest, search))
         if kept is not None:
             results[name] = kept
         else:
@@ -61,7 +64,8 @@ def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: i
     waiting.sort(key=lambda job: not job.configuration.is_pool)
     done = len(results)
     with ProcessPoolExecutor(workers) as pool:
-        futures = {pool.submit(_work, job, technology, build / job.configuration.name, _key(job, digest)): job
+        futures = {pool.submit(_work, job, technology, build / job.configuration.name, _key(job, digest, search),
+                               known.get(job.configuration.name)): job
                    for job in waiting}
         try:
             for future in as_completed(futures):

@@ -4,15 +4,24 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import FlowError
 from .run import Result
 
-TOLERANCE = 0.02
-# Figure, and whether a larger value is worse.
-FIGURES = {"logic_column_um2": True, "shared_um2": True, "sram_column_um2": True, "total_mm2": True,
-           "fmax_slow_mhz": False, "fmax_typical_mhz": False}
+
+@dataclass(frozen=True)
+class Figure:
+    larger_is_worse: bool
+    tolerance: float
+
+
+_AREA = Figure(True, 0.02)
+# The smallest mapping is kept, whatever its speed: of one column's namings the frequencies differ by up to 6 %.
+_FREQUENCY = Figure(False, 0.07)
+FIGURES = {"logic_column_um2": _AREA, "shared_um2": _AREA, "sram_column_um2": _AREA, "total_mm2": _AREA,
+           "fmax_slow_mhz": _FREQUENCY, "fmax_typical_mhz": _FREQUENCY}
 Budget = dict[str, float]
 
 
@@ -53,8 +62,8 @@ def moved(budgets: dict[str, Budget], results: dict[str, Result]) -> tuple[list[
         for figure, value in figures(result).items():
             budget = budgets[name][figure]
             change = value / budget - 1 if budget else 0.0
-            if abs(change) > TOLERANCE:
-                bad = (change > 0) == FIGURES[figure]
+            if abs(change) > FIGURES[figure].tolerance:
+                bad = (change > 0) == FIGURES[figure].larger_is_worse
                 worse |= bad
                 lines.append(f"{name}: {figure} {budget:g} -> {value:g} ({change:+.1%}, "
                              f"{'worse' if bad else 'better'})")

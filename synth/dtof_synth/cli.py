@@ -10,7 +10,7 @@ import sys
 import time
 from pathlib import Path
 
-from . import batch, budgets, check, configuration, goals, growth, report, scene_power, signalled_clear, simulation, \
+from . import batch, budgets, check, configuration, goals, growth, namings, part_costs, report, scene_power, signalled_clear, simulation, \
     sram_kit, sram_report
 from . import technology as technologies
 from .configuration import Configuration
@@ -56,7 +56,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     if full:
         jobs += signalled_clear.jobs(named)
     runs = build / ("runs" if not foreign else f"runs_{technology.typical.name}")
-    results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
+    results = batch.run_all(jobs, technology, runs, arguments.jobs, _say, arguments.search)
     main = {name: results[name] for name in chosen}
     _say(report.summary(main))
     if arguments.csv:
@@ -93,7 +93,8 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
         if not goal.met:
             _say(f"goal missed: {goal.text}: {goal.value}")
     status = _compare(arguments, budgets.read(BUDGETS), main)
-    _say("reports/area.md, reports/timing.md, reports/sram.md written")
+    namings.write(ROOT / namings.FILE, {name: result.naming for name, result in results.items()}, results)
+    _say(f"reports/area.md, reports/timing.md, reports/sram.md, {namings.FILE} written")
     return status
 
 
@@ -103,7 +104,7 @@ def _compare(arguments: argparse.Namespace, committed: dict[str, budgets.Budget]
     for line in lines:
         _say(f"budget: {line}")
     if not lines:
-        _say(f"budgets: nothing moved by more than {budgets.TOLERANCE:.0%}")
+        _say("budgets: nothing moved beyond the tolerances")
     return 1 if arguments.strict and worse else 0
 
 
@@ -163,6 +164,16 @@ def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
         scene_power.write_csv(ROOT / "reports" / "power.csv", found)
         _say("reports/power.md, reports/power.csv written")
     _say(f"{len(found)} simulations, seed {arguments.seed}, {time.monotonic() - started:.0f} s")
+    return 0
+
+
+def _part_costs(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Area and power of the parts of poolPointer 2."""
+    build = ROOT / "build" / "synth"
+    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    parts = part_costs.measure(named[part_costs.CONFIGURATION], technology, build / "part_costs", arguments.seed, _say)
+    part_costs.write_csv(arguments.csv, parts)
+    _say(f"{arguments.csv} written, seed {arguments.seed}")
     return 0
 
 
@@ -240,6 +251,7 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, with reports")
     _add_liberty(run)
     run.add_argument("--strict", action="store_true", help="fail if a figure is worse than its budget")
+    run.add_argument("--search", action="store_true", help=f"search for namings that {namings.FILE} has, too")
     run.add_argument("--csv", type=Path, help="also the areas as this file")
     run.set_defaults(action=_run)
     for name, action, text in (("sim-icarus", _sim_icarus, "RTL against the model, four-state"),
@@ -259,6 +271,10 @@ def _parser() -> argparse.ArgumentParser:
                        f"{', '.join(scene_power.CONFIGURATIONS)}, with a report")
     power.add_argument("--seed", type=int, default=1, help="of the photons")
     power.set_defaults(action=_power)
+    parts = commands.add_parser("part-costs", help=f"area and power of the parts of {part_costs.CONFIGURATION}")
+    parts.add_argument("csv", type=Path, help="file to write")
+    parts.add_argument("--seed", type=int, default=1, help="of the photons")
+    parts.set_defaults(action=_part_costs)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),

@@ -8,13 +8,15 @@ import json
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, tools
+from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, tools, verilog
+from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
 from .library import Library
+from .namings import Naming
 from .netlist import Counts
 from .power import ClockTree, Power
 from .standard_cells import CINV_FF, FO4_NS
@@ -57,6 +59,11 @@ SMALL_EFFORT = POOL_EFFORTS[0]
 
 def efforts(configuration: Configuration) -> tuple[Effort, ...]:
     return POOL_EFFORTS if configuration.is_pool else EFFORTS
+
+
+def unsearched_effort(configuration: Configuration) -> Effort:
+    """The first, with the names as they are: for netlists that are not compared in size."""
+    return replace(efforts(configuration)[0], naming_seeds=range(1))
 
 
 @dataclass(frozen=True)
@@ -119,6 +126,7 @@ class Result:
     timing: dict[str, Timing]
     power: Power | None = None
     margins: dict[str, Margin] = field(default_factory=dict)
+    naming: Naming | None = None
     sram_area: float = field(init=False)  # of a column
     engine_sram_area: float = field(init=False)  # of all engines
 
@@ -160,8 +168,17 @@ def rtl_files(root: Path) -> list[Path]:
             if line.endswith((".sv", ".v")) and not line.startswith(("//", "technology/"))]
 
 
-def elaborate(configuration: Configuration, technology: Technology, folder: Path) -> None:
-    """RTL to the technology-independent netlist generic.il with clock gates, checks passed."""
+def to_generic(scripts: Path, settings: Path, folder: Path, name: str) -> None:
+    """The RTL that the settings name to `folder`/generic.il, checks passed, by way of `folder`/elaborated.il."""
+    elaborated = folder / "elaborated.il"
+    tools.run_yosys(scripts / "elaborate.tcl", settings, folder / "elaborate.log", name)
+    elaborated.write_text(canonical(elaborated.read_text(encoding="utf-8")), encoding="utf-8")
+    tools.run_yosys(scripts / "generic.tcl", settings, folder / "generic.log", name)
+
+
+def elaborate(configuration: Configuration, technology: Technology, folder: Path, kept_modules: Iterable[str] = ()) -> None:
+    """RTL to the technology-independent netlist generic.il with clock gates, checks passed. `kept_modules` are not flattened
+    into what is around them, as columns, pairs and engines never are."""
     folder.mkdir(parents=True, exist_ok=True)
     scripts = technology.root / "synth" / "yosys"
     settings = folder / "generic_settings.tcl"
@@ -173,14 +190,26 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
         "scripts": scripts, "top": configuration.top,
         "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "package",
         "technology_files": technology_files, "black_boxes": black_boxes, "liberty": technology.slow.path,
-        "parameters": configuration.rtl_parameters(), "generic_netlist": folder / "generic.il"})
-    tools.run_yosys(scripts / "generic.tcl", settings, folder / "generic.log", configuration.name)
+        "parameters": configuration.rtl_parameters(), "kept_modules": [f"*{name}*" for name in kept_modules],
+        "elaborated_netlist": folder / "elaborated.il", "generic_netlist": folder / "generic.il"})
+    to_generic(scripts, settings, folder, configuration.name)
     clock_gating.insert(folder / "generic.il", technology.slow)
 
 
-def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort) -> dict:
-    """generic.il to the mapped design, checks passed."""
+def mapping_digest(generic: Path, technology: Technology, tried: tuple[Effort, ...]) -> str:
+    """Hash of everything that a mapping depends on."""
+    digest = hashlib.sha256(generic.read_bytes())
+    digest.update((technology.root / "synth" / "yosys" / "4_map.tcl").read_bytes())
+    digest.update(technology.slow.path.read_bytes())
+    digest.update(repr((tried, technology.target_mhz)).encode())
+    return digest.hexdigest()[:16]
+
+
+def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort,
+                 known: Naming | None = None) -> dict:
+    """generic.il to the mapped design, checks passed. `known`: the namings that its search would find."""
     library = technology.slow
+    seeds = list(effort.naming_seeds)
     inverter_ff = next(iter(library.input_ff[library.inverter].values()))
     constraints = folder / "abc.constr"
     constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n",
@@ -190,7 +219,8 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     tools.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / technology.target_mhz * effort.share:.0f}",
-        "abc_script": effort.script, "naming_seeds": list(effort.naming_seeds),
+        "abc_script": effort.script, "column_seeds": [known.column] if known else seeds,
+        "shared_seeds": [known.shared] if known else seeds,
         "area_log": folder / "area.log",
         "tie_low": list(library.tie.get("0", ())),
         "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
@@ -233,11 +263,7 @@ class _Netlist:
         texts = dict(zip(kinds, spef.write(self.design, self.plan, self.technology.slow, kinds, clocks)))
         for corner, wire in WIRES.items():
             (self.folder / f"wires_{corner}.spef").write_text(texts[wire], encoding="utf-8")
-        (self.folder / "timing.json").write_text(json.dumps(self.design), encoding="utf-8")
-        settings = self.folder / "write_settings.tcl"
-        tools.write_settings(settings, {"netlist_json": self.folder / "timing.json", "netlist": self.folder / "timing.v"})
-        tools.run_yosys(self.technology.root / "synth" / "yosys" / "write_verilog.tcl", settings,
-                        self.folder / "write.log", self.configuration.name)
+        (self.folder / "timing.v").write_text(verilog.write(self.design), encoding="utf-8")
 
     def fix_hold(self, tight: list[list[str]]) -> Margin:
         """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner."""
@@ -369,6 +395,7 @@ class _Attempt:
     """Mapped with one effort and timed in the slow corner."""
 
     netlist: _Netlist
+    naming: Naming
     slow: Timing
     margin: Margin | None  # in the slow corner, where the technology has a fast one
     tight: list[list[str]]  # paths with little to spare there
@@ -383,16 +410,23 @@ class _Attempt:
         return min(self.slow.slack - DEMANDED_SLACK_NS, self.margin.slack if self.margin is not None else math.inf)
 
 
-def _timed(timed: _Netlist) -> _Attempt:
+def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
     slow, _ = time_corner(timed.configuration, timed.technology, "slow", timed.folder)
     if timed.technology.fast is None:
-        return _Attempt(timed, slow, None, [])
+        return _Attempt(timed, naming, slow, None, [])
     margin, paths = time_margins(timed.configuration, timed.technology, "slow", timed.folder)
-    return _Attempt(timed, slow, margin, paths.tight)
+    return _Attempt(timed, naming, slow, margin, paths.tight)
 
 
-def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int) -> _Attempt:
-    design = map_to_cells(configuration, technology, folder, efforts(configuration)[number])
+def _found_naming(folder: Path, number: int, digest: str) -> Naming:
+    """Which namings map.tcl kept."""
+    found = dict(re.findall(r"^DTOF_NAMING (\w+) (\d+)$", (folder / "map.log").read_text(encoding="utf-8"), re.MULTILINE))
+    return Naming(number, int(found["column"]), int(found["shared"]), digest)
+
+
+def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int, digest: str,
+             known: Naming | None = None) -> _Attempt:
+    design = map_to_cells(configuration, technology, folder, efforts(configuration)[number], known)
     library = technology.slow
     loads, plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration.module_columns)
     try:
@@ -401,24 +435,37 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
         raise FlowError(f"{configuration.name}: {error}") from None
     timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}")
     timed.prepare(loads)
-    return _timed(timed)
+    return _timed(timed, _found_naming(folder, number, digest))
+
+
+def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None,
+              known: Naming | None) -> list[_Attempt]:
+    """With the known namings, where they are those of what is mapped; else, or where they do not close, effort after effort
+    until one does."""
+    tried = efforts(configuration)[:most]
+    digest = mapping_digest(folder / "generic.il", technology, tried)
+    attempts: list[_Attempt] = []
+    if known is not None and known.digest == digest:
+        attempts.append(_attempt(configuration, technology, folder, known.effort, digest, known))
+        if most is not None or attempts[-1].closes_with_margins:
+            return attempts
+    for number in range(len(tried)):
+        attempts.append(_attempt(configuration, technology, folder, number, digest))
+        if attempts[-1].closes_with_margins:
+            break
+    return attempts
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
-        corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None) -> Result:
+        corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None, known: Naming | None = None) -> Result:
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
     timed: with further efforts until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
     elaborate(configuration, technology, folder)
-    attempts: list[_Attempt] = []
-    for number in range(len(efforts(configuration)[:most_attempts])):
-        attempts.append(_attempt(configuration, technology, folder, number))
-        if attempts[-1].closes_with_margins:
-            break
-    best = max(attempts, key=lambda attempt: attempt.rank)
+    best = max(_attempts(configuration, technology, folder, most_attempts, known), key=lambda attempt: attempt.rank)
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
         fast = best.netlist.fix_hold(best.tight)
-        best = _timed(best.netlist)
+        best = _timed(best.netlist, best.naming)
         margins = {"slow": best.margin, "fast": fast}
     column_module, shared, engines = best.netlist.counts()
     modules = configuration.column_modules
@@ -433,7 +480,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         figures = Power(power.logic_mw(output, modules), power.sram_mw(configuration, TARGET_MHZ),
                         power.clock_mw(output, modules, tree, technology.typical, TARGET_MHZ))
     return Result(configuration, column_module, shared, engines, tree, technology.slow.nand2_area,
-                  technology.slow.mux2_area, timing, figures, margins)
+                  technology.slow.mux2_area, timing, figures, margins, best.naming)
 
 
 def input_digest(technology: Technology) -> str:

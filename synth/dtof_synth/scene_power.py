@@ -119,17 +119,17 @@ def uniform_mw(configuration: Configuration, technology: Technology, folder: Pat
     return power_model.data_mw(output) * configuration.column_modules
 
 
-def simulate(configuration: Configuration, technology: Technology, folder: Path, klux: float,
-             seed: int) -> tuple[dict, Activity]:
-    """The small array's netlist on the scene, checked against RTL and model while it is counted."""
+def small_case(configuration: Configuration, seed: int) -> simulation.Case:
+    """The frame of the small array."""
+    return simulation.Case(small(configuration), (ACQUISITIONS,), seed)
+
+
+def count_activity(design: dict, case: simulation.Case, technology: Technology, folder: Path, klux: float) -> Activity:
+    """The small array's netlist on the scene, checked against RTL and model while it is counted. The design's nets and modules
+    are renamed."""
     root = technology.root
-    case = simulation.Case(small(configuration), (ACQUISITIONS,), seed)
-    elaborate(case.configuration, technology, folder)
-    design = map_to_cells(case.configuration, technology, folder, efforts(case.configuration)[0])
-    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
-    _write_verilog(design, technology, folder, "static", case.name)
     activity.name_for_counting(design)
-    files = simulation.write_simulation_netlist(design, case.configuration, technology, folder, seed)
+    files = simulation.write_simulation_netlist(design, case.configuration, technology, folder, case.seed)
     simulation.write_vectors(case, root, folder, ("--scene", SCENE, "--klux", f"{klux:g}"))
     bench = f"{case.configuration.top}_bench"
     netlist_path = f"{bench}.u_netlist"
@@ -157,7 +157,18 @@ def simulate(configuration: Configuration, technology: Technology, folder: Path,
         process.wait()
         pipe.unlink(missing_ok=True)
     simulation.outcome(said[0], case, 0.0)
-    return design, counted
+    return counted
+
+
+def simulate(configuration: Configuration, technology: Technology, folder: Path, klux: float,
+             seed: int) -> tuple[dict, Activity]:
+    """The small array through the flow, and its activity."""
+    case = small_case(configuration, seed)
+    elaborate(case.configuration, technology, folder)
+    design = map_to_cells(case.configuration, technology, folder, efforts(case.configuration)[0])
+    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
+    _write_verilog(design, technology, folder, "static", case.name)
+    return design, count_activity(design, case, technology, folder, klux)
 
 
 def _leakage_nw(cells: dict[str, float], module: dict) -> float:

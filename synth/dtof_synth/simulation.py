@@ -11,13 +11,13 @@ import subprocess
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from . import cell_models, floorplan, liberty, netlist, sram_kit, tools
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
-from .run import Technology, efforts, elaborate, map_to_cells, rtl_files
+from .run import Technology, elaborate, map_to_cells, rtl_files, unsearched_effort
 
 VECTORS = Path("build/cpp/vectors/dtof-vectors")
 BENCHES = Path("synth/simulation")
@@ -103,7 +103,7 @@ def full_case(configuration: Configuration, seed: int) -> Case:
 def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
     """The configuration through the flow's own steps, its cells and macros as models; the Verilog files."""
     elaborate(configuration, technology, folder)
-    design = map_to_cells(configuration, technology, folder, efforts(configuration)[0])
+    design = map_to_cells(configuration, technology, folder, unsearched_effort(configuration))
     floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
     return write_simulation_netlist(design, configuration, technology, folder, seed)
 

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import cell_models, clock_gating, liberty, library, netlist, standard_cells, tools
+from dtof_synth import cell_models, clock_gating, liberty, library, netlist, run, standard_cells, tools
 
 SYNTH = Path(__file__).resolve().parents[1]
 # Registers of every kind: enabled together, by an enable that is active low, reset with or without the clock, too few.
@@ -43,15 +43,16 @@ class ClockGating(unittest.TestCase):
         settings = cls.folder / "settings.tcl"
         tools.write_settings(settings, {
             "scripts": SYNTH / "yosys", "top": "dtof_array", "rtl_files": [cls.folder / "design.v"],
-            "rtl_include": cls.folder, "technology_files": [cls.folder / "none.v"], "black_boxes": cls.folder / "none.v",
-            "liberty": cls.folder / "slow.lib", "parameters": {}, "generic_netlist": cls.folder / "generic.il"})
-        tools.run_yosys(SYNTH / "yosys" / "generic.tcl", settings, cls.folder / "generic.log", "test")
+            "rtl_include": cls.folder, "kept_modules": [], "technology_files": [cls.folder / "none.v"], "black_boxes": cls.folder / "none.v",
+            "liberty": cls.folder / "slow.lib", "parameters": {},
+            "elaborated_netlist": cls.folder / "elaborated.il", "generic_netlist": cls.folder / "generic.il"})
+        run.to_generic(SYNTH / "yosys", settings, cls.folder, "test")
         cls.gates = clock_gating.insert(cls.folder / "generic.il", cls.library)
         (cls.folder / "abc.constr").write_text("set_driving_cell INV_X1\nset_load 6 [all_outputs]\n", encoding="utf-8")
         tools.write_settings(settings, {
             "scripts": SYNTH / "yosys", "generic_netlist": cls.folder / "generic.il", "liberty": cls.folder / "slow.lib",
             "abc_constraints": cls.folder / "abc.constr", "abc_period_ps": "2000", "abc_script": "+strash;map",
-            "naming_seeds": [0], "area_log": cls.folder / "area.log", "tie_low": ["TIE0_X1", "Y"],
+            "column_seeds": [0], "shared_seeds": [0], "area_log": cls.folder / "area.log", "tie_low": ["TIE0_X1", "Y"],
             "tie_high": ["TIE1_X1", "Y"], "netlist_json": cls.folder / "mapped.json"})
         tools.run_yosys(SYNTH / "yosys" / "map.tcl", settings, cls.folder / "map.log", "test")
         cls.design = json.loads((cls.folder / "mapped.json").read_text(encoding="utf-8"))

@@ -5,7 +5,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import sram_kit, standard_cells, tools
+from dtof_synth import run, sram_kit, standard_cells, tools
 from dtof_synth.errors import FlowError
 from dtof_synth.sram_model import Size
 
@@ -31,11 +31,11 @@ class FlowChecks(unittest.TestCase):
         settings = self.folder / "settings.tcl"
         tools.write_settings(settings, {
             "scripts": SYNTH / "yosys", "top": "dtof_array", "rtl_files": [self.folder / "design.sv"],
-            "rtl_include": self.folder,
+            "rtl_include": self.folder, "kept_modules": [],
             "technology_files": [self.folder / "sram_1rw.sv", self.folder / "sram_1r1w.sv"],
             "black_boxes": self.folder / "sram40_blackbox.v", "liberty": self.folder / "slow.lib",
-            "parameters": {}, "generic_netlist": self.folder / "generic.il"})
-        tools.run_yosys(SYNTH / "yosys" / "generic.tcl", settings, self.folder / "yosys.log", "test")
+            "parameters": {}, "elaborated_netlist": self.folder / "elaborated.il", "generic_netlist": self.folder / "generic.il"})
+        run.to_generic(SYNTH / "yosys", settings, self.folder, "test")
 
     def sta(self, verilog: str, libraries: list[Path] | None = None) -> str:
         (self.folder / "netlist.v").write_text(verilog, encoding="utf-8")

@@ -7,7 +7,8 @@
 # multiplexed adder saves some area but puts the comparison in front of the adder.
 # A pool read-out's columns share an SRAM by twos: there the pair is the module.
 setattr -mod -set keep_hierarchy 1 *_column *_pair *_engine
-setattr -mod -unset keep_hierarchy *pool_pointer_column *pool2_column
+setattr -mod -unset keep_hierarchy *pool2_column
+if {[llength $kept_modules]} { setattr -mod -set keep_hierarchy 1 {*}$kept_modules }
 synth -flatten -noshare -top $top -run coarse:fine
 opt -fast -undriven -fine
 techmap

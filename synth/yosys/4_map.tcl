@@ -13,8 +13,8 @@ proc area_of_selection {} {
   foreach {line area} $areas { set sum [expr {$sum + $area}] }
   return $sum
 }
-proc map_smallest {selection} {
-  global liberty abc_constraints abc_period_ps abc_script naming_seeds
+proc map_smallest {part naming_seeds selection} {
+  global liberty abc_constraints abc_period_ps abc_script
   design -save unmapped
   set smallest Inf
   foreach seed $naming_seeds {
@@ -28,13 +28,15 @@ proc map_smallest {selection} {
     yosys select -clear
     if {$area < $smallest} {
       set smallest $area
+      set best $seed
       design -save smallest
     }
   }
   design -load smallest
+  puts "DTOF_NAMING $part $best"
 }
-map_smallest {*_column *_pair}
-map_smallest {* *_column %d *_pair %d}
+map_smallest column $column_seeds {*_column *_pair}
+map_smallest shared $shared_seeds {* *_column %d *_pair %d}
 setundef -zero
 if {$tie_low ne "" && $tie_high ne ""} { hilomap -singleton -hicell {*}$tie_high -locell {*}$tie_low }
 splitnets

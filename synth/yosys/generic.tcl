@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-# RTL to technology-independent netlist, all steps in one Yosys process.
+# Elaborated to technology-independent netlist.
 yosys -import
 source $::env(DTOF_SETTINGS)
-foreach step {1_read 2_check_rtl 3_generic} {
-  puts "DTOF_STEP $step"
-  source $scripts/$step.tcl
-}
+read_rtlil $elaborated_netlist
+puts "DTOF_STEP 3_generic"
+source $scripts/3_generic.tcl
 write_rtlil $generic_netlist
