@@ -170,11 +170,11 @@ class Failures(unittest.TestCase):
             part = mock.Mock()
             part.name = "column"
             with self.assertRaisesRegex(FlowError, "2 nets could not be routed, clk_i"):
-                flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), {})
+                flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), 0.6, {})
+            self.assertEqual(project.call_args.args[-2:], (flow.SEEDS[-1], 0.6))
             self.assertEqual(project.return_value.place.call_count, len(flow.SEEDS))
             project.return_value.route.side_effect = [["clk_i"], []]
-            self.assertEqual(flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), {})[1], flow.SEEDS[1])
-
+            self.assertEqual(flow._place_and_route(Path(folder) / "qflow", part, tools.Cells(), None, {})[1], flow.SEEDS[1])
 
     def test_exit_status(self):
         with mock.patch.object(command, "_run", side_effect=FlowError("column: 2 nets could not be routed")), \
@@ -206,6 +206,15 @@ class Blocks(unittest.TestCase):
         for text in (block.blif(self.block), block.verilog(self.block)):
             self.assertNotIn("[", text)
             self.assertIn("NAND2", text)
+
+    def test_density_is_qflow_s_setting(self):
+        for density, said in ((None, ""), (0.6, "set initial_density=0.6\n")):
+            with tempfile.TemporaryDirectory() as folder:
+                folder = Path(folder)
+                (folder / "t.par").write_text("random.seed : 1\n", encoding="utf-8")
+                tools.Project(folder / "qflow", self.block, tools.Cells(folder, "t"), 7, density)
+                self.assertEqual((folder / "qflow" / "project_vars.sh").read_text(encoding="utf-8"), said)
+                self.assertIn("random.seed : 7", (folder / "qflow" / "layout" / "column.par").read_text(encoding="utf-8"))
 
     def test_reference(self):
         orders = block.pin_orders(".subckt NAND2 A B gnd Y vdd\n.ends\n.subckt DFF CLK D gnd Q vdd\n.ends\n")

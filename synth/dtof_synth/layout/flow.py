@@ -24,6 +24,7 @@ from .tools import Cells, Project, processor_seconds
 PERIOD_NS = 50.0  # far beyond every path: arrivals count, not slacks
 SEEDS = (1, 2, 3)  # of the placement: another one where a net cannot be routed
 REPAIRS = 2
+POOL_DENSITY = 0.6  # denser, a pair of columns has nets that the router finds no way for
 ARRAY_COLUMNS = 4  # of the array that is elaborated around the column
 
 
@@ -86,7 +87,8 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
     steps.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / run.TARGET_MHZ * effort.share:.0f}",
-        "abc_script": effort.script, "naming_seeds": list(effort.naming_seeds), "area_log": folder / "area.log",
+        "abc_script": effort.script, "column_seeds": list(effort.naming_seeds), "shared_seeds": [0],
+        "area_log": folder / "area.log",
         "tie_low": list(library.tie.get("0", ())), "tie_high": list(library.tie.get("1", ())),
         "netlist_json": folder / "column.json"})
     steps.run_yosys(scripts / "map_column.tcl", settings, folder / "column.log", configuration.name)
@@ -105,12 +107,12 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
     return blocks.from_module(name.split("\\")[-1], module, library, macros)
 
 
-def _place_and_route(folder: Path, block: Block, cells: Cells,
+def _place_and_route(folder: Path, block: Block, cells: Cells, density: float | None,
                      seconds: dict[str, float]) -> tuple[Project, int, list[str]]:
     """The first placement of which every net is routed, its seed and the nets that are not."""
     for seed in SEEDS:
         shutil.rmtree(folder, ignore_errors=True)
-        project = Project(folder, block, cells, seed)
+        project = Project(folder, block, cells, seed, density)
         with processor_seconds(seconds, "placement"):
             project.place()
         with processor_seconds(seconds, "routing"):
@@ -175,7 +177,8 @@ def lay_out(configuration: Configuration, technology: Technology, cells: Cells, 
     with processor_seconds(seconds, "synthesis"):
         block = synthesise(configuration, technology, folder / "synthesis")
     say(f"{configuration.name}: {len(block.cells)} cells, placing and routing")
-    project, seed, failed = _place_and_route(folder / "qflow", block, cells, seconds)
+    project, seed, failed = _place_and_route(folder / "qflow", block, cells, POOL_DENSITY if configuration.is_pool else None,
+                                             seconds)
     with processor_seconds(seconds, "checks"):
         dropped, errors, verdict = _checked(project, technology.root)
     layout = results.read_def(project.path(".def").read_text(encoding="utf-8"))

@@ -58,9 +58,10 @@ def _run(command: list[str], folder: Path, log: Path, **environment: str) -> str
 
 
 class Project:
-    """A folder as qflow's scripts expect it. `seed` is graywolf's."""
+    """A folder as qflow's scripts expect it. `seed` is graywolf's; `density`: share of the rows that cells fill, the rest being
+    fillers; None: as dense as graywolf places."""
 
-    def __init__(self, folder: Path, block: Block, cells: Cells, seed: int) -> None:
+    def __init__(self, folder: Path, block: Block, cells: Cells, seed: int, density: float | None = None) -> None:
         self.folder, self.block, self.cells = folder, block, cells
         self.layout = folder / "layout"
         for name in ("source", "synthesis", "layout", "log"):
@@ -70,7 +71,7 @@ class Project:
                     "logdir": folder / "log", "scriptdir": QFLOW / "scripts", "bindir": QFLOW / "bin"}
         self._write("qflow_vars.sh", "#!/usr/bin/tcsh -f\n" + "".join(f"set {key}={value}\n"
                                                                     for key, value in settings.items()))
-        self._write("project_vars.sh", "")
+        self._write("project_vars.sh", "" if density is None else f"set initial_density={density}\n")
         self._write("log/synth.log", "done\n")
         self._write(f"synthesis/{block.name}_powerground", 'set vddnet="vdd"\nset gndnet="gnd"\n')
         self._write(f"synthesis/{block.name}.blif", blocks.blif(block))
