@@ -44,6 +44,7 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->has_raw_histogram = FIELD(values[READOUT], DTOF_READOUT_RAW_HISTOGRAM) != 0;
   device->raw_bins = FIELD(values[RAW_BINS], DTOF_RAW_BINS_VALUE);
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
+  device->has_prior = FIELD(values[READOUT], DTOF_READOUT_PRIOR) != 0;
   device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
   device->rows = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_ROWS);
   device->timestamp_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_TIMESTAMP);
@@ -76,6 +77,7 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
       settings->weak_below > confidences ||
       (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
       (device->has_schedule && shares > SHARES) || (settings->second_target && !device->has_second_target) ||
+      (settings->prior && !device->has_prior) ||
       (settings->raw && (!device->has_raw_histogram || settings->raw_first_row > settings->raw_last_row ||
                          settings->raw_last_row >= device->rows))) {
     return DTOF_ARGUMENT;
@@ -97,7 +99,8 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
       {DTOF_WEAK_BELOW, settings->weak_below, true},
       {DTOF_OUTPUT,
        (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
-           (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) | (settings->smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0U),
+           (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) | (settings->smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0U) |
+           (settings->prior ? DTOF_OUTPUT_PRIOR_MASK : 0U),
        device->has_schedule || device->has_raw_histogram},
       {DTOF_RAW_ROWS,
        (uint32_t)settings->raw_first_row << DTOF_RAW_ROWS_FIRST_LSB | (uint32_t)settings->raw_last_row

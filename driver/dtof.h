@@ -48,6 +48,7 @@ typedef struct {
   bool has_schedule; /* poolPointer 2 */
   bool has_gate;
   bool has_second_target;
+  bool has_prior;
   bool has_raw_histogram;
   uint32_t raw_bins; /* of a raw histogram; 0 where there is none */
   uint16_t acquisition_lines;
@@ -66,6 +67,7 @@ typedef struct {
   bool second_target;  /* each pixel's second target, too; DTOF_ARGUMENT where has_second_target is false */
   bool
       smooth; /* poolPointer 2: neighbours of a column on one surface are drawn together; ignored elsewhere */
+  bool prior; /* candidates begin from the last frame's; DTOF_ARGUMENT where has_prior is false */
   bool raw;   /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
   uint16_t raw_first_row;
   uint16_t raw_last_row;

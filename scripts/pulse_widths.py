@@ -3,8 +3,8 @@
 """Read-outs beside the matched filter for pulses of other widths: build/pulse_widths/pulse_widths.md, .csv and .svg.
 
 `pulse_widths.py DTOF_STUDY [OPTION ...]`: the preset thesis with each width of FWHM_BINS and the same energy per pulse; options
-are those of `dtof-study scenes`, such as --seed. poolPointer 2's windows are fixed, for a pulse of 45 bins: this shows what
-that costs.
+are those of `dtof-study scenes`, such as --seed. poolPointer 2 is read twice, with windows that follow the pulse and with those
+for 45 bins.
 """
 
 import csv
@@ -20,7 +20,10 @@ ROOT = Path(__file__).resolve().parent.parent
 PRESET = ROOT / "tb_cpp" / "sensor" / "presets" / "thesis.toml"
 FOLDER = ROOT / "build" / "pulse_widths"
 FWHM_BINS = (8, 12, 20, 45, 90)
-READOUTS = ("hispointer", "poolpointer2", "poolpointer2-lean")
+POOLED = ("poolpointer2", "poolpointer2-lean")
+READOUTS = ("hispointer", *POOLED)
+WINDOWS_FOR_45 = " CELL_SHIFT=9"
+FIXED = " (windows for 45 bins)"
 SCENES = ("flat", "room", "planes", "clutter", "poles")
 COLUMNS = 20
 LIGHTS = ("14", "50")
@@ -56,12 +59,26 @@ class Figures:
         return 100 * self.above[name] / self.pixels
 
 
+def rows_of(estimator: str, titles: set[str]) -> list[str]:
+    """Rows of the tables that an estimator belongs to; `titles`: of a sensor. Where the pulse asks for the windows for 45 bins,
+    both are the same."""
+    title, changed, _ = estimator.partition(WINDOWS_FOR_45)
+    if changed:
+        return [title + FIXED]
+    return [title, title + FIXED] if title.startswith("poolPointer 2") and title + WINDOWS_FOR_45 not in titles else [title]
+
+
 def read(path: Path) -> dict[tuple[str, int, str], Figures]:
     """By light, width and estimator."""
     found: dict[tuple[str, int, str], Figures] = defaultdict(Figures)
     with path.open(newline="", encoding="utf-8") as file:
-        for row in csv.DictReader(file):
-            found[row["klux"], int(row["sensor"].removeprefix("fwhm")), row["estimator"]].add(row)
+        rows = list(csv.DictReader(file))
+    titles: dict[str, set[str]] = defaultdict(set)
+    for row in rows:
+        titles[row["sensor"]].add(row["estimator"])
+    for row in rows:
+        for name in rows_of(row["estimator"], titles[row["sensor"]]):
+            found[row["klux"], int(row["sensor"].removeprefix("fwhm")), name].add(row)
     return dict(found)
 
 
@@ -104,7 +121,8 @@ def draw(figures: dict[tuple[str, int, str], Figures], output: Path) -> None:
             style = plot_style.style(name, styles)
             lines += [f"$e{number} << END", *(f"{bins} {max(figures[klux, bins, name].percent('above_3_percent'), 0.01)}"
                                               for bins in FWHM_BINS), "END"]
-            plots.append(f"$e{number} with linespoints pt {style.marker} dt {style.dash} lc rgb '{style.colour}' title '{name}'")
+            dash = 3 if name.endswith(FIXED) else style.dash
+            plots.append(f"$e{number} with linespoints pt {style.marker} dt {dash} lc rgb '{style.colour}' title '{name}'")
         lines.append("plot " + ", ".join(plots))
         lines.append("unset key")
     result = subprocess.run(["gnuplot"], input="\n".join(lines) + "\nunset multiplot\nset output\n", text=True,
@@ -121,8 +139,8 @@ def main() -> None:
     for bins in FWHM_BINS:
         files.append(FOLDER / f"fwhm{bins}.toml")
         files[-1].write_text(sensor_of(bins, PRESET.read_text(encoding="utf-8")), encoding="utf-8")
-    command = [sys.argv[1], "scenes", "--sensor", *map(str, files), "--klux", *LIGHTS, "--readout", ",".join(READOUTS), "--scene",
-               *SCENES, "--columns", str(COLUMNS), "--out", str(FOLDER), *sys.argv[2:]]
+    command = [sys.argv[1], "scenes", "--sensor", *map(str, files), "--klux", *LIGHTS, "--readout", ",".join(READOUTS), "--variant",
+               *(f"{name}:{WINDOWS_FOR_45.strip()}" for name in POOLED), "--scene", *SCENES, "--columns", str(COLUMNS), "--out", str(FOLDER), *sys.argv[2:]]
     result = subprocess.run(command, stdout=subprocess.DEVNULL, check=False)
     if result.returncode != 0:
         raise SystemExit(result.returncode)
@@ -133,9 +151,9 @@ def main() -> None:
 
 The preset thesis with pulses of {FWHM_BINS[0]} to {FWHM_BINS[-1]} bins (FWHM) of the same energy; {COLUMNS} columns of each scene
 ({', '.join(SCENES[1:])}), one seed, look-up tables of each read-out for its pulse. hisPointer's GUARD follows the
-pulse; the matched filters know it. The windows of poolPointer 2 do not: they are those for 45 bins (cells of
-eight bins, TRACK_REACH and the pointer's weights), and nothing in the RTL changes them. A short pulse in a wide window
-lets more background in than it must, a long one loses its flanks.
+pulse; the matched filters know it. poolPointer 2's CELL_SHIFT follows it, too: the windows of a pointer that has settled,
+and for 90 bins S1's reach. Other rows have the windows for 45 bins whatever the pulse. The candidates' windows are coarse
+bins, which do not follow: they let more background in than a short pulse must have.
 
 ![Pixels above 3 % over the pulse's width](pulse_widths.svg)
 

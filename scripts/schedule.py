@@ -22,13 +22,14 @@ PAGE = ROOT / "docs" / "reference" / "blocks" / "pool_control.md"
 BEGIN = "<!-- schedule: written by scripts/schedule.py -->\n"
 END = "<!-- end of schedule -->\n"
 PRODUCTS = ("poolpointer2", "poolpointer2_lean")
+PRIOR = "poolpointer2_prior"  # as the first product, with some commands more
 STRUCTS = ("pool2_column_command_t", "pool2_engine_command_t")  # in the order in which the bench prints them
 OPERATIONS = {"decode": "a group", "choose": "a pixel", "decide": "a pixel"}  # and what a step is
 STRUCT = re.compile(r"typedef struct packed \{\n(.*?)\} (\w+);", re.DOTALL)
 FIELD = re.compile(r"^  (\w+)(?: \[(\d+):0\])? (\w+);(?: +// (.*))?$")
 WITH = "with "  # so begins the meaning of what goes with a command and is none itself
 SMALL = {"PIXELS_PER_SRAM": 48, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2}  # groups and pixels between others; two columns
-# A frame without acquisitions: one operation after the other.
+# Frames without acquisitions: one operation after the other. The second one has a last frame to begin from.
 BENCH = """
 `include "pool2_command.svh"
 module schedule_bench;
@@ -37,7 +38,7 @@ module schedule_bench;
   pool_pointer2_array #(PARAMETERS) u_array (
       .clk_i(clk), .rst_ni(rst_n), .sram_cfg_i('0), .sram_cfg_o(), .start_i(start), .acq_num_i(ACQ_WIDTH'd0),
       .gate_begin_i('0), .gate_end_i('0), .coarse_end_i(ACQ_WIDTH'd0), .track_end_i(ACQ_WIDTH'd0),
-      .smooth_i(1'b1), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),
+      .smooth_i(1'b1), .prior_i(1'b1), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),
       .tdc_timestamp_i('0), .result_tvalid_o(), .result_tready_i(1'b1), .result_tdata_o(), .result_tlast_o());
   always #1 clk = !clk;
   always @(negedge clk) begin
@@ -47,9 +48,12 @@ module schedule_bench;
   end
   initial begin
     #4 rst_n = 1'b1;
-    @(posedge clk) start <= 1'b1;
-    @(posedge clk) start <= 1'b0;
-    @(posedge done) $finish;
+    repeat (2) begin
+      @(posedge clk) start <= 1'b1;
+      @(posedge clk) start <= 1'b0;
+      @(negedge done);
+    end
+    $finish;
   end
 endmodule
 """
@@ -157,9 +161,9 @@ def ranges(clocks: set[int]) -> str:
     return ", ".join(texts)
 
 
-def tables(fields: list[Field], schedules: list[Schedule]) -> str:
+def tables(fields: list[Field], plain: Schedule, lean: Schedule, first: Schedule) -> str:
+    """`first`: `plain` with a prior."""
     lines = []
-    first, lean = schedules
     pass_name = {frozenset("0"): "first", frozenset("1"): "second", frozenset("01"): "both"}
     for operation, step in OPERATIONS.items():
         chain = operation != "decode"
@@ -172,7 +176,7 @@ def tables(fields: list[Field], schedules: list[Schedule]) -> str:
             key = (operation, field)
             which = f"{pass_name[frozenset(first.passes[key])]} | " if chain else ""
             lines.append(f"| `{field.name}` | {ranges(first.clocks[key])} | {ranges(lean.clocks.get(key, set()))} | {which}"
-                         f"{field.meaning} |")
+                         f"{field.meaning}{'' if key in plain.clocks else ' (PRIOR = 1)'} |")
         lines.append("")
     never = [field.name for field in fields if field.is_command
              and all((operation, field) not in first.clocks for operation in OPERATIONS)]
@@ -190,7 +194,7 @@ def main() -> int:
     try:
         fields = all_fields(structs(COMMANDS.read_text(encoding="utf-8")))
         configurations = load(ROOT / "configurations.toml")
-        written = tables(fields, [schedule(configurations[name], fields) for name in PRODUCTS])
+        written = tables(fields, *(schedule(configurations[name], fields) for name in (*PRODUCTS, PRIOR)))
         page = PAGE.read_text(encoding="utf-8")
         if page.count(BEGIN) != 1 or page.count(END) != 1:
             raise ScheduleError(f"{PAGE.name} has no place for the schedule")

@@ -9,9 +9,10 @@
 # make trade      poolPointer 2's goals that collide, as curves (areas: make synth-growth; two minutes)
 # make real-data  read-outs on measured data
 # make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
+# make pool-parts    area and power of each part of poolPointer 2, and the errors without it (20 minutes)
 # make pulse-widths  read-outs beside the matched filter for pulses of 8 to 90 bins (three minutes)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: claims pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -77,6 +78,10 @@ trade: study
 walk-error: study
 	@$(DTOF_STUDY) walk --seed $(SEED) --out build/walk
 	@scripts/publish.py walk_error
+
+pool-parts: study vectors
+	@scripts/pool_parts.py $(DTOF_STUDY) --seed $(SEED)
+	@scripts/publish.py pool_parts
 
 pulse-widths: study
 	@scripts/pulse_widths.py $(DTOF_STUDY) --seed $(SEED)

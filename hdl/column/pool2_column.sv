@@ -25,6 +25,7 @@ module pool2_column #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
@@ -227,6 +228,7 @@ module pool2_column #(
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES),
+      .CELL_SHIFT     (CELL_SHIFT),
       .PIXEL_WIDTH    (PIXEL_WIDTH)
   ) u_pixel_distance (
       .valid_i      (has_first_q),

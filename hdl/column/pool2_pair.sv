@@ -29,7 +29,9 @@ module pool2_pair #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,
+    parameter int PRIOR = 0,
     localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES),
     localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
@@ -76,6 +78,7 @@ module pool2_pair #(
     input  logic                  clear_i,           // all pairs' words are cleared
     input  logic                  select_i,          // with read_i and write_i: this pair
     input  logic                  upper_i,           // with read_i and write_i: the word's upper half
+    input  logic                  used_i,            // with write_i: of that half only which candidates are used
     input  logic [HALF_WIDTH-1:0] engine_word_i,
     input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs beyond this one, seen from the engine
     output logic [LINE_WIDTH-1:0] word_o
@@ -215,6 +218,7 @@ module pool2_pair #(
             .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
             .POINTER_SHIFT  (POINTER_SHIFT),
             .RIVAL_MOVES    (RIVAL_MOVES),
+            .CELL_SHIFT     (CELL_SHIFT),
             .TIME_GATE      (TIME_GATE)
         ) u_column (
             .clk_i           (clk_i),
@@ -243,8 +247,18 @@ module pool2_pair #(
         assign updated[c*HALF_WIDTH+:HALF_WIDTH] = half;
       end
 
+      logic [HALF_WIDTH-1:0] engine_half;
+      if (PRIOR != 0) begin : g_prior
+        localparam logic [HALF_WIDTH-1:0] USED_BITS = HALF_WIDTH'((1 << LABELS) - 1) << dtof_pkg::pool_group_width(LABELS);
+        logic [HALF_WIDTH-1:0] given;
+        assign given = {HALF_WIDTH{upper_i == (c == 1)}} & ({HALF_WIDTH{!used_i}} | USED_BITS);
+        assign engine_half = (engine_word_i & given) | (half & ~given);
+      end else begin : g_no_prior
+        assign engine_half = (upper_i == (c == 1)) ? engine_word_i : half;
+      end
+
       assign write_data[c*HALF_WIDTH+:HALF_WIDTH] =
-          engine_i ? (((upper_i == (c == 1)) ? engine_word_i : half) & {HALF_WIDTH{!clear_i}})
+          engine_i ? (engine_half & {HALF_WIDTH{!clear_i}})
           : (coarse_i ? half : updated[c*HALF_WIDTH+:HALF_WIDTH]);
     end
   endgenerate
@@ -258,6 +272,6 @@ module pool2_pair #(
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(group_word) : '0);
 
   logic unused;
-  assign unused = ^{1'b0, next_pixels, valid_t2, held_valid, bin_t2, held_bin};
+  assign unused = ^{1'b0, next_pixels, valid_t2, held_valid, bin_t2, held_bin, used_i};
 
 endmodule

@@ -12,11 +12,13 @@
 //    pass. When all of them have passed, this pixel's best two labels are known, early in the next step. Choose writes two
 //    pixels' first pointer words together. Decide gives a result when the winner below it is known, too, and stands still
 //    at the beginning of a step while the output has not taken the last one.
+// 4. With PRIOR decode reads a group's word of the last frame, too, before it writes the new one, and choose writes which
+//    candidates of a group are used, a step after the group's last pair of pixels.
 //
 // Schedule: the table below. A line says in which clocks t of a step a command is given. Columns and engines have it in
 //   the next clock, and what takes longer takes the clocks that the module in question states (dtof_pkg).
 // Latency, K labels: a pair's groups x (32 K + 45) in decode; (pixels + 4) x max(K + 4, 9) a pass in choose, (pixels + 4)
-//   and (pixels + 5) x 6 in decide, a column.
+//   and (pixels + 5) x 6 in decide, a column. With PRIOR choose has a step more a column, two if the pixels are odd.
 // Cost: counters and a register of the commands, per array.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"
@@ -27,6 +29,7 @@ module pool2_sequencer #(
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
     parameter int LINE_HALVES = 1,        // halves of a word that eight bins take, 1 or 2
     parameter int ENGINE_COLUMNS = 34,    // columns of an engine
+    parameter int PRIOR = 0,              // 1: candidates begin from those that were used in the last frame
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int GROUP_WORDS = (GROUPS + 1) / 2,
@@ -41,6 +44,7 @@ module pool2_sequencer #(
     input  logic                    decode_i,
     input  logic                    choose_i,
     input  logic                    decide_i,
+    input  logic                    prior_i,          // in decode, with PRIOR = 1: the last frame's words are valid, and wanted
     output logic                    done_o,           // the operation's last clock; its results are sent
     // pairs of columns: one clock early (_d), for the array to register and spread; at most one access a clock
     output logic                    read_d_o,
@@ -83,6 +87,7 @@ module pool2_sequencer #(
   localparam int FIRST_CANDIDATE = SEARCH + BINS - 1 + dtof_pkg::POOL_DECODER_CANDIDATE_CLOCKS;
   localparam int LAST_CANDIDATE = FIRST_CANDIDATE + BINS * (LABELS - 1);
   localparam int LAST_OF_DECODE = LAST_CANDIDATE + READ_CLOCKS;
+  localparam int TAKE_PRIOR = FILL - 1;  // in time for the first pair sum, and read when the first bins have been
 
   localparam int SPREAD = dtof_pkg::POOL_CHAIN_SPREAD_CLOCKS;
   localparam int PASS = SPREAD + 1;  // label 0
@@ -100,7 +105,13 @@ module pool2_sequencer #(
   localparam int LAST_OF_CHOOSE = dtof_pkg::max_of(PASS + LABELS - 1, LINE_CLOCKS + 5);
 
   localparam int T_WIDTH = $clog2(LAST_OF_DECODE + 1);
-  localparam int STEP_WIDTH = $clog2(PIXELS_PER_SRAM + LEAD + 2);
+  // With PRIOR a group's used candidates are written in a step that writes no pair of pixels. The last group's step comes
+  // after a column's last pair, whose second pixel may be missing. A group has more than LEAD rows, so that when its first
+  // pixel has chosen, the group fetched last is still the same.
+  localparam int EVEN_PIXELS = PIXELS_PER_SRAM + PIXELS_PER_SRAM % 2;
+  localparam int LAST_STEP = PIXELS_PER_SRAM + LEAD;
+  localparam int LAST_STEP_OF_CHOOSE = (PRIOR != 0) ? EVEN_PIXELS + LEAD + 1 : LAST_STEP;
+  localparam int STEP_WIDTH = $clog2(dtof_pkg::max_of(LAST_STEP + 1, LAST_STEP_OF_CHOOSE) + 1);
   localparam int PAIR_WIDTH = dtof_pkg::index_width(PAIRS);
   localparam logic LAST_COLUMN_ODD = (ENGINE_COLUMNS % 2) == 0;
 
@@ -128,7 +139,8 @@ module pool2_sequencer #(
   assign chaining = choosing || deciding;
   assign last_t = decoding ? T_WIDTH'(LAST_OF_DECODE) : choosing ? T_WIDTH'(LAST_OF_CHOOSE) : T_WIDTH'(LAST_OF_DECIDE);
   assign last_step_number = decoding ? STEP_WIDTH'(GROUPS - 1)
-      : (deciding && back_q) ? STEP_WIDTH'(PIXELS_PER_SRAM + LEAD + 1) : STEP_WIDTH'(PIXELS_PER_SRAM + LEAD);
+      : (deciding && back_q) ? STEP_WIDTH'(LAST_STEP + 1)
+      : (PRIOR != 0 && back_q) ? STEP_WIDTH'(LAST_STEP_OF_CHOOSE) : STEP_WIDTH'(LAST_STEP);
   assign last_step = (step_q == last_step_number);
   assign first_pair = (pair_q == '0);
   assign last_pair = (pair_q == PAIR_WIDTH'(PAIRS - 1));
@@ -194,7 +206,8 @@ module pool2_sequencer #(
   // Which pixels a chain's step is about.
 
   logic to_fetch, prepared_in_pass, next_in_pass, in_pass, done_before, winner_before, result_before, pair_done;
-  logic [ROW_WIDTH-1:0] fetch_row, prepared_row, next_row, row, row_before;
+  logic choice_before, group_begun, group_done;
+  logic [ROW_WIDTH-1:0] fetch_row, prepared_row, next_row, row, row_before, result_row;
 
   function automatic logic [ROW_WIDTH-1:0] row_of(input logic [STEP_WIDTH-1:0] position, input logic back);
     row_of = ROW_WIDTH'(back ? 32'(position) : PIXELS_PER_SRAM - 1 - 32'(position));
@@ -205,6 +218,7 @@ module pool2_sequencer #(
   assign next_row = row_of(step_q - STEP_WIDTH'(LEAD - 1), back_q);
   assign row = row_of(step_q - STEP_WIDTH'(LEAD), back_q);
   assign row_before = row_of(step_q - STEP_WIDTH'(LEAD + 1), back_q);
+  assign result_row = row_of(step_q - STEP_WIDTH'(LEAD + 2), 1'b1);
   assign to_fetch = (step_q < STEP_WIDTH'(PIXELS_PER_SRAM));
   assign prepared_in_pass = (step_q >= STEP_WIDTH'(LEAD - 2)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD - 2));
   assign next_in_pass = (step_q >= STEP_WIDTH'(LEAD - 1)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD - 1));
@@ -212,7 +226,22 @@ module pool2_sequencer #(
   assign done_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 1));  // the pixel before has its best labels, or is none
   assign winner_before = done_before && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD + 1));
   assign result_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 2));  // the one before that has its neighbours
-  assign pair_done = done_before && (row_before[0] || last_step);
+
+  generate
+    if (PRIOR != 0) begin : g_prior
+      assign choice_before = winner_before;
+      assign pair_done = done_before && row_before[0];
+      assign group_begun = choosing && done_before && (32'(row_before) % GROUP_SIZE == 0 || last_step);
+      assign group_done = choosing && result_before && (32'(result_row) % GROUP_SIZE == GROUP_SIZE - 1 || last_step);
+    end else begin : g_no_prior
+      assign choice_before = done_before;
+      assign pair_done = done_before && (row_before[0] || last_step);
+      assign group_begun = 1'b0;
+      assign group_done = 1'b0;
+      logic unused_prior;
+      assign unused_prior = prior_i;
+    end
+  endgenerate
 
   assign stall = deciding && (t_q == '0) && send_waits_i;
 
@@ -270,6 +299,8 @@ module pool2_sequencer #(
       decode.search         = during(t, SEARCH, LAST_OF_DECODE);
       decode.first_label    = during(t, SEARCH, SEARCH + BINS - 1);
       decode.candidate      = every(t, FIRST_CANDIDATE, BINS, LABELS);
+      columns.read_prior    = at(t, TAKE_PRIOR - LINE_CLOCKS) && (PRIOR != 0) && prior_i;
+      decode.take_prior     = at(t, TAKE_PRIOR) && (PRIOR != 0);
       columns.read_group    = at(t, LAST_CANDIDATE);
       columns.write_group   = at(t, LAST_OF_DECODE);
     end
@@ -292,8 +323,9 @@ module pool2_sequencer #(
     if (chaining) begin
       chain.begin_step       = at(t, 0);
       write_message          = at(t, 0) && !back_q && in_pass;
-      write_cell             = at(t, BELIEF) && choosing && done_before;
-      command.take_choice    = at(t, BELIEF) && choosing && done_before;
+      write_cell             = at(t, BELIEF) && choosing && choice_before;
+      command.take_choice    = at(t, BELIEF) && choosing && choice_before;
+      command.next_group     = at(t, BELIEF) && group_begun;
       command.take_winner    = at(t, BELIEF) && deciding && done_before;
       command.take_distances = at(t, DISTANCES) && deciding;
       command.take_result    = at(t, RESULT) && deciding && result_before;
@@ -303,9 +335,12 @@ module pool2_sequencer #(
       columns.fetch_pixel    = at(t, last - 1 - LINE_CLOCKS) && to_fetch;
       columns.fetch_group    = at(t, last - LINE_CLOCKS) && to_fetch;
       columns.read_pair      = at(t, last - READ_CLOCKS) && choosing && pair_done;
+      columns.read_used      = at(t, last - READ_CLOCKS) && group_done;
       command.take_pixel     = at(t, last - 1);
       read_message           = at(t, last - dtof_pkg::POOL_ENGINE_MESSAGE_CLOCKS) && back_q && next_in_pass;
       columns.write_pair     = at(t, last) && choosing && pair_done;
+      columns.write_used     = at(t, last) && group_done;
+      command.take_used      = at(t, last) && choosing && to_fetch && (PRIOR != 0);
       chain.advance          = at(t, last);
     end
 
@@ -320,6 +355,7 @@ module pool2_sequencer #(
     command.has_winner = winner_before;
     command.decoding = decoding;
     command.deciding = deciding;
+    command.giving_used = group_done;
     command.back = back_q;
     command.write_scratch = write_message || write_cell;
     command.read_scratch = read_cell || read_message;
@@ -335,17 +371,18 @@ module pool2_sequencer #(
 
   // The columns' part.
 
-  logic read_bins, group_word, fetch_right, fetch_group, toward_left, toward_right, upper_d, neighbour_d;
+  logic read_bins, group_word, used_word, fetch_right, fetch_group, toward_left, toward_right, upper_d, neighbour_d;
   logic [STEP_WIDTH-1:0] read_group;
   logic [OCTETS_WIDTH-1:0] bins_read;  // octets of each group
 
   assign read_bins = columns.read_above || columns.read_own || columns.read_below || columns.read_left || columns.read_right;
-  assign group_word = columns.read_group || columns.write_group;
+  assign group_word = columns.read_prior || columns.read_group || columns.write_group;
+  assign used_word = columns.read_used || columns.write_used;
   assign fetch_right = columns.fetch_right_pixel || columns.fetch_right_group;
   assign fetch_group = columns.fetch_right_group || columns.fetch_group;
-  assign read_d_o = read_bins || columns.read_group || fetch_right || columns.fetch_pixel || columns.fetch_group
-      || columns.read_pair;
-  assign write_d_o = columns.write_group || columns.write_pair;
+  assign read_d_o = read_bins || columns.read_prior || columns.read_group || fetch_right || columns.fetch_pixel
+      || columns.fetch_group || columns.read_pair || columns.read_used;
+  assign write_d_o = columns.write_group || columns.write_pair || columns.write_used;
 
   // The first and the last group are their own missing neighbours, and so are the first and the last pair.
   assign read_group = (columns.read_above && step_q != '0) ? step_q - 1'b1
@@ -361,11 +398,13 @@ module pool2_sequencer #(
       ? ADDR_WIDTH'(32'(read_group) * GROUP_PAIRS + ((LINE_HALVES == 1) ? 32'(bins_read) >> 1 : 32'(bins_read)))
       : group_word ? ADDR_WIDTH'(PIXEL_WORDS + (32'(step_q) >> 1))
       : fetch_group ? ADDR_WIDTH'(PIXEL_WORDS + 32'(fetch_row) / (2 * GROUP_SIZE))
+      : used_word ? ADDR_WIDTH'(PIXEL_WORDS + 32'(result_row) / (2 * GROUP_SIZE))
       : (columns.fetch_pixel || columns.fetch_right_pixel) ? ADDR_WIDTH'(32'(fetch_row) >> 1)
       : ADDR_WIDTH'(32'(row_before) >> 1);
   assign upper_d = read_bins ? (LINE_HALVES == 1) && bins_read[0]
       : group_word ? step_q[0]
       : fetch_group ? 1'((32'(fetch_row) / GROUP_SIZE) & 1)
+      : used_word ? 1'((32'(result_row) / GROUP_SIZE) & 1)
       : columns.fetch_right_pixel ? !odd_q
       : odd_q;
 
@@ -389,17 +428,18 @@ module pool2_sequencer #(
     scratch_row_o <= write_message ? row : write_cell ? row_before : read_cell ? prepared_row : next_row;
     if (columns.send) begin
       send_column_o <= COLUMN_WIDTH'({pair_q, odd_q});
-      send_row_o <= row_of(step_q - STEP_WIDTH'(LEAD + 2), 1'b1);
+      send_row_o <= result_row;
       send_last_o <= last_column && last_step;
     end
   end
 
   // What the table must keep to, and who starts operations.
 
-  logic [12:0] accesses;
+  logic [15:0] accesses;
   assign accesses = {columns.read_above, columns.read_own, columns.read_below, columns.read_left, columns.read_right,
-                     columns.read_group, columns.write_group, columns.fetch_right_pixel, columns.fetch_right_group,
-                     columns.fetch_pixel, columns.fetch_group, columns.read_pair, columns.write_pair};
+                     columns.read_prior, columns.read_group, columns.write_group, columns.fetch_right_pixel,
+                     columns.fetch_right_group, columns.fetch_pixel, columns.fetch_group, columns.read_pair,
+                     columns.write_pair, columns.read_used, columns.write_used};
 
   `DTOF_ASSERT(a_one_access, (accesses & (accesses - 1'b1)) == '0, "the schedule has two SRAM accesses in a clock")
   `DTOF_ASSERT(a_one_message, 32'(write_message) + 32'(write_cell) + 32'(read_cell) + 32'(read_message) <= 1,

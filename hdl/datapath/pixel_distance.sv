@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a timestamp is from where a pixel's word points: what the word's update needs to know. Combinational.
 //
-// Equations (docs/reference/poolpointer2.md, Track and Point), distances floored to cells of 512 positions:
+// Equations (docs/reference/poolpointer2.md, Track and Point), distances floored to cells of 512 positions, those to a settled
+// pointer (n >= 16, or 12 of 15) to cells of 2^CELL_SHIFT:
 //   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
-//   point  d = (X - leader's position) >> 9: in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
+//   point  d = (X - leader's position) >> 9 (or CELL_SHIFT): in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
 //          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
 //          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
 // Cost: a row of carries and an adder of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
@@ -16,6 +17,7 @@ module pixel_distance #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
     parameter int PIXEL_WIDTH = 32,
     parameter int RIVAL_REACH = 6,                      // cells to either side of the rival
     parameter logic [23:0] WEIGHTS = 24'o12344431       // of the distances 0 to 7, one octal digit each, 0 lowest
@@ -36,9 +38,12 @@ module pixel_distance #(
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
   localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
   localparam int DISTANCE_WIDTH = 16 - POINTER_SHIFT + 2;
-  localparam int CELL_SHIFT = 9 - POINTER_SHIFT;
-  localparam int CELLS_WIDTH = DISTANCE_WIDTH - CELL_SHIFT;
+  // From the pointer's units to cells: until the pointer has settled, afterwards, and the finer of both.
+  localparam int START_SHIFT = 9 - POINTER_SHIFT;
+  localparam int SETTLED_SHIFT = CELL_SHIFT - POINTER_SHIFT;
+  localparam int CELLS_WIDTH = DISTANCE_WIDTH - ((CELL_SHIFT < 9) ? SETTLED_SHIFT : START_SHIFT);
   localparam logic [CELLS_WIDTH-1:0] REACH = CELLS_WIDTH'(8);
+  localparam logic [ADVANTAGE_WIDTH-1:0] SETTLED_FROM = ADVANTAGE_WIDTH'((ADVANTAGE_WIDTH == 7) ? 16 : 12);
   localparam logic [2:0] NEAR = 3'd4;  // cells to the leader, 0 the one in which it is
   localparam logic [2:0] RIVAL_NEAR = 3'(RIVAL_REACH - 1);
 
@@ -50,7 +55,7 @@ module pixel_distance #(
   logic [7:0] track_cells, rival_cells;
   logic [POINTER_WIDTH-1:0] pointer;
   logic [DISTANCE_WIDTH-1:0] position, distance;
-  logic below, reach, hit, rival_below;
+  logic settled, below, reach, hit, rival_below;
   logic [CELLS_WIDTH-1:0] point_cells;
   logic [2:0] cells_away, rival_away;
   logic [6:0] advantage;
@@ -78,6 +83,7 @@ module pixel_distance #(
     distance = '0;
     point_cells = '0;
     cells_away = '0;
+    settled = 1'b0;
     below = 1'b0;
     reach = 1'b0;
     hit = 1'b0;
@@ -109,10 +115,16 @@ module pixel_distance #(
       if (RIVAL_MOVES != 0) begin
         distance = position - DISTANCE_WIDTH'(pointer);
       end else begin
-        distance = position - DISTANCE_WIDTH'({leader_cell, {CELL_SHIFT{1'b0}}})
+        distance = position - DISTANCE_WIDTH'({leader_cell, {START_SHIFT{1'b0}}})
             - {{(DISTANCE_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer};
       end
-      point_cells = CELLS_WIDTH'(distance >> CELL_SHIFT);
+      if (CELL_SHIFT == 9) begin
+        point_cells = CELLS_WIDTH'(distance >> START_SHIFT);
+      end else begin
+        settled = ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH)) >= SETTLED_FROM;
+        point_cells = settled ? CELLS_WIDTH'($signed(distance) >>> SETTLED_SHIFT)
+            : CELLS_WIDTH'($signed(distance) >>> START_SHIFT);
+      end
       below = 1'(point_cells >> (CELLS_WIDTH - 1));
       cells_away = 3'(point_cells) ^ {3{below}};
       reach = (point_cells < REACH) || (point_cells >= -REACH);
@@ -158,6 +170,6 @@ module pixel_distance #(
   end
 
   logic unused;
-  assign unused = ^{1'b0, point_i, position_i, word_i, cells_i, hits_i};
+  assign unused = ^{1'b0, settled, point_i, position_i, word_i, cells_i, hits_i};
 
 endmodule

@@ -14,12 +14,14 @@
 //    takes away leaves the pairs on their way to the head.
 //
 // Schedule: the table of pool2_sequencer, with this module's POOL2_DECODER_*_CLOCKS (dtof_pkg).
+// With PRIOR a pair sum is larger by 28 where the last frame used a candidate (Prior from the last frame).
 // Cost at the defaults: 384 flip-flops of ring, 280 of shift registers, per engine.
 `include "pool2_command.svh"
 
 module pool2_candidate_decoder #(
     parameter int COUNT_WIDTH = 7,    // bits of a coarse bin
     parameter int LABELS = 5,         // candidates of a group
+    parameter int PRIOR = 0,          // 1: candidates begin from those that were used in the last frame
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
     localparam int LINE_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH
@@ -27,6 +29,9 @@ module pool2_candidate_decoder #(
     input  logic                         clk_i,
     input  pool2_decode_command_t        command_i,
     input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture: an octet of bins, lowest first
+    // with command_i.take_prior: the group's candidates of the last frame, and which of them were used
+    input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
+    input  logic [           LABELS-1:0] last_used_i,
     // the newest candidate is the last cell; both valid from a clock after command_i.candidate until the next one
     output logic [LABELS*CELL_WIDTH-1:0] cells_o,
     output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group's bins are counted
@@ -34,6 +39,7 @@ module pool2_candidate_decoder #(
 
   localparam int OWN_WEIGHT = 3;
   localparam int LEAK_SHIFT = 3;
+  localparam int PRIOR_WEIGHT = 28;
   localparam int BIN_SUM_WIDTH = COUNT_WIDTH + 3;  // 7 bins
   localparam int SUM_WIDTH = COUNT_WIDTH + 4;      // of a pair
   localparam int ENTRY_WIDTH = SUM_WIDTH + 1;
@@ -85,11 +91,47 @@ module pool2_candidate_decoder #(
   assign five_octets = (OCTET_WIDTH + 3)'(least_octet_q) + ((OCTET_WIDTH + 3)'(least_octet_q) << 2);
   assign background_o = BACKGROUND_WIDTH'(five_octets >> COUNT_WIDTH);
 
+  // What the last frame adds. A candidate's cell is at most 1 from the middle of its own pair i, 4 (i + 1), and all others
+  // are further than PRIOR_REACH = 2 from it: a used candidate raises its own pair's sum, a clock before that is complete.
+
+  logic [SUM_WIDTH-1:0] last_sum;
+  genvar k;
+  generate
+    if (PRIOR != 0) begin : g_prior
+      logic [LABELS-1:0] used_q, here;
+      logic [LABELS*5-1:0] pairs_q;
+      logic [SUM_WIDTH-1:0] raised_sum_q;
+
+      for (k = 0; k < LABELS; k = k + 1) begin : g_label
+        assign here[k] = used_q[k] && (pairs_q[k*5+:5] == command_i.pair);
+        always_ff @(posedge clk_i) begin
+          if (command_i.take_prior) begin
+            pairs_q[k*5+:5] <= 5'((last_cells_i[k*CELL_WIDTH+:CELL_WIDTH] - CELL_WIDTH'(3)) >> 2);
+          end
+        end
+      end
+
+      always_ff @(posedge clk_i) begin
+        if (command_i.take_prior) begin
+          used_q <= last_used_i;
+        end
+        raised_sum_q <= SUM_WIDTH'(bin_sum_q) + ((here != '0) ? SUM_WIDTH'(PRIOR_WEIGHT) : '0);
+      end
+      assign last_sum = raised_sum_q;
+      logic unused_last_sum;
+      assign unused_last_sum = ^last_sum_q;
+    end else begin : g_no_prior
+      assign last_sum = SUM_WIDTH'(last_sum_q);
+      logic unused_prior;
+      assign unused_prior = ^{last_cells_i, last_used_i, command_i.take_prior};
+    end
+  endgenerate
+
   // The least pair sum.
 
   logic [SUM_WIDTH-1:0] pair_sum, least_q;
 
-  assign pair_sum = SUM_WIDTH'(bin_sum_q) + SUM_WIDTH'(last_sum_q);
+  assign pair_sum = SUM_WIDTH'(bin_sum_q) + last_sum;
 
   always_ff @(posedge clk_i) begin
     if (command_i.fill && (command_i.pair == 5'd1 || (command_i.pair != 5'd0 && pair_sum < least_q))) begin

@@ -12,6 +12,7 @@
 // 3. The chain of the operation in work steps on, and its messages of the first pass wait in the scratch memory.
 // 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write. Decide hands
 //    the winners of three rows to S1, whose result leaves.
+// 5. With PRIOR choose also collects which candidates of a group are used, for the next frame's decode.
 //
 // It knows neither rows nor columns nor clocks: in each clock it does what the command says, and nothing else.
 //
@@ -29,7 +30,9 @@ module pool2_engine #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
     parameter int SECOND_TARGET = 0,
+    parameter int PRIOR = 0,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
@@ -95,13 +98,25 @@ module pool2_engine #(
   logic [LABELS*CELL_WIDTH-1:0] new_cells;
   logic [BACKGROUND_WIDTH-1:0] new_background;
 
+  logic [LABELS-1:0] line_used;  // candidates of the group whose word is on the line
+  generate
+    if (PRIOR != 0) begin : g_line_used
+      assign line_used = line_q[GROUP_WIDTH+:LABELS];
+    end else begin : g_no_line_used
+      assign line_used = '0;
+    end
+  endgenerate
+
   pool2_candidate_decoder #(
       .COUNT_WIDTH(COUNT_WIDTH),
-      .LABELS     (LABELS)
+      .LABELS     (LABELS),
+      .PRIOR      (PRIOR)
   ) u_candidate_decoder (
       .clk_i       (clk_i),
       .command_i   (command_i.decode),
       .line_i      (line_bins),
+      .last_cells_i(line_q[LABELS*CELL_WIDTH-1:0]),
+      .last_used_i (line_used),
       .cells_o     (new_cells),
       .background_o(new_background)
   );
@@ -308,9 +323,36 @@ module pool2_engine #(
     end
   end
 
+  // Candidates of a group that some pixel takes: those that the column to the left in the pair has used, and its own. The
+  // pixel of the next group comes before they are written.
+
+  logic [HALF_WIDTH-1:0] done_word;
+
+  generate
+    if (PRIOR != 0) begin : g_used
+      logic [LABELS-1:0] left_used_q, so_far_q, used_q;
+      always_ff @(posedge clk_i) begin
+        if (command_i.take_used) begin
+          left_used_q <= line_used;
+        end
+        if (command_i.take_choice) begin
+          so_far_q <= (command_i.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);
+        end
+        if (command_i.next_group) begin
+          used_q <= so_far_q;
+        end
+      end
+      assign done_word = command_i.giving_used ? HALF_WIDTH'(used_q) << GROUP_WIDTH : HALF_WIDTH'(new_pair_q);
+    end else begin : g_not_used
+      assign done_word = HALF_WIDTH'(new_pair_q);
+      logic unused_commands;
+      assign unused_commands = ^{command_i.take_used, command_i.next_group, command_i.giving_used};
+    end
+  endgenerate
+
   // Registered here, for the way to the pairs is long. It is known a clock before it is written.
   always_ff @(posedge clk_i) begin
-    word_o <= command_i.decoding ? HALF_WIDTH'({new_background, new_cells}) : HALF_WIDTH'(new_pair_q);
+    word_o <= command_i.decoding ? HALF_WIDTH'({new_background, new_cells}) : done_word;
   end
 
   // Decide: S1 and the result.
@@ -318,6 +360,7 @@ module pool2_engine #(
   smoothing #(
       .NP              (NP),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .CELL_SHIFT      (CELL_SHIFT),
       .SECOND_TARGET   (SECOND_TARGET)
   ) u_smoothing (
       .clk_i           (clk_i),

@@ -16,6 +16,7 @@
 module smoothing #(
     parameter int NP = 10,
     parameter int CONFIDENCE_WIDTH = 8,
+    parameter int CELL_SHIFT = 9,
     parameter int SECOND_TARGET = 0,
     localparam int RESULT_WIDTH = ((SECOND_TARGET != 0) ? 32 : 16) + CONFIDENCE_WIDTH
 ) (
@@ -35,9 +36,9 @@ module smoothing #(
 );
 
   localparam int F = 16 - NP;
-  localparam int DISTANCE_WIDTH = 12;  // within T
-  localparam logic signed [16:0] DARK_REACH = 17'd1024;
-  localparam logic signed [16:0] BRIGHT_REACH = 17'd1536;
+  localparam logic signed [16:0] DARK_REACH = (CELL_SHIFT > 9) ? 17'd2048 : 17'd1024;
+  localparam logic signed [16:0] BRIGHT_REACH = (CELL_SHIFT > 9) ? 17'd2048 : 17'd1536;
+  localparam int DISTANCE_WIDTH = (CELL_SHIFT > 9) ? 13 : 12;  // within T
   localparam logic signed [17:0] HALF_BIN = 18'((1 << F) / 2);
   localparam logic signed [17:0] LAST_POSITION = 18'(65536 - (1 << F) - 1);
 

@@ -47,6 +47,7 @@ module label_chain_properties #(
       .decode_i     (1'b0),
       .choose_i     (1'b0),
       .decide_i     (checking && !begun_q),
+      .prior_i      (1'b0),
       .done_o       (unused_done),
       .read_d_o     (unused_read),
       .write_d_o    (unused_write),

@@ -11,6 +11,7 @@ module pixel_distance_properties #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
     localparam int SCORES_WIDTH = LABELS * SCORE_BITS,
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
@@ -48,6 +49,7 @@ module pixel_distance_properties #(
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),
       .RIVAL_MOVES    (RIVAL_MOVES),
+      .CELL_SHIFT     (CELL_SHIFT),
       .PIXEL_WIDTH    (PIXEL_WIDTH)
   ) u_dut (
       .valid_i      (valid_i),
@@ -97,7 +99,7 @@ module pixel_distance_properties #(
       qa = 512 * cell_of(a) + (pointer << POINTER_SHIFT);
       rival_cell = cell_of(b);
     end
-    e = (x - qa) >>> 9;
+    e = (x - qa) >>> ((n >= ((ADVANTAGE_WIDTH == 7) ? 16 : 12)) ? CELL_SHIFT : 9);
     f = (x >>> 9) - rival_cell;
     expected_reach = valid_i && (e >= -8) && (e <= 7);
     expected_hit = valid_i && (e >= -5) && (e <= 4);

@@ -10,6 +10,7 @@ module pool2_sequencer_properties #(
     parameter int LABELS = 2,
     parameter int LINE_HALVES = 1,
     parameter int ENGINE_COLUMNS = 2,
+    parameter int PRIOR = 0,
     localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int WORDS = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
@@ -21,6 +22,7 @@ module pool2_sequencer_properties #(
     input logic decode_i,
     input logic choose_i,
     input logic decide_i,
+    input logic prior_i,
     input logic tready_i
 );
 
@@ -43,13 +45,15 @@ module pool2_sequencer_properties #(
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (LABELS),
       .LINE_HALVES    (LINE_HALVES),
-      .ENGINE_COLUMNS (ENGINE_COLUMNS)
+      .ENGINE_COLUMNS (ENGINE_COLUMNS),
+      .PRIOR          (PRIOR)
   ) u_dut (
       .clk_i        (clk_i),
       .rst_ni       (checking),
       .decode_i     (decode_i),
       .choose_i     (choose_i),
       .decide_i     (decide_i),
+      .prior_i      (prior_i),
       .done_o       (done),
       .read_d_o     (read),
       .write_d_o    (write),
@@ -93,7 +97,8 @@ module pool2_sequencer_properties #(
   // The latencies that the module states, and the last commands and results.
   localparam int PERIOD = (LABELS + 4 > 9) ? LABELS + 4 : 9;
   localparam int DECODE_CLOCKS = PAIRS * GROUPS * (32 * LABELS + 45) + 6;
-  localparam int CHOOSE_CLOCKS = ENGINE_COLUMNS * 2 * (PIXELS + 4) * PERIOD + 6;
+  localparam int PRIOR_STEPS = (PRIOR != 0) ? 1 + PIXELS % 2 : 0;
+  localparam int CHOOSE_CLOCKS = ENGINE_COLUMNS * (2 * (PIXELS + 4) + PRIOR_STEPS) * PERIOD + 6;
   localparam int DECIDE_CLOCKS = ENGINE_COLUMNS * (2 * PIXELS + 9) * 6 + 6 + 2;  // the way of the last results
 
   logic working_q, sending_q;

@@ -15,6 +15,7 @@ module pool_control_properties #(
     parameter int GROUP_SIZE = 4,
     parameter int ACQ_WIDTH = 4,
     parameter int LONGEST_STAY = 24,
+    parameter int PRIOR = 0,
     localparam int NP = 8,
     localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
@@ -35,6 +36,7 @@ module pool_control_properties #(
     input logic [ADDR_WIDTH-1:0] engine_address_i,
     input logic                  engine_select_i,
     input logic                  engine_upper_i,
+    input logic                  engine_used_i,
     input logic                  engine_done_i
 );
 
@@ -154,7 +156,8 @@ module pool_control_properties #(
       .OFFSET_BITS    (0),
       .ADVANTAGE_WIDTH(4),
       .POINTER_SHIFT  (0),
-      .RIVAL_MOVES    (1)
+      .RIVAL_MOVES    (1),
+      .PRIOR          (PRIOR)
   ) u_pair (
       .clk_i           (clk_i),
       .rst_ni          (checking),
@@ -183,6 +186,7 @@ module pool_control_properties #(
       .clear_i         (clear_q),
       .select_i        (engine_select_i),
       .upper_i         (engine_upper_i),
+      .used_i          (engine_used_i),
       .engine_word_i   ('0),
       .beside_word_i   ('0),
       .word_o          (unused_word)

@@ -5,6 +5,7 @@
 
 module smoothing_properties #(
     parameter int NP = 10,
+    parameter int CELL_SHIFT = 9,
     parameter int SECOND_TARGET = 0,
     localparam int F = 16 - NP
 ) (
@@ -35,6 +36,7 @@ module smoothing_properties #(
   smoothing #(
       .NP              (NP),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .CELL_SHIFT      (CELL_SHIFT),
       .SECOND_TARGET   (SECOND_TARGET)
   ) u_dut (
       .clk_i           (clk_i),
@@ -56,7 +58,7 @@ module smoothing_properties #(
 
   always_comb begin
     centre = 32'(positions[31:16]);
-    reach = bright[1] ? 1536 : 1024;
+    reach = (CELL_SHIFT == 10) ? 2048 : bright[1] ? 1536 : 1024;
     sum = 0;
     for (i = 0; i <= 2; i = i + 2) begin
       neighbour = 32'(positions[i*16+:16]);

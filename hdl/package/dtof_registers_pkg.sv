@@ -32,6 +32,8 @@ package dtof_registers_pkg;
   localparam int READOUT_SECOND_TARGET_WIDTH = 1;
   localparam int READOUT_RAW_HISTOGRAM_LSB = 12;
   localparam int READOUT_RAW_HISTOGRAM_WIDTH = 1;
+  localparam int READOUT_PRIOR_LSB = 13;
+  localparam int READOUT_PRIOR_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -163,6 +165,8 @@ package dtof_registers_pkg;
   localparam int OUTPUT_RAW_WIDTH = 1;
   localparam int OUTPUT_SMOOTH_LSB = 2;
   localparam int OUTPUT_SMOOTH_WIDTH = 1;
+  localparam int OUTPUT_PRIOR_LSB = 3;
+  localparam int OUTPUT_PRIOR_WIDTH = 1;
 
   // register k: columns 32 k and up; at reset all are enabled
   localparam logic [11:0] COLUMN_ENABLE = 12'h080;

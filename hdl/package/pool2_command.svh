@@ -14,6 +14,7 @@ typedef struct packed {
   logic read_below;         // read the next bins of the group below
   logic read_left;          // read the next bins of the group to the left
   logic read_right;         // read the next bins of the group to the right
+  logic read_prior;         // read the group's word of the last frame
   logic read_group;         // read the group's word, so that the group beside it in the word stays as it is
   logic write_group;        // write the group's word: its candidates and its background
   logic fetch_right_pixel;  // read the word of the pixel to the right of the one to be fetched
@@ -22,6 +23,8 @@ typedef struct packed {
   logic fetch_group;        // read the word of that pixel's group
   logic read_pair;          // read the words of two pixels done, so that the pair's other column keeps its own
   logic write_pair;         // write the first pointer words of these two pixels
+  logic read_used;          // read the word of a group done, so that its candidates stay as they are
+  logic write_used;         // write which of its candidates are used
   logic send;               // the engines' results go to the output
 } pool2_column_command_t;
 
@@ -39,6 +42,7 @@ typedef struct packed {
   logic [4:0] pair;     // with fill the bin, with search the pair at the ring's head + 1
   logic first_label;    // with search: for the first candidate
   logic candidate;      // the turn before has found its candidate
+  logic take_prior;     // the line is the group's word of the last frame, or 0
 } pool2_decode_command_t;
 
 // To label_chain.
@@ -67,6 +71,7 @@ typedef struct packed {
 typedef struct packed {
   logic decoding;       // with write_group, in all of decode: the engine's word is the group's
   logic deciding;       // with write_scratch, in all of decide: the message is decide's
+  logic giving_used;    // with write_used, in all of its step: the engine's word is which candidates are used
   logic back;           // the second pass of a chain
   pool2_decode_command_t decode;
   beside_command_t beside;
@@ -78,6 +83,8 @@ typedef struct packed {
   logic read_scratch;   // the message of the first pass, or the candidate chosen to the left, comes back
   logic take_choice;    // the two best labels of the pixel before are known: its first pointer word
   logic odd_result;     // with take_choice: the word's second pixel
+  logic take_used;      // the line is the word of the pixel's group: which candidates the column to the left has used
+  logic next_group;     // the group before is done; the pixel before is its group's first one, or the column has ended
   logic take_winner;    // the better label of the pixel before is known, or the column has ended
   logic has_winner;     // with take_winner: it is known
   logic take_distances; // the winner in the middle is compared with those above and below

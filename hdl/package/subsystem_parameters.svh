@@ -54,7 +54,11 @@
     parameter int POINTER_SHIFT = 1,
     // 1: the rival has a pointer of its own
     parameter int RIVAL_MOVES = 1,
+    // windows of a settled pointer: 8 for pulses below 0.75 coarse bins (FWHM), 10 from 2.25
+    parameter int CELL_SHIFT = 9,
     // 1: a result has the position of the label that lost, too
     parameter int SECOND_TARGET = 0,
+    // 1: candidates may begin from those that were used in the last frame (`prior_i`)
+    parameter int PRIOR = 0,
     // columns that share an engine
     parameter int ENGINE_COLUMNS = 34,

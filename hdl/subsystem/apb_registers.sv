@@ -15,6 +15,7 @@ module apb_registers #(
     parameter int TIME_GATE = 0,
     parameter int RASTER_ORDER = 0,
     parameter int SECOND_TARGET = 0,
+    parameter int PRIOR = 0,
     parameter int RAW_HISTOGRAM = 0,
     parameter int RAW_BINS = 0,
     parameter int NP = 10,
@@ -51,6 +52,7 @@ module apb_registers #(
     output logic [ACQ_WIDTH-1:0] coarse_end_o,   // these three are 0 without HAS_SCHEDULE
     output logic [ACQ_WIDTH-1:0] track_end_o,
     output logic                 smooth_o,
+    output logic                 prior_o,        // 0 without PRIOR
     output logic [       NP-1:0] gate_begin_o,   // these two are 0 without TIME_GATE
     output logic [       NP-1:0] gate_end_o,
     output logic [         15:0] release_o,
@@ -239,6 +241,20 @@ module apb_registers #(
       assign second_o = 1'b0;
     end
 
+    if (PRIOR != 0) begin : g_prior
+      logic prior_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          prior_q <= 1'b0;
+        end else if (write && offset == dtof_registers_pkg::OUTPUT && mask[dtof_registers_pkg::OUTPUT_PRIOR_LSB]) begin
+          prior_q <= written[dtof_registers_pkg::OUTPUT_PRIOR_LSB];
+        end
+      end
+      assign prior_o = prior_q;
+    end else begin : g_no_prior
+      assign prior_o = 1'b0;
+    end
+
     if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
       localparam int FIRST_LSB = dtof_registers_pkg::RAW_ROWS_FIRST_LSB;
       localparam int LAST_LSB = dtof_registers_pkg::RAW_ROWS_LAST_LSB;
@@ -308,6 +324,7 @@ module apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_TIME_GATE_LSB] = (TIME_GATE != 0);
         prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
         prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
+        prdata_o[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
         prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
       end
       dtof_registers_pkg::SIZE: begin
@@ -350,6 +367,7 @@ module apb_registers #(
         prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second_o;
         prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw_o;
         prdata_o[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth_o;
+        prdata_o[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior_o;
       end
       dtof_registers_pkg::RAW_ROWS: begin
         prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first_o;

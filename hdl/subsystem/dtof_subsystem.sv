@@ -80,6 +80,8 @@ module dtof_subsystem #(
                 "dtof_subsystem: READOUT must be one of dtof_pkg::READOUT_*")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || POOL != 0,
                 "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER2")
+  `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || POOL != 0,
+                "dtof_subsystem: PRIOR must be 0, or READOUT must be READOUT_POOLPOINTER2")
   `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (POOL == 0 && RASTER_ORDER == 0),
                 "dtof_subsystem: RAW_HISTOGRAM must be 0 for READOUT_POOLPOINTER2, and where RASTER_ORDER is 1")
   `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1 && SRAM_NUM <= 1024, "dtof_subsystem: SRAM_NUM must be 1 to 1024")
@@ -92,7 +94,7 @@ module dtof_subsystem #(
 
   // Registers and frames.
 
-  logic start, flush, continuous, second, raw, smooth, begin_frame, busy, done, frame;
+  logic start, flush, continuous, second, raw, smooth, prior, begin_frame, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, misframed, overrun;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
@@ -109,6 +111,7 @@ module dtof_subsystem #(
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
       .SECOND_TARGET   (SECOND_TARGET),
+      .PRIOR           (PRIOR),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
       .RAW_BINS        (RAW_BINS),
       .NP              (NP),
@@ -143,6 +146,7 @@ module dtof_subsystem #(
       .coarse_end_o      (coarse_end),
       .track_end_o       (track_end),
       .smooth_o          (smooth),
+      .prior_o           (prior),
       .gate_begin_o      (gate_begin),
       .gate_end_o        (gate_end),
       .release_o         (release_lines),
@@ -307,6 +311,7 @@ module dtof_subsystem #(
           .coarse_end_i   (coarse_end),
           .track_end_i    (track_end),
           .smooth_i       (smooth),
+          .prior_i        (prior),
           .busy_o         (array_busy),
           .done_o         (done),
           .state_o        (state),
@@ -320,8 +325,8 @@ module dtof_subsystem #(
           .result_tlast_o (result_tlast)
       );
     end else begin : g_array
-      logic unused_smooth;
-      assign unused_smooth = smooth;
+      logic unused_settings;
+      assign unused_settings = ^{smooth, prior};
       dtof_array #(
           .READOUT(READOUT),
 `include "dtof_array_parameters.svh"

@@ -5,7 +5,7 @@
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
 //   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (14, 20). smooth_i, sampled with
-//   start_i, too, switches S1.
+//   start_i, too, switches S1, and with PRIOR = 1 prior_i what the last frame's choices add to this one's candidates.
 // TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
@@ -30,8 +30,10 @@ module pool_pointer2_array #(
     parameter int ADVANTAGE_WIDTH = 7,    // bits of the leader's advantage, 4 or 7
     parameter int POINTER_SHIFT = 1,      // a pointer's unit: 2^(POINTER_SHIFT - 11) coarse bins, 0 to 2, or to 4 with 4
     parameter int RIVAL_MOVES = 1,        // 1: the rival has a pointer; 0: it stays at its candidate
+    parameter int CELL_SHIFT = 9,         // a settled pointer's cells have 2^CELL_SHIFT positions, 8 to 10: the pulse's width
     parameter int TIME_GATE = 0,           // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int SECOND_TARGET = 0,      // 1: a result has the position of the label that lost, too
+    parameter int PRIOR = 0,              // 1: with prior_i candidates begin from those that were used in the last frame
     parameter int ENGINE_COLUMNS = 34,    // columns that share an engine, even
     parameter int ACQ_WIDTH = 16,         // bits of the run-time number of acquisitions
     parameter int BROADCAST_STAGES = 2,   // registers between the shared logic and columns and engines, 1 to 8
@@ -52,6 +54,7 @@ module pool_pointer2_array #(
     input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [  ACQ_WIDTH-1:0] track_end_i,
     input  logic                   smooth_i,  // S1
+    input  logic                   prior_i,   // of the frame, with PRIOR = 1; the first frame after reset has none
     output logic                   busy_o,
     output logic                   done_o,
     output logic [            2:0] state_o,
@@ -99,8 +102,13 @@ module pool_pointer2_array #(
                 "pool_pointer2_array: RIVAL_MOVES must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_resting, RIVAL_MOVES == 1 || OFFSET_BITS == 0,
                 "pool_pointer2_array: OFFSET_BITS must be 0 if RIVAL_MOVES is 0")
+  `DTOF_REQUIRE(g_illegal_cell_shift, CELL_SHIFT >= 8 && CELL_SHIFT <= 10,
+                "pool_pointer2_array: CELL_SHIFT must be 8 to 10")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || SECOND_TARGET == 1,
                 "pool_pointer2_array: SECOND_TARGET must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || PRIOR == 1, "pool_pointer2_array: PRIOR must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_used, PRIOR == 0 || dtof_pkg::pool_group_width(LABELS) + LABELS <= HALF_WIDTH,
+                "pool_pointer2_array: a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1")
   `DTOF_REQUIRE(g_illegal_histogram,
                 dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH <= LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,
                 "pool_pointer2_array: 32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows")
@@ -218,20 +226,22 @@ module pool_pointer2_array #(
   logic engine_read, engine_write, engine_upper, engine_neighbour;
   pool2_engine_command_t command;
   logic [ROW_WIDTH-1:0] scratch_row, send_row;
-  logic send, send_last, send_waits, send_busy;
+  logic send, send_last, send_waits, send_busy, prior_q;
 
   pool2_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (LABELS),
       .LINE_HALVES    (LINE_HALVES),
-      .ENGINE_COLUMNS (STEPS)
+      .ENGINE_COLUMNS (STEPS),
+      .PRIOR          (PRIOR)
   ) u_sequencer (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
       .decode_i     (decode),
       .choose_i     (choose),
       .decide_i     (decide),
+      .prior_i      (prior_q),
       .done_o       (engine_done),
       .read_d_o     (engine_read),
       .write_d_o    (engine_write),
@@ -258,15 +268,39 @@ module pool_pointer2_array #(
     end
   end
 
+  // The groups' words are of the last frame only if one has ended since reset.
+
+  generate
+    if (PRIOR != 0) begin : g_prior
+      logic ended_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          ended_q <= 1'b0;
+        end else begin
+          ended_q <= ended_q || done_o;
+        end
+      end
+      always_ff @(posedge clk_i) begin
+        if (start_i && !busy_o) begin
+          prior_q <= prior_i && ended_q;
+        end
+      end
+    end else begin : g_no_prior
+      assign prior_q = 1'b0;
+      logic unused_prior;
+      assign unused_prior = prior_i;
+    end
+  endgenerate
+
   // What pairs and engines are told, on its way to them. The last engine may have fewer columns: its last pair is then its
   // own missing neighbour.
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
-  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 24;
+  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 25;
 
   logic told_read, told_write, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] told_address;
-  logic [LAST_PAIRS-1:0] last_select;
+  logic [LAST_PAIRS-1:0] last_select, last_part;
 
   // A clock later than what is told, as the sequencers give read, write and address a clock early.
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -293,12 +327,19 @@ module pool_pointer2_array #(
 
   generate
     if (LAST_PAIRS < STEP_PAIRS) begin : g_fewer
-      assign last_select = engine_select[LAST_PAIRS-1:0]
+      assign last_part = engine_select[LAST_PAIRS-1:0]
           | (LAST_PAIRS'(engine_neighbour && engine_select[LAST_PAIRS]) << (LAST_PAIRS - 1));
     end else begin : g_all
-      assign last_select = engine_select;
+      assign last_part = engine_select;
       logic unused_neighbour;
       assign unused_neighbour = engine_neighbour;
+    end
+
+    if (PRIOR != 0 && LAST_COLUMNS < STEPS && LAST_COLUMNS % 2 == 1) begin : g_missing_column
+      // The last pair's second column is worked on, although it is missing; what it uses does not count.
+      assign last_select = last_part & {LAST_PAIRS{!(command.giving_used && engine_column == STEP_WIDTH'(LAST_COLUMNS))}};
+    end else begin : g_no_missing_column
+      assign last_select = last_part;
     end
   endgenerate
 
@@ -311,7 +352,7 @@ module pool_pointer2_array #(
   logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
   logic heard_first_row_t2, heard_second_row_t2, heard_update_t2, heard_second_column, heard_fresh, heard_load, heard_count;
   logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear;
-  logic heard_upper, heard_has_right, heard_last_has_right;
+  logic heard_upper, heard_used, heard_has_right, heard_last_has_right;
   logic [3:0] heard_acquisition_t2;
   logic [ADDR_WIDTH-1:0] heard_address;
   logic [STEP_PAIRS-1:0] heard_select;
@@ -322,12 +363,13 @@ module pool_pointer2_array #(
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
                  first_row_t2, second_row_t2, update_t2, acquisition_t2, second_column, fresh, load, count, told_read,
                  told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, clear_q,
-                 engine_select, last_select, engine_upper, has_right, last_has_right, scratch_row, command};
+                 engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
+                 command};
   assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_first_row_t2, heard_second_row_t2, heard_update_t2,
           heard_acquisition_t2, heard_second_column, heard_fresh, heard_load, heard_count, heard_read, heard_write,
           heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear, heard_select,
-          heard_last_select, heard_upper, heard_has_right, heard_last_has_right, heard_scratch_row,
+          heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
           heard_command} = heard;
 
   broadcast #(
@@ -437,7 +479,9 @@ module pool_pointer2_array #(
             .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
             .POINTER_SHIFT  (POINTER_SHIFT),
             .RIVAL_MOVES    (RIVAL_MOVES),
-            .TIME_GATE      (TIME_GATE)
+            .CELL_SHIFT     (CELL_SHIFT),
+            .TIME_GATE      (TIME_GATE),
+            .PRIOR          (PRIOR)
         ) u_pair (
             .clk_i           (clk_i),
             .rst_ni          (rst_ni),
@@ -470,6 +514,7 @@ module pool_pointer2_array #(
             .clear_i         (heard_clear),
             .select_i        (select[p]),
             .upper_i         (heard_upper),
+            .used_i          (heard_used),
             .engine_word_i   (word),
             .beside_word_i   (beside_word),
             .word_o          (pair_words[p*LINE_WIDTH+:LINE_WIDTH])
@@ -486,7 +531,9 @@ module pool_pointer2_array #(
           .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
           .POINTER_SHIFT  (POINTER_SHIFT),
           .RIVAL_MOVES    (RIVAL_MOVES),
-          .SECOND_TARGET  (SECOND_TARGET)
+          .CELL_SHIFT     (CELL_SHIFT),
+          .SECOND_TARGET  (SECOND_TARGET),
+          .PRIOR          (PRIOR)
       ) u_engine (
           .clk_i        (clk_i),
           .rst_ni       (rst_ni),

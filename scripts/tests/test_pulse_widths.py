@@ -24,6 +24,16 @@ class PulseWidths(unittest.TestCase):
         thesis["laser"].pop("pulse_fwhm_ns")
         self.assertEqual(sensor, thesis)
 
+    def test_read_outs_that_follow_the_pulse_have_rows_of_their_own(self) -> None:
+        short = {"poolPointer 2", "poolPointer 2 CELL_SHIFT=9", "poolPointer 2 lean", "poolPointer 2 lean CELL_SHIFT=9"}
+        self.assertEqual(pulse_widths.rows_of("poolPointer 2", short), ["poolPointer 2"])
+        self.assertEqual(pulse_widths.rows_of("poolPointer 2 CELL_SHIFT=9", short), ["poolPointer 2" + pulse_widths.FIXED])
+        self.assertEqual(pulse_widths.rows_of("poolPointer 2 lean", short), ["poolPointer 2 lean"])
+        # Where the pulse asks for them, both are the same.
+        self.assertEqual(pulse_widths.rows_of("poolPointer 2", {"poolPointer 2", "poolPointer 2 lean CELL_SHIFT=9"}),
+                         ["poolPointer 2", "poolPointer 2" + pulse_widths.FIXED])
+        self.assertEqual(pulse_widths.rows_of("hisPointer", short), ["hisPointer"])
+
     def test_figures_are_of_all_pixels_but_the_flats(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "scenes.csv"

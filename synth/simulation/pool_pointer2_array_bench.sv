@@ -16,6 +16,7 @@ module pool_pointer2_array_bench #(
     parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,  // the vectors have no gate
     parameter int SECOND_TARGET = 0,  // the vectors have one target
+    parameter int PRIOR = 0,  // the vectors' frames begin from nothing
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
     parameter int BROADCAST_STAGES = 2,
@@ -55,6 +56,7 @@ module pool_pointer2_array_bench #(
       .RIVAL_MOVES      (RIVAL_MOVES),
       .TIME_GATE        (TIME_GATE),
       .SECOND_TARGET    (SECOND_TARGET),
+      .PRIOR            (PRIOR),
       .ENGINE_COLUMNS   (ENGINE_COLUMNS),
       .ACQ_WIDTH        (ACQ_WIDTH),
       .BROADCAST_STAGES(BROADCAST_STAGES)
@@ -69,6 +71,7 @@ module pool_pointer2_array_bench #(
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
+      .prior_i        (1'b0),
       .busy_o         (rtl[TDATA_WIDTH+7]),
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
@@ -96,6 +99,7 @@ module pool_pointer2_array_bench #(
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
+      .prior_i        (1'b0),
       .busy_o         (netlist[TDATA_WIDTH+7]),
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),

@@ -8,8 +8,9 @@
 #                 [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
 #   dtof_verilate(<name> READOUT poolpointer2|poolpointer2-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
 #                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
-#                 [RIVAL_MOVES 0|1] [SECOND_TARGET 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n] [TRACK_SHARE n] [WRITABLE_SRAMS]
-#                 [NO_WAVEFORM] TARGET <library>)
+#                 [RIVAL_MOVES 0|1] [CELL_SHIFT n] [SECOND_TARGET 0|1] [PRIOR 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n]
+#                 [TRACK_SHARE n]
+#                 [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
 #
 # and, with SUBSYSTEM [BUFFER_LINES n] [RASTER_ORDER 0|1] [AXI_LITE 0|1] instead of PROBE and what follows it, dtof_subsystem around either,
 #

@@ -46,6 +46,8 @@ void ReadoutOptions::add_to(CLI::App& command) {
   group->add_option("--fraction-bits", fraction_bits, "FRACTION_BITS of the pointer read-outs");
   group->add_option("--confidence-width", confidence_width, "CONFIDENCE_WIDTH of the pointer read-outs");
   group->add_option("--guard", guard, "GUARD of hisPointer's window, bins (default: the pulse's FWHM)");
+  group->add_option("--cell-shift", cell_shift,
+                    "CELL_SHIFT of the pool read-outs, 8 to 10 (default: what the pulse asks for)");
   group->add_flag("--window-centred", window_centred, "WINDOW_CENTRED: SiFH's window as in Fig. 3.8");
   group
       ->add_option("--code-gate", code_gate,
@@ -89,6 +91,9 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
       require_owner(change.option, change.parameter);
     }
   }
+  if (cell_shift) {
+    require_owner("--cell-shift", "CELL_SHIFT");
+  }
   if (window_centred) {
     require_owner("--window-centred", "WINDOW_CENTRED");
   }
@@ -101,6 +106,9 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
       }
     }
     override_with(slots, parameters.slots);
+    if (has_parameter(readout, "CELL_SHIFT")) {
+      override_with(cell_shift, parameters.pool.cell_shift);
+    }
     parameters.window_centred = window_centred && has_parameter(readout, "WINDOW_CENTRED");
     if (!code_gate.empty()) {
       parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};

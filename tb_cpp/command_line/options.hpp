@@ -26,6 +26,7 @@ struct ReadoutOptions {
   std::optional<int> fraction_bits;
   std::optional<int> confidence_width;
   std::optional<int> guard;
+  std::optional<int> cell_shift;
   bool window_centred = false;
   std::vector<int> code_gate;
 

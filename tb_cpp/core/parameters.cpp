@@ -57,7 +57,9 @@ PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
           .count_bits = value("ADVANTAGE_WIDTH"),
           .pointer_shift = value("POINTER_SHIFT"),
           .rival_moves = value("RIVAL_MOVES") != 0,
+          .cell_shift = value("CELL_SHIFT"),
           .second_target = value("SECOND_TARGET") != 0,
+          .prior = value("PRIOR") != 0,
           .coarse_share = value("COARSE_SHARE"),
           .track_share = value("TRACK_SHARE"),
           .engine_columns = value("ENGINE_COLUMNS")};
@@ -74,9 +76,13 @@ void PoolPointerParameters::validate(int count_width) const {
   require(pointer_shift >= 0 && pointer_shift <= (count_bits == 4 ? 4 : 2),
           "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4", pointer_shift);
   require(rival_moves || offset_bits == 0, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0", offset_bits);
+  require_range("CELL_SHIFT", cell_shift, 8, 10);
   require_range("COARSE_SHARE", coarse_share, 1, 62);
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-  const int half_bits = std::max(2 * word_bits(), kPoolCellBits * labels + kPoolBackgroundBits);
+  const int group_bits = kPoolCellBits * labels + kPoolBackgroundBits;
+  const int half_bits = std::max(2 * word_bits(), group_bits);
+  require(!prior || group_bits + labels <= half_bits,
+          "a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1", labels);
   const int line_halves = 8 * count_width <= half_bits ? 1 : 2;  // halves of a word that eight bins take
   require(8 * count_width <= line_halves * half_bits && group_size >= 4 * line_halves,
           "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows", count_width);
@@ -173,14 +179,14 @@ std::string ReadoutParameters::to_string() const {
     out += fmt::format(" TIME_GATE=1 GATE={}-{}", time_gate->begin, time_gate->end);
   }
   if (is_pool_readout(readout)) {
-    return out +
-           fmt::format(
-               " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} COUNT={} SHIFT={} RIVAL={} ENGINE_COLUMNS={} "
-               "SHARES={},{} S1={}{}",
-               count_width, pool.group_size, pool.labels, pool.score_bits, pool.offset_bits, pool.count_bits,
-               pool.pointer_shift, pool.rival_moves ? "moves" : "stays", pool.engine_columns,
-               pool.coarse_share, pool.track_share, pool.smooth ? 1 : 0,
-               pool.second_target ? " SECOND_TARGET=1" : "");
+    return out + fmt::format(
+                     " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} COUNT={} SHIFT={} RIVAL={} CELL_SHIFT={} "
+                     "ENGINE_COLUMNS={} SHARES={},{} S1={}{}{}",
+                     count_width, pool.group_size, pool.labels, pool.score_bits, pool.offset_bits,
+                     pool.count_bits, pool.pointer_shift, pool.rival_moves ? "moves" : "stays",
+                     pool.cell_shift, pool.engine_columns, pool.coarse_share, pool.track_share,
+                     pool.smooth ? 1 : 0, pool.second_target ? " SECOND_TARGET=1" : "",
+                     pool.prior ? " PRIOR=1" : "");
   }
   if (has_parameter(readout, "NB")) {
     out += fmt::format(" NB={}", nb);

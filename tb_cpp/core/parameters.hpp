@@ -26,8 +26,11 @@ struct PoolPointerParameters {
   /// The unit of the leader's pointer is 2^(pointer_shift - 11) coarse bins; 0 .. 2, or 0 .. 4 if count_bits
   /// is 4.
   int pointer_shift = 1;
-  bool rival_moves = true;     ///< the rival has a pointer of 7 bits; else it stays at its candidate
+  bool rival_moves = true;  ///< the rival has a pointer of 7 bits; else it stays at its candidate
+  /// CELL_SHIFT: cells of a settled pointer have 2^cell_shift positions, 8 .. 10
+  int cell_shift = 9;
   bool second_target = false;  ///< SECOND_TARGET: a result has the position of the label that lost, too
+  bool prior = false;          ///< PRIOR: the array keeps which candidates a frame has used, for the next one
   int coarse_share = 14;       ///< 64ths of the frame: coarse phase
   int track_share = 20;        ///< 64ths of the frame: track phase
   int engine_columns = 34;     ///< ENGINE_COLUMNS, columns that share an engine and hear each other, even

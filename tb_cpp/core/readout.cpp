@@ -60,11 +60,11 @@ constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{
     {"poolpointer2", "poolPointer 2",
      "neighbours in two dimensions share coarse histograms; each pixel picks and refines a candidate",
      false, true, false, true,
-     {"COUNT_WIDTH"}},
+     {"COUNT_WIDTH", "CELL_SHIFT"}},
     {"poolpointer2-lean", "poolPointer 2 lean",
      "poolPointer 2 in half the memory: larger groups, shorter words",
      false, true, false, true,
-     {"COUNT_WIDTH"}},
+     {"COUNT_WIDTH", "CELL_SHIFT"}},
 }};
 
 const Description& description(Readout readout) { return kDescriptions[static_cast<std::size_t>(readout)]; }
@@ -211,7 +211,13 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (parameter == "RIVAL_MOVES") {
     return 1;
   }
+  if (parameter == "CELL_SHIFT") {
+    return 9;
+  }
   if (parameter == "SECOND_TARGET") {
+    return 0;
+  }
+  if (parameter == "PRIOR") {
     return 0;
   }
   if (parameter == "ENGINE_COLUMNS") {

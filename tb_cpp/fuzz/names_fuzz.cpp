@@ -32,8 +32,9 @@ void read(const std::uint8_t* data, std::size_t size) {
   options.readouts = text;
   options.np = data[0] - 128;
   const int value = data[1] - 128;
-  for (auto* option : {&options.nb, &options.slots, &options.count_width, &options.pointer_step,
-                       &options.fraction_bits, &options.confidence_width, &options.guard}) {
+  for (auto* option :
+       {&options.nb, &options.slots, &options.count_width, &options.pointer_step, &options.fraction_bits,
+        &options.confidence_width, &options.guard, &options.cell_shift}) {
     *option = value;
     attempt([&] { (void)options.parameters(dtof::kModelReadouts); });
     option->reset();

@@ -20,6 +20,7 @@ constexpr std::array<Gear, 9> kGears = {
     {{0, 256}, {8, 128}, {16, 64}, {32, 32}, {64, 16}, {80, 8}, {100, 4}, {116, 2}, {124, 1}}};
 constexpr std::array<Gear, 6> kShortGears = {{{0, 512}, {4, 256}, {8, 128}, {12, 64}, {14, 32}, {15, 16}}};
 constexpr int kShortCountBits = 4;
+constexpr std::int32_t kSettledStep = 64;  // a pointer that moves by no more is near its pulse
 
 std::int32_t gear_step(std::span<const Gear> gears, int advantage) {
   std::int32_t step = gears[0].step;
@@ -144,7 +145,11 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
                      std::uint32_t acquisition, const PointerWindows& windows,
                      const PoolPointerParameters& parameters) {
   const PoolPointerWord before = word;
-  const std::int32_t distance = in_cells(position - before.pointer);
+  const std::int32_t step =
+      gear_step(parameters.count_bits <= kShortCountBits ? std::span<const Gear>(kShortGears) : kGears,
+                before.advantage);
+  const std::int32_t distance =
+      in_cells(position - before.pointer, step <= kSettledStep ? parameters.cell_shift : kCellShift);
   const bool hit = within(distance, kHitCells);
   const std::int32_t rival_distance =
       in_cells(position) -
@@ -152,9 +157,6 @@ void follow_pointers(PoolPointerWord& word, const PoolGroup& group, std::int32_t
   const bool rival_hit = !hit && within(rival_distance, windows.rival_reach);
 
   if (within(distance, kReachCells)) {
-    const std::int32_t step =
-        gear_step(parameters.count_bits <= kShortCountBits ? std::span<const Gear>(kShortGears) : kGears,
-                  before.advantage);
     const std::int32_t weight =
         windows.weight[static_cast<std::size_t>(distance >= 0 ? distance : ~distance)];
     // A quarter of the product, whose part below the pointer's unit becomes a probability.

@@ -14,7 +14,8 @@ namespace dtof {
 
 // The parts of poolPointer 2 below the level of its phases (docs/reference/poolpointer2.md, which has the
 // same names). Positions are in units of 2^-11 coarse bin: 16 bits for the range, whatever NP. A cell is a
-// quarter of a coarse bin, 512 units.
+// quarter of a coarse bin, 512 units; only around a pointer that has settled cells are as large as the pulse
+// asks.
 
 inline constexpr std::size_t kCoarseBins = 32;
 inline constexpr std::size_t kMostLabels = 8;
@@ -22,6 +23,7 @@ inline constexpr std::int32_t kUnitsPerCoarseBin = 2048;
 inline constexpr std::int32_t kUnitsPerCell = 512;
 inline constexpr std::size_t kCoarsePairs = kCoarseBins - 1;
 inline constexpr int kFirstPenalisedLabel = 2;
+inline constexpr int kCellShift = 9;            // log2 kUnitsPerCell
 inline constexpr std::int32_t kHitCells = 5;    // a timestamp this near to a pointer supports it
 inline constexpr std::int32_t kReachCells = 8;  // farther timestamps move nothing
 inline constexpr std::int32_t kUnitsPerOffset = kUnitsPerCoarseBin / 32;
@@ -64,7 +66,7 @@ using TakenPairs = std::array<bool, kCoarsePairs>;
 constexpr bool within(std::int32_t distance, std::int32_t reach) {
   return distance >= -reach && distance < reach;
 }
-constexpr std::int32_t in_cells(std::int32_t distance) { return distance >> 9; }
+constexpr std::int32_t in_cells(std::int32_t distance, int shift = kCellShift) { return distance >> shift; }
 
 /// B of a group from the emptiest octet of its histogram's bins.
 int group_background(const CoarseHistogram& histogram, int count_width);

@@ -307,6 +307,7 @@ PoolPointerParameters PoolPointer2Parameters::common() const {
           .count_bits = count_bits,
           .pointer_shift = pointer_shift,
           .rival_moves = rival_moves != 0,
+          .cell_shift = cell_shift,
           .second_target = second_target,
           .coarse_share = coarse_share,
           .track_share = track_share,
@@ -498,6 +499,10 @@ class PoolPointer2Model final : public ReadoutModel {
 
 }  // namespace
 
+std::array<int, 2> smooth_reach_of(int cell_shift) {
+  return cell_shift > kCellShift ? std::array{2048, 2048} : std::array{1024, 1536};
+}
+
 PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& parameters) {
   const PoolPointer2Parameters own{.count_width = parameters.count_width,
                                    .group_rows = parameters.pool.group_size,
@@ -507,10 +512,12 @@ PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& paramet
                                    .count_bits = parameters.pool.count_bits,
                                    .pointer_shift = parameters.pool.pointer_shift,
                                    .rival_moves = parameters.pool.rival_moves ? 1 : 0,
+                                   .cell_shift = parameters.pool.cell_shift,
                                    .engine_columns = parameters.pool.engine_columns,
                                    .coarse_share = parameters.pool.coarse_share,
                                    .track_share = parameters.pool.track_share,
                                    .smooth = parameters.pool.smooth,
+                                   .smooth_reach = smooth_reach_of(parameters.pool.cell_shift),
                                    .second_target = parameters.pool.second_target};
   own.validate();
   return own;

@@ -35,6 +35,7 @@ struct PoolPointer2Parameters {
   int count_bits = 7;       ///< n, the leader's advantage
   int pointer_shift = 1;    ///< the leader's pointer has the unit 2^pointer_shift
   int rival_moves = 1;      ///< 1: the rival has a pointer of 7 bits; 0: it stays at its candidate
+  int cell_shift = 9;       ///< cells of a settled pointer have 2^cell_shift units
   int engine_columns = 34;  ///< columns that share an engine; even
   int coarse_share = 14;    ///< 64ths of the frame: coarse phase
   int track_share = 20;     ///< 64ths of the frame: track phase
@@ -74,6 +75,8 @@ struct PoolPointer2Parameters {
   bool operator==(const PoolPointer2Parameters&) const = default;
 };
 
+/// T of S1 in dark and in bright groups, longer for long pulses.
+std::array<int, 2> smooth_reach_of(int cell_shift);
 /// Those of a read-out as every other is described, with the numbers that have no description at their
 /// defaults. Throws InputError for illegal ones.
 PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& parameters);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -44,6 +45,20 @@ ReadoutParameters compiled_parameters(ReadoutParameters parameters) {
 std::string key(RtlConfiguration configuration) {
   configuration.parameters = compiled_parameters(configuration.parameters);
   return configuration.to_string();
+}
+
+/// Compiled CELL_SHIFTs of an array that is `wanted` in all else; empty if there is none.
+std::string other_cell_shifts(ReadoutParameters wanted, int rows, int columns) {
+  std::set<int> found;
+  for (const auto& [text, entry] : registry()) {
+    const RtlConfiguration& candidate = entry.configuration;
+    wanted.pool.cell_shift = candidate.parameters.pool.cell_shift;
+    if (compiled_parameters(candidate.parameters).to_string() == compiled_parameters(wanted).to_string() &&
+        candidate.pixels_per_sram >= rows && candidate.sram_num == columns) {
+      found.insert(wanted.pool.cell_shift);
+    }
+  }
+  return fmt::format("{}", fmt::join(found, ", "));
 }
 
 InputError not_compiled(const std::string& wanted) {
@@ -111,6 +126,12 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   }
   if (!best.has_value()) {
     if (whole_engine) {
+      const std::string others = other_cell_shifts(parameters, rows, columns);
+      if (!others.empty()) {
+        throw InputError(fmt::format(
+            "no RTL of {} is compiled for CELL_SHIFT={}, the windows that the pulse asks for; compiled: {}",
+            readout_name(parameters.readout), parameters.pool.cell_shift, others));
+      }
       throw no_engine_compiled(wanted, rows, columns);
     }
     throw not_compiled(fmt::format("{} with at least {} rows", wanted, rows));

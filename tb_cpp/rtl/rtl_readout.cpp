@@ -204,7 +204,9 @@ class RtlReadout::Simulation {
       const PoolSchedule schedule(acquisitions, configuration_.parameters.pool);
       *ports_.coarse_end = static_cast<std::uint16_t>(schedule.coarse_end);
       *ports_.track_end = static_cast<std::uint16_t>(schedule.track_end);
-      *ports_.smooth = configuration_.parameters.pool.smooth == (acquisitions == acquisitions_) ? 1 : 0;
+      const bool own = acquisitions == acquisitions_;
+      *ports_.smooth = configuration_.parameters.pool.smooth == own ? 1 : 0;
+      *ports_.prior = options_->prior == own ? 1 : 0;
     }
   }
 

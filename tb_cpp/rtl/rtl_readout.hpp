@@ -46,6 +46,7 @@ struct RtlRunOptions {
   double start_probability = 0.0;         ///< per clock while busy: start_i with another acq_num_i
   std::optional<std::uint64_t> reset_at;  ///< reset in this clock after start, then a whole frame
   std::optional<RawRows> raw;             ///< a raw frame (RAW_HISTOGRAM)
+  bool prior = false;                     ///< prior_i (PRIOR): the array begins from its last frame
   bool reset_first = true;  ///< false: start as the frame before left the array (if there was one)
   /// Clocks after which a frame is given up; 0: several times what its size needs. Clocks in which source or
   /// sink hold the array up do not count.

@@ -28,8 +28,10 @@ class VerilatedArray : public ArrayModel {
       second = &model_.result_second_o;
     }
     if constexpr (requires { model_.coarse_end_i; }) {
-      registers = {
-          .coarse_end = &model_.coarse_end_i, .track_end = &model_.track_end_i, .smooth = &model_.smooth_i};
+      registers = {.coarse_end = &model_.coarse_end_i,
+                   .track_end = &model_.track_end_i,
+                   .smooth = &model_.smooth_i,
+                   .prior = &model_.prior_i};
     } else {
       registers = {.raw = &model_.raw_i,
                    .raw_first_row = &model_.raw_first_row_i,
@@ -47,6 +49,7 @@ class VerilatedArray : public ArrayModel {
             .coarse_end = registers.coarse_end,
             .track_end = registers.track_end,
             .smooth = registers.smooth,
+            .prior = registers.prior,
             .tdc_valid = &model_.tdc_valid_i,
             .timestamps = model_.tdc_timestamp_i.data(),
             .timestamp_words = sizeof(model_.tdc_timestamp_i) / sizeof(std::uint32_t),
@@ -83,6 +86,7 @@ class VerilatedArray : public ArrayModel {
     std::uint16_t* coarse_end = nullptr;
     std::uint16_t* track_end = nullptr;
     std::uint8_t* smooth = nullptr;
+    std::uint8_t* prior = nullptr;
   };
 
   Model model_;

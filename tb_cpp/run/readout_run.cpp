@@ -82,8 +82,9 @@ std::vector<ReadoutParameters> without_unfit_engines(const StreamSource& source,
       (void)find_rtl_configurations(parameters, array.source->rows(), source.columns(), region.columns);
       return false;
     } catch (const InputError&) {
-      fmt::print("{} is left out: its RTL is not compiled for {} columns (--readout {} says which are).\n",
-                 readout_title(parameters.readout), source.columns(), readout_name(parameters.readout));
+      fmt::print(
+          "{} is left out: its RTL is not compiled for {} columns or the pulse (--readout {} says more).\n",
+          readout_title(parameters.readout), source.columns(), readout_name(parameters.readout));
       return true;
     }
   });

@@ -42,6 +42,7 @@ constexpr std::array kNumbers = std::to_array<Number>({
     {"ENGINE_COLUMNS", [](Design& d) -> int& { return d.engine_columns; }},
     {"ADVANTAGE_WIDTH", [](Design& d) -> int& { return d.count_bits; }},
     {"RIVAL_MOVES", [](Design& d) -> int& { return d.rival_moves; }},
+    {"CELL_SHIFT", [](Design& d) -> int& { return d.cell_shift; }},
     {"COARSE_SHARE", [](Design& d) -> int& { return d.coarse_share; }},
     {"TRACK_SHARE", [](Design& d) -> int& { return d.track_share; }},
     {"OWN_WEIGHT", [](Design& d) -> int& { return d.own_weight; }},

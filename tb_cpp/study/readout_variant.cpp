@@ -24,7 +24,7 @@ struct Parameter {
   void (*set)(ReadoutParameters&, int);
 };
 
-constexpr std::array<Parameter, 8> kParameters = {{
+constexpr std::array<Parameter, 9> kParameters = {{
     {"COUNT_WIDTH", true, true, [](const ReadoutParameters& p) { return p.count_width; },
      [](ReadoutParameters& p, int value) { p.count_width = value; }},
     {"FRACTION_BITS", false, true, [](const ReadoutParameters& p) { return p.fraction_bits; },
@@ -35,6 +35,8 @@ constexpr std::array<Parameter, 8> kParameters = {{
      [](ReadoutParameters& p, int value) { p.pool.labels = value; }},
     {"SCORE_BITS", true, false, [](const ReadoutParameters& p) { return p.pool.score_bits; },
      [](ReadoutParameters& p, int value) { p.pool.score_bits = value; }},
+    {"CELL_SHIFT", true, false, [](const ReadoutParameters& p) { return p.pool.cell_shift; },
+     [](ReadoutParameters& p, int value) { p.pool.cell_shift = value; }},
     {"COARSE_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.coarse_share; },
      [](ReadoutParameters& p, int value) { p.pool.coarse_share = value; }},
     {"TRACK_SHARE", true, false, [](const ReadoutParameters& p) { return p.pool.track_share; },
@@ -102,8 +104,10 @@ ReadoutParameters parse_variant(const std::string& text, const SensorModel& sens
   return parameters;
 }
 
-std::string variant_title(const ReadoutParameters& parameters) {
-  const ReadoutParameters defaults = ReadoutParameters::defaults(parameters.readout, parameters.np);
+std::string variant_title(const ReadoutParameters& parameters, const SensorModel& sensor) {
+  SensorModel own = sensor;
+  own.np = parameters.np;
+  const ReadoutParameters defaults = default_parameters(parameters.readout, own);
   std::string title(readout_title(parameters.readout));
   for (const Parameter& parameter : kParameters) {
     const int value = parameter.get(parameters);

@@ -15,8 +15,8 @@ namespace dtof {
 ReadoutParameters parse_variant(const std::string& text, const SensorModel& sensor = {});
 
 /// Display name of a read-out with these parameters: those that parse_variant knows and that are not the
-/// defaults follow it, e.g. "hisPointer COUNT_WIDTH=8".
-std::string variant_title(const ReadoutParameters& parameters);
+/// sensor's default_parameters follow it, e.g. "hisPointer COUNT_WIDTH=8".
+std::string variant_title(const ReadoutParameters& parameters, const SensorModel& sensor = {});
 
 /// Names that parse_variant knows, with what has them, for messages and help.
 std::string variant_parameters_help();

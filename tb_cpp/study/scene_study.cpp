@@ -183,7 +183,7 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
       threads_(threads),
       scale_(sensor_.integration_time_s, sensor_.np, sensor_.pulse_fwhm_s) {
   for (const ReadoutParameters& readout : readouts_) {
-    titles_.push_back(variant_title(readout));
+    titles_.push_back(variant_title(readout, sensor_));
   }
   titles_.emplace_back("hisPointer pairs");
   titles_.emplace_back("matched filter (single pixel)");

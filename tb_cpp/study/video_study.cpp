@@ -28,7 +28,7 @@ VideoStudy::VideoStudy(SensorModel sensor, std::span<const ReadoutParameters> re
   }
   pool2_ = static_cast<std::size_t>(pool2 - readouts_.begin());
   for (const ReadoutParameters& readout : readouts_) {
-    titles_.push_back(variant_title(readout));
+    titles_.push_back(variant_title(readout, sensor_));
   }
   titles_.emplace_back(kWithPrior);
   const FlatCalibration calibration(sensor_);

@@ -429,7 +429,7 @@ void add_pool_command(CLI::App& app, const std::string& command_line) {
       ->check(sensible_klux())
       ->capture_default_str();
   command->add_option("--design", options->designs,
-                      "numbers to change, NAME=NUMBER,..., one design each (\"\" changes none)\nnames: " +
+                      "numbers to change, NAME=NUMBER,..., one design each\nnames: " +
                           fmt::format("{}", fmt::join(pool_design_names(), ", ")));
   command->add_flag("!--no-references", options->references, "leave out the matched filters");
   command->add_option("--before", options->before,

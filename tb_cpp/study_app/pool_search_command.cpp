@@ -28,6 +28,7 @@ namespace {
 constexpr std::uint64_t kTrainingSeed = 700000;
 
 struct SearchOptions {
+  std::string sensor = "thesis";
   std::vector<std::string> scenes = {"planes", "clutter", "poles"};
   std::string disparity_file;
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
@@ -64,7 +65,7 @@ Axis parse_axis(const std::string& text) {
 }
 
 void run_search(const SearchOptions& options) {
-  const SensorModel sensor = find_sensor("thesis");
+  const SensorModel sensor = find_sensor(options.sensor);
   PoolPointer2Parameters best = parse_pool_design(options.design);
   std::vector<Axis> axes;
   for (const std::string& text : options.vary) {
@@ -169,6 +170,8 @@ void add_pool_search_command(CLI::App& app, const std::string& command_line) {
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "pool-search", "searches poolPointer 2's numbers on training scenes, which no report of accuracy uses");
+  command->add_option("--sensor,-p,--preset", options->sensor, "a preset of `dtof list` or a sensor file")
+      ->capture_default_str();
   command->add_option("--scene", options->scenes, "scenes whose shapes depend on the seed, one or more")
       ->check(CLI::IsMember({"planes", "clutter", "poles"}))
       ->capture_default_str();

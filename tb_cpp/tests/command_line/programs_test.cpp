@@ -863,7 +863,35 @@ TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
   EXPECT_FALSE(std::filesystem::exists(path("stream.csv")));
 }
 
+TEST_F(Programs, APoolReadoutsWindowsFollowThePulse) {
+  const std::string sensor = file("short.toml", R"(name = "short"
+[array]
+columns = 34
+rows = 8
+field_of_view_deg = 96.0
+[tdc]
+range_ns = 45.0
+timestamp_bits = 10
+slots = 2
+[laser]
+acquisitions = 20
+pulse_fwhm_ns = 0.5
+[light]
+signal_events_at_1m = 0.3
+background_events_per_klux = 0.01
+default_reflectivity = 1.0
+)");
+  const std::string frame = "frame -r poolpointer2 --sensor " + sensor + " --scene room --out out ";
+  expect_refused(frame + "--engine rtl",
+                 "no RTL of poolpointer2 is compiled for CELL_SHIFT=8, the windows that the pulse asks for; "
+                 "compiled: 9");
+  expect_refused(frame + "--cell-shift 7", "CELL_SHIFT must be 8 to 10, not 7");
+  EXPECT_EQ(dtof(frame).exit_code, 0);
+  EXPECT_EQ(dtof(frame + "--engine rtl --cell-shift 9 --verify").exit_code, 0);
+}
+
 TEST_F(Programs, OptionsWithoutEffectAreErrors) {
+  expect_refused("frame --cell-shift 8 -r sifh", "--cell-shift has no effect: sifh has no CELL_SHIFT");
   expect_refused("frame --guard 3 -r sifh", "--guard has no effect: sifh has no GUARD");
   expect_refused("frame --nb 5 -r ezpointer", "--nb has no effect: ezpointer has no NB");
   expect_refused("frame --window-centred -r ezpointer,fifh",

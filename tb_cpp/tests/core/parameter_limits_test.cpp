@@ -48,8 +48,8 @@ std::vector<Row> parameter_limits() {
 
 // Of the array alone: a model has no such parameter, or no other value of it.
 const std::set<std::string> kOfTheArray = {
-    "READOUT",   "PIXELS_PER_SRAM", "SRAM_NUM",      "POINTER_PORTS", "ENGINE_COLUMNS",
-    "ACQ_WIDTH", "RIVAL_MOVES",     "SECOND_TARGET", "RAW_HISTOGRAM", "BROADCAST_STAGES"};
+    "READOUT",     "PIXELS_PER_SRAM", "SRAM_NUM", "POINTER_PORTS", "ENGINE_COLUMNS",  "ACQ_WIDTH",
+    "RIVAL_MOVES", "SECOND_TARGET",   "PRIOR",    "RAW_HISTOGRAM", "BROADCAST_STAGES"};
 
 const std::map<std::string, int ReadoutParameters::*> kOfEveryReadout = {
     {"NP", &ReadoutParameters::np},
@@ -66,6 +66,7 @@ const std::map<std::string, int PoolPointerParameters::*> kOfPoolReadouts = {
     {"OFFSET_BITS", &PoolPointerParameters::offset_bits},
     {"ADVANTAGE_WIDTH", &PoolPointerParameters::count_bits},
     {"POINTER_SHIFT", &PoolPointerParameters::pointer_shift},
+    {"CELL_SHIFT", &PoolPointerParameters::cell_shift},
     {"LABELS", &PoolPointerParameters::labels},
     {"SCORE_BITS", &PoolPointerParameters::score_bits}};
 
@@ -81,6 +82,8 @@ ReadoutParameters of_model(const Row& row) {
       parameters.pool.rival_moves = value != 0;
     } else if (name == "SECOND_TARGET") {
       parameters.pool.second_target = value != 0;
+    } else if (name == "PRIOR") {
+      parameters.pool.prior = value != 0;
     } else if (pool && kOfPoolReadouts.contains(name)) {
       parameters.pool.*kOfPoolReadouts.at(name) = value;
     } else if (!kOfTheArray.contains(name)) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -72,6 +73,7 @@ class Reference {
     bool smooth_left = false;
     bool lean = false;  ///< the numbers of poolPointer 2 lean
     bool second_target = false;
+    int cell = 512;  ///< positions of a settled pointer's cell
   };
 
   /// Of a group the cells that its pixels chose.
@@ -402,14 +404,15 @@ class Reference {
   }
 
   /// Of a rival that rests at its candidate, and a pointer that leaves its own by half a coarse bin at most.
-  static void point_lean(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) {
+  void point_lean(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) const {
     const int centre = 512 * g.cell[static_cast<std::size_t>(pixel.ka)];
     int x = preferred(a, times);
     if (a % 2 == 0 && times.size() == 2 && label_of(g, x) < 0) {
       x = times[1];
     }
     const int distance = x - pixel.pa;
-    const bool hit = distance >= -2560 && distance < 2560;
+    const int cell = pixel.n >= 12 ? open_.cell : 512;
+    const bool hit = distance >= -5 * cell && distance < 5 * cell;
     const bool rival = !hit && near_candidate(g, pixel.kb, x);
     const int n = pixel.n;
     if (rival && n == 0) {
@@ -418,10 +421,10 @@ class Reference {
       pixel.n = 1;
       return;
     }
-    if (distance >= -4096 && distance < 4096) {
+    if (distance >= -8 * cell && distance < 8 * cell) {
       const std::map<int, int> gears = {{3, 512}, {7, 256}, {11, 128}, {13, 64}, {14, 32}, {15, 16}};
       constexpr std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
-      const int away = distance >= 0 ? distance / 512 : (-distance - 1) / 512;
+      const int away = distance >= 0 ? distance / cell : (-distance - 1) / cell;
       const int product = gears.lower_bound(n)->second * kWeight[static_cast<std::size_t>(away)];
       const int move = (product + 16 * (a % 4) + a / 4 % 16) / 64 * 16;
       pixel.pa = std::clamp(distance >= 0 ? pixel.pa + move : pixel.pa - move, centre - 2048, centre + 2032);
@@ -432,15 +435,15 @@ class Reference {
     }
   }
 
-  static void point(Pixel& pixel, int a, const std::vector<int>& times) {
+  void point(Pixel& pixel, int a, const std::vector<int>& times) const {
     const auto inside = [&](int time) {
       const int away = time / 512 - pixel.pa / 512;
       return away >= -8 && away <= 7;
     };
-    const auto near = [&](int time) { return time - pixel.pa >= -4096 && time - pixel.pa < 4096; };
     const int x = take(a, times, inside);
     const int distance = x - pixel.pa;
-    const bool hit = distance >= -2560 && distance < 2560;
+    const int cell = pixel.n >= 16 ? open_.cell : 512;
+    const bool hit = distance >= -5 * cell && distance < 5 * cell;
     const int f = x / 512 - pixel.pb;
     const bool rival = !hit && f >= -6 && f <= 5;
     const int n = pixel.n;
@@ -451,11 +454,11 @@ class Reference {
       pixel.n = 1;
       return;
     }
-    if (near(x)) {
+    if (distance >= -8 * cell && distance < 8 * cell) {
       const std::map<int, int> gears = {{7, 256}, {15, 128}, {31, 64}, {63, 32}, {79, 16},
                                         {99, 8},  {115, 4},  {123, 2}, {127, 1}};
       constexpr std::array<int, 8> kWeight = {1, 3, 4, 4, 4, 3, 2, 1};
-      const int away = distance >= 0 ? distance / 512 : (-distance - 1) / 512;
+      const int away = distance >= 0 ? distance / cell : (-distance - 1) / cell;
       const int product = gears.lower_bound(n)->second * kWeight[static_cast<std::size_t>(away)];
       // Positions are even: what is below two of them is dithered by the acquisition's low bits.
       const int move = (product + 2 * (a % 4) + a / 4 % 2) / 8 * 2;
@@ -497,7 +500,8 @@ class Reference {
     const Pixel& pixel = pixels_.at(place);
     int position = pixel.winner;
     if (open_.smooth) {
-      const int reach = group(place).b < 6 ? 1024 : 1536;
+      const bool dark = group(place).b < 6;
+      const int reach = open_.cell == 1024 ? 2048 : dark ? 1024 : 1536;
       int sum = 0;
       std::vector<Place> beside = {{place.column, place.row - 1}, {place.column, place.row + 1}};
       if (open_.smooth_left) {
@@ -535,15 +539,21 @@ std::vector<std::vector<PixelResult>> read_array(std::span<const ColumnStream> a
   return run_pool_pointer2(static_cast<int>(array.size()), reader_of(array), np, acquisitions, parameters);
 }
 
-PoolPointer2Parameters lean() {
-  return pool_pointer2_parameters(ReadoutParameters::defaults(Readout::kPoolPointer2Lean));
+PoolPointer2Parameters with_cells(Readout readout, int cell_shift) {
+  ReadoutParameters parameters = ReadoutParameters::defaults(readout);
+  parameters.pool.cell_shift = cell_shift;
+  return pool_pointer2_parameters(parameters);
 }
+
+PoolPointer2Parameters lean() { return with_cells(Readout::kPoolPointer2Lean, 9); }
 
 void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
                          int engine_columns = 34, Reference::Open open = {}) {
   for (const bool smooth : {false, true}) {
     open.smooth = smooth;
-    PoolPointer2Parameters parameters = open.lean ? lean() : PoolPointer2Parameters();
+    PoolPointer2Parameters parameters =
+        with_cells(open.lean ? Readout::kPoolPointer2Lean : Readout::kPoolPointer2,
+                   static_cast<int>(std::bit_width(static_cast<unsigned>(open.cell))) - 1);
     parameters.engine_columns = engine_columns;
     parameters.smooth = smooth;
     parameters.smooth_left = open.smooth_left ? 1 : 0;
@@ -728,6 +738,31 @@ TEST_F(PoolPointer2, LeanAsReference) {
     }
     expect_as_reference(array, 10, 400, 34, {.coarse = 10, .track = 14, .lean = true, .second_target = true});
   }
+}
+
+// Windows for short and for long pulses: pointers that settle, many of them soon.
+TEST_F(PoolPointer2, OtherCellsAsReference) {
+  CounterRandom draw = random(9);
+  constexpr std::array<double, 3> kBackgrounds = {0.01, 0.2, 0.5};
+  std::size_t changed = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const bool is_lean = trial % 2 == 1;
+    const Readout readout = is_lean ? Readout::kPoolPointer2Lean : Readout::kPoolPointer2;
+    const int np = trial % 3 == 0 ? 10 : 8 + pick(draw, 9);
+    const auto array = surfaces(np, 2 + pick(draw, 3), 1 + pick(draw, 7), 1 + pick(draw, 24),
+                                kBackgrounds[static_cast<std::size_t>(pick(draw, 3))], 900, draw);
+    const auto usual = read_array(array, np, 900, with_cells(readout, 9));
+    for (const int shift : {8, 10}) {
+      expect_as_reference(array, np, 900, 4,
+                          {.coarse = is_lean ? 10 : 14,
+                           .track = is_lean ? 14 : 20,
+                           .lean = is_lean,
+                           .second_target = trial % 4 < 2,
+                           .cell = 1 << shift});
+      changed += read_array(array, np, 900, with_cells(readout, shift)) != usual ? 1 : 0;
+    }
+  }
+  EXPECT_GT(changed, 40U) << "the cells changed nothing";
 }
 
 // The numbers and switches that are still being chosen.
@@ -916,6 +951,7 @@ TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
           "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows, not 8");
   refused([](PoolPointer2Parameters& p) { p.rival_moves = 0; },
           "OFFSET_BITS must be 0 if RIVAL_MOVES is 0, not 6");
+  refused([](PoolPointer2Parameters& p) { p.cell_shift = 7; }, "CELL_SHIFT must be 8 to 10, not 7");
   refused([](PoolPointer2Parameters& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
   refused([](PoolPointer2Parameters& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 49, not 60");
 }

@@ -17,6 +17,7 @@
 #include "core/progress.hpp"
 #include "photon/photon_source.hpp"
 #include "photon/sensor_model.hpp"
+#include "readout/model.hpp"
 #include "readout/run_frame.hpp"
 #include "rtl/run_frame.hpp"
 #include "scene/scene.hpp"
@@ -194,28 +195,262 @@ TEST(PoolPointer2Sweep, EveryValueOccurs) {
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }),
               IsSupersetOf({0, 1, 2, 3, 4}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.rival_moves ? 1 : 0; }), IsSupersetOf({0, 1}));
+  for (const Readout readout : {Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
+    EXPECT_THAT(values([&](const C& c) {
+                  return c.parameters.readout == readout ? c.parameters.pool.cell_shift : 0;
+                }),
+                IsSupersetOf({8, 9, 10}));
+  }
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.second_target ? 1 : 0; }),
               IsSupersetOf({0, 1}));
+  for (const bool prior : {false, true}) {
+    SCOPED_TRACE(testing::Message() << "prior " << prior);
+    const auto with = [&](const std::function<int(const C&)>& field) {
+      return values([&](const C& c) { return c.parameters.pool.prior == prior ? field(c) : -1; });
+    };
+    EXPECT_THAT(with([](const C& c) { return c.pixels_per_sram % c.parameters.pool.group_size; }),
+                IsSupersetOf({0, 1}));
+    EXPECT_THAT(with(columns_of_last_engine), IsSupersetOf({0, 1, 2, 3}));
+    EXPECT_THAT(
+        with([](const C& c) { return c.sram_num < c.parameters.pool.engine_columns ? c.sram_num : 0; }),
+        IsSupersetOf({1, 3}));
+  }
+}
+
+// A video by an array with a prior and by the model, which is told what the last frame left: nothing, where
+// nothing is to be added.
+class Video {
+ public:
+  explicit Video(const RtlConfiguration& configuration) : rtl_(configuration) {}
+
+  testing::AssertionResult agrees(const std::vector<ColumnStream>& columns, std::uint32_t acquisitions,
+                                  const RtlRunOptions& options) {
+    const RtlConfiguration& configuration = rtl_.configuration();
+    const PoolPointer2Parameters parameters = pool_pointer2_parameters(configuration.parameters);
+    const auto model = [&](std::vector<PoolPrior>* priors) {
+      return run_pool_pointer2(configuration.sram_num, reader_of(std::span(columns)),
+                               configuration.parameters.np, acquisitions, parameters, priors);
+    };
+    if (!options.prior || options.reset_first || options.reset_at || first_) {
+      priors_.clear();
+    }
+    first_ = false;
+    const std::vector<std::vector<PixelResult>> by_column = model(&priors_);
+    changed_ += options.prior && by_column != model(nullptr) ? 1 : 0;
+    std::vector<PixelResult> expected;
+    std::vector<int> numbers;
+    for (int row = 0; row < configuration.pixels_per_sram; ++row) {
+      for (const std::vector<PixelResult>& column : by_column) {
+        expected.push_back(column[static_cast<std::size_t>(row)]);
+      }
+    }
+    for (int column = 0; column < configuration.sram_num; ++column) {
+      numbers.push_back(column);
+    }
+    const RtlFrame frame = rtl_.run(columns, acquisitions, options);
+    const std::vector<Mismatch> mismatches =
+        compare_frames(numbers, expected, frame.results, frame.result_cycles);
+    if (mismatches.empty()) {
+      return testing::AssertionSuccess();
+    }
+    return testing::AssertionFailure() << describe_mismatches(mismatches, expected.size(),
+                                                              {.configuration = configuration,
+                                                               .acquisitions = acquisitions,
+                                                               .seed = options.seed,
+                                                               .reproduce = reproduce_command(),
+                                                               .shortest_failing_frame = {}});
+  }
+
+  /// Frames that the last one changed.
+  [[nodiscard]] int changed() const { return changed_; }
+
+ private:
+  RtlReadout rtl_;
+  std::vector<PoolPrior> priors_;
+  bool first_ = true;
+  int changed_ = 0;
+};
+
+/// Surfaces of three columns and five rows, farther than the array in all directions.
+class World {
+ public:
+  World(const RtlConfiguration& configuration, CounterRandom& random)
+      : configuration_(configuration), random_(random) {
+    for (double& depth : depths_) {
+      depth = configuration.parameters.code_count() * random.uniform();
+    }
+  }
+
+  /// From another place; in all clocks more background than signal, as where a prior helps.
+  std::vector<ColumnStream> frame(int left, int top, std::uint32_t acquisitions) {
+    std::vector<ColumnStream> columns(static_cast<std::size_t>(configuration_.sram_num));
+    const int codes = configuration_.parameters.no_detection();
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      for (int row = 0; row < configuration_.pixels_per_sram; ++row) {
+        const std::size_t tile =
+            (static_cast<std::size_t>(left) + column) / 3 * 37 + static_cast<std::size_t>(top + row) / 5;
+        const double depth = depths_[tile % depths_.size()];
+        for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
+          for (int photon = 0; photon < 2; ++photon) {
+            const double place = random_.uniform() < 0.08 ? depth + codes * 0.02 * random_.uniform()
+                                                          : codes * random_.uniform();
+            if (random_.uniform() < 0.6) {
+              columns[column].append(
+                  {acquisition, static_cast<Timestamp>(std::min<int>(static_cast<int>(place), codes - 1))});
+            }
+          }
+        }
+        columns[column].finish_row();
+      }
+    }
+    return columns;
+  }
+
+ private:
+  const RtlConfiguration& configuration_;
+  CounterRandom& random_;
+  std::array<double, 101> depths_{};
+};
+
+class PoolPointer2Prior : public testing::TestWithParam<RtlConfiguration> {};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, PoolPointer2Prior,
+                         testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
+                           return configuration.parameters.pool.prior && configuration.pixels_per_sram <= 40;
+                         })),
+                         configuration_test_name);
+
+TEST_P(PoolPointer2Prior, VideosAgreeWithModel) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 45);
+  Video video(GetParam());
+  RtlRunOptions options = default_options(test_seed());
+  options.prior = true;
+  // Columns and rows from frame to frame: still, panned to either side, rolled, both.
+  constexpr std::array<std::array<int, 2>, 5> kMoves = {{{0, 0}, {1, 0}, {-2, 0}, {0, 3}, {1, -1}}};
+  for (const auto& [right, down] : kMoves) {
+    World world(GetParam(), random);  // a cut
+    const auto acquisitions = static_cast<std::uint32_t>(60 + pick(random, 200));
+    for (int number = 0; number < 4; ++number) {
+      SCOPED_TRACE(testing::Message() << "moved by " << right << ", " << down << ", frame " << number);
+      ASSERT_TRUE(video.agrees(world.frame(20 + number * right, 20 + number * down, acquisitions),
+                               acquisitions, options));
+      options.reset_first = false;
+    }
+  }
+  EXPECT_GT(video.changed(), 0) << "the prior changed nothing";
+}
+
+TEST_P(PoolPointer2Prior, IsSwitchedFromFrameToFrame) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 46);
+  Video video(GetParam());
+  World world(GetParam(), random);
+  RtlRunOptions options = default_options(test_seed());
+  int number = 0;
+  for (const bool prior : {true, true, false, true, true, false, false, true}) {
+    options.prior = prior;
+    // Frames without acquisitions use candidates, too, and leave them.
+    const std::uint32_t acquisitions = number == 4 ? 0 : 60 + random() % 60;
+    SCOPED_TRACE(testing::Message() << "frame " << number << ", prior " << prior);
+    ASSERT_TRUE(video.agrees(world.frame(20, 20, acquisitions), acquisitions, options));
+    options.reset_first = false;
+    ++number;
+  }
+}
+
+// Light in which short bins are full: the largest sums that a prior raises.
+TEST_P(PoolPointer2Prior, AgreesWithModelWhereBinsAreFull) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 49);
+  Video video(GetParam());
+  RtlRunOptions options = default_options(test_seed());
+  options.prior = true;
+  constexpr std::uint32_t kAcquisitions = 1500;
+  for (int number = 0; number < 3; ++number) {
+    SCOPED_TRACE(testing::Message() << "frame " << number);
+    std::vector<ColumnStream> columns(static_cast<std::size_t>(GetParam().sram_num));
+    for (ColumnStream& column : columns) {
+      for (int row = 0; row < GetParam().pixels_per_sram; ++row) {
+        for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+          column.append(
+              {acquisition, static_cast<Timestamp>(pick(random, GetParam().parameters.no_detection()))});
+        }
+        column.finish_row();
+      }
+    }
+    ASSERT_TRUE(video.agrees(columns, kAcquisitions, options));
+    options.reset_first = false;
+  }
+}
+
+// Frames cut off in any state leave nothing, whatever their words have in them.
+TEST_P(PoolPointer2Prior, IsForgottenAtReset) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 47);
+  Video video(GetParam());
+  World world(GetParam(), random);
+  RtlRunOptions options = default_options(test_seed());
+  options.prior = true;
+  constexpr std::uint32_t kAcquisitions = 40;
+  std::uint64_t length = 0;
+  options.observer = [&](const RtlCycle& clock) { length = clock.cycle; };
+  ASSERT_TRUE(video.agrees(world.frame(20, 20, kAcquisitions), kAcquisitions, options));
+  options.observer = nullptr;
+  options.reset_first = false;
+  for (int number = 0; number < 12; ++number) {
+    options.reset_at.reset();
+    if (number % 2 == 0) {
+      options.reset_at = random.bits64() % length;
+    }
+    SCOPED_TRACE(testing::Message() << "frame " << number);
+    ASSERT_TRUE(video.agrees(world.frame(20, 20, kAcquisitions), kAcquisitions, options));
+  }
+}
+
+TEST_P(PoolPointer2Prior, AgreesWithModelWhateverSourceAndSinkDo) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 48);
+  Video video(GetParam());
+  RtlRunOptions options;
+  for (int number = 0; number < 12; ++number) {
+    options = default_options(random.bits64());
+    options.pause_probability = random.uniform();
+    options.stall_probability = 0.9 * random.uniform();
+    options.start_probability = random.uniform();
+    options.reset_first = number == 0;
+    options.prior = pick(random, 4) != 0;
+    const std::uint32_t acquisitions = 1 + random() % 90;
+    SCOPED_TRACE(testing::Message() << "frame " << number << ", prior " << options.prior);
+    ASSERT_TRUE(
+        video.agrees(adversarial_columns(GetParam(), acquisitions, random() % kStreamKinds.size(), random),
+                     acquisitions, options));
+  }
 }
 
 // Clocks of a frame of 200 columns. An engine takes its pairs one after the other, so that one pair and two
 // tell how long an engine of 34 columns takes; the sink is as slow as the other engines' results. What is not
 // streaming does not depend on the frame's length, so that short frames do.
-class PoolPointer2Cycles : public testing::TestWithParam<Readout> {};
+struct Product {
+  Readout readout;
+  bool prior;
+  const char* name;
+};
 
-INSTANTIATE_TEST_SUITE_P(Both, PoolPointer2Cycles,
-                         testing::Values(Readout::kPoolPointer2, Readout::kPoolPointer2Lean),
-                         [](const auto& tested) {
-                           return fmt::format("{}",
-                                              tested.param == Readout::kPoolPointer2 ? "whole" : "lean");
-                         });
+class PoolPointer2Cycles : public testing::TestWithParam<Product> {};
+
+INSTANTIATE_TEST_SUITE_P(All, PoolPointer2Cycles,
+                         testing::Values(Product{Readout::kPoolPointer2, false, "whole"},
+                                         Product{Readout::kPoolPointer2, true, "prior"},
+                                         Product{Readout::kPoolPointer2Lean, false, "lean"}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST_P(PoolPointer2Cycles, AFrameStaysBelowTheLimit) {
   constexpr int kRows = 160;
   constexpr int kColumns = 200;
   constexpr std::uint64_t kAcquisitions = 33'333;
   constexpr std::uint64_t kCycleLimit = 11'000'000;
-  const ReadoutParameters parameters = ReadoutParameters::defaults(GetParam());
+  const ReadoutParameters parameters = ReadoutParameters::defaults(GetParam().readout);
   const auto engine_columns = static_cast<std::uint64_t>(parameters.pool.engine_columns);
   const std::uint64_t engines = (kColumns + engine_columns - 1) / engine_columns;
   const auto stream = static_cast<std::uint64_t>(kRows) * static_cast<std::uint64_t>(parameters.slots);
@@ -226,6 +461,7 @@ TEST_P(PoolPointer2Cycles, AFrameStaysBelowTheLimit) {
     const std::vector<RtlConfiguration> found =
         configurations_with([&](const RtlConfiguration& configuration) {
           return configuration.parameters.readout == parameters.readout &&
+                 configuration.parameters.pool.prior == GetParam().prior &&
                  configuration.pixels_per_sram == kRows && configuration.sram_num == columns &&
                  configuration.parameters.pool.engine_columns >= columns;
         });
@@ -238,41 +474,75 @@ TEST_P(PoolPointer2Cycles, AFrameStaysBelowTheLimit) {
   const std::uint64_t overhead = two + (overhead_of(10, 16) - two) / 4 * (engine_columns / 2 - 1);
   EXPECT_EQ((overhead_of(10, 16) - two) % 4, 0U);
   const std::uint64_t cycles = kAcquisitions * stream + overhead;
-  fmt::print("{}: {} clocks per frame of {} acquisitions, {} of them not streaming, {} engines\n",
-             readout_title(parameters.readout), cycles, kAcquisitions, overhead, engines);
+  fmt::print("{}{}: {} clocks per frame of {} acquisitions, {} of them not streaming, {} engines\n",
+             readout_title(parameters.readout), GetParam().prior ? " with a prior" : "", cycles,
+             kAcquisitions, overhead, engines);
   EXPECT_LE(cycles, kCycleLimit);
 }
 
 // Photons of the thesis's sensor.
-class PoolPointer2Photons : public testing::TestWithParam<Readout> {};
+class TenColumnsOfTheRoom : public testing::Test {
+ protected:
+  static constexpr std::uint32_t kAcquisitions = 700;
+
+  /// Of the whole array's rows.
+  static std::vector<RtlConfiguration> ten_columns(Readout readout, bool prior) {
+    return configurations_with([&](const RtlConfiguration& configuration) {
+      return configuration.parameters.readout == readout && configuration.parameters.pool.prior == prior &&
+             configuration.pixels_per_sram == 160 && configuration.sram_num == 10;
+    });
+  }
+
+  /// Ten columns of the room.
+  static std::vector<ColumnStream> room(const ReadoutParameters& parameters, double klux, int first,
+                                        std::uint64_t seed) {
+    SensorModel sensor = parse_preset("thesis");
+    sensor.np = parameters.np;
+    sensor.slots = parameters.slots;
+    sensor.acquisitions = kAcquisitions;
+    SceneParameters scene;
+    scene.reflectivity = sensor.default_reflectivity;
+    const PhotonSource source(sensor, make_scene(Scene::kRoom, scene), klux, seed);
+    std::vector<ColumnStream> columns(10);
+    for (int column = 0; column < 10; ++column) {
+      columns[static_cast<std::size_t>(column)] = source.column(first + column);
+    }
+    return columns;
+  }
+};
+
+class PoolPointer2Photons : public TenColumnsOfTheRoom, public testing::WithParamInterface<Readout> {};
 
 INSTANTIATE_TEST_SUITE_P(Both, PoolPointer2Photons,
                          testing::Values(Readout::kPoolPointer2, Readout::kPoolPointer2Lean));
 
 TEST_P(PoolPointer2Photons, AgreeWithModel) {
   SCOPED_TRACE(test_seed_message());
-  const ReadoutParameters parameters = ReadoutParameters::defaults(GetParam());
-  const std::vector<RtlConfiguration> found = configurations_with([&](const RtlConfiguration& configuration) {
-    return configuration.parameters.readout == parameters.readout && configuration.pixels_per_sram == 160 &&
-           configuration.sram_num == 10;
-  });
+  const std::vector<RtlConfiguration> found = ten_columns(GetParam(), false);
   ASSERT_EQ(found.size(), 1U);
   for (const double klux : {2.0, 14.0, 100.0}) {
     SCOPED_TRACE(testing::Message() << klux << " klux");
-    SensorModel sensor = parse_preset("thesis");
-    sensor.np = parameters.np;
-    sensor.slots = parameters.slots;
-    sensor.acquisitions = 700;
-    SceneParameters scene;
-    scene.reflectivity = sensor.default_reflectivity;
-    const PhotonSource source(sensor, make_scene(Scene::kRoom, scene), klux, test_seed());
-    std::vector<ColumnStream> columns(10);
-    for (int column = 0; column < 10; ++column) {
-      columns.at(static_cast<std::size_t>(column)) = source.column(95 + column);
-    }
     RtlReadout rtl(found.front());
-    ASSERT_TRUE(agrees_with_model(rtl, columns, sensor.acquisitions, default_options(test_seed())));
+    ASSERT_TRUE(agrees_with_model(rtl, room(found.front().parameters, klux, 95, test_seed()), kAcquisitions,
+                                  default_options(test_seed())));
   }
+}
+
+TEST_F(TenColumnsOfTheRoom, AgreeWithModelInAVideo) {
+  SCOPED_TRACE(test_seed_message());
+  const std::vector<RtlConfiguration> found = ten_columns(Readout::kPoolPointer2, true);
+  ASSERT_EQ(found.size(), 1U);
+  Video video(found.front());
+  RtlRunOptions options = default_options(test_seed());
+  options.prior = true;
+  for (std::uint32_t frame = 0; frame < 3; ++frame) {
+    SCOPED_TRACE(testing::Message() << "frame " << frame);
+    const int first = 95 + 2 * static_cast<int>(frame);
+    ASSERT_TRUE(video.agrees(room(found.front().parameters, 50.0, first, test_seed() + frame), kAcquisitions,
+                             options));
+    options.reset_first = false;
+  }
+  EXPECT_EQ(video.changed(), 2);
 }
 
 // A frame by engines: two of four columns and a last one of two, each an array of its own.
@@ -284,7 +554,8 @@ class PoolPointer2Frame : public testing::Test {
   PoolPointer2Frame() {
     const std::vector<RtlConfiguration> found =
         configurations_with([](const RtlConfiguration& configuration) {
-          return configuration.pixels_per_sram == kRows && configuration.sram_num == 4;
+          return configuration.pixels_per_sram == kRows && configuration.sram_num == 4 &&
+                 !configuration.parameters.pool.prior;
         });
     parameters_ = found.at(0).parameters;
     SensorModel sensor = parse_preset("thesis");

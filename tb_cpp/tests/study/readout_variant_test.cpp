@@ -43,7 +43,18 @@ TEST(ReadoutVariant, TitleNamesTheChanges) {
   EXPECT_EQ(variant_title(ReadoutParameters::defaults(Readout::kPoolPointer2)), "poolPointer 2");
   EXPECT_EQ(variant_title(parse_variant("poolpointer2:LABELS=4,SMOOTH=0")),
             "poolPointer 2 LABELS=4 SMOOTH=0");
-  EXPECT_EQ(variant_title(ReadoutParameters::defaults(Readout::kPoolPointer2)), "poolPointer 2");
+}
+
+// What follows the sensor's pulse is no change.
+TEST(ReadoutVariant, CellsFollowThePulse) {
+  SensorModel sensor;
+  sensor.pulse_fwhm_s = 12 * sensor.time_resolution_s();
+  const ReadoutParameters follows = parse_variant("poolpointer2:SMOOTH=1", sensor);
+  EXPECT_EQ(follows.pool.cell_shift, 8);
+  EXPECT_EQ(variant_title(follows, sensor), "poolPointer 2");
+  EXPECT_EQ(variant_title(parse_variant("poolpointer2:CELL_SHIFT=9", sensor), sensor),
+            "poolPointer 2 CELL_SHIFT=9");
+  EXPECT_EQ(parse_variant("poolpointer2-lean:SMOOTH=1").pool.cell_shift, 9);
 }
 
 TEST(ReadoutVariant, RefusesWhatItDoesNotKnow) {

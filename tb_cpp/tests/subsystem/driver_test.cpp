@@ -44,6 +44,7 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_schedule, is_pool_readout(configuration.parameters.readout));
   EXPECT_EQ(device_.has_gate, configuration.parameters.time_gate.has_value());
   EXPECT_EQ(device_.has_second_target, configuration.parameters.pool.second_target);
+  EXPECT_EQ(device_.has_prior, configuration.parameters.pool.prior);
   EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
 }
 
@@ -63,6 +64,7 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
   const DepthScale scale(kCodePicoseconds * 1e-12 * configuration.parameters.code_count(),
                          configuration.parameters.np, kPulsePicoseconds * 1e-12);
 
+  std::vector<PoolPrior> priors;
   for (std::size_t frame = 0; frame < 8; ++frame) {
     const FrameSettings settings{
         .acquisitions = random() % 30,
@@ -77,13 +79,15 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
               return enabled;
             }(),
         .second_target = device_.has_second_target && frame % 2 == 0,
-        .smooth = frame % 4 < 2};
+        .smooth = frame % 4 < 2,
+        .prior = device_.has_prior && frame % 4 != 2};
     dtof_settings chosen = dtof_default_settings(&device_, settings.acquisitions);
     chosen.gate_begin = static_cast<std::uint16_t>(settings.gate.begin);
     chosen.gate_end = static_cast<std::uint16_t>(settings.gate.end);
     chosen.weak_below = static_cast<std::uint16_t>(settings.weak_below);
     chosen.second_target = settings.second_target;
     chosen.smooth = settings.smooth;
+    chosen.prior = settings.prior;
     std::vector<std::uint32_t> mask((columns + 31) / 32);
     for (std::size_t i = 0; i < columns; ++i) {
       mask[i / 32] |= settings.enabled[i] ? 1U << (i % 32) : 0U;
@@ -109,7 +113,7 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     const std::vector<std::uint64_t>& words = bench_.sink().frames().back();
     std::vector<dtof_result> results(words.size());
     ASSERT_EQ(dtof_unpack_frame(&device_, words.data(), words.size(), results.data()), DTOF_OK);
-    for (const ResultFields& expected : expected_results(bench_, settings, lines)) {
+    for (const ResultFields& expected : expected_results(bench_, settings, lines, &priors)) {
       const dtof_result& of_pixel = results[static_cast<std::size_t>(expected.row) * columns +
                                             static_cast<std::size_t>(expected.column)];
       ASSERT_EQ(of_pixel.has_second, settings.second_target);
@@ -229,6 +233,7 @@ TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.gate_end = 5000; }), device_.has_gate);
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.second_target = true; }),
             !device_.has_second_target);
+  EXPECT_EQ(refused([](dtof_settings& settings) { settings.prior = true; }), !device_.has_prior);
   EXPECT_EQ(refused([](dtof_settings& settings) { settings.raw = true; }), !device_.has_raw_histogram);
   EXPECT_TRUE(refused([](dtof_settings& settings) {
     settings.raw = true;

@@ -19,7 +19,8 @@ FrameSettings random_settings(const RtlConfiguration& configuration, CounterRand
                          .enabled = {},
                          .second_target = pick(random, 2) == 0,
                          .raw = pick(random, 2) == 0,
-                         .smooth = pick(random, 2) == 0};
+                         .smooth = pick(random, 2) == 0,
+                         .prior = pick(random, 4) != 0};
   settings.raw_first = pick(random, configuration.pixels_per_sram);
   settings.raw_last = settings.raw_first + pick(random, configuration.pixels_per_sram - settings.raw_first);
   if (pick(random, 3) == 0) {
@@ -34,6 +35,7 @@ FrameSettings random_settings(const RtlConfiguration& configuration, CounterRand
 TEST_P(SubsystemFrames, AreTheModelsUnderGapsAndBackPressure) {
   CounterRandom random = this->random(2);
   const bool whole = bench_.get(DTOF_RELEASE) == bench_.acquisition_lines();
+  std::vector<PoolPrior> priors;
   for (std::size_t frame = 0; frame < 30; ++frame) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     const FrameSettings settings = random_settings(bench_.configuration(), random);
@@ -49,7 +51,7 @@ TEST_P(SubsystemFrames, AreTheModelsUnderGapsAndBackPressure) {
     write_settings(bench_, random_settings(bench_.configuration(), random));
     bench_.wait_for_frames(1);
     EXPECT_EQ(bench_.frames().back().lines, lines);
-    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, lines));
+    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, lines, &priors));
     EXPECT_EQ(bench_.get(DTOF_FRAME_COUNT), frame + 1);
     EXPECT_EQ(bench_.get(DTOF_FRAME_CYCLES), bench_.frames().back().cycles);
     EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
@@ -70,6 +72,7 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
   bench_.set(DTOF_IRQ_ENABLE, DTOF_IRQ_ENABLE_FRAME_MASK);
   bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
   const std::size_t frame_lines = lines.size() / kFrames;
+  std::vector<PoolPrior> priors;
   for (std::size_t frame = 0; frame < kFrames; ++frame) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     EXPECT_FALSE(bench_.interrupt());
@@ -79,7 +82,7 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
     const auto first = lines.begin() + static_cast<std::ptrdiff_t>(frame * frame_lines);
     const std::vector<Line> own(first, first + static_cast<std::ptrdiff_t>(frame_lines));
     EXPECT_EQ(bench_.frames().at(frame).lines, own);
-    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, own));
+    ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, own, &priors));
     if (frame + 2 == kFrames) {
       bench_.set(DTOF_CONTROL, 0);
     }

@@ -22,6 +22,7 @@ TEST_P(Subsystem, SaysWhatItIs) {
             parameters.time_gate ? 1U : 0U);
   EXPECT_EQ(field(readout, DTOF_READOUT_SECOND_TARGET_MASK, DTOF_READOUT_SECOND_TARGET_LSB),
             parameters.pool.second_target ? 1U : 0U);
+  EXPECT_EQ(field(readout, DTOF_READOUT_PRIOR_MASK, DTOF_READOUT_PRIOR_LSB), parameters.pool.prior ? 1U : 0U);
   EXPECT_EQ(field(readout, DTOF_READOUT_RAW_HISTOGRAM_MASK, DTOF_READOUT_RAW_HISTOGRAM_LSB),
             configuration.raw_histogram ? 1U : 0U);
   EXPECT_EQ(bench_.get(DTOF_RAW_BINS),
@@ -62,6 +63,7 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
   }
   if (offset == DTOF_OUTPUT) {
     return (parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+           (parameters.pool.prior ? DTOF_OUTPUT_PRIOR_MASK : 0) |
            (configuration.raw_histogram ? DTOF_OUTPUT_RAW_MASK : 0) | (pool ? DTOF_OUTPUT_SMOOTH_MASK : 0);
   }
   if (offset == DTOF_RAW_ROWS) {

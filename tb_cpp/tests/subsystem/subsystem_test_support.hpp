@@ -13,6 +13,7 @@
 #include "core/random.hpp"
 #include "dtof_registers.h"
 #include "readout/model.hpp"
+#include "readout/pool_pointer2.hpp"
 #include "subsystem/subsystem_bench.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/readout/test_streams.hpp"
@@ -68,6 +69,7 @@ struct FrameSettings {
   bool second_target = false;  ///< without effect where there is none
   bool raw = false;            ///< likewise
   bool smooth = true;          ///< likewise
+  bool prior = false;          ///< likewise
   int raw_first = 0;
   int raw_last = 0;
 };
@@ -85,7 +87,8 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
   bench.set(DTOF_WEAK_BELOW, settings.weak_below);
   bench.set(DTOF_OUTPUT, (settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
                              (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0) |
-                             (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0));
+                             (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0) |
+                             (settings.prior ? DTOF_OUTPUT_PRIOR_MASK : 0));
   bench.set(DTOF_RAW_ROWS, static_cast<std::uint32_t>(settings.raw_first) << DTOF_RAW_ROWS_FIRST_LSB |
                                static_cast<std::uint32_t>(settings.raw_last) << DTOF_RAW_ROWS_LAST_LSB);
   for (std::size_t first = 0; first < settings.enabled.size(); first += 32) {
@@ -97,9 +100,11 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
   }
 }
 
-/// The words of a frame whose array took `lines`: the C++ model's results, and the status.
+/// The words of a frame whose array took `lines`: the C++ model's results, and the status. `priors`: what the
+/// array keeps from frame to frame, where a setting has it begin from that.
 inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const FrameSettings& settings,
-                                                  const std::vector<Line>& lines) {
+                                                  const std::vector<Line>& lines,
+                                                  std::vector<PoolPrior>* priors = nullptr) {
   const RtlConfiguration& configuration = bench.configuration();
   ReadoutParameters parameters = configuration.parameters;
   if (parameters.time_gate) {
@@ -152,8 +157,16 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
   if (raw) {
     return expected;
   }
-  const std::vector<std::vector<PixelResult>> results =
-      make_readout_model(parameters)->run_columns(streams, settings.acquisitions);
+  std::vector<std::vector<PixelResult>> results;
+  if (priors != nullptr && parameters.pool.prior) {
+    if (!settings.prior) {
+      priors->clear();
+    }
+    results = run_pool_pointer2(configuration.sram_num, reader_of(streams), parameters.np,
+                                settings.acquisitions, pool_pointer2_parameters(parameters), priors);
+  } else {
+    results = make_readout_model(parameters)->run_columns(streams, settings.acquisitions);
+  }
   for (const ResultAddress& address : configuration.result_order()) {
     const auto column = static_cast<std::size_t>(address.column);
     const PixelResult& result = results[column][static_cast<std::size_t>(address.row)];
