@@ -36,6 +36,7 @@ datapath/pixel_distance.sv
 datapath/pool2_track_update.sv
 datapath/time_gate.sv
 datapath/twin_pointer_update.sv
+datapath/pool2_pixel_update.sv
 engine/label_chain.sv
 engine/beside_evidence.sv
 engine/smoothing.sv

@@ -1,40 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: what each column has for itself: its timestamps, and the next words of its pixels. The words themselves
-// are in the register of the pair (pool2_pair).
+// poolPointer 2: what each column has for itself: its timestamps, and which of them counts. What comes of it for a pixel's word
+// is worked out by pool2_pixel_update, for both columns of a pair one after the other.
 //
 // Equations: docs/reference/poolpointer2.md, Timestamps, Coarse, Track, Point. What needs several pixels at once (decode,
 // choose, decide) is done by an engine that several columns share (pool2_engine).
 //
 // The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
 // odd ones if there is one. T1 and later count from the pixel's last slot:
-//   clock   coarse                          track and point (a half of an SRAM word holds two pixels of a column)
+//   clock   coarse                          track and point
 //   T1                                      point: which are inside; track, and point without RIVAL_MOVES: the
 //                                           candidates that the first one hits
-//   T2      of two pixels one is chosen     which one counts, and where it is; track: the candidates that the second one
-//                                           hits, or the only one, and which of the two scores; the leader's score
-//   T3                                      the pixel's next word; the pixels of the half change places
+//   T2      of two pixels one is chosen     which one counts; track: the candidates that the second one hits, or the only
+//                                           one, and which of the two scores
 // Cost at the defaults: see reports/area.md.
-`include "pixel_distance.svh"
-
 module pool2_column #(
     parameter int NP = 10,
     parameter int SLOTS = 2,
     parameter int LABELS = 5,
-    parameter int SCORE_BITS = 4,
-    parameter int OFFSET_BITS = 6,
-    parameter int ADVANTAGE_WIDTH = 7,
-    parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
-    parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,
-    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
-    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
-    localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
-    localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, dtof_pkg::pool_group_width(LABELS)),
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int CELLS_WIDTH = LABELS * CELL_WIDTH,
-    localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS),
-    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
+    localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS)
 ) (
     input  logic                    clk_i,
     input  logic [          NP-1:0] timestamp_i,
@@ -48,18 +35,17 @@ module pool2_column #(
     input  logic                    odd_t1_i,          // odd acquisition
     input  logic                    first_row_t2_i,    // coarse: the pair's first pixel is complete
     input  logic                    second_row_t2_i,   // coarse: its second one is
-    input  logic [             3:0] acquisition_t3_i,  // mod 16
+    // the pixel at T2
+    input  logic [ CELLS_WIDTH-1:0] cells_i,           // candidates of the group of the pixel at T1 and T2
+    input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // point: the pointer's, of the pixel at T1
+    output logic                    detected_t2_o,     // it has a timestamp
+    output logic [          NP-1:0] used_t2_o,         // the one that counts
+    output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
     // coarse bin of the timestamp that counts: at T2 of the second pixel, and registered
-    output logic                    detected_t2_o,  // the pixel at T2 has a timestamp
     output logic                    valid_t2_o,
     output logic [COARSE_WIDTH-1:0] bin_t2_o,
     output logic                    held_valid_o,
-    output logic [COARSE_WIDTH-1:0] held_bin_o,
-    // the column's half of the word, the pixel in work lowest
-    input  logic [ CELLS_WIDTH-1:0] cells_i,           // of the pixel's group
-    input  logic [  CELL_WIDTH-1:0] next_cell_i,       // point: the pointer's, of the pixel in work in the next clock
-    input  logic [  HALF_WIDTH-1:0] half_i,
-    output logic [  HALF_WIDTH-1:0] updated_o          // after T3
+    output logic [COARSE_WIDTH-1:0] held_bin_o
 );
 
   localparam int TRACK_REACH = 4;
@@ -126,22 +112,22 @@ module pool2_column #(
   endfunction
 
   logic first_inside, second_inside, odd_q, use_second_q;
-  logic [NP-1:0] used;
   logic [LABELS-1:0] hits;
 
   generate
     if (RIVAL_MOVES != 0) begin : g_near_pointer
-      assign first_inside = near(first[NP-1-:CELL_WIDTH], next_cell_i);
-      assign second_inside = near(second[NP-1-:CELL_WIDTH], next_cell_i);
+      // Of two, the first one is registered.
+      assign first_inside = near(first_q[NP-1-:CELL_WIDTH], pointer_cell_t1_i);
+      assign second_inside = near(second[NP-1-:CELL_WIDTH], pointer_cell_t1_i);
     end else begin : g_near_candidates
       assign first_inside = |hits;
       assign second_inside = 1'b1;
       logic unused_cell;
-      assign unused_cell = ^next_cell_i;
+      assign unused_cell = ^pointer_cell_t1_i;
     end
   endgenerate
 
-  assign used = use_second_q ? second_q : first_q;
+  assign used_t2_o = use_second_q ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
     odd_q <= odd_t1_i;
@@ -156,7 +142,7 @@ module pool2_column #(
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
   assign detected_t2_o = has_first_q;
-  assign bin = used[NP-1-:COARSE_WIDTH];
+  assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
   assign valid_t2_o = has_first_q || held_valid_q;
   assign bin_t2_o = (held_valid_q && !(odd_q && has_first_q)) ? held_bin_q : bin;
 
@@ -176,7 +162,7 @@ module pool2_column #(
   // Track: the candidates that the timestamps hit, the first one's at T1, at T2 those of the second one or of the only
   // one. They score as the pointer phase chooses; the leader's offset follows the preferred timestamp.
 
-  logic [LABELS-1:0] first_hits_q, used_hits;
+  logic [LABELS-1:0] first_hits_q;
   logic [CELL_WIDTH-1:0] matched_q;
   logic track_second, hits_of_second;
 
@@ -192,119 +178,14 @@ module pool2_column #(
 
   assign track_second = take_second(odd_q, first_hits_q != '0, hits != '0);
   assign hits_of_second = (RIVAL_MOVES == 0 && point_i) ? use_second_q : track_second;
-  assign used_hits = (has_second_q && !hits_of_second) ? first_hits_q : hits;
+  assign hits_t2_o = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin
-    if (valid_t1 || last_slot_t1_i) begin
+    // A rival that moves has no use for candidates, so that nothing behind the register moves in the pointer phase.
+    if ((valid_t1 || last_slot_t1_i) && !(RIVAL_MOVES != 0 && point_i)) begin
       matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first[NP-1-:CELL_WIDTH];
     end
     first_hits_q <= hits;
   end
-
-  // T2: where the timestamp is.
-
-  logic [PIXEL_WIDTH-1:0] pixel;
-  logic [15:0] position;
-
-  assign pixel = half_i[PIXEL_WIDTH-1:0];
-
-  generate
-    if (NP == 16) begin : g_position
-      assign position = used;
-    end else begin : g_middle_of_bin
-      // The middle of a timestamp's bin; zeros follow.
-      assign position = {used, 1'b1, {(15 - NP) {1'b0}}};
-    end
-  endgenerate
-
-  pixel_distance_t distance, distance_t3_q;
-  logic [LABELS-1:0] hits_t3_q;
-  logic [SCORE_BITS-1:0] leader_score, leader_score_t3_q;
-
-  pixel_distance #(
-      .LABELS         (LABELS),
-      .SCORES_WIDTH   (LABELS * SCORE_BITS),
-      .OFFSET_BITS    (OFFSET_BITS),
-      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
-      .POINTER_SHIFT  (POINTER_SHIFT),
-      .RIVAL_MOVES    (RIVAL_MOVES),
-      .CELL_SHIFT     (CELL_SHIFT),
-      .PIXEL_WIDTH    (PIXEL_WIDTH)
-  ) u_pixel_distance (
-      .valid_i      (has_first_q),
-      .position_i   (position),
-      .point_i      (point_i),
-      .word_i       (pixel),
-      .cells_i      (cells_i),
-      .hits_i       (used_hits),
-      .distance_o   (distance)
-  );
-
-  generate
-    if (OFFSET_BITS == 0) begin : g_no_leader
-      assign leader_score = '0;
-    end else begin : g_leader
-      logic [LABEL_WIDTH-1:0] leader;
-      integer k;
-      assign leader = pixel[LABELS*SCORE_BITS+:LABEL_WIDTH];
-      always_comb begin
-        leader_score = '0;
-        for (k = 0; k < LABELS; k = k + 1) begin
-          leader_score = leader_score | (SCORE_BITS'(pixel >> (k * SCORE_BITS)) & {SCORE_BITS{leader == LABEL_WIDTH'(k)}});
-        end
-      end
-    end
-  endgenerate
-
-  always_ff @(posedge clk_i) begin
-    hits_t3_q <= used_hits;
-    leader_score_t3_q <= leader_score;
-    distance_t3_q <= distance;
-  end
-
-  // T3: the pixel's next word.
-
-  logic [TRACK_WIDTH-1:0] tracked;
-  logic [POINT_WIDTH-1:0] pointed;
-  logic [PIXEL_WIDTH-1:0] moved;
-
-  pool2_track_update #(
-      .LABELS     (LABELS),
-      .SCORE_BITS (SCORE_BITS),
-      .OFFSET_BITS(OFFSET_BITS)
-  ) u_track_update (
-      .word_i        (pixel[TRACK_WIDTH-1:0]),
-      .leader_score_i(leader_score_t3_q),
-      .hits_i        (hits_t3_q),
-      .offset_up_i   (distance_t3_q.offset_up),
-      .offset_down_i (distance_t3_q.offset_down),
-      .word_o        (tracked)
-  );
-
-  twin_pointer_update #(
-      .LABELS         (LABELS),
-      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
-      .POINTER_SHIFT  (POINTER_SHIFT),
-      .RIVAL_MOVES    (RIVAL_MOVES)
-  ) u_pointer_update (
-      .update_i     (point_i),
-      .word_i       (pixel[POINT_WIDTH-1:0]),
-      .reach_i      (distance_t3_q.reach),
-      .up_i         (distance_t3_q.up),
-      .weight_i     (distance_t3_q.weight),
-      .gear_i       (distance_t3_q.gear),
-      .hit_i        (distance_t3_q.hit),
-      .rival_hit_i  (distance_t3_q.rival_hit),
-      .rival_up_i   (distance_t3_q.rival_up),
-      .rival_down_i (distance_t3_q.rival_down),
-      .acquisition_i(acquisition_t3_i),
-      .word_o       (pointed)
-  );
-
-  assign moved = point_i ? PIXEL_WIDTH'(pointed) : PIXEL_WIDTH'(tracked);
-  assign updated_o = HALF_WIDTH'({moved, half_i[2*PIXEL_WIDTH-1:PIXEL_WIDTH]});
-
-  logic unused;
-  assign unused = ^half_i;
 
 endmodule

@@ -9,6 +9,13 @@
 //   second column                                                    read          registered    counted  written
 // A count in the word of the count before goes on with the register, whose write may be still to come.
 //
+// In the other phases the columns' pixels of a row are worked on one after the other by one pool2_pixel_update:
+//   clock (T0: last slot of a row)   T2               T3                  T4
+//   first column                     distance         next word
+//   second column                                     distance            next word
+//   second row of the word           read the next    first pixel ahead   written; the next is registered
+// The next word's first pixel has a register of its own, for its turn may come while this word is written.
+//
 // Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
 // of an engine's pairs are combined by OR from pair to pair (beside_word_i), so that no wire is longer than a pair. The low half is the half
 // that was asked for. Where eight bins need both halves, its high half is the word's. The
@@ -57,10 +64,10 @@ module pool2_pair #(
     input  logic                  first_slot_t1_i,
     input  logic                  last_slot_t1_i,
     input  logic                  odd_t1_i,
-    input  logic                  first_row_t2_i,
+    input  logic                  second_row_t0_i,   // it is a word's second row; registered here
+    input  logic                  first_row_t2_i,    // coarse
     input  logic                  second_row_t2_i,
-    input  logic                  update_t2_i,       // a clock before the words change; registered here
-    input  logic [           3:0] acquisition_t2_i,  // registered here: it reaches all columns
+    input  logic [           3:0] acquisition_t2_i,
     // coarse
     input  logic                  second_column_i,   // with read_i: it is the second column's turn
     input  logic                  fresh_i,           // with read_i: the first count of a group
@@ -75,7 +82,7 @@ module pool2_pair #(
     input  logic                  group_upper_i,     // with group_load_i: it is the word's upper half
     // engine
     input  logic                  engine_i,          // no timestamps: engine, or clear
-    input  logic                  clear_i,           // all pairs' words are cleared
+    input  logic                  clear_i,           // with write_i: both halves of all pairs; engine_word_i is 0
     input  logic                  select_i,          // with read_i and write_i: this pair
     input  logic                  upper_i,           // with read_i and write_i: the word's upper half
     input  logic                  used_i,            // with write_i: of that half only which candidates are used
@@ -91,12 +98,17 @@ module pool2_pair #(
   localparam int LAST = COLUMNS - 1;
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
+  localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
+  localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS);
+  localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
+  localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH);
+  localparam bit ONE_WORD = PIXELS_PER_SRAM <= 2;  // it stays in the register for a whole phase
 
-  logic [WORD_WIDTH-1:0] read_data, write_data, word_q, next_word, next_pixels, updated, counted;
+  logic [WORD_WIDTH-1:0] read_data, write_data, word_q;
   logic [COLUMNS-1:0] detected_t2, valid_t2, held_valid;
   logic [COLUMNS*COARSE_WIDTH-1:0] bin_t2, held_bin;
-  logic read, write, word_load;
+  logic read, write;
   logic [ADDR_WIDTH-1:0] address;
 
   dtof_sram #(
@@ -149,38 +161,27 @@ module pool2_pair #(
   integer b;
   always_comb begin
     count = '0;
-    counted = word_q;
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin
       if (place_q == PLACE_WIDTH'(b)) begin
         count = word_q[(b/HALF_BINS)*HALF_WIDTH+(b%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH];
       end
     end
-    for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin
-      if (count_i && pending_q && place_q == PLACE_WIDTH'(b)) begin
-        counted[(b/HALF_BINS)*HALF_WIDTH+(b%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] = next_count;
-      end
-    end
   end
 
-  // The word in work, and the group of its pixels.
+  // The word in work, and the group of its pixels. A word has four pixels: column c of row r is pixel 2 c + r.
 
-  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, word_load_q, update_q, changed_q;
+  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
   logic [CELLS_WIDTH-1:0] cells_q;
-  logic [3:0] acquisition_t3_q;
+  logic [PIXEL_WIDTH-1:0] moved;
+  logic [3:0] turn_q, move_q;  // which pixel's distance is found, and which one moved is for, if any
+  logic second_row_t1_q, visit_t2;
 
-  assign next_word = word_load ? read_data : (update_q ? updated : counted);
   assign word_load = read_selected_q || word_load_q || (load_i && load_q);
-  // In the pointer phase, where nothing is counted.
-  assign next_pixels = word_load_q ? read_data : (update_q ? updated : word_q);
 
   always_ff @(posedge clk_i) begin
-    acquisition_t3_q <= acquisition_t2_i;
-    if (word_load || update_q || (count_i && pending_q)) begin
-      word_q <= next_word;
-    end
-    changed_q <= (update_t2_i && (detected_t2 != '0)) || (changed_q && !word_load_q);
-    word_load_q <= word_load_d_i;
-    update_q <= update_t2_i;
+    ahead_q <= word_load_d_i;
+    word_load_q <= ahead_q;
+    changed_q <= (visit_t2 && (detected_t2 != '0)) || (changed_q && !word_load_q);
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data[HALF_WIDTH+:CELLS_WIDTH] : read_data[CELLS_WIDTH-1:0];
     end
@@ -189,6 +190,104 @@ module pool2_pair #(
     drives_lower_q <= read_selected_q && !upper_q;
     drives_upper_q <= read_selected_q && upper_q;
   end
+
+  // Each bin and each pixel has an enable of its own. The last pixel of a word goes straight to the SRAM.
+  integer i;
+  always_ff @(posedge clk_i) begin
+    for (i = 0; i < 2 * HALF_BINS; i = i + 1) begin
+      if (count_i && pending_q && place_q == PLACE_WIDTH'(i)) begin
+        word_q[(i/HALF_BINS)*HALF_WIDTH+(i%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] <= next_count;
+      end
+    end
+    if (move_q[0]) word_q[0+:PIXEL_WIDTH] <= moved;
+    if (move_q[1]) word_q[PIXEL_WIDTH+:PIXEL_WIDTH] <= moved;
+    if (move_q[2]) word_q[HALF_WIDTH+:PIXEL_WIDTH] <= moved;
+    if (move_q[3] && ONE_WORD) word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH] <= moved;
+    if (word_load) word_q <= read_data;
+  end
+
+  // Track and point: whose turn it is.
+
+  logic detected_t3_q, turn_valid;
+  logic [3:0] acquisition_q;
+  logic [COLUMNS*NP-1:0] used_t2;
+  logic [COLUMNS*LABELS-1:0] hits_t2;
+  logic [NP-1:0] used_t3_q, turn_timestamp;
+  logic [LABELS-1:0] hits_t3_q, turn_hits;
+  logic [PIXEL_WIDTH-1:0] first_pixel, turn_pixel;
+  logic [CELL_WIDTH-1:0] last_leader_cell_q, leader_cell;
+
+  assign visit_t2 = turn_q[0] || turn_q[1];
+  assign turn_valid = (visit_t2 && detected_t2[0]) || ((turn_q[2] || turn_q[3]) && detected_t3_q);
+  assign turn_timestamp = visit_t2 ? used_t2[NP-1:0] : used_t3_q;
+  assign turn_hits = visit_t2 ? hits_t2[LABELS-1:0] : hits_t3_q;
+
+  generate
+    if (ONE_WORD) begin : g_one_word
+      assign first_pixel = word_q[PIXEL_WIDTH-1:0];
+    end else begin : g_words
+      logic [PIXEL_WIDTH-1:0] first_pixel_q;
+      always_ff @(posedge clk_i) begin
+        if (ahead_q) begin
+          first_pixel_q <= read_data[PIXEL_WIDTH-1:0];
+        end
+      end
+      assign first_pixel = first_pixel_q;
+    end
+  endgenerate
+
+  assign turn_pixel = (first_pixel & {PIXEL_WIDTH{turn_q[0]}}) | (word_q[PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[1]}})
+      | (word_q[HALF_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[2]}})
+      | (word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[3]}});
+
+  // The candidate that a word leans on. That of a word's last pixel is taken a clock before its turn, in which the next word's
+  // group may be there.
+
+  function automatic logic [CELL_WIDTH-1:0] cell_of_leader(input logic [PIXEL_WIDTH-1:0] word, input logic point,
+                                                          input logic [CELLS_WIDTH-1:0] cells);
+    logic [LABEL_WIDTH-1:0] leader;
+    leader = (RIVAL_MOVES == 0 && (point || OFFSET_BITS == 0)) ? LABEL_WIDTH'(word >> POINTER_WIDTH)
+        : (OFFSET_BITS > 0) ? LABEL_WIDTH'(word >> (LABELS * SCORE_BITS)) : '0;
+    cell_of_leader = cells[leader*CELL_WIDTH+:CELL_WIDTH];
+  endfunction
+
+  assign leader_cell = turn_q[3] ? last_leader_cell_q : cell_of_leader(turn_pixel, point_i, cells_q);
+
+  always_ff @(posedge clk_i) begin
+    second_row_t1_q <= second_row_t0_i;
+    turn_q <= {turn_q[1:0], {2{last_slot_t1_i && !coarse_i}} & {second_row_t1_q, !second_row_t1_q}};
+    move_q <= turn_q & {4{turn_valid}};
+    detected_t3_q <= (COLUMNS > 1) && detected_t2[LAST];
+    last_leader_cell_q <= cell_of_leader(word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH], point_i, cells_q);
+    if (visit_t2) begin
+      acquisition_q <= acquisition_t2_i;
+      if (detected_t2[LAST]) begin
+        used_t3_q <= used_t2[LAST*NP+:NP];
+        hits_t3_q <= hits_t2[LAST*LABELS+:LABELS];
+      end
+    end
+  end
+
+  pool2_pixel_update #(
+      .NP             (NP),
+      .LABELS         (LABELS),
+      .SCORE_BITS     (SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .CELL_SHIFT     (CELL_SHIFT)
+  ) u_pixel_update (
+      .clk_i        (clk_i),
+      .point_i      (point_i),
+      .valid_i      (turn_valid),
+      .timestamp_i  (turn_timestamp),
+      .hits_i       (turn_hits),
+      .leader_cell_i(leader_cell),
+      .word_i       (turn_pixel),
+      .acquisition_i(acquisition_q),
+      .word_o       (moved)
+  );
 
   assign word_o[HALF_WIDTH-1:0] = beside_word_i[HALF_WIDTH-1:0] | (word_q[HALF_WIDTH-1:0] & {HALF_WIDTH{drives_lower_q}})
       | (word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_upper_q}});
@@ -209,57 +308,58 @@ module pool2_pair #(
       assign half = word_q[c*HALF_WIDTH+:HALF_WIDTH];
 
       if (c < COLUMNS) begin : g_column
+        // The pointer's cell of the pixel at T1, which may be still to be registered.
+        localparam int CELL_FIRST = POINTER_WIDTH - CELL_WIDTH;
+        logic [CELL_WIDTH-1:0] pointer_cell;
+        assign pointer_cell = (ahead_q || (c == 1 && word_load_q)) ? read_data[c*HALF_WIDTH+CELL_FIRST+:CELL_WIDTH]
+            : second_row_t1_q ? half[PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH]
+            : (c == 0) ? first_pixel[CELL_FIRST+:CELL_WIDTH] : half[CELL_FIRST+:CELL_WIDTH];
+
         pool2_column #(
-            .NP             (NP),
-            .SLOTS          (SLOTS),
-            .LABELS         (LABELS),
-            .SCORE_BITS     (SCORE_BITS),
-            .OFFSET_BITS    (OFFSET_BITS),
-            .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
-            .POINTER_SHIFT  (POINTER_SHIFT),
-            .RIVAL_MOVES    (RIVAL_MOVES),
-            .CELL_SHIFT     (CELL_SHIFT),
-            .TIME_GATE      (TIME_GATE)
+            .NP         (NP),
+            .SLOTS      (SLOTS),
+            .LABELS     (LABELS),
+            .RIVAL_MOVES(RIVAL_MOVES),
+            .TIME_GATE  (TIME_GATE)
         ) u_column (
-            .clk_i           (clk_i),
-            .timestamp_i     (timestamp_i[c*NP+:NP]),
-            .gate_begin_i    (gate_begin_i),
-            .gate_end_i      (gate_end_i),
-            .point_i         (point_i),
-            .beat_t1_i       (beat_t1_i),
-            .first_slot_t1_i (first_slot_t1_i),
-            .last_slot_t1_i  (last_slot_t1_i),
-            .odd_t1_i        (odd_t1_i),
-            .first_row_t2_i  (first_row_t2_i),
-            .second_row_t2_i (second_row_t2_i),
-            .acquisition_t3_i(acquisition_t3_q),
-            .detected_t2_o   (detected_t2[c]),
-            .valid_t2_o      (valid_t2[c]),
-            .bin_t2_o        (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),
-            .held_valid_o    (held_valid[c]),
-            .held_bin_o      (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH]),
-            .cells_i         (cells_q),
-            .next_cell_i     (next_pixels[c*HALF_WIDTH+POINTER_WIDTH-CELL_WIDTH+:CELL_WIDTH]),
-            .half_i          (half),
-            .updated_o       (updated[c*HALF_WIDTH+:HALF_WIDTH])
+            .clk_i            (clk_i),
+            .timestamp_i      (timestamp_i[c*NP+:NP]),
+            .gate_begin_i     (gate_begin_i),
+            .gate_end_i       (gate_end_i),
+            .point_i          (point_i),
+            .beat_t1_i        (beat_t1_i),
+            .first_slot_t1_i  (first_slot_t1_i),
+            .last_slot_t1_i   (last_slot_t1_i),
+            .odd_t1_i         (odd_t1_i),
+            .first_row_t2_i   (first_row_t2_i),
+            .second_row_t2_i  (second_row_t2_i),
+            .cells_i          (cells_q),
+            .pointer_cell_t1_i(pointer_cell),
+            .detected_t2_o    (detected_t2[c]),
+            .used_t2_o        (used_t2[c*NP+:NP]),
+            .hits_t2_o        (hits_t2[c*LABELS+:LABELS]),
+            .valid_t2_o       (valid_t2[c]),
+            .bin_t2_o         (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),
+            .held_valid_o     (held_valid[c]),
+            .held_bin_o       (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH])
         );
-      end else begin : g_no_column
-        assign updated[c*HALF_WIDTH+:HALF_WIDTH] = half;
       end
 
-      logic [HALF_WIDTH-1:0] engine_half;
+      // What is written: what the engine gives, which is 0 when all words are cleared, or the word as it is. The last pixel
+      // is on its way.
+      logic [HALF_WIDTH-1:0] kept;
+      logic given;
+      assign kept = {(c == 1 && move_q[3]) ? (HALF_WIDTH - PIXEL_WIDTH)'(moved) : half[HALF_WIDTH-1:PIXEL_WIDTH],
+                     half[PIXEL_WIDTH-1:0]};
+      assign given = engine_i && (clear_i || upper_i == (c == 1));
       if (PRIOR != 0) begin : g_prior
         localparam logic [HALF_WIDTH-1:0] USED_BITS = HALF_WIDTH'((1 << LABELS) - 1) << dtof_pkg::pool_group_width(LABELS);
-        logic [HALF_WIDTH-1:0] given;
-        assign given = {HALF_WIDTH{upper_i == (c == 1)}} & ({HALF_WIDTH{!used_i}} | USED_BITS);
-        assign engine_half = (engine_word_i & given) | (half & ~given);
+        logic [HALF_WIDTH-1:0] given_bits;
+        assign given_bits = {HALF_WIDTH{given}} & ({HALF_WIDTH{!used_i}} | USED_BITS);
+        assign write_data[c*HALF_WIDTH+:HALF_WIDTH] = (engine_word_i & given_bits) | (kept & ~given_bits);
       end else begin : g_no_prior
-        assign engine_half = (upper_i == (c == 1)) ? engine_word_i : half;
+        assign write_data[c*HALF_WIDTH+:HALF_WIDTH] = given ? engine_word_i : kept;
       end
-
-      assign write_data[c*HALF_WIDTH+:HALF_WIDTH] =
-          engine_i ? (engine_half & {HALF_WIDTH{!clear_i}})
-          : (coarse_i ? half : updated[c*HALF_WIDTH+:HALF_WIDTH]);
     end
   endgenerate
 
@@ -272,6 +372,6 @@ module pool2_pair #(
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(group_word) : '0);
 
   logic unused;
-  assign unused = ^{1'b0, next_pixels, valid_t2, held_valid, bin_t2, held_bin, used_i};
+  assign unused = ^{1'b0, valid_t2, held_valid, bin_t2, held_bin, used_i, move_q[3]};
 
 endmodule

@@ -9,7 +9,8 @@
 //   prime   before the first acquisition of a phase: group 0's word and pair 0's are read
 //   second pixel of a pair   T1: read the next pair's group word, where it is another one
 //                            T2: read the next pair; the group's word is registered
-//                            T3: write the pair; the next is registered
+//                            T3: the next pair's first pixel is registered
+//                            T4: write the pair; the next is registered
 //   coarse phase, second pixel of a pair   T2: read, T3: registered, T4: counted, T5: write for a pair's first
 //                            column, two clocks later for its second
 // SRAM commands and loads are given one clock early (_d) for the array to register and spread.
@@ -41,9 +42,9 @@ module pair_sequencer #(
     output logic                  first_slot_t1_o,
     output logic                  last_slot_t1_o,
     output logic                  odd_t1_o,
+    output logic                  second_row_t0_o,   // the timestamp at the port is of a pair's second pixel
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
     output logic                  second_row_t2_o,   // coarse: its second one is
-    output logic                  update_t2_o,       // a clock before words are updated, for the columns to register
     output logic [           3:0] acquisition_t2_o,
     // coarse, both columns' turns
     output logic                  second_column_o,   // with a read
@@ -170,8 +171,8 @@ module pair_sequencer #(
 
   logic [LAST_STAGE:2] fetch_tn_q;
   logic [5*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. T6, T2 lowest
-  logic [PAIR_WIDTH-1:0] pair_t2;
-  logic visit_t2_q, second_visit_t2_q;
+  logic [PAIR_WIDTH-1:0] pair_t3;
+  logic second_visit_t2_q, second_visit_t3_q;
   logic [3:0] acquisition_t2_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -179,14 +180,14 @@ module pair_sequencer #(
       fetch_tn_q <= '0;
       load_o <= 1'b0;
       count_o <= 1'b0;
-      visit_t2_q <= 1'b0;
       second_visit_t2_q <= 1'b0;
+      second_visit_t3_q <= 1'b0;
     end else begin
       fetch_tn_q <= {fetch_tn_q[5:2], fetch_t1};
       load_o <= fetch_tn_q[2] || fetch_tn_q[4];
       count_o <= fetch_tn_q[3] || fetch_tn_q[5];
-      visit_t2_q <= last_step_t1 && !coarse_i;
       second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
+      second_visit_t3_q <= second_visit_t2_q;
     end
   end
 
@@ -197,25 +198,25 @@ module pair_sequencer #(
     fresh_o <= fetch_t1 && (GROUPS > 1) && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
   end
 
-  `DTOF_ASSERT(a_phase_complete, stream_i || (!busy_t1_q && !visit_t2_q && fetch_tn_q == '0),
+  `DTOF_ASSERT(a_phase_complete, stream_i || (!busy_t1_q && !second_visit_t2_q && !second_visit_t3_q && fetch_tn_q == '0),
                "a phase ended with timestamps in the pipeline")
 
   assign beat_t1_o = beat_t1_q;
   assign first_slot_t1_o = first_slot_t1_q;
   assign last_slot_t1_o = last_step_t1;
   assign odd_t1_o = acquisition_t1_i[0];
-  assign update_t2_o = visit_t2_q;
+  assign second_row_t0_o = second_pixel;
   assign acquisition_t2_o = acquisition_t2_q;
   assign second_row_t2_o = fetch_tn_q[2];
   assign second_column_o = fetch_tn_q[4];
-  assign pair_t2 = pair_tn_q[PAIR_WIDTH-1:0];
+  assign pair_t3 = pair_tn_q[PAIR_WIDTH+:PAIR_WIDTH];
 
   logic prime_group, prime_word, read_group, read_word, write_word;
   assign prime_group = stream_i && !coarse_i && (prime_q == 3'd1);
   assign prime_word = stream_i && !coarse_i && (prime_q == 3'd2);
   assign read_group = busy_t1_q && !coarse_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 2));
   assign read_word = busy_t1_q && !coarse_i && (PAIRS > 1) && (step_t1_q == LAST_STEP);
-  assign write_word = second_visit_t2_q;
+  assign write_word = second_visit_t3_q;
 
   assign read_d_o = prime_group || prime_word || read_group || read_word || fetch_t1 || fetch_tn_q[3];
   assign write_d_o = write_word || fetch_tn_q[4] || fetch_tn_q[6];
@@ -226,7 +227,7 @@ module pair_sequencer #(
 
   // The histogram read or written next.
   logic [PAIR_WIDTH-1:0] counted_pair;
-  assign counted_pair = fetch_tn_q[3] ? pair_tn_q[PAIR_WIDTH+:PAIR_WIDTH]
+  assign counted_pair = fetch_tn_q[3] ? pair_t3
       : fetch_tn_q[4] ? pair_tn_q[2*PAIR_WIDTH+:PAIR_WIDTH]
       : fetch_tn_q[6] ? pair_tn_q[4*PAIR_WIDTH+:PAIR_WIDTH] : pair_t1_q;
 
@@ -239,7 +240,7 @@ module pair_sequencer #(
     end else if (read_word) begin
       address_d_o = ADDR_WIDTH'(next_pair_t1);
     end else if (write_word) begin
-      address_d_o = ADDR_WIDTH'(pair_t2);
+      address_d_o = ADDR_WIDTH'(pair_t3);
     end else if (coarse_i) begin
       address_d_o = ADDR_WIDTH'((32'(counted_pair) >> GROUP_SHIFT) << GROUP_SHIFT);
     end

@@ -354,6 +354,7 @@ module pool2_sequencer #(
     command.odd_result = 1'(row_before);
     command.has_winner = winner_before;
     command.decoding = decoding;
+    command.choosing = choosing;
     command.deciding = deciding;
     command.giving_used = group_done;
     command.back = back_q;

@@ -24,14 +24,12 @@ module pixel_distance #(
 ) (
     input  logic                                        valid_i,         // there is a timestamp
     input  logic [                                15:0] position_i,      // X
-    input  logic                                        point_i,         // the word is a pointer word
     input  logic [                     PIXEL_WIDTH-1:0] word_i,
-    input  logic [LABELS*dtof_pkg::POOL_CELL_WIDTH-1:0] cells_i,
+    input  logic [       dtof_pkg::POOL_CELL_WIDTH-1:0] leader_cell_i,   // of the candidate that the word leans on
     input  logic [                          LABELS-1:0] hits_i,
     output pixel_distance_t                             distance_o       // 0 without a timestamp
 );
 
-  localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
   localparam int OFFSET_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 1);
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
@@ -47,14 +45,13 @@ module pixel_distance #(
   localparam logic [2:0] NEAR = 3'd4;  // cells to the leader, 0 the one in which it is
   localparam logic [2:0] RIVAL_NEAR = 3'(RIVAL_REACH - 1);
 
-  logic [LABEL_WIDTH-1:0] track_leader, point_leader, leader, resting_rival;
-  logic [CELL_WIDTH-1:0] leader_cell;
+  logic [LABEL_WIDTH-1:0] resting_rival;
   logic [OFFSET_WIDTH-1:0] offset;
   // In units of 64; the leader's position is within the range, since the offset follows timestamps.
   logic [10:0] track_position, minus_leader, minus_offset, track_sum, track_carry, track_distance;
   logic [7:0] track_cells, rival_cells;
   logic [POINTER_WIDTH-1:0] pointer;
-  logic [DISTANCE_WIDTH-1:0] position, distance;
+  logic [DISTANCE_WIDTH-1:0] position, minus_cell, minus_pointer, point_sum, point_carry, distance;
   logic settled, below, reach, hit, rival_below;
   logic [CELLS_WIDTH-1:0] point_cells;
   logic [2:0] cells_away, rival_away;
@@ -65,11 +62,7 @@ module pixel_distance #(
   // Under valid_i alone, so that a simulator works on timestamps; the defaults say that nothing is kept.
   always_comb begin
     distance_o = '0;
-    track_leader = '0;
-    point_leader = '0;
-    leader = '0;
     resting_rival = '0;
-    leader_cell = '0;
     offset = '0;
     track_position = '0;
     minus_leader = '0;
@@ -80,6 +73,10 @@ module pixel_distance #(
     track_cells = '0;
     rival_cells = '0;
     pointer = '0;
+    minus_cell = '0;
+    minus_pointer = '0;
+    point_sum = '0;
+    point_carry = '0;
     distance = '0;
     point_cells = '0;
     cells_away = '0;
@@ -91,17 +88,11 @@ module pixel_distance #(
     rival_away = '0;
     advantage = '0;
     if (valid_i) begin
-      // Which candidate the word leans on.
-      track_leader = (OFFSET_BITS > 0) ? LABEL_WIDTH'(word_i >> SCORES_WIDTH) : '0;
-      point_leader = LABEL_WIDTH'(word_i >> POINTER_WIDTH);
-      leader = (RIVAL_MOVES == 0 && (point_i || OFFSET_BITS == 0)) ? point_leader : track_leader;
-      leader_cell = cells_i[leader*CELL_WIDTH+:CELL_WIDTH];
-
       // Track: offset.
       offset = OFFSET_WIDTH'(word_i >> (SCORES_WIDTH + LABEL_WIDTH));
       // Both are taken away in one addition: sums and carries of the three, and 1 for each complement.
       track_position = 11'(position_i >> 6);
-      minus_leader = ~{1'b0, leader_cell, 3'b000};
+      minus_leader = ~{1'b0, leader_cell_i, 3'b000};
       minus_offset = ~{{(11 - OFFSET_WIDTH) {1'(offset >> (OFFSET_WIDTH - 1))}}, offset};
       track_sum = track_position ^ minus_leader ^ minus_offset;
       track_carry = (track_position & minus_leader) | (track_position & minus_offset) | (minus_leader & minus_offset);
@@ -110,13 +101,16 @@ module pixel_distance #(
       distance_o.offset_up = (OFFSET_BITS > 0) && (track_cells != 8'd0) && (track_cells < 8'd8);
       distance_o.offset_down = (OFFSET_BITS > 0) && (track_cells >= -8'd8) && (track_cells != -8'd1);
 
-      // Point: leader, in the pointer's units.
+      // Point: leader, in the pointer's units; of a pointer beside a candidate both are taken away in one addition, too.
       pointer = POINTER_WIDTH'(word_i);
       if (RIVAL_MOVES != 0) begin
         distance = position - DISTANCE_WIDTH'(pointer);
       end else begin
-        distance = position - DISTANCE_WIDTH'({leader_cell, {START_SHIFT{1'b0}}})
-            - {{(DISTANCE_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer};
+        minus_cell = ~(DISTANCE_WIDTH'({leader_cell_i, {START_SHIFT{1'b0}}}));
+        minus_pointer = ~{{(DISTANCE_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer};
+        point_sum = position ^ minus_cell ^ minus_pointer;
+        point_carry = (position & minus_cell) | (position & minus_pointer) | (minus_cell & minus_pointer);
+        distance = point_sum + ((point_carry << 1) | DISTANCE_WIDTH'(1)) + DISTANCE_WIDTH'(1);
       end
       if (CELL_SHIFT == 9) begin
         point_cells = CELLS_WIDTH'(distance >> START_SHIFT);
@@ -170,6 +164,6 @@ module pixel_distance #(
   end
 
   logic unused;
-  assign unused = ^{1'b0, settled, point_i, position_i, word_i, cells_i, hits_i};
+  assign unused = ^{1'b0, settled, position_i, word_i, leader_cell_i, hits_i};
 
 endmodule

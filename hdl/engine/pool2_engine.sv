@@ -350,9 +350,10 @@ module pool2_engine #(
     end
   endgenerate
 
-  // Registered here, for the way to the pairs is long. It is known a clock before it is written.
+  // Registered here, for the way to the pairs is long. It is known a clock before it is written, and 0 while words are cleared.
   always_ff @(posedge clk_i) begin
-    word_o <= command_i.decoding ? HALF_WIDTH'({new_background, new_cells}) : done_word;
+    word_o <= (HALF_WIDTH'({new_background, new_cells}) & {HALF_WIDTH{command_i.decoding}})
+        | (done_word & {HALF_WIDTH{command_i.choosing}});
   end
 
   // Decide: S1 and the result.

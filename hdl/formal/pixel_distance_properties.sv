@@ -42,25 +42,6 @@ module pixel_distance_properties #(
       .hits_o  (hits)
   );
 
-  pixel_distance #(
-      .LABELS         (LABELS),
-      .SCORES_WIDTH   (SCORES_WIDTH),
-      .OFFSET_BITS    (OFFSET_BITS),
-      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
-      .POINTER_SHIFT  (POINTER_SHIFT),
-      .RIVAL_MOVES    (RIVAL_MOVES),
-      .CELL_SHIFT     (CELL_SHIFT),
-      .PIXEL_WIDTH    (PIXEL_WIDTH)
-  ) u_dut (
-      .valid_i      (valid_i),
-      .position_i   (position_i),
-      .point_i      (point_i),
-      .word_i       (word_i),
-      .cells_i      (cells_i),
-      .hits_i       (hits),
-      .distance_o   (distance)
-  );
-
   function automatic integer cell_of(input integer label);
     cell_of = 32'((cells_i >> (7 * label)) & (LABELS * 7)'(127));
   endfunction
@@ -118,6 +99,24 @@ module pixel_distance_properties #(
       step = (n >= 15) ? 16 : (n >= 14) ? 32 : (n >= 12) ? 64 : (n >= 8) ? 128 : (n >= 4) ? 256 : 512;
     end
   end
+
+  pixel_distance #(
+      .LABELS         (LABELS),
+      .SCORES_WIDTH   (SCORES_WIDTH),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .CELL_SHIFT     (CELL_SHIFT),
+      .PIXEL_WIDTH    (PIXEL_WIDTH)
+  ) u_dut (
+      .valid_i      (valid_i),
+      .position_i   (position_i),
+      .word_i       (word_i),
+      .leader_cell_i(7'(cell_of((RIVAL_MOVES == 0 && point_i) ? a : leader))),
+      .hits_i       (hits),
+      .distance_o   (distance)
+  );
 
   // The gear of the short advantage is in the pointer's units.
   localparam int GEAR_SHIFT = (ADVANTAGE_WIDTH == 4) ? POINTER_SHIFT : 0;

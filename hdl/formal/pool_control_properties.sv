@@ -79,7 +79,7 @@ module pool_control_properties #(
       .engine_done_i  (engine_done_i)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, last_slot_t1, update_t2, ready;
+  logic beat_t1, first_slot_t1, odd_t1, second_row_t0, first_row_t2, second_row_t2, last_slot_t1, ready;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
 
@@ -102,9 +102,9 @@ module pool_control_properties #(
       .first_slot_t1_o  (first_slot_t1),
       .last_slot_t1_o   (last_slot_t1),
       .odd_t1_o         (odd_t1),
+      .second_row_t0_o  (second_row_t0),
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
-      .update_t2_o      (update_t2),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
       .fresh_o          (fresh),
@@ -168,9 +168,9 @@ module pool_control_properties #(
       .first_slot_t1_i (first_slot_t1),
       .last_slot_t1_i  (last_slot_t1),
       .odd_t1_i        (odd_t1),
+      .second_row_t0_i (second_row_t0),
       .first_row_t2_i  (first_row_t2),
       .second_row_t2_i (second_row_t2),
-      .update_t2_i     (update_t2),
       .acquisition_t2_i(acquisition_t2),
       .second_column_i (second_column),
       .fresh_i         (fresh),

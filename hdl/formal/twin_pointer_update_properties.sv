@@ -39,6 +39,20 @@ module twin_pointer_update_properties #(
       .hits_o  (hits)
   );
 
+  localparam int U = 1 << POINTER_SHIFT;
+  localparam int HALF = 1 << (ADVANTAGE_WIDTH - 1);
+  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // one at rest is a candidate, with its window
+  localparam int FULL = (1 << ADVANTAGE_WIDTH) - 1;
+
+  function automatic integer cell_of(input integer label);
+    cell_of = 32'((cells_i >> (7 * label)) & (LABELS * 7)'(127));
+  endfunction
+
+  integer n, x, pointer, a, b, pa, pb, origin, lowest, highest, e, f, away, w, step, dither, move, period;
+  integer next_n, next_pa, next_pb, next_a, next_b;
+  logic expected_hit, rival, counted, roles_change;
+  logic [POINT_WIDTH-1:0] expected;
+
   pixel_distance #(
       .LABELS         (LABELS),
       .SCORES_WIDTH   (4 * LABELS),
@@ -50,9 +64,8 @@ module twin_pointer_update_properties #(
   ) u_pixel_distance (
       .valid_i      (valid_i),
       .position_i   (position_i),
-      .point_i      (1'b1),
       .word_i       (word_i),
-      .cells_i      (cells_i),
+      .leader_cell_i(7'(cell_of(a))),
       .hits_i       (hits),
       .distance_o   (distance)
   );
@@ -76,20 +89,6 @@ module twin_pointer_update_properties #(
       .acquisition_i(acquisition_i),
       .word_o       (word)
   );
-
-  localparam int U = 1 << POINTER_SHIFT;
-  localparam int HALF = 1 << (ADVANTAGE_WIDTH - 1);
-  localparam int RIVAL_REACH = (RIVAL_MOVES != 0) ? 6 : 4;  // one at rest is a candidate, with its window
-  localparam int FULL = (1 << ADVANTAGE_WIDTH) - 1;
-
-  function automatic integer cell_of(input integer label);
-    cell_of = 32'((cells_i >> (7 * label)) & (LABELS * 7)'(127));
-  endfunction
-
-  integer n, x, pointer, a, b, pa, pb, origin, lowest, highest, e, f, away, w, step, dither, move, period;
-  integer next_n, next_pa, next_pb, next_a, next_b;
-  logic expected_hit, rival, counted, roles_change;
-  logic [POINT_WIDTH-1:0] expected;
 
   always_comb begin
     x = 32'(position_i);

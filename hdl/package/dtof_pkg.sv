@@ -105,7 +105,7 @@ package dtof_pkg;
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   // Bits of pool2_engine_command_t, of which Yosys 0.23 cannot take $bits, nor Icarus 11 of a variable of it. Every lint
   // finds a wrong number.
-  localparam int POOL2_COMMAND_WIDTH = 61;
+  localparam int POOL2_COMMAND_WIDTH = 62;
   localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.

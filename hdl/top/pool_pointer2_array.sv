@@ -156,7 +156,7 @@ module pool_pointer2_array #(
       .engine_done_i  (engine_done)
   );
 
-  logic beat_t1, first_slot_t1, odd_t1, first_row_t2, second_row_t2, last_slot_t1, update_t2;
+  logic beat_t1, first_slot_t1, odd_t1, second_row_t0, first_row_t2, second_row_t2, last_slot_t1;
   logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
 
@@ -205,9 +205,9 @@ module pool_pointer2_array #(
       .first_slot_t1_o  (first_slot_t1),
       .last_slot_t1_o   (last_slot_t1),
       .odd_t1_o         (odd_t1),
+      .second_row_t0_o  (second_row_t0),
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
-      .update_t2_o      (update_t2),
       .acquisition_t2_o (acquisition_t2),
       .second_column_o  (second_column),
       .fresh_o          (fresh),
@@ -350,7 +350,7 @@ module pool_pointer2_array #(
   logic [COMMAND_WIDTH-1:0] heard_command;
   logic [NP-1:0] heard_gate_begin, heard_gate_end;
   logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
-  logic heard_first_row_t2, heard_second_row_t2, heard_update_t2, heard_second_column, heard_fresh, heard_load, heard_count;
+  logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_second_column, heard_fresh, heard_load, heard_count;
   logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear;
   logic heard_upper, heard_used, heard_has_right, heard_last_has_right;
   logic [3:0] heard_acquisition_t2;
@@ -361,12 +361,12 @@ module pool_pointer2_array #(
   logic [SRAM_NUM*NP-1:0] timestamps;
 
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
-                 first_row_t2, second_row_t2, update_t2, acquisition_t2, second_column, fresh, load, count, told_read,
+                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, second_column, fresh, load, count, told_read,
                  told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, clear_q,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
   assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
-          heard_last_slot_t1, heard_odd_t1, heard_first_row_t2, heard_second_row_t2, heard_update_t2,
+          heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
           heard_acquisition_t2, heard_second_column, heard_fresh, heard_load, heard_count, heard_read, heard_write,
           heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear, heard_select,
           heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
@@ -455,6 +455,8 @@ module pool_pointer2_array #(
         assign has_right_here = heard_has_right;
       end
 
+      `DTOF_ASSERT(a_clear_with_zeros, !heard_clear || word == '0, "words are cleared while an engine gives another one")
+
       for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
         localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
         localparam int BEYOND = (p <= MIDDLE) ? p - 1 : p + 1;  // the pair on the side away from the engine
@@ -496,9 +498,9 @@ module pool_pointer2_array #(
             .first_slot_t1_i (heard_first_slot_t1),
             .last_slot_t1_i  (heard_last_slot_t1),
             .odd_t1_i        (heard_odd_t1),
+            .second_row_t0_i (heard_second_row_t0),
             .first_row_t2_i  (heard_first_row_t2),
             .second_row_t2_i (heard_second_row_t2),
-            .update_t2_i     (heard_update_t2),
             .acquisition_t2_i(heard_acquisition_t2),
             .second_column_i (heard_second_column),
             .fresh_i         (heard_fresh),

@@ -24,7 +24,6 @@ from .standard_cells import CINV_FF, FO4_NS
 TARGET_MHZ = 330.0
 FAST_MHZ = 500.0
 NAMINGS = 16
-POOL_NAMINGS = 4  # whose parts take ABC longer
 KEPT_COLUMNS = 3
 HOLD_ROUNDS = 4  # in which a path that is too early gets a buffer
 TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
@@ -51,10 +50,10 @@ _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
 # From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
-# as well as larger where ABC tries harder, so that they are given other names instead.
+# as well as larger where ABC tries harder, so that they are given other names instead, and the smallest that closes is taken.
 EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
-POOL_EFFORTS = tuple(Effort(0.68, _SMALL, range(first, first + POOL_NAMINGS)) for first in range(0, NAMINGS, POOL_NAMINGS))
-SMALL_EFFORT = POOL_EFFORTS[0]
+SMALL_EFFORT = Effort(0.68, _SMALL, range(4))
+POOL_EFFORTS = tuple(replace(SMALL_EFFORT, naming_seeds=range(number, number + 1)) for number in range(NAMINGS))
 
 
 def efforts(configuration: Configuration) -> tuple[Effort, ...]:
@@ -285,6 +284,11 @@ class _Netlist:
         return (netlist.count(netlist.modules(self.design)[netlist.column_module(self.design)], library),
                 netlist.count_shared(self.design, library), netlist.count_engines(self.design, library))
 
+    def cell_area(self) -> float:
+        """Of the whole array, without macros."""
+        column, shared, _ = self.counts()
+        return column.area * self.configuration.column_modules + shared.area
+
 
 def _readable(name: str, called: dict[str, str]) -> str:
     """A register's or macro's name without generate levels, cell type and copy number. `called`: what its parts were called
@@ -441,7 +445,7 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
 def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None,
               known: Naming | None) -> list[_Attempt]:
     """With the known namings, where they are those of what is mapped; else, or where they do not close, effort after effort
-    until one does."""
+    until one does, of the pool read-outs all."""
     tried = efforts(configuration)[:most]
     digest = mapping_digest(folder / "generic.il", technology, tried)
     attempts: list[_Attempt] = []
@@ -451,9 +455,16 @@ def _attempts(configuration: Configuration, technology: Technology, folder: Path
             return attempts
     for number in range(len(tried)):
         attempts.append(_attempt(configuration, technology, folder, number, digest))
-        if attempts[-1].closes_with_margins:
+        if attempts[-1].closes_with_margins and not configuration.is_pool:
             break
     return attempts
+
+
+def _best(attempts: list[_Attempt]) -> _Attempt:
+    """The smallest that closes, else the one that misses least."""
+    closing = [attempt for attempt in attempts if attempt.closes_with_margins]
+    return min(closing, key=lambda attempt: attempt.netlist.cell_area()) if closing \
+        else max(attempts, key=lambda attempt: attempt.rank)
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
@@ -461,7 +472,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
     timed: with further efforts until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
     elaborate(configuration, technology, folder)
-    best = max(_attempts(configuration, technology, folder, most_attempts, known), key=lambda attempt: attempt.rank)
+    best = _best(_attempts(configuration, technology, folder, most_attempts, known))
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
         fast = best.netlist.fix_hold(best.tight)

@@ -21,7 +21,7 @@ class Namings(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
         self.file = Path(self.folder.name) / "namings.csv"
 
-    def efforts_tried(self, known: Naming | None, closing: set, most: int | None = None) -> list:
+    def efforts_tried(self, known: Naming | None, closing: set, most: int | None = None, name: str = "hispointer") -> list:
         """(effort, namings known) of each mapping, where those in `closing` close."""
         tried = []
 
@@ -30,7 +30,7 @@ class Namings(unittest.TestCase):
             return SimpleNamespace(closes_with_margins=(number, naming) in closing)
 
         with mock.patch.object(run, "_attempt", attempt), mock.patch.object(run, "mapping_digest", lambda *_: "digest"):
-            run._attempts(configuration.load(ROOT / "configurations.toml")["poolpointer2"], None, Path(), most, known)
+            run._attempts(configuration.load(ROOT / "configurations.toml")[name], None, Path(), most, known)
         return tried
 
     def test_a_known_naming_of_the_same_mapping_is_all_that_is_tried(self):
@@ -40,7 +40,18 @@ class Namings(unittest.TestCase):
         self.assertEqual(self.efforts_tried(Naming(1, 3, 7, "other"), {(0, None)}), [(0, None)])
 
     def test_a_known_naming_that_does_not_close_is_searched_beyond(self):
-        self.assertEqual(self.efforts_tried(KNOWN, {(2, None)}), [(1, KNOWN), (0, None), (1, None), (2, None)])
+        self.assertEqual(self.efforts_tried(KNOWN, {(1, None)}), [(1, KNOWN), (0, None), (1, None)])
+
+    def test_pool_read_outs_try_all(self):
+        tried = self.efforts_tried(None, {(2, None)}, name="poolpointer2")
+        self.assertEqual(tried, [(number, None) for number in range(run.NAMINGS)])
+
+    def test_the_smallest_that_closes_is_taken_else_the_one_that_misses_least(self):
+        def attempt(area: float, rank: float) -> SimpleNamespace:
+            return SimpleNamespace(rank=rank, closes_with_margins=rank >= 0, netlist=SimpleNamespace(cell_area=lambda: area))
+
+        self.assertEqual(run._best([attempt(3, 0.2), attempt(2, 0.0), attempt(1, -0.1)]).netlist.cell_area(), 2)
+        self.assertEqual(run._best([attempt(3, -0.1), attempt(2, -0.2)]).netlist.cell_area(), 3)
 
     def test_without_a_search_for_timing_it_need_not_close(self):
         self.assertEqual(self.efforts_tried(KNOWN, set(), most=1), [(1, KNOWN)])
