@@ -14,6 +14,7 @@ module pool_pointer2_array_bench #(
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
     parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,  // the vectors have no gate
     parameter int SECOND_TARGET = 0,  // the vectors have one target
     parameter int PRIOR = 0,  // the vectors' frames begin from nothing
@@ -54,6 +55,7 @@ module pool_pointer2_array_bench #(
       .ADVANTAGE_WIDTH  (ADVANTAGE_WIDTH),
       .POINTER_SHIFT    (POINTER_SHIFT),
       .RIVAL_MOVES      (RIVAL_MOVES),
+      .CELL_SHIFT       (CELL_SHIFT),
       .TIME_GATE        (TIME_GATE),
       .SECOND_TARGET    (SECOND_TARGET),
       .PRIOR            (PRIOR),
