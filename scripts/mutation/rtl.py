@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
 from dtof_synth import simulation  # noqa: E402
-from dtof_synth.configuration import Configuration, load  # noqa: E402
+from dtof_synth.configuration import load  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
 PATTERNS = ("control", "datapath", "column", "engine", "top", "memory")
