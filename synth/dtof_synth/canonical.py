@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from pathlib import Path
 
 _NAMED = re.compile(r"^  (wire|cell) (?:.* )?([$\\]\S+)$")
 _PRIVATE = re.compile(r"(?<= )\$\S+")
@@ -66,9 +67,10 @@ def _module(lines: list[str]) -> list[str]:
             for block in of_kind["parameter"] + wires + cells + of_kind["connect"] for line in block.lines]
 
 
-def canonical(text: str) -> str:
-    """The netlist (RTLIL) without traces of the source."""
-    lines = [line for line in text.splitlines() if not _ORIGIN.match(line)]
+def canonical(text: str, root: Path) -> str:
+    """The netlist (RTLIL) without traces of the source, which is below `root`; of names that are called within functions the line
+    stays."""
+    lines = [line for line in text.replace(str(root), "").splitlines() if not _ORIGIN.match(line)]
     written: list[str] = []
     index = 0
     while index < len(lines):

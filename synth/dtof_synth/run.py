@@ -167,11 +167,12 @@ def rtl_files(root: Path) -> list[Path]:
             if line.endswith((".sv", ".v")) and not line.startswith(("//", "technology/"))]
 
 
-def to_generic(scripts: Path, settings: Path, folder: Path, name: str) -> None:
-    """The RTL that the settings name to `folder`/generic.il, checks passed, by way of `folder`/elaborated.il."""
+def to_generic(root: Path, settings: Path, folder: Path, name: str) -> None:
+    """The RTL below `root` that the settings name to `folder`/generic.il, checks passed, by way of `folder`/elaborated.il."""
     elaborated = folder / "elaborated.il"
+    scripts = Path(__file__).resolve().parents[1] / "yosys"
     tools.run_yosys(scripts / "elaborate.tcl", settings, folder / "elaborate.log", name)
-    elaborated.write_text(canonical(elaborated.read_text(encoding="utf-8")), encoding="utf-8")
+    elaborated.write_text(canonical(elaborated.read_text(encoding="utf-8"), root), encoding="utf-8")
     tools.run_yosys(scripts / "generic.tcl", settings, folder / "generic.log", name)
 
 
@@ -191,7 +192,7 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
         "technology_files": technology_files, "black_boxes": black_boxes, "liberty": technology.slow.path,
         "parameters": configuration.rtl_parameters(), "kept_modules": [f"*{name}*" for name in kept_modules],
         "elaborated_netlist": folder / "elaborated.il", "generic_netlist": folder / "generic.il"})
-    to_generic(scripts, settings, folder, configuration.name)
+    to_generic(technology.root, settings, folder, configuration.name)
     clock_gating.insert(folder / "generic.il", technology.slow)
 
 

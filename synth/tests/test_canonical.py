@@ -26,6 +26,13 @@ endmodule
 UNUSED = "".join(f"module unused_{i}(input wire [7:0] x, output wire [7:0] y); assign y = x + 8'd{i}; endmodule\n" for i in range(60))
 
 
+FUNCTION = """module some_column(input wire clk_i, input wire e, input wire [7:0] a, input wire [7:0] b, output reg [7:0] q);
+  function automatic [7:0] twice(input [7:0] x); twice = x + x; endfunction
+  always @(posedge clk_i) if (e) q <= twice(a) ^ b;
+endmodule
+"""
+
+
 class Canonical(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -54,8 +61,12 @@ class Canonical(unittest.TestCase):
             folder = self.elaborate(name, text)
             found[name] = (folder / "elaborated.il").read_text(encoding="utf-8")
         self.assertNotEqual(found["plain"], found["moved"])
-        self.assertEqual(canonical(found["plain"]), canonical(found["moved"]))
-        self.assertNotEqual(canonical(found["plain"]), canonical(found["other"]))
+        self.assertEqual(canonical(found["plain"], self.root / "plain"), canonical(found["moved"], self.root / "moved"))
+        self.assertNotEqual(canonical(found["plain"], self.root / "plain"), canonical(found["other"], self.root / "other"))
+
+    def test_functions_have_no_folder(self):
+        found = [(self.elaborate(name, FUNCTION + ARRAY) / "elaborated.il").read_text(encoding="utf-8") for name in ("a", "b")]
+        self.assertEqual(canonical(found[0], self.root / "a"), canonical(found[1], self.root / "b"))
 
     def test_the_logic_stays(self):
         folder = self.elaborate("plain", COLUMN + ARRAY)
@@ -64,7 +75,7 @@ class Canonical(unittest.TestCase):
         self.assertNotEqual(text, wrong)
 
         def compare(edited: str) -> None:
-            (folder / "gate.il").write_text(canonical(edited), encoding="utf-8")
+            (folder / "gate.il").write_text(canonical(edited, folder), encoding="utf-8")
             (folder / "compare.tcl").write_text("yosys -import\n" + "".join(
                 f"read_rtlil {folder}/{file}\nhierarchy -top dtof_array\nflatten\ndesign -stash {name}\n"
                 for file, name in (("elaborated.il", "gold"), ("gate.il", "gate"))) +

@@ -35,7 +35,7 @@ class FlowChecks(unittest.TestCase):
             "technology_files": [self.folder / "sram_1rw.sv", self.folder / "sram_1r1w.sv"],
             "black_boxes": self.folder / "sram40_blackbox.v", "liberty": self.folder / "slow.lib",
             "parameters": {}, "elaborated_netlist": self.folder / "elaborated.il", "generic_netlist": self.folder / "generic.il"})
-        run.to_generic(SYNTH / "yosys", settings, self.folder, "test")
+        run.to_generic(self.folder, settings, self.folder, "test")
 
     def sta(self, verilog: str, libraries: list[Path] | None = None) -> str:
         (self.folder / "netlist.v").write_text(verilog, encoding="utf-8")
