@@ -68,8 +68,8 @@ def _module(lines: list[str]) -> list[str]:
 
 
 def canonical(text: str, root: Path) -> str:
-    """The netlist (RTLIL) without traces of the source, which is below `root`; of names that are called within functions the line
-    stays."""
+    """The netlist (RTLIL) without traces of the source, which is below `root`, but for one: names of variables in functions keep
+    the line of the call."""
     lines = [line for line in text.replace(str(root), "").splitlines() if not _ORIGIN.match(line)]
     written: list[str] = []
     index = 0
