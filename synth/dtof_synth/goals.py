@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .run import FAST_MHZ, TARGET_MHZ, Result
+from .run import TARGET_MHZ, Result
+from .timing import FAST_MHZ
 
 COLUMN_UM2 = {"ezpointer": 700.0}
 COLUMN_UM2_OTHERS = 1200.0

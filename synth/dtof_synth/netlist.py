@@ -273,29 +273,29 @@ def local_pin(design: dict, name: str) -> tuple[str, str, str]:
     return top(design)["cells"][block[0]]["type"] if block else "", cell, pin
 
 
-def delay_pins(design: dict, pins: list[str], library: Library) -> dict[str, str]:
-    """Puts the smallest buffer in front of each pin (local_pin). A block is delayed with all of its kind. Returns beside which
-    cell of the top each new buffer of the top stands."""
+def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: Library) -> dict[str, str]:
+    """Puts so many of the smallest buffers in front of each pin (local_pin). A block is delayed with all of its kind. Returns
+    beside which cell of the top each new buffer of the top stands."""
     buffer = library.buffers[0]
-    found = dict.fromkeys(local_pin(design, name) for name in pins)
     beside: dict[str, str] = {}
     fresh: dict[str, int] = {}
-    for kind, cell, pin in found:
+    for (kind, cell, pin), number in buffers.items():
         module = modules(design)[kind] if kind else top(design)
         index = int(pin[pin.index("[") + 1:-1]) if "[" in pin else 0
         bits = module["cells"][cell]["connections"][pin.split("[")[0]]
         if kind not in fresh:
             fresh[kind] = _next_net(module)
-        output = fresh[kind]
-        fresh[kind] += 1
-        name = f"{HOLD_PREFIX}{output}"
-        if not kind:
-            beside[name] = cell
-        module["cells"][name] = {
-            "hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
-            "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
-            "connections": {buffer.input_pin: [bits[index]], buffer.output_pin: [output]}}
-        bits[index] = output
+        for _ in range(number):
+            output = fresh[kind]
+            fresh[kind] += 1
+            name = f"{HOLD_PREFIX}{output}"
+            if not kind:
+                beside[name] = cell
+            module["cells"][name] = {
+                "hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
+                "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
+                "connections": {buffer.input_pin: [bits[index]], buffer.output_pin: [output]}}
+            bits[index] = output
     return beside
 
 

@@ -54,49 +54,45 @@ def clock_tree(flip_flops: int, pins_ff: float, library: Library) -> ClockTree:
     return ClockTree(total_buffers, total_buffers * buffer.area, total_load)
 
 
-def _cell_power(output: str, label: str) -> dict[str, tuple[float, float, float]]:
-    """(internal, switching, leakage) W per cell of one section of the OpenSTA output."""
-    section = output.split(f"DTOF_POWER_{label}\n", 1)[1].split("\nDTOF_", 1)[0]
-    number = r"([-+.\d]+e[-+]\d+)"
-    rows = re.findall(rf"^\s*{number}\s+{number}\s+{number}\s+\S+\s+(\S+)$", section, re.MULTILINE)
-    return {name: (float(internal), float(switching), float(leakage))
-            for internal, switching, leakage, name in rows}
+@dataclass(frozen=True)
+class _Sums:
+    """W of some cells."""
+
+    internal: float
+    switching: float
+    leakage: float
 
 
-def _array_sum(cells: dict[str, tuple[float, float, float]], modules: int) -> tuple[float, float, float]:
-    """Sum over the array: one kept column module times all of them, plus everything outside."""
-    groups: dict[str, list[float]] = {}
-    for name, values in cells.items():
-        column = name.split("/")[0] if re.search("u_(column|pair)/", name) else ""
-        group = groups.setdefault(column, [0.0, 0.0, 0.0])
-        for index, value in enumerate(values):
-            group[index] += value
-    shared = groups.pop("", [0.0, 0.0, 0.0])
-    one = next(iter(groups.values()), [0.0, 0.0, 0.0])
-    return tuple(outside + modules * inside for outside, inside in zip(shared, one))
+def _sums(output: str, label: str, group: str) -> _Sums:
+    """What synth/sta/cell_power.tcl printed. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
+    power is twice the power and is halved here; test_flow_checks.py pins that behaviour."""
+    found = re.search(rf"^DTOF_POWER {label} {group} (\S+) (\S+) (\S+)$", output, re.MULTILINE)
+    internal, switching, leakage = (float(number) for number in found.groups())
+    return _Sums(internal / 2, switching, leakage)
+
+
+def _array(output: str, label: str, modules: int) -> _Sums:
+    """One column module times all of them, plus everything outside."""
+    column, shared = _sums(output, label, "column"), _sums(output, label, "shared")
+    return _Sums(modules * column.internal + shared.internal, modules * column.switching + shared.switching,
+                 modules * column.leakage + shared.leakage)
 
 
 def logic_mw(output: str, modules: int) -> float:
-    """Logic without the clock. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
-    power is twice the power; test_power.py pins that behaviour."""
-    internal, switching, leakage = _array_sum(_cell_power(output, "ALL"), modules)
-    clock_internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), modules)
-    return ((internal - clock_internal) / 2 + switching + leakage) * 1e3
+    """Logic without the clock."""
+    everything, clock = (_array(output, label, modules) for label in ("ALL", "CLOCK"))
+    return (everything.internal - clock.internal + everything.switching + everything.leakage) * 1e3
 
 
 def data_mw(output: str) -> float:
-    """Of the listed cells, what their data takes: that of all of them less that with idle data, without leakage. The
-    internal power is halved as in logic_mw."""
-    def total(label: str) -> float:
-        return sum(internal / 2 + switching for internal, switching, _ in _cell_power(output, label).values())
-
-    return (total("ALL") - total("CLOCK")) * 1e3
+    """What the data of one column's cells take: all of it less that with idle data, without leakage."""
+    everything, clock = (_sums(output, label, "column") for label in ("ALL", "CLOCK"))
+    return (everything.internal + everything.switching - clock.internal - clock.switching) * 1e3
 
 
 def clock_mw(output: str, modules: int, tree: ClockTree, library: Library, mhz: float) -> float:
     """Clock pins inside the flip-flops, and the tree's wires and pins, charged once per clock."""
-    internal, _, _ = _array_sum(_cell_power(output, "CLOCK"), modules)
-    return internal / 2 * 1e3 + tree.load_ff * library.voltage**2 * mhz * 1e-6
+    return _array(output, "CLOCK", modules).internal * 1e3 + tree.load_ff * library.voltage**2 * mhz * 1e-6
 
 
 def access_rates(configuration: Configuration) -> dict[str, tuple[float, float]]:

@@ -7,11 +7,11 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, tools, verilog
+from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, timing, tools, verilog
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
@@ -19,14 +19,13 @@ from .library import Library
 from .namings import Naming
 from .netlist import Counts
 from .power import ClockTree, Power
-from .standard_cells import CINV_FF, FO4_NS
+from .timing import Margin, TimedPath, Timing
 
 TARGET_MHZ = 330.0
-FAST_MHZ = 500.0
 NAMINGS = 16
 KEPT_COLUMNS = 3
-HOLD_ROUNDS = 4  # in which a path that is too early gets a buffer
-TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
+HOLD_ROUNDS = 4  # in which paths that are too early get buffers
+HOLD_BUFFER_NS = 0.0169  # what one of them adds in the fast corner, 0.014 to 0.021; too little adds a round
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 BOTH_CORNERS = ("typical", "slow")
 WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
@@ -79,32 +78,6 @@ class Technology:
 
     def library(self, corner: str) -> Library:
         return {"typical": self.typical, "slow": self.slow, "fast": self.fast}[corner]
-
-
-@dataclass(frozen=True)
-class Timing:
-    """One corner. Slacks in ns: setup and hold at the technology's target clock, setup at 500 MHz. `slow_edges`: pins
-    beyond the library's max_transition."""
-
-    slack: float
-    hold_slack: float
-    fast_slack: float
-    fmax_mhz: float
-    start: str
-    end: str
-    stages: int
-    slow_edges: int
-
-
-@dataclass(frozen=True)
-class Margin:
-    """One corner with the margins of constraints/margins.sdc. Slacks in ns at the target clock."""
-
-    slack: float
-    hold_slack: float
-    reset_slack: float  # the lesser of recovery and removal
-    start: str  # of the slowest path
-    end: str
 
 
 def _area(used: dict[str, sram_model.Size]) -> float:
@@ -251,33 +224,46 @@ class _Netlist:
         called = spef.plain_names(self.design)
         self.plan.rename(called[self.configuration.top])
         names = {plain: name for before in called.values() for plain, name in before.items()}
-        (self.folder / "names.json").write_text(json.dumps(names), encoding="utf-8")
+        (self.folder / timing.NAMES).write_text(json.dumps(names), encoding="utf-8")
         (self.folder / "column_stub.lib").write_text(
             netlist.stub_liberty(self.design, loads, self.technology.typical.voltage), encoding="utf-8")
-        self.write()
+        self.write(WIRES)
 
-    def write(self) -> None:
-        """Verilog, and the wires between the blocks."""
+    def write(self, corners: Collection[str]) -> None:
+        """Verilog, and the corners' wires between the blocks."""
         clocks = netlist.clock_nets(netlist.top(self.design))
-        kinds = list(dict.fromkeys(WIRES.values()))
+        kinds = list(dict.fromkeys(WIRES[corner] for corner in corners))
         texts = dict(zip(kinds, spef.write(self.design, self.plan, self.technology.slow, kinds, clocks)))
-        for corner, wire in WIRES.items():
-            (self.folder / f"wires_{corner}.spef").write_text(texts[wire], encoding="utf-8")
+        for corner in corners:
+            (self.folder / f"wires_{corner}.spef").write_text(texts[WIRES[corner]], encoding="utf-8")
         (self.folder / "timing.v").write_text(verilog.write(self.design), encoding="utf-8")
 
-    def fix_hold(self, tight: list[list[str]]) -> Margin:
+    def time(self, corner: str, *steps: str) -> timing.Report:
+        """The steps of synth/sta/timing.tcl in one corner."""
+        library = self.technology.library(corner)
+        files = timing.Netlist(
+            f"{self.configuration.name}, {corner} corner", self.folder / "timing.v", self.folder / f"wires_{corner}.spef",
+            [library.path, self.technology.kit / f"sram40_{corner}.lib", self.folder / "column_stub.lib"],
+            library.wire_load, self.configuration.top)
+        return timing.measure(files, self.technology.root, self.technology.target_mhz, self.folder / f"sta_{corner}.log", steps)
+
+    def fix_hold(self, tight: list[TimedPath]) -> Margin:
         """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner."""
-        taken = {netlist.local_pin(self.design, pin) for path in tight for pin in path}
-        margin, paths = time_margins(self.configuration, self.technology, "fast", self.folder)
-        for _ in range(HOLD_ROUNDS):
-            if not paths.early:
+        taken = {netlist.local_pin(self.design, pin) for path in tight for pin in path.pins}
+        for number in range(HOLD_ROUNDS + 1):
+            report = self.time("fast", "margins")
+            if not report.early or number == HOLD_ROUNDS:
                 break
-            pins = [_last_free_pin(self.design, path, taken) for path in paths.early]
-            beside = netlist.delay_pins(self.design, pins, self.technology.slow)
+            buffers: dict[tuple[str, str, str], int] = {}
+            for path in report.early:
+                pin = netlist.local_pin(self.design, _last_free_pin(self.design, path.pins, taken))
+                buffers[pin] = max(buffers.get(pin, 1), math.ceil(-path.slack / HOLD_BUFFER_NS))
+            beside = netlist.delay_pins(self.design, buffers, self.technology.slow)
             self.plan.places |= {name: self.plan[cell] for name, cell in beside.items()}
-            self.write()
-            margin, paths = time_margins(self.configuration, self.technology, "fast", self.folder)
-        return margin
+            self.write(["fast"])
+        if number:
+            self.write(WIRES)
+        return report.margin()
 
     def counts(self) -> tuple[Counts, Counts, Counts]:
         """Of a column module, of everything shared, of the engines in it."""
@@ -291,108 +277,9 @@ class _Netlist:
         return column.area * self.configuration.column_modules + shared.area
 
 
-def _readable(name: str, called: dict[str, str]) -> str:
-    """A register's or macro's name without generate levels, cell type and copy number. `called`: what its parts were called
-    before spef.plain_names."""
-    name = "/".join(called.get(part, part) for part in name.split("/"))
-    name = re.sub(r"\\+\w+$", "", name)
-    name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
-    return re.sub(r"(\.(g_\w+|genblk\d+|u_macro))+$", "", name)
-
-
-def _section(output: str, name: str) -> str:
-    return output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]
-
-
-def _names(folder: Path) -> dict[str, str]:
-    return json.loads((folder / "names.json").read_text(encoding="utf-8"))
-
-
-def _critical_path(report: str, called: dict[str, str]) -> tuple[str, str, int]:
-    """(start, end, cells between them) of a report_checks path."""
-    start = re.search(r"Startpoint: (\S+)", report)
-    end = re.search(r"Endpoint: (\S+)", report)
-    if not start or not end:
-        raise FlowError("OpenSTA reported no timing path")
-    data = report.split("data arrival time")[0]
-    pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
-    gates = [pin for pin in pins if not pin.startswith((start.group(1), end.group(1)))]
-    return _readable(start.group(1), called), _readable(end.group(1), called), len(gates)
-
-
-def _number(output: str, label: str, index: int = 0) -> float:
-    found = re.search(rf"^{label} (.*)$", output, re.MULTILINE)
-    return float(found.group(1).split()[index])
-
-
-def time_corner(configuration: Configuration, technology: Technology, corner: str,
-                folder: Path) -> tuple[Timing, str]:
-    """Runs OpenSTA in one corner; returns the timing and the output (for power)."""
-    library = technology.library(corner)
-    settings = folder / f"sta_{corner}_settings.tcl"
-    tools.write_settings(settings, {
-        "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
-        "netlist": folder / "timing.v", "wires": folder / f"wires_{corner}.spef", "top": configuration.top,
-        "wire_load": library.wire_load,
-        "constraints": technology.root / "constraints" / "dtof.sdc",
-        "target_period": f"{1000 / technology.target_mhz:.6f}", "fast_period": f"{1000 / FAST_MHZ:.6f}",
-        "activity": power.ACTIVITY, "with_power": int(corner == "typical")})
-    name = f"{configuration.name}, {corner} corner"
-    output = tools.run_sta(technology.root / "synth" / "sta" / "timing.tcl", settings,
-                           folder / f"sta_{corner}.log", name)
-    if "VIOLATED" in _section(output, "DTOF_MIN_PERIOD"):
-        raise FlowError(f"{name}: the clock is faster than an SRAM's minimum period "
-                        f"(see {folder / f'sta_{corner}.log'})")
-    slow_edges = _section(output, "DTOF_TRANSITION").count("VIOLATED")
-    timing = Timing(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
-                    _number(output, "DTOF_FAST_SLACK"), 1000 / _number(output, "DTOF_CLOSING_PERIOD"),
-                    *_critical_path(_section(output, "DTOF_PATH_MAX"), _names(folder)), slow_edges)
-    return timing, output
-
-
-@dataclass(frozen=True)
-class Paths:
-    """Each as the input pins from behind its first register to its end."""
-
-    early: list[list[str]]
-    tight: list[list[str]]
-
-
-def _paths(reports: str) -> list[list[str]]:
-    """Of reports with input pins, those that do not end at a port: from the end on every second pin is an input, the last of
-    them the clock pin that a path begins at."""
-    found = []
-    for report in reports.split("Startpoint: ")[1:]:
-        pins = re.findall(r"[v^] (\S+) \(\S+\)$", report.split("data arrival time")[0], re.MULTILINE)
-        if "/" in pins[-1]:
-            found.append(pins[:0:-2][::-1])
-    return found
-
-
 def _last_free_pin(design: dict, path: list[str], taken: set[tuple[str, str, str]]) -> str:
     """Where a buffer delays an early path and none that is tight; the end, where there is no such pin."""
     return next((pin for pin in reversed(path) if netlist.local_pin(design, pin) not in taken), path[-1])
-
-
-def time_margins(configuration: Configuration, technology: Technology, corner: str, folder: Path
-                 ) -> tuple[Margin, Paths]:
-    """The same netlist in one corner with margins."""
-    library = technology.library(corner)
-    settings = folder / f"margins_{corner}_settings.tcl"
-    tools.write_settings(settings, {
-        "liberty_files": [library.path, technology.kit / f"sram40_{corner}.lib", folder / "column_stub.lib"],
-        "netlist": folder / "timing.v", "wires": folder / f"wires_{corner}.spef", "top": configuration.top,
-        "wire_load": library.wire_load,
-        "constraints": technology.root / "constraints" / "dtof.sdc",
-        "margins": technology.root / "constraints" / "margins.sdc", "period": f"{1000 / technology.target_mhz:.6f}",
-        "slew": f"{FO4_NS:.4f}", "load": f"{10 * CINV_FF:.4f}", "tight": f"{TIGHT_NS}"})
-    output = tools.run_sta(technology.root / "synth" / "sta" / "margins.tcl", settings, folder / f"margins_{corner}.log",
-                           f"{configuration.name}, {corner} corner with margins")
-    start, end, _ = _critical_path(_section(output, "DTOF_PATH_MAX"), _names(folder))
-    reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", _section(output, "DTOF_RESET"), re.MULTILINE)
-    return Margin(_number(output, "DTOF_SLACK"), _number(output, "DTOF_SLACK", 1),
-                  min((float(slack) for slack in reset), default=0.0), start, end), Paths(
-                      _paths(_section(output, "DTOF_EARLY")), _paths(_section(output, "DTOF_TIGHT")))
 
 
 @dataclass(frozen=True)
@@ -401,9 +288,9 @@ class _Attempt:
 
     netlist: _Netlist
     naming: Naming
-    slow: Timing
-    margin: Margin | None  # in the slow corner, where the technology has a fast one
-    tight: list[list[str]]  # paths with little to spare there
+    slack: float
+    margin: Margin | None  # where the technology has a fast corner, too
+    tight: list[TimedPath]  # with little to spare there
 
     @property
     def closes_with_margins(self) -> bool:
@@ -412,15 +299,14 @@ class _Attempt:
     @property
     def rank(self) -> float:
         """By how much it closes."""
-        return min(self.slow.slack - DEMANDED_SLACK_NS, self.margin.slack if self.margin is not None else math.inf)
+        return min(self.slack - DEMANDED_SLACK_NS, self.margin.slack if self.margin is not None else math.inf)
 
 
 def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
-    slow, _ = time_corner(timed.configuration, timed.technology, "slow", timed.folder)
     if timed.technology.fast is None:
-        return _Attempt(timed, naming, slow, None, [])
-    margin, paths = time_margins(timed.configuration, timed.technology, "slow", timed.folder)
-    return _Attempt(timed, naming, slow, margin, paths.tight)
+        return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None, [])
+    report = timed.time("slow", "nominal", "margins")
+    return _Attempt(timed, naming, report.slack, report.margin(), report.tight)
 
 
 def _found_naming(folder: Path, number: int, digest: str) -> Naming:
@@ -474,25 +360,29 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     timed: with further efforts until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
     elaborate(configuration, technology, folder)
     best = _best(_attempts(configuration, technology, folder, most_attempts, known))
+    timed = best.netlist
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
-        fast = best.netlist.fix_hold(best.tight)
-        best = _timed(best.netlist, best.naming)
-        margins = {"slow": best.margin, "fast": fast}
-    column_module, shared, engines = best.netlist.counts()
+        fast = timed.fix_hold(best.tight)
+        slow = timed.time("slow", "nominal", "closing", "margins")
+        margins = {"slow": slow.margin(), "fast": fast}
+    else:
+        slow = timed.time("slow", "nominal", "closing")
+    column_module, shared, engines = timed.counts()
     modules = configuration.column_modules
     macros = modules * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))
     tree = power.clock_tree(
         modules * column_module.clock_sinks + shared.clock_sinks + macros,
         modules * column_module.clock_ff + shared.clock_ff + macros * sram_kit.CLOCK_PIN_FF, technology.slow)
-    timing = {"slow": best.slow}
+    corner_timing = {"slow": slow.timing()}
     figures: Power | None = None
     if "typical" in corners:
-        timing["typical"], output = time_corner(configuration, technology, "typical", best.netlist.folder)
-        figures = Power(power.logic_mw(output, modules), power.sram_mw(configuration, TARGET_MHZ),
-                        power.clock_mw(output, modules, tree, technology.typical, TARGET_MHZ))
+        typical = timed.time("typical", "nominal", "closing", "power")
+        corner_timing["typical"] = typical.timing()
+        figures = Power(power.logic_mw(typical.output, modules), power.sram_mw(configuration, TARGET_MHZ),
+                        power.clock_mw(typical.output, modules, tree, technology.typical, TARGET_MHZ))
     return Result(configuration, column_module, shared, engines, tree, technology.slow.nand2_area,
-                  technology.slow.mux2_area, timing, figures, margins, best.naming)
+                  technology.slow.mux2_area, corner_timing, figures, margins, best.naming)
 
 
 def input_digest(technology: Technology) -> str:

@@ -27,10 +27,12 @@ def write_settings(path: Path, settings: dict[str, Setting]) -> None:
                     encoding="utf-8")
 
 
-def _run(command: list[str], settings: Path, log: Path) -> str:
+def _run(command: list[str], script: Path, settings: Path, log: Path) -> str:
+    """Runs the tool with the script, which finds its settings and its neighbours by the environment."""
+    environment = {**os.environ, "DTOF_SETTINGS": str(settings), "DTOF_SCRIPTS": str(script.parent)}
     try:
-        finished = subprocess.run(command, env={**os.environ, "DTOF_SETTINGS": str(settings)}, check=False,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        finished = subprocess.run([*command, str(script)], env=environment, check=False, stdout=subprocess.PIPE,
+                                  stderr=subprocess.STDOUT, text=True)
     except FileNotFoundError:
         raise FlowError(f"{command[0]} is not installed; scripts/install_packages.sh installs it") from None
     log.write_text(finished.stdout, encoding="utf-8")
@@ -44,7 +46,7 @@ _YOSYS_FATAL = re.compile(r"Warning: .*(is used but has no driver|multiple confl
 
 def run_yosys(script: Path, settings: Path, log: Path, name: str) -> None:
     """Runs a Yosys script; FlowError names the step and Yosys's own message."""
-    output = _run(["yosys", "-c", str(script)], settings, log)
+    output = _run(["yosys", "-c"], script, settings, log)
     steps = re.findall(r"^DTOF_STEP (\S+)", output, re.MULTILINE)
     broken = _YOSYS_FATAL.search(output)
     error = re.search(r"ERROR: (.*)", output)
@@ -56,7 +58,7 @@ def run_yosys(script: Path, settings: Path, log: Path, name: str) -> None:
 
 def run_sta(script: Path, settings: Path, log: Path, name: str) -> str:
     """Runs OpenSTA and returns its output. Its exit status says nothing, its marker and messages do."""
-    output = _run(["sta", "-no_splash", "-exit", str(script)], settings, log)
+    output = _run(["sta", "-no_splash", "-exit"], script, settings, log)
     failed = re.search(r"^DTOF_STA_FAILED (.*)", output, re.MULTILINE)
     error = re.search(r"^Error: (.*)", output, re.MULTILINE)
     warning = re.search(r"^Warning: (.*(?:not found|unresolved|no .*drivers?).*)", output, re.MULTILINE)

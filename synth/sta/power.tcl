@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Power of every cell of a column's netlist at one activity of all data nets, beside nearly idle data, whose difference is
 # the data's. As in timing.tcl the marker DTOF_STA_OK says that every command succeeded.
+source $::env(DTOF_SCRIPTS)/cell_power.tcl
+
 proc run {} {
   global liberty_files netlist top wire_load column activity
   foreach file $liberty_files { read_liberty $file }
@@ -13,11 +15,7 @@ proc run {} {
     set name [get_full_name $cell]
     if {[string match *$column/* $name] && ![string match *u_macro $name]} { lappend cells $cell }
   }
-  foreach {label value} [list CLOCK 1e-9 ALL $activity] {
-    puts "DTOF_POWER_$label"
-    set_power_activity -global -activity $value
-    report_power -instances $cells -digits 9
-  }
+  report_clock_and_all $activity [list column $cells]
 }
 
 source $::env(DTOF_SETTINGS)

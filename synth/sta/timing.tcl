@@ -1,19 +1,26 @@
 # SPDX-License-Identifier: Apache-2.0
-# Timing and power of one configuration in one corner. OpenSTA exits 0 even after errors, so the flow looks for
-# the marker DTOF_STA_OK, which is printed only after every command succeeded.
+# Timing and power of one netlist in one corner, in the `steps` that are asked for, in this order:
+#   nominal   slacks at the target clock
+#   closing   the shortest period, and the slack at the fast one
+#   power     of every cell, at the target clock
+#   margins   slacks with the margins of constraints/margins.sdc, and the paths that are too early or have less than `tight` ns
+#             to spare; the last, because margins stay
+# OpenSTA exits 0 even after errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command
+# succeeded.
+
+source $::env(DTOF_SCRIPTS)/cell_power.tcl
 
 proc constrain {new_period} {
   set ::period $new_period
   uplevel #0 source $::constraints
 }
 
-# Shortest period without violation. Slack falls with the period, but less than it where a port's budget is a
-# share of the period: secant steps, at most twelve.
-proc closing_period {start} {
-  set previous_period $start
-  constrain $start
+# Shortest period without violation, from the target clock on. Slack falls with the period, but less than it where a port's
+# budget is a share of the period: secant steps, at most twelve.
+proc closing_period {} {
+  set previous_period $::target_period
   set previous_slack [worst_slack -max]
-  set current [expr {$start - $previous_slack}]
+  set current [expr {$previous_period - $previous_slack}]
   for {set step 0} {$step < 12} {incr step} {
     constrain $current
     set slack [worst_slack -max]
@@ -26,17 +33,14 @@ proc closing_period {start} {
   return $current
 }
 
-proc run {} {
-  global liberty_files netlist wires top wire_load target_period activity
-  foreach file $liberty_files { read_liberty $file }
-  read_verilog $netlist
-  link_design $top
-  if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
-  if {$wires ne ""} { read_spef $wires }
-  puts "DTOF_CLOSING_PERIOD [closing_period $target_period]"
+proc closing {} {
+  puts "DTOF_CLOSING_PERIOD [closing_period]"
   constrain $::fast_period
   puts "DTOF_FAST_SLACK [worst_slack -max]"
-  constrain $target_period
+  constrain $::target_period
+}
+
+proc nominal {} {
   puts "DTOF_SLACK [worst_slack -max] [worst_slack -min]"
   puts "DTOF_PATH_MAX"
   report_checks -path_delay max -digits 4 -fields {slew cap}
@@ -47,23 +51,53 @@ proc run {} {
   puts "DTOF_TRANSITION"
   report_check_types -all_violators -max_transition
   puts "DTOF_END"
-  if {$::with_power} { report_cell_power $activity }
 }
 
-# Power of every cell but the SRAMs, once with nearly idle data (what remains is the clock) and once with the
-# stated activity. Rows of `report_power -instances`: internal, switching, leakage, total, name.
-proc report_cell_power {activity} {
-  set cells {}
+proc margins {} {
+  uplevel #0 source $::margins
+  puts "DTOF_MARGIN_SLACK [worst_slack -max] [worst_slack -min]"
+  puts "DTOF_MARGIN_PATH_MAX"
+  report_checks -path_delay max -digits 4 -fields {slew cap}
+  puts "DTOF_MARGIN_PATH_MIN"
+  report_checks -path_delay min -digits 4 -fields {slew cap}
+  puts "DTOF_EARLY"
+  report_checks -path_delay min -slack_max 0 -group_count 100000 -format full -fields {input_pins} -digits 4
+  puts "DTOF_TIGHT"
+  report_checks -path_delay max -slack_max $::tight -group_count 100000 -format full -fields {input_pins} -digits 4
+  puts "DTOF_RESET"
+  report_check_types -recovery -removal
+  puts "DTOF_END"
+}
+
+# Power of the cells of one column and of all outside the columns, without SRAMs.
+proc power {} {
+  set column {}
+  set shared {}
+  set counted ""
   foreach cell [get_cells -hierarchical *] {
     set name [get_full_name $cell]
-    if {![string match *u_macro $name] && ![string match *u_column $name]
-        && ![string match *u_pair $name]
-        && ![string match *u_engine $name]} { lappend cells $cell }
+    if {[string match *u_macro $name] || [string match *u_column $name] || [string match *u_pair $name]
+        || [string match *u_engine $name]} { continue }
+    if {![regexp {^.*u_(column|pair)/} $name place]} {
+      lappend shared $cell
+    } elseif {$counted in [list "" $place]} {
+      set counted $place
+      lappend column $cell
+    }
   }
-  foreach {label value} [list CLOCK 1e-9 ALL $activity] {
-    puts "DTOF_POWER_$label"
-    set_power_activity -global -activity $value
-    report_power -instances $cells -digits 9
+  report_clock_and_all $::activity [list column $column shared $shared]
+}
+
+proc run {} {
+  global liberty_files netlist wires top wire_load steps
+  foreach file $liberty_files { read_liberty $file }
+  read_verilog $netlist
+  link_design $top
+  if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
+  if {$wires ne ""} { read_spef $wires }
+  constrain $::target_period
+  foreach step {nominal closing power margins} {
+    if {$step in $steps} { $step }
   }
 }
 

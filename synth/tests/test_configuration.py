@@ -6,7 +6,6 @@ from pathlib import Path
 from dtof_synth import configuration, goals, growth, readouts, sram_kit, technology
 from dtof_synth.configuration import bits_per_pixel, memories
 from dtof_synth.errors import FlowError
-from dtof_synth.run import _critical_path, _readable
 from dtof_synth.signalled_clear import configurations as clear_configurations
 from dtof_synth.sram_model import Size
 
@@ -67,30 +66,6 @@ class Configurations(unittest.TestCase):
                                "unknown parameter NX")):
             with self.subTest(text=text), self.assertRaisesRegex(FlowError, message):
                 self.load(text)
-
-
-class Names(unittest.TestCase):
-    def test_register_names_are_rtl_names(self):
-        self.assertEqual(_readable("u_pixel_sequencer_first_slot_t1_o_DFFR_X1_copy5604", {
-            "u_pixel_sequencer_first_slot_t1_o_DFFR_X1_copy5604": r"u_pixel_sequencer.first_slot_t1_o\\DFFR_X1_copy5604"}),
-                         "u_pixel_sequencer.first_slot_t1_o")
-        self.assertEqual(_readable(r"g_column[9].g_ez_pointer.u_column/u_pointer_builder.word_q[12]\\DFF_X1", {}),
-                         "column u_pointer_builder.word_q[12]")
-        self.assertEqual(_readable("g_column[0].genblk1.u_column/u_b.u_peak_sram.g_one_port.u_macro.g_160x6.u_macro", {}),
-                         "column u_b.u_peak_sram")
-
-    def test_stages_are_the_cells_between_start_and_end(self):
-        report = """Startpoint: a (rising edge-triggered flip-flop clocked by clk)
-Endpoint: b (rising edge-triggered flip-flop clocked by clk)
-  0.00 0.00 ^ a/CK (DFF_X1)
-  0.10 0.10 ^ a/Q (DFF_X1)
-  0.10 0.20 v n1/Y (NAND2_X1)
-  0.10 0.30 ^ n2/Y (INV_X1)
-  0.00 0.30 ^ b/D (DFF_X1)
-       0.30   data arrival time
-  0.00 3.00 ^ b/CK (DFF_X1)
-"""
-        self.assertEqual(_critical_path(report, {}), ("a", "b", 2))
 
 
 class Ranks(unittest.TestCase):

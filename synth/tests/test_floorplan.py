@@ -155,10 +155,10 @@ class Wires(WithLibrary):
                 spef._HEADER.format(design="t") + "\n".join(spef._wire("m", pins, of)), encoding="utf-8")
             tools.write_settings(self.folder / "t.tcl", {
                 "liberty_files": [self.liberty], "netlist": self.folder / "t.v", "wires": self.folder / "t.spef", "top": "t",
-                "wire_load": "", "constraints": self.folder / "t.sdc", "margins": self.folder / "none.sdc", "period": "9",
-                "tight": "0"})
-            output = tools.run_sta(ROOT / "synth/sta/margins.tcl", self.folder / "t.tcl", self.folder / "log", "t")
-            rows = re.findall(r"([\d.]+) +[\d.]+ [v^] s/D", output.split("DTOF_PATH_MAX")[1])
+                "wire_load": "", "constraints": self.folder / "t.sdc", "margins": self.folder / "none.sdc", "target_period": "9",
+                "tight": "0", "steps": ["margins"]})
+            output = tools.run_sta(ROOT / "synth/sta/timing.tcl", self.folder / "t.tcl", self.folder / "log", "t")
+            rows = re.findall(r"([\d.]+) +[\d.]+ [v^] s/D", output.split("DTOF_MARGIN_PATH_MAX")[1])
             return float(rows[0])  # of the wire alone
 
         elmore_ns = wire.ohm_per_um * length * (wire.ff_per_um * length / 2 + self.library.input_ff["DFF_X1"]["D"]) * 1e-6

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every fault that must stop the flow stops it, with its message."""
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -45,7 +46,7 @@ class FlowChecks(unittest.TestCase):
         tools.write_settings(settings, {
             "liberty_files": libraries or [self.folder / "typical.lib"], "netlist": self.folder / "netlist.v",
             "wires": "", "top": "t", "wire_load": "block_1k", "constraints": self.folder / "test.sdc",
-            "target_period": 3.0, "fast_period": 2.0, "activity": 0.1, "with_power": 1})
+            "target_period": 3.0, "fast_period": 2.0, "activity": 0.1, "steps": ["closing", "nominal", "power"]})
         return tools.run_sta(SYNTH / "sta" / "timing.tcl", settings, self.folder / "sta.log", "test")
 
     def test_clean_rtl_passes(self):
@@ -102,11 +103,19 @@ class FlowChecks(unittest.TestCase):
         # dtof_synth/power.py halves the internal power for this reason.
         output = self.sta("module t(clk_i, a, q); input clk_i, a; output q; wire n;"
                           " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); DFF_X1 s(.D(n), .CK(clk_i), .Q(q)); endmodule")
-        rows = output.split("DTOF_POWER_CLOCK\n")[1].split("DTOF_POWER_ALL")[0].splitlines()
-        watts = [float(row.split()[0]) for row in rows if row.endswith((" r", " s"))]
+        watts = float(re.search(r"^DTOF_POWER CLOCK shared (\S+)", output, re.MULTILINE).group(1))
         per_cycle = 2 * standard_cells.clock_energy_fj(1.1) * 1e-15 / 3e-9
-        self.assertEqual(len(watts), 2)
-        self.assertAlmostEqual(watts[0] / (2 * per_cycle), 1, delta=0.01)
+        self.assertAlmostEqual(watts / (2 * 2 * per_cycle), 1, delta=0.01)
+
+    def test_power_counts_one_column_and_no_sram(self):
+        column = "module c(k, a, q); input k, a; output q; DFF_X1 r(.D(a), .CK(k), .Q(q)); endmodule\n"
+        output = self.sta(column + "module t(clk_i, a, q); input clk_i, a; output q; wire n, m;"
+                          " DFF_X1 r(.D(a), .CK(clk_i), .Q(n)); c x_u_column(.a(n), .k(clk_i), .q(m));"
+                          " c y_u_column(.a(m), .k(clk_i), .q(q)); endmodule")
+        column_w, shared_w = (float(re.search(rf"^DTOF_POWER CLOCK {group} (\S+)", output, re.MULTILINE).group(1))
+                              for group in ("column", "shared"))
+        self.assertGreater(column_w, 0)
+        self.assertAlmostEqual(column_w / shared_w, 1, delta=0.01)
 
 
 if __name__ == "__main__":

@@ -6,10 +6,11 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import configuration, library, netlist, report, run, standard_cells, tools
+from dtof_synth import configuration, library, netlist, report, run, standard_cells, timing, tools
 from dtof_synth.netlist import Counts
 from dtof_synth.power import ClockTree
 from dtof_synth.run import Margin, Result
+from dtof_synth.timing import TimedPath
 
 ROOT = Path(__file__).resolve().parents[2]
 PERIOD_NS = 3.0
@@ -17,8 +18,8 @@ NONE = Counts(0, 0, 0.0, 0, 0.0, 0.0, 0.0)
 
 
 def slacks(text: str) -> tuple[float, float]:
-    """Setup and hold, as the scripts of synth/sta print them."""
-    found = re.search(r"^DTOF_SLACK (\S+) (\S+)", text, re.MULTILINE)
+    """Setup and hold, as synth/sta/timing.tcl prints them."""
+    found = re.search(r"^DTOF_MARGIN_SLACK (\S+) (\S+)", text, re.MULTILINE)
     return float(found.group(1)), float(found.group(2))
 
 
@@ -62,14 +63,14 @@ class Margins(unittest.TestCase):
             tools.write_settings(folder / "settings.tcl", {
                 "liberty_files": [liberty], "netlist": folder / "fork.v", "wires": "", "top": "fork_and_join",
                 "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc",
-                "margins": folder / "none.sdc", "period": f"{PERIOD_NS}", "slew": "0.028", "load": "10", "tight": "0.15"})
-            output = tools.run_sta(ROOT / "synth/sta/margins.tcl", folder / "settings.tcl", folder / "log", "fork_and_join")
-        early = run._paths(run._section(output, "DTOF_EARLY"))
-        tight = run._paths(run._section(output, "DTOF_TIGHT"))
-        self.assertIn(["g/A2", "b/D"], early)
-        self.assertIn([*(f"i{index}/A" for index in range(stages)), "g/A1", "b/D"], tight)
+                "margins": folder / "none.sdc", "target_period": f"{PERIOD_NS}", "steps": ["margins"], "slew": "0.028", "load": "10", "tight": "0.15"})
+            output = tools.run_sta(ROOT / "synth/sta/timing.tcl", folder / "settings.tcl", folder / "log", "fork_and_join")
+        found = timing.Report(output, {})
+        _, hold_slack = slacks(output)
+        self.assertIn(TimedPath(["g/A2", "b/D"], round(hold_slack, 4)), found.early)
+        self.assertIn([*(f"i{index}/A" for index in range(stages)), "g/A1", "b/D"], [path.pins for path in found.tight])
         design = {"modules": {"fork_and_join": {"attributes": {"top": "1"}, "cells": {}}}}
-        taken = {netlist.local_pin(design, pin) for path in tight for pin in path}
+        taken = {netlist.local_pin(design, pin) for path in found.tight for pin in path.pins}
         self.assertEqual(run._last_free_pin(design, ["g/A2", "b/D"], taken), "g/A2")
         self.assertEqual(run._last_free_pin(design, ["g/A1", "b/D"], taken), "b/D")
 
@@ -95,9 +96,9 @@ class Margins(unittest.TestCase):
                 tools.write_settings(folder / "settings.tcl", {
                     "liberty_files": [liberty], "netlist": folder / "chain.v", "wires": "", "top": "chain",
                     "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc", "margins": margins,
-                    "period": f"{PERIOD_NS}", "slew": "0.028", "load": "10", "tight": "0"})
-                output = tools.run_sta(ROOT / "synth/sta/margins.tcl", folder / "settings.tcl", folder / "log", "chain")
-                arrival = float(re.search(r"^ +([0-9.]+) +data arrival time", output.split("DTOF_PATH_MAX")[1],
+                    "target_period": f"{PERIOD_NS}", "steps": ["margins"], "slew": "0.028", "load": "10", "tight": "0"})
+                output = tools.run_sta(ROOT / "synth/sta/timing.tcl", folder / "settings.tcl", folder / "log", "chain")
+                arrival = float(re.search(r"^ +([0-9.]+) +data arrival time", output.split("DTOF_MARGIN_PATH_MAX")[1],
                                           re.MULTILINE).group(1))
                 return *slacks(output), arrival
 

@@ -89,9 +89,13 @@ class FanoutTrees(unittest.TestCase):
         module = fan(3)
         module["cells"] |= {"a": cell("block", {}, {}), "b": cell("block", {}, {})}
         design = {"modules": {"top": module, "block": block}}
-        beside = netlist.delay_pins(design, ["sink1/A", "a/r/D", "b/r/D"], library())
-        self.assertEqual(list(beside.values()), ["sink1"])
-        self.assertEqual(source(module, module["cells"]["sink1"]["connections"]["A"][0]), "D3")
+        pins = {netlist.local_pin(design, name): 1 for name in ("a/r/D", "b/r/D")}
+        beside = netlist.delay_pins(design, {("", "sink1", "A"): 2, **pins}, library())
+        self.assertEqual(list(beside.values()), ["sink1", "sink1"])
+        first, last = (module["cells"][name]["connections"] for name in beside)
+        self.assertEqual([first["A"], last["A"]], [[4], first["Y"]])
+        self.assertEqual(module["cells"]["sink1"]["connections"]["A"], last["Y"])
+        self.assertEqual(source(module, last["Y"][0]), "D3")
         self.assertNotEqual(module["cells"]["sink1"]["connections"]["A"], [4])
         self.assertEqual(module["cells"]["sink0"]["connections"]["A"], [4])
         self.assertEqual(netlist.count(block, library()).cells, 2)

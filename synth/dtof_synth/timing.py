@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Slacks and paths of a netlist in one corner: runs OpenSTA with synth/sta/timing.tcl and reads what it printed."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import power, tools
+from .errors import FlowError
+from .standard_cells import CINV_FF, FO4_NS
+
+FAST_MHZ = 500.0
+TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
+NAMES = "names.json"  # beside the netlist: what its parts were called before spef.plain_names
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One corner. Slacks in ns: setup and hold at the technology's target clock, setup at 500 MHz. `slow_edges`: pins
+    beyond the library's max_transition."""
+
+    slack: float
+    hold_slack: float
+    fast_slack: float
+    fmax_mhz: float
+    start: str
+    end: str
+    stages: int
+    slow_edges: int
+
+
+@dataclass(frozen=True)
+class Margin:
+    """One corner with the margins of constraints/margins.sdc. Slacks in ns at the target clock."""
+
+    slack: float
+    hold_slack: float
+    reset_slack: float  # the lesser of recovery and removal
+    start: str  # of the slowest path
+    end: str
+
+
+@dataclass(frozen=True)
+class TimedPath:
+    """Input pins from behind the first register to the end."""
+
+    pins: list[str]
+    slack: float
+
+
+@dataclass(frozen=True)
+class Netlist:
+    """Files that OpenSTA reads: Verilog, the wires' SPEF and the Liberty files of one corner."""
+
+    name: str  # in messages
+    verilog: Path
+    wires: Path
+    liberty_files: list[Path]
+    wire_load: str
+    top: str
+
+
+def _readable(name: str, called: dict[str, str]) -> str:
+    """A register's or macro's name without generate levels, cell type and copy number. `called`: what its parts were called
+    before spef.plain_names."""
+    name = "/".join(called.get(part, part) for part in name.split("/"))
+    name = re.sub(r"\\+\w+$", "", name)
+    name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
+    return re.sub(r"(\.(g_\w+|genblk\d+|u_macro))+$", "", name)
+
+
+@dataclass(frozen=True)
+class Report:
+    """What OpenSTA printed for the steps of synth/sta/timing.tcl that were asked for."""
+
+    output: str
+    called: dict[str, str]
+
+    def timing(self) -> Timing:
+        """Of the steps `closing` and `nominal`."""
+        return Timing(self.slack, self._number("DTOF_SLACK", 1), self._number("DTOF_FAST_SLACK"),
+                      1000 / self._number("DTOF_CLOSING_PERIOD"), *self._slowest_path("DTOF_PATH_MAX"),
+                      self._section("DTOF_TRANSITION").count("VIOLATED"))
+
+    @property
+    def slack(self) -> float:
+        """Setup, of the step `nominal`."""
+        return self._number("DTOF_SLACK")
+
+    def margin(self) -> Margin:
+        """Of the step `margins`."""
+        start, end, _ = self._slowest_path("DTOF_MARGIN_PATH_MAX")
+        reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", self._section("DTOF_RESET"), re.MULTILINE)
+        return Margin(self._number("DTOF_MARGIN_SLACK"), self._number("DTOF_MARGIN_SLACK", 1),
+                      min((float(slack) for slack in reset), default=0.0), start, end)
+
+    @property
+    def early(self) -> list[TimedPath]:
+        """Those that violate hold with margins."""
+        return self._paths("DTOF_EARLY")
+
+    @property
+    def tight(self) -> list[TimedPath]:
+        """Those that have less than TIGHT_NS to spare with margins."""
+        return self._paths("DTOF_TIGHT")
+
+    def _section(self, name: str) -> str:
+        return self.output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]
+
+    def _number(self, label: str, index: int = 0) -> float:
+        found = re.search(rf"^{label} (.*)$", self.output, re.MULTILINE)
+        return float(found.group(1).split()[index])
+
+    def _slowest_path(self, section: str) -> tuple[str, str, int]:
+        """(start, end, cells between them)."""
+        report = self._section(section)
+        start = re.search(r"Startpoint: (\S+)", report)
+        end = re.search(r"Endpoint: (\S+)", report)
+        if not start or not end:
+            raise FlowError("OpenSTA reported no timing path")
+        data = report.split("data arrival time")[0]
+        pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
+        gates = [pin for pin in pins if not pin.startswith((start.group(1), end.group(1)))]
+        return _readable(start.group(1), self.called), _readable(end.group(1), self.called), len(gates)
+
+    def _paths(self, section: str) -> list[TimedPath]:
+        """Of reports with input pins, those that do not end at a port: from the end on every second pin is an input, the last of
+        them the clock pin that a path begins at."""
+        found = []
+        for report in self._section(section).split("Startpoint: ")[1:]:
+            data, times = report.split("data arrival time", 1)
+            pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
+            if "/" in pins[-1]:
+                slack = re.search(r"(-?\d+\.\d+) +slack", times)
+                found.append(TimedPath(pins[:0:-2][::-1], float(slack.group(1))))
+        return found
+
+
+def measure(netlist: Netlist, root: Path, target_mhz: float, log: Path, steps: tuple[str, ...]) -> Report:
+    """Runs OpenSTA; the steps are those of synth/sta/timing.tcl. FlowError where it fails or the clock is faster than an SRAM
+    allows."""
+    settings = log.with_suffix(".tcl")
+    tools.write_settings(settings, {
+        "steps": list(steps), "liberty_files": netlist.liberty_files, "netlist": netlist.verilog, "wires": netlist.wires,
+        "top": netlist.top, "wire_load": netlist.wire_load, "constraints": root / "constraints" / "dtof.sdc",
+        "margins": root / "constraints" / "margins.sdc", "target_period": f"{1000 / target_mhz:.6f}",
+        "fast_period": f"{1000 / FAST_MHZ:.6f}", "activity": power.ACTIVITY, "slew": f"{FO4_NS:.4f}",
+        "load": f"{10 * CINV_FF:.4f}", "tight": f"{TIGHT_NS}"})
+    output = tools.run_sta(root / "synth" / "sta" / "timing.tcl", settings, log, netlist.name)
+    called = json.loads((netlist.verilog.parent / NAMES).read_text(encoding="utf-8"))
+    report = Report(output, called)
+    if "nominal" in steps and "VIOLATED" in report._section("DTOF_MIN_PERIOD"):
+        raise FlowError(f"{netlist.name}: the clock is faster than an SRAM's minimum period (see {log})")
+    return report
