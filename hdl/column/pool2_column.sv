@@ -38,6 +38,7 @@ module pool2_column #(
     // the pixel at T2
     input  logic [ CELLS_WIDTH-1:0] cells_i,           // candidates of the group of the pixel at T1 and T2
     input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // point: the pointer's, of the pixel at T1
+    output logic                    detected_t1_o,     // it will have a timestamp at T2
     output logic                    detected_t2_o,     // it has a timestamp
     output logic [          NP-1:0] used_t2_o,         // the one that counts
     output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
@@ -54,7 +55,7 @@ module pool2_column #(
   // The first two timestamps, complete at T1.
 
   logic [NP-1:0] timestamp_t1, first, first_q, second, second_q;
-  logic valid_t1, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
+  logic valid_t1, has_first, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
 
   time_gate #(
       .NP       (NP),
@@ -70,10 +71,11 @@ module pool2_column #(
   );
 
   assign valid_t1 = beat_t1_i && detected_t1;
+  assign has_first = valid_t1 || (has_first_q && !first_slot_t1_i);
   assign first = (first_slot_t1_i || !has_first_q) ? timestamp_t1 : first_q;
 
   always_ff @(posedge clk_i) begin
-    has_first_q <= valid_t1 || (has_first_q && !first_slot_t1_i);
+    has_first_q <= has_first;
     has_second_q <= has_second;
     if (valid_t1 && (first_slot_t1_i || !has_first_q)) begin
       first_q <= first;
@@ -141,6 +143,7 @@ module pool2_column #(
   logic held_valid_q;
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
+  assign detected_t1_o = has_first;
   assign detected_t2_o = has_first_q;
   assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
   assign valid_t2_o = has_first_q || held_valid_q;

@@ -106,7 +106,7 @@ module pool2_pair #(
   localparam bit ONE_WORD = PIXELS_PER_SRAM <= 2;  // it stays in the register for a whole phase
 
   logic [WORD_WIDTH-1:0] read_data, write_data, word_q;
-  logic [COLUMNS-1:0] detected_t2, valid_t2, held_valid;
+  logic [COLUMNS-1:0] detected_t1, detected_t2, valid_t2, held_valid;
   logic [COLUMNS*COARSE_WIDTH-1:0] bin_t2, held_bin;
   logic read, write;
   logic [ADDR_WIDTH-1:0] address;
@@ -158,13 +158,14 @@ module pool2_pair #(
 
   assign next_count = (&count) ? count : count + 1'b1;
 
+  // One place at most, and none while nothing is counted, so that the count rests then.
+  logic [2*HALF_BINS-1:0] counts_here;
   integer b;
   always_comb begin
     count = '0;
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin
-      if (place_q == PLACE_WIDTH'(b)) begin
-        count = word_q[(b/HALF_BINS)*HALF_WIDTH+(b%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH];
-      end
+      counts_here[b] = pending_q && (place_q == PLACE_WIDTH'(b));
+      count = count | (word_q[(b/HALF_BINS)*HALF_WIDTH+(b%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] & {COUNT_WIDTH{counts_here[b]}});
     end
   end
 
@@ -173,7 +174,10 @@ module pool2_pair #(
   logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [PIXEL_WIDTH-1:0] moved;
-  logic [3:0] turn_q, move_q;  // which pixel's distance is found, and which one moved is for, if any
+  // Which pixel's distance is found, and which one moved is for. A pixel without a timestamp has no turn, so that nothing
+  // moves for it.
+  logic [3:0] turn_q, move_q;
+  logic [1:0] visit_t1, visit_q;  // whose row is complete
   logic second_row_t1_q, visit_t2;
 
   assign word_load = read_selected_q || word_load_q || (load_i && load_q);
@@ -195,7 +199,7 @@ module pool2_pair #(
   integer i;
   always_ff @(posedge clk_i) begin
     for (i = 0; i < 2 * HALF_BINS; i = i + 1) begin
-      if (count_i && pending_q && place_q == PLACE_WIDTH'(i)) begin
+      if (count_i && counts_here[i]) begin
         word_q[(i/HALF_BINS)*HALF_WIDTH+(i%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] <= next_count;
       end
     end
@@ -208,7 +212,7 @@ module pool2_pair #(
 
   // Track and point: whose turn it is.
 
-  logic detected_t3_q, turn_valid;
+  logic turn_valid, second_column_turn;
   logic [3:0] acquisition_q;
   logic [COLUMNS*NP-1:0] used_t2;
   logic [COLUMNS*LABELS-1:0] hits_t2;
@@ -217,10 +221,12 @@ module pool2_pair #(
   logic [PIXEL_WIDTH-1:0] first_pixel, turn_pixel;
   logic [CELL_WIDTH-1:0] last_leader_cell_q, leader_cell;
 
-  assign visit_t2 = turn_q[0] || turn_q[1];
-  assign turn_valid = (visit_t2 && detected_t2[0]) || ((turn_q[2] || turn_q[3]) && detected_t3_q);
-  assign turn_timestamp = visit_t2 ? used_t2[NP-1:0] : used_t3_q;
-  assign turn_hits = visit_t2 ? hits_t2[LABELS-1:0] : hits_t3_q;
+  assign visit_t1 = {2{last_slot_t1_i && !coarse_i}} & {second_row_t1_q, !second_row_t1_q};
+  assign visit_t2 = visit_q[0] || visit_q[1];
+  assign turn_valid = (turn_q != '0);
+  assign second_column_turn = turn_q[2] || turn_q[3];
+  assign turn_timestamp = second_column_turn ? used_t3_q : used_t2[NP-1:0];
+  assign turn_hits = second_column_turn ? hits_t3_q : hits_t2[LABELS-1:0];
 
   generate
     if (ONE_WORD) begin : g_one_word
@@ -255,10 +261,12 @@ module pool2_pair #(
 
   always_ff @(posedge clk_i) begin
     second_row_t1_q <= second_row_t0_i;
-    turn_q <= {turn_q[1:0], {2{last_slot_t1_i && !coarse_i}} & {second_row_t1_q, !second_row_t1_q}};
-    move_q <= turn_q & {4{turn_valid}};
-    detected_t3_q <= (COLUMNS > 1) && detected_t2[LAST];
-    last_leader_cell_q <= cell_of_leader(word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH], point_i, cells_q);
+    visit_q <= visit_t1;
+    turn_q <= {visit_q & {2{(COLUMNS > 1) && detected_t2[LAST]}}, visit_t1 & {2{detected_t1[0]}}};
+    move_q <= turn_q;
+    if (visit_q[1]) begin
+      last_leader_cell_q <= cell_of_leader(word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH], point_i, cells_q);
+    end
     if (visit_t2) begin
       acquisition_q <= acquisition_t2_i;
       if (detected_t2[LAST]) begin
@@ -335,6 +343,7 @@ module pool2_pair #(
             .second_row_t2_i  (second_row_t2_i),
             .cells_i          (cells_q),
             .pointer_cell_t1_i(pointer_cell),
+            .detected_t1_o    (detected_t1[c]),
             .detected_t2_o    (detected_t2[c]),
             .used_t2_o        (used_t2[c*NP+:NP]),
             .hits_t2_o        (hits_t2[c*LABELS+:LABELS]),
@@ -372,6 +381,6 @@ module pool2_pair #(
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(group_word) : '0);
 
   logic unused;
-  assign unused = ^{1'b0, valid_t2, held_valid, bin_t2, held_bin, used_i, move_q[3]};
+  assign unused = ^{1'b0, valid_t2, held_valid, bin_t2, held_bin, used_i, move_q[3], detected_t1};
 
 endmodule

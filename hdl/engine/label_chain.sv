@@ -26,6 +26,7 @@ module label_chain #(
     localparam int BELIEF_WIDTH = EVIDENCE_WIDTH + 2
 ) (
     input  logic                             clk_i,
+    input  logic                             active_i,   // in all of the operation; otherwise nothing moves
     input  chain_command_t                   command_i,
     // the pixel prepared, taken with command_i.advance
     input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
@@ -120,9 +121,11 @@ module label_chain #(
     if (command_i.begin_step) begin
       sum_q <= sum;
     end
-    smallest_lower_q <= smallest_lower;
-    smallest_upper_q <= smallest_upper;
-    largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
+    if (active_i) begin
+      smallest_lower_q <= smallest_lower;
+      smallest_upper_q <= smallest_upper;
+      largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
+    end
     if (command_i.spread) begin
       behind_q <= behind;
     end
@@ -163,8 +166,10 @@ module label_chain #(
   );
 
   always_ff @(posedge clk_i) begin
-    target_q <= next_position_q[target*POSITION_WIDTH+:POSITION_WIDTH];
-    near_q <= near;
+    if (active_i) begin
+      target_q <= next_position_q[target*POSITION_WIDTH+:POSITION_WIDTH];
+      near_q <= near;
+    end
     if (command_i.advance && command_i.clear_message) begin
       message_q <= '0;
     end else if (command_i.pass_label) begin
@@ -185,24 +190,26 @@ module label_chain #(
   assign runner_up = (label_q == LABEL_WIDTH'(1)) || (belief_q > second_q);
 
   always_ff @(posedge clk_i) begin
-    passing_q <= command_i.spread ? '0 : passing_q + 1'b1;
-    passed_q <= command_i.pass_label;
-    label_q <= passing_q;
-    passed_position_q <= position_q[passing_q*POSITION_WIDTH+:POSITION_WIDTH];
-    belief_q <= $signed(sum_q[passing_q*BELIEF_WIDTH+:BELIEF_WIDTH])
-        - $signed(BELIEF_WIDTH'(other_q[passing_q*PENALTY_WIDTH+:PENALTY_WIDTH]));
-    if (passed_q) begin
-      if (better) begin
-        best_q <= belief_q;
-        best_label_q <= label_q;
-        best_position_q <= passed_position_q;
-        second_q <= best_q;
-        second_label_q <= best_label_q;
-        second_position_q <= best_position_q;
-      end else if (runner_up) begin
-        second_q <= belief_q;
-        second_label_q <= label_q;
-        second_position_q <= passed_position_q;
+    if (active_i) begin
+      passing_q <= command_i.spread ? '0 : passing_q + 1'b1;
+      passed_q <= command_i.pass_label;
+      label_q <= passing_q;
+      passed_position_q <= position_q[passing_q*POSITION_WIDTH+:POSITION_WIDTH];
+      belief_q <= $signed(sum_q[passing_q*BELIEF_WIDTH+:BELIEF_WIDTH])
+          - $signed(BELIEF_WIDTH'(other_q[passing_q*PENALTY_WIDTH+:PENALTY_WIDTH]));
+      if (passed_q) begin
+        if (better) begin
+          best_q <= belief_q;
+          best_label_q <= label_q;
+          best_position_q <= passed_position_q;
+          second_q <= best_q;
+          second_label_q <= best_label_q;
+          second_position_q <= best_position_q;
+        end else if (runner_up) begin
+          second_q <= belief_q;
+          second_label_q <= label_q;
+          second_position_q <= passed_position_q;
+        end
       end
     end
   end

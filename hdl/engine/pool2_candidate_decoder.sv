@@ -27,6 +27,7 @@ module pool2_candidate_decoder #(
     localparam int LINE_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH
 ) (
     input  logic                         clk_i,
+    input  logic                         active_i,     // in all of decode; otherwise nothing moves
     input  pool2_decode_command_t        command_i,
     input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture: an octet of bins, lowest first
     // with command_i.take_prior: the group's candidates of the last frame, and which of them were used
@@ -56,17 +57,19 @@ module pool2_candidate_decoder #(
   assign own_bin = own_q[COUNT_WIDTH-1:0];
 
   always_ff @(posedge clk_i) begin
-    above_q <= command_i.capture_above ? line_i : above_q >> COUNT_WIDTH;
-    own_q <= command_i.capture_own ? line_i : own_q >> COUNT_WIDTH;
-    below_q <= command_i.capture_below ? line_i : below_q >> COUNT_WIDTH;
-    left_q <= command_i.capture_left ? line_i : left_q >> COUNT_WIDTH;
-    right_q <= command_i.capture_right ? line_i : right_q >> COUNT_WIDTH;
-    above_sum_q <= BIN_SUM_WIDTH'(above_q[COUNT_WIDTH-1:0]);
-    own_sum_q <= above_sum_q + BIN_SUM_WIDTH'(OWN_WEIGHT) * BIN_SUM_WIDTH'(own_bin);
-    below_sum_q <= own_sum_q + BIN_SUM_WIDTH'(below_q[COUNT_WIDTH-1:0]);
-    left_sum_q <= below_sum_q + BIN_SUM_WIDTH'(left_q[COUNT_WIDTH-1:0]);
-    bin_sum_q <= left_sum_q + BIN_SUM_WIDTH'(right_q[COUNT_WIDTH-1:0]);
-    last_sum_q <= bin_sum_q;
+    if (active_i) begin
+      above_q <= command_i.capture_above ? line_i : above_q >> COUNT_WIDTH;
+      own_q <= command_i.capture_own ? line_i : own_q >> COUNT_WIDTH;
+      below_q <= command_i.capture_below ? line_i : below_q >> COUNT_WIDTH;
+      left_q <= command_i.capture_left ? line_i : left_q >> COUNT_WIDTH;
+      right_q <= command_i.capture_right ? line_i : right_q >> COUNT_WIDTH;
+      above_sum_q <= BIN_SUM_WIDTH'(above_q[COUNT_WIDTH-1:0]);
+      own_sum_q <= above_sum_q + BIN_SUM_WIDTH'(OWN_WEIGHT) * BIN_SUM_WIDTH'(own_bin);
+      below_sum_q <= own_sum_q + BIN_SUM_WIDTH'(below_q[COUNT_WIDTH-1:0]);
+      left_sum_q <= below_sum_q + BIN_SUM_WIDTH'(left_q[COUNT_WIDTH-1:0]);
+      bin_sum_q <= left_sum_q + BIN_SUM_WIDTH'(right_q[COUNT_WIDTH-1:0]);
+      last_sum_q <= bin_sum_q;
+    end
   end
 
   // Background.
@@ -78,13 +81,15 @@ module pool2_candidate_decoder #(
   assign octet = ((command_i.own_bin[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin);
 
   always_ff @(posedge clk_i) begin
-    octet_done_q <= command_i.count_own && command_i.own_bin[2:0] == 3'd7;
-    first_octet_q <= (command_i.own_bin[4:3] == 2'd0);
-    if (command_i.count_own) begin
-      octet_q <= octet;
-    end
-    if (octet_done_q && (first_octet_q || octet_q < least_octet_q)) begin
-      least_octet_q <= octet_q;
+    if (active_i) begin
+      octet_done_q <= command_i.count_own && command_i.own_bin[2:0] == 3'd7;
+      first_octet_q <= (command_i.own_bin[4:3] == 2'd0);
+      if (command_i.count_own) begin
+        octet_q <= octet;
+      end
+      if (octet_done_q && (first_octet_q || octet_q < least_octet_q)) begin
+        least_octet_q <= octet_q;
+      end
     end
   end
 
@@ -112,10 +117,12 @@ module pool2_candidate_decoder #(
       end
 
       always_ff @(posedge clk_i) begin
-        if (command_i.take_prior) begin
-          used_q <= last_used_i;
+        if (active_i) begin
+          if (command_i.take_prior) begin
+            used_q <= last_used_i;
+          end
+          raised_sum_q <= SUM_WIDTH'(bin_sum_q) + ((here != '0) ? SUM_WIDTH'(PRIOR_WEIGHT) : '0);
         end
-        raised_sum_q <= SUM_WIDTH'(bin_sum_q) + ((here != '0) ? SUM_WIDTH'(PRIOR_WEIGHT) : '0);
       end
       assign last_sum = raised_sum_q;
       logic unused_last_sum;
@@ -168,17 +175,19 @@ module pool2_candidate_decoder #(
       : command_i.search ? {head_taken, head} : '0;
 
   always_ff @(posedge clk_i) begin
-    ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:2*ENTRY_WIDTH], taken, left_over};
-    new_peak_q <= (command_i.pair == 5'd31);
-    if (new_peak_q) begin  // for pair 2
-      beside_q <= !command_i.first_label && (best_pair_q <= 5'd3);
-      two_away_q <= !command_i.first_label && (best_pair_q == 5'd4);
-    end else begin
-      beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
-      // While the ring fills, the peak is still of another group.
-      two_away_q <= command_i.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
+    if (active_i) begin
+      ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:2*ENTRY_WIDTH], taken, left_over};
+      new_peak_q <= (command_i.pair == 5'd31);
+      if (new_peak_q) begin  // for pair 2
+        beside_q <= !command_i.first_label && (best_pair_q <= 5'd3);
+        two_away_q <= !command_i.first_label && (best_pair_q == 5'd4);
+      end else begin
+        beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
+        // While the ring fills, the peak is still of another group.
+        two_away_q <= command_i.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
+      end
+      new_leak_q <= new_leak;
     end
-    new_leak_q <= new_leak;
   end
 
   // The largest of a turn, the lowest on a tie, with its neighbours.
@@ -189,20 +198,22 @@ module pool2_candidate_decoder #(
   assign better = !head_taken && (!found_q || head > best_q);
 
   always_ff @(posedge clk_i) begin
-    last_q <= head;
-    if (command_i.pair == 5'd0) begin
-      found_q <= 1'b0;
-      next_pending_q <= 1'b0;
-    end else begin
-      next_pending_q <= better;
-      if (better) begin
-        found_q <= 1'b1;
-        best_pair_q <= command_i.pair;
-        best_q <= head;
-        before_q <= last_q;
-        after_q <= '0;  // beyond the last pair
-      end else if (next_pending_q) begin
-        after_q <= head;
+    if (active_i) begin
+      last_q <= head;
+      if (command_i.pair == 5'd0) begin
+        found_q <= 1'b0;
+        next_pending_q <= 1'b0;
+      end else begin
+        next_pending_q <= better;
+        if (better) begin
+          found_q <= 1'b1;
+          best_pair_q <= command_i.pair;
+          best_q <= head;
+          before_q <= last_q;
+          after_q <= '0;  // beyond the last pair
+        end else if (next_pending_q) begin
+          after_q <= head;
+        end
       end
     end
   end
@@ -222,15 +233,17 @@ module pool2_candidate_decoder #(
   assign new_leak = excess >> LEAK_SHIFT;
 
   always_ff @(posedge clk_i) begin
-    upwards_q <= upwards;
-    tilt_q <= upwards ? after_q - before_q : before_q - after_q;
-    lower_q <= upwards ? before_q : after_q;
-    if (command_i.search && new_peak_q) begin
-      peak_q <= command_i.first_label ? NOWHERE : {1'b0, best_pair_q};
-      leak_q <= new_leak;
-    end
-    if (command_i.candidate) begin
-      cells_q <= {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
+    if (active_i) begin
+      upwards_q <= upwards;
+      tilt_q <= upwards ? after_q - before_q : before_q - after_q;
+      lower_q <= upwards ? before_q : after_q;
+      if (command_i.search && new_peak_q) begin
+        peak_q <= command_i.first_label ? NOWHERE : {1'b0, best_pair_q};
+        leak_q <= new_leak;
+      end
+      if (command_i.candidate) begin
+        cells_q <= {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
+      end
     end
   end
 

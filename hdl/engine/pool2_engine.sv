@@ -113,6 +113,7 @@ module pool2_engine #(
       .PRIOR      (PRIOR)
   ) u_candidate_decoder (
       .clk_i       (clk_i),
+      .active_i    (command_i.decoding),
       .command_i   (command_i.decode),
       .line_i      (line_bins),
       .last_cells_i(line_q[LABELS*CELL_WIDTH-1:0]),
@@ -221,6 +222,7 @@ module pool2_engine #(
       .PENALTY_WIDTH (CHOOSE_PENALTY_WIDTH)
   ) u_choose (
       .clk_i            (clk_i),
+      .active_i         (command_i.choosing),
       .command_i        (command_i.choose),
       .evidence_i       (choose_evidence),
       .position_i       (choose_position),
@@ -272,6 +274,7 @@ module pool2_engine #(
       .PENALTY_WIDTH (DECIDE_PENALTY_WIDTH)
   ) u_decide (
       .clk_i            (clk_i),
+      .active_i         (command_i.deciding),
       .command_i        (command_i.decide),
       .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
       .position_i       ({rival_position, leader_position}),

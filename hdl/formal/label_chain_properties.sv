@@ -112,6 +112,7 @@ module label_chain_properties #(
       .PENALTY_WIDTH (PENALTY_WIDTH)
   ) u_dut (
       .clk_i            (clk_i),
+      .active_i         (command.deciding),
       .command_i        (command.decide),
       .evidence_i       ((LABELS*EVIDENCE_WIDTH)'(evidence >> (prepared * LABELS * EVIDENCE_WIDTH))),
       .position_i       ((LABELS*POSITION_WIDTH)'(position >> (prepared * LABELS * POSITION_WIDTH))),

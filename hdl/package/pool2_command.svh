@@ -69,9 +69,9 @@ typedef struct packed {
 
 // To pool2_engine.
 typedef struct packed {
-  logic decoding;       // with write_group, in all of decode: the engine's word is the group's
-  logic choosing;       // with write_pair, in all of choose: the engine's word is two first pointer words, otherwise 0
-  logic deciding;       // with write_scratch, in all of decide: the message is decide's
+  logic decoding;       // in all of decode: the decoder is at work, and the engine's word is the group's
+  logic choosing;       // in all of choose: its chain is at work, and the engine's word is two first pointer words, otherwise 0
+  logic deciding;       // in all of decide: its chain is at work, and the message is decide's
   logic giving_used;    // with write_used, in all of its step: the engine's word is which candidates are used
   logic back;           // the second pass of a chain
   pool2_decode_command_t decode;

@@ -14,6 +14,7 @@ from .standard_cells import CINV_FF, FO4_NS
 
 FAST_MHZ = 500.0
 TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
+_SLACK = re.compile(r"(-?\d+\.\d+) +slack")
 NAMES = "names.json"  # beside the netlist: what its parts were called before spef.plain_names
 
 
@@ -115,16 +116,17 @@ class Report:
         return float(found.group(1).split()[index])
 
     def _slowest_path(self, section: str) -> tuple[str, str, int]:
-        """(start, end, cells between them)."""
-        report = self._section(section)
-        start = re.search(r"Startpoint: (\S+)", report)
-        end = re.search(r"Endpoint: (\S+)", report)
-        if not start or not end:
+        """(start, end, cells between them) of the one with the least slack; OpenSTA reports one per path group, resets first."""
+        reports = [report for report in self._section(section).split("Startpoint: ")[1:] if _SLACK.search(report)]
+        if not reports:
             raise FlowError("OpenSTA reported no timing path")
+        report = min(reports, key=lambda text: float(_SLACK.search(text).group(1)))
+        start = report.split(maxsplit=1)[0]
+        end = re.search(r"Endpoint: (\S+)", report).group(1)
         data = report.split("data arrival time")[0]
         pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
-        gates = [pin for pin in pins if not pin.startswith((start.group(1), end.group(1)))]
-        return _readable(start.group(1), self.called), _readable(end.group(1), self.called), len(gates)
+        gates = [pin for pin in pins if not pin.startswith((start, end))]
+        return _readable(start, self.called), _readable(end, self.called), len(gates)
 
     def _paths(self, section: str) -> list[TimedPath]:
         """Of reports with input pins, those that do not end at a port: from the end on every second pin is an input, the last of
@@ -134,8 +136,7 @@ class Report:
             data, times = report.split("data arrival time", 1)
             pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
             if "/" in pins[-1]:
-                slack = re.search(r"(-?\d+\.\d+) +slack", times)
-                found.append(TimedPath(pins[:0:-2][::-1], float(slack.group(1))))
+                found.append(TimedPath(pins[:0:-2][::-1], float(_SLACK.search(times).group(1))))
         return found
 
 

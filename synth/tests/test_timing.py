@@ -16,8 +16,16 @@ class Names(unittest.TestCase):
         self.assertEqual(timing._readable("g_column[0].genblk1.u_column/u_b.u_peak_sram.g_one_port.u_macro.g_160x6.u_macro", {}),
                          "column u_b.u_peak_sram")
 
-    def test_stages_are_the_cells_between_start_and_end(self):
+    def test_the_slowest_path_is_that_of_the_least_slack(self):
+        # A group of paths is reported after the other: the reset's first, then the clock's.
         report = """DTOF_PATH_MAX
+Startpoint: rst_ni (input port clocked by clk)
+Endpoint: c (recovery check against rising-edge clock clk)
+  0.60 0.60 ^ rst_ni (in)
+  0.00 0.60 ^ c/RN (DFFR_X1)
+       0.60   data arrival time
+  0.00 3.00 ^ c/CK (DFFR_X1)
+             2.4000   slack (MET)
 Startpoint: a (rising edge-triggered flip-flop clocked by clk)
 Endpoint: b (rising edge-triggered flip-flop clocked by clk)
   0.00 0.00 ^ a/CK (DFF_X1)
@@ -26,7 +34,8 @@ Endpoint: b (rising edge-triggered flip-flop clocked by clk)
   0.10 0.30 ^ n2/Y (INV_X1)
   0.00 0.30 ^ b/D (DFF_X1)
        0.30   data arrival time
-  0.00 3.00 ^ b/CK (DFF_X1)
+  0.00 0.20 ^ b/CK (DFF_X1)
+             -0.1000   slack (VIOLATED)
 """
         self.assertEqual(timing.Report(report, {})._slowest_path("DTOF_PATH_MAX"), ("a", "b", 2))
 
