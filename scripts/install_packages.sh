@@ -12,7 +12,7 @@ packages=(
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta qflow-tech-osu018
   # scripts, plots, checks
-  python3 python3-numpy python3-markdown python3-yaml gnuplot-nox clang-format clang-tidy gcovr
+  python3 python3-numpy python3-markdown python3-yaml python3-pyflakes gnuplot-nox clang-format clang-tidy gcovr
 )
 
 for purpose in "$@"; do

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; what is written from
+# RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; names in Python; what is written from
 # readouts.toml; the engine's schedule; the README's table; the pictures under reports/; links and pages of the documents.
 # --static-analysis adds clang-tidy over all C++ (half an hour).
 set -euo pipefail
@@ -9,6 +9,10 @@ set -euo pipefail
 mapfile -t sources < <(git ls-files -co --exclude-standard 'tb_cpp/*.cpp' 'tb_cpp/*.hpp' driver/dtof.h driver/dtof.c)
 clang-format --dry-run --Werror "${sources[@]}"
 echo "clang-format: ${#sources[@]} files clean"
+
+mapfile -t modules < <(git ls-files -co --exclude-standard '*.py')
+/usr/bin/python3 -m pyflakes "${modules[@]}"
+echo "pyflakes: ${#modules[@]} files clean"
 
 scripts/generate.py --check
 echo "readouts.toml, registers.toml: everything written from them is up to date"
