@@ -23,7 +23,7 @@ from .tools import Cells
 
 ROOT = Path(__file__).resolve().parents[3]
 BUILD = ROOT / "build" / "layout"
-DEFAULT = ("ezpointer", "hispointer")
+DEFAULT = ("ezpointer", "hispointer", "poolpointer2")
 
 
 def _say(text: str) -> None:
