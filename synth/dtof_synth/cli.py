@@ -27,7 +27,7 @@ def _say(text: str) -> None:
     print(text, flush=True)
 
 
-def _all_configurations(named: dict[str, Configuration]) -> list[Configuration]:
+def all_configurations(named: dict[str, Configuration]) -> list[Configuration]:
     """Named configurations and everything that is derived from them, for the list of SRAM sizes."""
     return [*named.values(), *(point for _, _, point in growth.sweep(named)),
             *signalled_clear.configurations(named)]
@@ -46,7 +46,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     chosen = _select(named, arguments.configuration)
     foreign = arguments.liberty is not None
     build = ROOT / "build" / "synth"
-    everything = _all_configurations(named)
+    everything = all_configurations(named)
     technology = technologies.prepare(ROOT, build / (arguments.liberty.name if foreign else "generic40"), everything,
                                       arguments.liberty, arguments.liberty_slow)
     if foreign and arguments.liberty_slow is None:
@@ -109,7 +109,7 @@ def _compare(arguments: argparse.Namespace, committed: dict[str, budgets.Budget]
 
 
 def _sizes(_: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    uses = technologies.needed_sizes(_all_configurations(named))
+    uses = technologies.needed_sizes(all_configurations(named))
     sram_kit.write_sizes(ROOT / technologies.SIZES, sorted(uses))
     _say(f"{technologies.SIZES}: {len(uses)} sizes")
     return 0
@@ -119,7 +119,7 @@ def _growth(arguments: argparse.Namespace, named: dict[str, Configuration]) -> i
     """Cost over NP, NB, pixels per SRAM and SRAM_NUM."""
     started = time.monotonic()
     build = ROOT / "build" / "synth"
-    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     points = growth.sweep(named)
     bases = {point.name: point for _, _, point in points if point.name in named}
     jobs = [batch.Job(item) for item in bases.values()] + growth.jobs(named)
@@ -133,7 +133,7 @@ def _growth(arguments: argparse.Namespace, named: dict[str, Configuration]) -> i
 def _budgets(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     """Writes the figures of the last state as the new budgets."""
     build = ROOT / "build" / "synth"
-    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     results = batch.run_all([batch.Job(item) for item in named.values()], technology, build / "runs",
                             arguments.jobs, _say)
     for line in budgets.moved(budgets.read(BUDGETS), results)[0]:
@@ -144,7 +144,7 @@ def _budgets(arguments: argparse.Namespace, named: dict[str, Configuration]) -> 
 
 
 def _check(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    return check.run(ROOT, PDK, named, _all_configurations(named), arguments.jobs, _say)
+    return check.run(ROOT, PDK, named, all_configurations(named), arguments.jobs, _say)
 
 
 def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
@@ -152,7 +152,7 @@ def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
     started = time.monotonic()
     chosen = _select(named, arguments.configuration or list(scene_power.CONFIGURATIONS))
     build = ROOT / "build" / "synth"
-    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     results = batch.run_all([batch.Job(item) for item in chosen.values()], technology, build / "runs", arguments.jobs,
                             _say)
     found = scene_power.run(list(chosen.values()), results, technology, build / "power", arguments.seed, arguments.jobs,
@@ -170,7 +170,7 @@ def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
 def _part_costs(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     """Area and power of the parts of poolPointer 2."""
     build = ROOT / "build" / "synth"
-    technology = technologies.prepare(ROOT, build / "generic40", _all_configurations(named))
+    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     parts = part_costs.measure(named[part_costs.CONFIGURATION], technology, build / "part_costs", arguments.seed, _say)
     part_costs.write_csv(arguments.csv, parts)
     _say(f"{arguments.csv} written, seed {arguments.seed}")

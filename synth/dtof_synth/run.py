@@ -11,7 +11,7 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, timing, tools, verilog
+from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, standard_cells, timing, tools, verilog
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
@@ -383,6 +383,21 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
                         power.clock_mw(typical.output, modules, tree, technology.typical, TARGET_MHZ))
     return Result(configuration, column_module, shared, engines, tree, technology.slow.nand2_area,
                   technology.slow.mux2_area, corner_timing, figures, margins, best.naming)
+
+
+def slacks_with_wires(result: Result, technology: Technology, folder: Path, um_per_sink: float) -> tuple[float, float]:
+    """Setup slacks in the slow corner, without and with margins, of the netlist that `run` left in `folder`, if wires inside
+    columns, engines and control had another length than the wire-load model's. No cell is made stronger for it."""
+    effort = folder / f"effort{result.naming.effort}"
+    liberty = effort / "slow_wires.lib"
+    liberty.write_text(standard_cells.library(standard_cells.SLOW, um_per_sink), encoding="utf-8")
+    configuration = result.configuration
+    files = timing.Netlist(
+        f"{configuration.name}, slow corner, {um_per_sink:.2f} um of wire per sink", effort / "timing.v",
+        effort / "wires_slow.spef", [liberty, technology.kit / "sram40_slow.lib", effort / "column_stub.lib"],
+        technology.slow.wire_load, configuration.top)
+    report = timing.measure(files, technology.root, technology.target_mhz, effort / "sta_slow_wires.log", ("nominal", "margins"))
+    return report.slack, report.margin().slack
 
 
 def input_digest(technology: Technology) -> str:

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """What is read out of OpenSTA's reports."""
 
+import re
+import tempfile
 import unittest
+from pathlib import Path
 
-from dtof_synth import timing
+from dtof_synth import standard_cells, timing, tools
+
+ROOT = Path(__file__).resolve().parents[2]
 
 
 class Names(unittest.TestCase):
@@ -38,6 +43,33 @@ Endpoint: b (rising edge-triggered flip-flop clocked by clk)
              -0.1000   slack (VIOLATED)
 """
         self.assertEqual(timing.Report(report, {})._slowest_path("DTOF_PATH_MAX"), ("a", "b", 2))
+
+    def test_longer_wires_in_the_wire_load_model_delay_as_much_as_their_capacitance(self):
+        # Inverters in a row: three lengths a third apart are two equal steps of delay.
+        self.assertEqual(standard_cells.library(standard_cells.SLOW),
+                         standard_cells.library(standard_cells.SLOW, standard_cells.WIRE_UM_PER_FANOUT))
+        nets = [f"n{index}" for index in range(13)]
+        gates = "".join(f"  INV_X1 i{index} (.A({a}), .Y({b}));\n" for index, (a, b) in enumerate(zip(nets, nets[1:])))
+        with tempfile.TemporaryDirectory() as folder:
+            folder = Path(folder)
+            (folder / "chain.v").write_text(
+                f"module chain (clk_i, a);\n  input clk_i; input a;\n  wire q, {', '.join(nets)};\n"
+                f"  DFF_X1 a (.D(a), .CK(clk_i), .Q({nets[0]}));\n{gates}"
+                f"  DFF_X1 b (.D({nets[-1]}), .CK(clk_i), .Q(q));\nendmodule\n", encoding="utf-8")
+            (folder / "dtof.sdc").write_text("create_clock -name clk -period $period [get_ports clk_i]\n", encoding="utf-8")
+
+            def slack(um: float) -> float:
+                (folder / "slow.lib").write_text(standard_cells.library(standard_cells.SLOW, um), encoding="utf-8")
+                tools.write_settings(folder / "settings.tcl", {
+                    "liberty_files": [folder / "slow.lib"], "netlist": folder / "chain.v", "wires": "", "top": "chain",
+                    "wire_load": standard_cells.WIRE_LOAD, "constraints": folder / "dtof.sdc", "target_period": "3.0",
+                    "steps": ["nominal"]})
+                output = tools.run_sta(ROOT / "synth/sta/timing.tcl", folder / "settings.tcl", folder / "log", "chain")
+                return float(re.search(r"^DTOF_SLACK (\S+)", output, re.MULTILINE).group(1))
+
+            short, middle, long = slack(2.0), slack(5.0), slack(8.0)
+        self.assertGreater(short - middle, 0.05)
+        self.assertAlmostEqual((middle - long) / (short - middle), 1, delta=0.1)
 
 
 if __name__ == "__main__":

@@ -13,16 +13,18 @@ import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from pathlib import Path
 
-from .. import configuration, technology
+from .. import batch, configuration, technology
+from ..cli import all_configurations
 from ..configuration import Configuration
 from ..errors import FlowError
-from ..run import Technology, input_digest
+from ..run import Technology, input_digest, slacks_with_wires
 from . import flow, picture, report, results
 from .flow import Result
 from .tools import Cells
 
 ROOT = Path(__file__).resolve().parents[3]
 BUILD = ROOT / "build" / "layout"
+SYNTH = ROOT / "build" / "synth"
 DEFAULT = ("ezpointer", "hispointer", "poolpointer2")
 
 
@@ -59,6 +61,18 @@ def _work(item: Configuration, technologies: Technology, cells: Cells, generic_a
     result = flow.lay_out(item, technologies, cells, generic_area, BUILD / item.name, _say)
     kept.write_bytes(pickle.dumps((key, result)))
     return result
+
+
+def _slacks(named: dict[str, Configuration], found: dict[str, Result], jobs: int) -> dict[str, report.Slacks]:
+    """The arrays of `make synth`, timed with the wire-load model and with what their columns' wires measure here."""
+    prepared = technology.prepare(ROOT, SYNTH / "generic40", all_configurations(named))
+    arrays = batch.run_all([batch.Job(named[name]) for name in found], prepared, SYNTH / "runs", jobs, _say)
+    slacks = {}
+    for name, result in found.items():
+        slow = arrays[name]
+        measured = slacks_with_wires(slow, prepared, SYNTH / "runs" / name, result.wire_per_sink * result.area_shrink)
+        slacks[name] = report.Slacks(slow.timing["slow"].slack, slow.margins["slow"].slack, *measured)
+    return slacks
 
 
 def _draw(items: list[Configuration], found: dict[str, Result], cells: Cells, library, output: Path) -> None:
@@ -100,8 +114,9 @@ def _run(names: list[str], jobs: int) -> None:
     _draw(items, found, cells, prepared.slow, folder / "layout.png")
     command = "make layout" + (f' CONFIGURATIONS="{" ".join(names)}"' if names else "")
     ordered = [found[item.name] for item in items]
-    (folder / "layout.md").write_text(report.text(ordered, "layout.png", command), encoding="utf-8")
-    report.write_csv(folder / "layout.csv", ordered)
+    slacks = _slacks(named, {item.name: found[item.name] for item in items}, jobs)
+    (folder / "layout.md").write_text(report.text(ordered, list(slacks.values()), "layout.png", command), encoding="utf-8")
+    report.write_csv(folder / "layout.csv", ordered, list(slacks.values()))
     _say(f"{(folder / 'layout.md').relative_to(ROOT)} written, {time.monotonic() - started:.0f} s; GDS: "
          f"{', '.join(f'build/layout/{item.name}/qflow/layout/{found[item.name].block}.gds' for item in items)}")
 

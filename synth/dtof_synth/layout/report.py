@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..standard_cells import WIRE_UM_PER_FANOUT
@@ -15,14 +16,26 @@ COLUMNS = ["title", "block", "columns", "cells", "flip_flops", "cell_um2", "die_
            "sinks", "wire_um", "wire_um_per_sink", "inner_wire_um_per_sink", "wire_um_per_sink_40nm",
            "wire_um_per_sink_by_area", "model_um_per_sink", "clock_wire_um", "wire_ff_per_um", "failed_nets", "drc_errors",
            "lvs", "lone_vias_removed", "placement_seed", "bare_ns", "model_ns", "routed_ns", "bare_mean_ns", "model_mean_ns",
-           "routed_mean_ns", *(f"{step}_s" for step in STEPS)]
+           "routed_mean_ns", "slack_40nm_model_ns", "margin_40nm_model_ns", "slack_40nm_measured_ns", "margin_40nm_measured_ns",
+           *(f"{step}_s" for step in STEPS)]
+
+
+@dataclass(frozen=True)
+class Slacks:
+    """Setup slacks of the array at 40 nm in the slow corner, ns, without and with margins: with the wire-load model's length per
+    sink, and with the layout's, scaled by cell area."""
+
+    model: float
+    model_with_margins: float
+    measured: float
+    measured_with_margins: float
 
 
 def at_node(um: float) -> float:
     return um * REFERENCE_NM / NODE_NM
 
 
-def _row(result: Result) -> list[str | int]:
+def _row(result: Result, slacks: Slacks) -> list[str | int]:
     per_sink = result.wire_per_sink
     return [result.title, result.block, result.columns, result.cells, result.flip_flops, f"{result.cell_area:.0f}",
             f"{result.die_width:.1f}", f"{result.die_height:.1f}", f"{result.density:.3f}", result.sinks,
@@ -32,14 +45,16 @@ def _row(result: Result) -> list[str | int]:
             result.lone_vias, result.seed,
             *(f"{time:.3f}" for time in (result.bare.longest, result.model.longest, result.routed.longest,
                                          result.bare.mean, result.model.mean, result.routed.mean)),
+            *(f"{slack:+.3f}" for slack in (slacks.model, slacks.model_with_margins, slacks.measured,
+                                            slacks.measured_with_margins)),
             *(f"{result.seconds.get(step, 0):.0f}" for step in STEPS)]
 
 
-def write_csv(path: Path, results: list[Result]) -> None:
+def write_csv(path: Path, results: list[Result], slacks: list[Slacks]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(COLUMNS)
-        writer.writerows(_row(result) for result in results)
+        writer.writerows(_row(result, slack) for result, slack in zip(results, slacks))
 
 
 def _table(header: list[str], rows: list[list[str]]) -> str:
@@ -55,7 +70,7 @@ def _more(value: float, base: float) -> str:
     return f"{100 * (value / base - 1):+.1f} %"
 
 
-def text(results: list[Result], picture: str, command: str) -> str:
+def text(results: list[Result], slacks: list[Slacks], picture: str, command: str) -> str:
     blocks = _table(["block", "cells", "flip-flops", "cell area, um2", "die, um", "density"],
                     [[_name(one), f"{one.cells:,}", str(one.flip_flops), f"{one.cell_area:,.0f}",
                       f"{one.die_width:.0f} x {one.die_height:.0f}", f"{one.density:.1%}"] for one in results])
@@ -73,6 +88,10 @@ def text(results: list[Result], picture: str, command: str) -> str:
                    [[_name(one), f"{one.bare.longest:.2f}", f"{one.model.longest:.2f}", f"{one.routed.longest:.2f}",
                      _more(one.routed.longest, one.model.longest), f"{one.model.mean:.2f}", f"{one.routed.mean:.2f}",
                      _more(one.routed.mean, one.model.mean)] for one in results])
+    arrays = _table(["array", "um per sink, model", "slack", "with margins", "um per sink, layout", "slack", "with margins"],
+                    [[one.title, f"{WIRE_UM_PER_FANOUT:.2f}", f"{slack.model:+.3f}", f"{slack.model_with_margins:+.3f}",
+                      f"{one.wire_per_sink * one.area_shrink:.2f}", f"{slack.measured:+.3f}",
+                      f"{slack.measured_with_margins:+.3f}"] for one, slack in zip(results, slacks)])
     seconds = _table(["block", *STEPS, "sum"],
                      [[_name(one), *(f"{one.seconds.get(step, 0):.0f}" for step in STEPS),
                        f"{sum(one.seconds.values()):.0f}"] for one in results])
@@ -91,4 +110,8 @@ def text(results: list[Result], picture: str, command: str) -> str:
         f"Longest path in ns from register or port to register or port, the library's one corner, clock ideal, setup included. "
         f"The same netlist without wires, with the model ({scaled_um():g} um a sink here) and with the routed wires (resistance "
         "and capacitance of every net); both with the same capacitance of a micrometre.", "", times, "",
+        "## What such wires would cost the arrays", "",
+        "The netlists of [timing.md](timing.md), 330 MHz, slow corner, once with the wire-load model that they were mapped for and "
+        "once with the layout's length per sink, scaled by cell area, inside columns, engines and control; no cell is made stronger "
+        "for it. Setup slack in ns.", "", arrays, "",
         "## Seconds", "", "Of one processor, so that other work on the machine does not count.", "", seconds, ""])
