@@ -275,7 +275,8 @@ def check_borders(design: dict, library: Library) -> None:
     blocks = {netlist.column_module(design), netlist.engine_module(design)}
     through = {buffer.name for buffer in library.buffers} | {kind for kind in library.area if kind.startswith("INV")}
     constant = {cell for cells in library.tie.values() for cell in cells[:1]}
-    registered = {part: _registered_ports(netlist.modules(design)[part], library, through) for part in blocks if part}
+    registered = {part: _registered_ports(netlist.modules(design)[part], library.sequential | constant, through)
+                  for part in blocks if part}
     driver: dict[int, tuple[Module, str]] = {}
     for cell in array["cells"].values():
         for pin, bits in cell["connections"].items():
@@ -299,8 +300,8 @@ def check_borders(design: dict, library: Library) -> None:
                     raise FlowError(f"{name}.{port}[{index}] does not come from a register but from {kind}")
 
 
-def _registered_ports(module: Module, library: Library, through: set[str]) -> set[str]:
-    """Outputs of a module that come from registers through buffers alone."""
+def _registered_ports(module: Module, sources: set[str], through: set[str]) -> set[str]:
+    """Outputs of a module whose bits all come from `sources`, registers and constants, through buffers alone."""
     driver = {bits[0]: cell for cell in module["cells"].values() for pin, bits in cell["connections"].items()
               if cell["port_directions"].get(pin) == "output" and len(bits) == 1}
     found = set()
@@ -311,7 +312,7 @@ def _registered_ports(module: Module, library: Library, through: set[str]) -> se
             while bit in driver and driver[bit]["type"] in through:
                 bit = next(net[0] for pin, net in driver[bit]["connections"].items()
                            if driver[bit]["port_directions"][pin] == "input")
-            if isinstance(bit, int) and (bit not in driver or driver[bit]["type"] not in library.sequential):
+            if isinstance(bit, int) and (bit not in driver or driver[bit]["type"] not in sources):
                 break
         else:
             found.add(port)

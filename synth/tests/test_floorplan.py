@@ -124,6 +124,12 @@ class Borders(WithLibrary):
         with self.assertRaisesRegex(FlowError, "from a port of the array"):
             floorplan.check_borders(design, self.library)
 
+    def test_a_port_is_registered_if_its_bits_come_from_registers_and_constants(self):
+        module = {"ports": {"word_o": {"direction": "output", "bits": [3, 5]}, "gated_o": {"direction": "output", "bits": [3, 6]}},
+                  "cells": {"r": cell("DFF_X1", {"D": 2}, {"Q": 3}), "zero": cell("TIE0_X1", {}, {"Y": 4}),
+                            "b": cell("BUF_X1", {"A": 4}, {"Y": 5}), "g": cell("NAND2_X1", {"A1": 3, "A2": 2}, {"Y": 6})}}
+        self.assertEqual(floorplan._registered_ports(module, {"DFF_X1", "TIE0_X1"}, {"BUF_X1"}), {"word_o"})
+
 
 class Wires(WithLibrary):
     def test_a_wire_has_the_resistance_and_capacitance_of_its_length(self):
