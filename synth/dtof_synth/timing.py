@@ -91,6 +91,11 @@ class Report:
         """Setup, of the step `nominal`."""
         return self._number("DTOF_SLACK")
 
+    @property
+    def too_fast_for_sram(self) -> bool:
+        """The clock is faster than an SRAM's minimum period, of the step `nominal`."""
+        return "VIOLATED" in self._section("DTOF_MIN_PERIOD")
+
     def margin(self) -> Margin:
         """Of the step `margins`."""
         start, end, _ = self._slowest_path("DTOF_MARGIN_PATH_MAX")
@@ -153,6 +158,6 @@ def measure(netlist: Netlist, root: Path, target_mhz: float, log: Path, steps: t
     output = tools.run_sta(root / "synth" / "sta" / "timing.tcl", settings, log, netlist.name)
     called = json.loads((netlist.verilog.parent / NAMES).read_text(encoding="utf-8"))
     report = Report(output, called)
-    if "nominal" in steps and "VIOLATED" in report._section("DTOF_MIN_PERIOD"):
+    if "nominal" in steps and report.too_fast_for_sram:
         raise FlowError(f"{netlist.name}: the clock is faster than an SRAM's minimum period (see {log})")
     return report

@@ -40,12 +40,17 @@ proc closing {} {
   constrain $::target_period
 }
 
-proc nominal {} {
-  puts "DTOF_SLACK [worst_slack -max] [worst_slack -min]"
-  puts "DTOF_PATH_MAX"
+# Setup and hold, and the slowest path of each group.
+proc report_slacks {prefix} {
+  puts "${prefix}_SLACK [worst_slack -max] [worst_slack -min]"
+  puts "${prefix}_PATH_MAX"
   report_checks -path_delay max -digits 4 -fields {slew cap}
-  puts "DTOF_PATH_MIN"
+  puts "${prefix}_PATH_MIN"
   report_checks -path_delay min -digits 4 -fields {slew cap}
+}
+
+proc nominal {} {
+  report_slacks DTOF
   puts "DTOF_MIN_PERIOD"
   report_check_types -min_period
   puts "DTOF_TRANSITION"
@@ -55,11 +60,7 @@ proc nominal {} {
 
 proc margins {} {
   uplevel #0 source $::margins
-  puts "DTOF_MARGIN_SLACK [worst_slack -max] [worst_slack -min]"
-  puts "DTOF_MARGIN_PATH_MAX"
-  report_checks -path_delay max -digits 4 -fields {slew cap}
-  puts "DTOF_MARGIN_PATH_MIN"
-  report_checks -path_delay min -digits 4 -fields {slew cap}
+  report_slacks DTOF_MARGIN
   puts "DTOF_EARLY"
   report_checks -path_delay min -slack_max 0 -group_count 100000 -format full -fields {input_pins} -digits 4
   puts "DTOF_TIGHT"
