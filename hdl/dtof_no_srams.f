@@ -34,7 +34,7 @@ datapath/label_match.sv
 datapath/minimum.sv
 datapath/pixel_distance.sv
 datapath/pool2_track_update.sv
-datapath/time_gate.sv
+datapath/timestamp_input.sv
 datapath/twin_pointer_update.sv
 datapath/pool2_pixel_update.sv
 engine/label_chain.sv

@@ -31,7 +31,7 @@ class Part:
 
 
 PARTS = (
-    Part("pair", "u_time_gate", "which timestamps are detections"),
+    Part("pair", "u_timestamp_input", "which timestamps are detections, and the registers in which they wait"),
     Part("pair", "u_label_match", "track: which candidates a timestamp is near"),
     Part("pair", "u_track_update", "track: scores, leader, its offset",
          (("an offset of 2 bits instead of 6", "OFFSET_BITS=2"),)),

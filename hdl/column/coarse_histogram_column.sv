@@ -45,10 +45,11 @@ module coarse_histogram_column #(
   logic [POSITION_WIDTH-1:0] position;
   logic [RESULT_WIDTH-1:0] result;
 
-  time_gate #(
+  timestamp_input #(
       .NP       (NP),
-      .TIME_GATE(TIME_GATE)
-  ) u_time_gate (
+      .TIME_GATE(TIME_GATE),
+      .STAGES   (BROADCAST_STAGES)
+  ) u_timestamp_input (
       .clk_i         (clk_i),
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),

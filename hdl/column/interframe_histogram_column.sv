@@ -43,10 +43,11 @@ module interframe_histogram_column #(
     end
   end
 
-  time_gate #(
+  timestamp_input #(
       .NP       (NP),
-      .TIME_GATE(TIME_GATE)
-  ) u_time_gate (
+      .TIME_GATE(TIME_GATE),
+      .STAGES   (BROADCAST_STAGES)
+  ) u_timestamp_input (
       .clk_i         (clk_i),
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),

@@ -32,10 +32,11 @@ module partitioned_histogram_column #(
   logic signed [NP+1:0] unused_start;
   logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] histogram_cfg;
 
-  time_gate #(
+  timestamp_input #(
       .NP       (NP),
-      .TIME_GATE(TIME_GATE)
-  ) u_time_gate (
+      .TIME_GATE(TIME_GATE),
+      .STAGES   (BROADCAST_STAGES)
+  ) u_timestamp_input (
       .clk_i         (clk_i),
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),

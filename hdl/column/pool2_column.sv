@@ -19,6 +19,7 @@ module pool2_column #(
     parameter int LABELS = 5,
     parameter int RIVAL_MOVES = 1,
     parameter int TIME_GATE = 0,
+    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int CELLS_WIDTH = LABELS * CELL_WIDTH,
     localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS)
@@ -57,10 +58,11 @@ module pool2_column #(
   logic [NP-1:0] timestamp_t1, first, first_q, second, second_q;
   logic valid_t1, has_first, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
 
-  time_gate #(
+  timestamp_input #(
       .NP       (NP),
-      .TIME_GATE(TIME_GATE)
-  ) u_time_gate (
+      .TIME_GATE(TIME_GATE),
+      .STAGES   (BROADCAST_STAGES)
+  ) u_timestamp_input (
       .clk_i         (clk_i),
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
@@ -78,7 +80,7 @@ module pool2_column #(
     has_first_q <= has_first;
     has_second_q <= has_second;
     if (valid_t1 && (first_slot_t1_i || !has_first_q)) begin
-      first_q <= first;
+      first_q <= timestamp_t1;
     end
     if (has_second) begin
       second_q <= second;
@@ -188,7 +190,9 @@ module pool2_column #(
     if ((valid_t1 || last_slot_t1_i) && !(RIVAL_MOVES != 0 && point_i)) begin
       matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first[NP-1-:CELL_WIDTH];
     end
-    first_hits_q <= hits;
+    if (has_second) begin
+      first_hits_q <= hits;
+    end
   end
 
 endmodule

@@ -39,6 +39,7 @@ module pool2_pair #(
     parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,
     parameter int PRIOR = 0,
+    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
     localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES),
     localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
@@ -189,10 +190,13 @@ module pool2_pair #(
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data[HALF_WIDTH+:CELLS_WIDTH] : read_data[CELLS_WIDTH-1:0];
     end
-    read_selected_q <= engine_i && read_i && select_i;
-    upper_q <= upper_i;
-    drives_lower_q <= read_selected_q && !upper_q;
-    drives_upper_q <= read_selected_q && upper_q;
+    // Timestamps begin when the engine's last read is long done.
+    if (engine_i) begin
+      read_selected_q <= read_i && select_i;
+      upper_q <= upper_i;
+      drives_lower_q <= read_selected_q && !upper_q;
+      drives_upper_q <= read_selected_q && upper_q;
+    end
   end
 
   // Each bin and each pixel has an enable of its own. The last pixel of a word goes straight to the SRAM.
@@ -324,11 +328,12 @@ module pool2_pair #(
             : (c == 0) ? first_pixel[CELL_FIRST+:CELL_WIDTH] : half[CELL_FIRST+:CELL_WIDTH];
 
         pool2_column #(
-            .NP         (NP),
-            .SLOTS      (SLOTS),
-            .LABELS     (LABELS),
-            .RIVAL_MOVES(RIVAL_MOVES),
-            .TIME_GATE  (TIME_GATE)
+            .NP              (NP),
+            .SLOTS           (SLOTS),
+            .LABELS          (LABELS),
+            .RIVAL_MOVES     (RIVAL_MOVES),
+            .TIME_GATE       (TIME_GATE),
+            .BROADCAST_STAGES(BROADCAST_STAGES)
         ) u_column (
             .clk_i            (clk_i),
             .timestamp_i      (timestamp_i[c*NP+:NP]),

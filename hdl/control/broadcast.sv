@@ -3,8 +3,8 @@
 //
 // The array is several millimetres wide and the shared logic sits in its middle, so that the first register belongs beside
 // the logic that it is fed from, and the last beside the columns. A layout (and the flow of `make synth`) gives each group
-// of neighbouring columns its own copy of the last register. Timestamps, which come from above their columns, wait here for
-// as many clocks, so that a column sees everything as if there were no way.
+// of neighbouring columns its own copy of the last register. Timestamps, which come from above their columns, wait there for
+// as many clocks (timestamp_input.sv), so that a column sees everything as if there were no way.
 //
 // Latency: STAGES clocks.
 // Cost: STAGES flip-flops per bit.
@@ -12,8 +12,7 @@
 
 module broadcast #(
     parameter int WIDTH = 1,
-    parameter int STAGES = 2,  // registers on the way, at least 1
-    parameter int RESET = 1    // 0: no reset, where nothing is done with a value before it is known
+    parameter int STAGES = 2  // registers on the way, at least 1
 ) (
     input  logic             clk_i,
     input  logic             rst_ni,
@@ -31,22 +30,15 @@ module broadcast #(
     end else begin : g_stages
       assign stages_d = {stages_q[(STAGES-1)*WIDTH-1:0], from_i};
     end
-    if (RESET != 0) begin : g_reset
-      always_ff @(posedge clk_i or negedge rst_ni) begin
-        if (!rst_ni) begin
-          stages_q <= '0;
-        end else begin
-          stages_q <= stages_d;
-        end
-      end
-    end else begin : g_no_reset
-      logic unused_reset;
-      assign unused_reset = rst_ni;
-      always_ff @(posedge clk_i) begin
-        stages_q <= stages_d;
-      end
-    end
   endgenerate
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      stages_q <= '0;
+    end else begin
+      stages_q <= stages_d;
+    end
+  end
 
   assign to_o = stages_q[STAGES*WIDTH-1:(STAGES-1)*WIDTH];
 

@@ -145,12 +145,16 @@ module beside_evidence #(
       cells_q <= {own_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
     end
     compared_q <= command_i.compare;
-    far_left_q <= command_i.has_left && far(own_cell, left_cell_i);
-    far_best_q <= has_right_i && far(own_cell, right_best_cell_q);
-    far_second_q <= far(own_cell, right_second_cell_q);
-    own_q <= $signed(EVIDENCE_WIDTH'(scores_q[SCORE_BITS-1:0]))
-        - (command_i.late_compare ? $signed(EVIDENCE_WIDTH'(background_q >> LATENESS_SHIFT)) : '0);
-    evidence_q <= evidences;
+    if (command_i.compare) begin
+      far_left_q <= command_i.has_left && far(own_cell, left_cell_i);
+      far_best_q <= has_right_i && far(own_cell, right_best_cell_q);
+      far_second_q <= far(own_cell, right_second_cell_q);
+      own_q <= $signed(EVIDENCE_WIDTH'(scores_q[SCORE_BITS-1:0]))
+          - (command_i.late_compare ? $signed(EVIDENCE_WIDTH'(background_q >> LATENESS_SHIFT)) : '0);
+    end
+    if (compared_q) begin
+      evidence_q <= evidences;
+    end
   end
 
   assign evidence_o = evidences;

@@ -80,9 +80,25 @@ module pool2_engine #(
   localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
   localparam int MESSAGE_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH, DECIDE_MESSAGE_WIDTH);
 
+  // Where nothing is asked for, nothing moves. The word goes back to 0 behind an operation's last clock.
+
+  logic active, was_active_q;
   logic [LINE_WIDTH-1:0] line_q;
+
+  assign active = command_i.decoding || command_i.choosing || command_i.deciding;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      was_active_q <= 1'b1;
+    end else begin
+      was_active_q <= active;
+    end
+  end
+
   always_ff @(posedge clk_i) begin
-    line_q <= line_i;
+    if (active) begin
+      line_q <= line_i;
+    end
   end
 
   // Decode.
@@ -355,8 +371,10 @@ module pool2_engine #(
 
   // Registered here, for the way to the pairs is long. It is known a clock before it is written, and 0 while words are cleared.
   always_ff @(posedge clk_i) begin
-    word_o <= (HALF_WIDTH'({new_background, new_cells}) & {HALF_WIDTH{command_i.decoding}})
-        | (done_word & {HALF_WIDTH{command_i.choosing}});
+    if (active || was_active_q) begin
+      word_o <= (HALF_WIDTH'({new_background, new_cells}) & {HALF_WIDTH{command_i.decoding}})
+          | (done_word & {HALF_WIDTH{command_i.choosing}});
+    end
   end
 
   // Decide: S1 and the result.

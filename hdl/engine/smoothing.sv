@@ -90,6 +90,7 @@ module smoothing #(
   logic signed [DISTANCE_WIDTH-1:0] from_above_q, from_below_q;
   logic signed [DISTANCE_WIDTH:0] sum, rounded;
   logic signed [DISTANCE_WIDTH-2:0] quarter_q;
+  logic taken_q;
   logic signed [17:0] position_q, smoothed;
   logic [15:0] limited;
 
@@ -105,7 +106,10 @@ module smoothing #(
       from_below_q <= $signed(from_below);
       position_q <= $signed({2'b00, centre_q}) - HALF_BIN;
     end
-    quarter_q <= rounded[DISTANCE_WIDTH:2];
+    taken_q <= take_distances_i;
+    if (taken_q) begin
+      quarter_q <= rounded[DISTANCE_WIDTH:2];
+    end
   end
 
   // The result, and with it the position that lost, which is as many rows behind as the winner.

@@ -16,6 +16,7 @@
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
     parameter int TIME_GATE = 0,         // 1: timestamps outside [gate_begin_i, gate_end_i) are no detections
     parameter int RAW_HISTOGRAM = 0,     // 1: a scan of M4 may be one bin's, whose code and count are the result
+    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int BIN_WIDTH = dtof_pkg::bin_width(READOUT, NP, NB),  // log2 of the bins of a pixel
     localparam int SCAN_WIDTH = dtof_pkg::scan_address_width(READOUT, NP, NB, FRACTION_BITS),

@@ -13,7 +13,7 @@
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     // timestamp
-    input  logic [          NP-1:0] timestamp_i,              // T0; all ones: no detection
+    input  logic [          NP-1:0] timestamp_i,              // BROADCAST_STAGES before T0; all ones: no detection
     input  logic [          NP-1:0] gate_begin_i,             // time gate, the same for a whole frame
     input  logic [          NP-1:0] gate_end_i,
     // pass over the stream; it changes only while no timestamp is in the pipeline

@@ -22,8 +22,9 @@
 // Raw frame (RAW_HISTOGRAM = 1, raw_i with start_i): instead of the results, the histograms that the read-out holds at the
 //   frame's end, of the rows from raw_first_row_i to raw_last_row_i: row by row, bin by bin, column by column. code is
 //   the bin's lowest, limited to 0 .. 2^NP - 1, fraction 0, and confidence the count.
-// Borders: every signal between the shared logic and the columns, and every timestamp, goes from a register to a register
-//   (broadcast.sv); of what comes back there is only the result chain's head.
+// Borders: every signal between the shared logic and the columns goes from a register to a register (broadcast.sv); of what
+//   comes back there is only the result chain's head. Timestamps go from the port, which stands for the TDC's register, to
+//   those of their column (timestamp_input.sv).
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: ezPointer 493 um2 of logic and 2240 bits of SRAM a column, 1998 um2 in common.
@@ -400,7 +401,6 @@ module dtof_array #(
   logic column_result_load, column_result_shift;
   logic [NP-1:0] column_gate_begin, column_gate_end;
   logic [TOLD_WIDTH-1:0] told, heard;
-  logic [SRAM_NUM*NP-1:0] timestamps;
 
   assign told_pass = (COARSE_PASSES != 0) ? pass : '0;
   assign told_first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
@@ -448,17 +448,6 @@ module dtof_array #(
       .to_o  (heard)
   );
 
-  broadcast #(
-      .WIDTH (SRAM_NUM * NP),
-      .STAGES(BROADCAST_STAGES),
-      .RESET (0)
-  ) u_timestamps (
-      .clk_i (clk_i),
-      .rst_ni(rst_ni),
-      .from_i(tdc_timestamp_i),
-      .to_o  (timestamps)
-  );
-
   // Column c, of whatever read-out: all have the same ports. (Signals alone are connected: Yosys 0.23 stops at an
   // expression that takes its width from a port of a module with included ports.)
 `define DTOF_COLUMN(MODULE) \
@@ -477,13 +466,14 @@ module dtof_array #(
       .POINTER_PORTS   (POINTER_PORTS), \
       .SIGNALLED_CLEAR (SIGNALLED_CLEAR), \
       .TIME_GATE       (TIME_GATE), \
-      .RAW_HISTOGRAM   (RAW_HISTOGRAM) \
+      .RAW_HISTOGRAM   (RAW_HISTOGRAM), \
+      .BROADCAST_STAGES(BROADCAST_STAGES) \
   ) u_column ( \
       .clk_i                  (clk_i), \
       .rst_ni                 (rst_ni), \
       .sram_cfg_i             (sram_cfg_i), \
       .sram_cfg_o             (column_cfg[c*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]), \
-      .timestamp_i            (timestamps[c*NP+:NP]), \
+      .timestamp_i            (tdc_timestamp_i[c*NP+:NP]), \
       .gate_begin_i           (column_gate_begin), \
       .gate_end_i             (column_gate_end), \
       .pass_i                 (column_pass), \

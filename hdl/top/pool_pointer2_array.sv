@@ -11,8 +11,9 @@
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
 //   second code, second fraction, code, fraction, confidence}: the label that lost the decision, not smoothed, to which
 //   the confidence belongs as well.
-// Borders: every signal between the shared logic and columns or engines, and every timestamp, goes from a register to a
-//   register (broadcast.sv). The words of an engine's pairs are combined by OR on the way to it, from pair to pair.
+// Borders: every signal between the shared logic and columns or engines goes from a register to a register (broadcast.sv),
+//   timestamps from the port, which stands for the TDC's register, to those of their column (timestamp_input.sv). The words
+//   of an engine's pairs are combined by OR on the way to it, from pair to pair.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"
@@ -358,7 +359,6 @@ module pool_pointer2_array #(
   logic [STEP_PAIRS-1:0] heard_select;
   logic [LAST_PAIRS-1:0] heard_last_select;
   logic [ROW_WIDTH-1:0] heard_scratch_row;
-  logic [SRAM_NUM*NP-1:0] timestamps;
 
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
                  second_row_t0, first_row_t2, second_row_t2, acquisition_t2, second_column, fresh, load, count, told_read,
@@ -380,17 +380,6 @@ module pool_pointer2_array #(
       .rst_ni(rst_ni),
       .from_i(told),
       .to_o  (heard)
-  );
-
-  broadcast #(
-      .WIDTH (SRAM_NUM * NP),
-      .STAGES(BROADCAST_STAGES),
-      .RESET (0)
-  ) u_timestamps (
-      .clk_i (clk_i),
-      .rst_ni(rst_ni),
-      .from_i(tdc_timestamp_i),
-      .to_o  (timestamps)
   );
 
   generate
@@ -469,21 +458,22 @@ module pool_pointer2_array #(
         end
 
         pool2_pair #(
-            .COLUMNS        (PAIR_COLUMNS),
-            .NP             (NP),
-            .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
-            .SLOTS          (SLOTS),
-            .COUNT_WIDTH    (COUNT_WIDTH),
-            .GROUP_SIZE     (GROUP_SIZE),
-            .LABELS         (LABELS),
-            .SCORE_BITS     (SCORE_BITS),
-            .OFFSET_BITS    (OFFSET_BITS),
-            .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
-            .POINTER_SHIFT  (POINTER_SHIFT),
-            .RIVAL_MOVES    (RIVAL_MOVES),
-            .CELL_SHIFT     (CELL_SHIFT),
-            .TIME_GATE      (TIME_GATE),
-            .PRIOR          (PRIOR)
+            .COLUMNS         (PAIR_COLUMNS),
+            .NP              (NP),
+            .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
+            .SLOTS           (SLOTS),
+            .COUNT_WIDTH     (COUNT_WIDTH),
+            .GROUP_SIZE      (GROUP_SIZE),
+            .LABELS          (LABELS),
+            .SCORE_BITS      (SCORE_BITS),
+            .OFFSET_BITS     (OFFSET_BITS),
+            .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH),
+            .POINTER_SHIFT   (POINTER_SHIFT),
+            .RIVAL_MOVES     (RIVAL_MOVES),
+            .CELL_SHIFT      (CELL_SHIFT),
+            .TIME_GATE       (TIME_GATE),
+            .PRIOR           (PRIOR),
+            .BROADCAST_STAGES(BROADCAST_STAGES)
         ) u_pair (
             .clk_i           (clk_i),
             .rst_ni          (rst_ni),
@@ -491,7 +481,7 @@ module pool_pointer2_array #(
             .sram_cfg_o      (pair_cfg[p*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
             .gate_begin_i    (heard_gate_begin),
             .gate_end_i      (heard_gate_end),
-            .timestamp_i     (timestamps[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
+            .timestamp_i     (tdc_timestamp_i[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
             .coarse_i        (heard_coarse),
             .point_i         (heard_point),
             .beat_t1_i       (heard_beat_t1),

@@ -22,7 +22,7 @@ class PoolParts(unittest.TestCase):
         self.assertEqual(found["a", "50"], (1.0, 0.0))
 
     def test_a_part_with_cells_needs_a_row(self):
-        self.assertEqual(pool_parts.unknown_parts({("pair", "u_new"): {"area_um2": 2.0}, ("pair", "u_time_gate"): {"area_um2": 0.0},
+        self.assertEqual(pool_parts.unknown_parts({("pair", "u_new"): {"area_um2": 2.0}, ("pair", "u_timestamp_input"): {"area_um2": 0.0},
                                                    ("engine", "SRAM"): {"area_um2": 5.0}}), ["pair/u_new"])
 
     def test_the_report_has_every_part_and_every_estimator(self):

@@ -4,7 +4,7 @@
 The RTL has enables and no gates: simulation, proofs and FPGAs see plain registers. Where the library has an integrated
 clock gate, registers of a column, a pair or an engine that share an enable lose their multiplexers and get a gated
 clock instead, as a synthesis tool for silicon does it. The array's own registers stay as they are: the fan-out trees
-copy some of them, and the floorplan would have to place their gates. Most of them are the timestamps' registers.
+copy some of them, and the floorplan would have to place their gates.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 """Where things stand on the die, and what the ways between them need.
 
 Columns stand side by side in order, the shared logic under their middle, an engine under the middle of its pairs of
-columns, and the registers of a column's timestamps above it. Only the distance along the row counts: a column is 0.02 mm
+columns, and the ports of a column's timestamps above it. Only the distance along the row counts: a column is 0.02 mm
 wide and the row 5 mm.
 
 Between the shared logic and the columns a signal goes from a register to a register (hdl/control/broadcast.sv). The last
@@ -68,7 +68,6 @@ class Floorplan:
             own = [self.places[pair] for pair in columns if _place_numbers(pair)[0] == _place_numbers(name)[0]]
             self.places[name] = sum(own) / len(own)
         self.timestamps = set(self.array["ports"].get(TIMESTAMP_PORT, {"bits": []})["bits"])
-        self._place_timestamps()
         self._place_gates()
 
     def rename(self, called: dict[str, str]) -> None:
@@ -81,27 +80,6 @@ class Floorplan:
     def port_um(self, net: int, sink: str) -> float:
         """Place of an input port: above its column, or beside the shared logic."""
         return self[sink] if net in self.timestamps else self.centre_um
-
-    def _place_timestamps(self) -> None:
-        """Registers between the timestamps' ports and the columns stand above their column."""
-        behind: dict[int, str] = {}  # by the net that it drives
-        before: dict[str, int] = {}
-        for name, cell in self.array["cells"].items():
-            pins = cell["connections"]
-            outputs = [bits for pin, bits in pins.items() if cell["port_directions"].get(pin) == "output"]
-            if name not in self.blocks and "D" in pins and len(outputs) == 1 and len(pins["D"]) == 1:
-                behind[outputs[0][0]] = name
-                before[name] = pins["D"][0]
-        def comes_from_port(register: str) -> bool:
-            net = before[register]
-            return net in self.timestamps or (net in behind and comes_from_port(behind[net]))
-
-        for block in sorted(self.blocks):
-            for bit in self.array["cells"][block]["connections"].get("timestamp_i", []):
-                register = behind.get(bit)
-                while register is not None and comes_from_port(register):
-                    self.places[register] = self.places[block]
-                    register = behind.get(before[register])
 
     def _place_gates(self) -> None:
         """Gates whose inputs all come from columns stand in the middle of these: the OR of an engine's pairs."""
@@ -270,8 +248,10 @@ def finish(design: dict, library: Library, macro_pin_ff: float, columns_per_modu
 
 
 def check_borders(design: dict, library: Library) -> None:
-    """FlowError if a column or an engine hears something that does not come from a register through buffers alone."""
+    """FlowError if a column or an engine hears something that does not come from a register through buffers alone. A
+    timestamp's port is a register of its TDC."""
     array = netlist.top(design)
+    timestamps = set(array["ports"].get(TIMESTAMP_PORT, {"bits": []})["bits"])
     blocks = {netlist.column_module(design), netlist.engine_module(design)}
     through = {buffer.name for buffer in library.buffers} | {kind for kind in library.area if kind.startswith("INV")}
     constant = {cell for cells in library.tie.values() for cell in cells[:1]}
@@ -293,7 +273,7 @@ def check_borders(design: dict, library: Library) -> None:
                     source = driver[bit][0]
                     bit = next(net[0] for pin, net in source["connections"].items()
                                if source["port_directions"][pin] == "input")
-                if not isinstance(bit, int):
+                if not isinstance(bit, int) or bit in timestamps:
                     continue
                 kind, pin = (driver[bit][0]["type"], driver[bit][1]) if bit in driver else ("a port of the array", "")
                 if kind not in library.sequential | constant and pin not in registered.get(kind, set()):

@@ -20,7 +20,7 @@ from .configuration import Configuration, engine_memories, memories
 from .run import TARGET_MHZ, Technology, elaborate, map_to_cells, unsearched_effort
 
 CONFIGURATION = "poolpointer2"
-KEPT_MODULES = ("pool2_column", "time_gate", "label_match", "pool2_pixel_update", "pixel_distance", "pool2_track_update",
+KEPT_MODULES = ("pool2_column", "timestamp_input", "label_match", "pool2_pixel_update", "pixel_distance", "pool2_track_update",
                 "twin_pointer_update", "pool2_candidate_decoder", "beside_evidence", "label_chain", "smoothing")
 SRAM = "SRAM"
 

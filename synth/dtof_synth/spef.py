@@ -104,7 +104,7 @@ class _Nets:
                                         0.0 if is_output or module else wire))
         for name, port in array["ports"].items():
             for index, bit in enumerate(port["bits"]):
-                if isinstance(bit, int) and bit in found:
+                if isinstance(bit, int) and found.get(bit):
                     place = self.plan.port_um(bit, "") if bit not in self.plan.timestamps else found[bit][0].place_um
                     found[bit].append(_Pin(_bit(name, index, port["bits"]), port["direction"] == "input", place, 0.0))
         return found

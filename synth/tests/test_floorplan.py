@@ -23,13 +23,12 @@ def cell(kind: str, inputs: dict[str, int], outputs: dict[str, int]) -> dict:
 
 
 def array(columns: int) -> dict:
-    """Two registers in a row tell `columns` columns something; each has a timestamp of its own behind a register."""
+    """Two registers in a row tell `columns` columns something; each has a timestamp of its own at a port."""
     cells = {"near": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4}), "far": cell("DFF_X1", {"D": 4, "CK": 2}, {"Q": 5})}
     ports = {"clk_i": {"direction": "input", "bits": [2]}, "told_i": {"direction": "input", "bits": [3]},
              floorplan.TIMESTAMP_PORT: {"direction": "input", "bits": [100 + index for index in range(columns)]}}
     for index in range(columns):
-        cells[f"g_column[{index}].u_column"] = cell("test_column", {"told": 5, "timestamp_i": 1100 + index, "clk_i": 2}, {})
-        cells[f"r{index}"] = cell("DFF_X1", {"D": 100 + index, "CK": 2}, {"Q": 1100 + index})
+        cells[f"g_column[{index}].u_column"] = cell("test_column", {"told": 5, "timestamp_i": 100 + index, "clk_i": 2}, {})
     column = {"attributes": {}, "netnames": {}, "cells": {"i": cell("INV_X1", {"A": 7}, {"Y": 8})}, "ports": {
         "told": {"direction": "input", "bits": [7]}, "timestamp_i": {"direction": "input", "bits": [9]},
         "clk_i": {"direction": "input", "bits": [10]}}}
@@ -64,7 +63,8 @@ class Trees(WithLibrary):
     def test_columns_stand_in_their_order_and_timestamps_above_them(self):
         plan = Floorplan(array(12), 1, 10.0)
         self.assertEqual([plan[f"g_column[{index}].u_column"] for index in (0, 2, 10, 11)], [5.0, 25.0, 105.0, 115.0])
-        self.assertEqual(plan["r10"], 105.0)
+        self.assertEqual(plan.port_um(110, "g_column[10].u_column"), 105.0)
+        self.assertEqual(plan.port_um(3, "near"), 60.0)
         self.assertEqual(plan["near"], 60.0)
 
     def test_every_column_hears_the_register_and_no_driver_is_overloaded_or_far_away(self):
@@ -124,6 +124,15 @@ class Borders(WithLibrary):
         with self.assertRaisesRegex(FlowError, "from a port of the array"):
             floorplan.check_borders(design, self.library)
 
+    def test_a_timestamp_that_passes_a_gate_on_its_way_stops_the_flow(self):
+        design = array(3)
+        top = netlist.top(design)
+        top["cells"]["gate"] = cell("INV_X1", {"A": 4}, {"Y": 3000})
+        top["cells"]["late"] = cell("NAND2_X1", {"A1": 102, "A2": 3000}, {"Y": 3001})
+        top["cells"]["g_column[2].u_column"]["connections"]["timestamp_i"] = [3001]
+        with self.assertRaisesRegex(FlowError, r"timestamp_i\[0\] does not come from a register but from NAND2_X1"):
+            floorplan.check_borders(design, self.library)
+
     def test_a_port_is_registered_if_its_bits_come_from_registers_and_constants(self):
         module = {"ports": {"word_o": {"direction": "output", "bits": [3, 5]}, "gated_o": {"direction": "output", "bits": [3, 6]}},
                   "cells": {"r": cell("DFF_X1", {"D": 2}, {"Q": 3}), "zero": cell("TIE0_X1", {}, {"Y": 4}),
@@ -143,7 +152,7 @@ class Wires(WithLibrary):
         ff = sum(float(line.split()[2]) for line in net.split("*CAP\n")[1].split("*RES")[0].splitlines())
         self.assertAlmostEqual(sum(ohm), 300.0 * 2.0, places=2)  # from the first column to the last
         self.assertAlmostEqual(ff, 300.0 * 0.5 + 4 * self.library.wire_ff_per_sink, places=2)
-        self.assertNotIn("r0:Q", text)  # the timestamps' registers stand above their columns
+        self.assertNotIn(f"*D_NET {floorplan.TIMESTAMP_PORT}", text)  # the timestamps' ports stand above their columns
 
     def test_opensta_finds_the_delay_of_a_long_wire(self):
         """A register, 1 mm of wire, a register: behind a strong driver the wire adds between half of its Elmore delay and

@@ -24,10 +24,11 @@ module first_photon_column #(
   logic [WORD_WIDTH-1:0] word_t1, next_t1, word;
   logic found, hit, detected_t0, detected_t1;
 
-  time_gate #(
+  timestamp_input #(
       .NP       (NP),
-      .TIME_GATE(TIME_GATE)
-  ) u_time_gate (
+      .TIME_GATE(TIME_GATE),
+      .STAGES   (BROADCAST_STAGES)
+  ) u_timestamp_input (
       .clk_i         (clk_i),
       .timestamp_i   (timestamp_i),
       .gate_begin_i  (gate_begin_i),
