@@ -17,9 +17,16 @@
 // The next word's first pixel has a register of its own, for its turn may come while this word is written.
 //
 // Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
-// of an engine's pairs are combined by OR from pair to pair (beside_word_i), so that no wire is longer than a pair. The low half is the half
-// that was asked for. Where eight bins need both halves, its high half is the word's. The
-// engine writes one half; the other half is written with it, so that the word must have been read before.
+// of an engine's pairs are combined by OR from pair to pair (beside_word_i), so that no wire is longer than a pair. The low half
+// is the half that was asked for. Where eight bins need both halves, its high half is the word's. The engine writes one half;
+// the other half is written with it:
+//   clock after read_i   1                                               2
+//                        registered, the engine's word for the half      written
+//                        that was asked for (replace_i)
+//
+// Everything that is written stands in the word's register before, but for a row's last pixel. What comes into a bit from
+// elsewhere than the SRAM (a count, a pixel, the engine's word) comes at different times, and is 0 at all others, so that an
+// OR will do.
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
@@ -83,11 +90,12 @@ module pool2_pair #(
     input  logic                  group_upper_i,     // with group_load_i: it is the word's upper half
     // engine
     input  logic                  engine_i,          // no timestamps: engine, or clear
-    input  logic                  clear_i,           // with write_i: both halves of all pairs; engine_word_i is 0
-    input  logic                  select_i,          // with read_i and write_i: this pair
-    input  logic                  upper_i,           // with read_i and write_i: the word's upper half
-    input  logic                  used_i,            // with write_i: of that half only which candidates are used
-    input  logic [HALF_WIDTH-1:0] engine_word_i,
+    input  logic                  replace_i,         // a clock after read_i and before write_i: the half is the engine's
+    input  logic                  clear_i,           // a clock before write_i: both halves are 0, as is engine_word_i
+    input  logic                  select_i,          // with read_i: this pair
+    input  logic                  upper_i,           // with read_i: the word's upper half
+    input  logic                  used_i,            // with replace_i: of that half only which candidates are used
+    input  logic [HALF_WIDTH-1:0] engine_word_i,     // 0 while timestamps come
     input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs beyond this one, seen from the engine
     output logic [LINE_WIDTH-1:0] word_o
 );
@@ -157,7 +165,7 @@ module pool2_pair #(
     end
   end
 
-  assign next_count = (&count) ? count : count + 1'b1;
+  assign next_count = (&count) ? count : count + COUNT_WIDTH'(pending_q);
 
   // One place at most, and none while nothing is counted, so that the count rests then.
   logic [2*HALF_BINS-1:0] counts_here;
@@ -172,7 +180,7 @@ module pool2_pair #(
 
   // The word in work, and the group of its pixels. A word has four pixels: column c of row r is pixel 2 c + r.
 
-  logic read_selected_q, upper_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
+  logic read_selected_q, upper_q, replaced_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [PIXEL_WIDTH-1:0] moved;
   // Which pixel's distance is found, and which one moved is for. A pixel without a timestamp has no turn, so that nothing
@@ -194,24 +202,45 @@ module pool2_pair #(
     if (engine_i) begin
       read_selected_q <= read_i && select_i;
       upper_q <= upper_i;
+      replaced_q <= clear_i || (replace_i && read_selected_q);
       drives_lower_q <= read_selected_q && !upper_q;
       drives_upper_q <= read_selected_q && upper_q;
     end
   end
+
+  // What is not from the SRAM.
+  logic [WORD_WIDTH-1:0] fresh, from_sram, next_word;
+  integer f;
+  always_comb begin
+    fresh = {2{engine_word_i}};
+    for (f = 0; f < 2 * HALF_BINS; f = f + 1) begin
+      fresh[(f/HALF_BINS)*HALF_WIDTH+(f%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] =
+          fresh[(f/HALF_BINS)*HALF_WIDTH+(f%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] | next_count;
+    end
+    for (f = 0; f < 4; f = f + 1) begin
+      fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] = fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] | moved;
+    end
+  end
+
+  assign next_word = (read_data & from_sram) | (fresh & ~from_sram);
 
   // Each bin and each pixel has an enable of its own. The last pixel of a word goes straight to the SRAM.
   integer i;
   always_ff @(posedge clk_i) begin
     for (i = 0; i < 2 * HALF_BINS; i = i + 1) begin
       if (count_i && counts_here[i]) begin
-        word_q[(i/HALF_BINS)*HALF_WIDTH+(i%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] <= next_count;
+        word_q[(i/HALF_BINS)*HALF_WIDTH+(i%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] <=
+            next_word[(i/HALF_BINS)*HALF_WIDTH+(i%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH];
       end
     end
-    if (move_q[0]) word_q[0+:PIXEL_WIDTH] <= moved;
-    if (move_q[1]) word_q[PIXEL_WIDTH+:PIXEL_WIDTH] <= moved;
-    if (move_q[2]) word_q[HALF_WIDTH+:PIXEL_WIDTH] <= moved;
-    if (move_q[3] && ONE_WORD) word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH] <= moved;
-    if (word_load) word_q <= read_data;
+    for (i = 0; i < 4; i = i + 1) begin
+      if (move_q[i] && (i < 3 || ONE_WORD)) begin
+        word_q[(i/2)*HALF_WIDTH+(i%2)*PIXEL_WIDTH+:PIXEL_WIDTH] <= next_word[(i/2)*HALF_WIDTH+(i%2)*PIXEL_WIDTH+:PIXEL_WIDTH];
+      end
+    end
+    if (word_load || clear_i) begin
+      word_q <= next_word;
+    end
   end
 
   // Track and point: whose turn it is.
@@ -291,7 +320,8 @@ module pool2_pair #(
       .CELL_SHIFT     (CELL_SHIFT)
   ) u_pixel_update (
       .clk_i        (clk_i),
-      .point_i      (point_i),
+      .track_i      (!engine_i && !coarse_i && !point_i),
+      .point_i      (!engine_i && point_i),
       .valid_i      (turn_valid),
       .timestamp_i  (turn_timestamp),
       .hits_i       (turn_hits),
@@ -359,21 +389,20 @@ module pool2_pair #(
         );
       end
 
-      // What is written: what the engine gives, which is 0 when all words are cleared, or the word as it is. The last pixel
-      // is on its way.
-      logic [HALF_WIDTH-1:0] kept;
+      // Which bits come from the SRAM when a word is loaded. The rest is the engine's, or 0 to clear.
       logic given;
-      assign kept = {(c == 1 && move_q[3]) ? (HALF_WIDTH - PIXEL_WIDTH)'(moved) : half[HALF_WIDTH-1:PIXEL_WIDTH],
-                     half[PIXEL_WIDTH-1:0]};
-      assign given = engine_i && (clear_i || upper_i == (c == 1));
+      assign given = replace_i && read_selected_q && upper_q == (c == 1);
       if (PRIOR != 0) begin : g_prior
         localparam logic [HALF_WIDTH-1:0] USED_BITS = HALF_WIDTH'((1 << LABELS) - 1) << dtof_pkg::pool_group_width(LABELS);
-        logic [HALF_WIDTH-1:0] given_bits;
-        assign given_bits = {HALF_WIDTH{given}} & ({HALF_WIDTH{!used_i}} | USED_BITS);
-        assign write_data[c*HALF_WIDTH+:HALF_WIDTH] = (engine_word_i & given_bits) | (kept & ~given_bits);
+        assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = {HALF_WIDTH{word_load}}
+            & ~({HALF_WIDTH{given}} & ({HALF_WIDTH{!used_i}} | USED_BITS));
       end else begin : g_no_prior
-        assign write_data[c*HALF_WIDTH+:HALF_WIDTH] = given ? engine_word_i : kept;
+        assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = {HALF_WIDTH{word_load && !given}};
       end
+
+      // What is written: the word as it is. The last pixel is on its way.
+      assign write_data[c*HALF_WIDTH+:HALF_WIDTH] = {
+          (c == 1 && move_q[3]) ? (HALF_WIDTH - PIXEL_WIDTH)'(moved) : half[HALF_WIDTH-1:PIXEL_WIDTH], half[PIXEL_WIDTH-1:0]};
     end
   endgenerate
 
@@ -381,7 +410,7 @@ module pool2_pair #(
   // a word of them alone is not written.
 
   assign read = read_i && (engine_i ? select_i : (!coarse_i || (bin_valid && !same_word)));
-  assign write = write_i && (engine_i ? clear_i || select_i : (coarse_i ? write_q : changed_q));
+  assign write = write_i && (engine_i ? replaced_q : (coarse_i ? write_q : changed_q));
   assign group_word = write_i ? write_group_word_q : bin[COARSE_WIDTH-1:PLACE_WIDTH];
   assign address = address_i | (coarse_i ? ADDR_WIDTH'(group_word) : '0);
 

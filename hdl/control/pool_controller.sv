@@ -51,7 +51,7 @@ module pool_controller #(
   logic accept, cleared;
 
   assign accept = start_i && !busy_o;
-  assign cleared = (address_q == LAST_ADDRESS);
+  assign cleared = clear_o && (address_q == LAST_ADDRESS);
 
   always_comb begin
     state_d = state_q;
@@ -151,7 +151,7 @@ module pool_controller #(
       end
       more_q <= acq_done_i ? more_then_q : acq_done_q ? more_q : (acquisition_q < phase_end);
       more_then_q <= (acquisition_then < phase_end);
-      address_q <= (state_q == dtof_pkg::STATE_RESET && !cleared) ? address_q + 1'b1 : '0;
+      address_q <= (clear_o && !cleared) ? address_q + 1'b1 : '0;
     end
   end
 
@@ -167,7 +167,8 @@ module pool_controller #(
   assign point_o = point_q;
   assign more_o = more_q;
   assign acquisition_t1_o = acquisition_q[3:0];
-  assign clear_o = (state_q == dtof_pkg::STATE_RESET);
+  // A clock later than the state, for an engine's word is 0 by then.
+  assign clear_o = (state_q == dtof_pkg::STATE_RESET) && !entered_q;
   assign clear_address_o = address_q;
   assign decode_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECODE);
   assign choose_o = entered_q && (state_q == dtof_pkg::POOL_STATE_CHOOSE);

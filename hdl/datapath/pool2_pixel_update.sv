@@ -25,6 +25,7 @@ module pool2_pixel_update #(
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
 ) (
     input  logic                   clk_i,
+    input  logic                   track_i,        // the track phase
     input  logic                   point_i,        // the pointer phase
     // clock 0
     input  logic                   valid_i,        // the pixel has a timestamp
@@ -34,7 +35,7 @@ module pool2_pixel_update #(
     input  logic [PIXEL_WIDTH-1:0] word_i,
     // clock 1
     input  logic [            3:0] acquisition_i,  // mod 16
-    output logic [PIXEL_WIDTH-1:0] word_o          // of the last pixel with a timestamp
+    output logic [PIXEL_WIDTH-1:0] word_o          // of the last pixel with a timestamp; 0 in neither phase
 );
 
   logic [15:0] position;
@@ -134,6 +135,6 @@ module pool2_pixel_update #(
       .word_o       (pointed)
   );
 
-  assign word_o = point_i ? PIXEL_WIDTH'(pointed) : PIXEL_WIDTH'(tracked);
+  assign word_o = (PIXEL_WIDTH'(tracked) & {PIXEL_WIDTH{track_i}}) | (PIXEL_WIDTH'(pointed) & {PIXEL_WIDTH{point_i}});
 
 endmodule

@@ -33,7 +33,7 @@ module pool2_candidate_decoder #(
     // with command_i.take_prior: the group's candidates of the last frame, and which of them were used
     input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
     input  logic [           LABELS-1:0] last_used_i,
-    // the newest candidate is the last cell; both valid from a clock after command_i.candidate until the next one
+    // the newest candidate is the last cell; both valid from command_i.candidate until the next one
     output logic [LABELS*CELL_WIDTH-1:0] cells_o,
     output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group's bins are counted
 );
@@ -223,7 +223,7 @@ module pool2_candidate_decoder #(
   logic [SUM_WIDTH-1:0] tilt_q, height, lower_q, excess;
   logic tilted, upwards, upwards_q;
   logic [CELL_WIDTH-1:0] peak_cell;
-  logic [LABELS*CELL_WIDTH-1:0] cells_q;
+  logic [LABELS*CELL_WIDTH-1:0] cells, cells_q;
 
   assign upwards = (after_q > before_q);
   assign height = best_q - lower_q;
@@ -231,6 +231,7 @@ module pool2_candidate_decoder #(
   assign peak_cell = {best_pair_q, 2'b00} + (tilted ? (upwards_q ? CELL_WIDTH'(1) : '1) : '0);
   assign excess = (best_q > least_q) ? best_q - least_q : '0;
   assign new_leak = excess >> LEAK_SHIFT;
+  assign cells = command_i.candidate ? {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]} : cells_q;
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
@@ -242,11 +243,11 @@ module pool2_candidate_decoder #(
         leak_q <= new_leak;
       end
       if (command_i.candidate) begin
-        cells_q <= {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
+        cells_q <= cells;
       end
     end
   end
 
-  assign cells_o = cells_q;
+  assign cells_o = cells;
 
 endmodule

@@ -369,7 +369,8 @@ module pool2_engine #(
     end
   endgenerate
 
-  // Registered here, for the way to the pairs is long. It is known a clock before it is written, and 0 while words are cleared.
+  // Registered here, for the way to the pairs is long. A pair takes it a clock before it writes it, and it is 0 while words are
+  // cleared.
   always_ff @(posedge clk_i) begin
     if (active || was_active_q) begin
       word_o <= (HALF_WIDTH'({new_background, new_cells}) & {HALF_WIDTH{command_i.decoding}})

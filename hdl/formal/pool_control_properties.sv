@@ -119,7 +119,7 @@ module pool_control_properties #(
   );
 
   // As in pool_pointer2_array.
-  logic coarse_q, point_q, engine_q, clear_q, read_q, write_q, group_load_q, group_upper_q;
+  logic coarse_q, point_q, engine_q, read_q, write_q, group_load_q, group_upper_q;
   logic [ADDR_WIDTH-1:0] address_q;
 
   always_ff @(posedge clk_i or negedge checking) begin
@@ -136,7 +136,6 @@ module pool_control_properties #(
     coarse_q <= coarse;
     point_q <= point;
     engine_q <= !stream;
-    clear_q <= clear;
     address_q <= clear ? clear_address : (stream ? stream_address : engine_address_i);
     group_load_q <= group_load;
     group_upper_q <= group_upper;
@@ -183,7 +182,8 @@ module pool_control_properties #(
       .group_load_i    (group_load_q),
       .group_upper_i   (group_upper_q),
       .engine_i        (engine_q),
-      .clear_i         (clear_q),
+      .replace_i       (engine_write_i),
+      .clear_i         (clear),
       .select_i        (engine_select_i),
       .upper_i         (engine_upper_i),
       .used_i          (engine_used_i),

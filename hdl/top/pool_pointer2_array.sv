@@ -297,13 +297,14 @@ module pool_pointer2_array #(
   // own missing neighbour.
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
-  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 25;
+  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 26;
 
   logic told_read, told_write, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] told_address;
   logic [LAST_PAIRS-1:0] last_select, last_part;
 
-  // A clock later than what is told, as the sequencers give read, write and address a clock early.
+  // A clock later than what is told, as the sequencers give read, write and address a clock early: in time for what a pair
+  // does before it writes.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       told_read <= 1'b0;
@@ -314,13 +315,12 @@ module pool_pointer2_array #(
     end
   end
 
-  logic coarse_q, point_q, engine_q, clear_q, group_load_q, group_upper_q;
+  logic coarse_q, point_q, engine_q, group_load_q, group_upper_q;
 
   always_ff @(posedge clk_i) begin
     coarse_q <= coarse;
     point_q <= point;
     engine_q <= !stream;
-    clear_q <= clear;
     told_address <= clear ? clear_address : (stream ? stream_address : engine_address);
     group_load_q <= group_load;
     group_upper_q <= group_upper;
@@ -352,7 +352,7 @@ module pool_pointer2_array #(
   logic [NP-1:0] heard_gate_begin, heard_gate_end;
   logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
   logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_second_column, heard_fresh, heard_load, heard_count;
-  logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear;
+  logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear;
   logic heard_upper, heard_used, heard_has_right, heard_last_has_right;
   logic [3:0] heard_acquisition_t2;
   logic [ADDR_WIDTH-1:0] heard_address;
@@ -362,14 +362,14 @@ module pool_pointer2_array #(
 
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
                  second_row_t0, first_row_t2, second_row_t2, acquisition_t2, second_column, fresh, load, count, told_read,
-                 told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, clear_q,
+                 told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
   assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
           heard_acquisition_t2, heard_second_column, heard_fresh, heard_load, heard_count, heard_read, heard_write,
-          heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_clear, heard_select,
-          heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
+          heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
+          heard_select, heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
           heard_command} = heard;
 
   broadcast #(
@@ -503,6 +503,7 @@ module pool_pointer2_array #(
             .group_load_i    (heard_group_load),
             .group_upper_i   (heard_group_upper),
             .engine_i        (heard_engine),
+            .replace_i       (heard_replace),
             .clear_i         (heard_clear),
             .select_i        (select[p]),
             .upper_i         (heard_upper),
