@@ -55,7 +55,8 @@ module pool2_column #(
 
   // The first two timestamps, complete at T1.
 
-  logic [NP-1:0] timestamp_t1, first, first_q, second, second_q;
+  logic [NP-1:0] timestamp_t1, first_q, second, second_q;
+  logic [CELL_WIDTH-1:0] first_cell;
   logic valid_t1, has_first, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
 
   timestamp_input #(
@@ -74,7 +75,7 @@ module pool2_column #(
 
   assign valid_t1 = beat_t1_i && detected_t1;
   assign has_first = valid_t1 || (has_first_q && !first_slot_t1_i);
-  assign first = (first_slot_t1_i || !has_first_q) ? timestamp_t1 : first_q;
+  assign first_cell = (first_slot_t1_i || !has_first_q) ? timestamp_t1[NP-1-:CELL_WIDTH] : first_q[NP-1-:CELL_WIDTH];
 
   always_ff @(posedge clk_i) begin
     has_first_q <= has_first;
@@ -188,7 +189,7 @@ module pool2_column #(
   always_ff @(posedge clk_i) begin
     // A rival that moves has no use for candidates, so that nothing behind the register moves in the pointer phase.
     if ((valid_t1 || last_slot_t1_i) && !(RIVAL_MOVES != 0 && point_i)) begin
-      matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first[NP-1-:CELL_WIDTH];
+      matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first_cell;
     end
     if (has_second) begin
       first_hits_q <= hits;

@@ -393,7 +393,7 @@ module pool2_pair #(
       logic given;
       assign given = replace_i && read_selected_q && upper_q == (c == 1);
       if (PRIOR != 0) begin : g_prior
-        localparam logic [HALF_WIDTH-1:0] USED_BITS = HALF_WIDTH'((1 << LABELS) - 1) << dtof_pkg::pool_group_width(LABELS);
+        localparam logic [HALF_WIDTH-1:0] USED_BITS = HALF_WIDTH'((1 << LABELS) - 1) << dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH);
         assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = {HALF_WIDTH{word_load}}
             & ~({HALF_WIDTH{given}} & ({HALF_WIDTH{!used_i}} | USED_BITS));
       end else begin : g_no_prior

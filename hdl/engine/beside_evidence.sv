@@ -20,7 +20,7 @@ module beside_evidence #(
     parameter int SCORE_BITS = 4,  // of each
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
-    localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
+    localparam int GROUP_WIDTH = LABELS * CELL_WIDTH + BACKGROUND_WIDTH,  // candidates and the whole background
     localparam int EVIDENCE_WIDTH = dtof_pkg::POOL2_EVIDENCE_WIDTH
 ) (
     input  logic                             clk_i,
@@ -31,7 +31,7 @@ module beside_evidence #(
     // the pixel prepared, taken with advance_i, and its group's word
     input  logic                             advance_i,
     input  logic [    LABELS*SCORE_BITS-1:0] scores_i,
-    input  logic [          GROUP_WIDTH-1:0] group_i,         // also that of the pixel to the right
+    input  logic [          GROUP_WIDTH-1:0] group_i,         // {B, cells}; also that of the pixel to the right
     input  logic [           CELL_WIDTH-1:0] left_cell_i,     // with compare: chosen in the column to the left
     output logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_o,      // signed
     output logic [    LABELS*CELL_WIDTH-1:0] cells_o,

@@ -34,10 +34,10 @@ module pool2_engine #(
     parameter int SECOND_TARGET = 0,
     parameter int PRIOR = 0,
     localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
-    localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS),
     localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
     localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
+    localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH),
     localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),
     localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
@@ -63,6 +63,7 @@ module pool2_engine #(
 
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH;
+  localparam int KEPT_WIDTH = dtof_pkg::pool_background_width(LABELS, PIXEL_WIDTH);  // of it in a group's word
   localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
   localparam int LEAD_WIDTH = LABEL_WIDTH + OFFSET_BITS;  // {offset, leader}
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
@@ -144,12 +145,15 @@ module pool2_engine #(
   logic [PIXEL_WIDTH-1:0] line_pixel, captured_q, prepared_q;
   logic [LABELS*CHOOSE_EVIDENCE_WIDTH-1:0] choose_evidence;
   logic [LABELS*CELL_WIDTH-1:0] cells;
-  logic [BACKGROUND_WIDTH-1:0] background;
+  logic [BACKGROUND_WIDTH-1:0] line_background, background;
   logic [LEAD_WIDTH-1:0] prepared_lead, next_lead_q, lead_q, last_lead_q;
   logic prepared_bright_q, next_bright_q, bright_q, last_bright_q;
   logic [CELL_WIDTH-1:0] left_cell, next_left_q, left_q;
 
   assign advance = command_i.choose.advance || command_i.decide.advance;
+  // In place of the low bits that are not kept stands the middle of what they can be.
+  assign line_background = (BACKGROUND_WIDTH'(line_q[LABELS*CELL_WIDTH+:KEPT_WIDTH]) << (BACKGROUND_WIDTH - KEPT_WIDTH))
+      | BACKGROUND_WIDTH'((1 << (BACKGROUND_WIDTH - KEPT_WIDTH)) >> 1);
   assign line_pixel = command_i.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
 
   generate
@@ -166,7 +170,7 @@ module pool2_engine #(
     end
     if (advance) begin
       prepared_q <= captured_q;
-      prepared_bright_q <= (line_q[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH] >= BACKGROUND_WIDTH'(SMOOTH_BRIGHT_FROM));
+      prepared_bright_q <= (line_background >= BACKGROUND_WIDTH'(SMOOTH_BRIGHT_FROM));
       {next_lead_q, next_bright_q, next_left_q} <= {prepared_lead, prepared_bright_q, left_cell};
       {lead_q, bright_q, left_q} <= {next_lead_q, next_bright_q, next_left_q};
       {last_lead_q, last_bright_q} <= {lead_q, bright_q};
@@ -183,7 +187,7 @@ module pool2_engine #(
       .has_right_i   (has_right_i),
       .advance_i     (advance),
       .scores_i      (captured_q[SCORES_WIDTH-1:0]),
-      .group_i       (line_q[GROUP_WIDTH-1:0]),
+      .group_i       ({line_background, line_q[LABELS*CELL_WIDTH-1:0]}),
       .left_cell_i   (left_cell),
       .evidence_o    (choose_evidence),
       .cells_o       (cells),
@@ -373,7 +377,7 @@ module pool2_engine #(
   // cleared.
   always_ff @(posedge clk_i) begin
     if (active || was_active_q) begin
-      word_o <= (HALF_WIDTH'({new_background, new_cells}) & {HALF_WIDTH{command_i.decoding}})
+      word_o <= (HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) & {HALF_WIDTH{command_i.decoding}})
           | (done_word & {HALF_WIDTH{command_i.choosing}});
     end
   end
@@ -402,6 +406,6 @@ module pool2_engine #(
 
   logic unused;
   assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
-                    second_cell[CELL_WIDTH], second_start, line_q, message_out, best_start, prepared_q};
+                    second_cell[CELL_WIDTH], second_start, line_q, message_out, best_start, prepared_q, new_background};
 
 endmodule

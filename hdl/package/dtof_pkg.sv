@@ -101,6 +101,7 @@ package dtof_pkg;
   localparam int POOL_COARSE_BINS = 32;
   localparam int POOL_CELL_WIDTH = 7;
   localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
+  localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   // Bits of pool2_engine_command_t, of which Yosys 0.23 cannot take $bits, nor Icarus 11 of a variable of it. Every lint
@@ -125,11 +126,6 @@ package dtof_pkg;
         + ((rival_moves != 0) ? POOL_RIVAL_WIDTH : 2 * index_width(labels));
   endfunction
 
-  // Bits of a group's word: candidates and background.
-  function automatic int pool_group_width(input int labels);
-    pool_group_width = POOL_CELL_WIDTH * labels + POOL_BACKGROUND_WIDTH;
-  endfunction
-
   // Bits of a pixel's word.
   function automatic int pool2_pixel_width(input int labels, input int score_bits, input int offset_bits,
                                            input int advantage_width, input int pointer_shift, input int rival_moves);
@@ -137,12 +133,23 @@ package dtof_pkg;
                                pool_point_width(labels, advantage_width, pointer_shift, rival_moves));
   endfunction
 
+  // Highest bits of a group's background that its word keeps: as many as two pixels' words leave beside the candidates.
+  function automatic int pool_background_width(input int labels, input int pixel_width);
+    pool_background_width = 2 * pixel_width - POOL_CELL_WIDTH * labels;
+    if (pool_background_width < POOL_FEWEST_BACKGROUND_BITS) pool_background_width = POOL_FEWEST_BACKGROUND_BITS;
+    if (pool_background_width > POOL_BACKGROUND_WIDTH) pool_background_width = POOL_BACKGROUND_WIDTH;
+  endfunction
+
+  // Bits of a group's word: candidates and background.
+  function automatic int pool_group_width(input int labels, input int pixel_width);
+    pool_group_width = POOL_CELL_WIDTH * labels + pool_background_width(labels, pixel_width);
+  endfunction
+
   // Bits of half an SRAM word of a pair of columns: two pixels of a column, or a group.
   function automatic int pool2_half_width(input int labels, input int score_bits, input int offset_bits,
                                           input int advantage_width, input int pointer_shift, input int rival_moves);
-    pool2_half_width = max_of(2 * pool2_pixel_width(labels, score_bits, offset_bits, advantage_width, pointer_shift,
-                                                    rival_moves),
-                              pool_group_width(labels));
+    pool2_half_width = pool2_pixel_width(labels, score_bits, offset_bits, advantage_width, pointer_shift, rival_moves);
+    pool2_half_width = max_of(2 * pool2_half_width, pool_group_width(labels, pool2_half_width));
   endfunction
 
   // Halves of such a word that POOL2_BINS_PER_LINE coarse bins need, 1 or 2.

@@ -71,6 +71,8 @@ module pool_pointer2_array #(
 
   localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                          POINTER_SHIFT, RIVAL_MOVES);
+  localparam int PIXEL_WIDTH = dtof_pkg::pool2_pixel_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+                                                           POINTER_SHIFT, RIVAL_MOVES);
   localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH);
   localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH;
   localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
@@ -108,7 +110,7 @@ module pool_pointer2_array #(
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || SECOND_TARGET == 1,
                 "pool_pointer2_array: SECOND_TARGET must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || PRIOR == 1, "pool_pointer2_array: PRIOR must be 0 or 1")
-  `DTOF_REQUIRE(g_illegal_used, PRIOR == 0 || dtof_pkg::pool_group_width(LABELS) + LABELS <= HALF_WIDTH,
+  `DTOF_REQUIRE(g_illegal_used, PRIOR == 0 || dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH) + LABELS <= HALF_WIDTH,
                 "pool_pointer2_array: a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1")
   `DTOF_REQUIRE(g_illegal_histogram,
                 dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH <= LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,

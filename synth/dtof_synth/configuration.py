@@ -95,7 +95,9 @@ def pool_word_width(configuration: Configuration) -> int:
     moves = configuration["RIVAL_MOVES"]
     point = (configuration["ADVANTAGE_WIDTH"] + (16 if moves else 12) - configuration["POINTER_SHIFT"]
              + (7 if moves else 2 * label_width))
-    return max(2 * max(track, point), 7 * labels + 6)
+    two_pixels = 2 * max(track, point)
+    background = min(max(two_pixels - 7 * labels, 4), 6)
+    return max(two_pixels, 7 * labels + background)
 
 
 def engine_memories(configuration: Configuration) -> dict[str, Size]:

@@ -20,7 +20,7 @@ constexpr int kPoolCoarseBits = 5;
 constexpr int kPoolPositionBits = 16;
 constexpr int kPoolRivalBits = 7;
 constexpr int kPoolCellBits = 7;
-constexpr int kPoolBackgroundBits = 6;
+constexpr int kFewestPoolBackgroundBits = 4;
 
 // Sentences are word for word those with which the RTL stops elaboration (hdl/lint/parameter_limits.csv).
 void require(bool legal, std::string_view sentence, int value) {
@@ -79,7 +79,7 @@ void PoolPointerParameters::validate(int count_width) const {
   require_range("CELL_SHIFT", cell_shift, 8, 10);
   require_range("COARSE_SHARE", coarse_share, 1, 62);
   require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
-  const int group_bits = kPoolCellBits * labels + kPoolBackgroundBits;
+  const int group_bits = kPoolCellBits * labels + background_bits();
   const int half_bits = std::max(2 * word_bits(), group_bits);
   require(!prior || group_bits + labels <= half_bits,
           "a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1", labels);
@@ -96,6 +96,10 @@ int PoolPointerParameters::word_bits() const {
   const int pointer_word = count_bits + (rival_moves ? kPoolPositionBits - pointer_shift + kPoolRivalBits
                                                      : 12 - pointer_shift + 2 * label_bits);
   return std::max(track_word, pointer_word);
+}
+
+int PoolPointerParameters::background_bits() const {
+  return std::clamp(2 * word_bits() - kPoolCellBits * labels, kFewestPoolBackgroundBits, kPoolBackgroundBits);
 }
 
 PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {

@@ -41,6 +41,9 @@ struct PoolPointerParameters {
   void validate(int count_width) const;
   /// Bits of a pixel word.
   [[nodiscard]] int word_bits() const;
+  /// Highest bits of a group's background that its word keeps: 4 to 6, as many as two pixel words leave beside
+  /// the candidates.
+  [[nodiscard]] int background_bits() const;
   bool operator==(const PoolPointerParameters&) const = default;
 };
 
@@ -54,6 +57,9 @@ struct PoolSchedule {
 
 /// Rows of a column of the thesis's array, and of the compiled ones.
 inline constexpr int kArrayRows = 160;
+
+/// Bits of a group's background in a pool read-out, 0 .. 39.
+inline constexpr int kPoolBackgroundBits = 6;
 
 /// Digital time gate: a timestamp x with begin <= x < end counts, any other is no detection. Codes, 0 ..
 /// 2^NP - 1; with end <= begin nothing counts.

@@ -31,7 +31,9 @@ class Groups {
   /// `prior`: of the last frame, empty if there is none.
   Groups(std::span<const PoolColumn> columns, std::uint32_t coarse_end,
          const PoolPointer2Parameters& parameters, const PoolPrior& prior)
-      : parameters_(parameters), rows_(static_cast<std::size_t>(parameters.group_rows)) {
+      : parameters_(parameters),
+        rows_(static_cast<std::size_t>(parameters.group_rows)),
+        lost_bits_(kPoolBackgroundBits - parameters.common().background_bits()) {
     const std::size_t pairs = (columns.size() + kPairColumns - 1) / kPairColumns;
     height_ = (columns.front().size() + rows_ - 1) / rows_;
     histograms_.resize(pairs * height_);
@@ -104,7 +106,9 @@ class Groups {
     PoolGroup group{};
     group.labels = parameters_.labels;
     group.score_limit = (1 << parameters_.score_bits) - 1;
-    group.background = group_background(own, parameters_.count_width);
+    // What the low bits that the group's word has no room for can be: in the middle of it.
+    group.background = ((group_background(own, parameters_.count_width) >> lost_bits_) << lost_bits_) +
+                       ((1 << lost_bits_) >> 1);
     const int least = std::ranges::min(sums);
     TakenPairs taken{};
     for (int label = 0; label < group.labels; ++label) {
@@ -118,6 +122,7 @@ class Groups {
 
   const PoolPointer2Parameters& parameters_;
   std::size_t rows_;    // of a group
+  int lost_bits_;       // of a background
   std::size_t height_;  // groups of a pair
   std::vector<CoarseHistogram> histograms_;
   std::vector<PoolGroup> groups_;

@@ -205,6 +205,7 @@ class Reference {
       }
     }
     own.b = 5 * *std::min_element(octets.begin(), octets.end()) / (largest_count() + 1);
+    own.b = open_.lean ? own.b / 4 * 4 + 2 : own.b;
     const int least = *std::min_element(w.begin(), w.end());
     std::vector<int> free_pairs(31);
     std::iota(free_pairs.begin(), free_pairs.end(), 0);
@@ -665,11 +666,11 @@ TEST_F(PoolPointer2, WordsFitTheMemory) {
     PoolPointer2Parameters parameters;
     int pixel_bits, word_bits, bins_of_a_word, words, most_bits_per_pixel;
   };
-  for (const Case& c : {Case{{}, 29, 2 * 58, 16, 100, 40}, Case{lean(), 16, 2 * 34, 8, 90, 20}}) {
+  for (const Case& c : {Case{{}, 29, 2 * 58, 16, 100, 40}, Case{lean(), 16, 2 * 32, 8, 90, 18}}) {
     const PoolPointerParameters common = c.parameters.common();
     EXPECT_EQ(common.word_bits(), c.pixel_bits);
     EXPECT_LE(4 * c.pixel_bits, c.word_bits);
-    EXPECT_LE(2 * (7 * c.parameters.labels + 6), c.word_bits);
+    EXPECT_LE(2 * (7 * c.parameters.labels + common.background_bits()), c.word_bits);
     EXPECT_LE(c.bins_of_a_word * c.parameters.count_width, c.word_bits);
     EXPECT_GE(c.bins_of_a_word * c.parameters.group_rows / 2, 32);
     EXPECT_EQ(160 / 2 + 160 / c.parameters.group_rows / 2, c.words);
