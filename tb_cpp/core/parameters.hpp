@@ -41,8 +41,8 @@ struct PoolPointerParameters {
   void validate(int count_width) const;
   /// Bits of a pixel word.
   [[nodiscard]] int word_bits() const;
-  /// Highest bits of a group's background that its word keeps: 4 to 6, as many as two pixel words leave beside
-  /// the candidates.
+  /// Highest bits of a group's background that its word keeps: 4 to 6, as many as two pixel words leave
+  /// beside the candidates.
   [[nodiscard]] int background_bits() const;
   bool operator==(const PoolPointerParameters&) const = default;
 };

@@ -222,7 +222,7 @@ void run_video_command(const VideoOptions& options) {
 void add_video_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<VideoOptions>();
   options->command_line = command_line;
-  options->readout.readouts = "hispointer,poolpointer,poolpointer2";
+  options->readout.readouts = "hispointer,coarsehistogram,poolpointer2";
   CLI::App* command = app.add_subcommand(
       "video", "Read-outs on videos: accuracy from frame to frame, and what the last frame tells the next");
   command->add_option("--scene", options->scenes, "scenes of `dtof list`, one or more")

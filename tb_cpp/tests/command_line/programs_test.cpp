@@ -37,9 +37,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 11> kStudies = {
-      "claims",    "enlarge", "accuracy", "coverage",       "fidelity",   "measured",
-      "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 12> kStudies = {
+      "claims",    "enlarge", "accuracy", "coverage",       "fidelity",    "measured",
+      "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error", "video"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -645,6 +645,16 @@ TEST_F(Programs, WalkWritesItsReportAndPicture) {
   expect_refused("walk --binning 2 --out out", "binning");
   expect_refused("walk --reflectivities 0 1 --out out", "reflectivity");
   expect_refused("walk --distances 0 --out out", "distance");
+}
+
+TEST_F(Programs, VideoReadsItsDefaultReadoutsAndWritesItsReportAndPictures) {
+  const Outcome outcome = dtof(
+      "video --motion still light --frames 2 --array-columns 34 --array-rows 8 --acquisitions 300 --out out");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("poolPointer 2, prior"));
+  for (const char* file : {"video.csv", "video.md", "room_still.svg", "room_light.svg"}) {
+    EXPECT_TRUE(std::filesystem::exists(path("out") + "/" + file)) << file;
+  }
 }
 
 TEST_F(Programs, ClaimsWritesItsReportAndPictures) {
