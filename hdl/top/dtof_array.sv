@@ -27,7 +27,7 @@
 //   those of their column (timestamp_input.sv).
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
-// Cost at the defaults: ezPointer 493 um2 of logic and 2240 bits of SRAM a column, 1998 um2 in common.
+// Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
 module dtof_array #(

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from . import standard_cells
+from .configuration import Configuration
 from .run import TARGET_MHZ, Result
 from .timing import FAST_MHZ
 
@@ -38,12 +40,20 @@ def ranks(results: dict[str, Result]) -> dict[str, int]:
     return found
 
 
+def waiting_um2(configuration: Configuration) -> float:
+    """Registers in which a column's timestamps wait for their commands, with a clock gate per stage. The limits of a column's
+    logic were set before they stood in the column, and hold without them."""
+    flip_flop, gate = (standard_cells.sequential_pitches(kind) * standard_cells.PITCH_AREA_UM2 for kind in ("DFF", "CLKGATE"))
+    return configuration["BROADCAST_STAGES"] * ((configuration["NP"] + 1) * flip_flop + gate)
+
+
 def check(results: dict[str, Result]) -> list[Goal]:
     goals = []
     for name, result in results.items():
         if result.configuration.variant_of:
             continue
         limit = COLUMN_UM2.get(name, COLUMN_UM2_OTHERS)
+        waiting = waiting_um2(result.configuration)
         title = result.configuration.title
         slow, typical = result.timing["slow"], result.timing["typical"]
         goals += [
@@ -53,8 +63,8 @@ def check(results: dict[str, Result]) -> list[Goal]:
                  typical.fast_slack >= 0),
             Goal(f"{title}: array at most {ARRAY_MM2[name]:g} mm2", f"{result.total_mm2:.3f} mm2",
                  result.total_mm2 <= ARRAY_MM2[name]) if name in ARRAY_MM2 else
-            Goal(f"{title}: logic of a column at most {limit:g} um2", f"{result.column.area:.0f} um2",
-                 result.column.area <= limit)]
+            Goal(f"{title}: logic of a column at most {limit:g} um2 and {waiting:.0f} um2 of registers in which timestamps wait",
+                 f"{result.column.area:.0f} um2", result.column.area <= limit + waiting)]
     area = results["ezpointer_one_port"].total_mm2
     goals.append(Goal(f"ezPointer, one-port SRAM: array at most {ONE_PORT_EZPOINTER_MM2:g} mm2",
                       f"{area:.3f} mm2", area <= ONE_PORT_EZPOINTER_MM2))

@@ -147,8 +147,7 @@ def area(results: dict[str, Result], extra: str, library: str, digest: str) -> s
         f"{area_parts.FITTED_BITS} bits are extrapolated from narrower ones.", "", _doubtful_section(main),
         "## Beside the thesis (Table 5)", "", _thesis_section(main),
         "## Shared logic and fan-out", "",
-        "Buffers, repeaters and register copies that carry the shared signals to all columns, and the timestamps' registers, are "
-        "counted in the shared logic. "
+        "Buffers, repeaters and register copies that carry the shared signals to all columns are counted in the shared logic. "
         "The clock tree is an estimate from the clock loads and not in any total.", "",
         _table(["read-out", "cells", "flip-flops", "um2", "of it fan-out buffers", "um2", "clock tree buffers",
                 "um2"],

@@ -80,5 +80,12 @@ class Ranks(unittest.TestCase):
         self.assertNotEqual(goals.ranks(areas), goals.THESIS_RANK)
 
 
+class WaitingRegisters(unittest.TestCase):
+    def test_each_stage_has_a_flip_flop_per_bit_and_one_for_the_detection(self):
+        flip_flop, gate = 15 * 0.2352, 12 * 0.2352  # Nangate's 17 and 13 pitches, shrunk
+        self.assertAlmostEqual(goals.waiting_um2({"BROADCAST_STAGES": 2, "NP": 10}), 2 * (11 * flip_flop + gate), places=6)
+        self.assertAlmostEqual(goals.waiting_um2({"BROADCAST_STAGES": 3, "NP": 12}), 3 * (13 * flip_flop + gate), places=6)
+
+
 if __name__ == "__main__":
     unittest.main()
