@@ -43,7 +43,7 @@ int cut_frame(const Sequence& sequence);
 
 struct SequenceFrame {
   TargetMap targets;
-  double klux;
+  double klux = 0.0;
 };
 
 /// The `frame`-th, from 0. Throws InputError for numbers out of range and for a motion that the scene has
