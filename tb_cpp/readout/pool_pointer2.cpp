@@ -106,7 +106,7 @@ class Groups {
     PoolGroup group{};
     group.labels = parameters_.labels;
     group.score_limit = (1 << parameters_.score_bits) - 1;
-    // What the low bits that the group's word has no room for can be: in the middle of it.
+    // The group's word has no room for the lowest bits; the middle of what they can be stands for them.
     group.background = ((group_background(own, parameters_.count_width) >> lost_bits_) << lost_bits_) +
                        ((1 << lost_bits_) >> 1);
     const int least = std::ranges::min(sums);
