@@ -65,10 +65,9 @@ typedef struct {
   uint16_t gate_end;
   uint16_t weak_below; /* a confidence below is weak */
   bool second_target;  /* each pixel's second target, too; DTOF_ARGUMENT where has_second_target is false */
-  bool
-      smooth; /* poolPointer 2: neighbours of a column on one surface are drawn together; ignored elsewhere */
-  bool prior; /* candidates begin from the last frame's; DTOF_ARGUMENT where has_prior is false */
-  bool raw;   /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
+  bool smooth;         /* poolPointer 2: neighbours on one surface are drawn together; ignored elsewhere */
+  bool prior;          /* candidates begin from the last frame's; DTOF_ARGUMENT where has_prior is false */
+  bool raw; /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
   uint16_t raw_first_row;
   uint16_t raw_last_row;
   uint16_t release; /* lines in the buffer before an acquisition begins; 0: as many as possible */

@@ -9,16 +9,21 @@
 // 3. Choose and decide: a step is a pixel of a chain. A first pass goes from a column's last pixel to its first, keeping
 //    the messages, and a second one goes back. A pixel is fetched three steps before it becomes this pixel: in the first
 //    it is prepared, in the second it hears what the columns beside say, in the third it is the next pixel, whose labels
-//    pass. When all of them have passed, this pixel's best two labels are known, early in the next step. Choose writes two
-//    pixels' first pointer words together. Decide gives a result when the winner below it is known, too, and stands still
+//    pass. When all of them have passed, this pixel's best two labels are known, early in the next step. Where the pixel
+//    below has its own, too, a step later, this one's position moves towards its neighbours': choose gives its first pointer
+//    word (without SMOOTH_STARTS a step earlier) and writes two of these together; decide gives its result, and stands still
 //    at the beginning of a step while the output has not taken the last one.
-// 4. With PRIOR decode reads a group's word of the last frame, too, before it writes the new one, and choose writes which
+// 4. The scratch memory has for each row the message of the first pass and where the column to the left has its best label,
+//    before it moved. That is read for choose's evidence, again with each write of a message, which is beside it, and in the
+//    second pass before this column's own takes its place.
+// 5. With PRIOR decode reads a group's word of the last frame, too, before it writes the new one, and choose writes which
 //    candidates of a group are used, a step after the group's last pair of pixels.
 //
 // Schedule: the table below. A line says in which clocks t of a step a command is given. Columns and engines have it in
 //   the next clock, and what takes longer takes the clocks that the module in question states (dtof_pkg).
-// Latency, K labels: a pair's groups x (32 K + 45) in decode; (pixels + 4) x max(K + 4, 9) a pass in choose, (pixels + 4)
-//   and (pixels + 5) x 6 in decide, a column. With PRIOR choose has a step more a column, two if the pixels are odd.
+// Latency, K labels: a pair's groups x (32 K + 45) in decode; (pixels + 4) and (pixels + 5) x max(K + 4, 9) in choose, without
+//   SMOOTH_STARTS twice (pixels + 4), and (pixels + 4) and (pixels + 5) x 6 in decide, a column. With PRIOR choose has a step
+//   more per column, two if the pixels are odd.
 // Cost: counters and a register of the commands, per array.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"
@@ -29,6 +34,7 @@ module pool2_sequencer #(
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
     parameter int LINE_HALVES = 1,        // halves of a word that eight bins take, 1 or 2
     parameter int ENGINE_COLUMNS = 34,    // columns of an engine
+    parameter int SMOOTH_STARTS = 1,      // 1: a pixel's pointer starts closer to those of the pixels around
     parameter int PRIOR = 0,              // 1: candidates begin from those that were used in the last frame
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
@@ -105,12 +111,14 @@ module pool2_sequencer #(
   localparam int LAST_OF_CHOOSE = dtof_pkg::max_of(PASS + LABELS - 1, LINE_CLOCKS + 5);
 
   localparam int T_WIDTH = $clog2(LAST_OF_DECODE + 1);
+  // A first pointer word is known a step after the pixel's best labels where its start depends on the pixel below.
+  localparam int WORD_LEAD = LEAD + 1 + SMOOTH_STARTS;
   // With PRIOR a group's used candidates are written in a step that writes no pair of pixels. The last group's step comes
   // after a column's last pair, whose second pixel may be missing. A group has more than LEAD rows, so that when its first
   // pixel has chosen, the group fetched last is still the same.
   localparam int EVEN_PIXELS = PIXELS_PER_SRAM + PIXELS_PER_SRAM % 2;
   localparam int LAST_STEP = PIXELS_PER_SRAM + LEAD;
-  localparam int LAST_STEP_OF_CHOOSE = (PRIOR != 0) ? EVEN_PIXELS + LEAD + 1 : LAST_STEP;
+  localparam int LAST_STEP_OF_CHOOSE = (PRIOR != 0) ? EVEN_PIXELS + WORD_LEAD : LAST_STEP + SMOOTH_STARTS;
   localparam int STEP_WIDTH = $clog2(dtof_pkg::max_of(LAST_STEP + 1, LAST_STEP_OF_CHOOSE) + 1);
   localparam int PAIR_WIDTH = dtof_pkg::index_width(PAIRS);
   localparam logic LAST_COLUMN_ODD = (ENGINE_COLUMNS % 2) == 0;
@@ -140,7 +148,7 @@ module pool2_sequencer #(
   assign last_t = decoding ? T_WIDTH'(LAST_OF_DECODE) : choosing ? T_WIDTH'(LAST_OF_CHOOSE) : T_WIDTH'(LAST_OF_DECIDE);
   assign last_step_number = decoding ? STEP_WIDTH'(GROUPS - 1)
       : (deciding && back_q) ? STEP_WIDTH'(LAST_STEP + 1)
-      : (PRIOR != 0 && back_q) ? STEP_WIDTH'(LAST_STEP_OF_CHOOSE) : STEP_WIDTH'(LAST_STEP);
+      : back_q ? STEP_WIDTH'(LAST_STEP_OF_CHOOSE) : STEP_WIDTH'(LAST_STEP);
   assign last_step = (step_q == last_step_number);
   assign first_pair = (pair_q == '0);
   assign last_pair = (pair_q == PAIR_WIDTH'(PAIRS - 1));
@@ -205,9 +213,9 @@ module pool2_sequencer #(
 
   // Which pixels a chain's step is about.
 
-  logic to_fetch, prepared_in_pass, next_in_pass, in_pass, done_before, winner_before, result_before, pair_done;
-  logic choice_before, group_begun, group_done;
-  logic [ROW_WIDTH-1:0] fetch_row, prepared_row, next_row, row, row_before, result_row;
+  logic to_fetch, prepared_in_pass, next_in_pass, in_pass, done_before, chosen_before, result_before, word_before, pair_done;
+  logic word_known, smooths, used_before, group_begun, group_done;
+  logic [ROW_WIDTH-1:0] fetch_row, prepared_row, next_row, row, row_before, result_row, word_row, used_row;
 
   function automatic logic [ROW_WIDTH-1:0] row_of(input logic [STEP_WIDTH-1:0] position, input logic back);
     row_of = ROW_WIDTH'(back ? 32'(position) : PIXELS_PER_SRAM - 1 - 32'(position));
@@ -219,30 +227,36 @@ module pool2_sequencer #(
   assign row = row_of(step_q - STEP_WIDTH'(LEAD), back_q);
   assign row_before = row_of(step_q - STEP_WIDTH'(LEAD + 1), back_q);
   assign result_row = row_of(step_q - STEP_WIDTH'(LEAD + 2), 1'b1);
+  assign word_row = row_of(step_q - STEP_WIDTH'(WORD_LEAD), 1'b1);
+  assign used_row = row_of(step_q - STEP_WIDTH'(WORD_LEAD + 1), 1'b1);
   assign to_fetch = (step_q < STEP_WIDTH'(PIXELS_PER_SRAM));
   assign prepared_in_pass = (step_q >= STEP_WIDTH'(LEAD - 2)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD - 2));
   assign next_in_pass = (step_q >= STEP_WIDTH'(LEAD - 1)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD - 1));
   assign in_pass = (step_q >= STEP_WIDTH'(LEAD)) && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD));
   assign done_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 1));  // the pixel before has its best labels, or is none
-  assign winner_before = done_before && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD + 1));
+  assign chosen_before = done_before && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + LEAD + 1));
   assign result_before = back_q && (step_q >= STEP_WIDTH'(LEAD + 2));  // the one before that has its neighbours
+  assign word_before = back_q && (step_q >= STEP_WIDTH'(WORD_LEAD));   // a pixel has its first pointer word, or is none
+  assign used_before = back_q && (step_q >= STEP_WIDTH'(WORD_LEAD + 1));
 
   generate
     if (PRIOR != 0) begin : g_prior
-      assign choice_before = winner_before;
-      assign pair_done = done_before && row_before[0];
+      assign pair_done = word_before && word_row[0];
       assign group_begun = choosing && done_before && (32'(row_before) % GROUP_SIZE == 0 || last_step);
-      assign group_done = choosing && result_before && (32'(result_row) % GROUP_SIZE == GROUP_SIZE - 1 || last_step);
+      assign group_done = choosing && used_before && (32'(used_row) % GROUP_SIZE == GROUP_SIZE - 1 || last_step);
     end else begin : g_no_prior
-      assign choice_before = done_before;
-      assign pair_done = done_before && (row_before[0] || last_step);
+      assign pair_done = word_before && (word_row[0] || last_step);
       assign group_begun = 1'b0;
       assign group_done = 1'b0;
       logic unused_prior;
-      assign unused_prior = prior_i;
+      assign unused_prior = ^{prior_i, used_before, used_row};
     end
   endgenerate
 
+  assign word_known = word_before && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + WORD_LEAD));
+  assign smooths = deciding || (choosing && SMOOTH_STARTS != 0);
+  // The message of a first pass is written once: what it is written beside was read from the same word, and what an SRAM
+  // has read is undefined after a write.
   assign stall = deciding && (t_q == '0) && send_waits_i;
 
   // The schedule.
@@ -266,7 +280,7 @@ module pool2_sequencer #(
   chain_command_t chain;
   pool2_engine_command_t command;
   int t, last;
-  logic write_message, write_cell, read_cell, read_message;
+  logic write_message, write_position, read_next, read_before, read_cell, read_message;
   assign t = 32'(t_q);
   assign last = 32'(last_t);
 
@@ -277,7 +291,9 @@ module pool2_sequencer #(
     chain = '0;
     command = '0;
     write_message = 1'b0;
-    write_cell = 1'b0;
+    write_position = 1'b0;
+    read_next = 1'b0;
+    read_before = 1'b0;
     read_cell = 1'b0;
     read_message = 1'b0;
 
@@ -322,12 +338,14 @@ module pool2_sequencer #(
     // A pixel. Its best labels are known in the next step, when it is the pixel before.
     if (chaining) begin
       chain.begin_step       = at(t, 0);
-      write_message          = at(t, 0) && !back_q && in_pass;
-      write_cell             = at(t, BELIEF) && choosing && choice_before;
-      command.take_choice    = at(t, BELIEF) && choosing && choice_before;
+      write_message          = at(t, 0) && !back_q && in_pass && !stall;
+      read_before            = at(t, 0) && chosen_before;
+      write_position         = at(t, BELIEF) && chosen_before;
+      command.take_choice    = at(t, BELIEF) && choosing && chosen_before;
       command.next_group     = at(t, BELIEF) && group_begun;
-      command.take_winner    = at(t, BELIEF) && deciding && done_before;
-      command.take_distances = at(t, DISTANCES) && deciding;
+      command.take_position  = at(t, BELIEF) && smooths && done_before;
+      command.take_distances = at(t, DISTANCES) && smooths;
+      command.take_word      = at(t, (SMOOTH_STARTS != 0) ? RESULT : BELIEF) && choosing && word_known;
       command.take_result    = at(t, RESULT) && deciding && result_before;
       columns.send           = at(t, SEND) && deciding && result_before;
       chain.spread           = at(t, SPREAD);
@@ -341,6 +359,7 @@ module pool2_sequencer #(
       columns.write_pair     = at(t, last) && choosing && pair_done;
       columns.write_used     = at(t, last) && group_done;
       command.take_used      = at(t, last) && choosing && to_fetch && (PRIOR != 0);
+      read_next              = at(t, last) && !back_q && next_in_pass;
       chain.advance          = at(t, last);
     end
 
@@ -351,15 +370,15 @@ module pool2_sequencer #(
     chain.target = 3'(t - TARGET);
     chain.clear_message = (step_q < STEP_WIDTH'(LEAD));
     command.odd_pixel = 1'(fetch_row);
-    command.odd_result = 1'(row_before);
-    command.has_winner = winner_before;
+    command.odd_word = 1'(word_row);
+    command.has_position = chosen_before;
     command.decoding = decoding;
     command.choosing = choosing;
     command.deciding = deciding;
     command.giving_used = group_done;
     command.back = back_q;
-    command.write_scratch = write_message || write_cell;
-    command.read_scratch = read_cell || read_message;
+    command.write_scratch = write_message || write_position;
+    command.read_scratch = read_next || read_before || read_cell || read_message;
     command.decode = decode;
     command.beside = beside;
     if (choosing) begin
@@ -399,13 +418,13 @@ module pool2_sequencer #(
       ? ADDR_WIDTH'(32'(read_group) * GROUP_PAIRS + ((LINE_HALVES == 1) ? 32'(bins_read) >> 1 : 32'(bins_read)))
       : group_word ? ADDR_WIDTH'(PIXEL_WORDS + (32'(step_q) >> 1))
       : fetch_group ? ADDR_WIDTH'(PIXEL_WORDS + 32'(fetch_row) / (2 * GROUP_SIZE))
-      : used_word ? ADDR_WIDTH'(PIXEL_WORDS + 32'(result_row) / (2 * GROUP_SIZE))
+      : used_word ? ADDR_WIDTH'(PIXEL_WORDS + 32'(used_row) / (2 * GROUP_SIZE))
       : (columns.fetch_pixel || columns.fetch_right_pixel) ? ADDR_WIDTH'(32'(fetch_row) >> 1)
-      : ADDR_WIDTH'(32'(row_before) >> 1);
+      : ADDR_WIDTH'(32'(word_row) >> 1);
   assign upper_d = read_bins ? (LINE_HALVES == 1) && bins_read[0]
       : group_word ? step_q[0]
       : fetch_group ? 1'((32'(fetch_row) / GROUP_SIZE) & 1)
-      : used_word ? 1'((32'(result_row) / GROUP_SIZE) & 1)
+      : used_word ? 1'((32'(used_row) / GROUP_SIZE) & 1)
       : columns.fetch_right_pixel ? !odd_q
       : odd_q;
 
@@ -426,7 +445,7 @@ module pool2_sequencer #(
     upper_o <= upper_d;
     neighbour_o <= neighbour_d;
     column_o <= COLUMN_WIDTH'({pair_q, odd_q});
-    scratch_row_o <= write_message ? row : write_cell ? row_before : read_cell ? prepared_row : next_row;
+    scratch_row_o <= write_message ? row : (write_position || read_before) ? row_before : read_cell ? prepared_row : next_row;
     if (columns.send) begin
       send_column_o <= COLUMN_WIDTH'({pair_q, odd_q});
       send_row_o <= result_row;
@@ -443,7 +462,8 @@ module pool2_sequencer #(
                      columns.write_pair, columns.read_used, columns.write_used};
 
   `DTOF_ASSERT(a_one_access, (accesses & (accesses - 1'b1)) == '0, "the schedule has two SRAM accesses in a clock")
-  `DTOF_ASSERT(a_one_message, 32'(write_message) + 32'(write_cell) + 32'(read_cell) + 32'(read_message) <= 1,
+  `DTOF_ASSERT(a_one_message, 32'(write_message) + 32'(write_position) + 32'(read_next) + 32'(read_before) + 32'(read_cell)
+               + 32'(read_message) <= 1,
                "the schedule has two accesses of the scratch memory in a clock")
   `DTOF_ASSERT(a_one_pair, (select_o & (select_o - 1'b1)) == '0,
                "several pairs are selected, whose words are combined by OR")

@@ -3,15 +3,16 @@
 //
 // Decode makes the groups' words of the coarse histograms, choose the first pointer words of the track words, decide the
 // results of the pointer words (docs/reference/poolpointer2.md). The scratch memory has a word for each row: the messages
-// of a chain's first pass, and in choose the cell chosen in the column to the left.
+// of a chain's first pass, and the column to the left's best label: in choose its cell and offset, in decide its position.
 //
 // 1. The line, what a pair of columns has read, is registered. Decode hands it to the candidate decoder, whose group word
 //    is written back.
 // 2. Choose and decide take from it first a pixel's word and then its group's: the pixel is prepared. In choose what the
 //    columns beside say becomes part of its evidence before the chain takes it.
 // 3. The chain of the operation in work steps on, and its messages of the first pass wait in the scratch memory.
-// 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write. Decide hands
-//    the winners of three rows to S1, whose result leaves.
+// 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write. Where pointers
+//    start (but for those beside a resting rival's candidate) and decide's winners pass the smoothing of a column's positions;
+//    decide's result leaves.
 // 5. With PRIOR choose also collects which candidates of a group are used, for the next frame's decode.
 //
 // It knows neither rows nor columns nor clocks: in each clock it does what the command says, and nothing else.
@@ -68,9 +69,9 @@ module pool2_engine #(
   localparam int LEAD_WIDTH = LABEL_WIDTH + OFFSET_BITS;  // {offset, leader}
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
+  localparam int SMOOTH_BRIGHT_FROM = 6;
   localparam int HALF_BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES * COUNT_WIDTH;
   localparam int BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH;
-  localparam int SMOOTH_BRIGHT_FROM = 6;
   localparam int CHOOSE_PENALTY_WIDTH = 4;  // 2 + (5 * 39 >> 4) at most
   localparam int DECIDE_PENALTY_WIDTH = 2;
   localparam int CHOOSE_EVIDENCE_WIDTH = dtof_pkg::POOL2_EVIDENCE_WIDTH;
@@ -79,7 +80,9 @@ module pool2_engine #(
   localparam int POSITION_WIDTH = 17;
   localparam int CHOOSE_MESSAGE_WIDTH = LABELS * CHOOSE_PENALTY_WIDTH;
   localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
-  localparam int MESSAGE_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH, DECIDE_MESSAGE_WIDTH);
+  localparam int LEFT_WIDTH = CELL_WIDTH + OFFSET_BITS;  // of a column's best label in choose
+  localparam int WINNER_WIDTH = 16;                      // in decide
+  localparam int SCRATCH_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH + LEFT_WIDTH, DECIDE_MESSAGE_WIDTH + WINNER_WIDTH);
 
   // Where nothing is asked for, nothing moves. The word goes back to 0 behind an operation's last clock.
 
@@ -148,7 +151,8 @@ module pool2_engine #(
   logic [BACKGROUND_WIDTH-1:0] line_background, background;
   logic [LEAD_WIDTH-1:0] prepared_lead, next_lead_q, lead_q, last_lead_q;
   logic prepared_bright_q, next_bright_q, bright_q, last_bright_q;
-  logic [CELL_WIDTH-1:0] left_cell, next_left_q, left_q;
+  logic [SCRATCH_WIDTH-1:0] scratch;
+  logic [CELL_WIDTH-1:0] left_cell;
 
   assign advance = command_i.choose.advance || command_i.decide.advance;
   // In place of the low bits that are not kept stands the middle of what they can be.
@@ -171,8 +175,8 @@ module pool2_engine #(
     if (advance) begin
       prepared_q <= captured_q;
       prepared_bright_q <= (line_background >= BACKGROUND_WIDTH'(SMOOTH_BRIGHT_FROM));
-      {next_lead_q, next_bright_q, next_left_q} <= {prepared_lead, prepared_bright_q, left_cell};
-      {lead_q, bright_q, left_q} <= {next_lead_q, next_bright_q, next_left_q};
+      {next_lead_q, next_bright_q} <= {prepared_lead, prepared_bright_q};
+      {lead_q, bright_q} <= {next_lead_q, next_bright_q};
       {last_lead_q, last_bright_q} <= {lead_q, bright_q};
     end
   end
@@ -194,14 +198,14 @@ module pool2_engine #(
       .background_o  (background)
   );
 
-  // Chains and their scratch memory: {cell chosen to the left, messages}.
+  // Chains and their scratch memory: {messages, best label to the left}, which is the column's own when its second pass is over.
 
   logic [LABELS*CELL_POSITION_WIDTH-1:0] choose_position;
   logic [BACKGROUND_WIDTH+2:0] five_backgrounds;
   logic [CHOOSE_PENALTY_WIDTH-1:0] choose_penalty;
   logic [CHOOSE_MESSAGE_WIDTH-1:0] choose_message;
   logic [DECIDE_MESSAGE_WIDTH-1:0] decide_message;
-  logic [MESSAGE_WIDTH-1:0] message_in, message_out;
+  logic [SCRATCH_WIDTH-1:0] choose_scratch, decide_scratch;
   logic [LABEL_WIDTH-1:0] best_label, second_label;
   logic [CELL_POSITION_WIDTH-1:0] best_cell, second_cell;
   logic [CHOOSE_EVIDENCE_WIDTH+1:0] choose_margin;
@@ -215,12 +219,14 @@ module pool2_engine #(
 
   assign five_backgrounds = (BACKGROUND_WIDTH + 3)'(background) + ((BACKGROUND_WIDTH + 3)'(background) << 2);
   assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
-  assign message_in = command_i.deciding ? MESSAGE_WIDTH'(decide_message) : MESSAGE_WIDTH'(choose_message);
+  assign left_cell = scratch[CELL_WIDTH-1:0];
+  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command_i.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
+  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command_i.back ? position[15:0] : scratch[WINNER_WIDTH-1:0]});
 
   dtof_sram #(
       .PORTS(1),
       .DEPTH(PIXELS_PER_SRAM),
-      .WIDTH(CELL_WIDTH + MESSAGE_WIDTH)
+      .WIDTH(SCRATCH_WIDTH)
   ) u_scratch_sram (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -228,10 +234,10 @@ module pool2_engine #(
       .cfg_o       (sram_cfg_o),
       .read_en_i   (command_i.read_scratch),
       .read_addr_i (scratch_row_i),
-      .read_data_o ({left_cell, message_out}),
+      .read_data_o (scratch),
       .write_en_i  (command_i.write_scratch),
       .write_addr_i(scratch_row_i),
-      .write_data_i({command_i.back ? best_cell[CELL_WIDTH-1:0] : left_q, message_in})
+      .write_data_i(command_i.deciding ? decide_scratch : choose_scratch)
   );
 
   label_chain #(
@@ -248,7 +254,7 @@ module pool2_engine #(
       .position_i       (choose_position),
       .penalty_i        (choose_penalty),
       .message_o        (choose_message),
-      .other_message_i  (message_out[CHOOSE_MESSAGE_WIDTH-1:0]),
+      .other_message_i  (scratch[LEFT_WIDTH+:CHOOSE_MESSAGE_WIDTH]),
       .best_label_o     (best_label),
       .second_label_o   (second_label),
       .best_position_o  (best_cell),
@@ -300,7 +306,7 @@ module pool2_engine #(
       .position_i       ({rival_position, leader_position}),
       .penalty_i        (DECIDE_PENALTY_WIDTH'(2)),
       .message_o        (decide_message),
-      .other_message_i  (message_out[DECIDE_MESSAGE_WIDTH-1:0]),
+      .other_message_i  (scratch[WINNER_WIDTH+:DECIDE_MESSAGE_WIDTH]),
       .best_label_o     (decided_rival),
       .second_label_o   (unused_loser),
       .best_position_o  (position),
@@ -310,38 +316,56 @@ module pool2_engine #(
 
   // Choose: the first pointer word. The leader's offset has come along with its pixel.
 
-  logic [LABEL_WIDTH-1:0] leader;
-  logic [15:0] offset, best_start, second_start;
+  logic [LEFT_WIDTH-1:0] best_lead;
+  logic [15:0] best_start, second_start, left_start, start;
+  logic [CONFIDENCE_WIDTH-1:0] start_margin;
   logic [PIXEL_WIDTH-1:0] first_word;
   logic [ADVANTAGE_WIDTH-1:0] start_advantage;
   logic [2*PIXEL_WIDTH-1:0] new_pair_q;
 
-  assign leader = last_lead_q[LABEL_WIDTH-1:0];
   generate
     if (OFFSET_BITS != 0) begin : g_offset
-      assign offset = {{(10 - OFFSET_BITS) {last_lead_q[LEAD_WIDTH-1]}}, last_lead_q[LABEL_WIDTH+:OFFSET_BITS], 6'd0};
+      function automatic logic [15:0] start_of(input logic [LEFT_WIDTH-1:0] lead);
+        start_of = {lead[CELL_WIDTH-1:0], 9'd0} + {{(10 - OFFSET_BITS) {lead[LEFT_WIDTH-1]}}, lead[CELL_WIDTH+:OFFSET_BITS], 6'd0};
+      endfunction
+      logic [LABEL_WIDTH-1:0] leader;
+      logic [OFFSET_BITS-1:0] offset;
+      assign {offset, leader} = last_lead_q;
+      assign best_lead = {offset & {OFFSET_BITS{leader == best_label}}, best_cell[CELL_WIDTH-1:0]};
+      assign best_start = start_of(best_lead);
+      assign second_start = start_of({offset & {OFFSET_BITS{leader == second_label}}, second_cell[CELL_WIDTH-1:0]});
+      assign left_start = start_of(scratch[LEFT_WIDTH-1:0]);
     end else begin : g_no_offset
-      assign offset = '0;
+      assign best_lead = best_cell[CELL_WIDTH-1:0];
+      assign best_start = {best_cell[CELL_WIDTH-1:0], 9'd0};
+      assign second_start = {second_cell[CELL_WIDTH-1:0], 9'd0};
+      assign left_start = {left_cell, 9'd0};
     end
   endgenerate
-  assign best_start = {best_cell[CELL_WIDTH-1:0], 9'd0} + ((leader == best_label) ? offset : '0);
-  assign second_start = {second_cell[CELL_WIDTH-1:0], 9'd0} + ((leader == second_label) ? offset : '0);
 
   localparam int HALF_ADVANTAGE = 1 << (ADVANTAGE_WIDTH - 1);
   assign start_advantage = (32'(choose_margin) >= HALF_ADVANTAGE) ? ADVANTAGE_WIDTH'(HALF_ADVANTAGE - 1)
       : ADVANTAGE_WIDTH'(choose_margin);
   generate
     if (RIVAL_MOVES != 0) begin : g_absolute_word
-      assign first_word = PIXEL_WIDTH'({start_advantage, second_start[15:9], best_start[15:POINTER_SHIFT]});
+      // The rival waits until the leader's pointer has moved towards those of the pixels around.
+      logic [RIVAL_WIDTH-1:0] rival_q, next_rival_q;
+      always_ff @(posedge clk_i) begin
+        if (command_i.choosing && command_i.take_position) begin
+          next_rival_q <= second_start[15:9];
+          rival_q <= next_rival_q;
+        end
+      end
+      assign first_word = PIXEL_WIDTH'({start_margin[ADVANTAGE_WIDTH-1:0], rival_q, start[15:POINTER_SHIFT]});
     end else begin : g_relative_word
       assign first_word = PIXEL_WIDTH'({start_advantage, second_label, best_label, {POINTER_WIDTH{1'b0}}});
     end
   endgenerate
 
   always_ff @(posedge clk_i) begin
-    if (command_i.take_choice && command_i.odd_result) begin
+    if (command_i.take_word && command_i.odd_word) begin
       new_pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] <= first_word;
-    end else if (command_i.take_choice) begin
+    end else if (command_i.take_word) begin
       new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
     end
   end
@@ -369,7 +393,7 @@ module pool2_engine #(
     end else begin : g_not_used
       assign done_word = HALF_WIDTH'(new_pair_q);
       logic unused_commands;
-      assign unused_commands = ^{command_i.take_used, command_i.next_group, command_i.giving_used};
+      assign unused_commands = ^{command_i.take_used, command_i.take_choice, command_i.next_group, command_i.giving_used};
     end
   endgenerate
 
@@ -382,7 +406,7 @@ module pool2_engine #(
     end
   end
 
-  // Decide: S1 and the result.
+  // Both: positions move closer together. Decide: the result.
 
   smoothing #(
       .NP              (NP),
@@ -392,20 +416,26 @@ module pool2_engine #(
   ) u_smoothing (
       .clk_i           (clk_i),
       .rst_ni          (rst_ni),
+      .starts_i        ((RIVAL_MOVES != 0) && command_i.choosing),
       .smooth_i        (smooth_i),
-      .take_winner_i   (command_i.take_winner),
-      .has_winner_i    (command_i.has_winner),
-      .position_i      (position[15:0]),
+      .has_left_i      (command_i.beside.has_left),
+      .take_position_i (command_i.take_position),
+      .has_position_i  (command_i.has_position),
+      .position_i      (command_i.deciding ? position[15:0] : best_start),
+      .left_position_i (command_i.deciding ? scratch[WINNER_WIDTH-1:0] : left_start),
       .lost_position_i (lost_position[15:0]),
-      .margin_i        (decide_margin[CONFIDENCE_WIDTH-1:0]),
+      .margin_i        (command_i.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
       .bright_i        (last_bright_q),
       .take_distances_i(command_i.take_distances),
+      .start_o         (start),
+      .start_margin_o  (start_margin),
       .take_result_i   (command_i.take_result),
       .result_o        (result_o)
   );
 
   logic unused;
   assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
-                    second_cell[CELL_WIDTH], second_start, line_q, message_out, best_start, prepared_q, new_background};
+                    second_cell[CELL_WIDTH], second_start, second_label, last_lead_q, line_q, scratch, best_start, left_start, start,
+                    start_margin, prepared_q, new_background};
 
 endmodule

@@ -76,7 +76,7 @@ module label_chain_properties #(
   logic [POSITION_WIDTH-1:0] best_position, second_position;
   logic [BELIEF_WIDTH-1:0] margin;
 
-  assign found = command.take_winner && command.has_winner;
+  assign found = command.take_position && command.has_position;
   assign prepared = (32'(steps_q) < STEPS) ? 2'(PIXELS - 32'(steps_q)) : 2'(32'(steps_q) - STEPS - 1);
 
   always_ff @(posedge clk_i) begin

@@ -10,6 +10,7 @@ module pool2_sequencer_properties #(
     parameter int LABELS = 2,
     parameter int LINE_HALVES = 1,
     parameter int ENGINE_COLUMNS = 2,
+    parameter int SMOOTH_STARTS = 1,
     parameter int PRIOR = 0,
     localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int WORDS = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
@@ -46,6 +47,7 @@ module pool2_sequencer_properties #(
       .LABELS         (LABELS),
       .LINE_HALVES    (LINE_HALVES),
       .ENGINE_COLUMNS (ENGINE_COLUMNS),
+      .SMOOTH_STARTS  (SMOOTH_STARTS),
       .PRIOR          (PRIOR)
   ) u_dut (
       .clk_i        (clk_i),
@@ -98,7 +100,7 @@ module pool2_sequencer_properties #(
   localparam int PERIOD = (LABELS + 4 > 9) ? LABELS + 4 : 9;
   localparam int DECODE_CLOCKS = PAIRS * GROUPS * (32 * LABELS + 45) + 6;
   localparam int PRIOR_STEPS = (PRIOR != 0) ? 1 + PIXELS % 2 : 0;
-  localparam int CHOOSE_CLOCKS = ENGINE_COLUMNS * (2 * (PIXELS + 4) + PRIOR_STEPS) * PERIOD + 6;
+  localparam int CHOOSE_CLOCKS = ENGINE_COLUMNS * (2 * (PIXELS + 4) + SMOOTH_STARTS + PRIOR_STEPS) * PERIOD + 6;
   localparam int DECIDE_CLOCKS = ENGINE_COLUMNS * (2 * PIXELS + 9) * 6 + 6 + 2;  // the way of the last results
 
   logic working_q, sending_q;

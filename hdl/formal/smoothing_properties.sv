@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// S1 and the result word of three winners in a row, any of which may be missing but the middle one: docs/reference/
-// poolpointer2.md, Decide, step by step on integers. The winners are constants; what was in the registers before is not.
+// Starts, S1 and the result word of three positions in a row and one to the left, any of which may be missing but the
+// middle one: docs/reference/poolpointer2.md, Choose and Decide, step by step on integers. The positions are constants; what
+// was in the registers before is not.
 `include "properties.svh"
 
 module smoothing_properties #(
@@ -16,11 +17,14 @@ module smoothing_properties #(
   localparam int CONFIDENCE_WIDTH = 8;
 
   (* anyconst *) logic [47:0] positions;  // of the rows above, in the middle and below
+  (* anyconst *) logic [47:0] left;  // to the left of each
   (* anyconst *) logic [47:0] lost;
   (* anyconst *) logic [2:0] has;
   (* anyconst *) logic [3*CONFIDENCE_WIDTH-1:0] margins;
   (* anyconst *) logic [2:0] bright;
-  (* anyconst *) logic smooth;
+  (* anyconst *) logic smooth, starts, has_left;
+  logic [15:0] start;
+  logic [CONFIDENCE_WIDTH-1:0] start_margin;
   logic [3:0] t_q = 4'd0;
   logic checking;
   logic [1:0] row;
@@ -41,33 +45,40 @@ module smoothing_properties #(
   ) u_dut (
       .clk_i           (clk_i),
       .rst_ni          (checking),
+      .starts_i        (starts),
       .smooth_i        (smooth_i),
-      .take_winner_i   (t_q >= 4'd1 && t_q <= 4'd3),
-      .has_winner_i    (has[row]),
+      .has_left_i      (has_left),
+      .take_position_i (t_q >= 4'd1 && t_q <= 4'd3),
+      .has_position_i  (has[row]),
       .position_i      (positions[row*16+:16]),
+      .left_position_i (left[row*16+:16]),
       .lost_position_i (lost[row*16+:16]),
       .margin_i        (margins[row*CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]),
       .bright_i        (bright[row]),
       .take_distances_i(t_q == 4'd4),
+      .start_o         (start),
+      .start_margin_o  (start_margin),
       .take_result_i   (t_q == 4'd6),
       .result_o        (result)
   );
 
-  integer centre, neighbour, reach, sum, word, lost_word;
+  integer centre, neighbour, reach, sum, moved, word, lost_word;
   integer i;
 
   always_comb begin
     centre = 32'(positions[31:16]);
     reach = (CELL_SHIFT == 10) ? 2048 : bright[1] ? 1536 : 1024;
     sum = 0;
-    for (i = 0; i <= 2; i = i + 2) begin
-      neighbour = 32'(positions[i*16+:16]);
-      if (smooth && has[i] && neighbour - centre <= reach && centre - neighbour <= reach) begin
+    for (i = 0; i <= 2; i = i + 1) begin  // above, to the left, below
+      neighbour = (i == 1) ? 32'(left[31:16]) : 32'(positions[i*16+:16]);
+      if ((smooth || starts) && ((i == 1) ? has_left : has[i]) && neighbour - centre <= reach
+          && centre - neighbour <= reach) begin
         sum = sum + neighbour - centre;
       end
     end
     // Rounded towards zero.
-    word = centre + ((sum >= 0) ? sum / 4 : -((-sum) / 4)) - (1 << F) / 2;
+    moved = centre + ((sum >= 0) ? sum / 4 : -((-sum) / 4));
+    word = moved - (1 << F) / 2;
     if (word < 0) word = 0;
     if (word > 65536 - (1 << F) - 1) word = 65536 - (1 << F) - 1;
     // The position that lost is not smoothed.
@@ -78,9 +89,10 @@ module smoothing_properties #(
 
   `ASSUME(m_the_middle_one, has[1])
   `ASSUME(m_one_mode, smooth_i == smooth)
-  `PROVE(a_result, t_q != 4'd7
+  `PROVE(a_start, t_q != 4'd6 || !starts || (start == moved[15:0] && start_margin == margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]))
+  `PROVE(a_result, t_q != 4'd7 || starts
          || result[16+CONFIDENCE_WIDTH-1:0] == {word[15:0], margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]})
-  `PROVE(a_second, t_q != 4'd7 || SECOND_TARGET == 0 || 16'(result >> (16 + CONFIDENCE_WIDTH)) == lost_word[15:0])
-  `GOAL(t_q == 4'd7 && smooth && has == 3'b111 && sum < -2000)
+  `PROVE(a_second, t_q != 4'd7 || starts || SECOND_TARGET == 0 || 16'(result >> (16 + CONFIDENCE_WIDTH)) == lost_word[15:0])
+  `GOAL(t_q == 4'd7 && !starts && smooth && has == 3'b111 && has_left && sum < -2600)
 
 endmodule

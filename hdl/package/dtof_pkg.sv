@@ -47,8 +47,8 @@ package dtof_pkg;
 
   localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // pool2_candidate_decoder: from capture_above to the first pair sum
   localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // pool2_candidate_decoder: from capture_above to count_own
-  localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // pool2_engine: from take_winner to take_distances
-  localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // pool2_engine: from take_distances to take_result
+  localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // pool2_engine: from take_position to take_distances
+  localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // pool2_engine: from take_distances to take_word and take_result
 
   function automatic int max_of(input int a, input int b);
     max_of = (a > b) ? a : b;
@@ -106,7 +106,7 @@ package dtof_pkg;
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   // Bits of pool2_engine_command_t, of which Yosys 0.23 cannot take $bits, nor Icarus 11 of a variable of it. Every lint
   // finds a wrong number.
-  localparam int POOL2_COMMAND_WIDTH = 62;
+  localparam int POOL2_COMMAND_WIDTH = 63;
   localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.

@@ -80,15 +80,16 @@ typedef struct packed {
   logic odd_pixel;      // with take_pixel and take_right_pixel: the word's second pixel
   chain_command_t choose;
   chain_command_t decide;
-  logic write_scratch;  // this pixel's message of the first pass, or the candidate chosen, goes to the scratch memory
-  logic read_scratch;   // the message of the first pass, or the candidate chosen to the left, comes back
-  logic take_choice;    // the two best labels of the pixel before are known: its first pointer word
-  logic odd_result;     // with take_choice: the word's second pixel
+  logic write_scratch;  // this pixel's message of the first pass, or where its best label is, goes to the scratch memory
+  logic read_scratch;   // the message of the first pass, or where the best label to the left is, comes back
+  logic take_choice;    // the two best labels of the pixel before are known: which of its group's candidates it uses
+  logic take_word;      // a pixel's first pointer word is known
+  logic odd_word;       // with take_word: the word's second pixel
   logic take_used;      // the line is the word of the pixel's group: which candidates the column to the left has used
   logic next_group;     // the group before is done; the pixel before is its group's first one, or the column has ended
-  logic take_winner;    // the better label of the pixel before is known, or the column has ended
-  logic has_winner;     // with take_winner: it is known
-  logic take_distances; // the winner in the middle is compared with those above and below
+  logic take_position;  // the best label of the pixel before is known, or the column has ended
+  logic has_position;   // with take_position: it is known
+  logic take_distances; // the position in the middle is compared with those above, below and to the left
   logic take_result;    // the result of the winner in the middle is known
 } pool2_engine_command_t;
 

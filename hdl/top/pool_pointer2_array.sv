@@ -237,6 +237,7 @@ module pool_pointer2_array #(
       .LABELS         (LABELS),
       .LINE_HALVES    (LINE_HALVES),
       .ENGINE_COLUMNS (STEPS),
+      .SMOOTH_STARTS  (RIVAL_MOVES),
       .PRIOR          (PRIOR)
   ) u_sequencer (
       .clk_i        (clk_i),

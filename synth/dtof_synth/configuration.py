@@ -104,8 +104,10 @@ def engine_memories(configuration: Configuration) -> dict[str, Size]:
     """The SRAMs of one engine."""
     if not configuration.is_pool:
         return {}
-    # Beside the messages the cell chosen in the column to the left.
-    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], 7 + 4 * configuration["LABELS"])}
+    # Messages of choose with cell and offset chosen in the column to the left, or of decide with the position there.
+    choose = 4 * configuration["LABELS"] + 7 + configuration["OFFSET_BITS"]
+    decide = 2 * 2 + 16
+    return {"messages": Size(1, configuration["PIXELS_PER_SRAM"], max(choose, decide))}
 
 
 def bits_per_pixel(configuration: Configuration) -> float:

@@ -32,7 +32,7 @@ class Parts(unittest.TestCase):
         self.assertAlmostEqual(parts.column_logic, 100 * 2400.0)  # a column module is a pair
         self.assertAlmostEqual(parts.column_sram, 100 * sram_model.macro(Size(1, 100, 116)).area)
         self.assertAlmostEqual(parts.engines, 6000.0 - 120.0)
-        self.assertAlmostEqual(parts.scratch_sram, 6 * sram_model.macro(Size(1, 160, 27)).area)
+        self.assertAlmostEqual(parts.scratch_sram, 6 * sram_model.macro(Size(1, 160, 33)).area)
         self.assertAlmostEqual(parts.control, 9000.0 - 500.0 - 5880.0)
         self.assertAlmostEqual(parts.fan_out, 500.0)
 

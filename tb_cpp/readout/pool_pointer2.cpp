@@ -207,6 +207,24 @@ Evidence cost_from_right(const PoolGroup& group, const PoolTracks& right_tracks,
   return cost;
 }
 
+/// Lets the leaders' pointers of a column start closer together. Returns where they would have started alone.
+PoolWinners start_together(std::vector<PoolPointerWord>& words, std::size_t column, const Groups& groups,
+                           const PoolWinners& left, const PoolPointer2Parameters& parameters) {
+  PoolWinners alone;
+  alone.reserve(words.size());
+  for (std::size_t row = 0; row < words.size(); ++row) {
+    alone.push_back({.position = words[row].pointer,
+                     .lost = 0,
+                     .margin = words[row].advantage,
+                     .background = groups.at(column, row).background});
+  }
+  const std::vector<std::int32_t> together = smoothed_positions(alone, left, parameters);
+  for (std::size_t row = 0; row < words.size(); ++row) {
+    words[row].pointer = together[row];
+  }
+  return alone;
+}
+
 /// Chooses in all columns from left to right; index: column, row.
 std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<PoolTracks>>& tracks,
                                                  const Groups& groups,
@@ -214,6 +232,7 @@ std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<P
   std::vector<std::vector<PoolPointerWord>> words(tracks.size());
   const PoolPointerParameters common = parameters.common();
   std::vector<std::int32_t> left;  // cells chosen in the column before
+  PoolWinners left_starts;         // where its leaders' pointers would start alone
   for (std::size_t column = 0; column < tracks.size(); ++column) {
     std::vector<ChainNode> chain;
     for (std::size_t row = 0; row < tracks[column].size(); ++row) {
@@ -253,6 +272,9 @@ std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<P
       left[row] = parameters.left_needs_margin != 0 && word.advantage == 0
                       ? kNoOpinion
                       : group.centre_cell[static_cast<std::size_t>(word.leader)];
+    }
+    if (parameters.rival_moves != 0) {
+      left_starts = start_together(words[column], column, groups, left_starts, parameters);
     }
   }
   return words;
@@ -324,7 +346,6 @@ void PoolPointer2Parameters::validate() const {
   require_range("COUNT_WIDTH", count_width, 4, 8);
   require_range("RIVAL_MOVES", rival_moves, 0, 1);
   require_range("LEFT_NEEDS_MARGIN", left_needs_margin, 0, 1);
-  require_range("SMOOTH_LEFT", smooth_left, 0, 1);
   common().validate(count_width);
 }
 
@@ -415,7 +436,7 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
     if (row + 1 < winners.size()) {
       add(winners[row + 1]);
     }
-    if (parameters.smooth_left != 0 && !left.empty()) {
+    if (!left.empty()) {
       add(left[row]);
     }
     positions.push_back(own + sum / (1 << kSmoothShift));

@@ -61,10 +61,10 @@ struct PoolPointer2Parameters {
   int left_needs_margin =
       0;  ///< 1: a pixel whose best two labels are equal tells the column to the right nothing
 
-  bool smooth = true;                              ///< S1
-  int smooth_left = 0;                             ///< 1: S1 takes the pixel to the left, too
-  std::array<int, 2> smooth_reach = {1024, 1536};  ///< units: T of dark and of bright groups
-  int smooth_bright_from = 6;                      ///< B from which a group is bright there
+  bool smooth = true;  ///< S1
+  std::array<int, 2> smooth_reach = {1024,
+                                     1536};  ///< units: T of dark and of bright groups, S1's and starts'
+  int smooth_bright_from = 6;                ///< B from which a group is bright there
 
   bool second_target = false;  ///< a result has the position of the label that lost, too, without S1
 
@@ -75,7 +75,7 @@ struct PoolPointer2Parameters {
   bool operator==(const PoolPointer2Parameters&) const = default;
 };
 
-/// T of S1 in dark and in bright groups, longer for long pulses.
+/// T in dark and in bright groups, longer for long pulses.
 std::array<int, 2> smooth_reach_of(int cell_shift);
 /// Those of a read-out as every other is described, with the numbers that have no description at their
 /// defaults. Throws InputError for illegal ones.
@@ -96,7 +96,7 @@ using PoolColumn = std::vector<std::vector<PoolEvent>>;
 /// the frame.
 PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t acquisitions);
 
-/// A pixel after decide, before S1.
+/// A pixel after decide, before S1; or after choose, before its pointer starts.
 struct PoolWinner {
   std::int32_t position;  ///< units
   std::int32_t lost;      ///< units: of the label that lost
@@ -117,8 +117,8 @@ std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::u
                                      const PoolPointer2Parameters& parameters, PoolPrior* prior = nullptr);
 
 /// Positions of a column's winners after S1: each moves by a quarter of the sum of its neighbours' distances,
-/// as far as these are within T: those above and below and, with smooth_left, the one to the left. `left`:
-/// the winners of the column to the left, empty for an engine's first column.
+/// as far as these are within T: those above and below and the one to the left, all before they have moved.
+/// `left`: the winners of the column to the left, empty for an engine's first column.
 std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners,
                                              std::span<const PoolWinner> left,
                                              const PoolPointer2Parameters& parameters);

@@ -71,7 +71,6 @@ constexpr std::array kNumbers = std::to_array<Number>({
     {"DECIDE_PENALTY", [](Design& d) -> int& { return d.decide_penalty.base; }},
     {"DECIDE_PENALTY_SLOPE", [](Design& d) -> int& { return d.decide_penalty.slope; }},
     {"LEFT_NEEDS_MARGIN", [](Design& d) -> int& { return d.left_needs_margin; }},
-    {"SMOOTH_LEFT", [](Design& d) -> int& { return d.smooth_left; }},
     {"SMOOTH_DARK", [](Design& d) -> int& { return d.smooth_reach[0]; }},
     {"SMOOTH_BRIGHT", [](Design& d) -> int& { return d.smooth_reach[1]; }},
     {"SMOOTH_BRIGHT_FROM", [](Design& d) -> int& { return d.smooth_bright_from; }},

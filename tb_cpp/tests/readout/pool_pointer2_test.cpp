@@ -49,6 +49,7 @@ struct Pixel {
   int offset = 0;
   int chosen = 0;
   bool sure = false;
+  int alone = 0;  // where its leader's pointer would start without its neighbours
   int n = 0, pa = 0, pb = 0;
   int ka = 0, kb = 0;  // lean: whose candidates they are
   int winner = 0, loser = 0, margin = 0;
@@ -70,7 +71,6 @@ class Reference {
     int track = 20;
     bool left_needs_margin = false;
     bool smooth = true;
-    bool smooth_left = false;
     bool lean = false;  ///< the numbers of poolPointer 2 lean
     bool second_target = false;
     int cell = 512;  ///< positions of a settled pointer's cell
@@ -397,11 +397,30 @@ class Reference {
       pixel.n = std::min(open_.lean ? 7 : 63,
                          belief[static_cast<std::size_t>(r)][a] - belief[static_cast<std::size_t>(r)][b]);
       pixel.sure = pixel.n > 0;
-      pixel.pa = start(a);
+      pixel.alone = start(a);
+      pixel.pa = pixel.alone;
       pixel.pb = floor_divide(start(b), 512);
       pixel.ka = static_cast<int>(a);
       pixel.kb = static_cast<int>(b);
     }
+    for (int r = 0; r < rows_ && !open_.lean; ++r) {
+      pixels_.at({c, r}).pa += towards_neighbours({c, r}, [](const Pixel& pixel) { return pixel.alone; });
+    }
+  }
+
+  /// By how much a position moves towards those of the pixels above, below and to the left.
+  template <typename Position>
+  int towards_neighbours(Place place, Position position) {
+    const int reach = open_.cell == 1024 ? 2048 : group(place).b < 6 ? 1024 : 1536;
+    int sum = 0;
+    for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
+                           Place{place.column - 1, place.row}}) {
+      if (pixels_.contains(at)) {
+        const int d = position(pixels_.at(at)) - position(pixels_.at(place));
+        sum += d > reach || d < -reach ? 0 : d;
+      }
+    }
+    return sum >= 0 ? sum / 4 : -(-sum / 4);
   }
 
   /// Of a rival that rests at its candidate, and a pointer that leaves its own by half a coarse bin at most.
@@ -501,20 +520,7 @@ class Reference {
     const Pixel& pixel = pixels_.at(place);
     int position = pixel.winner;
     if (open_.smooth) {
-      const bool dark = group(place).b < 6;
-      const int reach = open_.cell == 1024 ? 2048 : dark ? 1024 : 1536;
-      int sum = 0;
-      std::vector<Place> beside = {{place.column, place.row - 1}, {place.column, place.row + 1}};
-      if (open_.smooth_left) {
-        beside.push_back({place.column - 1, place.row});
-      }
-      for (const Place at : beside) {
-        if (pixels_.contains(at)) {
-          const int d = pixels_.at(at).winner - pixel.winner;
-          sum += d > reach || d < -reach ? 0 : d;
-        }
-      }
-      position += sum >= 0 ? sum / 4 : -(-sum / 4);
+      position += towards_neighbours(place, [](const Pixel& other) { return other.winner; });
     }
     const int scale = 1 << (16 - np_);
     const auto limited = [&](int x) { return std::clamp(x - scale / 2, 0, 65536 - scale - 1); };
@@ -557,7 +563,6 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
                    static_cast<int>(std::bit_width(static_cast<unsigned>(open.cell))) - 1);
     parameters.engine_columns = engine_columns;
     parameters.smooth = smooth;
-    parameters.smooth_left = open.smooth_left ? 1 : 0;
     parameters.left_needs_margin = open.left_needs_margin ? 1 : 0;
     parameters.coarse_share = open.coarse;
     parameters.track_share = open.track;
@@ -774,7 +779,6 @@ TEST_F(PoolPointer2, OtherSharesAndSwitchesAsReference) {
                                .track = 8 + pick(draw, 24),
                                .left_needs_margin = trial % 2 == 1,
                                .smooth = true,
-                               .smooth_left = trial / 2 % 2 == 1,
                                .second_target = trial % 3 != 1};
     const double background = trial % 3 == 0 ? 0.02 : 0.3;
     expect_as_reference(surfaces(10, 2, 1 + pick(draw, 9), 1 + pick(draw, 24), background, 700, draw), 10,
