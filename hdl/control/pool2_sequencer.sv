@@ -241,10 +241,12 @@ module pool2_sequencer #(
 
   generate
     if (PRIOR != 0) begin : g_prior
+      assign word_known = word_before && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + WORD_LEAD));
       assign pair_done = word_before && word_row[0];
       assign group_begun = choosing && done_before && (32'(row_before) % GROUP_SIZE == 0 || last_step);
       assign group_done = choosing && used_before && (32'(used_row) % GROUP_SIZE == GROUP_SIZE - 1 || last_step);
     end else begin : g_no_prior
+      assign word_known = word_before;
       assign pair_done = word_before && (word_row[0] || last_step);
       assign group_begun = 1'b0;
       assign group_done = 1'b0;
@@ -253,7 +255,6 @@ module pool2_sequencer #(
     end
   endgenerate
 
-  assign word_known = word_before && (step_q < STEP_WIDTH'(PIXELS_PER_SRAM + WORD_LEAD));
   assign smooths = deciding || (choosing && SMOOTH_STARTS != 0);
   // The message of a first pass is written once: what it is written beside was read from the same word, and what an SRAM
   // has read is undefined after a write.

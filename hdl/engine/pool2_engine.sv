@@ -435,7 +435,7 @@ module pool2_engine #(
 
   logic unused;
   assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
-                    second_cell[CELL_WIDTH], second_start, second_label, last_lead_q, line_q, scratch, best_start, left_start, start,
+                    second_cell[CELL_WIDTH], second_start, best_label, second_label, last_lead_q, line_q, scratch, best_start, left_start, start,
                     start_margin, prepared_q, new_background};
 
 endmodule
