@@ -326,7 +326,8 @@ module pool2_engine #(
   generate
     if (OFFSET_BITS != 0) begin : g_offset
       function automatic logic [15:0] start_of(input logic [LEFT_WIDTH-1:0] lead);
-        start_of = {lead[CELL_WIDTH-1:0], 9'd0} + {{(10 - OFFSET_BITS) {lead[LEFT_WIDTH-1]}}, lead[CELL_WIDTH+:OFFSET_BITS], 6'd0};
+        start_of = {lead[CELL_WIDTH-1:0], 9'd0}
+            + {{(10 - OFFSET_BITS) {lead[LEFT_WIDTH-1]}}, lead[CELL_WIDTH+:OFFSET_BITS], 6'd0};
       endfunction
       logic [LABEL_WIDTH-1:0] leader;
       logic [OFFSET_BITS-1:0] offset;
@@ -435,7 +436,7 @@ module pool2_engine #(
 
   logic unused;
   assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
-                    second_cell[CELL_WIDTH], second_start, best_label, second_label, last_lead_q, line_q, scratch, best_start, left_start, start,
-                    start_margin, prepared_q, new_background};
+                    second_cell[CELL_WIDTH], second_start, best_label, second_label, last_lead_q, line_q, scratch, best_start,
+                    left_start, start, start_margin, prepared_q, new_background};
 
 endmodule

@@ -136,9 +136,9 @@ INSTANTIATE_TEST_SUITE_P(Pools, PlantedPoolFlip,
                          testing::Values(Readout::kPoolPointer2, Readout::kPoolPointer2Lean),
                          readout_test_name);
 
-// Each bit of a word with two pixels' pointers, one after the other: some change their column, none the other
-// one.
-TEST_P(PlantedPoolFlip, StaysInItsColumn) {
+// Each bit of a word with two pixels' pointers, one after the other: some change their column, and through S1
+// the one to the right of it, none another one.
+TEST_P(PlantedPoolFlip, StaysInItsColumnAndTheNext) {
   RtlSram pair = sram(SramKind::kPoolPair, kPixel.column);
   int flips_that_change = 0;
   for (int bit = 0; bit < pair.width(); bit += 13) {
@@ -146,7 +146,8 @@ TEST_P(PlantedPoolFlip, StaysInItsColumn) {
     flips_that_change += pixels.empty() ? 0 : 1;
     const int column = kPixel.column - 1 + 2 * bit / pair.width();
     for (const PixelPlace& pixel : pixels) {
-      EXPECT_EQ(pixel.column, column) << "bit " << bit << ", row " << pixel.row;
+      EXPECT_TRUE(pixel.column == column || pixel.column == column + 1)
+          << "bit " << bit << ", row " << pixel.row << ", column " << pixel.column;
     }
   }
   EXPECT_GT(flips_that_change, 0);
