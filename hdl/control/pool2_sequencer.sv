@@ -256,8 +256,8 @@ module pool2_sequencer #(
   endgenerate
 
   assign smooths = deciding || (choosing && SMOOTH_STARTS != 0);
-  // The message of a first pass is written once: what it is written beside was read from the same word, and what an SRAM
-  // has read is undefined after a write.
+  // While decide waits in a step's first clock, write_message does as well: a message is written beside what was read from
+  // its word, which a write makes undefined, so that a second write would spoil it.
   assign stall = deciding && (t_q == '0) && send_waits_i;
 
   // The schedule.
