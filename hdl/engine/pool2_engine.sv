@@ -317,7 +317,7 @@ module pool2_engine #(
   // Choose: the first pointer word. The leader's offset has come along with its pixel.
 
   logic [LEFT_WIDTH-1:0] best_lead;
-  logic [15:0] best_start, second_start, left_start, start;
+  logic [15:0] best_start, second_start, left_lead, left_start, start;
   logic [CONFIDENCE_WIDTH-1:0] start_margin;
   logic [PIXEL_WIDTH-1:0] first_word;
   logic [ADVANTAGE_WIDTH-1:0] start_advantage;
@@ -335,12 +335,12 @@ module pool2_engine #(
       assign best_lead = {offset & {OFFSET_BITS{leader == best_label}}, best_cell[CELL_WIDTH-1:0]};
       assign best_start = start_of(best_lead);
       assign second_start = start_of({offset & {OFFSET_BITS{leader == second_label}}, second_cell[CELL_WIDTH-1:0]});
-      assign left_start = start_of(scratch[LEFT_WIDTH-1:0]);
+      assign left_start = start_of(left_lead[LEFT_WIDTH-1:0]);
     end else begin : g_no_offset
       assign best_lead = best_cell[CELL_WIDTH-1:0];
       assign best_start = {best_cell[CELL_WIDTH-1:0], 9'd0};
       assign second_start = {second_cell[CELL_WIDTH-1:0], 9'd0};
-      assign left_start = {left_cell, 9'd0};
+      assign left_start = {left_lead[CELL_WIDTH-1:0], 9'd0};
     end
   endgenerate
 
@@ -423,7 +423,9 @@ module pool2_engine #(
       .take_position_i (command_i.take_position),
       .has_position_i  (command_i.has_position),
       .position_i      (command_i.deciding ? position[15:0] : best_start),
-      .left_position_i (command_i.deciding ? scratch[WINNER_WIDTH-1:0] : left_start),
+      .left_i          (scratch[WINNER_WIDTH-1:0]),
+      .left_position_i (command_i.deciding ? left_lead : left_start),
+      .left_o          (left_lead),
       .lost_position_i (lost_position[15:0]),
       .margin_i        (command_i.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
       .bright_i        (last_bright_q),
@@ -437,6 +439,6 @@ module pool2_engine #(
   logic unused;
   assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
                     second_cell[CELL_WIDTH], second_start, best_label, second_label, last_lead_q, line_q, scratch, best_start,
-                    left_start, start, start_margin, prepared_q, new_background};
+                    left_lead, left_start, start, start_margin, prepared_q, new_background};
 
 endmodule

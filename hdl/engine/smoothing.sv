@@ -30,7 +30,9 @@ module smoothing #(
     input  logic                        take_position_i,
     input  logic                        has_position_i,    // with take_position_i; 0 ends the column
     input  logic [                15:0] position_i,
-    input  logic [                15:0] left_position_i,   // in the same row of the column to the left, before it moved
+    input  logic [                15:0] left_i,            // what the scratch memory has of the column to the left in that row
+    input  logic [                15:0] left_position_i,   // what left_o says: the position there, before it moved
+    output logic [                15:0] left_o,            // left_i, registered with take_position_i
     input  logic [                15:0] lost_position_i,   // with SECOND_TARGET = 1: of the label that lost
     input  logic [CONFIDENCE_WIDTH-1:0] margin_i,
     input  logic                        bright_i,          // its group is bright
@@ -71,12 +73,14 @@ module smoothing #(
       above_q <= centre_q;
       centre_q <= below_q;
       below_q <= position_i;
-      centre_left_q <= below_left_q;
-      below_left_q <= left_position_i;
+      centre_left_q <= left_position_i;
+      below_left_q <= left_i;
       {centre_margin_q, centre_bright_q} <= {below_margin_q, below_bright_q};
       {below_margin_q, below_bright_q} <= {margin_i, bright_i};
     end
   end
+
+  assign left_o = below_left_q;
 
   // What a neighbour contributes.
 

@@ -23,7 +23,7 @@ module smoothing_properties #(
   (* anyconst *) logic [3*CONFIDENCE_WIDTH-1:0] margins;
   (* anyconst *) logic [2:0] bright;
   (* anyconst *) logic smooth, starts, has_left;
-  logic [15:0] start;
+  logic [15:0] start, left_registered;
   logic [CONFIDENCE_WIDTH-1:0] start_margin;
   logic [3:0] t_q = 4'd0;
   logic checking;
@@ -51,7 +51,9 @@ module smoothing_properties #(
       .take_position_i (t_q >= 4'd1 && t_q <= 4'd3),
       .has_position_i  (has[row]),
       .position_i      (positions[row*16+:16]),
-      .left_position_i (left[row*16+:16]),
+      .left_i          (left[row*16+:16]),
+      .left_position_i (left_registered),
+      .left_o          (left_registered),
       .lost_position_i (lost[row*16+:16]),
       .margin_i        (margins[row*CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]),
       .bright_i        (bright[row]),
