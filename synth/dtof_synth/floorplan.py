@@ -222,15 +222,18 @@ def spread(plan: Floorplan, library: Library, pin_load: Callable[[str, str], flo
             spreader.spread(net, cell_of.get(net), drivers[net], net in copied)
 
 
+def pin_load(library: Library, macro_pin_ff: float) -> Callable[[str, str], float]:
+    """Load of a pin of a library cell, or of a macro."""
+    return lambda kind, pin: library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
+
+
 def finish(design: dict, library: Library, macro_pin_ff: float, columns_per_module: int
            ) -> tuple[dict[str, list[float]], Floorplan]:
     """Inserts the trees of column, engine and top; returns the load of the column's input ports, and the places."""
     wire = library.wire_ff_per_sink
     name = netlist.column_module(design)
     mean: dict[str, dict[str, float]] = {}
-
-    def cell_load(kind: str, pin: str) -> float:
-        return library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
+    cell_load = pin_load(library, macro_pin_ff)
 
     for part in filter(None, (netlist.engine_module(design), name)):
         module = netlist.modules(design)[part]

@@ -15,7 +15,6 @@ from .run import Result
 READOUTS = ("ezpointer", "hispointer", "sifh")
 SWEEPS = {"NP": (8, 9, 10, 11, 12), "NB": (4, 5, 6, 7), "PIXELS_PER_SRAM": (40, 80, 160, 320),
           "SRAM_NUM": (50, 100, 200, 400)}
-MOST_ATTEMPTS = 4  # mappings of a point: all of poolPointer 2's namings would take most of the sweep's time
 FWHM_NS, RANGE_NS = 2.0, 45.0
 
 # poolPointer 2's candidates: labels and bits of a score. Their accuracy: scripts/trade.py.
@@ -75,8 +74,8 @@ def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int | str
 
 
 def jobs(configurations: dict[str, Configuration]) -> list[Job]:
-    """The points that are no named configuration, timed in the slow corner only, of the first efforts' mappings."""
-    return [Job(configuration, ("slow",), MOST_ATTEMPTS) for _, _, configuration in sweep(configurations)
+    """The points that are no named configuration, timed in the slow corner only."""
+    return [Job(configuration, ("slow",)) for _, _, configuration in sweep(configurations)
             if configuration.name not in configurations]
 
 

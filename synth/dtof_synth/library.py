@@ -59,6 +59,12 @@ class Library:
     clock_energy_fj: dict[str, float] = field(default_factory=dict)
     energy_fj: float = 1.0  # the Liberty's unit of energy
     clock_gate: ClockGate | None = None  # the smallest
+    drives: list[list[str]] = field(default_factory=list)  # cells of one function and the same pins, smallest first
+
+    @property
+    def smaller(self) -> dict[str, str]:
+        """The next smaller drive of each cell that has one."""
+        return {name: before for family in self.drives for before, name in zip(family, family[1:])}
 
 
 def _capacitance_unit_ff(library: Group, where: Path) -> float:
@@ -111,6 +117,17 @@ def _internal_clock_energy(pin: Group) -> float:
     return sum(float(text.split(",")[0]) for text in firsts) / max(len(powers), 1)
 
 
+def _drives(cells: list[Group]) -> list[list[str]]:
+    """Cells that only differ in their last number: the names of all libraries here end in the drive."""
+    families: dict[tuple, list[tuple[float, str]]] = {}
+    for cell in cells:
+        stem = re.fullmatch(r"(.*?)\d+", cell.name)
+        pins = tuple(sorted((pin.name, pin.get("direction"), _function(pin)) for pin in cell.children("pin")))
+        if stem and pins:
+            families.setdefault((stem.group(1), pins), []).append((cell.number("area"), cell.name))
+    return [[name for _, name in sorted(family)] for family in families.values() if len(family) > 1]
+
+
 def _clock_gate(cell: Group, unit: float) -> ClockGate | None:
     """Of a cell for rising-edge registers, without a pin for scan mode."""
     if cell.get("clock_gating_integrated_cell").strip('"') != "latch_posedge":
@@ -128,7 +145,7 @@ def read(path: Path) -> Library:
     unit = _capacitance_unit_ff(root, path)
     cells = root.children("cell")
     result = Library(path, root.name, {}, set(), set(), {}, {}, [], "", {}, _nand2_area(cells),
-                     _mux2_area(cells), root.number("nom_voltage"), *_wire_load(root, unit), energy_fj=unit)
+                     _mux2_area(cells), root.number("nom_voltage"), *_wire_load(root, unit), energy_fj=unit, drives=_drives(cells))
     inverters: list[tuple[float, str]] = []
     for cell in cells:
         name, area = cell.name, cell.number("area")

@@ -10,7 +10,7 @@ stubs with the same input load.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import astuple, dataclass
 
 from .errors import FlowError
@@ -21,6 +21,7 @@ Module = dict
 COLUMN_SUFFIXES = ("_column", "_pair")
 ENGINE_SUFFIX = "_engine"
 STUB = "column_stub"
+TOP = "top"  # kind of block of what is outside all of them
 TREE_PREFIX = "fanout_"
 COPY_SUFFIX = "_copy"
 HOLD_PREFIX = "hold_"
@@ -297,6 +298,31 @@ def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: 
                 "connections": {buffer.input_pin: [bits[index]], buffer.output_pin: [output]}}
             bits[index] = output
     return beside
+
+
+def resize(design: dict, cells: Iterable[tuple[str, str, str]]) -> None:
+    """Gives cells (kind of block or TOP, name, library cell) another drive of the same function."""
+    for kind, name, drive in cells:
+        module = top(design) if kind == TOP else modules(design)[kind]
+        module["cells"][name]["type"] = drive
+
+
+def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: Callable[[str, str], float]) -> list[tuple[str, str]]:
+    """(kind of block or TOP, cell) of what could drive its load with the next smaller drive; those that save most first. The
+    buffers of fan-out trees and the registers in front of them are as strong as they should be."""
+    found = []
+    for kind in kinds:
+        module = top(design) if kind == TOP else modules(design)[kind]
+        nets = sinks_of(module, pin_load, library.wire_ff_per_sink)
+        for name, cell in module["cells"].items():
+            smaller = library.smaller.get(cell["type"])
+            if smaller is None or name.startswith(TREE_PREFIX) or COPY_SUFFIX in name:
+                continue
+            outputs = [(pin, bits[0]) for pin, bits in cell["connections"].items()
+                       if cell["port_directions"].get(pin) == "output"]
+            if all(load_of(nets.get(bit, [])) <= library.max_load_ff[smaller][pin] * TREE_LOAD_SHARE for pin, bit in outputs):
+                found.append((library.area[cell["type"]] - library.area[smaller], kind, name))
+    return [(kind, name) for _, kind, name in sorted(found, key=lambda item: -item[0])]
 
 
 def clock_nets(module: Module) -> set[int]:

@@ -24,6 +24,8 @@ from .timing import Margin, TimedPath, Timing
 TARGET_MHZ = 330.0
 NAMINGS = 16
 KEPT_COLUMNS = 3
+RESIZE_ROUNDS = 3  # a gate behind a column's port changes what the broadcast drives in all columns
+RESIZE_GUARD_NS = 0.004  # of slack that resizing leaves for that
 HOLD_ROUNDS = 4  # in which paths that are too early get buffers
 HOLD_BUFFER_NS = 0.0169  # what one of them adds in the fast corner, 0.014 to 0.021; too little adds a round
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
@@ -49,10 +51,10 @@ _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
 # From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
-# as well as larger where ABC tries harder, so that they are given other names instead, and the smallest that closes is taken.
+# as well as larger where ABC tries harder: what they miss is left to resizing.
 EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
-SMALL_EFFORT = Effort(0.68, _SMALL, range(4))
-POOL_EFFORTS = tuple(replace(SMALL_EFFORT, naming_seeds=range(number, number + 1)) for number in range(NAMINGS))
+POOL_EFFORTS = (Effort(0.75, _SMALL), Effort(0.68, _SMALL))
+LAYOUT_EFFORT = Effort(0.68, _SMALL, range(4))
 
 
 def efforts(configuration: Configuration) -> tuple[Effort, ...]:
@@ -225,9 +227,12 @@ class _Netlist:
         self.plan.rename(called[self.configuration.top])
         names = {plain: name for before in called.values() for plain, name in before.items()}
         (self.folder / timing.NAMES).write_text(json.dumps(names), encoding="utf-8")
+        self.write_stub(loads)
+        self.write(WIRES)
+
+    def write_stub(self, loads: dict[str, list[float]]) -> None:
         (self.folder / "column_stub.lib").write_text(
             netlist.stub_liberty(self.design, loads, self.technology.typical.voltage), encoding="utf-8")
-        self.write(WIRES)
 
     def write(self, corners: Collection[str]) -> None:
         """Verilog, and the corners' wires between the blocks."""
@@ -238,14 +243,35 @@ class _Netlist:
             (self.folder / f"wires_{corner}.spef").write_text(texts[WIRES[corner]], encoding="utf-8")
         (self.folder / "timing.v").write_text(verilog.write(self.design), encoding="utf-8")
 
-    def time(self, corner: str, *steps: str) -> timing.Report:
-        """The steps of synth/sta/timing.tcl in one corner."""
+    def time(self, corner: str, *steps: str, **settings: tools.Setting) -> timing.Report:
+        """The steps of synth/sta/timing.tcl in one corner, with their settings."""
         library = self.technology.library(corner)
         files = timing.Netlist(
             f"{self.configuration.name}, {corner} corner", self.folder / "timing.v", self.folder / f"wires_{corner}.spef",
             [library.path, self.technology.kit / f"sram40_{corner}.lib", self.folder / "column_stub.lib"],
             library.wire_load, self.configuration.top)
-        return timing.measure(files, self.technology.root, self.technology.target_mhz, self.folder / f"sta_{corner}.log", steps)
+        return timing.measure(files, self.technology.root, self.technology.target_mhz,
+                              self.folder / f"sta_{'resize' if 'resize' in steps else corner}.log", steps, settings)
+
+    def resize(self) -> None:
+        """Gives gates on paths that fail in the slow corner with margins more drive, others less."""
+        library = self.technology.slow
+        column, engine = netlist.column_module(self.design), netlist.engine_module(self.design)
+        cells = netlist.top(self.design)["cells"]
+        instances = {kind: [name for name, cell in cells.items() if cell["type"] == kind] for kind in (column, engine) if kind}
+        copies = {column: self.configuration.column_modules, engine: self.configuration.engines}
+        pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
+        for number in range(RESIZE_ROUNDS):
+            found = self.time(
+                "slow", "resize", blocks=[item for kind, names in instances.items() for item in (kind, names, copies[kind])],
+                drives=library.drives, cell_areas=library.area, guard=f"{RESIZE_GUARD_NS}",
+                shrinkable=[list(gate) for gate in netlist.shrinkable(self.design, library, [*instances, netlist.TOP], pin_load)]
+                if number == 0 else []).resized
+            netlist.resize(self.design, found)
+            self.write_stub(netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink))
+            self.write(WIRES)
+            if not any(kind == column for kind, *_ in found):
+                break
 
     def fix_hold(self, tight: list[TimedPath]) -> Margin:
         """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner."""
@@ -305,6 +331,7 @@ class _Attempt:
 def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None, [])
+    timed.resize()
     report = timed.time("slow", "nominal", "margins")
     return _Attempt(timed, naming, report.slack, report.margin(), report.tight)
 
@@ -332,7 +359,7 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
 def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None,
               known: Naming | None) -> list[_Attempt]:
     """With the known namings, where they are those of what is mapped; else, or where they do not close, effort after effort
-    until one does, of the pool read-outs all."""
+    until one does."""
     tried = efforts(configuration)[:most]
     digest = mapping_digest(folder / "generic.il", technology, tried)
     attempts: list[_Attempt] = []
@@ -342,7 +369,7 @@ def _attempts(configuration: Configuration, technology: Technology, folder: Path
             return attempts
     for number in range(len(tried)):
         attempts.append(_attempt(configuration, technology, folder, number, digest))
-        if attempts[-1].closes_with_margins and not configuration.is_pool:
+        if attempts[-1].closes_with_margins:
             break
     return attempts
 

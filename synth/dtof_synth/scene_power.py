@@ -25,7 +25,7 @@ from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .library import Library
-from .run import TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
+from .run import TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells, unsearched_effort
 
 CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer1", "hispointer", "sifh", "fifh", "threesteps", "pifh",
                   "histogram", "coarsehistogram", "poolpointer2", "poolpointer2_lean")
@@ -165,7 +165,8 @@ def simulate(configuration: Configuration, technology: Technology, folder: Path,
     """The small array through the flow, and its activity."""
     case = small_case(configuration, seed)
     elaborate(case.configuration, technology, folder)
-    design = map_to_cells(case.configuration, technology, folder, efforts(case.configuration)[0])
+    choose = unsearched_effort if configuration.is_pool else lambda item: efforts(item)[0]
+    design = map_to_cells(case.configuration, technology, folder, choose(case.configuration))
     floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
     _write_verilog(design, technology, folder, "static", case.name)
     return design, count_activity(design, case, technology, folder, klux)

@@ -113,6 +113,11 @@ class Report:
         """Those that have less than TIGHT_NS to spare with margins."""
         return self._paths("DTOF_TIGHT")
 
+    @property
+    def resized(self) -> list[tuple[str, str, str]]:
+        """(kind of block or `top`, gate, library cell) of what the step `resize` gave another drive."""
+        return re.findall(r"^DTOF_RESIZED (\S+) (\S+) (\S+)$", self.output, re.MULTILINE)
+
     def _section(self, name: str) -> str:
         return self.output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]
 
@@ -145,16 +150,17 @@ class Report:
         return found
 
 
-def measure(netlist: Netlist, root: Path, target_mhz: float, log: Path, steps: tuple[str, ...]) -> Report:
-    """Runs OpenSTA; the steps are those of synth/sta/timing.tcl. FlowError where it fails or the clock is faster than an SRAM
-    allows."""
+def measure(netlist: Netlist, root: Path, target_mhz: float, log: Path, steps: tuple[str, ...],
+            settings_of_steps: dict[str, tools.Setting] | None = None) -> Report:
+    """Runs OpenSTA; the steps are those of synth/sta/timing.tcl, some of which have settings of their own. FlowError where it
+    fails or the clock is faster than an SRAM allows."""
     settings = log.with_suffix(".tcl")
     tools.write_settings(settings, {
         "steps": list(steps), "liberty_files": netlist.liberty_files, "netlist": netlist.verilog, "wires": netlist.wires,
         "top": netlist.top, "wire_load": netlist.wire_load, "constraints": root / "constraints" / "dtof.sdc",
         "margins": root / "constraints" / "margins.sdc", "target_period": f"{1000 / target_mhz:.6f}",
         "fast_period": f"{1000 / FAST_MHZ:.6f}", "activity": power.ACTIVITY, "slew": f"{FO4_NS:.4f}",
-        "load": f"{10 * CINV_FF:.4f}", "tight": f"{TIGHT_NS}"})
+        "load": f"{10 * CINV_FF:.4f}", "tight": f"{TIGHT_NS}", **(settings_of_steps or {})})
     output = tools.run_sta(root / "synth" / "sta" / "timing.tcl", settings, log, netlist.name)
     called = json.loads((netlist.verilog.parent / NAMES).read_text(encoding="utf-8"))
     report = Report(output, called)

@@ -5,10 +5,12 @@
 #   power     of every cell, at the target clock
 #   margins   slacks with the margins of constraints/margins.sdc, and the paths that are too early or have less than `tight` ns
 #             to spare; the last, because margins stay
+#   resize    gates of other drive strengths (resize.tcl); alone, since the clock and the margins of that step stay
 # OpenSTA exits 0 even after errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command
 # succeeded.
 
 source $::env(DTOF_SCRIPTS)/cell_power.tcl
+source $::env(DTOF_SCRIPTS)/resize.tcl
 
 proc constrain {new_period} {
   set ::period $new_period
@@ -97,7 +99,7 @@ proc run {} {
   if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
   if {$wires ne ""} { read_spef $wires }
   constrain $::target_period
-  foreach step {nominal closing power margins} {
+  foreach step {nominal closing power margins resize} {
     if {$step in $steps} { $step }
   }
 }

@@ -42,9 +42,10 @@ class Namings(unittest.TestCase):
     def test_a_known_naming_that_does_not_close_is_searched_beyond(self):
         self.assertEqual(self.efforts_tried(KNOWN, {(1, None)}), [(1, KNOWN), (0, None), (1, None)])
 
-    def test_pool_read_outs_try_all(self):
-        tried = self.efforts_tried(None, {(2, None)}, name="poolpointer2")
-        self.assertEqual(tried, [(number, None) for number in range(run.NAMINGS)])
+    def test_efforts_are_tried_until_one_closes(self):
+        for name in ("ezpointer", "poolpointer2"):
+            self.assertEqual(self.efforts_tried(None, {(0, None)}, name=name), [(0, None)])
+            self.assertEqual(self.efforts_tried(None, {(1, None)}, name=name), [(0, None), (1, None)])
 
     def test_the_smallest_that_closes_is_taken_else_the_one_that_misses_least(self):
         def attempt(area: float, rank: float) -> SimpleNamespace:

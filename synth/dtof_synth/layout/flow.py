@@ -78,7 +78,7 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
     run.elaborate(small(configuration, ARRAY_COLUMNS), technology, folder)
     library = technology.slow
     scripts = technology.root / "synth" / "yosys"
-    effort = run.SMALL_EFFORT
+    effort = run.LAYOUT_EFFORT
     inverter_ff = next(iter(library.input_ff[library.inverter].values()))
     constraints = folder / "abc.constr"
     constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n",

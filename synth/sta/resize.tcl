@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: Apache-2.0
+# Gates of other drive strengths, by trial: OpenSTA times the whole array anew after each. ABC chooses them without knowing when
+# an SRAM's word or a broadcast arrives, and when its outputs are due.
+#   grow     of the slowest path the gate whose next larger drive takes the most negative slack away for its area, until there is
+#            none left or no such gate
+#   shrink   the gates of `shrinkable` to the next smaller drive, if that leaves all paths met
+# `drives`: cells of one function, smallest first, by list. `blocks`: kind of a block, its instances, how many the array has of
+# it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`.
+
+proc index_drives {} {
+  foreach family $::drives {
+    for {set i 0} {$i < [llength $family]} {incr i} {
+      set name [lindex $family $i]
+      set ::smaller($name) [expr {$i > 0 ? [lindex $family [expr {$i - 1}]] : ""}]
+      set ::larger($name) [lindex $family [expr {$i + 1}]]
+    }
+  }
+}
+
+# {kind gate} of a pin's name, or nothing for a port.
+proc gate_of {pin} {
+  set parts [split $pin /]
+  if {[llength $parts] == 2} { return [list top [lindex $parts 0]] }
+  if {[llength $parts] == 3} { return [list $::kind_of([lindex $parts 0]) [lindex $parts 1]] }
+}
+
+proc instances {kind gate} {
+  if {$kind eq "top"} { return [list [get_cells $gate]] }
+  return [lmap block $::instances_of($kind) { get_cells $block/$gate }]
+}
+
+proc resize_to {cells name} {
+  foreach cell $cells { replace_cell $cell [get_lib_cells */$name] }
+}
+
+proc slowest_path {} {
+  set least Inf
+  foreach path [find_timing_paths -path_delay max -group_count 1] {
+    set slack [get_property $path slack]
+    if {$slack < $least} {
+      set least $slack
+      set slowest $path
+    }
+  }
+  return $slowest
+}
+
+# Of the slowest path: the best gate to grow, and to what; nothing if none helps.
+proc best_growth {} {
+  set before [total_negative_slack]
+  set best 0
+  set choice {}
+  set tried {}
+  foreach point [get_property [slowest_path] points] {
+    set gate [gate_of [get_full_name [get_property $point pin]]]
+    if {$gate eq "" || $gate in $tried} { continue }
+    lappend tried $gate
+    set cells [instances {*}$gate]
+    set now [get_property [lindex $cells 0] ref_name]
+    if {![info exists ::larger($now)] || $::larger($now) eq ""} { continue }
+    set next $::larger($now)
+    resize_to $cells $next
+    set gain [expr {[total_negative_slack] - $before}]
+    resize_to $cells $now
+    set worth [expr {$gain / ($::copies_of([lindex $gate 0]) * ($::area_of($next) - $::area_of($now)))}]
+    if {$gain > 1e-5 && $worth > $best} {
+      set best $worth
+      set choice [list $gate $next]
+    }
+  }
+  return $choice
+}
+
+proc resize {} {
+  foreach {kind names copies} $::blocks {
+    set ::instances_of($kind) $names
+    set ::copies_of($kind) $copies
+    foreach name $names { set ::kind_of($name) $kind }
+  }
+  set ::copies_of(top) 1
+  array set ::area_of $::cell_areas
+  index_drives
+  constrain [expr {$::target_period - $::guard}]
+  uplevel #0 source $::margins
+  set resized [dict create]
+  while {[total_negative_slack] < 0} {
+    lassign [best_growth] gate next
+    if {$gate eq ""} { break }
+    resize_to [instances {*}$gate] $next
+    dict set resized $gate $next
+  }
+  set limit [total_negative_slack]
+  foreach pair $::shrinkable {
+    set gate [list {*}$pair]
+    set cells [instances {*}$gate]
+    set now [get_property [lindex $cells 0] ref_name]
+    set next $::smaller($now)
+    resize_to $cells $next
+    if {[total_negative_slack] < $limit} {
+      resize_to $cells $now
+    } else {
+      dict set resized $gate $next
+    }
+  }
+  dict for {gate name} $resized { puts "DTOF_RESIZED $gate $name" }
+  puts "DTOF_END"
+}
