@@ -209,8 +209,10 @@ def abc(engine: str) -> list[str]:
 
 def failing_assertion(folder: Path) -> str:
     """Replays the counterexample in Yosys, which writes the waveforms and names the assertion."""
-    trace = (folder / "trace.aiw").read_text().replace("# DONE", "").split()
-    (folder / "counterexample.aiw").write_text("\n".join(["1", "b0", *trace, "."]) + "\n")
+    _, *inputs = (folder / "trace.aiw").read_text().replace("# DONE", "").split()
+    # All registers are 0 before the first clock, those that ABC has dropped as well.
+    registers = int((folder / "model.aig").read_bytes().split(maxsplit=4)[3])
+    (folder / "counterexample.aiw").write_text("\n".join(["1", "b0", "0" * registers, *inputs, "."]) + "\n")
     log, _ = run_tool(["yosys", "-p", SIMULATE_SCRIPT], folder, "simulate.log", SIMULATE_SECONDS)
     match = re.search(r"Assert (\S+)(?: \(.*\))? failed", log)
     if match is None:
@@ -236,7 +238,9 @@ def solve(job: Job) -> Outcome:
     )
     unbounded = job.kind == "prove" and proof.frames is None
     frames = SEARCH_FRAMES if proof.frames is None else proof.frames
-    engine = "scorr; pdr" if unbounded else f"bmc3 -F {frames}"
+    # Equal registers and gates are merged first where there should be no counterexample.
+    swept = job.kind == "prove"
+    engine = f"{'scorr; ' if swept else ''}{'pdr' if unbounded else f'bmc3 -F {frames}'}"
 
     headers = (*HDL.glob("package/*.svh"), *FORMAL.glob("*.svh"))
     texts = [script, engine, *(without_comments(file.read_text()) for file in (*files, *headers))]
@@ -253,7 +257,7 @@ def solve(job: Job) -> Outcome:
     seconds += solver_seconds
     failed = re.search(r"was asserted in frame (\d+)", log)
     if failed:
-        if unbounded:  # the trace of a swept model lacks inputs
+        if swept:  # its trace lacks inputs
             run_tool(abc(f"bmc3 -F {int(failed[1]) + 1}"), folder, "trace.log", proof.timeout)
         outcome = Outcome("failed", seconds, int(failed[1]), failing_assertion(folder))
     else:

@@ -71,9 +71,9 @@ module smoothing_properties #(
     centre = 32'(positions[31:16]);
     reach = (CELL_SHIFT == 10) ? 2048 : bright[1] ? 1536 : 1024;
     sum = 0;
-    for (i = 0; i <= 2; i = i + 1) begin  // above, to the left, below
-      neighbour = (i == 1) ? 32'(left[31:16]) : 32'(positions[i*16+:16]);
-      if ((smooth || starts) && ((i == 1) ? has_left : has[i]) && neighbour - centre <= reach
+    for (i = 0; i <= 2; i = i + 1) begin  // above, below, to the left
+      neighbour = (i == 2) ? 32'(left[31:16]) : 32'(positions[i*32+:16]);
+      if ((smooth || starts) && ((i == 2) ? has_left : has[i*2]) && neighbour - centre <= reach
           && centre - neighbour <= reach) begin
         sum = sum + neighbour - centre;
       end

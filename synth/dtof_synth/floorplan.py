@@ -23,7 +23,6 @@ from .netlist import TREE_LOAD_SHARE, Module, Sink, TreeBuilder
 
 PITCH_UM = 25.0  # of the columns: that of the pixels above them
 REPEATER_UM = 400.0  # a wire's own delay there is that of the repeater behind it
-REPEATER_STRENGTH = 2.0  # times what it drives: repeaters follow each other, and each hands on a slow edge
 LEAF_UM = 200.0  # the columns that one buffer serves lie within it
 LIGHT_FF = 4.0  # a pin that needs no buffer of its own
 COPY_UM = 400.0  # the buffers that a copy of a register serves
@@ -136,8 +135,8 @@ class _Spreader:
         places = [start_um, *(self.plan[sink.cell] for sink in cluster)]
         return (max(places) - min(places)) * self.wire.ff_per_um
 
-    def _buffer(self, net: int, cluster: list[Sink], place_um: float, strength: float = 1.0) -> Sink:
-        sink = self.builder.buffer(net, cluster, self._span_ff(cluster, place_um), strength)
+    def _buffer(self, net: int, cluster: list[Sink], place_um: float) -> Sink:
+        sink = self.builder.buffer(net, cluster, self._span_ff(cluster, place_um))
         self.plan.places[sink.cell] = place_um
         return sink
 
@@ -175,7 +174,7 @@ class _Spreader:
                 if way > 0 or (way == 0 and side == 1):
                     hops.setdefault(int(way // REPEATER_UM), []).append(sink)
             for hop in range(max(hops, default=0), 0, -1):
-                repeater = self._buffer(net, hops.get(hop, []), start + side * hop * REPEATER_UM, REPEATER_STRENGTH)
+                repeater = self._buffer(net, hops.get(hop, []), start + side * hop * REPEATER_UM)
                 hops.setdefault(hop - 1, []).append(repeater)
             first += hops.get(0, [])
         return first

@@ -212,9 +212,9 @@ class TreeBuilder:
         self.fresh += 1
         return self.fresh - 1
 
-    def buffer(self, net: int, cluster: list[Sink], wire_ff: float = 0.0, strength: float = 1.0) -> Sink:
-        """Puts the smallest buffer that can drive `strength` times a cluster of a net's sinks and a wire in front of them."""
-        buffer = _smallest(self.buffers, strength * (load_of(cluster) + wire_ff))
+    def buffer(self, net: int, cluster: list[Sink], wire_ff: float = 0.0) -> Sink:
+        """Puts the smallest buffer that can drive a cluster of a net's sinks and a wire in front of them."""
+        buffer = _smallest(self.buffers, load_of(cluster) + wire_ff)
         output = self._rewire(cluster)
         name = f"{TREE_PREFIX}{net}_{output}"
         cell = {"hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
@@ -300,11 +300,14 @@ def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: 
     return beside
 
 
-def resize(design: dict, cells: Iterable[tuple[str, str, str]]) -> None:
-    """Gives cells (kind of block or TOP, name, library cell) another drive of the same function."""
+def resize(design: dict, library: Library, cells: Iterable[tuple[str, str, str]]) -> None:
+    """Gives cells (kind of block or TOP, name, library cell) another drive; FlowError if it were another function."""
+    family = {kind: index for index, kinds in enumerate(library.drives) for kind in kinds}
     for kind, name, drive in cells:
-        module = top(design) if kind == TOP else modules(design)[kind]
-        module["cells"][name]["type"] = drive
+        cell = (top(design) if kind == TOP else modules(design)[kind])["cells"][name]
+        if drive not in family or family.get(cell["type"]) != family[drive]:
+            raise FlowError(f"{name} is a {cell['type']} and cannot be resized to {drive}")
+        cell["type"] = drive
 
 
 def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: Callable[[str, str], float]) -> list[tuple[str, str]]:

@@ -53,7 +53,7 @@ _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
 # From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
 # as well as larger where ABC tries harder: what they miss is left to resizing.
 EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
-POOL_EFFORTS = (Effort(0.75, _SMALL), Effort(0.68, _SMALL))
+POOL_EFFORTS = (Effort(0.75, _SMALL), Effort(0.72, _SMALL), Effort(0.68, _SMALL))
 LAYOUT_EFFORT = Effort(0.68, _SMALL, range(4))
 
 
@@ -267,7 +267,7 @@ class _Netlist:
                 drives=library.drives, cell_areas=library.area, guard=f"{RESIZE_GUARD_NS}",
                 shrinkable=[list(gate) for gate in netlist.shrinkable(self.design, library, [*instances, netlist.TOP], pin_load)]
                 if number == 0 else []).resized
-            netlist.resize(self.design, found)
+            netlist.resize(self.design, library, found)
             self.write_stub(netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink))
             self.write(WIRES)
             if not any(kind == column for kind, *_ in found):

@@ -7,6 +7,8 @@
 # `drives`: cells of one function, smallest first, by list. `blocks`: kind of a block, its instances, how many the array has of
 # it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`.
 
+set PATHS 100
+
 proc index_drives {} {
   foreach family $::drives {
     for {set i 0} {$i < [llength $family]} {incr i} {
@@ -33,42 +35,44 @@ proc resize_to {cells name} {
   foreach cell $cells { replace_cell $cell [get_lib_cells */$name] }
 }
 
-proc slowest_path {} {
-  set least Inf
-  foreach path [find_timing_paths -path_delay max -group_count 1] {
-    set slack [get_property $path slack]
-    if {$slack < $least} {
-      set least $slack
-      set slowest $path
-    }
+# Gates on a path that have a larger drive, each once.
+proc growable {path} {
+  set found {}
+  foreach point [get_property $path points] {
+    set gate [gate_of [get_full_name [get_property $point pin]]]
+    if {$gate eq "" || $gate in $found} { continue }
+    set now [get_property [lindex [instances {*}$gate] 0] ref_name]
+    if {[info exists ::larger($now)] && $::larger($now) ne ""} { lappend found $gate }
   }
-  return $slowest
+  return $found
 }
 
-# Of the slowest path: the best gate to grow, and to what; nothing if none helps.
+# The best gate to grow, and to what, on the slowest path where growing one helps; nothing if there is none on the slowest
+# PATHS.
 proc best_growth {} {
   set before [total_negative_slack]
-  set best 0
-  set choice {}
   set tried {}
-  foreach point [get_property [slowest_path] points] {
-    set gate [gate_of [get_full_name [get_property $point pin]]]
-    if {$gate eq "" || $gate in $tried} { continue }
-    lappend tried $gate
-    set cells [instances {*}$gate]
-    set now [get_property [lindex $cells 0] ref_name]
-    if {![info exists ::larger($now)] || $::larger($now) eq ""} { continue }
-    set next $::larger($now)
-    resize_to $cells $next
-    set gain [expr {[total_negative_slack] - $before}]
-    resize_to $cells $now
-    set worth [expr {$gain / ($::copies_of([lindex $gate 0]) * ($::area_of($next) - $::area_of($now)))}]
-    if {$gain > 1e-5 && $worth > $best} {
-      set best $worth
-      set choice [list $gate $next]
+  set best 0
+  foreach path [find_timing_paths -path_delay max -group_count $::PATHS] {
+    if {[get_property $path slack] >= 0} { continue }
+    foreach gate [growable $path] {
+      if {$gate in $tried} { continue }
+      lappend tried $gate
+      set cells [instances {*}$gate]
+      set now [get_property [lindex $cells 0] ref_name]
+      for {set next $::larger($now)} {$next ne ""} {set next $::larger($next)} {
+        resize_to $cells $next
+        set gain [expr {[total_negative_slack] - $before}]
+        set area [expr {$::copies_of([lindex $gate 0]) * ($::area_of($next) - $::area_of($now))}]
+        if {$gain > 1e-5 && $gain / $area > $best} {
+          set best [expr {$gain / $area}]
+          set choice [list $gate $next]
+        }
+      }
+      resize_to $cells $now
     }
+    if {$best > 0} { return $choice }
   }
-  return $choice
 }
 
 proc resize {} {

@@ -7,10 +7,12 @@ import unittest
 from pathlib import Path
 
 from dtof_synth import library, netlist, standard_cells, timing, tools, verilog
+from dtof_synth.errors import FlowError
 
 ROOT = Path(__file__).resolve().parents[2]
 COPIES = 100
 LOADS = 12
+CHAIN = 4
 
 
 def cell(kind: str, inputs: dict[str, int], outputs: dict[str, int]) -> dict:
@@ -25,13 +27,16 @@ def module(ports: dict[str, tuple[str, int]], cells: dict[str, dict], top: bool 
 
 
 def design() -> dict:
-    """Two pairs in a row, each a register, an inverter that drives many, one of these in front of the next register."""
+    """Two pairs, each a register, an inverter that drives many, one of these in front of a register; of the second pair a chain
+    goes on from there to a register outside, so that it has the slowest path."""
     gates = {"start": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 5}), "driver": cell("INV_X1", {"A": 5}, {"Y": 6}),
              "end": cell("DFF_X1", {"D": 10, "CK": 2}, {"Q": 4}), "idle": cell("INV_X4", {"A": 4}, {"Y": 7})}
     gates |= {f"load{index}": cell("INV_X1", {"A": 6}, {"Y": 10 + index}) for index in range(LOADS)}
-    pair = module({"clk_i": ("input", 2), "a": ("input", 3), "q": ("output", 4)}, gates)
+    pair = module({"clk_i": ("input", 2), "a": ("input", 3), "q": ("output", 4), "y": ("output", 10)}, gates)
+    chain = {f"chain{index}": cell("INV_X1", {"A": 8 + index}, {"Y": 9 + index}) for index in range(CHAIN)}
     array = module({"clk_i": ("input", 2), "result_tready_i": ("input", 3), "q": ("output", 5)}, {
-        "u_pair": cell("a_pair", {"clk_i": 2, "a": 3}, {"q": 4}), "v_pair": cell("a_pair", {"clk_i": 2, "a": 4}, {"q": 5})}, top=True)
+        "u_pair": cell("a_pair", {"clk_i": 2, "a": 3}, {"q": 4, "y": 6}), "v_pair": cell("a_pair", {"clk_i": 2, "a": 4}, {"q": 5, "y": 8}),
+        "last": cell("DFF_X1", {"D": 8 + CHAIN, "CK": 2}, {"Q": 7}), **chain}, top=True)
     return {"modules": {"a_pair": pair, "t": array}}
 
 
@@ -66,18 +71,18 @@ class Resize(unittest.TestCase):
         self.assertLess(self.slack(circuit, period), 0)
         found = self.sta(circuit, period, "resize").resized
         self.assertEqual([(kind, gate) for kind, gate, _ in found], [("a_pair", "driver")])
-        netlist.resize(circuit, found)
+        netlist.resize(circuit, self.library, found)
         self.assertNotEqual(circuit["modules"]["a_pair"]["cells"]["driver"]["type"], "INV_X1")
         self.assertGreaterEqual(self.slack(circuit, period), 0)
 
     def test_what_no_gate_mends_is_left(self):
         circuit = design()
-        netlist.resize(circuit, self.sta(circuit, 0.3, "resize").resized)
+        netlist.resize(circuit, self.library, self.sta(circuit, 0.3, "resize").resized)
         self.assertLess(self.slack(circuit, 0.3), 0)
 
     def test_gates_with_time_to_spare_shrink_and_others_do_not(self):
         circuit = design()
-        netlist.resize(circuit, [("a_pair", "driver", "INV_X4")])
+        netlist.resize(circuit, self.library, [("a_pair", "driver", "INV_X4")])
         met = 3.0 - self.slack(circuit, 3.0)
         pairs = [["a_pair", "idle"], ["a_pair", "driver"]]
         self.assertEqual(self.sta(circuit, met + 0.001, "resize", pairs).resized, [("a_pair", "idle", "INV_X2")])
@@ -98,6 +103,10 @@ class Resize(unittest.TestCase):
         for index in range(LOADS // 2):
             del gates[f"load{index}"]
         self.assertEqual(netlist.shrinkable(circuit, self.library, ["a_pair"], load), [("a_pair", "idle"), ("a_pair", "driver")])
+
+    def test_another_function_is_refused(self):
+        with self.assertRaisesRegex(FlowError, "driver is a INV_X1 and cannot be resized to NAND2_X1"):
+            netlist.resize(design(), self.library, [("a_pair", "driver", "NAND2_X1")])
 
     def test_drives_are_of_one_function(self):
         families = {tuple(family) for family in self.library.drives}
