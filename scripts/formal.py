@@ -28,7 +28,7 @@ BUILD = ROOT / "build" / "formal"
 REPORT = ROOT / "reports" / "formal.md"
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
 
-SEARCH_FRAMES = 120  # for a planted bug or a goal where the proof itself has no bound
+SEARCH_FRAMES = 180  # for a planted bug or a goal where the proof itself has no bound
 SIMULATE_SECONDS = 60
 
 # An instance of a module, perhaps by a macro of dtof_array, or something of a package.

@@ -209,6 +209,12 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     return design
 
 
+def _resize_settings(folder: Path, library: Library, shrinkable: list[tuple[str, str]]) -> dict[str, tools.Setting]:
+    """Of the step `resize` of synth/sta/timing.tcl."""
+    return {"blocks": json.loads((folder / timing.BLOCKS).read_text(encoding="utf-8")), "drives": library.drives,
+            "cell_areas": library.area, "guard": f"{RESIZE_GUARD_NS}", "shrinkable": [list(gate) for gate in shrinkable]}
+
+
 @dataclass(frozen=True)
 class _Netlist:
     """What is timed: the design with few real columns, where its cells stand, and the folder of its files."""
@@ -258,20 +264,20 @@ class _Netlist:
         library = self.technology.slow
         column, engine = netlist.column_module(self.design), netlist.engine_module(self.design)
         cells = netlist.top(self.design)["cells"]
-        instances = {kind: [name for name, cell in cells.items() if cell["type"] == kind] for kind in (column, engine) if kind}
         copies = {column: self.configuration.column_modules, engine: self.configuration.engines}
+        kinds = [kind for kind in (column, engine) if kind]
+        (self.folder / timing.BLOCKS).write_text(json.dumps([item for kind in kinds for item in (
+            kind, [name for name, cell in cells.items() if cell["type"] == kind], copies[kind])]), encoding="utf-8")
         pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
-        for number in range(RESIZE_ROUNDS):
-            found = self.time(
-                "slow", "resize", blocks=[item for kind, names in instances.items() for item in (kind, names, copies[kind])],
-                drives=library.drives, cell_areas=library.area, guard=f"{RESIZE_GUARD_NS}",
-                shrinkable=[list(gate) for gate in netlist.shrinkable(self.design, library, [*instances, netlist.TOP], pin_load)]
-                if number == 0 else []).resized
+        shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load)
+        for _ in range(RESIZE_ROUNDS):
+            found = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable)).resized
             netlist.resize(self.design, library, found)
             self.write_stub(netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink))
             self.write(WIRES)
             if not any(kind == column for kind, *_ in found):
                 break
+            shrinkable = []
 
     def fix_hold(self, tight: list[TimedPath]) -> Margin:
         """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner."""
@@ -412,9 +418,19 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
                   technology.slow.mux2_area, corner_timing, figures, margins, best.naming)
 
 
-def slacks_with_wires(result: Result, technology: Technology, folder: Path, um_per_sink: float) -> tuple[float, float]:
-    """Setup slacks in the slow corner, without and with margins, of the netlist that `run` left in `folder`, if wires inside
-    columns, engines and control had another length than the wire-load model's. No cell is made stronger for it."""
+@dataclass(frozen=True)
+class OtherWires:
+    """Setup slacks in the slow corner, ns, with another length of wire inside columns, engines and control: as the array is,
+    without and with margins, and with margins once gates are resized for these wires, which adds `added_mm2`."""
+
+    slack: float
+    with_margins: float
+    resized: float
+    added_mm2: float
+
+
+def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink: float) -> OtherWires:
+    """Of the netlist that `run` left in `folder`."""
     effort = folder / f"effort{result.naming.effort}"
     liberty = effort / "slow_wires.lib"
     liberty.write_text(standard_cells.library(standard_cells.SLOW, um_per_sink), encoding="utf-8")
@@ -423,8 +439,13 @@ def slacks_with_wires(result: Result, technology: Technology, folder: Path, um_p
         f"{configuration.name}, slow corner, {um_per_sink:.2f} um of wire per sink", effort / "timing.v",
         effort / "wires_slow.spef", [liberty, technology.kit / "sram40_slow.lib", effort / "column_stub.lib"],
         technology.slow.wire_load, configuration.top)
-    report = timing.measure(files, technology.root, technology.target_mhz, effort / "sta_slow_wires.log", ("nominal", "margins"))
-    return report.slack, report.margin().slack
+
+    def time(log: str, steps: tuple[str, ...], settings: dict[str, tools.Setting]) -> timing.Report:
+        return timing.measure(files, technology.root, technology.target_mhz, effort / log, steps, settings)
+
+    report = time("sta_slow_wires.log", ("nominal", "margins"), {})
+    resized = time("sta_resize_wires.log", ("resize",), _resize_settings(effort, technology.slow, []))
+    return OtherWires(report.slack, report.margin().slack, resized.resized_slack, resized.resized_area / 1e6)
 
 
 def input_digest(technology: Technology) -> str:

@@ -16,6 +16,7 @@ FAST_MHZ = 500.0
 TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
 _SLACK = re.compile(r"(-?\d+\.\d+) +slack")
 NAMES = "names.json"  # beside the netlist: what its parts were called before spef.plain_names
+BLOCKS = "blocks.json"  # beside it: kind of a block, its instances, how many the array has, and so on
 
 
 @dataclass(frozen=True)
@@ -117,6 +118,16 @@ class Report:
     def resized(self) -> list[tuple[str, str, str]]:
         """(kind of block or `top`, gate, library cell) of what the step `resize` gave another drive."""
         return re.findall(r"^DTOF_RESIZED (\S+) (\S+) (\S+)$", self.output, re.MULTILINE)
+
+    @property
+    def resized_slack(self) -> float:
+        """Setup with margins, of the step `resize`."""
+        return self._number("DTOF_RESIZED_SLACK")
+
+    @property
+    def resized_area(self) -> float:
+        """What the step `resize` added to the array, um2."""
+        return self._number("DTOF_RESIZED_AREA")
 
     def _section(self, name: str) -> str:
         return self.output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]

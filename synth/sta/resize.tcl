@@ -6,6 +6,7 @@
 #   shrink   the gates of `shrinkable` to the next smaller drive, if that leaves all paths met
 # `drives`: cells of one function, smallest first, by list. `blocks`: kind of a block, its instances, how many the array has of
 # it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`.
+# Prints what is another drive now, the area of it all and the slack.
 
 set PATHS 100
 
@@ -29,6 +30,11 @@ proc gate_of {pin} {
 proc instances {kind gate} {
   if {$kind eq "top"} { return [list [get_cells $gate]] }
   return [lmap block $::instances_of($kind) { get_cells $block/$gate }]
+}
+
+# What another drive of a gate adds to the array's area.
+proc added_area {gate now next} {
+  return [expr {$::copies_of([lindex $gate 0]) * ($::area_of($next) - $::area_of($now))}]
 }
 
 proc resize_to {cells name} {
@@ -63,10 +69,10 @@ proc best_growth {} {
       for {set next $::larger($now)} {$next ne ""} {set next $::larger($next)} {
         resize_to $cells $next
         set gain [expr {[total_negative_slack] - $before}]
-        set area [expr {$::copies_of([lindex $gate 0]) * ($::area_of($next) - $::area_of($now))}]
+        set area [added_area $gate $now $next]
         if {$gain > 1e-5 && $gain / $area > $best} {
           set best [expr {$gain / $area}]
-          set choice [list $gate $next]
+          set choice [list $gate $now $next]
         }
       }
       resize_to $cells $now
@@ -87,11 +93,13 @@ proc resize {} {
   constrain [expr {$::target_period - $::guard}]
   uplevel #0 source $::margins
   set resized [dict create]
+  set area 0
   while {[total_negative_slack] < 0} {
-    lassign [best_growth] gate next
+    lassign [best_growth] gate now next
     if {$gate eq ""} { break }
     resize_to [instances {*}$gate] $next
     dict set resized $gate $next
+    set area [expr {$area + [added_area $gate $now $next]}]
   }
   set limit [total_negative_slack]
   foreach pair $::shrinkable {
@@ -104,8 +112,11 @@ proc resize {} {
       resize_to $cells $now
     } else {
       dict set resized $gate $next
+      set area [expr {$area + [added_area $gate $now $next]}]
     }
   }
   dict for {gate name} $resized { puts "DTOF_RESIZED $gate $name" }
+  puts "DTOF_RESIZED_AREA $area"
+  puts "DTOF_RESIZED_SLACK [expr {[worst_slack -max] + $::guard}]"
   puts "DTOF_END"
 }

@@ -17,7 +17,7 @@ from .. import batch, configuration, technology
 from ..cli import all_configurations
 from ..configuration import Configuration
 from ..errors import FlowError
-from ..run import Technology, input_digest, slacks_with_wires
+from ..run import Technology, input_digest, with_wires
 from . import flow, picture, report, results
 from .flow import Result
 from .tools import Cells
@@ -70,8 +70,8 @@ def _slacks(named: dict[str, Configuration], found: dict[str, Result], jobs: int
     slacks = {}
     for name, result in found.items():
         slow = arrays[name]
-        measured = slacks_with_wires(slow, prepared, SYNTH / "runs" / name, result.wire_per_sink * result.area_shrink)
-        slacks[name] = report.Slacks(slow.timing["slow"].slack, slow.margins["slow"].slack, *measured)
+        measured = with_wires(slow, prepared, SYNTH / "runs" / name, result.wire_per_sink * result.area_shrink)
+        slacks[name] = report.Slacks(slow.timing["slow"].slack, slow.margins["slow"].slack, measured)
     return slacks
 
 
