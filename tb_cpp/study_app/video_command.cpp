@@ -77,30 +77,68 @@ Table overview(const std::vector<Video>& videos, const std::vector<std::string>&
   return table;
 }
 
-/// What the prior changes, in the frames that it is about.
+/// Frames of a video that are judged together: from `first` to before `end`.
+struct Span {
+  std::string name;
+  int first;
+  int end;
+};
+
+/// What the prior is about: the frames behind the first, of a cut its frame and those after it.
+std::vector<Span> judged_spans(const Sequence& sequence) {
+  const int frames = sequence.frames;
+  if (sequence.motion != Motion::kCut) {
+    return {{fmt::format("2 to {}", frames), 1, frames}};
+  }
+  const int cut = cut_frame(sequence);
+  std::vector<Span> spans = {{"that of the cut", cut, cut + 1}};
+  if (cut + 1 < frames) {
+    spans.push_back({"after it", cut + 1, frames});
+  }
+  return spans;
+}
+
+/// What the prior changes, for each video, and for each motion over all scenes that have it.
 Table prior_table(const std::vector<Video>& videos, std::size_t without, std::size_t with) {
   Table table({"scene", "motion", "frames", "above 3 %", "with prior", "change", "above 10 %", "with prior",
                "change"});
-  const auto add = [&](const Video& video, const std::string& frames, int first, int end) {
-    const ErrorShares a = video.of(without, first, end);
-    const ErrorShares b = video.of(with, first, end);
-    table.add({std::string(scene_name(video.sequence.scene)), std::string(motion_name(video.sequence.motion)),
-               frames, fmt::format("{:.3f}", 100.0 * a.above_3_percent),
-               fmt::format("{:.3f}", 100.0 * b.above_3_percent), change(a.above_3_percent, b.above_3_percent),
-               fmt::format("{:.3f}", 100.0 * a.above_10_percent),
-               fmt::format("{:.3f}", 100.0 * b.above_10_percent),
-               change(a.above_10_percent, b.above_10_percent)});
+  const auto add = [&](const std::string& scene, Motion motion, const std::string& frames,
+                       const ErrorShares& a, const ErrorShares& b) {
+    table.add(
+        {scene, std::string(motion_name(motion)), frames, fmt::format("{:.3f}", 100.0 * a.above_3_percent),
+         fmt::format("{:.3f}", 100.0 * b.above_3_percent), change(a.above_3_percent, b.above_3_percent),
+         fmt::format("{:.3f}", 100.0 * a.above_10_percent), fmt::format("{:.3f}", 100.0 * b.above_10_percent),
+         change(a.above_10_percent, b.above_10_percent)});
   };
+  std::vector<Motion> motions;
   for (const Video& video : videos) {
-    const int frames = video.sequence.frames;
-    if (video.sequence.motion != Motion::kCut) {
-      add(video, fmt::format("2 to {}", frames), 1, frames);
+    const Motion motion = video.sequence.motion;
+    for (const Span& span : judged_spans(video.sequence)) {
+      add(std::string(scene_name(video.sequence.scene)), motion, span.name,
+          video.of(without, span.first, span.end), video.of(with, span.first, span.end));
+    }
+    if (std::ranges::find(motions, motion) == motions.end()) {
+      motions.push_back(motion);
+    }
+  }
+  for (const Motion motion : motions) {
+    std::vector<const Video*> those;
+    for (const Video& video : videos) {
+      if (video.sequence.motion == motion) {
+        those.push_back(&video);
+      }
+    }
+    if (those.size() < 2) {
       continue;
     }
-    const int cut = cut_frame(video.sequence);
-    add(video, "that of the cut", cut, cut + 1);
-    if (cut + 1 < frames) {
-      add(video, "after it", cut + 1, frames);
+    for (const Span& span : judged_spans(those.front()->sequence)) {
+      std::vector<ErrorShares> a;
+      std::vector<ErrorShares> b;
+      for (const Video* video : those) {
+        a.push_back(video->of(without, span.first, span.end));
+        b.push_back(video->of(with, span.first, span.end));
+      }
+      add("all", motion, span.name, pooled(a), pooled(b));
     }
   }
   return table;
