@@ -314,11 +314,12 @@ def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: C
     """(kind of block or TOP, cell) of what could drive its load with the next smaller drive; those that save most first. The
     buffers of fan-out trees and the registers in front of them are as strong as they should be."""
     found = []
+    next_smaller = library.smaller
     for kind in kinds:
         module = top(design) if kind == TOP else modules(design)[kind]
         nets = sinks_of(module, pin_load, library.wire_ff_per_sink)
         for name, cell in module["cells"].items():
-            smaller = library.smaller.get(cell["type"])
+            smaller = next_smaller.get(cell["type"])
             if smaller is None or name.startswith(TREE_PREFIX) or COPY_SUFFIX in name:
                 continue
             outputs = [(pin, bits[0]) for pin, bits in cell["connections"].items()

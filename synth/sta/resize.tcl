@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 # Gates of other drive strengths, by trial: OpenSTA times the whole array anew after each. ABC chooses them without knowing when
 # an SRAM's word or a broadcast arrives, and when its outputs are due.
-#   grow     of the slowest path the gate whose next larger drive takes the most negative slack away for its area, until there is
-#            none left or no such gate
+#   grow     of the slowest path the gate whose larger drive takes the most negative slack away for its area, until no slack is
+#            negative, or no such gate is on the slowest PATHS, or MOST_GROWN have been enlarged
 #   shrink   the gates of `shrinkable` to the next smaller drive, if that leaves all paths met
 # `drives`: cells of one function, smallest first, by list. `blocks`: kind of a block, its instances, how many the array has of
 # it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`.
 # Prints what is another drive now, the area of it all and the slack.
 
 set PATHS 100
+set MOST_GROWN 500
 
 proc index_drives {} {
   foreach family $::drives {
@@ -53,31 +54,37 @@ proc growable {path} {
   return $found
 }
 
-# The best gate to grow, and to what, on the slowest path where growing one helps; nothing if there is none on the slowest
-# PATHS.
-proc best_growth {} {
+# The best gate to grow on a path, what it is and what it shall be; nothing if none helps.
+proc best_of_path {path} {
   set before [total_negative_slack]
-  set tried {}
   set best 0
-  foreach path [find_timing_paths -path_delay max -group_count $::PATHS] {
-    if {[get_property $path slack] >= 0} { continue }
-    foreach gate [growable $path] {
-      if {$gate in $tried} { continue }
-      lappend tried $gate
-      set cells [instances {*}$gate]
-      set now [get_property [lindex $cells 0] ref_name]
-      for {set next $::larger($now)} {$next ne ""} {set next $::larger($next)} {
-        resize_to $cells $next
-        set gain [expr {[total_negative_slack] - $before}]
-        set area [added_area $gate $now $next]
-        if {$gain > 1e-5 && $gain / $area > $best} {
-          set best [expr {$gain / $area}]
-          set choice [list $gate $now $next]
-        }
+  set choice {}
+  foreach gate [growable $path] {
+    set cells [instances {*}$gate]
+    set now [get_property [lindex $cells 0] ref_name]
+    for {set next $::larger($now)} {$next ne ""} {set next $::larger($next)} {
+      resize_to $cells $next
+      set gain [expr {[total_negative_slack] - $before}]
+      set worth [expr {$gain / [added_area $gate $now $next]}]
+      if {$gain > 1e-5 && $worth > $best} {
+        set best $worth
+        set choice [list $gate $now $next]
       }
-      resize_to $cells $now
     }
-    if {$best > 0} { return $choice }
+    resize_to $cells $now
+  }
+  return $choice
+}
+
+# That of the slowest path where there is one. OpenSTA keeps the memory of all paths that it ever found, so the slowest
+# alone is looked at first.
+proc best_growth {} {
+  foreach count [list 1 $::PATHS] {
+    foreach path [find_timing_paths -path_delay max -group_count $count] {
+      if {[get_property $path slack] >= 0} { continue }
+      set choice [best_of_path $path]
+      if {$choice ne ""} { return $choice }
+    }
   }
 }
 
@@ -94,7 +101,7 @@ proc resize {} {
   uplevel #0 source $::margins
   set resized [dict create]
   set area 0
-  while {[total_negative_slack] < 0} {
+  for {set grown 0} {$grown < $::MOST_GROWN && [total_negative_slack] < 0} {incr grown} {
     lassign [best_growth] gate now next
     if {$gate eq ""} { break }
     resize_to [instances {*}$gate] $next
