@@ -19,7 +19,7 @@ from .run import BOTH_CORNERS, Result, Technology, input_digest, run
 
 @dataclass(frozen=True)
 class Job:
-    """`most_attempts` 1: only the area counts, whether timing closes or not."""
+    """`most_attempts` 1: the first mapping stands, whether timing closes or not."""
 
     configuration: Configuration
     corners: tuple[str, ...] = BOTH_CORNERS

@@ -165,8 +165,9 @@ def simulate(configuration: Configuration, technology: Technology, folder: Path,
     """The small array through the flow, and its activity."""
     case = small_case(configuration, seed)
     elaborate(case.configuration, technology, folder)
-    choose = unsearched_effort if configuration.is_pool else lambda item: efforts(item)[0]
-    design = map_to_cells(case.configuration, technology, folder, choose(case.configuration))
+    # A search over names of a pool read-out's engine and pair would take longer than the simulation.
+    effort = unsearched_effort(configuration) if configuration.is_pool else efforts(configuration)[0]
+    design = map_to_cells(case.configuration, technology, folder, effort)
     floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
     _write_verilog(design, technology, folder, "static", case.name)
     return design, count_activity(design, case, technology, folder, klux)

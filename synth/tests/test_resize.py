@@ -69,11 +69,15 @@ class Resize(unittest.TestCase):
         circuit = design()
         period = 3.0 - self.slack(circuit, 3.0) - 0.05
         self.assertLess(self.slack(circuit, period), 0)
-        found = self.sta(circuit, period, "resize").resized
-        self.assertEqual([(kind, gate) for kind, gate, _ in found], [("a_pair", "driver")])
-        netlist.resize(circuit, self.library, found)
-        self.assertNotEqual(circuit["modules"]["a_pair"]["cells"]["driver"]["type"], "INV_X1")
-        self.assertGreaterEqual(self.slack(circuit, period), 0)
+        report = self.sta(circuit, period, "resize")
+        self.assertEqual([(kind, gate) for kind, gate, _ in report.resized], [("a_pair", "driver")])
+        netlist.resize(circuit, self.library, report.resized)
+        drive = circuit["modules"]["a_pair"]["cells"]["driver"]["type"]
+        self.assertNotEqual(drive, "INV_X1")
+        # What the step says of its result is what the circuit has when it is read anew.
+        self.assertGreaterEqual(report.resized_slack, 0)
+        self.assertAlmostEqual(report.resized_slack, self.slack(circuit, period), delta=1e-6)
+        self.assertAlmostEqual(report.resized_area, COPIES * (self.library.area[drive] - self.library.area["INV_X1"]), delta=1e-6)
 
     def test_what_no_gate_mends_is_left(self):
         circuit = design()
