@@ -87,8 +87,8 @@ pulse-widths: study
 	@scripts/pulse_widths.py $(DTOF_STUDY) --seed $(SEED)
 	@scripts/publish.py pulse_widths
 
-video: study
-	@$(DTOF_STUDY) video --scene room planes clutter poles --frames 10 -k 50 --seed $(SEED) --out build/video
+video: build
+	@$(DTOF) video --scene room planes clutter poles --motion still pan roll object cut light --frames 10 -k 50 --seed $(SEED) --out build/video
 	@scripts/publish.py video
 
 real-data: study

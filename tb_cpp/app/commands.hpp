@@ -11,12 +11,13 @@ class App;
 
 namespace dtof {
 
-/// dtof: frames and recordings through the read-outs.
+/// dtof: frames, videos and recordings through the read-outs.
 Program dtof_program();
 
 /// Each adds its subcommand; `command_line` as in Program.
 void add_frame_command(CLI::App& app, const std::string& command_line);
 void add_replay_command(CLI::App& app, const std::string& command_line);
+void add_video_command(CLI::App& app, const std::string& command_line);
 void add_sensor_command(CLI::App& app);
 void add_list_command(CLI::App& app);
 

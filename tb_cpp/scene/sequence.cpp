@@ -45,12 +45,12 @@ void validate(const Sequence& sequence, int frame) {
   if (!std::isfinite(sequence.speed) || sequence.speed <= 0.0) {
     throw InputError(fmt::format("the speed must be above 0, not {}", sequence.speed));
   }
-  const bool room = sequence.scene == Scene::kRoom;
-  if (!room && (sequence.motion == Motion::kRoll || sequence.motion == Motion::kObject)) {
+  if (!has_motion(sequence.scene, sequence.motion)) {
     throw InputError(fmt::format("motion {} is one of the room, not of scene {}",
                                  motion_name(sequence.motion), scene_name(sequence.scene)));
   }
-  if (!room && sequence.motion == Motion::kPan && sequence.speed != std::floor(sequence.speed)) {
+  if (sequence.scene != Scene::kRoom && sequence.motion == Motion::kPan &&
+      sequence.speed != std::floor(sequence.speed)) {
     throw InputError(fmt::format("scene {} pans by whole columns per frame, not by {}",
                                  scene_name(sequence.scene), sequence.speed));
   }
@@ -114,6 +114,10 @@ TargetMap targets_of(const Sequence& sequence, int frame) {
 }  // namespace
 
 std::string_view motion_name(Motion motion) { return description(motion).name; }
+
+bool has_motion(Scene scene, Motion motion) {
+  return scene == Scene::kRoom || (motion != Motion::kRoll && motion != Motion::kObject);
+}
 
 std::string_view motion_summary(Motion motion) { return description(motion).summary; }
 

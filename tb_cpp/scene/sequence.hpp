@@ -29,6 +29,9 @@ std::string_view motion_summary(Motion motion);
 /// Throws InputError naming the legal names.
 Motion parse_motion(std::string_view name);
 
+/// Whether there is a video of this scene with this motion.
+bool has_motion(Scene scene, Motion motion);
+
 struct Sequence {
   Scene scene = Scene::kRoom;
   SceneParameters parameters;

@@ -34,26 +34,6 @@ constexpr double kOutlier = 0.10;
 constexpr double kEdge = 0.10;
 constexpr std::uint32_t kSceneFrame = scene_frame(0);
 
-ErrorShares shares(const ErrorStatistics& statistics, double mean_square) {
-  if (statistics.count() == 0) {
-    return {};
-  }
-  const ErrorSummary summary = statistics.summary();
-  return {statistics.count(), summary.share_above_3_percent, summary.share_above_10_percent,
-          std::sqrt(mean_square)};
-}
-
-struct Collector {
-  ErrorStatistics statistics;
-  RunningMoments relative;
-
-  void add(double truth, double measured) {
-    statistics.add(truth, measured);
-    relative.add((measured - truth) / truth);
-  }
-  [[nodiscard]] ErrorShares shares() const { return dtof::shares(statistics, relative.mean_square()); }
-};
-
 struct Judged {
   double confidence;
   bool outlier;
@@ -132,11 +112,11 @@ SceneTruth scene_truth(const StudyScene& scene) {
 }
 
 SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurement) {
-  Collector all;
-  Collector edges;
-  Collector rest;
-  Collector dims;
-  Collector singles;
+  ErrorShareCounter all;
+  ErrorShareCounter edges;
+  ErrorShareCounter rest;
+  ErrorShareCounter dims;
+  ErrorShareCounter singles;
   std::vector<Judged> judged;
   for (std::size_t i = 0; i < truth.distance_m.size(); ++i) {
     const double distance = truth.distance_m[i];

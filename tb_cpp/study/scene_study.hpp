@@ -11,6 +11,7 @@
 #include "frame/flat_calibration.hpp"
 #include "host/range_converter.hpp"
 #include "metrics/depth.hpp"
+#include "metrics/error_shares.hpp"
 #include "photon/sensor_model.hpp"
 #include "photon/target_map.hpp"
 
@@ -32,13 +33,6 @@ int picked_column(const StudyScene& scene, int index);
 struct SceneMeasurement {
   std::vector<double> distance_m;  ///< index = row * columns + column read
   std::vector<double> confidence;
-};
-
-struct ErrorShares {
-  std::uint64_t pixels = 0;
-  double above_3_percent = 0.0;   ///< share of pixels
-  double above_10_percent = 0.0;  ///< share of pixels
-  double rmse = 0.0;              ///< of the relative error
 };
 
 struct SceneScore {

@@ -26,7 +26,6 @@ Program study_program() {
         add_sensor_effects_command(app, command_line);
         add_speed_error_command(app, command_line);
         add_fidelity_command(app, command_line);
-        add_video_command(app, command_line);
         add_enlarge_command(app, command_line);
       }};
 }

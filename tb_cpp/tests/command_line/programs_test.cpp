@@ -29,6 +29,7 @@ namespace dtof {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct Outcome {
   int exit_code;
@@ -37,9 +38,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 12> kStudies = {
+  constexpr std::array<std::string_view, 11> kStudies = {
       "claims",    "enlarge", "accuracy", "coverage",       "fidelity",    "measured",
-      "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error", "video"};
+      "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -652,9 +653,19 @@ TEST_F(Programs, VideoReadsItsDefaultReadoutsAndWritesItsReportAndPictures) {
       "video --motion still light --frames 2 --array-columns 34 --array-rows 8 --acquisitions 300 --out out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("poolPointer 2, prior"));
-  for (const char* file : {"video.csv", "video.md", "room_still.svg", "room_light.svg"}) {
+  for (const char* file : {"video.csv", "video.md", "room_still.svg", "room_light.svg",
+                           "room_still_depth.png", "room_light_depth.png"}) {
     EXPECT_TRUE(std::filesystem::exists(path("out") + "/" + file)) << file;
   }
+  const Outcome without = dtof(
+      "video --readout hispointer --frames 2 --array-columns 8 --array-rows 8 --acquisitions 300 --out out2");
+  EXPECT_EQ(without.exit_code, 0) << without.output;
+  EXPECT_THAT(without.output, Not(HasSubstr("prior")));
+  expect_refused("video --scene planes --motion roll --out out3", "roll and object are motions of the room");
+  expect_refused("video --motion spin --out out3", "unknown motion 'spin'");
+  expect_refused("video --frames 1 --out out3", "--frames");
+  expect_refused("video --fidelity fast --out out3", "videos are drawn with exact photons");
+  EXPECT_FALSE(std::filesystem::exists(path("out3")));
 }
 
 TEST_F(Programs, ClaimsWritesItsReportAndPictures) {

@@ -1,23 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "app/commands.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
+#include "report/colour_png.hpp"
 #include "report/plot.hpp"
 #include "report/table.hpp"
-#include "study/video_study.hpp"
-#include "study_app/commands.hpp"
+#include "video/video_reader.hpp"
 
 namespace dtof {
 namespace {
@@ -26,7 +32,7 @@ struct VideoOptions {
   ReadoutOptions readout;
   SensorOptions sensor;
   std::vector<std::string> scenes = {"room"};
-  std::vector<std::string> motions = {"still", "pan", "roll", "object", "cut", "light"};
+  std::vector<std::string> motions = {"pan"};
   int frames = 16;
   double speed = 2.0;
   int columns = 200;
@@ -44,6 +50,12 @@ struct Video {
 
   [[nodiscard]] std::string name() const {
     return fmt::format("{}_{}", scene_name(sequence.scene), motion_name(sequence.motion));
+  }
+  /// For titles: "room, pan, 14 klux".
+  [[nodiscard]] std::string description() const {
+    return fmt::format(
+        "{}, {}, {}", scene_name(sequence.scene), motion_name(sequence.motion),
+        sequence.motion == Motion::kLight ? "2 to 50 klux" : fmt::format("{:g} klux", sequence.klux));
   }
   /// Of the frames from `first` to before `end`.
   [[nodiscard]] ErrorShares of(std::size_t estimator, int first, int end) const {
@@ -174,21 +186,70 @@ void write_picture(const std::filesystem::path& path, const Video& video,
     }
     series.push_back(std::move(line));
   }
-  const std::string light = video.sequence.motion == Motion::kLight
-                                ? "2 to 50 klux"
-                                : fmt::format("{:g} klux", video.sequence.klux);
-  write_plot(path, series,
-             {.title = fmt::format("Pixels above 3 % in % per frame: {}, {}, {}, sensor {}",
-                                   scene_name(video.sequence.scene), motion_name(video.sequence.motion),
-                                   light, sensor),
-              .x_label = "frame",
-              .y_label = "above 3 %, %",
-              .logarithmic_y = true});
+  write_plot(
+      path, series,
+      {.title = fmt::format("Pixels above 3 % in % per frame: {}, sensor {}", video.description(), sensor),
+       .x_label = "frame",
+       .y_label = "above 3 %, %",
+       .logarithmic_y = true});
 }
 
-bool has_motion(Scene scene, Motion motion) {
-  return scene == Scene::kRoom || (motion != Motion::kRoll && motion != Motion::kObject);
-}
+/// Frames whose depth maps are drawn: the first, the middle and the last.
+class DepthSheet {
+ public:
+  DepthSheet(int frames, const std::vector<std::string>& estimators)
+      : shown_{0, frames / 2, frames - 1}, estimators_(estimators) {
+    const auto repeated = std::ranges::unique(shown_);
+    shown_.erase(repeated.begin(), repeated.end());
+    panels_.resize((estimators.size() + 1) * shown_.size());
+  }
+
+  void add(int frame, const VideoFrame& seen) {
+    for (std::size_t place = 0; place < shown_.size(); ++place) {
+      if (shown_[place] == frame) {
+        add_panel(place, 0, "true depth", frame, seen, [&](int column, int row) {
+          const PixelTarget& target = seen.targets.at(column, row);
+          return target.returns_signal() ? target.depth_m : 0.0;
+        });
+        for (std::size_t e = 0; e < estimators_.size(); ++e) {
+          add_panel(place, e + 1, estimators_[e], frame, seen, [&](int column, int row) {
+            return seen.distance_m[e][static_cast<std::size_t>(row) *
+                                          static_cast<std::size_t>(seen.targets.columns()) +
+                                      static_cast<std::size_t>(column)];
+          });
+        }
+      }
+    }
+  }
+
+  void write(const std::filesystem::path& path, const std::string& title, const std::string& caption) const {
+    const auto truth = std::span(panels_).first(shown_.size());
+    write_map_picture(path, panels_,
+                      {.title = title,
+                       .caption = caption,
+                       .panels_per_row = static_cast<int>(shown_.size()),
+                       .pixel_size = panels_.front().image.width >= 100 ? 1 : 0,
+                       .depth_range = depth_range(truth)});
+  }
+
+ private:
+  template <typename Depth>
+  void add_panel(std::size_t place, std::size_t line, const std::string& name, int frame,
+                 const VideoFrame& seen, Depth depth) {
+    MapPanel& panel = panels_[line * shown_.size() + place];
+    panel.label = fmt::format("{}, frame {}", name, frame + 1);
+    panel.image = {seen.targets.columns(), seen.targets.rows(), {}};
+    for (int row = 0; row < panel.image.height; ++row) {
+      for (int column = 0; column < panel.image.width; ++column) {
+        panel.image.metres.push_back(static_cast<float>(depth(column, row)));
+      }
+    }
+  }
+
+  std::vector<int> shown_;
+  std::vector<MapPanel> panels_;
+  const std::vector<std::string>& estimators_;
+};
 
 void run_video_command(const VideoOptions& options) {
   const std::vector<ReadoutParameters> readouts =
@@ -213,34 +274,39 @@ void run_video_command(const VideoOptions& options) {
     }
   }
   if (videos.empty()) {
-    throw InputError("video: none of the scenes has one of the motions");
+    throw InputError(fmt::format("video: roll and object are motions of the room, not of {}",
+                                 fmt::join(options.scenes, ", ")));
   }
-  const VideoStudy study(sensor, readouts, options.sensor.klux, options.seed, options.threads);
-  const std::vector<std::string>& estimators = study.estimators();
+  const VideoReader reader(sensor, readouts, options.sensor.klux, options.seed, options.threads);
+  const std::vector<std::string>& estimators = reader.estimators();
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
   Progress progress("frames", videos.size() * static_cast<std::size_t>(options.frames));
   for (Video& video : videos) {
-    video.shares = study.measure(video.sequence, &progress);
+    DepthSheet sheet(options.frames, estimators);
+    video.shares = reader.read(video.sequence, &progress,
+                               [&](int frame, const VideoFrame& seen) { sheet.add(frame, seen); });
     write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor.name);
+    sheet.write(folder / fmt::format("{}_depth.png", video.name()),
+                fmt::format("Depth in m: {}, sensor {}", video.description(), sensor.name),
+                options.command_line);
   }
-  const auto pool2 =
-      std::ranges::find(estimators, readout_title(Readout::kPoolPointer2)) - estimators.begin();
-  const std::string tables = fmt::format(
-      "## Frames behind the first: above 3 % / above 10 %, per cent of pixels\n\n{}\n"
-      "## What the prior changes\n\n{}",
-      overview(videos, estimators).markdown(),
-      prior_table(videos, static_cast<std::size_t>(pool2), estimators.size() - 1).markdown());
+  std::string tables =
+      fmt::format("## Frames behind the first: above 3 % / above 10 %, per cent of pixels\n\n{}",
+                  overview(videos, estimators).markdown());
   std::string report = fmt::format(
       "# Videos\n\nEvery frame has photons of its own; {} frames, sensor {}, {:g} klux unless the light "
-      "changes, seed {}. "
-      "Each read-out has a look-up table fitted at {:g} klux. With the prior poolPointer 2 begins a frame "
-      "from the "
-      "candidates that were used in the last one ([poolpointer2.md](../../docs/reference/poolpointer2.md)); "
-      "the "
-      "others read "
-      "each frame on its own.\n\nMotions, {:g} columns, degrees or centimetres per frame:\n\n",
-      options.frames, sensor.name, options.sensor.klux, options.seed, options.sensor.klux, options.speed);
+      "changes, seed {}. Each read-out has a look-up table fitted at {:g} klux and reads each frame on its "
+      "own",
+      options.frames, sensor.name, options.sensor.klux, options.seed, options.sensor.klux);
+  if (const std::optional<std::size_t> without = reader.without_prior()) {
+    tables += fmt::format("\n## What the prior changes\n\n{}",
+                          prior_table(videos, *without, estimators.size() - 1).markdown());
+    report +=
+        "; with the prior poolPointer 2 begins a frame from the candidates that were used in the last one "
+        "(`docs/reference/poolpointer2.md`)";
+  }
+  report += fmt::format(".\n\nMotions, {:g} columns, degrees or centimetres per frame:\n\n", options.speed);
   for (const std::string& motion : options.motions) {
     report += fmt::format("* {}: {}.\n", motion, motion_summary(parse_motion(motion)));
   }
@@ -261,8 +327,9 @@ void add_video_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<VideoOptions>();
   options->command_line = command_line;
   options->readout.readouts = "hispointer,coarsehistogram,poolpointer2";
-  CLI::App* command = app.add_subcommand(
-      "video", "Read-outs on videos: accuracy from frame to frame, and what the last frame tells the next");
+  CLI::App* command = app.add_subcommand("video",
+                                         "Read videos out with the models: accuracy from frame to frame, and "
+                                         "what the last frame tells the next");
   command->add_option("--scene", options->scenes, "scenes of `dtof list`, one or more")
       ->capture_default_str();
   command
