@@ -39,7 +39,7 @@ struct Outcome {
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
   constexpr std::array<std::string_view, 11> kStudies = {
-      "claims",    "enlarge", "accuracy", "coverage",       "fidelity",    "measured",
+      "claims",    "enlarge", "accuracy", "coverage",       "fidelity",   "measured",
       "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
