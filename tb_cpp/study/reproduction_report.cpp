@@ -30,14 +30,6 @@ std::string slope_cell(const AccuracyPoint& p) {
   return p.slope ? fmt::format("{:.2f}", p.slope->value) : "-";
 }
 
-std::string quoted(const std::string& cell) {
-  std::string doubled;
-  for (const char c : cell) {
-    doubled += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return fmt::format("\"{}\"", doubled);
-}
-
 std::string verdict_word(Verdict verdict) { return std::string(verdict_text(verdict)); }
 
 /// "a, b", or "none".
@@ -96,8 +88,7 @@ class Rendering {
     for (const JudgedStatement& statement : judged_statements(r_)) {
       const std::string agrees = verdict_word(statement.judgement.verdict);
       table.add({statement.place, statement.text, statement.rule, agrees, statement.judgement.here});
-      csv.add({quoted(statement.place), quoted(statement.text), quoted(statement.rule), agrees,
-               quoted(statement.judgement.here)});
+      csv.add({statement.place, statement.text, statement.rule, agrees, statement.judgement.here});
       ++verdicts[static_cast<std::size_t>(statement.judgement.verdict)];
     }
     report_.statements_csv = csv.csv();

@@ -128,6 +128,13 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;  // a mismatch does not print the whole report
 }
 
+// README's words on pile-up are read from this file by the statement's name.
+TEST(ReproductionReport, StatementsAreQuotedOnceInTheCsv) {
+  const std::string csv = render_reproduction(figures()).statements_csv;
+  EXPECT_THAT(csv, HasSubstr("\nFig. 2.4,\"pile-up takes counts and narrows the pulse, at 0.2 m more than"));
+  EXPECT_THAT(csv, testing::Not(HasSubstr("\"\"\"")));
+}
+
 struct Change {
   const char* what;
   void (*change)(Reproduction&);
