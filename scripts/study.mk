@@ -88,7 +88,7 @@ pulse-widths: study
 	@scripts/publish.py pulse_widths
 
 video: build
-	@$(DTOF) video --scene room planes clutter poles --motion still pan roll object cut light --frames 10 -k 50 --seed $(SEED) --out build/video
+	@$(DTOF) video --scene room planes clutter poles --motion still pan roll object cut light --frames 10 -k 50 --seed $(SEED) --seeds 4 --out build/video
 	@scripts/publish.py video
 
 real-data: study

@@ -20,6 +20,7 @@
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
+#include "metrics/confidence_interval.hpp"
 #include "report/colour_png.hpp"
 #include "report/plot.hpp"
 #include "report/table.hpp"
@@ -38,15 +39,16 @@ struct VideoOptions {
   int columns = 200;
   int rows = 160;
   std::uint64_t seed = 1;
+  int seeds = 1;
   int threads = 0;
   std::string out = "build/video";
   std::string command_line;
 };
 
-/// One video, read out.
+/// One video, read out with each seed: other photons, and other shapes where the scene has random ones.
 struct Video {
-  Sequence sequence;
-  std::vector<std::vector<ErrorShares>> shares;  ///< frame, estimator
+  Sequence sequence;                                          ///< of the first seed
+  std::vector<std::vector<std::vector<ErrorShares>>> shares;  ///< seed, frame, estimator
 
   [[nodiscard]] std::string name() const {
     return fmt::format("{}_{}", scene_name(sequence.scene), motion_name(sequence.motion));
@@ -57,18 +59,38 @@ struct Video {
         "{}, {}, {}", scene_name(sequence.scene), motion_name(sequence.motion),
         sequence.motion == Motion::kLight ? "2 to 50 klux" : fmt::format("{:g} klux", sequence.klux));
   }
-  /// Of the frames from `first` to before `end`.
-  [[nodiscard]] ErrorShares of(std::size_t estimator, int first, int end) const {
-    std::vector<ErrorShares> frames;
-    for (int frame = first; frame < end; ++frame) {
-      frames.push_back(shares[static_cast<std::size_t>(frame)][estimator]);
+  /// Of the frames from `first` to before `end`, for each seed.
+  [[nodiscard]] std::vector<ErrorShares> of(std::size_t estimator, int first, int end) const {
+    std::vector<ErrorShares> seeds;
+    for (const auto& of_seed : shares) {
+      std::vector<ErrorShares> frames;
+      for (int frame = first; frame < end; ++frame) {
+        frames.push_back(of_seed[static_cast<std::size_t>(frame)][estimator]);
+      }
+      seeds.push_back(pooled(frames));
     }
-    return pooled(frames);
+    return seeds;
   }
 };
 
-std::string change(double before, double after) {
-  return before > 0.0 ? fmt::format("{:+.1f} %", 100.0 * (after / before - 1.0)) : "-";
+/// How much a share changes, in per cent, with its 95 % interval where there are several seeds: from the
+/// spread of the differences, for both see the same photons.
+std::string change(std::span<const ErrorShares> before, std::span<const ErrorShares> after,
+                   double ErrorShares::*share) {
+  const double whole = pooled(before).*share;
+  if (whole <= 0.0) {
+    return "-";
+  }
+  std::string text = fmt::format("{:+.1f}", 100.0 * (pooled(after).*share / whole - 1.0));
+  if (before.size() > 1) {
+    std::vector<double> differences;
+    for (std::size_t seed = 0; seed < before.size(); ++seed) {
+      differences.push_back(after[seed].*share - before[seed].*share);
+    }
+    const Interval interval = estimate_mean(differences).interval;
+    text += fmt::format(" +-{:.1f}", 100.0 * 0.5 * (interval.high - interval.low) / whole);
+  }
+  return text + " %";
 }
 
 /// Every estimator's shares over a video's frames behind the first, which has no frame before it.
@@ -80,7 +102,7 @@ Table overview(const std::vector<Video>& videos, const std::vector<std::string>&
     std::vector<std::string> row = {std::string(scene_name(video.sequence.scene)),
                                     std::string(motion_name(video.sequence.motion))};
     for (std::size_t e = 0; e < estimators.size(); ++e) {
-      const ErrorShares shares = video.of(e, 1, video.sequence.frames);
+      const ErrorShares shares = pooled(video.of(e, 1, video.sequence.frames));
       row.push_back(
           fmt::format("{:.2f} / {:.2f}", 100.0 * shares.above_3_percent, 100.0 * shares.above_10_percent));
     }
@@ -115,12 +137,14 @@ Table prior_table(const std::vector<Video>& videos, std::size_t without, std::si
   Table table({"scene", "motion", "frames", "above 3 %", "with prior", "change", "above 10 %", "with prior",
                "change"});
   const auto add = [&](const std::string& scene, Motion motion, const std::string& frames,
-                       const ErrorShares& a, const ErrorShares& b) {
-    table.add(
-        {scene, std::string(motion_name(motion)), frames, fmt::format("{:.3f}", 100.0 * a.above_3_percent),
-         fmt::format("{:.3f}", 100.0 * b.above_3_percent), change(a.above_3_percent, b.above_3_percent),
-         fmt::format("{:.3f}", 100.0 * a.above_10_percent), fmt::format("{:.3f}", 100.0 * b.above_10_percent),
-         change(a.above_10_percent, b.above_10_percent)});
+                       std::span<const ErrorShares> a, std::span<const ErrorShares> b) {
+    std::vector<std::string> row = {scene, std::string(motion_name(motion)), frames};
+    for (const auto share : {&ErrorShares::above_3_percent, &ErrorShares::above_10_percent}) {
+      row.push_back(fmt::format("{:.3f}", 100.0 * (pooled(a).*share)));
+      row.push_back(fmt::format("{:.3f}", 100.0 * (pooled(b).*share)));
+      row.push_back(change(a, b, share));
+    }
+    table.add(std::move(row));
   };
   std::vector<Motion> motions;
   for (const Video& video : videos) {
@@ -144,13 +168,18 @@ Table prior_table(const std::vector<Video>& videos, std::size_t without, std::si
       continue;
     }
     for (const Span& span : judged_spans(those.front()->sequence)) {
-      std::vector<ErrorShares> a;
-      std::vector<ErrorShares> b;
-      for (const Video* video : those) {
-        a.push_back(video->of(without, span.first, span.end));
-        b.push_back(video->of(with, span.first, span.end));
-      }
-      add("all", motion, span.name, pooled(a), pooled(b));
+      const auto together = [&](std::size_t estimator) {
+        std::vector<ErrorShares> seeds(those.front()->shares.size());
+        for (std::size_t seed = 0; seed < seeds.size(); ++seed) {
+          std::vector<ErrorShares> scenes;
+          for (const Video* video : those) {
+            scenes.push_back(video->of(estimator, span.first, span.end)[seed]);
+          }
+          seeds[seed] = pooled(scenes);
+        }
+        return seeds;
+      };
+      add("all", motion, span.name, together(without), together(with));
     }
   }
   return table;
@@ -160,10 +189,10 @@ Table frames_csv(const std::vector<Video>& videos, const std::vector<std::string
   Table table({"scene", "motion", "frame", "klux", "estimator", "pixels", "above_3_percent",
                "above_10_percent", "relative_rmse"});
   for (const Video& video : videos) {
-    for (std::size_t frame = 0; frame < video.shares.size(); ++frame) {
-      const double klux = sequence_frame(video.sequence, static_cast<int>(frame)).klux;
+    for (int frame = 0; frame < video.sequence.frames; ++frame) {
+      const double klux = sequence_frame(video.sequence, frame).klux;
       for (std::size_t e = 0; e < estimators.size(); ++e) {
-        const ErrorShares& shares = video.shares[frame][e];
+        const ErrorShares shares = pooled(video.of(e, frame, frame + 1));
         table.add({std::string(scene_name(video.sequence.scene)),
                    std::string(motion_name(video.sequence.motion)), fmt::format("{}", frame + 1),
                    fmt::format("{:.4g}", klux), estimators[e], fmt::format("{}", shares.pixels),
@@ -180,9 +209,9 @@ void write_picture(const std::filesystem::path& path, const Video& video,
   std::vector<PlotSeries> series;
   for (std::size_t e = 0; e < estimators.size(); ++e) {
     PlotSeries line{estimators[e], {}, {}};
-    for (std::size_t frame = 0; frame < video.shares.size(); ++frame) {
-      line.x.push_back(static_cast<double>(frame + 1));
-      line.y.push_back(100.0 * video.shares[frame][e].above_3_percent);
+    for (int frame = 0; frame < video.sequence.frames; ++frame) {
+      line.x.push_back(frame + 1);
+      line.y.push_back(100.0 * pooled(video.of(e, frame, frame + 1)).above_3_percent);
     }
     series.push_back(std::move(line));
   }
@@ -277,15 +306,28 @@ void run_video_command(const VideoOptions& options) {
     throw InputError(fmt::format("video: roll and object are motions of the room, not of {}",
                                  fmt::join(options.scenes, ", ")));
   }
-  const VideoReader reader(sensor, readouts, options.sensor.klux, options.seed, options.threads);
+  std::vector<VideoReader> readers;
+  for (int number = 0; number < options.seeds; ++number) {
+    readers.emplace_back(sensor, readouts, options.sensor.klux,
+                         options.seed + static_cast<std::uint64_t>(number), options.threads);
+  }
+  const VideoReader& reader = readers.front();
   const std::vector<std::string>& estimators = reader.estimators();
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
-  Progress progress("frames", videos.size() * static_cast<std::size_t>(options.frames));
+  Progress progress("frames", videos.size() * readers.size() * static_cast<std::size_t>(options.frames));
   for (Video& video : videos) {
     DepthSheet sheet(options.frames, estimators);
-    video.shares = reader.read(video.sequence, &progress,
-                               [&](int frame, const VideoFrame& seen) { sheet.add(frame, seen); });
+    for (const VideoReader& with_seed : readers) {
+      Sequence sequence = video.sequence;
+      sequence.parameters.seed += video.shares.size();
+      const bool first = video.shares.empty();
+      video.shares.push_back(with_seed.read(sequence, &progress, [&](int frame, const VideoFrame& seen) {
+        if (first) {
+          sheet.add(frame, seen);
+        }
+      }));
+    }
     write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor.name);
     sheet.write(folder / fmt::format("{}_depth.png", video.name()),
                 fmt::format("Depth in m: {}, sensor {}", video.description(), sensor.name),
@@ -294,17 +336,26 @@ void run_video_command(const VideoOptions& options) {
   std::string tables =
       fmt::format("## Frames behind the first: above 3 % / above 10 %, per cent of pixels\n\n{}",
                   overview(videos, estimators).markdown());
+  const std::string seeds = options.seeds == 1
+                                ? fmt::format("seed {}", options.seed)
+                                : fmt::format("seeds {} to {}", options.seed,
+                                              options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
   std::string report = fmt::format(
       "# Videos\n\nEvery frame has photons of its own; {} frames, sensor {}, {:g} klux unless the light "
-      "changes, seed {}. Each read-out has a look-up table fitted at {:g} klux and reads each frame on its "
+      "changes, {}. Each read-out has a look-up table fitted at {:g} klux and reads each frame on its "
       "own",
-      options.frames, sensor.name, options.sensor.klux, options.seed, options.sensor.klux);
+      options.frames, sensor.name, options.sensor.klux, seeds, options.sensor.klux);
   if (const std::optional<std::size_t> without = reader.without_prior()) {
     tables += fmt::format("\n## What the prior changes\n\n{}",
                           prior_table(videos, *without, estimators.size() - 1).markdown());
     report +=
         "; with the prior poolPointer 2 begins a frame from the candidates that were used in the last one "
         "(`docs/reference/poolpointer2.md`)";
+  }
+  if (options.seeds > 1) {
+    report +=
+        ". Seeds differ in photons and random shapes; +- is half of a change's 95 % interval, from their "
+        "spread";
   }
   report += fmt::format(".\n\nMotions, {:g} columns, degrees or centimetres per frame:\n\n", options.speed);
   for (const std::string& motion : options.motions) {
@@ -318,7 +369,7 @@ void run_video_command(const VideoOptions& options) {
   report += fmt::format("\nCommand: `{}`\n", options.command_line);
   write_file(folder / "video.csv", frames_csv(videos, estimators).csv());
   write_file(folder / "video.md", report);
-  fmt::print("{}\nSeed {}. Written to {}\n", tables, options.seed, (folder / "video.md").string());
+  fmt::print("{}\nWith {}. Written to {}\n", tables, seeds, (folder / "video.md").string());
 }
 
 }  // namespace
@@ -338,6 +389,11 @@ void add_video_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("--frames", options->frames, "frames of each video")
       ->check(CLI::Range(2, 10'000))
+      ->capture_default_str();
+  command
+      ->add_option("--seeds", options->seeds,
+                   "seeds, from the first one up; with several, changes have intervals")
+      ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--speed", options->speed, "columns, degrees or centimetres per frame")
       ->check(CLI::PositiveNumber)

@@ -657,6 +657,11 @@ TEST_F(Programs, VideoReadsItsDefaultReadoutsAndWritesItsReportAndPictures) {
                            "room_still_depth.png", "room_light_depth.png"}) {
     EXPECT_TRUE(std::filesystem::exists(path("out") + "/" + file)) << file;
   }
+  EXPECT_THAT(outcome.output, Not(HasSubstr("+-")));
+  const Outcome seeds = dtof(
+      "video --motion still --frames 2 --array-columns 34 --array-rows 32 --klux 80 --acquisitions 300 "
+      "--seeds 2 --out out");
+  EXPECT_THAT(seeds.output, HasSubstr("+-")) << "of two seeds a change has an interval";
   const Outcome without = dtof(
       "video --readout hispointer --frames 2 --array-columns 8 --array-rows 8 --acquisitions 300 --out out2");
   EXPECT_EQ(without.exit_code, 0) << without.output;
