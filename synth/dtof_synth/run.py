@@ -11,7 +11,8 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from . import clock_gating, floorplan, netlist, power, spef, sram_kit, sram_model, standard_cells, timing, tools, verilog
+from . import (clock_gating, floorplan, netlist, power, same_logic, spef, sram_kit, sram_model, standard_cells, timing, tools,
+               verilog)
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
@@ -224,14 +225,16 @@ class _Netlist:
     configuration: Configuration
     technology: Technology
     folder: Path
+    mapped: same_logic.Logic  # before trees, copies, hold buffers and other drives
+    called: dict[str, dict[str, str]] = field(default_factory=dict)  # what cells were called before `prepare`
 
     def prepare(self, loads: dict[str, list[float]]) -> None:
         """Puts stubs in place of columns; writes the stub's Liberty and what cells were called."""
         self.folder.mkdir(exist_ok=True)
         netlist.keep_columns(self.design, KEPT_COLUMNS)
-        called = spef.plain_names(self.design)
-        self.plan.rename(called[self.configuration.top])
-        names = {plain: name for before in called.values() for plain, name in before.items()}
+        self.called.update(spef.plain_names(self.design))
+        self.plan.rename(self.called[self.configuration.top])
+        names = {plain: name for before in self.called.values() for plain, name in before.items()}
         (self.folder / timing.NAMES).write_text(json.dumps(names), encoding="utf-8")
         self.write_stub(loads)
         self.write(WIRES)
@@ -297,6 +300,13 @@ class _Netlist:
             self.write(WIRES)
         return report.margin()
 
+    def check_logic(self) -> None:
+        """FlowError unless the design computes what was mapped."""
+        try:
+            same_logic.check(self.mapped, same_logic.of(self.design, self.technology.slow, self.called))
+        except FlowError as error:
+            raise FlowError(f"{self.configuration.name}: {error}") from None
+
     def counts(self) -> tuple[Counts, Counts, Counts]:
         """Of a column module, of everything shared, of the engines in it."""
         library = self.technology.slow
@@ -352,12 +362,13 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
              known: Naming | None = None) -> _Attempt:
     design = map_to_cells(configuration, technology, folder, efforts(configuration)[number], known)
     library = technology.slow
+    mapped = same_logic.of(design, library)
     loads, plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration.module_columns)
     try:
         floorplan.check_borders(design, library)
     except FlowError as error:
         raise FlowError(f"{configuration.name}: {error}") from None
-    timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}")
+    timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}", mapped)
     timed.prepare(loads)
     return _timed(timed, _found_naming(folder, number, digest))
 
@@ -401,6 +412,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         margins = {"slow": slow.margin(), "fast": fast}
     else:
         slow = timed.time("slow", "nominal", "closing")
+    timed.check_logic()
     column_module, shared, engines = timed.counts()
     modules = configuration.column_modules
     macros = modules * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))

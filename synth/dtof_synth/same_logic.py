@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the steps behind mapping may change: they put in buffers and copies of registers, and give cells other drives.
+Everything else of the netlist that is counted and timed must be as it was mapped, and as `make sim-netlist` simulates it.
+
+A module's logic is, for each cell that is no buffer, what it computes and where each of its inputs comes from once buffers
+are looked through and a copied register stands for its original; and the same for each output of the module.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from . import netlist
+from .errors import FlowError
+from .library import Library
+from .netlist import COPY_SUFFIX, STUB, Module
+
+Source = tuple[str, ...]
+Logic = dict[str, dict[str, tuple]]  # of each module: what its cells and outputs are, by name
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """One module. `name_of`: what a cell was called when it was mapped."""
+
+    module: Module
+    library: Library
+    name_of: Callable[[str], str]
+    family: Mapping[str, str]
+    column: str
+
+    def _original(self, cell: str) -> str:
+        """What a cell is a copy of, or itself."""
+        return re.sub(rf"{COPY_SUFFIX}\d+$", "", self.name_of(cell))
+
+    def read(self) -> dict[str, tuple]:
+        buffers = {buffer.name for buffer in self.library.buffers}
+        passed: dict[int, object] = {}  # what a buffer's output repeats
+        source: dict[int, Source] = {}
+        for port, description in self.module["ports"].items():
+            if description["direction"] == "input":
+                source.update((bit, ("port", port, str(index))) for index, bit in enumerate(description["bits"]))
+        for cell, description in self.module["cells"].items():
+            pins = description["connections"]
+            outputs = [pin for pin in pins if description["port_directions"].get(pin) == "output"]
+            if description["type"] in buffers:
+                inputs = next(bits for pin, bits in pins.items() if pin not in outputs)
+                passed[pins[outputs[0]][0]] = inputs[0]
+                continue
+            for pin in outputs:
+                source.update((bit, (self._original(cell), pin, str(index))) for index, bit in enumerate(pins[pin]))
+
+        def root(bit: object) -> Source:
+            while bit in passed:
+                bit = passed[bit]
+            return source.get(bit, (str(bit) if isinstance(bit, str) else "nothing",))
+
+        found: dict[str, tuple] = {}
+        for cell, description in self.module["cells"].items():
+            kind = self.column if description["type"] == STUB else description["type"]
+            if kind in buffers:
+                continue
+            original = self._original(cell)
+            inputs = tuple(sorted((pin, tuple(root(bit) for bit in bits)) for pin, bits in description["connections"].items()
+                                  if description["port_directions"].get(pin) != "output"))
+            logic = (self.family.get(kind, kind), inputs)
+            if found.setdefault(original, logic) != logic:
+                raise FlowError(f"{original} and its copy {self.name_of(cell)} do not hear the same")
+        for port, description in self.module["ports"].items():
+            if description["direction"] == "output":
+                found[f"output {port}"] = tuple(root(bit) for bit in description["bits"])
+        return found
+
+
+def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] | None = None) -> Logic:
+    """`called`: what the cells of each module were called when they were mapped, if they have other names now. FlowError if a
+    register's copy is none."""
+    family = {kind: kinds[0] for kinds in library.drives for kind in kinds}
+    column = netlist.column_module(design)
+    logic: Logic = {}
+    for name, module in netlist.modules(design).items():
+        if module["cells"]:
+            names = (called or {}).get(name, {})
+            logic[name] = _Reader(module, library, lambda cell, names=names: names.get(cell, cell), family, column).read()
+    return logic
+
+
+def check(mapped: Logic, finished: Logic) -> None:
+    """FlowError that names a difference."""
+    for module in sorted(mapped.keys() | finished.keys()):
+        before, after = mapped.get(module, {}), finished.get(module, {})
+        for name in sorted(before.keys() | after.keys()):
+            if before.get(name) != after.get(name):
+                what = "is new" if name not in before else "is gone" if name not in after else "is no longer what was mapped"
+                raise FlowError(f"{module}: {name} {what}")
