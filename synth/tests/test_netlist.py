@@ -9,6 +9,8 @@ from pathlib import Path
 from dtof_synth import netlist
 from dtof_synth.library import Buffer, Library
 
+from .small_netlists import cell
+
 
 def library() -> Library:
     buffers = [Buffer("BUF_X1", "A", "Y", 1.0, 1.0, 20.0), Buffer("BUF_X4", "A", "Y", 3.0, 2.0, 80.0)]
@@ -16,12 +18,6 @@ def library() -> Library:
                    {"BUF_X1": {"A": 1.0}, "BUF_X4": {"A": 2.0}, "DFF": {"D": 1.0, "CK": 1.0}, "INV": {"A": 1.0}},
                    {"BUF_X1": {"Y": 20.0}, "BUF_X4": {"Y": 80.0}, "DFF": {"Q": 20.0}, "INV": {"Y": 20.0}},
                    buffers, "INV", {}, 0.7, 1.5, 1.1, "", 0.5, {"DFF": 1.0}, {"DFF": 2.0})
-
-
-def cell(kind: str, inputs: dict[str, int], outputs: dict[str, int]) -> dict:
-    return {"type": kind, "parameters": {}, "attributes": {},
-            "port_directions": {**dict.fromkeys(inputs, "input"), **dict.fromkeys(outputs, "output")},
-            "connections": {pin: [bit] for pin, bit in {**inputs, **outputs}.items()}}
 
 
 def fan(sinks: int) -> dict:

@@ -9,21 +9,12 @@ from pathlib import Path
 from dtof_synth import library, netlist, standard_cells, timing, tools, verilog
 from dtof_synth.errors import FlowError
 
+from .small_netlists import cell, module
+
 ROOT = Path(__file__).resolve().parents[2]
 COPIES = 100
 LOADS = 12
 CHAIN = 4
-
-
-def cell(kind: str, inputs: dict[str, int], outputs: dict[str, int]) -> dict:
-    return {"type": kind, "attributes": {}, "parameters": {},
-            "connections": {pin: [net] for pin, net in {**inputs, **outputs}.items()},
-            "port_directions": {**dict.fromkeys(inputs, "input"), **dict.fromkeys(outputs, "output")}}
-
-
-def module(ports: dict[str, tuple[str, int]], cells: dict[str, dict], top: bool = False) -> dict:
-    return {"attributes": {"top": "1"} if top else {}, "cells": cells, "netnames": {},
-            "ports": {name: {"direction": direction, "bits": [net]} for name, (direction, net) in ports.items()}}
 
 
 def design() -> dict:

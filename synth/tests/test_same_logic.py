@@ -9,18 +9,9 @@ from pathlib import Path
 from dtof_synth import library, netlist, same_logic, spef, standard_cells
 from dtof_synth.errors import FlowError
 
+from .small_netlists import cell, module
+
 PAIRS = 5
-
-
-def cell(kind: str, inputs: dict[str, int | str], outputs: dict[str, int]) -> dict:
-    return {"type": kind, "attributes": {}, "parameters": {},
-            "connections": {pin: [net] for pin, net in {**inputs, **outputs}.items()},
-            "port_directions": {**dict.fromkeys(inputs, "input"), **dict.fromkeys(outputs, "output")}}
-
-
-def module(ports: dict[str, tuple[str, int]], cells: dict[str, dict], top: bool = False) -> dict:
-    return {"attributes": {"top": "1"} if top else {}, "cells": cells, "netnames": {},
-            "ports": {name: {"direction": direction, "bits": [net]} for name, (direction, net) in ports.items()}}
 
 
 def mapped() -> dict:

@@ -36,8 +36,8 @@ struct VideoOptions {
   std::vector<std::string> motions = {"pan"};
   int frames = 16;
   double speed = 2.0;
-  int columns = 200;
-  int rows = 160;
+  std::optional<int> columns;
+  std::optional<int> rows;
   std::uint64_t seed = 1;
   int seeds = 1;
   int threads = 0;
@@ -291,8 +291,9 @@ void run_video_command(const VideoOptions& options) {
       sequence.scene = parse_scene(scene);
       sequence.motion = parse_motion(motion);
       sequence.frames = options.frames;
-      sequence.parameters.columns = options.columns;
-      sequence.parameters.rows = options.rows;
+      sequence.parameters.columns = options.columns.value_or(sensor.columns);
+      sequence.parameters.rows = options.rows.value_or(sensor.rows);
+      sequence.parameters.reflectivity = sensor.default_reflectivity;
       sequence.parameters.seed = options.seed;
       sequence.speed = options.speed;
       sequence.klux = options.sensor.klux;
@@ -398,12 +399,10 @@ void add_video_command(CLI::App& app, const std::string& command_line) {
   command->add_option("--speed", options->speed, "columns, degrees or centimetres per frame")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  command->add_option("--array-columns", options->columns, "columns of the array")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
-  command->add_option("--array-rows", options->rows, "rows of the array")
-      ->check(CLI::Range(1, 4096))
-      ->capture_default_str();
+  command->add_option("--array-columns", options->columns, "columns of the array (default: the sensor's)")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--array-rows", options->rows, "rows of the array (default: the sensor's)")
+      ->check(CLI::Range(1, 4096));
   options->sensor.add_to(*command);
   options->readout.add_to(*command);
   add_study_options(*command, options->seed, options->threads, options->out);
