@@ -68,7 +68,7 @@ module dtof_array_bench #(
       .gate_begin_i   (NP'(gate_begin)),
       .gate_end_i     (NP'(gate_end)),
       .raw_i          (1'b0),
-      .raw_first_row_i({ROW_WIDTH{1'b0}}),
+      .raw_first_row_i({ROW_WIDTH{1'b1}}),  // illegal, but raw_i is low
       .raw_last_row_i ({ROW_WIDTH{1'b0}}),
       .busy_o         (rtl[TDATA_WIDTH+7]),
       .done_o         (rtl[TDATA_WIDTH+6]),
@@ -95,7 +95,7 @@ module dtof_array_bench #(
       .gate_begin_i   (NP'(gate_begin)),
       .gate_end_i     (NP'(gate_end)),
       .raw_i          (1'b0),
-      .raw_first_row_i({ROW_WIDTH{1'b0}}),
+      .raw_first_row_i({ROW_WIDTH{1'b1}}),  // illegal, but raw_i is low
       .raw_last_row_i ({ROW_WIDTH{1'b0}}),
       .busy_o         (netlist[TDATA_WIDTH+7]),
       .done_o         (netlist[TDATA_WIDTH+6]),

@@ -17,7 +17,7 @@ module pool_pointer2_array_bench #(
     parameter int CELL_SHIFT = 9,
     parameter int TIME_GATE = 0,  // the vectors have no gate
     parameter int SECOND_TARGET = 0,  // the vectors have one target
-    parameter int PRIOR = 0,  // the vectors' frames begin from nothing
+    parameter int PRIOR = 0,
     parameter int ENGINE_COLUMNS = 2,
     parameter int ACQ_WIDTH = 16,
     parameter int BROADCAST_STAGES = 2,
@@ -73,7 +73,7 @@ module pool_pointer2_array_bench #(
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
-      .prior_i        (1'b0),
+      .prior_i        (settings[1]),
       .busy_o         (rtl[TDATA_WIDTH+7]),
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
@@ -101,7 +101,7 @@ module pool_pointer2_array_bench #(
       .coarse_end_i   (coarse_end),
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
-      .prior_i        (1'b0),
+      .prior_i        (settings[1]),
       .busy_o         (netlist[TDATA_WIDTH+7]),
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),

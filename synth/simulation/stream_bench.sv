@@ -5,8 +5,9 @@
 // Driven: pauses between acquisitions with X on the timestamps, back-pressure, start pulses while busy, X on the
 // settings unless a frame starts, a reset at a random clock of a frame that has run before.
 // Checked: results against the model's in the order of the stream, AXI4-Stream rules, handshake, no X on a control
-// output after the first reset, no X on a valid result, and with COMPARE every output of the netlist wherever the
-// RTL's is not X.
+// output after the first reset, no X on a valid result, an error for each start while busy and none else, the SRAMs'
+// side band, which the bench gives the start pulse and the stand-ins answer with, and with COMPARE every output of the
+// netlist wherever the RTL's is not X.
 module stream_bench #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 3,
@@ -59,13 +60,14 @@ module stream_bench #(
 
   // Outputs, of the RTL and of the netlist.
 
-  logic busy, done, tdc_ready, tvalid, tlast;
+  logic [dtof_pkg::ERROR_WIDTH-1:0] error, wanted_error;
+  logic sram_cfg, busy, done, tdc_ready, tvalid, tlast;
   logic [2:0] state;
   logic [TDATA_WIDTH-1:0] tdata;
   logic netlist_tvalid, netlist_tlast;
   logic [TDATA_WIDTH-1:0] netlist_tdata;
 
-  assign {busy, done, state, tdc_ready, tvalid, tlast, tdata} = rtl_i;
+  assign {error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata} = rtl_i;
   assign {netlist_tvalid, netlist_tlast, netlist_tdata} = netlist_i[TDATA_WIDTH+1:0];
 
   // Random numbers (xorshift), the same in every simulator.
@@ -169,6 +171,15 @@ module stream_bench #(
     end
   endtask
 
+  task check_side_outputs;
+    begin
+      if (error !== wanted_error || sram_cfg !== start_o) begin
+        $display("error_o %b, sram_cfg_o %b; wanted: %b, %b", error, sram_cfg, wanted_error, start_o);
+        fail;
+      end
+    end
+  endtask
+
   task check_stream;
     begin
       if (stalled && (tvalid !== 1'b1 || tdata !== held_tdata || tlast !== held_tlast)) begin
@@ -222,6 +233,7 @@ module stream_bench #(
       if (checking) begin
         check_unknown;
         check_netlist;
+        check_side_outputs;
         check_stream;
       end
     end
@@ -229,6 +241,8 @@ module stream_bench #(
 
   task step;
     begin
+      wanted_error = '0;
+      wanted_error[dtof_pkg::ERROR_START_IGNORED] = rst_no && start_o && busy;
       #1 clk_o = 1'b1;
       #2 clk_o = 1'b0;
       clocks = clocks + 1;
@@ -342,6 +356,7 @@ module stream_bench #(
       start_o = 1'b0;
       tdc_valid_o = 1'b0;
       tdc_timestamp_o = {SRAM_NUM * NP{1'bx}};
+      wanted_error = '0;
       stalled = 1'b0;
       checking = 1'b1;
       draw(3, drawn);

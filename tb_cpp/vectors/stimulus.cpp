@@ -16,6 +16,7 @@
 #include "core/random.hpp"
 #include "photon/photon_source.hpp"
 #include "readout/model.hpp"
+#include "readout/pool_pointer2.hpp"
 #include "sensor/preset.hpp"
 #include "tests/readout/test_streams.hpp"
 
@@ -118,10 +119,24 @@ void write_timestamps(fmt::ostream& file, const ArrayParameters& array, std::spa
   }
 }
 
-void write_results(fmt::ostream& file, const ArrayParameters& array, std::span<const ColumnStream> columns,
+using Results = std::vector<std::vector<PixelResult>>;  ///< column, row
+
+Results results_of(const ArrayParameters& array, std::span<const ColumnStream> columns,
                    std::uint32_t acquisitions) {
-  const std::vector<std::vector<PixelResult>> results =
-      make_readout_model(array.readout)->run_columns(columns, acquisitions);
+  return make_readout_model(array.readout)->run_columns(columns, acquisitions);
+}
+
+/// Of an array with PRIOR = 1; `priors` is what the frame begins from, and then what it leaves.
+Results results_of(const ArrayParameters& array, std::span<const ColumnStream> columns,
+                   std::uint32_t acquisitions, std::vector<PoolPrior>& priors) {
+  const auto column = [&](int index) -> const ColumnStream& {
+    return columns[static_cast<std::size_t>(index)];
+  };
+  return run_pool_pointer2(array.columns, column, array.readout.np, acquisitions,
+                           pool_pointer2_parameters(array.readout), &priors);
+}
+
+void write_results(fmt::ostream& file, const ArrayParameters& array, const Results& results) {
   for (int row = 0; row < array.rows; ++row) {
     for (const std::vector<PixelResult>& column : results) {
       const PixelResult& result = column[static_cast<std::size_t>(row)];
@@ -146,11 +161,11 @@ class VectorFiles {
 
   void write(const ArrayParameters& array, std::uint32_t acquisitions,
              const std::array<std::uint32_t, 3>& settings, int pause, int stall, bool reset,
-             std::span<const ColumnStream> columns) {
+             std::span<const ColumnStream> columns, const Results& results) {
     frames_->print("{} {} {} {} {} {} {}\n", acquisitions, settings[0], settings[1], settings[2], pause,
                    stall, reset ? 1 : 0);
     write_timestamps(*timestamps_, array, columns, acquisitions);
-    write_results(*results_, array, columns, acquisitions);
+    write_results(*results_, array, results);
   }
 
  private:
@@ -158,6 +173,8 @@ class VectorFiles {
   std::optional<fmt::ostream> timestamps_;
   std::optional<fmt::ostream> results_;
 };
+
+constexpr std::uint32_t kPriorSetting = 2;  // beside S1's switch
 
 /// The third is S1's switch.
 std::array<std::uint32_t, 3> schedule_settings(const ReadoutParameters& readout, std::uint32_t acquisitions) {
@@ -174,6 +191,8 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
   CounterRandom random(seed, static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0, 0);
   VectorFiles files(folder);
   ArrayParameters frame_array = array;
+  const bool has_prior = is_pool_readout(array.readout.readout) && array.readout.pool.prior;
+  std::vector<PoolPrior> priors;
   std::size_t kind = 0;
   for (const std::uint32_t acquisitions : frames) {
     std::array<std::uint32_t, 3> settings{};
@@ -190,9 +209,25 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
                           ? kPauses[static_cast<std::size_t>(pick(random, kPauses.size()))]
                           : kPauses[1];
     const int stall = kStalls[static_cast<std::size_t>(pick(random, kStalls.size()))];
-    const bool reset = acquisitions >= kShortestFrameToReset && acquisitions < kLongFrame;
-    files.write(frame_array, acquisitions, settings, pause, stall, reset,
-                make_columns(frame_array, acquisitions, kind, random));
+    bool reset = acquisitions >= kShortestFrameToReset && acquisitions < kLongFrame;
+    const std::vector<ColumnStream> columns = make_columns(frame_array, acquisitions, kind, random);
+    if (!has_prior) {
+      files.write(frame_array, acquisitions, settings, pause, stall, reset, columns,
+                  results_of(frame_array, columns, acquisitions));
+      continue;
+    }
+    // After a reset there is no last frame.
+    reset = reset && pick(random, 3) == 0;
+    if (pick(random, 4) == 0) {
+      priors.clear();
+    } else {
+      settings[2] |= kPriorSetting;
+    }
+    files.write(frame_array, acquisitions, settings, pause, stall, reset, columns,
+                results_of(frame_array, columns, acquisitions, priors));
+    if (reset) {
+      priors.clear();
+    }
   }
 }
 
@@ -224,7 +259,8 @@ void write_scene_vectors(const ArrayParameters& array, Scene scene, double klux,
     } else if (array.readout.time_gate) {
       settings = {0, static_cast<std::uint32_t>(array.readout.code_count() - 1), 0};
     }
-    files.write(array, acquisitions, settings, 0, 0, false, columns);
+    files.write(array, acquisitions, settings, 0, 0, false, columns,
+                results_of(array, columns, acquisitions));
   }
 }
 

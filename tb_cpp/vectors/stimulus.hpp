@@ -11,11 +11,10 @@
 namespace dtof {
 
 /// Writes what a test bench drives and expects, for one frame after the other:
-///   frames.txt      a line per frame: acquisitions, three settings (gate begin, gate end, 0, or the schedule
-///   of a
-///                   pool read-out: coarse_end, track_end, S1), per cent of clocks in which the
-///                   source pauses between acquisitions, per cent of clocks in which the sink stalls, 1 if
-///                   the frame is then run again and reset on the way
+///   frames.txt      a line per frame: acquisitions, three settings (gate begin, gate end, 0, or of
+///                   a pool read-out coarse_end, track_end, 1 for S1 plus 2 for the prior), per cent of
+///                   clocks in which the source pauses between acquisitions, per cent of clocks in which the
+///                   sink stalls, 1 if the frame is then run again and reset on the way
 ///   timestamps.hex  a line per clock of an acquisition: the timestamps of all columns, column 0 in the
 ///   lowest bits results.hex     a line per pixel, row by row: code, fraction, confidence, four digits each
 /// Every pixel gets another kind of adversarial stream; every second column of a pool read-out sees one
