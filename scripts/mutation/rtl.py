@@ -54,6 +54,10 @@ MORE_PARAMETERS = {
     ],
     "pifh": [{"NP": 6, "NB": 3, "PIXELS_PER_SRAM": 3, "SRAM_NUM": 3, "SLOTS": 3, "COUNT_WIDTH": 3}],
     "histogram": [{"NP": 4, "NB": 4, "PIXELS_PER_SRAM": 7, "SRAM_NUM": 3, "SLOTS": 4, "COUNT_WIDTH": 4}],
+    "coarsehistogram": [
+        {"NP": 8, "PIXELS_PER_SRAM": 9, "SRAM_NUM": 2, "SLOTS": 2, "COUNT_WIDTH": 4},
+        {"NP": 8, "PIXELS_PER_SRAM": 3, "SRAM_NUM": 3, "SLOTS": 2, "COUNT_WIDTH": 5, "RAW_HISTOGRAM": 1},
+    ],
     "poolpointer2": [
         {"PIXELS_PER_SRAM": 11, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "SLOTS": 3, "LABELS": 6, "SCORE_BITS": 3,
          "OFFSET_BITS": 0, "POINTER_SHIFT": 2},
@@ -70,6 +74,8 @@ LONG_FRAME = {
     "poolpointer2": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
     "poolpointer2_lean": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
 }
+# A frame that ends while poolPointer 2's pointers have steps that only the dither makes whole.
+DITHERED_FRAME = 900
 # Quick frames of the pool read-outs, tried first: a group and a pixel, one engine.
 FIRST_POOL = {"poolpointer2": 5, "poolpointer2_lean": 9}
 
@@ -85,6 +91,8 @@ def cases(seed: int) -> list[simulation.Case]:
         for number, parameters in enumerate(variants, 1):
             other = named[name].with_parameters(name, **{**SMALLEST_GUARD.get(named[name].top, {}), **parameters})
             found.append(simulation.Case(other, (60, 0, 1, 2, 90), seed, part=f"other parameters {number}"))
+    dithered = named["poolpointer2"].with_parameters("poolpointer2", SRAM_NUM=2, PIXELS_PER_SRAM=3, ENGINE_COLUMNS=2)
+    found.append(simulation.Case(dithered, (DITHERED_FRAME,), seed, part="dithered steps"))
     for name, size in LONG_FRAME.items():
         long = named[name].with_parameters(name, **size)
         found.append(simulation.Case(long, (simulation.LONG_FRAME,), seed, part="long frame"))
