@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
-# make pool       poolPointer 2 with and without S1 beside the matched filters, four seeds (half an hour)
+# make pool       poolPointer 2 with and without S1 beside the matched filters, with and without look-up tables, four
+#                 seeds (an hour)
 # make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
 # make rivals     the project's read-outs beside those that others have proposed, four seeds (half an hour); RIVAL_COLUMNS
 #                 is how many columns of each map are judged
@@ -46,7 +47,8 @@ pool: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --before reports/pool_before.csv --seed $(SEED) --out build/pool; \
-	  scripts/publish.py pool; \
+	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --table none --seed $(SEED) --out build/pool_without_table; \
+	  scripts/publish.py pool pool_without_table; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/pool_synthetic"; \
 	  $(DTOF_STUDY) pool --held-out --before reports/pool_before.csv --seed $(SEED) --out build/pool_synthetic; \

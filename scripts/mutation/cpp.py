@@ -131,7 +131,8 @@ class Build:
 
     def _refused(self, output: str, schemata: Mapping[str, Schemata]) -> set[Mutant]:
         """The mutants that the compiler's errors name; those in its notes if no error names one."""
-        place = re.compile(r"\.\./tree/([^:\s]+):(\d+)(?::\d+)?:?( error)?")
+        # Sources that are compiled together (unity builds) have whole paths.
+        place = re.compile(rf"(?:\.\.|{re.escape(str(self.tree.parent))})/tree/([^:\s]+):(\d+)(?::\d+)?:?( error)?")
         named: dict[bool, set[Mutant]] = {True: set(), False: set()}
         for match in place.finditer(output):
             file, line, error = match.groups()

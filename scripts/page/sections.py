@@ -70,6 +70,8 @@ LISTED = (
     Report("pool", "poolPointer 2 on scenes", "pool", "pool.md", "pool/pool.md",
            says="with and without its last smoothing, beside full histograms, over four seeds",
            with_it=(("pool/pool.csv", "pool.csv"),)),
+    Report("pool_without_table", "poolPointer 2 on scenes, without look-up tables", "pool", "pool_without_table.md",
+           "pool_without_table/pool.md", says="the same by Eq. 3.11 alone"),
     Report("rivals", "Read-outs and their rivals", "rivals", "rivals.md", "rivals/report.md",
            "what others have proposed on the same photons: accuracy over memory, area and host work, and which read-out for "
            "which sensor", with_it=(("rivals/rivals.csv", "rivals.csv"), ("rivals/rival_hardware.csv", "rival_hardware.csv"))),
