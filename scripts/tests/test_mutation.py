@@ -109,6 +109,16 @@ class Drawing(unittest.TestCase):
         self.assertEqual(len(selection.mutants), 3)
         self.assertNotIn(before[0], selection.mutants)
 
+    def test_refused_mutants_are_found_where_the_compiler_writes_whole_paths(self):
+        mutants = cpp_operators.mutants("sample.cpp", CPP_SAMPLE)
+        schemata = with_mutants(CPP_SAMPLE, {mutants[0]: 1})
+        line = min(schemata.lines[mutants[0]])
+        build = object.__new__(cpp.Build)
+        build.tree = Path("/some/where/tree")
+        for folder in ("..", "/some/where"):
+            said = f"{folder}/tree/sample.cpp:{line}:9: error: expected ';'"
+            self.assertEqual(build._refused(said, {"sample.cpp": schemata}), {mutants[0]}, folder)
+
 
 TESTED = """// SPDX-License-Identifier: Apache-2.0
 constexpr int kStep = 2;
