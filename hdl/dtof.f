@@ -56,6 +56,7 @@ column/coarse_histogram_column.sv
 // end of columns
 column/pool2_column.sv
 column/pool2_pair.sv
+column/pool2_quad.sv
 top/dtof_array.sv
 top/pool_pointer2_array.sv
 subsystem/line_buffer.sv

@@ -49,6 +49,7 @@ column/partitioned_histogram_column.sv
 column/coarse_histogram_column.sv
 column/pool2_column.sv
 column/pool2_pair.sv
+column/pool2_quad.sv
 top/dtof_array.sv
 top/pool_pointer2_array.sv
 subsystem/line_buffer.sv

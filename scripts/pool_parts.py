@@ -31,16 +31,16 @@ class Part:
 
 
 PARTS = (
-    Part("pair", "u_timestamp_input", "which timestamps are detections, and the registers in which they wait"),
-    Part("pair", "u_label_match", "track: which candidates a timestamp is near"),
-    Part("pair", "u_track_update", "track: scores, leader, its offset",
+    Part("quad", "u_timestamp_input", "which timestamps are detections, and the registers in which they wait"),
+    Part("quad", "u_label_match", "track: which candidates a timestamp is near"),
+    Part("quad", "u_track_update", "track: scores, leader, its offset",
          (("an offset of 2 bits instead of 6", "OFFSET_BITS=2"),)),
-    Part("pair", "u_pixel_distance", "track and point: distances to the leader and the rival"),
-    Part("pair", "u_pointer_update", "point: moves and the advantage"),
-    Part("pair", "u_column", "timestamps: which one counts"),
-    Part("pair", "u_pixel_update", "track and point: registers between distance and next word"),
-    Part("pair", "", "coarse histogram, words of the SRAM, whose turn it is"),
-    Part("pair", "SRAM", "pixels and groups"),
+    Part("quad", "u_pixel_distance", "track and point: distances to the leader and the rival"),
+    Part("quad", "u_pointer_update", "point: moves and the advantage"),
+    Part("quad", "u_column", "timestamps: which one counts"),
+    Part("quad", "u_pixel_update", "track and point: registers between distance and next word"),
+    Part("quad", "", "coarse histogram, words of the SRAM, whose turn it is"),
+    Part("quad", "SRAM", "pixels and groups"),
     Part("engine", "u_candidate_decoder", "decode: candidates from five groups' histograms",
          (("the four groups around (weight 64 for the own)", "OWN_WEIGHT=64"), ("the cost of later candidates", "LABEL_COST_SLOPE=0"))),
     Part("engine", "u_beside_evidence", "choose: what the columns beside say",
@@ -91,7 +91,7 @@ def report(found: dict[tuple[str, str], dict[str, float]], shares: dict[tuple[st
     total = {name: sum(figures[name] for figures in found.values()) for name in ("area_um2", "day_mw", "dusk_mw")}
     lines = ["# What the parts of poolPointer 2 cost and bring", "",
              f"Written by `make pool-parts`, seed {seed}. Area and power while acquisitions stream in, of the whole array of 200 columns: "
-             "an engine and a pair of columns mapped with their modules kept, simulated on the scene `room` by day (50 klux) and "
+             "an engine and the four columns of an SRAM mapped with their modules kept, simulated on the scene `room` by day (50 klux) and "
              "at dusk (2 klux) as in [power.md](power.md). Logic is not shared across the modules' borders, and trees, repeaters, "
              "hold buffers, border registers and control are not in it, so that the sum is another than "
              "[area.md](area.md)'s; it compares parts.", "",

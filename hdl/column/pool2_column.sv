@@ -43,9 +43,7 @@ module pool2_column #(
     output logic                    detected_t2_o,     // it has a timestamp
     output logic [          NP-1:0] used_t2_o,         // the one that counts
     output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
-    // coarse bin of the timestamp that counts: at T2 of the second pixel, and registered
-    output logic                    valid_t2_o,
-    output logic [COARSE_WIDTH-1:0] bin_t2_o,
+    // coarse bin of the timestamp that counts, registered: of the first pixel, then of the two
     output logic                    held_valid_o,
     output logic [COARSE_WIDTH-1:0] held_bin_o
 );
@@ -149,16 +147,12 @@ module pool2_column #(
   assign detected_t1_o = has_first;
   assign detected_t2_o = has_first_q;
   assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
-  assign valid_t2_o = has_first_q || held_valid_q;
-  assign bin_t2_o = (held_valid_q && !(odd_q && has_first_q)) ? held_bin_q : bin;
 
+  // The second pixel replaces the first where that has no timestamp, or in its turn.
   always_ff @(posedge clk_i) begin
-    if (first_row_t2_i) begin
+    if (first_row_t2_i || (second_row_t2_i && has_first_q && (odd_q || !held_valid_q))) begin
       held_valid_q <= has_first_q;
       held_bin_q <= bin;
-    end else if (second_row_t2_i) begin
-      held_valid_q <= valid_t2_o;
-      held_bin_q <= bin_t2_o;
     end
   end
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: one or two columns and their single-port SRAM. A word has two halves: those of the two columns, each with
-// two pixels; or two groups; or, in the coarse phase, a part of a group's bins, for both columns count in one histogram.
+// poolPointer 2: one or two columns with their part of an SRAM's word, which they share with the pair beside (pool2_quad). The
+// part has two halves: those of the two columns, each with two pixels; or two groups; or, in the coarse phase, a part of a
+// group's bins, for both columns count in one histogram.
 //
-// All accesses are common to all pairs but those of the coarse phase, where each pair counts in a word of its own
-// choice. Each column counts one timestamp of two pixels, the second column two clocks behind the first:
-//   clock (T0: last slot of the pair of pixels)   T2     T3          T4            T5            T6       T7
-//   first column                                  read   registered  counted       written
-//   second column                                                    read          registered    counted  written
-// A count in the word of the count before goes on with the register, whose write may be still to come.
+// All accesses are common to all pairs, in all phases. In the coarse phase a column chooses a timestamp of each two rows, and
+// both columns' count in each part of the group's bins, if they belong there, two bins in a clock:
+//   clock (T0: last slot of the two rows)   T2            T3          T4                    T5
+//   first part                              read          registered  counted and written
+//   second part                                           read        registered            counted and written
+// With LINE_HALVES = 2 there are four parts, and the accesses of two rows do not suffice. Four rows count together:
+//   clock (T0: last slot of the four rows)  T2            T3          T4                    T5
+//   first part                              read          registered  first two rows count  last two rows count, written
+//   next part                                                         read                  registered
 //
 // In the other phases the columns' pixels of a row are worked on one after the other by one pool2_pixel_update:
 //   clock (T0: last slot of a row)   T2               T3                  T4
@@ -19,24 +23,22 @@
 // Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
 // of an engine's pairs are combined by OR from pair to pair (beside_word_i), so that no wire is longer than a pair. The low half
 // is the half that was asked for. Where eight bins need both halves, its high half is the word's. The engine writes one half;
-// the other half is written with it:
+// the other half, and the part of the pair beside, are written with it:
 //   clock after read_i   1                                               2
 //                        registered, the engine's word for the half      written
 //                        that was asked for (replace_i)
 //
-// Everything that is written stands in the word's register before, but for a row's last pixel. What comes into a bit from
-// elsewhere than the SRAM (a count, a pixel, the engine's word) comes at different times, and is 0 at all others, so that an
-// OR will do.
+// Everything that is written stands in the word's register before, but for a row's last pixel and the counts of the last rows.
+// What comes into a bit from elsewhere than the SRAM (counts, a pixel, the engine's word) comes at different times, and is 0
+// at all others, so that an OR will do.
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
 module pool2_pair #(
     parameter int COLUMNS = 2,  // 1 for the last one of an odd number
     parameter int NP = 10,
-    parameter int PIXELS_PER_SRAM = 160,
     parameter int SLOTS = 2,
     parameter int COUNT_WIDTH = 7,
-    parameter int GROUP_SIZE = 4,
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
@@ -52,15 +54,9 @@ module pool2_pair #(
     localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int WORD_WIDTH = 2 * HALF_WIDTH,
-    localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
-    localparam int DEPTH = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
-    localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH)
+    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES)
 ) (
     input  logic                  clk_i,
-    input  logic                  rst_ni,
-    // side band of the SRAM macros, which the technology folder gives a meaning
-    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
-    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic [COLUMNS*NP-1:0] timestamp_i,
     input  logic [        NP-1:0] gate_begin_i,     // time gate, the same for a whole frame
     input  logic [        NP-1:0] gate_end_i,
@@ -77,14 +73,17 @@ module pool2_pair #(
     input  logic                  second_row_t2_i,
     input  logic [           3:0] acquisition_t2_i,
     // coarse
-    input  logic                  second_column_i,   // with read_i: it is the second column's turn
-    input  logic                  fresh_i,           // with read_i: the first count of a group
-    input  logic                  load_i,            // a clock after read_i
-    input  logic                  count_i,           // two clocks after read_i
+    input  logic                  keep_first_i,      // four parts: what the first two of four rows have chosen is registered
+    input  logic                  keep_last_i,       // what the last two rows have chosen is
+    input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
+                                                     // first two, and then the last two
+    input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
     // SRAM
     input  logic                  read_i,
-    input  logic                  write_i,
-    input  logic [ADDR_WIDTH-1:0] address_i,
+    input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
+    input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
+    output logic                  write_o,           // with write_i: there is something to write
+    output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
     input  logic                  group_load_i,      // the group read last clock
     input  logic                  group_upper_i,     // with group_load_i: it is the word's upper half
@@ -102,8 +101,7 @@ module pool2_pair #(
 
   localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
   localparam int HALF_BINS = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES;
-  localparam int PLACE_WIDTH = $clog2(2 * HALF_BINS);  // of a bin in a word
-  localparam int GROUP_WORD_WIDTH = COARSE_WIDTH - PLACE_WIDTH;  // of a word in a group
+  localparam int PLACE_WIDTH = COARSE_WIDTH - PART_WIDTH;  // of a bin in a word
   localparam int LAST = COLUMNS - 1;
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
   localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
@@ -112,71 +110,112 @@ module pool2_pair #(
   localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
   localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH);
-  localparam bit ONE_WORD = PIXELS_PER_SRAM <= 2;  // it stays in the register for a whole phase
 
-  logic [WORD_WIDTH-1:0] read_data, write_data, word_q;
-  logic [COLUMNS-1:0] detected_t1, detected_t2, valid_t2, held_valid;
-  logic [COLUMNS*COARSE_WIDTH-1:0] bin_t2, held_bin;
-  logic read, write;
-  logic [ADDR_WIDTH-1:0] address;
+  logic [WORD_WIDTH-1:0] word_q;
+  logic [COLUMNS-1:0] detected_t1, detected_t2, held_valid;
+  logic [COLUMNS*COARSE_WIDTH-1:0] held_bin;
 
-  dtof_sram #(
-      .PORTS(1),
-      .DEPTH(DEPTH),
-      .WIDTH(WORD_WIDTH)
-  ) u_sram (
-      .clk_i       (clk_i),
-      .rst_ni      (rst_ni),
-      .cfg_i       (sram_cfg_i),
-      .cfg_o       (sram_cfg_o),
-      .read_en_i   (read),
-      .read_addr_i (address),
-      .read_data_o (read_data),
-      .write_en_i  (write),
-      .write_addr_i(address),
-      .write_data_i(write_data)
-  );
+  // Coarse: what the columns have chosen, {bin, valid} of each. Two bins count at a time, which may be the same one. Nothing
+  // is counted in other clocks, so that the word stays as it is.
 
-  // Coarse: the count under way.
+  localparam int CHOICE_WIDTH = COARSE_WIDTH + 1;
+  logic [2*CHOICE_WIDTH-1:0] chosen, last_q, counted;
+  logic count_q, counts_first, counts_now, counts, counted_before;
+  logic [PART_WIDTH-1:0] part_q;
+  logic [1:0] counts_here;
+  logic [WORD_WIDTH-1:0] counted_word;
 
-  logic [COARSE_WIDTH-1:0] bin;
-  logic bin_valid, same_word, fetch, pending_q, load_q, counted_q, write_q;
-  logic [GROUP_WORD_WIDTH-1:0] group_word, group_word_q, write_group_word_q;
-  logic [PLACE_WIDTH-1:0] place_q;
-  logic [COUNT_WIDTH-1:0] count, next_count;
-
-  assign bin = second_column_i ? held_bin[LAST*COARSE_WIDTH+:COARSE_WIDTH] : bin_t2[COARSE_WIDTH-1:0];
-  assign bin_valid = second_column_i ? (COLUMNS > 1) && held_valid[LAST] : valid_t2[0];
-  assign same_word = counted_q && !fresh_i && (bin[COARSE_WIDTH-1:PLACE_WIDTH] == group_word_q);
-  assign fetch = coarse_i && read_i && bin_valid;
+  assign counts = (counts_here != '0);
 
   always_ff @(posedge clk_i) begin
-    if (read_i || engine_i) begin
-      pending_q <= fetch;
-      load_q <= fetch && !same_word;
-      counted_q <= coarse_i && (fetch || (counted_q && !fresh_i));
+    count_q <= load_i;
+    if (load_i) begin
+      part_q <= part_i;
     end
-    if (fetch) begin
-      {group_word_q, place_q} <= bin;
-    end
-    if (count_i) begin
-      write_q <= pending_q;
-      write_group_word_q <= group_word_q;
+    if (keep_last_i) begin
+      last_q <= chosen;
     end
   end
 
-  assign next_count = (&count) ? count : count + COUNT_WIDTH'(pending_q);
-
-  // One place at most, and none while nothing is counted, so that the count rests then.
-  logic [2*HALF_BINS-1:0] counts_here;
-  integer b;
-  always_comb begin
-    count = '0;
-    for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin
-      counts_here[b] = pending_q && (place_q == PLACE_WIDTH'(b));
-      count = count | (word_q[(b/HALF_BINS)*HALF_WIDTH+(b%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] & {COUNT_WIDTH{counts_here[b]}});
+  generate
+    if (COLUMNS == 2) begin : g_both_choose
+      assign chosen = {held_bin[COARSE_WIDTH+:COARSE_WIDTH], held_valid[1], held_bin[COARSE_WIDTH-1:0], held_valid[0]};
+    end else begin : g_one_chooses
+      assign chosen = {{CHOICE_WIDTH{1'b0}}, held_bin, held_valid};
     end
-  end
+
+    if (PART_WIDTH == 1) begin : g_two_parts
+      assign counted = last_q;
+      assign counts_first = 1'b0;
+      assign counts_now = count_q;
+      assign counted_before = 1'b0;
+      logic unused_first;
+      assign unused_first = keep_first_i;
+    end else begin : g_four_parts
+      // The next four rows' first choices come before these have counted in all parts.
+      logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q;
+      logic count_last_q, counted_q;
+      assign counted = count_last_q ? last_q : first_q;
+      assign counts_first = count_q;
+      assign counts_now = count_q || count_last_q;
+      assign counted_before = counted_q;
+      always_ff @(posedge clk_i) begin
+        count_last_q <= count_q;
+        if (keep_first_i) begin
+          waiting_q <= chosen;
+        end
+        if (keep_last_i) begin
+          first_q <= waiting_q;
+        end
+        if (count_q) begin
+          counted_q <= counts;
+        end
+      end
+    end
+  endgenerate
+
+  function automatic logic [COUNT_WIDTH-1:0] plus(input logic [COUNT_WIDTH-1:0] count, input logic one, input logic two);
+    logic carry;
+    integer i;
+    carry = one && !(&count);
+    plus[0] = (count[0] ^ carry) || (two && (&count[COUNT_WIDTH-1:1]));
+    carry = (count[0] && carry) || (two && !(&count[COUNT_WIDTH-1:1]));
+    for (i = 1; i < COUNT_WIDTH; i = i + 1) begin
+      plus[i] = count[i] ^ carry;
+      carry = count[i] && carry;
+    end
+  endfunction
+
+  genvar d;
+  generate
+    for (d = 0; d < 2; d = d + 1) begin : g_choice
+      logic valid;
+      logic [PART_WIDTH-1:0] part;
+      logic [PLACE_WIDTH-1:0] place;
+      assign {part, place, valid} = counted[d*CHOICE_WIDTH+:CHOICE_WIDTH];
+      assign counts_here[d] = counts_now && valid && (part == part_q);
+    end
+  endgenerate
+
+  genvar b;
+  generate
+    for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
+      localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
+      logic first_counts, second_counts;
+      assign first_counts = counts_here[0] && (g_choice[0].place == PLACE_WIDTH'(b));
+      assign second_counts = counts_here[1] && (g_choice[1].place == PLACE_WIDTH'(b));
+      assign counted_word[FIRST+:COUNT_WIDTH] =
+          plus(word_q[FIRST+:COUNT_WIDTH], first_counts ^ second_counts, first_counts && second_counts);
+    end
+    // Bits of a half beyond its bins.
+    for (b = 0; b < 2; b = b + 1) begin : g_rest
+      if (HALF_WIDTH > HALF_BINS * COUNT_WIDTH) begin : g_bits
+        localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
+        localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
+        assign counted_word[FIRST+:WIDTH] = word_q[FIRST+:WIDTH];
+      end
+    end
+  endgenerate
 
   // The word in work, and the group of its pixels. A word has four pixels: column c of row r is pixel 2 c + r.
 
@@ -189,14 +228,14 @@ module pool2_pair #(
   logic [1:0] visit_t1, visit_q;  // whose row is complete
   logic second_row_t1_q, visit_t2;
 
-  assign word_load = read_selected_q || word_load_q || (load_i && load_q);
+  assign word_load = engine_load_i || word_load_q || load_i;
 
   always_ff @(posedge clk_i) begin
     ahead_q <= word_load_d_i;
     word_load_q <= ahead_q;
     changed_q <= (visit_t2 && (detected_t2 != '0)) || (changed_q && !word_load_q);
     if (group_load_i) begin
-      cells_q <= group_upper_i ? read_data[HALF_WIDTH+:CELLS_WIDTH] : read_data[CELLS_WIDTH-1:0];
+      cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];
     end
     // Timestamps begin when the engine's last read is long done.
     if (engine_i) begin
@@ -212,33 +251,23 @@ module pool2_pair #(
   logic [WORD_WIDTH-1:0] fresh, from_sram, next_word;
   integer f;
   always_comb begin
-    fresh = {2{engine_word_i}};
-    for (f = 0; f < 2 * HALF_BINS; f = f + 1) begin
-      fresh[(f/HALF_BINS)*HALF_WIDTH+(f%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] =
-          fresh[(f/HALF_BINS)*HALF_WIDTH+(f%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] | next_count;
-    end
+    fresh = {2{engine_word_i}} | (counted_word & {WORD_WIDTH{counts_first}});
     for (f = 0; f < 4; f = f + 1) begin
       fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] = fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] | moved;
     end
   end
 
-  assign next_word = (read_data & from_sram) | (fresh & ~from_sram);
+  assign next_word = (read_data_i & from_sram) | (fresh & ~from_sram);
 
-  // Each bin and each pixel has an enable of its own. The last pixel of a word goes straight to the SRAM.
+  // Each pixel has an enable of its own. The last pixel of a word goes straight to the SRAM.
   integer i;
   always_ff @(posedge clk_i) begin
-    for (i = 0; i < 2 * HALF_BINS; i = i + 1) begin
-      if (count_i && counts_here[i]) begin
-        word_q[(i/HALF_BINS)*HALF_WIDTH+(i%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH] <=
-            next_word[(i/HALF_BINS)*HALF_WIDTH+(i%HALF_BINS)*COUNT_WIDTH+:COUNT_WIDTH];
-      end
-    end
-    for (i = 0; i < 4; i = i + 1) begin
-      if (move_q[i] && (i < 3 || ONE_WORD)) begin
+    for (i = 0; i < 3; i = i + 1) begin
+      if (move_q[i]) begin
         word_q[(i/2)*HALF_WIDTH+(i%2)*PIXEL_WIDTH+:PIXEL_WIDTH] <= next_word[(i/2)*HALF_WIDTH+(i%2)*PIXEL_WIDTH+:PIXEL_WIDTH];
       end
     end
-    if (word_load || clear_i) begin
+    if (word_load || clear_i || (counts_first && counts)) begin
       word_q <= next_word;
     end
   end
@@ -251,8 +280,7 @@ module pool2_pair #(
   logic [COLUMNS*LABELS-1:0] hits_t2;
   logic [NP-1:0] used_t3_q, turn_timestamp;
   logic [LABELS-1:0] hits_t3_q, turn_hits;
-  logic [PIXEL_WIDTH-1:0] first_pixel, turn_pixel;
-  logic [CELL_WIDTH-1:0] last_leader_cell_q, leader_cell;
+  logic [PIXEL_WIDTH-1:0] first_pixel_q, turn_pixel;
 
   assign visit_t1 = {2{last_slot_t1_i && !coarse_i}} & {second_row_t1_q, !second_row_t1_q};
   assign visit_t2 = visit_q[0] || visit_q[1];
@@ -261,45 +289,52 @@ module pool2_pair #(
   assign turn_timestamp = second_column_turn ? used_t3_q : used_t2[NP-1:0];
   assign turn_hits = second_column_turn ? hits_t3_q : hits_t2[LABELS-1:0];
 
-  generate
-    if (ONE_WORD) begin : g_one_word
-      assign first_pixel = word_q[PIXEL_WIDTH-1:0];
-    end else begin : g_words
-      logic [PIXEL_WIDTH-1:0] first_pixel_q;
-      always_ff @(posedge clk_i) begin
-        if (ahead_q) begin
-          first_pixel_q <= read_data[PIXEL_WIDTH-1:0];
-        end
-      end
-      assign first_pixel = first_pixel_q;
+  always_ff @(posedge clk_i) begin
+    if (ahead_q) begin
+      first_pixel_q <= read_data_i[PIXEL_WIDTH-1:0];
     end
-  endgenerate
+  end
 
-  assign turn_pixel = (first_pixel & {PIXEL_WIDTH{turn_q[0]}}) | (word_q[PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[1]}})
+  assign turn_pixel = (first_pixel_q & {PIXEL_WIDTH{turn_q[0]}}) | (word_q[PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[1]}})
       | (word_q[HALF_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[2]}})
       | (word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[3]}});
 
-  // The candidate that a word leans on. That of a word's last pixel is taken a clock before its turn, in which the next word's
-  // group may be there.
+  // The candidate that a word leans on, looked up a clock before the pixel's turn: while the word may be still to be registered,
+  // and before the next word's group takes the place of its own.
 
-  function automatic logic [CELL_WIDTH-1:0] cell_of_leader(input logic [PIXEL_WIDTH-1:0] word, input logic point,
-                                                          input logic [CELLS_WIDTH-1:0] cells);
-    logic [LABEL_WIDTH-1:0] leader;
-    leader = (RIVAL_MOVES == 0 && (point || OFFSET_BITS == 0)) ? LABEL_WIDTH'(word >> POINTER_WIDTH)
-        : (OFFSET_BITS > 0) ? LABEL_WIDTH'(word >> (LABELS * SCORE_BITS)) : '0;
-    cell_of_leader = cells[leader*CELL_WIDTH+:CELL_WIDTH];
-  endfunction
+  localparam int LEADER_FIRST = (RIVAL_MOVES == 0) ? POINTER_WIDTH : LABELS * SCORE_BITS;
+  localparam bit HAS_LEADER = (RIVAL_MOVES == 0) || (OFFSET_BITS > 0);
+  logic [3:0] turn_d;
+  logic [CELL_WIDTH-1:0] leader_cell_q;
 
-  assign leader_cell = turn_q[3] ? last_leader_cell_q : cell_of_leader(turn_pixel, point_i, cells_q);
+  assign turn_d = {visit_q & {2{(COLUMNS > 1) && detected_t2[LAST]}}, visit_t1 & {2{detected_t1[0]}}};
+
+  generate
+    if (HAS_LEADER) begin : g_leader
+      logic [4*LABEL_WIDTH-1:0] leaders;
+      logic [LABEL_WIDTH-1:0] leader;
+      assign leaders = {word_q[HALF_WIDTH+PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH],
+                        word_load_q ? read_data_i[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] : word_q[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH],
+                        word_q[PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH],
+                        ahead_q ? read_data_i[LEADER_FIRST+:LABEL_WIDTH] : first_pixel_q[LEADER_FIRST+:LABEL_WIDTH]};
+      assign leader = (leaders[LABEL_WIDTH-1:0] & {LABEL_WIDTH{turn_d[0]}}) | (leaders[LABEL_WIDTH+:LABEL_WIDTH] & {LABEL_WIDTH{turn_d[1]}})
+          | (leaders[2*LABEL_WIDTH+:LABEL_WIDTH] & {LABEL_WIDTH{turn_d[2]}}) | (leaders[3*LABEL_WIDTH+:LABEL_WIDTH] & {LABEL_WIDTH{turn_d[3]}});
+      always_ff @(posedge clk_i) begin
+        // A rival that moves has no use for candidates in the pointer phase.
+        if (turn_d != '0 && !(RIVAL_MOVES != 0 && point_i)) begin
+          leader_cell_q <= cells_q[leader*CELL_WIDTH+:CELL_WIDTH];
+        end
+      end
+    end else begin : g_no_leader
+      assign leader_cell_q = '0;
+    end
+  endgenerate
 
   always_ff @(posedge clk_i) begin
     second_row_t1_q <= second_row_t0_i;
     visit_q <= visit_t1;
-    turn_q <= {visit_q & {2{(COLUMNS > 1) && detected_t2[LAST]}}, visit_t1 & {2{detected_t1[0]}}};
+    turn_q <= turn_d;
     move_q <= turn_q;
-    if (visit_q[1]) begin
-      last_leader_cell_q <= cell_of_leader(word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH], point_i, cells_q);
-    end
     if (visit_t2) begin
       acquisition_q <= acquisition_t2_i;
       if (detected_t2[LAST]) begin
@@ -325,7 +360,7 @@ module pool2_pair #(
       .valid_i      (turn_valid),
       .timestamp_i  (turn_timestamp),
       .hits_i       (turn_hits),
-      .leader_cell_i(leader_cell),
+      .leader_cell_i(leader_cell_q),
       .word_i       (turn_pixel),
       .acquisition_i(acquisition_q),
       .word_o       (moved)
@@ -346,16 +381,13 @@ module pool2_pair #(
   genvar c;
   generate
     for (c = 0; c < 2; c = c + 1) begin : g_half
-      logic [HALF_WIDTH-1:0] half;
-      assign half = word_q[c*HALF_WIDTH+:HALF_WIDTH];
-
       if (c < COLUMNS) begin : g_column
         // The pointer's cell of the pixel at T1, which may be still to be registered.
         localparam int CELL_FIRST = POINTER_WIDTH - CELL_WIDTH;
         logic [CELL_WIDTH-1:0] pointer_cell;
-        assign pointer_cell = (ahead_q || (c == 1 && word_load_q)) ? read_data[c*HALF_WIDTH+CELL_FIRST+:CELL_WIDTH]
-            : second_row_t1_q ? half[PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH]
-            : (c == 0) ? first_pixel[CELL_FIRST+:CELL_WIDTH] : half[CELL_FIRST+:CELL_WIDTH];
+        assign pointer_cell = (ahead_q || (c == 1 && word_load_q)) ? read_data_i[c*HALF_WIDTH+CELL_FIRST+:CELL_WIDTH]
+            : second_row_t1_q ? word_q[c*HALF_WIDTH+PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH]
+            : (c == 0) ? first_pixel_q[CELL_FIRST+:CELL_WIDTH] : word_q[HALF_WIDTH+CELL_FIRST+:CELL_WIDTH];
 
         pool2_column #(
             .NP              (NP),
@@ -382,8 +414,6 @@ module pool2_pair #(
             .detected_t2_o    (detected_t2[c]),
             .used_t2_o        (used_t2[c*NP+:NP]),
             .hits_t2_o        (hits_t2[c*LABELS+:LABELS]),
-            .valid_t2_o       (valid_t2[c]),
-            .bin_t2_o         (bin_t2[c*COARSE_WIDTH+:COARSE_WIDTH]),
             .held_valid_o     (held_valid[c]),
             .held_bin_o       (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH])
         );
@@ -400,21 +430,17 @@ module pool2_pair #(
         assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = {HALF_WIDTH{word_load && !given}};
       end
 
-      // What is written: the word as it is. The last pixel is on its way.
-      assign write_data[c*HALF_WIDTH+:HALF_WIDTH] = {
-          (c == 1 && move_q[3]) ? (HALF_WIDTH - PIXEL_WIDTH)'(moved) : half[HALF_WIDTH-1:PIXEL_WIDTH], half[PIXEL_WIDTH-1:0]};
+      // What is written: the word with what is counted. The last pixel is on its way.
+      assign write_data_o[c*HALF_WIDTH+:HALF_WIDTH] = {
+          (c == 1 && move_q[3]) ? (HALF_WIDTH - PIXEL_WIDTH)'(moved) : counted_word[(c+1)*HALF_WIDTH-1:c*HALF_WIDTH+PIXEL_WIDTH],
+          counted_word[c*HALF_WIDTH+:PIXEL_WIDTH]};
     end
   endgenerate
 
-  // SRAM. In the coarse phase the common address is a group's first word. Pixels without a timestamp stay what they are, and
-  // a word of them alone is not written.
-
-  assign read = read_i && (engine_i ? select_i : (!coarse_i || (bin_valid && !same_word)));
-  assign write = write_i && (engine_i ? replaced_q : (coarse_i ? write_q : changed_q));
-  assign group_word = write_i ? write_group_word_q : bin[COARSE_WIDTH-1:PLACE_WIDTH];
-  assign address = address_i | (coarse_i ? ADDR_WIDTH'(group_word) : '0);
+  // Pixels without a timestamp stay what they are, and a word of them alone is not written, nor one in which nothing counts.
+  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts : changed_q;
 
   logic unused;
-  assign unused = ^{1'b0, valid_t2, held_valid, bin_t2, held_bin, used_i, move_q[3], detected_t1};
+  assign unused = ^{1'b0, used_i, move_q[3], detected_t1};
 
 endmodule

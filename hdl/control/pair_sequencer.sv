@@ -3,7 +3,7 @@
 // single-port SRAMs, two pixels a word, once per array.
 //
 // Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
-// before. An odd number of pixels leaves a pause of SLOTS clocks for the missing pixel of the last pair.
+// before. Where the number of rows is no multiple of four, SLOTS clocks pass for each row that is missing.
 //
 // Schedule (T0: the clock of a pixel's last slot at the port):
 //   prime   before the first acquisition of a phase: group 0's word and pair 0's are read
@@ -11,8 +11,10 @@
 //                            T2: read the next pair; the group's word is registered
 //                            T3: the next pair's first pixel is registered
 //                            T4: write the pair; the next is registered
-//   coarse phase, second pixel of a pair   T2: read, T3: registered, T4: counted, T5: write for a pair's first
-//                            column, two clocks later for its second
+//   coarse phase, second pixel of a pair, for part k of the two of a group's bins:
+//                            T2 + k: read, T3 + k: registered, T4 + k: counted and written
+//   with LINE_HALVES = 2 second pixel of a second pair, for part k of the four:
+//                            T2 + 2 k: read, T3 + 2 k: registered, T4 + 2 k: counted, T5 + 2 k: counted and written
 // SRAM commands and loads are given one clock early (_d) for the array to register and spread.
 // Cost: counters and the stage copies of the pixel number, per array.
 `include "dtof_macros.svh"
@@ -21,6 +23,8 @@ module pair_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int SLOTS = 2,
     parameter int GROUP_SIZE = 8,
+    parameter int LINE_HALVES = 1,  // halves of a word that eight bins take, 1 or 2
+    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES),
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int GROUP_WORDS = (GROUPS + 1) / 2,  // of two groups each
@@ -46,11 +50,11 @@ module pair_sequencer #(
     output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
     output logic                  second_row_t2_o,   // coarse: its second one is
     output logic [           3:0] acquisition_t2_o,
-    // coarse, both columns' turns
-    output logic                  second_column_o,   // with a read
-    output logic                  fresh_o,           // with the read of a group's first count
-    output logic                  load_o,            // a clock later
-    output logic                  count_o,           // two clocks later
+    // coarse
+    output logic                  keep_first_o,      // four parts, T3 of a first pair: what it has chosen is registered
+    output logic                  keep_last_o,       // T3 of a second pair; of any one with two parts
+    output logic                  load_o,            // a clock after a part's read
+    output logic [PART_WIDTH-1:0] part_o,            // with load_o
     // SRAM, a clock early
     output logic                  read_d_o,
     output logic                  write_d_o,
@@ -60,27 +64,29 @@ module pair_sequencer #(
     output logic                  group_upper_d_o    // with group_load_d_o: the group is the word's upper one
 );
 
-  localparam int PAIRS = (PIXELS_PER_SRAM + 1) / 2;
+  localparam int PAIRS = 2 * ((PIXELS_PER_SRAM + 3) / 4);  // with those that are missing
   localparam int STEPS = 2 * SLOTS;
   localparam int STEP_WIDTH = $clog2(STEPS);
   localparam int PAIR_WIDTH = dtof_pkg::index_width(PAIRS);
   localparam int SLOT_WIDTH = dtof_pkg::index_width(SLOTS);
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
   localparam int GROUP_SHIFT = $clog2(GROUP_PAIRS);
-  localparam bit ODD = (PIXELS_PER_SRAM % 2) != 0;
+  localparam int PARTS = 1 << PART_WIDTH;
+  localparam int PART_CLOCKS = PARTS / 2;  // from a part to the next
   localparam logic [PAIR_WIDTH-1:0] LAST_PAIR = PAIR_WIDTH'(PAIRS - 1);
   localparam logic [STEP_WIDTH-1:0] LAST_STEP = STEP_WIDTH'(STEPS - 1);
   localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
   // A phase ends when its last count was commanded: a clock after drain_q = 0 stream_i falls.
-  localparam int LAST_STAGE = dtof_pkg::POOL_LAST_COMMAND_STAGE;
-  localparam logic [2:0] DRAIN_CLOCKS = 3'(LAST_STAGE - 1);
+  localparam int LAST_STAGE = 2 + PART_CLOCKS * PARTS;  // the write of a last part, given at this T
+  localparam int DRAIN_WIDTH = $clog2(LAST_STAGE);
+  localparam logic [DRAIN_WIDTH-1:0] DRAIN_CLOCKS = DRAIN_WIDTH'(LAST_STAGE - 1);
   localparam logic [2:0] PRIMED = 3'd6;
 
   // T0
 
   logic active_q;
   logic [2:0] prime_q;
-  logic [2:0] drain_q;
+  logic [DRAIN_WIDTH-1:0] drain_q;
   logic [SLOT_WIDTH-1:0] raster_q;
   logic [STEP_WIDTH-1:0] step_q;
   logic [PAIR_WIDTH-1:0] pair_q;
@@ -90,7 +96,7 @@ module pair_sequencer #(
   assign busy = active_q || (at_start && tdc_valid_i);
   assign second_pixel = (step_q >= STEP_WIDTH'(SLOTS));
   assign last_pair = (pair_q == LAST_PAIR);
-  assign missing = ODD && last_pair && second_pixel;
+  assign missing = (32'(pair_q) * 2 + 32'(second_pixel)) >= PIXELS_PER_SRAM;
   assign tdc_ready_o = (active_q && !missing) || at_start;
   assign acq_done_o = busy && last_pair && (step_q == LAST_STEP);
   assign idle_o = (drain_q == '0);
@@ -139,7 +145,7 @@ module pair_sequencer #(
   logic busy_t1_q, beat_t1_q, first_slot_t1_q, second_pixel_t1_q;
   logic [STEP_WIDTH-1:0] step_t1_q;
   logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
-  logic first_slot, next_group_t1, last_step_t1, fetch_t1;
+  logic first_slot, next_group_t1, last_step_t1, second_row_t1, fetch_t1;
 
   assign first_slot = (step_q == '0) || (step_q == STEP_WIDTH'(SLOTS));
 
@@ -163,39 +169,62 @@ module pair_sequencer #(
 
   assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
   assign next_group_t1 = (GROUPS > 1) && ((32'(next_pair_t1) % GROUP_PAIRS) == 0);
-  // Of a pixel, whether or not the last pair has a second one.
+  // Of a pixel, whether it is missing or not.
   assign last_step_t1 = busy_t1_q && (step_t1_q == STEP_WIDTH'(SLOTS - 1) || step_t1_q == LAST_STEP);
-  assign fetch_t1 = coarse_i && last_step_t1 && second_pixel_t1_q;
+  assign second_row_t1 = coarse_i && last_step_t1 && second_pixel_t1_q;
+  assign fetch_t1 = second_row_t1 && (PARTS == 2 || pair_t1_q[0]);
 
   // T2 and later
 
+  logic [LAST_STAGE:1] fetch_tn;
   logic [LAST_STAGE:2] fetch_tn_q;
-  logic [5*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. T6, T2 lowest
+  logic [(LAST_STAGE-1)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. LAST_STAGE, T2 lowest
   logic [PAIR_WIDTH-1:0] pair_t3;
-  logic second_visit_t2_q, second_visit_t3_q;
+  logic second_visit_t2_q, second_visit_t3_q, second_row_t2_q, second_row_t3_q, second_pair_t2_q, second_pair_t3_q;
   logic [3:0] acquisition_t2_q;
+  logic read_part, load_part, write_part;
+  integer n;
+
+  assign fetch_tn = {fetch_tn_q, fetch_t1};
+
+  always_comb begin
+    read_part = 1'b0;
+    load_part = 1'b0;
+    write_part = 1'b0;
+    for (n = 0; n < PARTS; n = n + 1) begin
+      read_part = read_part || fetch_tn[1+n*PART_CLOCKS];
+      load_part = load_part || fetch_tn[2+n*PART_CLOCKS];
+      write_part = write_part || fetch_tn[2+(n+1)*PART_CLOCKS];
+    end
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       fetch_tn_q <= '0;
       load_o <= 1'b0;
-      count_o <= 1'b0;
       second_visit_t2_q <= 1'b0;
       second_visit_t3_q <= 1'b0;
+      second_row_t2_q <= 1'b0;
+      second_row_t3_q <= 1'b0;
     end else begin
-      fetch_tn_q <= {fetch_tn_q[5:2], fetch_t1};
-      load_o <= fetch_tn_q[2] || fetch_tn_q[4];
-      count_o <= fetch_tn_q[3] || fetch_tn_q[5];
+      fetch_tn_q <= fetch_tn[LAST_STAGE-1:1];
+      load_o <= load_part;
       second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
       second_visit_t3_q <= second_visit_t2_q;
+      second_row_t2_q <= second_row_t1;
+      second_row_t3_q <= second_row_t2_q;
     end
   end
 
   always_ff @(posedge clk_i) begin
-    pair_tn_q <= {pair_tn_q[4*PAIR_WIDTH-1:0], pair_t1_q};
+    pair_tn_q <= {pair_tn_q[(LAST_STAGE-2)*PAIR_WIDTH-1:0], pair_t1_q};
     acquisition_t2_q <= acquisition_t1_i;
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
-    fresh_o <= fetch_t1 && (GROUPS > 1) && ((32'(pair_t1_q) % GROUP_PAIRS) == 0);
+    second_pair_t2_q <= pair_t1_q[0];
+    second_pair_t3_q <= second_pair_t2_q;
+    if (load_part) begin
+      part_o <= fetch_tn[2] ? '0 : part_o + 1'b1;
+    end
   end
 
   `DTOF_ASSERT(a_phase_complete, stream_i || (!busy_t1_q && !second_visit_t2_q && !second_visit_t3_q && fetch_tn_q == '0),
@@ -207,29 +236,45 @@ module pair_sequencer #(
   assign odd_t1_o = acquisition_t1_i[0];
   assign second_row_t0_o = second_pixel;
   assign acquisition_t2_o = acquisition_t2_q;
-  assign second_row_t2_o = fetch_tn_q[2];
-  assign second_column_o = fetch_tn_q[4];
+  assign second_row_t2_o = second_row_t2_q;
+  assign keep_first_o = second_row_t3_q && PARTS == 4 && !second_pair_t3_q;
+  assign keep_last_o = second_row_t3_q && (PARTS == 2 || second_pair_t3_q);
   assign pair_t3 = pair_tn_q[PAIR_WIDTH+:PAIR_WIDTH];
 
   logic prime_group, prime_word, read_group, read_word, write_word;
   assign prime_group = stream_i && !coarse_i && (prime_q == 3'd1);
   assign prime_word = stream_i && !coarse_i && (prime_q == 3'd2);
   assign read_group = busy_t1_q && !coarse_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 2));
-  assign read_word = busy_t1_q && !coarse_i && (PAIRS > 1) && (step_t1_q == LAST_STEP);
+  assign read_word = busy_t1_q && !coarse_i && (step_t1_q == LAST_STEP);
   assign write_word = second_visit_t3_q;
 
-  assign read_d_o = prime_group || prime_word || read_group || read_word || fetch_t1 || fetch_tn_q[3];
-  assign write_d_o = write_word || fetch_tn_q[4] || fetch_tn_q[6];
+  assign read_d_o = prime_group || prime_word || read_group || read_word || read_part;
+  assign write_d_o = write_word || write_part;
   assign group_load_d_o = prime_word || (busy_t1_q && !coarse_i && next_group_t1 && step_t1_q == LAST_STEP);
-  assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || (second_visit_t2_q && (PAIRS > 1));
+  assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || second_visit_t2_q;
 
   assign group_upper_d_o = !prime_word && 1'(32'(next_pair_t1) >> GROUP_SHIFT);
 
-  // The histogram read or written next.
-  logic [PAIR_WIDTH-1:0] counted_pair;
-  assign counted_pair = fetch_tn_q[3] ? pair_t3
-      : fetch_tn_q[4] ? pair_tn_q[2*PAIR_WIDTH+:PAIR_WIDTH]
-      : fetch_tn_q[6] ? pair_tn_q[4*PAIR_WIDTH+:PAIR_WIDTH] : pair_t1_q;
+  // The part of a group's bins that is read or written next. None is read while one is written.
+  function automatic logic [ADDR_WIDTH-1:0] word_of(input logic [PAIR_WIDTH-1:0] pair,
+                                                           input logic [ADDR_WIDTH-1:0] part);
+    word_of = ADDR_WIDTH'((32'(pair) >> GROUP_SHIFT) << GROUP_SHIFT) | part;
+  endfunction
+
+  logic [ADDR_WIDTH-1:0] part_address;
+  integer m;
+  always_comb begin
+    part_address = '0;
+    for (m = 0; m < PARTS; m = m + 1) begin
+      if (fetch_tn[1+m*PART_CLOCKS]) begin
+        part_address = word_of((m == 0) ? pair_t1_q : pair_tn_q[((m == 0) ? 0 : m*PART_CLOCKS-1)*PAIR_WIDTH+:PAIR_WIDTH],
+                               ADDR_WIDTH'(m));
+      end
+      if (fetch_tn[2+(m+1)*PART_CLOCKS]) begin
+        part_address = word_of(pair_tn_q[(m+1)*PART_CLOCKS*PAIR_WIDTH+:PAIR_WIDTH], ADDR_WIDTH'(m));
+      end
+    end
+  end
 
   always_comb begin
     address_d_o = '0;
@@ -242,7 +287,7 @@ module pair_sequencer #(
     end else if (write_word) begin
       address_d_o = ADDR_WIDTH'(pair_t3);
     end else if (coarse_i) begin
-      address_d_o = ADDR_WIDTH'((32'(counted_pair) >> GROUP_SHIFT) << GROUP_SHIFT);
+      address_d_o = part_address;
     end
   end
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of pool_pointer2_array with one pair of columns: pool_controller, pair_sequencer, the registers between
-// them and the columns, pool2_pair. The engine is replaced by anything that keeps to what
+// The control of pool_pointer2_array with the columns of one SRAM: pool_controller, pair_sequencer, the registers between
+// them and the columns, pool2_quad. The engines are replaced by anything that keeps to what
 // pool2_sequencer_properties proves of pool2_sequencer. That the single-port SRAM has one access a clock, and in
 // range, are assertions of dtof_sram.
 //
@@ -16,12 +16,17 @@ module pool_control_properties #(
     parameter int ACQ_WIDTH = 4,
     parameter int LONGEST_STAY = 24,
     parameter int PRIOR = 0,
+    parameter int COUNT_WIDTH = 4,
+    localparam int PAIRS = (COLUMNS + 1) / 2,
     localparam int NP = 8,
     localparam int GROUPS = (PIXELS + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int WORDS = PIXEL_WORDS + (GROUPS + 1) / 2,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
-    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(2, 1, 0, 4, 0, 1)
+    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(2, 1, 0, 4, 0, 1),
+    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
+    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES)
 ) (
     input logic                  clk_i,
     input logic                  start_i,
@@ -34,7 +39,7 @@ module pool_control_properties #(
     input logic                  engine_read_i,
     input logic                  engine_write_i,
     input logic [ADDR_WIDTH-1:0] engine_address_i,
-    input logic                  engine_select_i,
+    input logic [     PAIRS-1:0] engine_select_i,
     input logic                  engine_upper_i,
     input logic                  engine_used_i,
     input logic                  engine_done_i
@@ -80,13 +85,15 @@ module pool_control_properties #(
   );
 
   logic beat_t1, first_slot_t1, odd_t1, second_row_t0, first_row_t2, second_row_t2, last_slot_t1, ready;
-  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_upper;
+  logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
+  logic [PART_WIDTH-1:0] part;
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .SLOTS          (SLOTS),
-      .GROUP_SIZE     (GROUP_SIZE)
+      .GROUP_SIZE     (GROUP_SIZE),
+      .LINE_HALVES    (LINE_HALVES)
   ) u_pair_sequencer (
       .clk_i            (clk_i),
       .rst_ni           (checking),
@@ -106,10 +113,10 @@ module pool_control_properties #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .acquisition_t2_o (acquisition_t2),
-      .second_column_o  (second_column),
-      .fresh_o          (fresh),
+      .keep_first_o     (keep_first),
+      .keep_last_o      (keep_last),
       .load_o           (load),
-      .count_o          (count),
+      .part_o           (part),
       .read_d_o         (stream_read),
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
@@ -141,14 +148,14 @@ module pool_control_properties #(
     group_upper_q <= group_upper;
   end
 
-  logic [HALF_WIDTH-1:0] unused_word;
+  logic [2*LINE_WIDTH-1:0] unused_words;
 
-  pool2_pair #(
+  pool2_quad #(
       .COLUMNS        (COLUMNS),
       .NP             (NP),
       .PIXELS_PER_SRAM(PIXELS),
       .SLOTS          (SLOTS),
-      .COUNT_WIDTH    (4),
+      .COUNT_WIDTH    (COUNT_WIDTH),
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (2),
       .SCORE_BITS     (1),
@@ -157,7 +164,7 @@ module pool_control_properties #(
       .POINTER_SHIFT  (0),
       .RIVAL_MOVES    (1),
       .PRIOR          (PRIOR)
-  ) u_pair (
+  ) u_quad (
       .clk_i           (clk_i),
       .rst_ni          (checking),
       .timestamp_i     (timestamp_i),
@@ -171,10 +178,10 @@ module pool_control_properties #(
       .first_row_t2_i  (first_row_t2),
       .second_row_t2_i (second_row_t2),
       .acquisition_t2_i(acquisition_t2),
-      .second_column_i (second_column),
-      .fresh_i         (fresh),
+      .keep_first_i    (keep_first),
+      .keep_last_i     (keep_last),
       .load_i          (load),
-      .count_i         (count),
+      .part_i          (part),
       .read_i          (read_q),
       .write_i         (write_q),
       .address_i       (address_q),
@@ -188,8 +195,10 @@ module pool_control_properties #(
       .upper_i         (engine_upper_i),
       .used_i          (engine_used_i),
       .engine_word_i   ('0),
-      .beside_word_i   ('0),
-      .word_o          (unused_word)
+      .first_beside_i  ('0),
+      .second_beside_i ('0),
+      .first_word_o    (unused_words[LINE_WIDTH-1:0]),
+      .second_word_o   (unused_words[2*LINE_WIDTH-1:LINE_WIDTH])
   );
 
   // A frame, its clears followed at one arbitrary address.
@@ -202,7 +211,7 @@ module pool_control_properties #(
   logic [7:0] place_q;
   logic accepted, acquisition_begins, begins_q, stay_ends;
 
-  // Of an odd number of pixels the last pair's second is missing; the array then takes nothing.
+  // Rows are missing where they are no multiple of four; the array then takes nothing.
   assign accepted = checking && ready && tdc_valid_i;
   assign acquisition_begins = accepted && (place_q == '0);
   assign stay_ends = (state != state_q);
@@ -263,6 +272,7 @@ module pool_control_properties #(
   `ASSUME(m_engine_works_when_asked, working_q || (!engine_read_i && !engine_write_i && !engine_done_i))
   `ASSUME(m_engine_one_access, !(engine_read_i && engine_write_i))
   `ASSUME(m_engine_done_last, !engine_done_i || (!engine_read_i && !engine_write_i))
+  `ASSUME(m_engine_one_pair, (engine_select_i & (engine_select_i - 1'b1)) == '0)
   `ASSUME(m_engine_address, 32'(engine_address_i) < WORDS)
   `ASSUME(m_watched, 32'(watched) < PIXEL_WORDS)
   `PROVE(a_busy, busy == frame_q)

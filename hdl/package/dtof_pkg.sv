@@ -35,7 +35,6 @@ package dtof_pkg;
 
   // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
   localparam int HISTOGRAM_WRITE_STAGE = 5;          // histogram_builder: a timestamp of T0 is written at T5
-  localparam int POOL_LAST_COMMAND_STAGE = 6;        // pair_sequencer: the write of a second column's count, given at T6
   localparam int POOL_PAIR_READ_CLOCKS = 2;          // pool2_pair: from read_i to word_o, and to a write with it
   localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // pool2_engine: from line_i to what its commands find on the line
   localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // pool2_engine: from read_scratch to the message
@@ -155,6 +154,11 @@ package dtof_pkg;
   // Halves of such a word that POOL2_BINS_PER_LINE coarse bins need, 1 or 2.
   function automatic int pool2_line_halves(input int half_width, input int count_width);
     pool2_line_halves = (POOL2_BINS_PER_LINE * count_width <= half_width) ? 1 : 2;
+  endfunction
+
+  // log2 of the parts in which a group's coarse bins are counted, a word each.
+  function automatic int pool2_part_width(input int line_halves);
+    pool2_part_width = (line_halves == 1) ? 1 : 2;
   endfunction
 
   // Bits of a result's confidence: the advantage and both neighbours' penalties.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer 2 for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
-// (docs/reference/poolpointer2.md). Two columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and
+// (docs/reference/poolpointer2.md). Four columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and
 // decides for one after the other.
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
 //   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (14, 20). smooth_i, sampled with
 //   start_i, too, switches S1, and with PRIOR = 1 prior_i what the last frame's choices add to this one's candidates.
-// TDC stream: as dtof_array's. An odd number of pixels leaves a pause of SLOTS clocks between acquisitions.
+// TDC stream: as dtof_array's. Where PIXELS_PER_SRAM is no multiple of four, SLOTS clocks pass between acquisitions for each
+//   row that is missing.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
 //   second code, second fraction, code, fraction, confidence}: the label that lost the decision, not smoothed, to which
@@ -14,7 +15,7 @@
 // Borders: every signal between the shared logic and columns or engines goes from a register to a register (broadcast.sv),
 //   timestamps from the port, which stands for the TDC's register, to those of their column (timestamp_input.sv). The words
 //   of an engine's pairs are combined by OR on the way to it, from pair to pair.
-// Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
+// Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to a multiple of four) * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"
 
@@ -82,6 +83,12 @@ module pool_pointer2_array #(
   localparam int STEP_WIDTH = dtof_pkg::index_width(STEPS);
   localparam int STEP_PAIRS = (STEPS + 1) / 2;
   localparam int ENGINES = (SRAM_NUM + STEPS - 1) / STEPS;
+  localparam int ALL_PAIRS = (SRAM_NUM + 1) / 2;
+  // Engines of one pair ask for all pairs at once, so that these do not share an SRAM.
+  localparam int SRAM_COLUMNS = (ENGINES > 1 && STEP_PAIRS == 1) ? 2 : 4;
+  localparam int SRAM_PAIRS = SRAM_COLUMNS / 2;
+  localparam int QUADS = (SRAM_NUM + SRAM_COLUMNS - 1) / SRAM_COLUMNS;
+  localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES);
   localparam int LAST_COLUMNS = SRAM_NUM - (ENGINES - 1) * STEPS;  // of the last engine
   localparam int LAST_PAIRS = (LAST_COLUMNS + 1) / 2;
 
@@ -160,8 +167,9 @@ module pool_pointer2_array #(
   );
 
   logic beat_t1, first_slot_t1, odd_t1, second_row_t0, first_row_t2, second_row_t2, last_slot_t1;
-  logic second_column, fresh, load, count, stream_read, stream_write, stream_word_load, group_load, group_upper;
+  logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
+  logic [PART_WIDTH-1:0] part;
 
   logic [NP-1:0] gate_begin, gate_end;
 
@@ -191,7 +199,8 @@ module pool_pointer2_array #(
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
-      .GROUP_SIZE     (GROUP_SIZE)
+      .GROUP_SIZE     (GROUP_SIZE),
+      .LINE_HALVES    (LINE_HALVES)
   ) u_pair_sequencer (
       .clk_i            (clk_i),
       .rst_ni           (rst_ni),
@@ -212,10 +221,10 @@ module pool_pointer2_array #(
       .first_row_t2_o   (first_row_t2),
       .second_row_t2_o  (second_row_t2),
       .acquisition_t2_o (acquisition_t2),
-      .second_column_o  (second_column),
-      .fresh_o          (fresh),
+      .keep_first_o     (keep_first),
+      .keep_last_o      (keep_last),
       .load_o           (load),
-      .count_o          (count),
+      .part_o           (part),
       .read_d_o         (stream_read),
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
@@ -300,7 +309,7 @@ module pool_pointer2_array #(
   // own missing neighbour.
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
-  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + 26;
+  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 25;
 
   logic told_read, told_write, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] told_address;
@@ -354,23 +363,24 @@ module pool_pointer2_array #(
   logic [COMMAND_WIDTH-1:0] heard_command;
   logic [NP-1:0] heard_gate_begin, heard_gate_end;
   logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
-  logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_second_column, heard_fresh, heard_load, heard_count;
+  logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_keep_first, heard_keep_last, heard_load;
   logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear;
   logic heard_upper, heard_used, heard_has_right, heard_last_has_right;
   logic [3:0] heard_acquisition_t2;
+  logic [PART_WIDTH-1:0] heard_part;
   logic [ADDR_WIDTH-1:0] heard_address;
   logic [STEP_PAIRS-1:0] heard_select;
   logic [LAST_PAIRS-1:0] heard_last_select;
   logic [ROW_WIDTH-1:0] heard_scratch_row;
 
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
-                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, second_column, fresh, load, count, told_read,
+                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, told_read,
                  told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
   assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
-          heard_acquisition_t2, heard_second_column, heard_fresh, heard_load, heard_count, heard_read, heard_write,
+          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_read, heard_write,
           heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
           heard_select, heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
           heard_command} = heard;
@@ -392,130 +402,149 @@ module pool_pointer2_array #(
     end
   endgenerate
 
-  // Engines with their pairs of columns.
+  // Pairs of columns, two to an SRAM, in the order of the columns.
 
-  logic [ENGINES*RESULT_WIDTH-1:0] results;
-  logic [ENGINES*dtof_pkg::SRAM_CFG_WIDTH-1:0] cfg;
-  integer j;
+  logic [ALL_PAIRS-1:0] selects;
+  logic [ALL_PAIRS*HALF_WIDTH-1:0] engine_words;
+  logic [ALL_PAIRS*LINE_WIDTH-1:0] pair_words;
+  logic [QUADS*dtof_pkg::SRAM_CFG_WIDTH-1:0] quad_cfg;
+  logic [ENGINES*dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg;
+  integer i, j;
 
+  // Without a start at '1 they would copy a side band that floats, on which Icarus would evaluate this block for ever.
   always_comb begin
     sram_cfg_o = '1;
+    for (i = 0; i < QUADS; i = i + 1) begin
+      sram_cfg_o = sram_cfg_o & quad_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
+    end
     for (j = 0; j < ENGINES; j = j + 1) begin
-      sram_cfg_o = sram_cfg_o & cfg[j*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
+      sram_cfg_o = sram_cfg_o & engine_cfg[j*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
     end
   end
 
-  genvar e, p;
+  genvar q, p;
+  generate
+    for (q = 0; q < QUADS; q = q + 1) begin : g_quad
+      localparam int LEFT = SRAM_NUM - SRAM_COLUMNS * q;  // columns from here on
+      localparam int QUAD_COLUMNS = (LEFT < SRAM_COLUMNS) ? LEFT : SRAM_COLUMNS;
+      localparam int FIRST = SRAM_PAIRS * q;  // pair
+      localparam int QUAD_PAIRS = (QUAD_COLUMNS + 1) / 2;
+      logic [LINE_WIDTH-1:0] second_word;
+
+      for (p = 0; p < 2; p = p + 1) begin : g_pair
+        localparam int ENGINE = (FIRST + p) / STEP_PAIRS;
+        localparam int PLACE = (FIRST + p) % STEP_PAIRS;  // of the engine's pairs
+        localparam int PAIRS = (ENGINE == ENGINES - 1) ? LAST_PAIRS : STEP_PAIRS;
+        localparam int BEYOND = (PLACE <= PAIRS / 2) ? PLACE - 1 : PLACE + 1;  // the pair on the side away from the engine
+        logic [LINE_WIDTH-1:0] beside_word;
+        if (p < QUAD_PAIRS && BEYOND >= 0 && BEYOND < PAIRS) begin : g_beyond
+          assign beside_word = pair_words[(ENGINE*STEP_PAIRS+BEYOND)*LINE_WIDTH+:LINE_WIDTH];
+        end else begin : g_end
+          assign beside_word = '0;
+        end
+      end
+
+      pool2_quad #(
+          .COLUMNS         (QUAD_COLUMNS),
+          .NP              (NP),
+          .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
+          .SLOTS           (SLOTS),
+          .COUNT_WIDTH     (COUNT_WIDTH),
+          .GROUP_SIZE      (GROUP_SIZE),
+          .LABELS          (LABELS),
+          .SCORE_BITS      (SCORE_BITS),
+          .OFFSET_BITS     (OFFSET_BITS),
+          .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH),
+          .POINTER_SHIFT   (POINTER_SHIFT),
+          .RIVAL_MOVES     (RIVAL_MOVES),
+          .CELL_SHIFT      (CELL_SHIFT),
+          .TIME_GATE       (TIME_GATE),
+          .PRIOR           (PRIOR),
+          .BROADCAST_STAGES(BROADCAST_STAGES)
+      ) u_quad (
+          .clk_i           (clk_i),
+          .rst_ni          (rst_ni),
+          .sram_cfg_i      (sram_cfg_i),
+          .sram_cfg_o      (quad_cfg[q*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
+          .timestamp_i     (tdc_timestamp_i[2*FIRST*NP+:QUAD_COLUMNS*NP]),
+          .read_i          (heard_read),
+          .write_i         (heard_write),
+          .address_i       (heard_address),
+          .gate_begin_i    (heard_gate_begin),
+          .gate_end_i      (heard_gate_end),
+          .coarse_i        (heard_coarse),
+          .point_i         (heard_point),
+          .beat_t1_i       (heard_beat_t1),
+          .first_slot_t1_i (heard_first_slot_t1),
+          .last_slot_t1_i  (heard_last_slot_t1),
+          .odd_t1_i        (heard_odd_t1),
+          .second_row_t0_i (heard_second_row_t0),
+          .first_row_t2_i  (heard_first_row_t2),
+          .second_row_t2_i (heard_second_row_t2),
+          .acquisition_t2_i(heard_acquisition_t2),
+          .keep_first_i    (heard_keep_first),
+          .keep_last_i     (heard_keep_last),
+          .load_i          (heard_load),
+          .part_i          (heard_part),
+          .word_load_d_i   (heard_word_load),
+          .group_load_i    (heard_group_load),
+          .group_upper_i   (heard_group_upper),
+          .engine_i        (heard_engine),
+          .replace_i       (heard_replace),
+          .clear_i         (heard_clear),
+          .upper_i         (heard_upper),
+          .used_i          (heard_used),
+          .select_i        (selects[FIRST+:QUAD_PAIRS]),
+          .engine_word_i   (engine_words[FIRST*HALF_WIDTH+:QUAD_PAIRS*HALF_WIDTH]),
+          .first_beside_i  (g_pair[0].beside_word),
+          .second_beside_i (g_pair[1].beside_word),
+          .first_word_o    (pair_words[FIRST*LINE_WIDTH+:LINE_WIDTH]),
+          .second_word_o   (second_word)
+      );
+
+      if (QUAD_PAIRS == 2) begin : g_second
+        assign pair_words[(FIRST+1)*LINE_WIDTH+:LINE_WIDTH] = second_word;
+      end else begin : g_no_second
+        logic unused_second;
+        assign unused_second = ^second_word;
+      end
+    end
+  endgenerate
+
+  // Engines. The words of an engine's pairs come from both ends to the middle, where the engine is.
+
+  logic [ENGINES*RESULT_WIDTH-1:0] results;
+
+  genvar e;
   generate
     for (e = 0; e < ENGINES; e = e + 1) begin : g_engine
-      localparam int FIRST = e * STEPS;
-      localparam int COLUMNS = (SRAM_NUM - FIRST < STEPS) ? SRAM_NUM - FIRST : STEPS;
+      localparam int COLUMNS = (SRAM_NUM - e * STEPS < STEPS) ? SRAM_NUM - e * STEPS : STEPS;
       localparam int PAIRS = (COLUMNS + 1) / 2;
+      localparam int FIRST = e * STEP_PAIRS;  // of all pairs, the engine's first
+      localparam int MIDDLE = PAIRS / 2;
 
       logic [HALF_WIDTH-1:0] word;
-      logic [PAIRS*LINE_WIDTH-1:0] pair_words;
       logic [LINE_WIDTH-1:0] line, right_words;
-      logic [PAIRS*dtof_pkg::SRAM_CFG_WIDTH-1:0] pair_cfg;
-      logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] engine_cfg, part_cfg;
-      logic [PAIRS-1:0] select;
       logic has_right_here;
-      integer i;
 
-      // The words of the pairs come from both ends to the middle, where the engine is.
-      localparam int MIDDLE = PAIRS / 2;
-      assign line = pair_words[MIDDLE*LINE_WIDTH+:LINE_WIDTH] | right_words;
+      assign line = pair_words[(FIRST+MIDDLE)*LINE_WIDTH+:LINE_WIDTH] | right_words;
       if (PAIRS > MIDDLE + 1) begin : g_right
-        assign right_words = pair_words[(MIDDLE+1)*LINE_WIDTH+:LINE_WIDTH];
+        assign right_words = pair_words[(FIRST+MIDDLE+1)*LINE_WIDTH+:LINE_WIDTH];
       end else begin : g_no_right
         assign right_words = '0;
       end
 
-      always_comb begin
-        part_cfg = '1;  // no copy of a side band that floats, on which Icarus would evaluate this block for ever
-        for (i = 0; i < PAIRS; i = i + 1) begin
-          part_cfg = part_cfg & pair_cfg[i*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH];
-        end
-      end
-
-      assign cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH] = part_cfg & engine_cfg;
+      assign engine_words[FIRST*HALF_WIDTH+:PAIRS*HALF_WIDTH] = {PAIRS{word}};
 
       if (e == ENGINES - 1) begin : g_last
-        assign select = heard_last_select;
+        assign selects[FIRST+:PAIRS] = heard_last_select;
         assign has_right_here = heard_last_has_right;
       end else begin : g_full
-        assign select = heard_select;
+        assign selects[FIRST+:PAIRS] = heard_select;
         assign has_right_here = heard_has_right;
       end
 
       `DTOF_ASSERT(a_clear_with_zeros, !heard_clear || word == '0, "words are cleared while an engine gives another one")
-
-      for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
-        localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
-        localparam int BEYOND = (p <= MIDDLE) ? p - 1 : p + 1;  // the pair on the side away from the engine
-
-        logic [LINE_WIDTH-1:0] beside_word;
-        if (BEYOND >= 0 && BEYOND < PAIRS) begin : g_beyond
-          assign beside_word = pair_words[BEYOND*LINE_WIDTH+:LINE_WIDTH];
-        end else begin : g_end
-          assign beside_word = '0;
-        end
-
-        pool2_pair #(
-            .COLUMNS         (PAIR_COLUMNS),
-            .NP              (NP),
-            .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
-            .SLOTS           (SLOTS),
-            .COUNT_WIDTH     (COUNT_WIDTH),
-            .GROUP_SIZE      (GROUP_SIZE),
-            .LABELS          (LABELS),
-            .SCORE_BITS      (SCORE_BITS),
-            .OFFSET_BITS     (OFFSET_BITS),
-            .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH),
-            .POINTER_SHIFT   (POINTER_SHIFT),
-            .RIVAL_MOVES     (RIVAL_MOVES),
-            .CELL_SHIFT      (CELL_SHIFT),
-            .TIME_GATE       (TIME_GATE),
-            .PRIOR           (PRIOR),
-            .BROADCAST_STAGES(BROADCAST_STAGES)
-        ) u_pair (
-            .clk_i           (clk_i),
-            .rst_ni          (rst_ni),
-            .sram_cfg_i      (sram_cfg_i),
-            .sram_cfg_o      (pair_cfg[p*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
-            .gate_begin_i    (heard_gate_begin),
-            .gate_end_i      (heard_gate_end),
-            .timestamp_i     (tdc_timestamp_i[(FIRST+2*p)*NP+:PAIR_COLUMNS*NP]),
-            .coarse_i        (heard_coarse),
-            .point_i         (heard_point),
-            .beat_t1_i       (heard_beat_t1),
-            .first_slot_t1_i (heard_first_slot_t1),
-            .last_slot_t1_i  (heard_last_slot_t1),
-            .odd_t1_i        (heard_odd_t1),
-            .second_row_t0_i (heard_second_row_t0),
-            .first_row_t2_i  (heard_first_row_t2),
-            .second_row_t2_i (heard_second_row_t2),
-            .acquisition_t2_i(heard_acquisition_t2),
-            .second_column_i (heard_second_column),
-            .fresh_i         (heard_fresh),
-            .load_i          (heard_load),
-            .count_i         (heard_count),
-            .read_i          (heard_read),
-            .write_i         (heard_write),
-            .address_i       (heard_address),
-            .word_load_d_i   (heard_word_load),
-            .group_load_i    (heard_group_load),
-            .group_upper_i   (heard_group_upper),
-            .engine_i        (heard_engine),
-            .replace_i       (heard_replace),
-            .clear_i         (heard_clear),
-            .select_i        (select[p]),
-            .upper_i         (heard_upper),
-            .used_i          (heard_used),
-            .engine_word_i   (word),
-            .beside_word_i   (beside_word),
-            .word_o          (pair_words[p*LINE_WIDTH+:LINE_WIDTH])
-        );
-      end
 
       pool2_engine #(
           .NP             (NP),
@@ -534,7 +563,7 @@ module pool_pointer2_array #(
           .clk_i        (clk_i),
           .rst_ni       (rst_ni),
           .sram_cfg_i   (sram_cfg_i),
-          .sram_cfg_o   (engine_cfg),
+          .sram_cfg_o   (engine_cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
           .smooth_i     (heard_smooth),
           .has_right_i  (has_right_here),
           .command_i    (heard_command),

@@ -22,15 +22,15 @@ class PoolParts(unittest.TestCase):
         self.assertEqual(found["a", "50"], (1.0, 0.0))
 
     def test_a_part_with_cells_needs_a_row(self):
-        self.assertEqual(pool_parts.unknown_parts({("pair", "u_new"): {"area_um2": 2.0}, ("pair", "u_timestamp_input"): {"area_um2": 0.0},
-                                                   ("engine", "SRAM"): {"area_um2": 5.0}}), ["pair/u_new"])
+        self.assertEqual(pool_parts.unknown_parts({("quad", "u_new"): {"area_um2": 2.0}, ("quad", "u_timestamp_input"): {"area_um2": 0.0},
+                                                   ("engine", "SRAM"): {"area_um2": 5.0}}), ["quad/u_new"])
 
     def test_the_report_has_every_part_and_every_estimator(self):
         figures = {(part.block, part.instance): {"area_um2": 10.0 * (number + 1), "day_mw": 1.0, "dusk_mw": 0.5}
                    for number, part in enumerate(pool_parts.PARTS)}
         shares = {(estimator, klux): (0.02, 0.01) for _, _, estimator in pool_parts.accuracy_rows() for klux in pool_parts.LIGHTS}
         text = pool_parts.report(figures, shares, 7)
-        self.assertIn("| pair: label_match | track: which candidates a timestamp is near | 20 |", text)
+        self.assertIn("| quad: label_match | track: which candidates a timestamp is near | 20 |", text)
         self.assertIn(f"| sum | | {10 * sum(range(1, len(pool_parts.PARTS) + 1))} | | {len(pool_parts.PARTS):.1f} |", text)
         self.assertIn("| beside_evidence | the left column | 2.00 / 1.00 | 2.00 / 1.00 |", text)
         table = pool_parts.table_csv(figures, shares).splitlines()

@@ -45,17 +45,21 @@ class Configuration:
 
     @property
     def module_columns(self) -> int:
-        """Columns of a column module: two of a pool read-out's share an SRAM."""
-        return min(2, self["SRAM_NUM"]) if self.is_pool else 1
+        """Columns of a column module: four of a pool read-out's share an SRAM, two where engines are as small."""
+        return min(4 if self.engine_columns > 2 else 2, self["SRAM_NUM"]) if self.is_pool else 1
 
     @property
     def column_modules(self) -> int:
         return -(-self["SRAM_NUM"] // self.module_columns)
 
     @property
+    def engine_columns(self) -> int:
+        """Columns that share an engine; 0: there is none (all but the pool read-outs)."""
+        return self["ENGINE_COLUMNS"] if self.is_pool else 0
+
+    @property
     def engines(self) -> int:
-        """Engines that the columns share (pool read-outs)."""
-        return -(-self["SRAM_NUM"] // self["ENGINE_COLUMNS"]) if self.is_pool else 0
+        return -(-self["SRAM_NUM"] // self.engine_columns) if self.is_pool else 0
 
     @property
     def pixels(self) -> int:
@@ -79,7 +83,8 @@ def memories(configuration: Configuration) -> dict[str, Size]:
     if configuration.is_pool:
         groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
         words = groups * (configuration["GROUP_SIZE"] // 2) + -(-groups // 2)
-        return {"pixels and groups": Size(1, words, 2 * pool_word_width(configuration))}
+        pairs = -(-configuration.module_columns // 2)
+        return {"pixels and groups": Size(1, words, pairs * 2 * pool_word_width(configuration))}
     sizes = {name: Size(*(readouts.evaluate(part, configuration.parameters) for part in size))
              for name, size in configuration.described.memories.items()}
     return {name: size for name, size in sizes.items() if size.words > 0}

@@ -17,6 +17,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from . import netlist
+from .configuration import Configuration
 from .errors import FlowError
 from .library import Library
 from .netlist import TREE_LOAD_SHARE, Module, Sink, TreeBuilder
@@ -29,7 +30,7 @@ COPY_UM = 400.0  # the buffers that a copy of a register serves
 TIMESTAMP_PORT = "tdc_timestamp_i"
 # Ports whose way is shorter than an engine is wide, and has gates on it: the words of an engine's pairs are combined by OR from
 # pair to pair on the way to it (docs/reference/poolpointer2.md).
-GATED_PORTS = {"line_i", "beside_word_i"}
+GATED_PORTS = {"line_i", "first_beside_i", "second_beside_i"}
 UNTIMED_PORTS = {"clk_i", "rst_ni", "sram_cfg_i"}
 
 
@@ -54,7 +55,7 @@ def _place_numbers(name: str) -> tuple[int, ...]:
 class Floorplan:
     """Places of a mapped array's cells along the row, um."""
 
-    def __init__(self, design: dict, columns_per_module: int, pitch_um: float = PITCH_UM) -> None:
+    def __init__(self, design: dict, columns_per_module: int, columns_per_engine: int = 0, pitch_um: float = PITCH_UM) -> None:
         self.array = netlist.top(design)
         column, engine = netlist.column_module(design), netlist.engine_module(design)
         self.blocks = {name for name, cell in self.array["cells"].items() if cell["type"] in (column, engine)}
@@ -64,8 +65,8 @@ class Floorplan:
         self.centre_um = self.width_um / 2
         self.places = {name: (index + 0.5) * self.module_um for index, name in enumerate(columns)}
         for name in self.blocks - set(columns):
-            own = [self.places[pair] for pair in columns if _place_numbers(pair)[0] == _place_numbers(name)[0]]
-            self.places[name] = sum(own) / len(own)
+            begin = _place_numbers(name)[0] * columns_per_engine * pitch_um
+            self.places[name] = (begin + min(begin + columns_per_engine * pitch_um, self.width_um)) / 2
         self.timestamps = set(self.array["ports"].get(TIMESTAMP_PORT, {"bits": []})["bits"])
         self._place_gates()
 
@@ -226,7 +227,7 @@ def pin_load(library: Library, macro_pin_ff: float) -> Callable[[str, str], floa
     return lambda kind, pin: library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else macro_pin_ff
 
 
-def finish(design: dict, library: Library, macro_pin_ff: float, columns_per_module: int
+def finish(design: dict, library: Library, macro_pin_ff: float, configuration: Configuration
            ) -> tuple[dict[str, list[float]], Floorplan]:
     """Inserts the trees of column, engine and top; returns the load of the column's input ports, and the places."""
     wire = library.wire_ff_per_sink
@@ -244,7 +245,7 @@ def finish(design: dict, library: Library, macro_pin_ff: float, columns_per_modu
         return mean[kind].get(pin, 0.0) if kind in mean else cell_load(kind, pin)
 
     array = netlist.top(design)
-    plan = Floorplan(design, columns_per_module)
+    plan = Floorplan(design, configuration.module_columns, configuration.engine_columns)
     spread(plan, library, top_load, netlist.clock_nets(array) | netlist.constant_nets(array, library))
     return loads, plan
 

@@ -18,7 +18,7 @@ from .liberty import THRESHOLDS, Group, bus_type
 from .library import Buffer, Library
 
 Module = dict
-COLUMN_SUFFIXES = ("_column", "_pair")
+COLUMN_SUFFIXES = ("_column", "_quad")
 ENGINE_SUFFIX = "_engine"
 STUB = "column_stub"
 TOP = "top"  # kind of block of what is outside all of them
@@ -255,9 +255,25 @@ def load_of(sinks: list[Sink]) -> float:
     return sum(sink.load for sink in sinks)
 
 
+def strengthen(module: Module, library: Library, pin_load: Callable[[str, str], float], skip: set[int]) -> None:
+    """Gives a cell that is too weak for its load the drive that suffices, where that costs less than a buffer."""
+    nets = sinks_of(module, pin_load, library.wire_ff_per_sink)
+    family = {kind: kinds for kinds in library.drives for kind in kinds}
+    for cell in module["cells"].values():
+        kind = cell["type"]
+        loads = {pin: load_of(nets.get(bits[0], [])) for pin, bits in cell["connections"].items()
+                 if cell["port_directions"].get(pin) == "output"}
+        if kind not in family or any(bits[0] in skip for pin, bits in cell["connections"].items() if pin in loads):
+            continue
+        most = library.area[kind] + library.buffers[0].area
+        cell["type"] = next((drive for drive in family[kind][family[kind].index(kind):] if library.area[drive] <= most and all(
+            load <= library.max_load_ff[drive][pin] * TREE_LOAD_SHARE for pin, load in loads.items())), kind)
+
+
 def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[str, str], float],
                         skip: set[int]) -> None:
     """Relieves every overloaded net of a module whose cells are close to each other. `skip` are clock nets."""
+    strengthen(module, library, pin_load, skip)
     builder = TreeBuilder(module, library, pin_load)
     for net, maximum in list(drivers_of(module, library, library.buffers[0].max_load_ff)):
         if net not in skip and load_of(builder.nets.get(net, [])) > maximum * TREE_LOAD_SHARE:

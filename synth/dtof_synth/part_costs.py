@@ -27,9 +27,9 @@ SRAM = "SRAM"
 
 @dataclass(frozen=True)
 class Part:
-    """Instances of one name in a pair of columns or an engine, scaled to the whole array."""
+    """Instances of one name in the columns of an SRAM or in an engine, scaled to the whole array."""
 
-    block: str  # pair or engine
+    block: str  # quad or engine
     instance: str  # without the hierarchy above it; empty: what is in no part; SRAM: the block's macros
     area_um2: float
     power_mw: dict[str, float]  # by light, while acquisitions stream in
@@ -56,18 +56,18 @@ def _instances(design: dict) -> dict[str, tuple[str, str]]:
 
 def measure(configuration: Configuration, technology: Technology, folder: Path, seed: int,
             say: Callable[[str], None]) -> list[Part]:
-    """Parts of the pair, then of the engine, by name; FlowError if the netlist is not its RTL or a step fails."""
+    """Parts of the columns, then of the engine, by name; FlowError if the netlist is not its RTL or a step fails."""
     library = technology.typical
     group = liberty.read(library.path)
     internal = activity.internal_energies(group, library.energy_fj)
     leakage = {cell.name: cell.number("cell_leakage_power") for cell in group.children("cell")}
-    times = {"pair": configuration.column_modules, "engine": configuration.engines}
+    times = {"quad": configuration.column_modules, "engine": configuration.engines}
     case = scene_power.small_case(configuration, seed)
     elaborate(case.configuration, technology, folder, KEPT_MODULES)
     mapped = map_to_cells(case.configuration, technology, folder, unsearched_effort(configuration))
     instances = _instances(mapped)
     area = {(block, SRAM): times[block] * sum(sram_model.macro(size).area for size in sizes.values())
-            for block, sizes in (("pair", memories(configuration)), ("engine", engine_memories(configuration)))}
+            for block, sizes in (("quad", memories(configuration)), ("engine", engine_memories(configuration)))}
     power: dict[str, dict[tuple[str, str], float]] = {}
     for light, klux in scene_power.KLUX.items():
         design = copy.deepcopy(mapped)
@@ -88,7 +88,7 @@ def measure(configuration: Configuration, technology: Technology, folder: Path, 
                 area[(block, instance)] = area.get((block, instance), 0.0) + cells.area * times[block]
         say(f"{configuration.name}, {light}: {sum(own.values()):.1f} mW")
     return [Part(*part, area[part], {light: own[part] for light, own in power.items()})
-            for part in sorted(area, key=lambda part: (part[0] != "pair", part[1]))]
+            for part in sorted(area, key=lambda part: (part[0] != "quad", part[1]))]
 
 
 def write_csv(path: Path, parts: list[Part]) -> None:

@@ -99,10 +99,9 @@ def access_rates(configuration: Configuration) -> dict[str, tuple[float, float]]
     """(reads, writes) per clock of each SRAM of a column module, averaged over the measurements of a frame."""
     pixel_rate = 1 / configuration["SLOTS"]
     half = 0.5 if configuration.has_pointer else 1.0
-    if configuration.is_pool:  # pairs of pixels in three quarters of the frame, chosen timestamps in the first
-        pair_rate = pixel_rate / 2
-        coarse_rate = configuration.module_columns * pair_rate * DETECTION_RATE
-        return {"pixels and groups": (0.25 * coarse_rate + 0.75 * pair_rate, 0.25 * coarse_rate + 0.75 * pair_rate)}
+    if configuration.is_pool:  # words of two rows in three quarters of the frame, two parts of the bins for them in the first
+        word_rate = pixel_rate / 2
+        return {"pixels and groups": (0.25 * 2 * word_rate + 0.75 * word_rate,) * 2}
     return {"histogram": (half * DETECTION_RATE, half * DETECTION_RATE),
             "pointer": ((pixel_rate, pixel_rate) if configuration.readout == "ezpointer"
                         else (pixel_rate / 2, pixel_rate / 2)),

@@ -50,11 +50,13 @@ _START = "+strash;ifraig;scorr;dc2"
 _BALANCE = "dch,-f;if,-g;strash"
 _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
+# Buffers are left to the trees and to resizing, which know where loads are.
+_SMALLEST = ";".join([_START, _BALANCE, _MAP, _SIZING.replace("buffer,-c;", "")])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
 # From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
 # as well as larger where ABC tries harder: what they miss is left to resizing.
 EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
-POOL_EFFORTS = (Effort(0.75, _SMALL), Effort(0.72, _SMALL), Effort(0.68, _SMALL))
+POOL_EFFORTS = (Effort(0.75, _SMALLEST), Effort(0.72, _SMALLEST), Effort(0.68, _SMALLEST))
 LAYOUT_EFFORT = Effort(0.68, _SMALL, range(4))
 
 
@@ -363,7 +365,7 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
     design = map_to_cells(configuration, technology, folder, efforts(configuration)[number], known)
     library = technology.slow
     mapped = same_logic.of(design, library)
-    loads, plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration.module_columns)
+    loads, plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration)
     try:
         floorplan.check_borders(design, library)
     except FlowError as error:

@@ -90,7 +90,7 @@ class ScenePower:
 
 def small(configuration: Configuration) -> Configuration:
     """One column module with all its pixels, one engine."""
-    sizes = {"SRAM_NUM": 2, "ENGINE_COLUMNS": 2} if configuration.is_pool else {"SRAM_NUM": 1}
+    sizes = {"SRAM_NUM": 4, "ENGINE_COLUMNS": 4} if configuration.is_pool else {"SRAM_NUM": 1}
     return configuration.with_parameters(configuration.name, **sizes)
 
 
@@ -113,7 +113,7 @@ def uniform_mw(configuration: Configuration, technology: Technology, folder: Pat
     tools.write_settings(settings, {
         "liberty_files": [library.path, technology.kit / "sram40_typical.lib"], "netlist": folder / "static.v",
         "top": configuration.top, "wire_load": library.wire_load, "period": f"{1000 / TARGET_MHZ:.6f}",
-        "column": "u_pair" if configuration.is_pool else "u_column", "activity": f"{rate:.6f}"})
+        "column": "u_quad" if configuration.is_pool else "u_column", "activity": f"{rate:.6f}"})
     output = tools.run_sta(technology.root / "synth" / "sta" / "power.tcl", settings, folder / "sta_power.log",
                            configuration.name)
     return power_model.data_mw(output) * configuration.column_modules
@@ -168,7 +168,7 @@ def simulate(configuration: Configuration, technology: Technology, folder: Path,
     # A search over names of a pool read-out's engine and pair would take longer than the simulation.
     effort = unsearched_effort(configuration) if configuration.is_pool else efforts(configuration)[0]
     design = map_to_cells(case.configuration, technology, folder, effort)
-    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
+    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration)
     _write_verilog(design, technology, folder, "static", case.name)
     return design, count_activity(design, case, technology, folder, klux)
 

@@ -72,10 +72,10 @@ def short_frames(seed: int, count: int) -> tuple[int, ...]:
 
 
 def rtl_case(configuration: Configuration, seed: int, trace: Path | None = None) -> Case:
-    """The RTL alone, of three columns; of a pool read-out an engine with two pairs of columns and one with one, two groups
-    high."""
+    """The RTL alone, of three columns; of a pool read-out an engine with three pairs of columns and one with one, two
+    of which share an SRAM, two groups high."""
     if configuration.is_pool:
-        small = {"SRAM_NUM": 6, "ENGINE_COLUMNS": 4, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
+        small = {"SRAM_NUM": 8, "ENGINE_COLUMNS": 6, "PIXELS_PER_SRAM": configuration["GROUP_SIZE"] + 2}
     else:
         small = {"SRAM_NUM": 3, "PIXELS_PER_SRAM": 3 if configuration.readout == "histogram" else 5}
     return Case(configuration.with_parameters(configuration.name, **small), short_frames(seed, 4), seed, trace)
@@ -104,7 +104,7 @@ def write_netlist(configuration: Configuration, technology: Technology, folder: 
     """The configuration through the flow's own steps, its cells and macros as models; the Verilog files."""
     elaborate(configuration, technology, folder)
     design = map_to_cells(configuration, technology, folder, unsearched_effort(configuration))
-    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration.module_columns)
+    floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration)
     return write_simulation_netlist(design, configuration, technology, folder, seed)
 
 

@@ -2,7 +2,8 @@
 """Physical model of 40 nm SRAM macros: area, access time, energy, leakage.
 
 Area: A = (Wp + w*C) * (Hp + h*R) with C = bits*mux columns and R = ceil(words/mux) rows, the mux that
-minimises the area with 16 <= R <= 512 and an aspect ratio of at most 4. Nothing is fitted to the thesis.
+minimises the area with 16 <= R <= 512 and an aspect ratio of at most 4, for which a wide array of few words has rows that
+are not used. Nothing is fitted to the thesis.
 Time, energy and leakage grow with size as CACTI 7's 40 nm low-standby-power arrays do (power laws in
 words and bits; a read's energy is linear in the bits, since the points end at 64 of them and each further bit
 has its own bit lines, sense amplifier and output); access time is anchored at 1.2 ns typical and 2.2 ns slow for the thesis's largest
@@ -142,6 +143,8 @@ def _bank(kind: PortKind, words: int, bits: int,
     for mux in muxes:
         rows, columns = math.ceil(words / mux), bits * mux
         width = kind.strip_width + kind.cell_width * columns
+        if rows >= ROWS[0] and len(muxes) > 1:
+            rows = max(rows, math.ceil((width / most_aspect - kind.strip_height) / kind.cell_height))
         height = kind.strip_height + kind.cell_height * rows
         legal = ROWS[0] <= rows <= ROWS[1] and max(width / height, height / width) <= most_aspect
         if words < ROWS[0]:
@@ -166,8 +169,9 @@ def macro(size: Size, mux: int | None = None) -> Macro:
         raise FlowError(f"{size.name}: no organisation with {ROWS[0]} to {ROWS[1]} rows and an aspect "
                         f"ratio up to {MAX_ASPECT:g} exists, even in {banks} banks")
     _, chosen, rows, columns, width, height = best
-    growth = kind.access(size.words, size.bits) / kind.access(*ANCHOR)
+    words = max(size.words, ((rows - 1) * chosen + 1) * banks)  # with those that nobody asked for
+    growth = kind.access(words, size.bits) / kind.access(*ANCHOR)
     return Macro(size, banks, chosen, rows, columns, width * banks, height,
                  ACCESS_TYPICAL_NS * growth, ACCESS_SLOW_NS * growth,
-                 kind.read_energy(size.words, size.bits), kind.write_energy(size.words, size.bits),
-                 kind.leakage(size.words, size.bits))
+                 kind.read_energy(words, size.bits), kind.write_energy(words, size.bits),
+                 kind.leakage(words, size.bits))

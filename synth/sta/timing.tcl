@@ -79,7 +79,7 @@ proc power {} {
   set counted ""
   foreach cell [get_cells -hierarchical *] {
     set name [get_full_name $cell]
-    if {[string match *u_macro $name] || [string match *u_column $name] || [string match *u_pair $name]
+    if {[string match *u_macro $name] || [string match *u_column $name] || [string match *u_quad $name]
         || [string match *u_engine $name]} { continue }
     if {![regexp {^.*u_(column|pair)/} $name place]} {
       lappend shared $cell

@@ -61,7 +61,7 @@ class Trees(WithLibrary):
         return netlist.top(design), plan
 
     def test_columns_stand_in_their_order_and_timestamps_above_them(self):
-        plan = Floorplan(array(12), 1, 10.0)
+        plan = Floorplan(array(12), 1, pitch_um=10.0)
         self.assertEqual([plan[f"g_column[{index}].u_column"] for index in (0, 2, 10, 11)], [5.0, 25.0, 105.0, 115.0])
         self.assertEqual(plan.port_um(110, "g_column[10].u_column"), 105.0)
         self.assertEqual(plan.port_um(3, "near"), 60.0)
@@ -143,7 +143,7 @@ class Borders(WithLibrary):
 class Wires(WithLibrary):
     def test_a_wire_has_the_resistance_and_capacitance_of_its_length(self):
         design = array(4)
-        plan = Floorplan(design, 1, 100.0)
+        plan = Floorplan(design, 1, pitch_um=100.0)
         spef.plain_names(design)
         plan.places = {re.sub(r"\W", "_", name): place for name, place in plan.places.items()}
         text, = spef.write(design, plan, self.library, [Wire(2.0, 0.5)], {2})

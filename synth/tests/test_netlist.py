@@ -4,6 +4,7 @@
 import random
 import os
 import unittest
+from dataclasses import replace
 from pathlib import Path
 
 from dtof_synth import netlist
@@ -15,7 +16,8 @@ from .small_netlists import cell
 def library() -> Library:
     buffers = [Buffer("BUF_X1", "A", "Y", 1.0, 1.0, 20.0), Buffer("BUF_X4", "A", "Y", 3.0, 2.0, 80.0)]
     return Library(Path("x"), "x", {"BUF_X1": 1.0, "BUF_X4": 3.0, "DFF": 5.0, "INV": 0.5}, {"DFF"}, set(),
-                   {"BUF_X1": {"A": 1.0}, "BUF_X4": {"A": 2.0}, "DFF": {"D": 1.0, "CK": 1.0}, "INV": {"A": 1.0}},
+                   {"BUF_X1": {"A": 1.0}, "BUF_X4": {"A": 2.0}, "DFF": {"D": 1.0, "CK": 1.0}, "DFF_X2": {"D": 1.0, "CK": 1.0},
+                    "INV": {"A": 1.0}},
                    {"BUF_X1": {"Y": 20.0}, "BUF_X4": {"Y": 80.0}, "DFF": {"Q": 20.0}, "INV": {"Y": 20.0}},
                    buffers, "INV", {}, 0.7, 1.5, 1.1, "", 0.5, {"DFF": 1.0}, {"DFF": 2.0})
 
@@ -79,6 +81,16 @@ class FanoutTrees(unittest.TestCase):
         module = fan(200)
         netlist.insert_fanout_trees(module, library(), pin_load, {2, 4})
         self.assertEqual(netlist.count(module, library()).buffers, 0)
+
+    def test_a_driver_that_may_be_stronger_needs_no_buffer(self):
+        weak = library()
+        for dearer, buffers in ((0.9, 0), (1.1, 1)):  # than the weak register, whose buffer is 1.0
+            strong = replace(weak, drives=[["DFF", "DFF_X2"]], area=weak.area | {"DFF_X2": weak.area["DFF"] + dearer},
+                             max_load_ff=weak.max_load_ff | {"DFF_X2": {"Q": 40.0}})
+            module = fan(13)  # 13 x 1.5 fF, of 40 fF the half
+            netlist.insert_fanout_trees(module, strong, pin_load, {2})
+            self.assertEqual(module["cells"]["q"]["type"], "DFF" if buffers else "DFF_X2")
+            self.assertEqual(netlist.count(module, strong).buffers, buffers)
 
     def test_a_pin_that_is_reached_too_early_gets_a_buffer(self):
         block = {"attributes": {}, "ports": {}, "cells": {"r": cell("DFF", {"D": 7, "CK": 2}, {"Q": 8})}}

@@ -14,8 +14,8 @@ def module(**cells: str) -> dict:
 def design() -> dict:
     """An array of a pair, in which an SRAM stands before a column of two parts, and an engine with a part of the same kind."""
     return {"modules": {
-        "array": module(u_gate="INV", **{"g[0].u_pair": "pool2_pair", "g[0].u_engine": "pool2_engine"}) | {"attributes": {"top": "1"}},
-        "pool2_pair": module(u_sram="sram_1rw_4x4", u_rest="INV", **{"g_column[0].u_column": "column"}),
+        "array": module(u_gate="INV", **{"g[0].u_quad": "pool2_quad", "g[0].u_engine": "pool2_engine"}) | {"attributes": {"top": "1"}},
+        "pool2_quad": module(u_sram="sram_1rw_4x4", u_rest="INV", **{"g_column[0].u_column": "column"}),
         "column": module(u_match="match", u_distance="distance", u_own="INV"),
         "pool2_engine": module(u_match="match"), "match": module(u_a="INV"), "distance": module(u_b="INV")}}
 
@@ -23,8 +23,8 @@ def design() -> dict:
 class PartCosts(unittest.TestCase):
     def test_every_scope_below_the_top_is_a_part(self):
         found = part_costs._instances(design())
-        self.assertEqual(found, {"p0": ("pair", ""), "p0.p1": ("pair", "u_column"), "p0.p1.p0": ("pair", "u_match"),
-                                 "p0.p1.p1": ("pair", "u_distance"), "p1": ("engine", ""), "p1.p0": ("engine", "u_match")})
+        self.assertEqual(found, {"p0": ("quad", ""), "p0.p1": ("quad", "u_column"), "p0.p1.p0": ("quad", "u_match"),
+                                 "p0.p1.p1": ("quad", "u_distance"), "p1": ("engine", ""), "p1.p0": ("engine", "u_match")})
 
     def test_the_counting_has_the_same_scopes(self):
         counted = design()

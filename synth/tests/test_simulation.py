@@ -121,7 +121,7 @@ class NetlistBench(unittest.TestCase):
         cls.case = short(simulation.netlist_cases(NAMED["ezpointer"], SEED)[0])
         elaborate(cls.case.configuration, cls.technology, cls.folder)
         cls.design = map_to_cells(cls.case.configuration, cls.technology, cls.folder, efforts(cls.case.configuration)[0])
-        floorplan.finish(cls.design, cls.technology.slow, sram_kit.PIN_FF, cls.case.configuration.module_columns)
+        floorplan.finish(cls.design, cls.technology.slow, sram_kit.PIN_FF, cls.case.configuration)
 
     @classmethod
     def tearDownClass(cls) -> None:

@@ -36,6 +36,15 @@ class SramModel(unittest.TestCase):
                         if 16 <= rows <= 512 and max(width / height, height / width) <= 4:
                             self.assertLessEqual(found.area, width * height + 1e-6)
 
+    def test_a_wide_array_of_few_words_has_rows_that_are_not_used(self):
+        # 232 columns are (29 + 232 x 0.8067) = 216.1 um wide, a quarter of which is 22.5 + 0.3 x 106 um high.
+        few, many = macro(Size(1, 100, 232)), macro(Size(1, 106, 232))
+        self.assertEqual((few.mux, few.rows, few.columns, few.banks), (1, 106, 232, 1))
+        self.assertAlmostEqual(few.area, (29.0 + 0.242 / 0.30 * 232) * (22.5 + 0.30 * 106), places=3)
+        self.assertEqual((few.area, few.access_slow, few.read_energy, few.leakage),
+                         (many.area, many.access_slow, many.read_energy, many.leakage))
+        self.assertEqual(macro(Size(1, 110, 232)).rows, 110)
+
     def test_access_time_is_anchored_and_grows(self):
         for ports in KINDS:
             self.assertAlmostEqual(macro(Size(ports, 10240, 10)).access_slow, 2.2)
@@ -75,7 +84,7 @@ class SramModel(unittest.TestCase):
 
     @unittest.skipUnless((PDK / "sram_points").is_dir(), "../shared/pdk is not present")
     def test_one_port_words_twice_as_wide_as_those_fitted_are_found_within_a_tenth(self):
-        """CACTI's points end at 64 bits, the pool read-outs' words have up to 132: what the law of 32 bits makes of 64."""
+        """CACTI's points end at 64 bits, the pool read-outs' words have up to 264: what the law of 32 bits makes of 64."""
         points = self.points(sram_report.cacti_points(PDK, 1), "read_pJ")
         law = sram_report.fit_linear_in_bits([point for point in points if point[1] <= 32])
         wide = [point for point in points if point[1] > 32]
@@ -85,10 +94,10 @@ class SramModel(unittest.TestCase):
 
     def test_each_further_bit_of_a_wide_word_costs_as_much_as_the_last(self):
         for ports in KINDS:
-            energies = [macro(Size(ports, 100, bits)).read_energy for bits in (112, 176, 240)]
+            energies = [macro(Size(ports, 200, bits)).read_energy for bits in (112, 176, 240)]
             self.assertAlmostEqual(energies[2] - energies[1], energies[1] - energies[0])
             # A word of double the bits costs no more than two words.
-            self.assertLess(energies[2], 2 * macro(Size(ports, 100, 120)).read_energy)
+            self.assertLess(energies[2], 2 * macro(Size(ports, 200, 120)).read_energy)
 
     @staticmethod
     def points(rows: list[dict[str, str]], column: str) -> list[tuple[int, int, float]]:

@@ -35,8 +35,8 @@ proc map_smallest {part naming_seeds selection} {
   design -load smallest
   puts "DTOF_NAMING $part $best"
 }
-map_smallest column $column_seeds {*_column *_pair}
-map_smallest shared $shared_seeds {* *_column %d *_pair %d}
+map_smallest column $column_seeds {*_column *_quad *_pair}
+map_smallest shared $shared_seeds {* *_column %d *_quad %d *_pair %d}
 setundef -zero
 if {$tie_low ne "" && $tie_high ne ""} { hilomap -singleton -hicell {*}$tie_high -locell {*}$tie_low }
 splitnets

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-# As map.tcl, for the column (or the pair of columns that share an SRAM) alone: what is placed and routed.
+# As map.tcl, for the column (of a pool read-out for a pair of columns, without the SRAM) alone: what is placed and routed.
 yosys -import
 source $::env(DTOF_SETTINGS)
 read_rtlil $generic_netlist
-yosys delete *_array *_engine
+yosys delete *_array *_engine *_quad
 foreach step {4_map 5_check_netlist} {
   puts "DTOF_STEP $step"
   source $scripts/$step.tcl

@@ -17,7 +17,7 @@ constexpr std::array<std::pair<std::string_view, SramKind>, 6> kInstances = {{
     {"u_word_sram", SramKind::kPointer},
     {"u_peak_sram", SramKind::kCoarsePeak},
     {"u_best_sram", SramKind::kBestPeak},
-    {"u_sram", SramKind::kPoolPair},
+    {"u_sram", SramKind::kPoolQuad},
     {"u_scratch_sram", SramKind::kEngineScratch},
 }};
 
@@ -43,10 +43,13 @@ ColumnRange columns_of(SramKind kind, const std::string& path, const RtlConfigur
   const auto clipped = [&](int first, int count) {
     return ColumnRange{first, std::min(count, configuration.sram_num - first)};
   };
-  if (kind == SramKind::kPoolPair || kind == SramKind::kEngineScratch) {
-    const int first = block_index(path, "g_engine") * configuration.parameters.pool.engine_columns;
-    return kind == SramKind::kEngineScratch ? clipped(first, configuration.parameters.pool.engine_columns)
-                                            : clipped(first + 2 * block_index(path, "g_pair"), 2);
+  const int engine_columns = configuration.parameters.pool.engine_columns;
+  if (kind == SramKind::kEngineScratch) {
+    return clipped(block_index(path, "g_engine") * engine_columns, engine_columns);
+  }
+  if (kind == SramKind::kPoolQuad) {
+    const int columns = engine_columns == 2 ? 2 : 4;
+    return clipped(columns * block_index(path, "g_quad"), columns);
   }
   return {block_index(path, "g_column"), 1};
 }
@@ -63,8 +66,8 @@ std::string_view sram_title(SramKind kind) {
       return "coarse peak";
     case SramKind::kBestPeak:
       return "best peak";
-    case SramKind::kPoolPair:
-      return "pair of columns";
+    case SramKind::kPoolQuad:
+      return "four columns";
     case SramKind::kEngineScratch:
       return "engine scratch";
   }

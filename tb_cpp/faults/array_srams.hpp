@@ -9,7 +9,7 @@
 namespace dtof {
 
 /// What an SRAM of an array holds.
-enum class SramKind { kHistogram, kPointer, kCoarsePeak, kBestPeak, kPoolPair, kEngineScratch };
+enum class SramKind { kHistogram, kPointer, kCoarsePeak, kBestPeak, kPoolQuad, kEngineScratch };
 
 /// E.g. "coarse peak".
 std::string_view sram_title(SramKind kind);

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from ..errors import FlowError
 from ..library import Library
 
+SRAM_PORTS = {"read_data_i", "write_data_o"}  # of a block whose SRAM stands outside
 CONSTANTS = {"0": "gnd", "1": "vdd", "x": "gnd", "z": "gnd"}
 SUPPLIES = ("vdd", "gnd")
 CLOCK = "clk_i"
@@ -85,7 +86,7 @@ def from_module(name: str, module: dict, library: Library, macros: set[str]) -> 
 
     for port, description in module["ports"].items():
         for bit_name, bit in _bits(port, description["bits"]):
-            add(bit_name, bit)
+            add(bit_name, bit, sram_ports if port in SRAM_PORTS else None)
     for number, item in enumerate(rams.values()):
         for pin, bits in item["connections"].items():
             for bit_name, bit in _bits(f"sram{number if len(rams) > 1 else ''}_{pin}", bits):

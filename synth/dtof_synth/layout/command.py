@@ -99,7 +99,7 @@ def _run(names: list[str], jobs: int) -> None:
     found: dict[str, Result] = {}
     # The largest last in the list takes longest and starts first.
     with ProcessPoolExecutor(max_workers=jobs) as pool:
-        waiting = {pool.submit(_work, item, prepared, cells, areas.get(item.name, 0.0) * item.module_columns): item
+        waiting = {pool.submit(_work, item, prepared, cells, areas.get(item.name, 0.0) * flow.columns(item)): item
                    for item in reversed(items)}
         try:
             for done in as_completed(waiting):

@@ -26,6 +26,7 @@ SEEDS = (1, 2, 3)  # of the placement: another one where a net cannot be routed
 REPAIRS = 2
 POOL_DENSITY = 0.5  # at 0.6 the router found no way for a net of a pair of columns
 ARRAY_COLUMNS = 4  # of the array that is elaborated around the column
+PAIR = "pool2_pair"
 
 
 @dataclass
@@ -72,10 +73,16 @@ class Result:
         return self.inner_wire / self.inner_sinks
 
 
+def columns(configuration: Configuration) -> int:
+    """Of the block that is laid out."""
+    return min(2, configuration.module_columns)
+
+
 def synthesise(configuration: Configuration, technology: Technology, folder: Path) -> Block:
-    """The column alone, mapped by the flow's own steps. The array around it, which is elaborated with it, is small: a column
-    does not depend on how many there are."""
-    run.elaborate(small(configuration, ARRAY_COLUMNS), technology, folder)
+    """The column alone, mapped by the flow's own steps; of a pool read-out a pair of columns, for the router takes too long for
+    all that share an SRAM. The array around it, which is elaborated with it, is small: a column does not depend on how many
+    there are."""
+    run.elaborate(small(configuration, ARRAY_COLUMNS), technology, folder, (PAIR,) if configuration.is_pool else ())
     library = technology.slow
     scripts = technology.root / "synth" / "yosys"
     effort = run.LAYOUT_EFFORT
@@ -93,11 +100,11 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
         "netlist_json": folder / "column.json"})
     steps.run_yosys(scripts / "map_column.tcl", settings, folder / "column.log", configuration.name)
     design = json.loads((folder / "column.json").read_text(encoding="utf-8"))
-    columns = {name: module for name, module in netlist.modules(design).items()
-               if name.endswith(netlist.COLUMN_SUFFIXES) and module["cells"]}
-    if len(columns) != 1:
-        raise FlowError(f"{configuration.name}: {len(columns)} kinds of columns instead of one")
-    name, module = columns.popitem()
+    found = {name: module for name, module in netlist.modules(design).items()
+               if name.endswith((*netlist.COLUMN_SUFFIXES, PAIR)) and module["cells"]}
+    if len(found) != 1:
+        raise FlowError(f"{configuration.name}: {len(found)} kinds of columns instead of one")
+    name, module = found.popitem()
 
     def load(kind: str, pin: str) -> float:
         return library.input_ff[kind].get(pin, 0.0) if kind in library.input_ff else sram_kit.PIN_FF
@@ -191,7 +198,7 @@ def lay_out(configuration: Configuration, technology: Technology, cells: Cells, 
     sinks = block.sinks(library)
     left, low, right, high = layout.die
     return Result(
-        configuration.title, block.name, configuration.module_columns, len(block.cells),
+        configuration.title, block.name, columns(configuration), len(block.cells),
         sum(cell.kind in library.sequential for cell in block.cells), block.area(library), right - left, high - low,
         sum(sinks[net] for net in signals), sum(layout.length(net) for net in signals),
         sum(sinks[net] for net in inner), sum(layout.length(net) for net in inner), layout.length(blocks.CLOCK),
