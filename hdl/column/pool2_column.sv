@@ -99,15 +99,18 @@ module pool2_column #(
   // Which of them counts, at T2: the preferred one, but in the pointer phase the other one if only that is inside.
 
   // Whether a timestamp's cell is POINT_REACH below to POINT_REACH - 1 above the centre. The centre comes late, out of
-  // the SRAM, so that what only the timestamp decides is ready before it.
+  // the SRAM, so that what only the timestamp decides is ready before it, and low bits are compared in a tree.
   function automatic logic near(input logic [CELL_WIDTH-1:0] cell_of_timestamp, input logic [CELL_WIDTH-1:0] centre);
     logic [CELL_WIDTH:0] top;
     logic [CELL_WIDTH-4:0] same, one_less;
+    logic [3:0] above, not_below;
     top = {1'b0, cell_of_timestamp} + (CELL_WIDTH + 1)'(POINT_REACH);
     same = top[CELL_WIDTH:4];
     one_less = same - 1'b1;
-    near = (top[3:0] < centre[3:0]) ? (one_less == {1'b0, centre[CELL_WIDTH-1:4]})
-        : (same == {1'b0, centre[CELL_WIDTH-1:4]});
+    above = centre[3:0] & ~top[3:0];
+    not_below = centre[3:0] | ~top[3:0];
+    near = (above[3] || (not_below[3] && above[2]) || (not_below[3] && not_below[2] && (above[1] || (not_below[1] && above[0]))))
+        ? (one_less == {1'b0, centre[CELL_WIDTH-1:4]}) : (same == {1'b0, centre[CELL_WIDTH-1:4]});
   endfunction
 
   function automatic logic take_second(input logic odd, input logic first_inside, input logic second_inside);

@@ -74,7 +74,7 @@ module pool2_pair #(
     input  logic [           3:0] acquisition_t2_i,
     // coarse
     input  logic                  keep_first_i,      // four parts: what the first two of four rows have chosen is registered
-    input  logic                  keep_last_i,       // what the last two rows have chosen is
+    input  logic                  keep_last_i,       // four parts: what the last two have chosen is
     input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
                                                      // first two, and then the last two
     input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
@@ -119,22 +119,16 @@ module pool2_pair #(
   // is counted in other clocks, so that the word stays as it is.
 
   localparam int CHOICE_WIDTH = COARSE_WIDTH + 1;
-  logic [2*CHOICE_WIDTH-1:0] chosen, last_q, counted;
-  logic count_q, counts_first, counts_now, counts, counted_before;
-  logic [PART_WIDTH-1:0] part_q;
+  logic [2*CHOICE_WIDTH-1:0] chosen;
+  logic count_q, counts_first, counts, counted_before;
   logic [1:0] counts_here;
+  logic [2*PLACE_WIDTH-1:0] places;
   logic [WORD_WIDTH-1:0] counted_word;
 
   assign counts = (counts_here != '0);
 
   always_ff @(posedge clk_i) begin
     count_q <= load_i;
-    if (load_i) begin
-      part_q <= part_i;
-    end
-    if (keep_last_i) begin
-      last_q <= chosen;
-    end
   end
 
   generate
@@ -143,33 +137,58 @@ module pool2_pair #(
     end else begin : g_one_chooses
       assign chosen = {{CHOICE_WIDTH{1'b0}}, held_bin, held_valid};
     end
+  endgenerate
 
+  genvar d;
+  generate
     if (PART_WIDTH == 1) begin : g_two_parts
-      assign counted = last_q;
+      // The choices last until both parts are loaded. Which ones belong to a part is known when it is.
+      for (d = 0; d < 2; d = d + 1) begin : g_choice
+        logic valid, part, belongs_q;
+        logic [PLACE_WIDTH-1:0] place, place_q;
+        assign {part, place, valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
+        always_ff @(posedge clk_i) begin
+          if (load_i) begin
+            belongs_q <= valid && (part == part_i);
+            place_q <= place;
+          end
+        end
+        assign counts_here[d] = count_q && belongs_q;
+        assign places[d*PLACE_WIDTH+:PLACE_WIDTH] = place_q;
+      end
       assign counts_first = 1'b0;
-      assign counts_now = count_q;
       assign counted_before = 1'b0;
-      logic unused_first;
-      assign unused_first = keep_first_i;
+      logic unused_keep;
+      assign unused_keep = ^{keep_first_i, keep_last_i};
     end else begin : g_four_parts
       // The next four rows' first choices come before these have counted in all parts.
-      logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q;
+      logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q, last_q, counted;
+      logic [PART_WIDTH-1:0] part_q;
       logic count_last_q, counted_q;
       assign counted = count_last_q ? last_q : first_q;
       assign counts_first = count_q;
-      assign counts_now = count_q || count_last_q;
       assign counted_before = counted_q;
       always_ff @(posedge clk_i) begin
         count_last_q <= count_q;
+        if (load_i) begin
+          part_q <= part_i;
+        end
         if (keep_first_i) begin
           waiting_q <= chosen;
         end
         if (keep_last_i) begin
           first_q <= waiting_q;
+          last_q <= chosen;
         end
         if (count_q) begin
           counted_q <= counts;
         end
+      end
+      for (d = 0; d < 2; d = d + 1) begin : g_choice
+        logic valid;
+        logic [PART_WIDTH-1:0] part;
+        assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = counted[d*CHOICE_WIDTH+:CHOICE_WIDTH];
+        assign counts_here[d] = (count_q || count_last_q) && valid && (part == part_q);
       end
     end
   endgenerate
@@ -186,24 +205,13 @@ module pool2_pair #(
     end
   endfunction
 
-  genvar d;
-  generate
-    for (d = 0; d < 2; d = d + 1) begin : g_choice
-      logic valid;
-      logic [PART_WIDTH-1:0] part;
-      logic [PLACE_WIDTH-1:0] place;
-      assign {part, place, valid} = counted[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-      assign counts_here[d] = counts_now && valid && (part == part_q);
-    end
-  endgenerate
-
   genvar b;
   generate
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
       localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
       logic first_counts, second_counts;
-      assign first_counts = counts_here[0] && (g_choice[0].place == PLACE_WIDTH'(b));
-      assign second_counts = counts_here[1] && (g_choice[1].place == PLACE_WIDTH'(b));
+      assign first_counts = counts_here[0] && (places[PLACE_WIDTH-1:0] == PLACE_WIDTH'(b));
+      assign second_counts = counts_here[1] && (places[PLACE_WIDTH+:PLACE_WIDTH] == PLACE_WIDTH'(b));
       assign counted_word[FIRST+:COUNT_WIDTH] =
           plus(word_q[FIRST+:COUNT_WIDTH], first_counts ^ second_counts, first_counts && second_counts);
     end

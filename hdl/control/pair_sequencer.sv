@@ -52,7 +52,7 @@ module pair_sequencer #(
     output logic [           3:0] acquisition_t2_o,
     // coarse
     output logic                  keep_first_o,      // four parts, T3 of a first pair: what it has chosen is registered
-    output logic                  keep_last_o,       // T3 of a second pair; of any one with two parts
+    output logic                  keep_last_o,       // four parts, T3 of a second pair: what it has chosen is
     output logic                  load_o,            // a clock after a part's read
     output logic [PART_WIDTH-1:0] part_o,            // with load_o
     // SRAM, a clock early
@@ -238,7 +238,7 @@ module pair_sequencer #(
   assign acquisition_t2_o = acquisition_t2_q;
   assign second_row_t2_o = second_row_t2_q;
   assign keep_first_o = second_row_t3_q && PARTS == 4 && !second_pair_t3_q;
-  assign keep_last_o = second_row_t3_q && (PARTS == 2 || second_pair_t3_q);
+  assign keep_last_o = second_row_t3_q && PARTS == 4 && second_pair_t3_q;
   assign pair_t3 = pair_tn_q[PAIR_WIDTH+:PAIR_WIDTH];
 
   logic prime_group, prime_word, read_group, read_word, write_word;

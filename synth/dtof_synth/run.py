@@ -20,7 +20,7 @@ from .library import Library
 from .namings import Naming
 from .netlist import Counts
 from .power import ClockTree, Power
-from .timing import Margin, TimedPath, Timing
+from .timing import Margin, Timing
 
 TARGET_MHZ = 330.0
 NAMINGS = 16
@@ -29,6 +29,7 @@ RESIZE_ROUNDS = 3  # a gate behind a column's port changes what the broadcast dr
 RESIZE_GUARD_NS = 0.004  # of slack that resizing leaves for that
 HOLD_ROUNDS = 4  # in which paths that are too early get buffers
 HOLD_BUFFER_NS = 0.0169  # what one of them adds in the fast corner, 0.014 to 0.021; too little adds a round
+HOLD_BUFFER_SLOW_NS = 0.12  # at most, in the slow corner with margins
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
 BOTH_CORNERS = ("typical", "slow")
 WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
@@ -50,13 +51,11 @@ _START = "+strash;ifraig;scorr;dc2"
 _BALANCE = "dch,-f;if,-g;strash"
 _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
-# Buffers are left to the trees and to resizing, which know where loads are.
-_SMALLEST = ";".join([_START, _BALANCE, _MAP, _SIZING.replace("buffer,-c;", "")])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
 # From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
 # as well as larger where ABC tries harder: what they miss is left to resizing.
 EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
-POOL_EFFORTS = (Effort(0.75, _SMALLEST), Effort(0.72, _SMALLEST), Effort(0.68, _SMALLEST))
+POOL_EFFORTS = (Effort(0.75, _SMALL), Effort(0.72, _SMALL), Effort(0.68, _SMALL))
 LAYOUT_EFFORT = Effort(0.68, _SMALL, range(4))
 
 
@@ -284,17 +283,24 @@ class _Netlist:
                 break
             shrinkable = []
 
-    def fix_hold(self, tight: list[TimedPath]) -> Margin:
-        """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner."""
-        taken = {netlist.local_pin(self.design, pin) for path in tight for pin in path.pins}
+    def fix_hold(self, tight: dict[str, float]) -> Margin:
+        """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner. `tight`:
+        what pins that have little to spare in the slow corner have."""
+        spare: dict[tuple[str, str, str], float] = {}
+        for name, slack in tight.items():
+            pin = netlist.local_pin(self.design, name)
+            spare[pin] = min(slack, spare.get(pin, math.inf))
         for number in range(HOLD_ROUNDS + 1):
             report = self.time("fast", "margins")
             if not report.early or number == HOLD_ROUNDS:
                 break
             buffers: dict[tuple[str, str, str], int] = {}
             for path in report.early:
-                pin = netlist.local_pin(self.design, _last_free_pin(self.design, path.pins, taken))
-                buffers[pin] = max(buffers.get(pin, 1), math.ceil(-path.slack / HOLD_BUFFER_NS))
+                needed = math.ceil(-path.slack / HOLD_BUFFER_NS)
+                pin = _last_free_pin([netlist.local_pin(self.design, pin) for pin in path.pins], spare, needed)
+                buffers[pin] = max(buffers.get(pin, 1), needed)
+            for pin, added in buffers.items():
+                spare[pin] = spare.get(pin, math.inf) - added * HOLD_BUFFER_SLOW_NS
             beside = netlist.delay_pins(self.design, buffers, self.technology.slow)
             self.plan.places |= {name: self.plan[cell] for name, cell in beside.items()}
             self.write(["fast"])
@@ -321,9 +327,13 @@ class _Netlist:
         return column.area * self.configuration.column_modules + shared.area
 
 
-def _last_free_pin(design: dict, path: list[str], taken: set[tuple[str, str, str]]) -> str:
-    """Where a buffer delays an early path and none that is tight; the end, where there is no such pin."""
-    return next((pin for pin in reversed(path) if netlist.local_pin(design, pin) not in taken), path[-1])
+Pin = tuple[str, str, str]  # kind of block, cell, pin
+
+
+def _last_free_pin(path: list[Pin], spare: dict[Pin, float], buffers: int) -> Pin:
+    """The last pin of an early path that has so many buffers' delay to spare; the one with most, where none has."""
+    return next((pin for pin in reversed(path) if spare.get(pin, math.inf) >= buffers * HOLD_BUFFER_SLOW_NS),
+                max(path, key=lambda pin: spare.get(pin, math.inf)))
 
 
 @dataclass(frozen=True)
@@ -334,7 +344,7 @@ class _Attempt:
     naming: Naming
     slack: float
     margin: Margin | None  # where the technology has a fast corner, too
-    tight: list[TimedPath]  # with little to spare there
+    tight: dict[str, float]  # what pins with little to spare have there
 
     @property
     def closes_with_margins(self) -> bool:

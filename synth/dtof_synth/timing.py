@@ -13,7 +13,7 @@ from .errors import FlowError
 from .standard_cells import CINV_FF, FO4_NS
 
 FAST_MHZ = 500.0
-TIGHT_NS = 0.15  # a path with less to spare than a buffer takes in the slow corner gets none
+TIGHT_NS = 0.5  # pins with less to spare are listed
 _SLACK = re.compile(r"(-?\d+\.\d+) +slack")
 NAMES = "names.json"  # beside the netlist: what its parts were called before spef.plain_names
 BLOCKS = "blocks.json"  # beside it: kind of a block, its instances, how many the array has, and so on
@@ -110,9 +110,9 @@ class Report:
         return self._paths("DTOF_EARLY")
 
     @property
-    def tight(self) -> list[TimedPath]:
-        """Those that have less than TIGHT_NS to spare with margins."""
-        return self._paths("DTOF_TIGHT")
+    def tight(self) -> dict[str, float]:
+        """What each pin that has less than TIGHT_NS to spare for setup has, ns, with margins."""
+        return {pin: float(slack) for pin, slack in (line.split() for line in self._section("DTOF_TIGHT").splitlines())}
 
     @property
     def resized(self) -> list[tuple[str, str, str]]:

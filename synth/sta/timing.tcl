@@ -3,8 +3,8 @@
 #   nominal   slacks at the target clock
 #   closing   the shortest period, and the slack at the fast one
 #   power     of every cell, at the target clock
-#   margins   slacks with the margins of constraints/margins.sdc, and the paths that are too early or have less than `tight` ns
-#             to spare; the last, because margins stay
+#   margins   slacks with the margins of constraints/margins.sdc, the paths that are too early, and the pins with less than `tight`
+#             ns to spare for setup; the last, because margins stay
 #   resize    gates of other drive strengths (resize.tcl); alone, since the clock and the margins of that step stay
 # OpenSTA exits 0 even after errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command
 # succeeded.
@@ -60,13 +60,29 @@ proc nominal {} {
   puts "DTOF_END"
 }
 
+# Of the slowest path through a pin, ns. OpenSTA has a command that prints it, but none that returns it.
+proc setup_slack {pin} {
+  set found Inf
+  foreach vertex [$pin vertices] {
+    if {$vertex eq "NULL"} { continue }
+    foreach edge {rise fall} {
+      set slack [lindex [sta::Vertex_slacks $vertex $edge] 1]
+      if {[string is double -strict $slack] && $slack * 1e9 < $found} { set found [expr {$slack * 1e9}] }
+    }
+  }
+  return $found
+}
+
 proc margins {} {
   uplevel #0 source $::margins
   report_slacks DTOF_MARGIN
   puts "DTOF_EARLY"
   report_checks -path_delay min -slack_max 0 -group_count 100000 -format full -fields {input_pins} -digits 4
   puts "DTOF_TIGHT"
-  report_checks -path_delay max -slack_max $::tight -group_count 100000 -format full -fields {input_pins} -digits 4
+  foreach pin [get_pins -hierarchical *] {
+    set slack [setup_slack $pin]
+    if {$slack < $::tight} { puts "[get_full_name $pin] [format %.4f $slack]" }
+  }
   puts "DTOF_RESET"
   report_check_types -recovery -removal
   puts "DTOF_END"
@@ -81,7 +97,7 @@ proc power {} {
     set name [get_full_name $cell]
     if {[string match *u_macro $name] || [string match *u_column $name] || [string match *u_quad $name]
         || [string match *u_engine $name]} { continue }
-    if {![regexp {^.*u_(column|pair)/} $name place]} {
+    if {![regexp {^.*u_(column|quad)/} $name place]} {
       lappend shared $cell
     } elseif {$counted in [list "" $place]} {
       set counted $place
