@@ -29,8 +29,8 @@ class Parts(unittest.TestCase):
 
     def test_each_part(self):
         parts = area_parts.parts(result("poolpointer2", ENGINES))
-        self.assertAlmostEqual(parts.column_logic, 100 * 2400.0)  # a column module is a pair
-        self.assertAlmostEqual(parts.column_sram, 100 * sram_model.macro(Size(1, 100, 116)).area)
+        self.assertAlmostEqual(parts.column_logic, 50 * 2400.0)  # a column module has four columns
+        self.assertAlmostEqual(parts.column_sram, 50 * sram_model.macro(Size(1, 100, 232)).area)
         self.assertAlmostEqual(parts.engines, 6000.0 - 120.0)
         self.assertAlmostEqual(parts.scratch_sram, 6 * sram_model.macro(Size(1, 160, 33)).area)
         self.assertAlmostEqual(parts.control, 9000.0 - 500.0 - 5880.0)
@@ -50,18 +50,18 @@ class Parts(unittest.TestCase):
     def test_macros_that_the_points_do_not_cover(self):
         plain, pool = result("ezpointer", NONE), result("poolpointer2", ENGINES)
         self.assertEqual(area_parts.doubtful_macros([plain]), [])
-        self.assertEqual(area_parts.doubtful_macros([plain, pool]), [Size(1, 100, 116)])
+        self.assertEqual(area_parts.doubtful_macros([plain, pool]), [Size(1, 100, 232)])
         self.assertAlmostEqual(area_parts.total_with_other_mux(plain), plain.total_mm2 * 1e6, places=3)
-        larger = sram_model.macro(Size(1, 100, 116), 2).area - sram_model.macro(Size(1, 100, 116)).area
+        larger = sram_model.macro(Size(1, 100, 232), 2).area - sram_model.macro(Size(1, 100, 232)).area
         self.assertGreater(larger, 1000.0)
-        self.assertAlmostEqual(area_parts.total_with_other_mux(pool), pool.total_mm2 * 1e6 + 100 * larger, places=3)
+        self.assertAlmostEqual(area_parts.total_with_other_mux(pool), pool.total_mm2 * 1e6 + 50 * larger, places=3)
 
 
 class Report(unittest.TestCase):
     def test_sentences_follow_the_figures(self):
         self.assertIn("No macro lacks", report._doubtful_section([result("ezpointer", NONE)]))
         text = report._doubtful_section([result("ezpointer", NONE), result("poolpointer2", ENGINES)])
-        self.assertIn("| sram_1rw_100x116 | 1 | 6435 | 8105 | yes |", text)
+        self.assertIn("| sram_1rw_100x232 | 1 | 11737 | 15123 | yes |", text)
         self.assertRegex(text, r"With a multiplexer of 2: poolPointer 2 [0-9.]+ instead of [0-9.]+ mm2\.")
 
 

@@ -21,8 +21,8 @@ def mapped() -> dict:
         "g_array[0].last": cell("DFF_X1", {"D": 5, "CK": 2}, {"Q": 6}), "tied": cell("NAND2_X1", {"A1": 4, "A2": "1"}, {"Y": 7})})
     array = module({"clk_i": ("input", 2), "d": ("input", 3), "q": ("output", 10)}, {
         "told": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4}),
-        **{f"g_pair[{index}].u_pair": cell("a_pair", {"clk_i": 2, "a": 4}, {"q": 10 + index}) for index in range(PAIRS)}}, top=True)
-    return {"modules": {"a_pair": pair, "t": array}}
+        **{f"g_quad[{index}].u_quad": cell("a_quad", {"clk_i": 2, "a": 4}, {"q": 10 + index}) for index in range(PAIRS)}}, top=True)
+    return {"modules": {"a_quad": pair, "t": array}}
 
 
 class SameLogic(unittest.TestCase):
@@ -46,13 +46,13 @@ class SameLogic(unittest.TestCase):
         netlist.insert_fanout_trees(array, self.library, self.load, {2})
         netlist.keep_columns(design, 3)
         called = spef.plain_names(design)
-        netlist.resize(design, self.library, [("a_pair", "gate", "NAND2_X4"), (netlist.TOP, "told", "DFF_X2")])
-        netlist.delay_pins(design, {("a_pair", "g_array_0__last", "D"): 2, ("", "g_pair_0__u_pair", "a"): 1}, self.library)
+        netlist.resize(design, self.library, [("a_quad", "gate", "NAND2_X4"), (netlist.TOP, "told", "DFF_X2")])
+        netlist.delay_pins(design, {("a_quad", "g_array_0__last", "D"): 2, ("", "g_quad_0__u_quad", "a"): 1}, self.library)
         return design, called
 
     def refusal(self, change) -> str:
         design, called = self.finished()
-        change(design["modules"]["a_pair"]["cells"], netlist.top(design)["cells"])
+        change(design["modules"]["a_quad"]["cells"], netlist.top(design)["cells"])
         before = same_logic.of(mapped(), self.library)
         try:
             same_logic.check(before, same_logic.of(design, self.library, called))
@@ -68,24 +68,24 @@ class SameLogic(unittest.TestCase):
         same_logic.check(same_logic.of(mapped(), self.library), same_logic.of(design, self.library, called))
 
     def test_another_function_is_found(self):
-        self.assertIn("a_pair: gate is no longer what was mapped", self.refusal(lambda pair, top: pair["gate"].update(type="NOR2_X4")))
+        self.assertIn("a_quad: gate is no longer what was mapped", self.refusal(lambda pair, top: pair["gate"].update(type="NOR2_X4")))
 
     def test_a_crossed_wire_is_found(self):
         def cross(pair, top):
             pair["gate"]["connections"]["A1"] = [3]
-        self.assertIn("a_pair: gate is no longer", self.refusal(cross))
+        self.assertIn("a_quad: gate is no longer", self.refusal(cross))
 
     def test_a_hold_buffer_of_another_net_is_found(self):
         def other(pair, top):
             first = min(name for name in pair if name.startswith(netlist.HOLD_PREFIX))
             pair[first]["connections"]["A"] = [4]
-        self.assertIn("a_pair: g_array[0].last is no longer", self.refusal(other))
+        self.assertIn("a_quad: g_array[0].last is no longer", self.refusal(other))
 
     def test_an_inverter_in_place_of_a_buffer_is_found(self):
         def invert(pair, top):
             name = next(name for name in pair if name.startswith(netlist.HOLD_PREFIX))
             pair[name]["type"] = "INV_X1"
-        self.assertRegex(self.refusal(invert), "a_pair: (hold_|g_array)")
+        self.assertRegex(self.refusal(invert), "a_quad: (hold_|g_array)")
 
     def test_a_copy_that_hears_something_else_is_found(self):
         def deafen(pair, top):
@@ -95,16 +95,16 @@ class SameLogic(unittest.TestCase):
         self.assertIn("told and its copy", self.refusal(deafen))
 
     def test_a_lost_cell_and_a_new_one_are_found(self):
-        self.assertEqual(self.refusal(lambda pair, top: pair.pop("tied")), "a_pair: tied is gone")
-        self.assertEqual(self.refusal(lambda pair, top: pair.update(extra=cell("INV_X1", {"A": 4}, {"Y": 90}))), "a_pair: extra is new")
+        self.assertEqual(self.refusal(lambda pair, top: pair.pop("tied")), "a_quad: tied is gone")
+        self.assertEqual(self.refusal(lambda pair, top: pair.update(extra=cell("INV_X1", {"A": 4}, {"Y": 90}))), "a_quad: extra is new")
 
     def test_another_constant_and_another_output_are_found(self):
         def tie(pair, top):
             pair["tied"]["connections"]["A2"] = ["0"]
-        self.assertIn("a_pair: tied is no longer", self.refusal(tie))
+        self.assertIn("a_quad: tied is no longer", self.refusal(tie))
         design, called = self.finished()
-        design["modules"]["a_pair"]["ports"]["q"]["bits"] = [5]
-        with self.assertRaisesRegex(FlowError, "a_pair: output q is no longer"):
+        design["modules"]["a_quad"]["ports"]["q"]["bits"] = [5]
+        with self.assertRaisesRegex(FlowError, "a_quad: output q is no longer"):
             same_logic.check(same_logic.of(mapped(), self.library), same_logic.of(design, self.library, called))
 
 
