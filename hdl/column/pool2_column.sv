@@ -45,7 +45,8 @@ module pool2_column #(
     output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
     // coarse bin of the timestamp that counts, registered: of the first pixel, then of the two
     output logic                    held_valid_o,
-    output logic [COARSE_WIDTH-1:0] held_bin_o
+    output logic [COARSE_WIDTH-1:0] held_bin_o,
+    output logic                    upper_t2_o         // coarse: what counts of the two is in the upper half of all bins
 );
 
   localparam int TRACK_REACH = 4;
@@ -144,7 +145,7 @@ module pool2_column #(
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
   // has no timestamp.
 
-  logic held_valid_q;
+  logic held_valid_q, second_row_counts;
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
   assign detected_t1_o = has_first;
@@ -152,8 +153,11 @@ module pool2_column #(
   assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
 
   // The second pixel replaces the first where that has no timestamp, or in its turn.
+  assign second_row_counts = has_first_q && (odd_q || !held_valid_q);
+  assign upper_t2_o = second_row_counts ? bin[COARSE_WIDTH-1] : (held_valid_q && held_bin_q[COARSE_WIDTH-1]);
+
   always_ff @(posedge clk_i) begin
-    if (first_row_t2_i || (second_row_t2_i && has_first_q && (odd_q || !held_valid_q))) begin
+    if (first_row_t2_i || (second_row_t2_i && second_row_counts)) begin
       held_valid_q <= has_first_q;
       held_bin_q <= bin;
     end

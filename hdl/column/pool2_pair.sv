@@ -5,9 +5,10 @@
 //
 // All accesses are common to all pairs, in all phases. In the coarse phase a column chooses a timestamp of each two rows, and
 // both columns' count in each part of the group's bins, if they belong there, two bins in a clock:
-//   clock (T0: last slot of the two rows)   T2            T3          T4                    T5
+//   clock (T0: last slot of the two rows)   T1            T2          T3                    T4
 //   first part                              read          registered  counted and written
 //   second part                                           read        registered            counted and written
+// At T2 it is known what will be chosen, so that the second part is read only where something counts in it.
 // With LINE_HALVES = 2 there are four parts, and the accesses of two rows do not suffice. Four rows count together:
 //   clock (T0: last slot of the four rows)  T2            T3          T4                    T5
 //   first part                              read          registered  first two rows count  last two rows count, written
@@ -82,6 +83,7 @@ module pool2_pair #(
     input  logic                  read_i,
     input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
     input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
+    output logic                  upper_t2_o,        // coarse, at T2 of a second row: something counts in the second of two parts
     output logic                  write_o,           // with write_i: there is something to write
     output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
@@ -112,7 +114,7 @@ module pool2_pair #(
   localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH);
 
   logic [WORD_WIDTH-1:0] word_q;
-  logic [COLUMNS-1:0] detected_t1, detected_t2, held_valid;
+  logic [COLUMNS-1:0] detected_t1, detected_t2, held_valid, upper_t2;
   logic [COLUMNS*COARSE_WIDTH-1:0] held_bin;
 
   // Coarse: what the columns have chosen, {bin, valid} of each. Two bins count at a time, which may be the same one. Nothing
@@ -142,19 +144,15 @@ module pool2_pair #(
   genvar d;
   generate
     if (PART_WIDTH == 1) begin : g_two_parts
-      // The choices last until both parts are loaded. Which ones belong to a part is known when it is.
+      // The choices last until both parts have counted.
+      logic part_q;
+      always_ff @(posedge clk_i) begin
+        part_q <= part_i;
+      end
       for (d = 0; d < 2; d = d + 1) begin : g_choice
-        logic valid, part, belongs_q;
-        logic [PLACE_WIDTH-1:0] place, place_q;
-        assign {part, place, valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-        always_ff @(posedge clk_i) begin
-          if (load_i) begin
-            belongs_q <= valid && (part == part_i);
-            place_q <= place;
-          end
-        end
-        assign counts_here[d] = count_q && belongs_q;
-        assign places[d*PLACE_WIDTH+:PLACE_WIDTH] = place_q;
+        logic valid, part;
+        assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
+        assign counts_here[d] = count_q && valid && (part == part_q);
       end
       assign counts_first = 1'b0;
       assign counted_before = 1'b0;
@@ -423,7 +421,8 @@ module pool2_pair #(
             .used_t2_o        (used_t2[c*NP+:NP]),
             .hits_t2_o        (hits_t2[c*LABELS+:LABELS]),
             .held_valid_o     (held_valid[c]),
-            .held_bin_o       (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH])
+            .held_bin_o       (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH]),
+            .upper_t2_o       (upper_t2[c])
         );
       end
 
@@ -444,6 +443,8 @@ module pool2_pair #(
           counted_word[c*HALF_WIDTH+:PIXEL_WIDTH]};
     end
   endgenerate
+
+  assign upper_t2_o = (upper_t2 != '0);
 
   // Pixels without a timestamp stay what they are, and a word of them alone is not written, nor one in which nothing counts.
   assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts : changed_q;

@@ -82,8 +82,8 @@ module pool2_quad #(
 );
 
   logic [PAIRS*WORD_WIDTH-1:0] read_data, write_data;
-  logic [PAIRS-1:0] pair_writes;
-  logic engine_load_q;
+  logic [PAIRS-1:0] pair_writes, upper_t2;
+  logic engine_load_q, nothing_upper;
 
   dtof_sram #(
       .PORTS(1),
@@ -94,13 +94,16 @@ module pool2_quad #(
       .rst_ni      (rst_ni),
       .cfg_i       (sram_cfg_i),
       .cfg_o       (sram_cfg_o),
-      .read_en_i   (read_i && (!engine_i || select_i != '0)),
+      .read_en_i   (read_i && (!engine_i || select_i != '0) && !nothing_upper),
       .read_addr_i (address_i),
       .read_data_o (read_data),
       .write_en_i  (write_i && pair_writes != '0),
       .write_addr_i(address_i),
       .write_data_i(write_data)
   );
+
+  // The second of two parts is read at T2 of a second row. Where nothing counts in it, what was read before is loaded once more.
+  assign nothing_upper = (PART_WIDTH == 1) && second_row_t2_i && upper_t2 == '0;
 
   // Timestamps begin when the engine's last read is long done.
   always_ff @(posedge clk_i) begin
@@ -154,6 +157,7 @@ module pool2_quad #(
           .read_i          (read_i),
           .engine_load_i   (engine_load_q),
           .read_data_i     (read_data[p*WORD_WIDTH+:WORD_WIDTH]),
+          .upper_t2_o      (upper_t2[p]),
           .write_o         (pair_writes[p]),
           .write_data_o    (write_data[p*WORD_WIDTH+:WORD_WIDTH]),
           .word_load_d_i   (word_load_d_i),

@@ -12,7 +12,7 @@
 //                            T3: the next pair's first pixel is registered
 //                            T4: write the pair; the next is registered
 //   coarse phase, second pixel of a pair, for part k of the two of a group's bins:
-//                            T2 + k: read, T3 + k: registered, T4 + k: counted and written
+//                            T1 + k: read, T2 + k: registered, T3 + k: counted and written
 //   with LINE_HALVES = 2 second pixel of a second pair, for part k of the four:
 //                            T2 + 2 k: read, T3 + 2 k: registered, T4 + 2 k: counted, T5 + 2 k: counted and written
 // SRAM commands and loads are given one clock early (_d) for the array to register and spread.
@@ -77,7 +77,8 @@ module pair_sequencer #(
   localparam logic [STEP_WIDTH-1:0] LAST_STEP = STEP_WIDTH'(STEPS - 1);
   localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
   // A phase ends when its last count was commanded: a clock after drain_q = 0 stream_i falls.
-  localparam int LAST_STAGE = 2 + PART_CLOCKS * PARTS;  // the write of a last part, given at this T
+  localparam int FIRST_STAGE = (PARTS == 2) ? 0 : 1;    // the read of the first part is given at this T
+  localparam int LAST_STAGE = FIRST_STAGE + 1 + PART_CLOCKS * PARTS;  // the write of the last one
   localparam int DRAIN_WIDTH = $clog2(LAST_STAGE);
   localparam logic [DRAIN_WIDTH-1:0] DRAIN_CLOCKS = DRAIN_WIDTH'(LAST_STAGE - 1);
   localparam logic [2:0] PRIMED = 3'd6;
@@ -145,7 +146,7 @@ module pair_sequencer #(
   logic busy_t1_q, beat_t1_q, first_slot_t1_q, second_pixel_t1_q;
   logic [STEP_WIDTH-1:0] step_t1_q;
   logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
-  logic first_slot, next_group_t1, last_step_t1, second_row_t1, fetch_t1;
+  logic first_slot, next_group_t1, last_step_t1, second_row_t1;
 
   assign first_slot = (step_q == '0) || (step_q == STEP_WIDTH'(SLOTS));
 
@@ -172,29 +173,30 @@ module pair_sequencer #(
   // Of a pixel, whether it is missing or not.
   assign last_step_t1 = busy_t1_q && (step_t1_q == STEP_WIDTH'(SLOTS - 1) || step_t1_q == LAST_STEP);
   assign second_row_t1 = coarse_i && last_step_t1 && second_pixel_t1_q;
-  assign fetch_t1 = second_row_t1 && (PARTS == 2 || pair_t1_q[0]);
 
-  // T2 and later
+  // Parts of a group's bins, from FIRST_STAGE on.
 
-  logic [LAST_STAGE:1] fetch_tn;
-  logic [LAST_STAGE:2] fetch_tn_q;
-  logic [(LAST_STAGE-1)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. LAST_STAGE, T2 lowest
+  logic [LAST_STAGE:FIRST_STAGE] fetch_tn;
+  logic [LAST_STAGE:FIRST_STAGE+1] fetch_tn_q;
+  logic [(LAST_STAGE+1)*PAIR_WIDTH-1:0] pair_tn;  // of T0 .. LAST_STAGE, T0 lowest
+  logic [(LAST_STAGE-1)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. LAST_STAGE
   logic [PAIR_WIDTH-1:0] pair_t3;
   logic second_visit_t2_q, second_visit_t3_q, second_row_t2_q, second_row_t3_q, second_pair_t2_q, second_pair_t3_q;
   logic [3:0] acquisition_t2_q;
   logic read_part, load_part, write_part;
   integer n;
 
-  assign fetch_tn = {fetch_tn_q, fetch_t1};
+  assign fetch_tn = {fetch_tn_q, (PARTS == 2) ? coarse_i && busy && step_q == LAST_STEP : second_row_t1 && pair_t1_q[0]};
+  assign pair_tn = {pair_tn_q, pair_t1_q, pair_q};
 
   always_comb begin
     read_part = 1'b0;
     load_part = 1'b0;
     write_part = 1'b0;
     for (n = 0; n < PARTS; n = n + 1) begin
-      read_part = read_part || fetch_tn[1+n*PART_CLOCKS];
-      load_part = load_part || fetch_tn[2+n*PART_CLOCKS];
-      write_part = write_part || fetch_tn[2+(n+1)*PART_CLOCKS];
+      read_part = read_part || fetch_tn[FIRST_STAGE+n*PART_CLOCKS];
+      load_part = load_part || fetch_tn[FIRST_STAGE+1+n*PART_CLOCKS];
+      write_part = write_part || fetch_tn[FIRST_STAGE+1+(n+1)*PART_CLOCKS];
     end
   end
 
@@ -207,7 +209,7 @@ module pair_sequencer #(
       second_row_t2_q <= 1'b0;
       second_row_t3_q <= 1'b0;
     end else begin
-      fetch_tn_q <= fetch_tn[LAST_STAGE-1:1];
+      fetch_tn_q <= fetch_tn[LAST_STAGE-1:FIRST_STAGE];
       load_o <= load_part;
       second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
       second_visit_t3_q <= second_visit_t2_q;
@@ -217,13 +219,13 @@ module pair_sequencer #(
   end
 
   always_ff @(posedge clk_i) begin
-    pair_tn_q <= {pair_tn_q[(LAST_STAGE-2)*PAIR_WIDTH-1:0], pair_t1_q};
+    pair_tn_q <= pair_tn[PAIR_WIDTH+:(LAST_STAGE-1)*PAIR_WIDTH];
     acquisition_t2_q <= acquisition_t1_i;
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
     second_pair_t2_q <= pair_t1_q[0];
     second_pair_t3_q <= second_pair_t2_q;
     if (load_part) begin
-      part_o <= fetch_tn[2] ? '0 : part_o + 1'b1;
+      part_o <= fetch_tn[FIRST_STAGE+1] ? '0 : part_o + 1'b1;
     end
   end
 
@@ -239,7 +241,7 @@ module pair_sequencer #(
   assign second_row_t2_o = second_row_t2_q;
   assign keep_first_o = second_row_t3_q && PARTS == 4 && !second_pair_t3_q;
   assign keep_last_o = second_row_t3_q && PARTS == 4 && second_pair_t3_q;
-  assign pair_t3 = pair_tn_q[PAIR_WIDTH+:PAIR_WIDTH];
+  assign pair_t3 = pair_tn[3*PAIR_WIDTH+:PAIR_WIDTH];
 
   logic prime_group, prime_word, read_group, read_word, write_word;
   assign prime_group = stream_i && !coarse_i && (prime_q == 3'd1);
@@ -266,12 +268,11 @@ module pair_sequencer #(
   always_comb begin
     part_address = '0;
     for (m = 0; m < PARTS; m = m + 1) begin
-      if (fetch_tn[1+m*PART_CLOCKS]) begin
-        part_address = word_of((m == 0) ? pair_t1_q : pair_tn_q[((m == 0) ? 0 : m*PART_CLOCKS-1)*PAIR_WIDTH+:PAIR_WIDTH],
-                               ADDR_WIDTH'(m));
+      if (fetch_tn[FIRST_STAGE+m*PART_CLOCKS]) begin
+        part_address = word_of(pair_tn[(FIRST_STAGE+m*PART_CLOCKS)*PAIR_WIDTH+:PAIR_WIDTH], ADDR_WIDTH'(m));
       end
-      if (fetch_tn[2+(m+1)*PART_CLOCKS]) begin
-        part_address = word_of(pair_tn_q[(m+1)*PART_CLOCKS*PAIR_WIDTH+:PAIR_WIDTH], ADDR_WIDTH'(m));
+      if (fetch_tn[FIRST_STAGE+1+(m+1)*PART_CLOCKS]) begin
+        part_address = word_of(pair_tn[(FIRST_STAGE+1+(m+1)*PART_CLOCKS)*PAIR_WIDTH+:PAIR_WIDTH], ADDR_WIDTH'(m));
       end
     end
   end
