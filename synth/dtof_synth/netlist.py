@@ -291,18 +291,20 @@ def local_pin(design: dict, name: str) -> tuple[str, str, str]:
 
 
 def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: Library) -> dict[str, str]:
-    """Puts so many of the smallest buffers in front of each pin (local_pin). A block is delayed with all of its kind. Returns
-    beside which cell of the top each new buffer of the top stands."""
+    """Puts so many of the smallest buffers in front of each pin (local_pin); pins of one net share them. A block is delayed with
+    all of its kind. Returns beside which cell of the top each new buffer of the top stands."""
     buffer = library.buffers[0]
     beside: dict[str, str] = {}
     fresh: dict[str, int] = {}
+    delayed: dict[tuple[str, int], list[int]] = {}  # of a kind's net: the net behind so many buffers
     for (kind, cell, pin), number in buffers.items():
         module = modules(design)[kind] if kind else top(design)
         index = int(pin[pin.index("[") + 1:-1]) if "[" in pin else 0
         bits = module["cells"][cell]["connections"][pin.split("[")[0]]
         if kind not in fresh:
             fresh[kind] = _next_net(module)
-        for _ in range(number):
+        behind = delayed.setdefault((kind, bits[index]), [bits[index]])
+        while len(behind) <= number:
             output = fresh[kind]
             fresh[kind] += 1
             name = f"{HOLD_PREFIX}{output}"
@@ -311,9 +313,79 @@ def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: 
             module["cells"][name] = {
                 "hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
                 "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
-                "connections": {buffer.input_pin: [bits[index]], buffer.output_pin: [output]}}
-            bits[index] = output
+                "connections": {buffer.input_pin: [behind[-1]], buffer.output_pin: [output]}}
+            behind.append(output)
+        bits[index] = behind[number]
     return beside
+
+
+@dataclass(frozen=True)
+class Dispensable:
+    """A buffer of a block without which its driver could carry the load, as the cell `drive` if not as it is."""
+
+    kind: str  # of block
+    buffer: str
+    driver: str
+    drive: str
+
+
+def dispensable_buffers(design: dict, library: Library, kinds: Iterable[str],
+                        pin_load: Callable[[str, str], float]) -> tuple[list[Dispensable], dict[str, dict[int, float]]]:
+    """Those that the cells' limits of load do not ask for, and what nets of the blocks carry without all of them. A drive that
+    costs as much as the buffer is none to choose. Buffers of trees, those that delay, and those behind one that may go are not
+    looked at."""
+    found = []
+    loads: dict[str, dict[int, float]] = {}
+    buffers = {buffer.name: buffer for buffer in library.buffers}
+    family = {kind: kinds for kinds in library.drives for kind in kinds}
+    for kind in kinds:
+        module = modules(design)[kind]
+        cells = module["cells"]
+        carried = {net: load_of(sinks) for net, sinks in sinks_of(module, pin_load, library.wire_ff_per_sink).items()}
+        loads[kind] = carried
+        ports = {bit for port in module["ports"].values() for bit in port["bits"]}
+        drives = {bits[0]: (name, pin) for name, cell in cells.items() if cell["type"] in library.area
+                  for pin, bits in cell["connections"].items() if cell["port_directions"].get(pin) == "output"}
+        drive_of = {name: cell["type"] for name, cell in cells.items()}
+        taken: set[str] = set()
+        for name, cell in cells.items():
+            buffer = buffers.get(cell["type"])
+            if buffer is None or name.startswith((TREE_PREFIX, HOLD_PREFIX)):
+                continue
+            net, output = (cell["connections"][pin][0] for pin in (buffer.input_pin, buffer.output_pin))
+            driver, pin = drives.get(net, ("", ""))
+            if net in ports or output in ports or not driver or driver in taken:
+                continue
+            merged = carried[net] - buffer.input_ff - library.wire_ff_per_sink + carried.get(output, 0.0)
+            now = drive_of[driver]
+            stronger = family.get(now, [now])
+            drive = next((other for other in stronger[stronger.index(now):]
+                          if library.area[other] < library.area[now] + buffer.area
+                          and merged <= library.max_load_ff[other][pin] * TREE_LOAD_SHARE), None)
+            if drive is None:
+                continue
+            drive_of[driver] = drive
+            carried[net] = merged
+            taken.add(name)
+            found.append(Dispensable(kind, name, driver, drive))
+    return found, loads
+
+
+def drop_buffers(design: dict, library: Library, dropped: Iterable[tuple[str, str]]) -> None:
+    """Connects what buffers (kind of block, cell) drive to what drives them."""
+    buffers = {buffer.name: buffer for buffer in library.buffers}
+    replaced: dict[str, dict[int, int]] = {}
+    for kind, name in dropped:
+        cell = modules(design)[kind]["cells"].pop(name)
+        buffer = buffers[cell["type"]]
+        replaced.setdefault(kind, {})[cell["connections"][buffer.output_pin][0]] = cell["connections"][buffer.input_pin][0]
+    for kind, nets in replaced.items():
+        for cell in modules(design)[kind]["cells"].values():
+            for bits in cell["connections"].values():
+                for index, bit in enumerate(bits):
+                    while bit in nets:  # behind several of them
+                        bit = nets[bit]
+                    bits[index] = bit
 
 
 def resize(design: dict, library: Library, cells: Iterable[tuple[str, str, str]]) -> None:
@@ -326,21 +398,24 @@ def resize(design: dict, library: Library, cells: Iterable[tuple[str, str, str]]
         cell["type"] = drive
 
 
-def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: Callable[[str, str], float]) -> list[tuple[str, str]]:
+def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: Callable[[str, str], float],
+               carried: dict[str, dict[int, float]] | None = None) -> list[tuple[str, str]]:
     """(kind of block or TOP, cell) of what could drive its load with the next smaller drive; those that save most first. The
-    buffers of fan-out trees and the registers in front of them are as strong as they should be."""
+    buffers of fan-out trees and the registers in front of them are as strong as they should be. `carried`: what nets of a kind
+    may have to carry, where that is not what they do."""
     found = []
     next_smaller = library.smaller
     for kind in kinds:
         module = top(design) if kind == TOP else modules(design)[kind]
-        nets = sinks_of(module, pin_load, library.wire_ff_per_sink)
+        loads = (carried or {}).get(kind) or {net: load_of(sinks) for net, sinks in
+                                              sinks_of(module, pin_load, library.wire_ff_per_sink).items()}
         for name, cell in module["cells"].items():
             smaller = next_smaller.get(cell["type"])
             if smaller is None or name.startswith(TREE_PREFIX) or COPY_SUFFIX in name:
                 continue
             outputs = [(pin, bits[0]) for pin, bits in cell["connections"].items()
                        if cell["port_directions"].get(pin) == "output"]
-            if all(load_of(nets.get(bit, [])) <= library.max_load_ff[smaller][pin] * TREE_LOAD_SHARE for pin, bit in outputs):
+            if all(loads.get(bit, 0.0) <= library.max_load_ff[smaller][pin] * TREE_LOAD_SHARE for pin, bit in outputs):
                 found.append((library.area[cell["type"]] - library.area[smaller], kind, name))
     return [(kind, name) for _, kind, name in sorted(found, key=lambda item: -item[0])]
 

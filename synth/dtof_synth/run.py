@@ -8,7 +8,7 @@ import json
 import math
 import re
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
 from . import (clock_gating, floorplan, netlist, power, same_logic, spef, sram_kit, sram_model, standard_cells, timing, tools,
@@ -211,10 +211,13 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     return design
 
 
-def _resize_settings(folder: Path, library: Library, shrinkable: list[tuple[str, str]]) -> dict[str, tools.Setting]:
+def _resize_settings(folder: Path, library: Library, shrinkable: Iterable[tuple[str, str]] = (),
+                     dispensable: Iterable[netlist.Dispensable] = ()) -> dict[str, tools.Setting]:
     """Of the step `resize` of synth/sta/timing.tcl."""
     return {"blocks": json.loads((folder / timing.BLOCKS).read_text(encoding="utf-8")), "drives": library.drives,
-            "cell_areas": library.area, "guard": f"{RESIZE_GUARD_NS}", "shrinkable": [list(gate) for gate in shrinkable]}
+            "cell_areas": library.area, "guard": f"{RESIZE_GUARD_NS}", "shrinkable": [list(gate) for gate in shrinkable],
+            "buffer_pins": [library.buffers[0].input_pin, library.buffers[0].output_pin],
+            "dispensable": [list(astuple(one)) for one in dispensable]}
 
 
 @dataclass(frozen=True)
@@ -264,7 +267,8 @@ class _Netlist:
                               self.folder / f"sta_{'resize' if 'resize' in steps else corner}.log", steps, settings)
 
     def resize(self) -> None:
-        """Gives gates on paths that fail in the slow corner with margins more drive, others less."""
+        """Gives gates on paths that fail in the slow corner with margins more drive, others less, and takes out the buffers of
+        mapping that no path needs."""
         library = self.technology.slow
         column, engine = netlist.column_module(self.design), netlist.engine_module(self.design)
         cells = netlist.top(self.design)["cells"]
@@ -273,15 +277,18 @@ class _Netlist:
         (self.folder / timing.BLOCKS).write_text(json.dumps([item for kind in kinds for item in (
             kind, [name for name, cell in cells.items() if cell["type"] == kind], copies[kind])]), encoding="utf-8")
         pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
-        shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load)
+        dispensable, carried = netlist.dispensable_buffers(self.design, library, kinds, pin_load)
+        shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load, carried)
         for _ in range(RESIZE_ROUNDS):
-            found = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable)).resized
+            report = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable, dispensable))
+            found = report.resized
             netlist.resize(self.design, library, found)
+            netlist.drop_buffers(self.design, library, report.dropped)
             self.write_stub(netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink))
             self.write(WIRES)
-            if not any(kind == column for kind, *_ in found):
+            if not any(kind == column for kind, *_ in [*found, *report.dropped]):
                 break
-            shrinkable = []
+            shrinkable, dispensable = [], []
 
     def fix_hold(self, tight: dict[str, float]) -> Margin:
         """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner. `tight`:
@@ -291,7 +298,7 @@ class _Netlist:
             pin = netlist.local_pin(self.design, name)
             spare[pin] = min(slack, spare.get(pin, math.inf))
         for number in range(HOLD_ROUNDS + 1):
-            report = self.time("fast", "margins")
+            report = self.time("fast", "margins", "early")
             if not report.early or number == HOLD_ROUNDS:
                 break
             buffers: dict[tuple[str, str, str], int] = {}
@@ -360,7 +367,7 @@ def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None, [])
     timed.resize()
-    report = timed.time("slow", "nominal", "margins")
+    report = timed.time("slow", "nominal", "margins", "tight")
     return _Attempt(timed, naming, report.slack, report.margin(), report.tight)
 
 
@@ -468,7 +475,7 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
         return timing.measure(files, technology.root, technology.target_mhz, effort / log, steps, settings)
 
     report = time("sta_slow_wires.log", ("nominal", "margins"), {})
-    resized = time("sta_resize_wires.log", ("resize",), _resize_settings(effort, technology.slow, []))
+    resized = time("sta_resize_wires.log", ("resize",), _resize_settings(effort, technology.slow))
     return OtherWires(report.slack, report.margin().slack, resized.resized_slack, resized.resized_area / 1e6)
 
 

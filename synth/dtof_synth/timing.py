@@ -106,18 +106,23 @@ class Report:
 
     @property
     def early(self) -> list[TimedPath]:
-        """Those that violate hold with margins."""
+        """Those that violate hold with margins, of the step `early`."""
         return self._paths("DTOF_EARLY")
 
     @property
     def tight(self) -> dict[str, float]:
-        """What each pin that has less than TIGHT_NS to spare for setup has, ns, with margins."""
+        """What each input pin that has less than TIGHT_NS to spare for setup has, ns, with margins; of the step `tight`."""
         return {pin: float(slack) for pin, slack in (line.split() for line in self._section("DTOF_TIGHT").splitlines())}
 
     @property
     def resized(self) -> list[tuple[str, str, str]]:
         """(kind of block or `top`, gate, library cell) of what the step `resize` gave another drive."""
         return re.findall(r"^DTOF_RESIZED (\S+) (\S+) (\S+)$", self.output, re.MULTILINE)
+
+    @property
+    def dropped(self) -> list[tuple[str, str]]:
+        """(kind of block, buffer) of the buffers that the step `resize` found needless."""
+        return re.findall(r"^DTOF_DROPPED (\S+) (\S+)$", self.output, re.MULTILINE)
 
     @property
     def resized_slack(self) -> float:
@@ -171,7 +176,7 @@ def measure(netlist: Netlist, root: Path, target_mhz: float, log: Path, steps: t
         "top": netlist.top, "wire_load": netlist.wire_load, "constraints": root / "constraints" / "dtof.sdc",
         "margins": root / "constraints" / "margins.sdc", "target_period": f"{1000 / target_mhz:.6f}",
         "fast_period": f"{1000 / FAST_MHZ:.6f}", "activity": power.ACTIVITY, "slew": f"{FO4_NS:.4f}",
-        "load": f"{10 * CINV_FF:.4f}", "tight": f"{TIGHT_NS}", **(settings_of_steps or {})})
+        "load": f"{10 * CINV_FF:.4f}", "tight_below": f"{TIGHT_NS}", **(settings_of_steps or {})})
     output = tools.run_sta(root / "synth" / "sta" / "timing.tcl", settings, log, netlist.name)
     called = json.loads((netlist.verilog.parent / NAMES).read_text(encoding="utf-8"))
     report = Report(output, called)

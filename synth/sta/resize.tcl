@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
 # Gates of other drive strengths, by trial: OpenSTA times the whole array anew after each. ABC chooses them without knowing when
 # an SRAM's word or a broadcast arrives, and when its outputs are due.
-#   grow     of the slowest path the gate whose larger drive takes the most negative slack away for its area, until no slack is
-#            negative, or no such gate is on the slowest PATHS, or MOST_GROWN have been enlarged
+#   grow     of the slowest path the gate whose larger drive takes the most negative slack away for its area, and others that are
+#            NEARLY as good, until no slack is negative, or no such gate is on the slowest PATHS, or MOST_GROWN have been enlarged
+#   drop     the buffers of `dispensable`, if that leaves all paths met: {kind buffer driver drive}, where `drive` is the cell of
+#            the driver that carries the load without it
 #   shrink   the gates of `shrinkable` to the next smaller drive, if that leaves all paths met
 # `drives`: cells of one function, smallest first, by list. `blocks`: kind of a block, its instances, how many the array has of
 # it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`.
-# Prints what is another drive now, the area of it all and the slack.
+# `buffer_pins`: input and output of all buffers.
+# Prints what is another drive now, which buffers are not needed, the area of it all and the slack.
 
 set PATHS 100
 set MOST_GROWN 500
+set NEARLY 0.5
 
 proc index_drives {} {
   foreach family $::drives {
@@ -54,37 +58,142 @@ proc growable {path} {
   return $found
 }
 
-# The best gate to grow on a path, what it is and what it shall be; nothing if none helps.
-proc best_of_path {path} {
+# What a drive of a gate takes away of the negative slack for its area; 0 where that is hardly any.
+proc worth {gate cells now next before} {
+  resize_to $cells $next
+  set gain [expr {[total_negative_slack] - $before}]
+  return [expr {$gain > 1e-5 ? $gain / [added_area $gate $now $next] : 0}]
+}
+
+# Gates to grow on a path, each as {worth gate now next} with its best drive, the best first; nothing if none helps.
+proc growths_of_path {path} {
   set before [total_negative_slack]
-  set best 0
-  set choice {}
+  set found {}
   foreach gate [growable $path] {
     set cells [instances {*}$gate]
     set now [get_property [lindex $cells 0] ref_name]
+    set best 0
     for {set next $::larger($now)} {$next ne ""} {set next $::larger($next)} {
-      resize_to $cells $next
-      set gain [expr {[total_negative_slack] - $before}]
-      set worth [expr {$gain / [added_area $gate $now $next]}]
-      if {$gain > 1e-5 && $worth > $best} {
-        set best $worth
-        set choice [list $gate $now $next]
-      }
+      set worth [worth $gate $cells $now $next $before]
+      if {$worth <= $best} { break }
+      set best $worth
+      set choice [list $worth $gate $now $next]
     }
     resize_to $cells $now
+    if {$best > 0} { lappend found $choice }
   }
-  return $choice
+  return [lsort -real -decreasing -index 0 $found]
 }
 
-# That of the slowest path where there is one. OpenSTA keeps the memory of all paths that it ever found, so the slowest
+# Grows the best gate of a path, and those that are still nearly as good once that is done; returns them.
+proc grow {growths} {
+  set enough [expr {[lindex $growths 0 0] * $::NEARLY}]
+  set grown {}
+  foreach growth $growths {
+    lassign $growth worth gate now next
+    if {$worth < $enough} { break }
+    set cells [instances {*}$gate]
+    if {[worth $gate $cells $now $next [total_negative_slack]] >= $enough} {
+      lappend grown $growth
+    } else {
+      resize_to $cells $now
+    }
+  }
+  return $grown
+}
+
+# Those of the slowest path where there are any. OpenSTA keeps the memory of all paths that it ever found, so the slowest
 # alone is looked at first.
-proc best_growth {} {
+proc best_growths {} {
   foreach count [list 1 $::PATHS] {
     foreach path [find_timing_paths -path_delay max -group_count $count] {
       if {[get_property $path slack] >= 0} { continue }
-      set choice [best_of_path $path]
-      if {$choice ne ""} { return $choice }
+      set growths [growths_of_path $path]
+      if {$growths ne ""} { return $growths }
     }
+  }
+}
+
+# Pins of a net but the one that drives it.
+proc sinks {net driver} {
+  set found {}
+  foreach pin [get_pins -of_objects $net] {
+    if {[get_full_name $pin] ne $driver} { lappend found $pin }
+  }
+  return $found
+}
+
+# Connects pins to another net.
+proc move_pins {pins from to} {
+  foreach pin $pins {
+    disconnect_pin $from $pin
+    connect_pin $to $pin
+  }
+}
+
+# Says that a gate has another drive now.
+proc note {gate now next} {
+  dict set ::resized $gate $next
+  set ::area [expr {$::area + [added_area $gate $now $next]}]
+}
+
+proc grow_late_paths {} {
+  for {set grown 0} {$grown < $::MOST_GROWN && [total_negative_slack] < 0} {} {
+    set growths [best_growths]
+    if {$growths eq ""} { break }
+    foreach growth [grow $growths] {
+      note {*}[lrange $growth 1 end]
+      incr grown
+    }
+  }
+}
+
+# Takes a buffer out if no path becomes too slow by it.
+proc drop {kind buffer driver drive} {
+  lassign $::buffer_pins input output
+  set cells [instances $kind $driver]
+  set now [get_property [lindex $cells 0] ref_name]
+  set own [get_property [lindex [instances $kind $buffer] 0] ref_name]
+  if {$::area_of($drive) - $::area_of($now) >= $::area_of($own)} { return }
+  set limit [total_negative_slack]
+  set places {}
+  foreach block $::instances_of($kind) {
+    set pin [get_pins $block/$buffer/$input]
+    set net [get_nets -of_objects $pin]
+    set own_net [get_nets -of_objects [get_pins $block/$buffer/$output]]
+    lappend places [list $pin $net $own_net [sinks $own_net $block/$buffer/$output]]
+  }
+  foreach place $places {
+    lassign $place pin net own_net sinks
+    disconnect_pin $net $pin
+    move_pins $sinks $own_net $net
+  }
+  resize_to $cells $drive
+  if {[total_negative_slack] < $limit} {
+    foreach place $places {
+      lassign $place pin net own_net sinks
+      connect_pin $net $pin
+      move_pins $sinks $net $own_net
+    }
+    resize_to $cells $now
+    return
+  }
+  lappend ::dropped [list $kind $buffer]
+  set ::area [expr {$::area - $::copies_of($kind) * $::area_of($own)}]
+  if {$drive ne $now} { note [list $kind $driver] $now $drive }
+}
+
+# Gives a gate the next smaller drive if no path becomes too slow by it.
+proc shrink {gate} {
+  set limit [total_negative_slack]
+  set cells [instances {*}$gate]
+  set now [get_property [lindex $cells 0] ref_name]
+  set next $::smaller($now)
+  resize_to $cells $next
+  if {[total_negative_slack] < $limit} {
+    resize_to $cells $now
+  } else {
+    note $gate $now $next
   }
 }
 
@@ -97,33 +206,20 @@ proc resize {} {
   set ::copies_of(top) 1
   array set ::area_of $::cell_areas
   index_drives
+  set ::resized [dict create]
+  set ::dropped {}
+  set ::area 0
   constrain [expr {$::target_period - $::guard}]
   uplevel #0 source $::margins
-  set resized [dict create]
-  set area 0
-  for {set grown 0} {$grown < $::MOST_GROWN && [total_negative_slack] < 0} {incr grown} {
-    lassign [best_growth] gate now next
-    if {$gate eq ""} { break }
-    resize_to [instances {*}$gate] $next
-    dict set resized $gate $next
-    set area [expr {$area + [added_area $gate $now $next]}]
-  }
-  set limit [total_negative_slack]
+  grow_late_paths
+  foreach item $::dispensable { drop {*}$item }
   foreach pair $::shrinkable {
     set gate [list {*}$pair]
-    set cells [instances {*}$gate]
-    set now [get_property [lindex $cells 0] ref_name]
-    set next $::smaller($now)
-    resize_to $cells $next
-    if {[total_negative_slack] < $limit} {
-      resize_to $cells $now
-    } else {
-      dict set resized $gate $next
-      set area [expr {$area + [added_area $gate $now $next]}]
-    }
+    if {$gate ni $::dropped} { shrink $gate }
   }
-  dict for {gate name} $resized { puts "DTOF_RESIZED $gate $name" }
-  puts "DTOF_RESIZED_AREA $area"
+  dict for {gate name} $::resized { puts "DTOF_RESIZED $gate $name" }
+  foreach gate $::dropped { puts "DTOF_DROPPED $gate" }
+  puts "DTOF_RESIZED_AREA $::area"
   puts "DTOF_RESIZED_SLACK [expr {[worst_slack -max] + $::guard}]"
   puts "DTOF_END"
 }

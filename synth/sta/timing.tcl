@@ -3,8 +3,9 @@
 #   nominal   slacks at the target clock
 #   closing   the shortest period, and the slack at the fast one
 #   power     of every cell, at the target clock
-#   margins   slacks with the margins of constraints/margins.sdc, the paths that are too early, and the pins with less than `tight`
-#             ns to spare for setup; the last, because margins stay
+#   margins   slacks with the margins of constraints/margins.sdc, which stay
+#   early     the paths that are too early with these margins
+#   tight     the input pins with less than `tight_below` ns to spare for setup with these margins
 #   resize    gates of other drive strengths (resize.tcl); alone, since the clock and the margins of that step stay
 # OpenSTA exits 0 even after errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command
 # succeeded.
@@ -76,15 +77,24 @@ proc setup_slack {pin} {
 proc margins {} {
   uplevel #0 source $::margins
   report_slacks DTOF_MARGIN
-  puts "DTOF_EARLY"
-  report_checks -path_delay min -slack_max 0 -group_count 100000 -format full -fields {input_pins} -digits 4
-  puts "DTOF_TIGHT"
-  foreach pin [get_pins -hierarchical *] {
-    set slack [setup_slack $pin]
-    if {$slack < $::tight} { puts "[get_full_name $pin] [format %.4f $slack]" }
-  }
   puts "DTOF_RESET"
   report_check_types -recovery -removal
+  puts "DTOF_END"
+}
+
+proc early {} {
+  puts "DTOF_EARLY"
+  report_checks -path_delay min -slack_max 0 -group_count 100000 -format full -fields {input_pins} -digits 4
+  puts "DTOF_END"
+}
+
+proc tight {} {
+  puts "DTOF_TIGHT"
+  foreach pin [get_pins -hierarchical *] {
+    if {[get_property $pin direction] ne "input"} { continue }
+    set slack [setup_slack $pin]
+    if {$slack < $::tight_below} { puts "[get_full_name $pin] [format %.4f $slack]" }
+  }
   puts "DTOF_END"
 }
 
@@ -115,7 +125,7 @@ proc run {} {
   if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
   if {$wires ne ""} { read_spef $wires }
   constrain $::target_period
-  foreach step {nominal closing power margins resize} {
+  foreach step {nominal closing power margins early tight resize} {
     if {$step in $steps} { $step }
   }
 }

@@ -171,7 +171,7 @@ class Wires(WithLibrary):
             tools.write_settings(self.folder / "t.tcl", {
                 "liberty_files": [self.liberty], "netlist": self.folder / "t.v", "wires": self.folder / "t.spef", "top": "t",
                 "wire_load": "", "constraints": self.folder / "t.sdc", "margins": self.folder / "none.sdc", "target_period": "9",
-                "tight": "0", "steps": ["margins"]})
+                "steps": ["margins"]})
             output = tools.run_sta(ROOT / "synth/sta/timing.tcl", self.folder / "t.tcl", self.folder / "log", "t")
             rows = re.findall(r"([\d.]+) +[\d.]+ [v^] s/D", output.split("DTOF_MARGIN_PATH_MAX")[1])
             return float(rows[0])  # of the wire alone

@@ -63,7 +63,8 @@ class Margins(unittest.TestCase):
             tools.write_settings(folder / "settings.tcl", {
                 "liberty_files": [liberty], "netlist": folder / "fork.v", "wires": "", "top": "fork_and_join",
                 "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc",
-                "margins": folder / "none.sdc", "target_period": f"{PERIOD_NS}", "steps": ["margins"], "slew": "0.028", "load": "10", "tight": "0.15"})
+                "margins": folder / "none.sdc", "target_period": f"{PERIOD_NS}", "steps": ["margins", "early", "tight"],
+                "slew": "0.028", "load": "10", "tight_below": "0.15"})
             output = tools.run_sta(ROOT / "synth/sta/timing.tcl", folder / "settings.tcl", folder / "log", "fork_and_join")
         found = timing.Report(output, {})
         _, hold_slack = slacks(output)
@@ -107,7 +108,7 @@ class Margins(unittest.TestCase):
                 tools.write_settings(folder / "settings.tcl", {
                     "liberty_files": [liberty], "netlist": folder / "chain.v", "wires": "", "top": "chain",
                     "wire_load": library.read(liberty).wire_load, "constraints": folder / "dtof.sdc", "margins": margins,
-                    "target_period": f"{PERIOD_NS}", "steps": ["margins"], "slew": "0.028", "load": "10", "tight": "0"})
+                    "target_period": f"{PERIOD_NS}", "steps": ["margins"], "slew": "0.028", "load": "10"})
                 output = tools.run_sta(ROOT / "synth/sta/timing.tcl", folder / "settings.tcl", folder / "log", "chain")
                 arrival = float(re.search(r"^ +([0-9.]+) +data arrival time", output.split("DTOF_MARGIN_PATH_MAX")[1],
                                           re.MULTILINE).group(1))

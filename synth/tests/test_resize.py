@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Gates of other drive strengths: which are grown and which shrunk, and that only the drive changes."""
+"""Gates of other drive strengths, and buffers that are not needed: which are grown, which shrunk and which taken out, and that
+nothing else changes."""
 
 import re
 import tempfile
 import unittest
+from dataclasses import astuple
 from pathlib import Path
 
 from dtof_synth import library, netlist, standard_cells, timing, tools, verilog
@@ -42,14 +44,16 @@ class Resize(unittest.TestCase):
         (cls.folder / "none.sdc").write_text("", encoding="utf-8")
         cls.library = library.read(cls.folder / "slow.lib")
 
-    def sta(self, circuit: dict, period: float, step: str, shrinkable: list | None = None) -> timing.Report:
+    def sta(self, circuit: dict, period: float, step: str, shrinkable: list | None = None,
+            dispensable: list[netlist.Dispensable] | None = None) -> timing.Report:
         (self.folder / "t.v").write_text(verilog.write(circuit), encoding="utf-8")
         tools.write_settings(self.folder / "settings.tcl", {
             "liberty_files": [self.folder / "slow.lib"], "netlist": self.folder / "t.v", "wires": "", "top": "t",
             "wire_load": self.library.wire_load, "constraints": self.folder / "t.sdc", "margins": self.folder / "none.sdc",
-            "target_period": f"{period}", "steps": [step], "tight": "0", "guard": "0.0",
+            "target_period": f"{period}", "steps": [step], "guard": "0.0",
             "blocks": ["a_pair", ["u_pair", "v_pair"], COPIES], "drives": self.library.drives,
-            "cell_areas": self.library.area, "shrinkable": shrinkable or []})
+            "cell_areas": self.library.area, "shrinkable": shrinkable or [],
+            "buffer_pins": ["A", "Y"], "dispensable": [list(astuple(one)) for one in dispensable or []]})
         return timing.Report(tools.run_sta(ROOT / "synth/sta/timing.tcl", self.folder / "settings.tcl",
                                            self.folder / "log", "t"), {})
 
@@ -91,13 +95,82 @@ class Resize(unittest.TestCase):
         gates[f"{netlist.TREE_PREFIX}1"] = cell("BUF_X4", {"A": 4}, {"Y": 40})
         gates[f"start{netlist.COPY_SUFFIX}1"] = cell("DFF_X2", {"D": 3, "CK": 2}, {"Q": 41})
 
-        def load(kind: str, pin: str) -> float:
-            return self.library.input_ff[kind].get(pin, 0.0)
+        def shrinkable(carried: dict | None = None) -> list[tuple[str, str]]:
+            return netlist.shrinkable(circuit, self.library, ["a_pair"], self.load, carried)
 
-        self.assertEqual(netlist.shrinkable(circuit, self.library, ["a_pair"], load), [("a_pair", "idle")])
+        self.assertEqual(shrinkable(), [("a_pair", "idle")])
         for index in range(LOADS // 2):
             del gates[f"load{index}"]
-        self.assertEqual(netlist.shrinkable(circuit, self.library, ["a_pair"], load), [("a_pair", "idle"), ("a_pair", "driver")])
+        self.assertEqual(shrinkable(), [("a_pair", "idle"), ("a_pair", "driver")])
+        # A driver that may have to carry what a buffer carries now keeps its drive.
+        self.assertEqual(shrinkable({"a_pair": {6: 1000.0}}), [("a_pair", "idle")])
+
+    def load(self, kind: str, pin: str) -> float:
+        return self.library.input_ff.get(kind, {}).get(pin, 0.0)
+
+    def buffered(self) -> tuple[dict, dict]:
+        """The design with a buffer in front of all but one of what the driver drives, and the pair's cells."""
+        circuit = design()
+        gates = circuit["modules"]["a_pair"]["cells"]
+        gates["buffer"] = cell("BUF_X2", {"A": 6}, {"Y": 50})
+        for index in range(1, LOADS):
+            gates[f"load{index}"]["connections"]["A"] = [50]
+        return circuit, gates
+
+    def test_a_buffer_that_no_path_needs_is_taken_out(self):
+        circuit, gates = self.buffered()
+        found, carried = netlist.dispensable_buffers(circuit, self.library, ["a_pair"], self.load)
+        self.assertEqual([(one.kind, one.buffer, one.driver) for one in found], [("a_pair", "buffer", "driver")])
+        all_loads = LOADS * (self.load("INV_X1", "A") + self.library.wire_ff_per_sink)
+        self.assertAlmostEqual(carried["a_pair"][6], all_loads, places=6)
+        # What the driver is without it carries the load, and no weaker drive does.
+        for drive, suffices in ((found[0].drive, True), (self.library.smaller.get(found[0].drive), False)):
+            if drive is not None:
+                self.assertEqual(all_loads <= self.library.max_load_ff[drive]["Y"] * netlist.TREE_LOAD_SHARE, suffices)
+        report = self.sta(circuit, 3.0, "resize", dispensable=found)
+        self.assertEqual(report.dropped, [("a_pair", "buffer")])
+        saved = self.library.area["BUF_X2"] - (self.library.area[found[0].drive] - self.library.area["INV_X1"])
+        self.assertAlmostEqual(report.resized_area, -COPIES * saved, delta=1e-6)
+        netlist.resize(circuit, self.library, report.resized)
+        netlist.drop_buffers(circuit, self.library, report.dropped)
+        self.assertNotIn("buffer", gates)
+        for index in range(LOADS):
+            self.assertEqual(gates[f"load{index}"]["connections"]["A"], [6])
+        # What the step says of its result is what the circuit has when it is read anew.
+        self.assertAlmostEqual(report.resized_slack, self.slack(circuit, 3.0), delta=1e-6)
+
+    def test_a_buffer_that_keeps_load_from_a_slow_path_stays(self):
+        circuit, gates = self.buffered()
+        found, _ = netlist.dispensable_buffers(circuit, self.library, ["a_pair"], self.load)
+        met = 3.0 - self.slack(circuit, 3.0)
+        report = self.sta(circuit, met + 0.001, "resize", dispensable=found)
+        self.assertEqual((report.dropped, report.resized), ([], []))
+        self.assertAlmostEqual(report.resized_slack, self.slack(circuit, met + 0.001), delta=1e-6)
+
+    def test_which_buffers_may_go(self):
+        circuit, gates = self.buffered()
+
+        def found() -> list[str]:
+            return [one.buffer for one in netlist.dispensable_buffers(circuit, self.library, ["a_pair"], self.load)[0]]
+
+        gates[f"{netlist.TREE_PREFIX}1"] = cell("BUF_X1", {"A": 4}, {"Y": 60})
+        gates[f"{netlist.HOLD_PREFIX}1"] = cell("BUF_X1", {"A": 4}, {"Y": 61})
+        gates["behind_port"] = cell("BUF_X1", {"A": 3}, {"Y": 62})
+        self.assertEqual(found(), ["buffer"])
+        # The second of two is looked at only where the first has to stay.
+        gates["second"] = cell("BUF_X1", {"A": 50}, {"Y": 63})
+        gates["behind_behind_port"] = cell("BUF_X1", {"A": 62}, {"Y": 64})
+        self.assertEqual(found(), ["buffer", "behind_behind_port"])
+        # What no drive of the driver could carry needs its buffer.
+        gates |= {f"heavy{index}": cell("INV_X16", {"A": 50}, {"Y": 100 + index}) for index in range(40)}
+        self.assertEqual(found(), ["behind_behind_port"])
+
+    def test_buffers_in_a_row_are_taken_out(self):
+        circuit, gates = self.buffered()
+        gates["second"] = cell("BUF_X1", {"A": 50}, {"Y": 63})
+        gates["load1"]["connections"]["A"] = [63]
+        netlist.drop_buffers(circuit, self.library, [("a_pair", "buffer"), ("a_pair", "second")])
+        self.assertEqual({gates[f"load{index}"]["connections"]["A"][0] for index in range(LOADS)}, {6})
 
     def test_another_function_is_refused(self):
         with self.assertRaisesRegex(FlowError, "driver is a INV_X1 and cannot be resized to NAND2_X1"):
