@@ -290,6 +290,29 @@ def local_pin(design: dict, name: str) -> tuple[str, str, str]:
     return top(design)["cells"][block[0]]["type"] if block else "", cell, pin
 
 
+def in_all_blocks(design: dict, pin: tuple[str, str, str]) -> list[str]:
+    """The names that OpenSTA has for a pin (local_pin), one for each block of its kind."""
+    kind, cell, name = pin
+    blocks = [f"{block}/" for block, other in top(design)["cells"].items() if other["type"] == kind] if kind else [""]
+    return [f"{block}{cell}/{name}" for block in blocks]
+
+
+def on_border(design: dict, pin: tuple[str, str, str]) -> bool:
+    """Whether a pin (local_pin) hangs on a net between blocks."""
+    kind, cell, name = pin
+    if not kind:
+        return True
+    module = modules(design)[kind]
+    bits, index = _bits_of(module, cell, name)
+    return any(bits[index] in port["bits"] for port in module["ports"].values())
+
+
+def _bits_of(module: Module, cell: str, pin: str) -> tuple[list, int]:
+    """Where a pin named as OpenSTA does is connected: the list and the index in it."""
+    index = int(pin[pin.index("[") + 1:-1]) if "[" in pin else 0
+    return module["cells"][cell]["connections"][pin.split("[")[0]], index
+
+
 def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: Library) -> dict[str, str]:
     """Puts so many of the smallest buffers in front of each pin (local_pin); pins of one net share them. A block is delayed with
     all of its kind. Returns beside which cell of the top each new buffer of the top stands."""
@@ -299,8 +322,7 @@ def delay_pins(design: dict, buffers: dict[tuple[str, str, str], int], library: 
     delayed: dict[tuple[str, int], list[int]] = {}  # of a kind's net: the net behind so many buffers
     for (kind, cell, pin), number in buffers.items():
         module = modules(design)[kind] if kind else top(design)
-        index = int(pin[pin.index("[") + 1:-1]) if "[" in pin else 0
-        bits = module["cells"][cell]["connections"][pin.split("[")[0]]
+        bits, index = _bits_of(module, cell, pin)
         if kind not in fresh:
             fresh[kind] = _next_net(module)
         behind = delayed.setdefault((kind, bits[index]), [bits[index]])

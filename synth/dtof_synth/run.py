@@ -25,7 +25,7 @@ from .timing import Margin, Timing
 TARGET_MHZ = 330.0
 NAMINGS = 16
 KEPT_COLUMNS = 3
-RESIZE_ROUNDS = 3  # a gate behind a column's port changes what the broadcast drives in all columns
+RESIZE_ROUNDS = 3  # a stronger gate behind a column's port is a load of the broadcast in all columns
 RESIZE_GUARD_NS = 0.004  # of slack that resizing leaves for that
 HOLD_ROUNDS = 4  # in which paths that are too early get buffers
 HOLD_BUFFER_NS = 0.0169  # what one of them adds in the fast corner, 0.014 to 0.021; too little adds a round
@@ -241,19 +241,22 @@ class _Netlist:
         names = {plain: name for before in self.called.values() for plain, name in before.items()}
         (self.folder / timing.NAMES).write_text(json.dumps(names), encoding="utf-8")
         self.write_stub(loads)
-        self.write(WIRES)
+        self.write_wires(WIRES)
+        self.write_netlist()
 
     def write_stub(self, loads: dict[str, list[float]]) -> None:
         (self.folder / "column_stub.lib").write_text(
             netlist.stub_liberty(self.design, loads, self.technology.typical.voltage), encoding="utf-8")
 
-    def write(self, corners: Collection[str]) -> None:
-        """Verilog, and the corners' wires between the blocks."""
+    def write_wires(self, corners: Collection[str]) -> None:
+        """The corners' wires between the blocks. They give nets names, so that the netlist is written behind them."""
         clocks = netlist.clock_nets(netlist.top(self.design))
         kinds = list(dict.fromkeys(WIRES[corner] for corner in corners))
         texts = dict(zip(kinds, spef.write(self.design, self.plan, self.technology.slow, kinds, clocks)))
         for corner in corners:
             (self.folder / f"wires_{corner}.spef").write_text(texts[WIRES[corner]], encoding="utf-8")
+
+    def write_netlist(self) -> None:
         (self.folder / "timing.v").write_text(verilog.write(self.design), encoding="utf-8")
 
     def time(self, corner: str, *steps: str, **settings: tools.Setting) -> timing.Report:
@@ -279,40 +282,51 @@ class _Netlist:
         pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
         dispensable, carried = netlist.dispensable_buffers(self.design, library, kinds, pin_load)
         shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load, carried)
+        loads = netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink)
         for _ in range(RESIZE_ROUNDS):
             report = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable, dispensable))
-            found = report.resized
-            netlist.resize(self.design, library, found)
+            netlist.resize(self.design, library, report.resized)
             netlist.drop_buffers(self.design, library, report.dropped)
-            self.write_stub(netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink))
-            self.write(WIRES)
-            if not any(kind == column for kind, *_ in [*found, *report.dropped]):
+            before, loads = loads, netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink)
+            self.write_stub(loads)
+            self.write_netlist()
+            if all(load <= least + 1e-6 for port in loads for load, least in zip(loads[port], before[port])):
                 break
             shrinkable, dispensable = [], []
 
-    def fix_hold(self, tight: dict[str, float]) -> Margin:
-        """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner. `tight`:
-        what pins that have little to spare in the slow corner have."""
-        spare: dict[tuple[str, str, str], float] = {}
-        for name, slack in tight.items():
+    def early_pins(self, report: timing.Report) -> list[str]:
+        """Those of paths that are too early, in all blocks of a kind."""
+        pins = {netlist.local_pin(self.design, pin) for path in report.early for pin in path.pins}
+        return [name for pin in sorted(pins) for name in netlist.in_all_blocks(self.design, pin)]
+
+    def fix_hold(self, report: timing.Report, slacks: dict[str, float]) -> Margin:
+        """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner. `report`:
+        of that corner before; `slacks`: what pins have to spare in the slow one."""
+        spare: dict[Pin, float] = {}
+        for name, slack in slacks.items():
             pin = netlist.local_pin(self.design, name)
             spare[pin] = min(slack, spare.get(pin, math.inf))
-        for number in range(HOLD_ROUNDS + 1):
-            report = self.time("fast", "margins", "early")
-            if not report.early or number == HOLD_ROUNDS:
+        other_wires = False
+        for _ in range(HOLD_ROUNDS):
+            if not report.early:
                 break
-            buffers: dict[tuple[str, str, str], int] = {}
+            buffers: dict[Pin, int] = {}
             for path in report.early:
                 needed = math.ceil(-path.slack / HOLD_BUFFER_NS)
                 pin = _last_free_pin([netlist.local_pin(self.design, pin) for pin in path.pins], spare, needed)
                 buffers[pin] = max(buffers.get(pin, 1), needed)
             for pin, added in buffers.items():
-                spare[pin] = spare.get(pin, math.inf) - added * HOLD_BUFFER_SLOW_NS
+                spare[pin] = spare.get(pin, 0.0) - added * HOLD_BUFFER_SLOW_NS
+            on_border = any(netlist.on_border(self.design, pin) for pin in buffers)
             beside = netlist.delay_pins(self.design, buffers, self.technology.slow)
             self.plan.places |= {name: self.plan[cell] for name, cell in beside.items()}
-            self.write(["fast"])
-        if number:
-            self.write(WIRES)
+            if on_border:
+                self.write_wires(["fast"])
+                other_wires = True
+            self.write_netlist()
+            report = self.time("fast", "margins", "early")
+        if other_wires:
+            self.write_wires(WIRES)
         return report.margin()
 
     def check_logic(self) -> None:
@@ -338,9 +352,10 @@ Pin = tuple[str, str, str]  # kind of block, cell, pin
 
 
 def _last_free_pin(path: list[Pin], spare: dict[Pin, float], buffers: int) -> Pin:
-    """The last pin of an early path that has so many buffers' delay to spare; the one with most, where none has."""
-    return next((pin for pin in reversed(path) if spare.get(pin, math.inf) >= buffers * HOLD_BUFFER_SLOW_NS),
-                max(path, key=lambda pin: spare.get(pin, math.inf)))
+    """The last pin of an early path that has so many buffers' delay to spare; the one with most, where none has. A pin of which
+    nothing is known has none."""
+    return next((pin for pin in reversed(path) if spare.get(pin, 0.0) >= buffers * HOLD_BUFFER_SLOW_NS),
+                max(path, key=lambda pin: spare.get(pin, 0.0)))
 
 
 @dataclass(frozen=True)
@@ -351,7 +366,8 @@ class _Attempt:
     naming: Naming
     slack: float
     margin: Margin | None  # where the technology has a fast corner, too
-    tight: dict[str, float]  # what pins with little to spare have there
+    early: timing.Report | None = None  # of the fast corner
+    spare: dict[str, float] = field(default_factory=dict)  # what the pins of paths that are too early there have in the slow one
 
     @property
     def closes_with_margins(self) -> bool:
@@ -365,10 +381,11 @@ class _Attempt:
 
 def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
     if timed.technology.fast is None:
-        return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None, [])
+        return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None)
     timed.resize()
-    report = timed.time("slow", "nominal", "margins", "tight")
-    return _Attempt(timed, naming, report.slack, report.margin(), report.tight)
+    early = timed.time("fast", "margins", "early")
+    report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
+    return _Attempt(timed, naming, report.slack, report.margin(), early, report.spare)
 
 
 def _found_naming(folder: Path, number: int, digest: str) -> Naming:
@@ -426,7 +443,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     timed = best.netlist
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
-        fast = timed.fix_hold(best.tight)
+        fast = timed.fix_hold(best.early, best.spare)
         slow = timed.time("slow", "nominal", "closing", "margins")
         margins = {"slow": slow.margin(), "fast": fast}
     else:

@@ -13,7 +13,6 @@ from .errors import FlowError
 from .standard_cells import CINV_FF, FO4_NS
 
 FAST_MHZ = 500.0
-TIGHT_NS = 0.5  # pins with less to spare are listed
 _SLACK = re.compile(r"(-?\d+\.\d+) +slack")
 NAMES = "names.json"  # beside the netlist: what its parts were called before spef.plain_names
 BLOCKS = "blocks.json"  # beside it: kind of a block, its instances, how many the array has, and so on
@@ -110,9 +109,9 @@ class Report:
         return self._paths("DTOF_EARLY")
 
     @property
-    def tight(self) -> dict[str, float]:
-        """What each input pin that has less than TIGHT_NS to spare for setup has, ns, with margins; of the step `tight`."""
-        return {pin: float(slack) for pin, slack in (line.split() for line in self._section("DTOF_TIGHT").splitlines())}
+    def spare(self) -> dict[str, float]:
+        """What each pin has to spare for setup, ns, with margins; of the step `spare`."""
+        return {pin: float(slack) for pin, slack in (line.split() for line in self._section("DTOF_SPARE").splitlines())}
 
     @property
     def resized(self) -> list[tuple[str, str, str]]:
@@ -176,7 +175,7 @@ def measure(netlist: Netlist, root: Path, target_mhz: float, log: Path, steps: t
         "top": netlist.top, "wire_load": netlist.wire_load, "constraints": root / "constraints" / "dtof.sdc",
         "margins": root / "constraints" / "margins.sdc", "target_period": f"{1000 / target_mhz:.6f}",
         "fast_period": f"{1000 / FAST_MHZ:.6f}", "activity": power.ACTIVITY, "slew": f"{FO4_NS:.4f}",
-        "load": f"{10 * CINV_FF:.4f}", "tight_below": f"{TIGHT_NS}", **(settings_of_steps or {})})
+        "load": f"{10 * CINV_FF:.4f}", **(settings_of_steps or {})})
     output = tools.run_sta(root / "synth" / "sta" / "timing.tcl", settings, log, netlist.name)
     called = json.loads((netlist.verilog.parent / NAMES).read_text(encoding="utf-8"))
     report = Report(output, called)

@@ -70,6 +70,7 @@ proc growths_of_path {path} {
   set before [total_negative_slack]
   set found {}
   foreach gate [growable $path] {
+    if {[info exists ::hopeless($gate)]} { continue }
     set cells [instances {*}$gate]
     set now [get_property [lindex $cells 0] ref_name]
     set best 0
@@ -80,7 +81,7 @@ proc growths_of_path {path} {
       set choice [list $worth $gate $now $next]
     }
     resize_to $cells $now
-    if {$best > 0} { lappend found $choice }
+    if {$best > 0} { lappend found $choice } else { set ::hopeless($gate) 1 }
   }
   return [lsort -real -decreasing -index 0 $found]
 }
@@ -103,13 +104,16 @@ proc grow {growths} {
 }
 
 # Those of the slowest path where there are any. OpenSTA keeps the memory of all paths that it ever found, so the slowest
-# alone is looked at first.
+# alone is looked at first. A gate that once did not help is looked at again when no other one does.
 proc best_growths {} {
-  foreach count [list 1 $::PATHS] {
-    foreach path [find_timing_paths -path_delay max -group_count $count] {
-      if {[get_property $path slack] >= 0} { continue }
-      set growths [growths_of_path $path]
-      if {$growths ne ""} { return $growths }
+  foreach again {0 1} {
+    if {$again} { array unset ::hopeless }
+    foreach count [list 1 $::PATHS] {
+      foreach path [find_timing_paths -path_delay max -group_count $count] {
+        if {[get_property $path slack] >= 0} { continue }
+        set growths [growths_of_path $path]
+        if {$growths ne ""} { return $growths }
+      }
     }
   }
 }

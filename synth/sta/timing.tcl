@@ -5,7 +5,7 @@
 #   power     of every cell, at the target clock
 #   margins   slacks with the margins of constraints/margins.sdc, which stay
 #   early     the paths that are too early with these margins
-#   tight     the input pins with less than `tight_below` ns to spare for setup with these margins
+#   spare     what each of `pins` has to spare for setup with these margins
 #   resize    gates of other drive strengths (resize.tcl); alone, since the clock and the margins of that step stay
 # OpenSTA exits 0 even after errors, so the flow looks for the marker DTOF_STA_OK, which is printed only after every command
 # succeeded.
@@ -61,19 +61,6 @@ proc nominal {} {
   puts "DTOF_END"
 }
 
-# Of the slowest path through a pin, ns. OpenSTA has a command that prints it, but none that returns it.
-proc setup_slack {pin} {
-  set found Inf
-  foreach vertex [$pin vertices] {
-    if {$vertex eq "NULL"} { continue }
-    foreach edge {rise fall} {
-      set slack [lindex [sta::Vertex_slacks $vertex $edge] 1]
-      if {[string is double -strict $slack] && $slack * 1e9 < $found} { set found [expr {$slack * 1e9}] }
-    }
-  }
-  return $found
-}
-
 proc margins {} {
   uplevel #0 source $::margins
   report_slacks DTOF_MARGIN
@@ -88,12 +75,12 @@ proc early {} {
   puts "DTOF_END"
 }
 
-proc tight {} {
-  puts "DTOF_TIGHT"
-  foreach pin [get_pins -hierarchical *] {
-    if {[get_property $pin direction] ne "input"} { continue }
-    set slack [setup_slack $pin]
-    if {$slack < $::tight_below} { puts "[get_full_name $pin] [format %.4f $slack]" }
+# Of the slowest path through each pin, ns.
+proc spare {} {
+  puts "DTOF_SPARE"
+  foreach name $::pins {
+    set pin [sta::find_pin $name]
+    puts "$name [expr {min([get_property $pin max_rise_slack], [get_property $pin max_fall_slack])}]"
   }
   puts "DTOF_END"
 }
@@ -125,7 +112,7 @@ proc run {} {
   if {$wire_load ne ""} { set_wire_load_model -name $wire_load }
   if {$wires ne ""} { read_spef $wires }
   constrain $::target_period
-  foreach step {nominal closing power margins early tight resize} {
+  foreach step {nominal closing power margins early spare resize} {
     if {$step in $steps} { $step }
   }
 }

@@ -108,6 +108,30 @@ class FanoutTrees(unittest.TestCase):
         self.assertEqual(module["cells"]["sink0"]["connections"]["A"], [4])
         self.assertEqual(netlist.count(block, library()).cells, 2)
 
+    def test_pins_of_one_net_share_their_buffers(self):
+        module = fan(3)
+        netlist.delay_pins({"modules": {"top": module}}, {("", "sink0", "A"): 2, ("", "sink1", "A"): 1, ("", "sink2", "A"): 2}, library())
+        nets = [module["cells"][f"sink{index}"]["connections"]["A"] for index in range(3)]
+        self.assertEqual(nets[0], nets[2])
+        buffers = {tuple(one["connections"]["Y"]): one["connections"]["A"] for name, one in module["cells"].items()
+                   if name.startswith(netlist.HOLD_PREFIX)}
+        self.assertEqual(len(buffers), 2)
+        self.assertEqual(buffers[tuple(nets[0])], nets[1])
+        self.assertEqual(buffers[tuple(nets[1])], [4])
+
+    def test_names_and_border_of_a_pin(self):
+        block = {"attributes": {}, "ports": {"d": {"direction": "input", "bits": [6, 7]}},
+                 "cells": {"r": cell("DFF", {"D": 7, "CK": 2}, {"Q": 8}), "s": cell("DFF", {"D": 8, "CK": 2}, {"Q": 9}),
+                           "m": {**cell("macro", {"wdata_i": 8}, {}), "connections": {"wdata_i": [8, 6]}}}}
+        module = fan(3)
+        module["cells"] |= {"a": cell("block", {}, {}), "b": cell("block", {}, {})}
+        design = {"modules": {"top": module, "block": block}}
+        self.assertEqual(netlist.in_all_blocks(design, ("block", "m", "wdata_i[1]")), ["a/m/wdata_i[1]", "b/m/wdata_i[1]"])
+        self.assertEqual(netlist.in_all_blocks(design, ("", "sink1", "A")), ["sink1/A"])
+        for pin, there in ((("", "sink1", "A"), True), (("block", "r", "D"), True), (("block", "s", "D"), False),
+                           (("block", "m", "wdata_i[0]"), False), (("block", "m", "wdata_i[1]"), True)):
+            self.assertEqual(netlist.on_border(design, pin), there, pin)
+
 
 if __name__ == "__main__":
     unittest.main()
