@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import json
 import pickle
@@ -63,7 +64,8 @@ def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: i
             waiting.append(job)
     waiting.sort(key=lambda job: not job.configuration.is_pool)
     done = len(results)
-    with ProcessPoolExecutor(workers) as pool:
+    # A run builds large trees without cycles, which the collector would walk again and again.
+    with ProcessPoolExecutor(workers, initializer=gc.disable) as pool:
         futures = {pool.submit(_work, job, technology, build / job.configuration.name, _key(job, digest, search),
                                known.get(job.configuration.name)): job
                    for job in waiting}

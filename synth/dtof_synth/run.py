@@ -7,7 +7,7 @@ import hashlib
 import json
 import math
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
@@ -241,20 +241,20 @@ class _Netlist:
         names = {plain: name for before in self.called.values() for plain, name in before.items()}
         (self.folder / timing.NAMES).write_text(json.dumps(names), encoding="utf-8")
         self.write_stub(loads)
-        self.write_wires(WIRES)
+        self.write_wires()
         self.write_netlist()
 
     def write_stub(self, loads: dict[str, list[float]]) -> None:
         (self.folder / "column_stub.lib").write_text(
             netlist.stub_liberty(self.design, loads, self.technology.typical.voltage), encoding="utf-8")
 
-    def write_wires(self, corners: Collection[str]) -> None:
-        """The corners' wires between the blocks. They give nets names, so that the netlist is written behind them."""
+    def write_wires(self) -> None:
+        """The wires between the blocks in all corners. They give nets names, so that the netlist is written behind them."""
         clocks = netlist.clock_nets(netlist.top(self.design))
-        kinds = list(dict.fromkeys(WIRES[corner] for corner in corners))
+        kinds = list(dict.fromkeys(WIRES.values()))
         texts = dict(zip(kinds, spef.write(self.design, self.plan, self.technology.slow, kinds, clocks)))
-        for corner in corners:
-            (self.folder / f"wires_{corner}.spef").write_text(texts[WIRES[corner]], encoding="utf-8")
+        for corner, kind in WIRES.items():
+            (self.folder / f"wires_{corner}.spef").write_text(texts[kind], encoding="utf-8")
 
     def write_netlist(self) -> None:
         (self.folder / "timing.v").write_text(verilog.write(self.design), encoding="utf-8")
@@ -306,7 +306,6 @@ class _Netlist:
         for name, slack in slacks.items():
             pin = netlist.local_pin(self.design, name)
             spare[pin] = min(slack, spare.get(pin, math.inf))
-        other_wires = False
         for _ in range(HOLD_ROUNDS):
             if not report.early:
                 break
@@ -321,12 +320,9 @@ class _Netlist:
             beside = netlist.delay_pins(self.design, buffers, self.technology.slow)
             self.plan.places |= {name: self.plan[cell] for name, cell in beside.items()}
             if on_border:
-                self.write_wires(["fast"])
-                other_wires = True
+                self.write_wires()
             self.write_netlist()
             report = self.time("fast", "margins", "early")
-        if other_wires:
-            self.write_wires(WIRES)
         return report.margin()
 
     def check_logic(self) -> None:

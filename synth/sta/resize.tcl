@@ -13,7 +13,7 @@
 
 set PATHS 100
 set MOST_GROWN 500
-set NEARLY 0.5
+set NEARLY 0.15
 
 proc index_drives {} {
   foreach family $::drives {
