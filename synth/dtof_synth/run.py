@@ -269,9 +269,10 @@ class _Netlist:
         return timing.measure(files, self.technology.root, self.technology.target_mhz,
                               self.folder / f"sta_{'resize' if 'resize' in steps else corner}.log", steps, settings)
 
-    def resize(self) -> None:
-        """Gives gates on paths that fail in the slow corner with margins more drive, others less, and takes out the buffers of
-        mapping that no path needs."""
+    def resize(self, again: bool) -> bool:
+        """Gives gates on paths that fail in the slow corner with margins more drive and, but for doing it `again`, others less, and
+        takes out the buffers of mapping that no path needs. Returns whether a broadcast has more to drive in the columns that are
+        stubs than it was timed with."""
         library = self.technology.slow
         column, engine = netlist.column_module(self.design), netlist.engine_module(self.design)
         cells = netlist.top(self.design)["cells"]
@@ -280,19 +281,18 @@ class _Netlist:
         (self.folder / timing.BLOCKS).write_text(json.dumps([item for kind in kinds for item in (
             kind, [name for name, cell in cells.items() if cell["type"] == kind], copies[kind])]), encoding="utf-8")
         pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
-        dispensable, carried = netlist.dispensable_buffers(self.design, library, kinds, pin_load)
-        shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load, carried)
+        shrinkable, dispensable = [], []
+        if not again:
+            dispensable, carried = netlist.dispensable_buffers(self.design, library, kinds, pin_load)
+            shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load, carried)
+        before = netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink)
+        report = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable, dispensable))
+        netlist.resize(self.design, library, report.resized)
+        netlist.drop_buffers(self.design, library, report.dropped)
         loads = netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink)
-        for _ in range(RESIZE_ROUNDS):
-            report = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable, dispensable))
-            netlist.resize(self.design, library, report.resized)
-            netlist.drop_buffers(self.design, library, report.dropped)
-            before, loads = loads, netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink)
-            self.write_stub(loads)
-            self.write_netlist()
-            if all(load <= least + 1e-6 for port in loads for load, least in zip(loads[port], before[port])):
-                break
-            shrinkable, dispensable = [], []
+        self.write_stub(loads)
+        self.write_netlist()
+        return any(load > timed for port in loads for load, timed in zip(loads[port], before[port]))
 
     def early_pins(self, report: timing.Report) -> list[str]:
         """Those of paths that are too early, in all blocks of a kind."""
@@ -378,9 +378,12 @@ class _Attempt:
 def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None)
-    timed.resize()
-    early = timed.time("fast", "margins", "early")
-    report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
+    for number in range(RESIZE_ROUNDS):
+        heavier = timed.resize(again=number > 0)
+        early = timed.time("fast", "margins", "early")
+        report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
+        if report.margin().slack >= 0 or not heavier:
+            break
     return _Attempt(timed, naming, report.slack, report.margin(), early, report.spare)
 
 

@@ -65,7 +65,7 @@ proc worth {gate cells now next before} {
   return [expr {$gain > 1e-5 ? $gain / [added_area $gate $now $next] : 0}]
 }
 
-# Gates to grow on a path, each as {worth gate now next} with its best drive, the best first; nothing if none helps.
+# Gates to grow on a path, each as {worth gate now next} with its next larger drive, the best first; nothing if none helps.
 proc growths_of_path {path} {
   set before [total_negative_slack]
   set found {}
@@ -73,20 +73,16 @@ proc growths_of_path {path} {
     if {[info exists ::hopeless($gate)]} { continue }
     set cells [instances {*}$gate]
     set now [get_property [lindex $cells 0] ref_name]
-    set best 0
-    for {set next $::larger($now)} {$next ne ""} {set next $::larger($next)} {
-      set worth [worth $gate $cells $now $next $before]
-      if {$worth <= $best} { break }
-      set best $worth
-      set choice [list $worth $gate $now $next]
-    }
+    set next $::larger($now)
+    set worth [worth $gate $cells $now $next $before]
     resize_to $cells $now
-    if {$best > 0} { lappend found $choice } else { set ::hopeless($gate) 1 }
+    if {$worth > 0} { lappend found [list $worth $gate $now $next] } else { set ::hopeless($gate) 1 }
   }
   return [lsort -real -decreasing -index 0 $found]
 }
 
-# Grows the best gate of a path, and those that are still nearly as good once that is done; returns them.
+# Grows the best gate of a path, and those that are still nearly as good once that is done, each as far as it gets better by it;
+# returns them.
 proc grow {growths} {
   set enough [expr {[lindex $growths 0 0] * $::NEARLY}]
   set grown {}
@@ -94,11 +90,17 @@ proc grow {growths} {
     lassign $growth worth gate now next
     if {$worth < $enough} { break }
     set cells [instances {*}$gate]
-    if {[worth $gate $cells $now $next [total_negative_slack]] >= $enough} {
-      lappend grown $growth
-    } else {
-      resize_to $cells $now
+    set before [total_negative_slack]
+    set best $enough
+    set chosen $now
+    for {} {$next ne ""} {set next $::larger($next)} {
+      set worth [worth $gate $cells $now $next $before]
+      if {$worth < $best} { break }
+      set best $worth
+      set chosen $next
     }
+    resize_to $cells $chosen
+    if {$chosen ne $now} { lappend grown [list $gate $now $chosen] }
   }
   return $grown
 }
@@ -146,7 +148,7 @@ proc grow_late_paths {} {
     set growths [best_growths]
     if {$growths eq ""} { break }
     foreach growth [grow $growths] {
-      note {*}[lrange $growth 1 end]
+      note {*}$growth
       incr grown
     }
   }
