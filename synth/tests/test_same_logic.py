@@ -17,7 +17,8 @@ PAIRS = 5
 def mapped() -> dict:
     """Pairs that a register of the top drives, and in each a gate between two registers."""
     pair = module({"clk_i": ("input", 2), "a": ("input", 3), "q": ("output", 6)}, {
-        "first": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4}), "gate": cell("NAND2_X1", {"A1": 4, "A2": 3}, {"Y": 5}),
+        "first": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4}), "buffer": cell("BUF_X1", {"A": 4}, {"Y": 8}),
+        "gate": cell("NAND2_X1", {"A1": 8, "A2": 3}, {"Y": 5}),
         "g_array[0].last": cell("DFF_X1", {"D": 5, "CK": 2}, {"Q": 6}), "tied": cell("NAND2_X1", {"A1": 4, "A2": "1"}, {"Y": 7})})
     array = module({"clk_i": ("input", 2), "d": ("input", 3), "q": ("output", 10)}, {
         "told": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 4}),
@@ -47,6 +48,7 @@ class SameLogic(unittest.TestCase):
         netlist.keep_columns(design, 3)
         called = spef.plain_names(design)
         netlist.resize(design, self.library, [("a_quad", "gate", "NAND2_X4"), (netlist.TOP, "told", "DFF_X2")])
+        netlist.drop_buffers(design, self.library, [("a_quad", "buffer")])
         netlist.delay_pins(design, {("a_quad", "g_array_0__last", "D"): 2, ("", "g_quad_0__u_quad", "a"): 1}, self.library)
         return design, called
 
@@ -80,6 +82,11 @@ class SameLogic(unittest.TestCase):
             first = min(name for name in pair if name.startswith(netlist.HOLD_PREFIX))
             pair[first]["connections"]["A"] = [4]
         self.assertIn("a_quad: g_array[0].last is no longer", self.refusal(other))
+
+    def test_what_a_lost_buffer_drove_is_found(self):
+        def leave(pair, top):
+            pair["gate"]["connections"]["A1"] = [8]
+        self.assertIn("a_quad: gate is no longer", self.refusal(leave))
 
     def test_an_inverter_in_place_of_a_buffer_is_found(self):
         def invert(pair, top):
