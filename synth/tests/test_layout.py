@@ -264,17 +264,17 @@ class Wires(unittest.TestCase):
             self.assertIn(f"{line}\n", text)
 
     def test_lone_vias(self):
-        text, number = repair.drop_lone_vias(DEF, results.violations(BROKEN).boxes)
+        text, number = repair.mend_lone_vias(DEF, results.violations(BROKEN).boxes)
         self.assertEqual((number, len(DEF.splitlines()) - len(text.splitlines())), (1, 1))
-        self.assertEqual(repair.drop_lone_vias(DEF, {"Metal2 area < 20": [(119.0, 54.8, 119.4, 55.2)]}), (DEF, 0))
+        self.assertEqual(repair.mend_lone_vias(DEF, {"Metal2 area < 20": [(119.0, 54.8, 119.4, 55.2)]}), (DEF, 0))
 
-    def test_a_lone_via_at_the_end_of_a_path(self):
+    def test_a_lone_via_at_the_wrong_end_of_a_path(self):
         at_the_end = {"Metal1 area < 20": [(119.8, 6.8, 120.2, 7.2)]}
-        text, number = repair.drop_lone_vias(DEF, at_the_end)
-        self.assertEqual((text, number), (DEF.replace("( * 700 ) M2_M1", "( * 700 )"), 1))
+        text, number = repair.mend_lone_vias(DEF, at_the_end)
+        self.assertEqual((text, number), (DEF.replace("( 12000 600 ) ( * 700 ) M2_M1", "( 12000 700 ) ( 12000 600 ) M2_M1"), 1))
         # Neither the beginning of that path, nor another layer's, nor what is not there.
         for box in ((119.8, 5.8, 120.2, 6.2), (43.8, 2.8, 44.2, 3.2), (1.0, 1.0, 1.4, 1.4)):
-            self.assertEqual(repair.drop_lone_vias(DEF, {"Metal1 area < 20": [box]}), (DEF, 0))
+            self.assertEqual(repair.mend_lone_vias(DEF, {"Metal1 area < 20": [box]}), (DEF, 0))
 
 
 if __name__ == "__main__":

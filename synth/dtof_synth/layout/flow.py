@@ -130,18 +130,18 @@ def _place_and_route(folder: Path, block: Block, cells: Cells, density: float | 
 
 
 def _checked(project: Project, root: Path) -> tuple[int, int, str]:
-    """Design rules and comparison hold, or FlowError: how many lone vias were taken out, how many errors are left, Netgen's
+    """Design rules and comparison hold, or FlowError: how many lone vias were mended, how many errors are left, Netgen's
     verdict."""
-    dropped = 0
+    mended = 0
     found = project.check(root)
     for _ in range(REPAIRS):
         if not found.total:
             break
         routed = project.path(".def")
-        text, number = repair.drop_lone_vias(routed.read_text(encoding="utf-8"), found.boxes)
+        text, number = repair.mend_lone_vias(routed.read_text(encoding="utf-8"), found.boxes)
         if not number:
             break
-        dropped += number
+        mended += number
         routed.write_text(text, encoding="utf-8")
         found = project.check(root)
     name = project.block.name
@@ -151,7 +151,7 @@ def _checked(project: Project, root: Path) -> tuple[int, int, str]:
     verdict = project.compare()
     if verdict != results.UNIQUE:
         raise FlowError(f"{name}: layout and netlist differ: {verdict} (see {project.layout}/comparison.out)")
-    return dropped, found.total, verdict
+    return mended, found.total, verdict
 
 
 def _times(project: Project, technology: Technology, layout: Layout, ff: dict[str, float]) -> list[Arrivals]:
@@ -187,7 +187,7 @@ def lay_out(configuration: Configuration, technology: Technology, cells: Cells, 
     project, seed, failed = _place_and_route(folder / "qflow", block, cells, POOL_DENSITY if configuration.is_pool else None,
                                              seconds)
     with processor_seconds(seconds, "checks"):
-        dropped, errors, verdict = _checked(project, technology.root)
+        mended, errors, verdict = _checked(project, technology.root)
     layout = results.read_def(project.path(".def").read_text(encoding="utf-8"))
     per_um = wires.layer_ff_per_um(cells.file("_stdcells.lef").read_text(encoding="utf-8"))
     ff = wires.net_ff(layout, per_um)
@@ -203,4 +203,4 @@ def lay_out(configuration: Configuration, technology: Technology, cells: Cells, 
         sum(sinks[net] for net in signals), sum(layout.length(net) for net in signals),
         sum(sinks[net] for net in inner), sum(layout.length(net) for net in inner), layout.length(blocks.CLOCK),
         sum(ff.get(net, 0.0) for net in signals), (generic_area / block.area(library)) ** 0.5 if generic_area else 0.0,
-        dropped, seed, len(failed), errors, verdict, bare, model, routed, block.sram_ports, seconds)
+        mended, seed, len(failed), errors, verdict, bare, model, routed, block.sram_ports, seconds)

@@ -16,7 +16,7 @@ from .wires import NODE_NM, REFERENCE_NM, scaled_um
 COLUMNS = ["title", "block", "columns", "cells", "flip_flops", "cell_um2", "die_width_um", "die_height_um", "density",
            "sinks", "wire_um", "wire_um_per_sink", "inner_wire_um_per_sink", "wire_um_per_sink_40nm",
            "wire_um_per_sink_by_area", "model_um_per_sink", "clock_wire_um", "wire_ff_per_um", "failed_nets", "drc_errors",
-           "lvs", "lone_vias_removed", "placement_seed", "bare_ns", "model_ns", "routed_ns", "bare_mean_ns", "model_mean_ns",
+           "lvs", "lone_vias_mended", "placement_seed", "bare_ns", "model_ns", "routed_ns", "bare_mean_ns", "model_mean_ns",
            "routed_mean_ns", "slack_40nm_model_ns", "margin_40nm_model_ns", "slack_40nm_measured_ns", "margin_40nm_measured_ns",
            "margin_40nm_resized_ns", "added_40nm_mm2", *(f"{step}_s" for step in STEPS)]
 
@@ -76,7 +76,7 @@ def text(results: list[Result], slacks: list[Slacks], picture: str, command: str
                     [[_name(one), f"{one.cells:,}", str(one.flip_flops), f"{one.cell_area:,.0f}",
                       f"{one.die_width:.0f} x {one.die_height:.0f}", f"{one.density:.1%}"] for one in results])
     checks = _table(["block", "nets that failed", "design rule errors (Magic)", "layout against netlist (Netgen)",
-                     "lone vias removed", "placement's seed"],
+                     "lone vias mended", "placement's seed"],
                     [[_name(one), str(one.failed_nets), str(one.rule_errors), one.comparison, str(one.lone_vias),
                       str(one.seed)] for one in results])
     wires = _table(["block", "sinks", "um a sink", "of nets inside", "at 40 nm", "at 40 nm by cell area", "model",
