@@ -125,6 +125,14 @@ class Parsers(unittest.TestCase):
         with self.assertRaisesRegex(FlowError, "no paths"):
             results.arrivals(output, "DTOF_ROUTED", 50.0)
 
+    def test_a_net_of_thousands_of_pieces(self):
+        deep = 5000
+        trees = results.read_trees("n1 1 U_1/Y 1 " + "( 1.0 0.1 " * deep + "U_2/A" + " )" * deep + "\n")
+        branch, pieces = trees["n1"].branches[0], 1
+        while branch.branches:
+            branch, pieces = branch.branches[0], pieces + 1
+        self.assertEqual((pieces, branch.pins), (deep, ["U_2/A"]))
+
     def test_resistances(self):
         trees = results.read_trees("n1 1 U_1/Y 2 ( 2.4 0.1 U_2/A , ( 1.5 0.3 PIN/q_o ) ) \n")
         branch = trees["n1"].branches[0]

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -133,6 +134,10 @@ class Tree:
 
     driver: str
     branches: list[Branch]
+
+
+# A net's tree is read and walked recursively, and may be as deep as the net has pieces.
+sys.setrecursionlimit(100_000)
 
 
 def read_trees(text: str) -> dict[str, Tree]:
