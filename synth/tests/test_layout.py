@@ -125,6 +125,16 @@ class Parsers(unittest.TestCase):
         with self.assertRaisesRegex(FlowError, "no paths"):
             results.arrivals(output, "DTOF_ROUTED", 50.0)
 
+    def test_a_net_in_which_the_router_lost_its_way(self):
+        text = "n1 1 U_1/Y 1 ( 2.4 0.1 U_2/A )\nn2 1 U_1/Y 1 ( 2.4 0.1 ERROR , ( 1.0 0.1 U_3/A ) )\n"
+        self.assertEqual(list(results.read_trees(text)), ["n1"])
+        column = block.from_module("column", MODULE, library(), {"sram"})
+        tree = results.Tree("NAND2_1/Y", [results.Branch(2.0, 0.1, ["sram_addr_i_0"])])
+        spef = wires.spef(column, library(), {"sram_addr_i_0": tree}, {"sram_addr_i_0": 4.0, "q_o": 6.0})
+        # All of its capacitance at the end of 3 ohm, for the other net has 2 ohm of 4 fF.
+        for line in ("*D_NET q_o 6", "*I DFF_1:Q O", "*P q_o O", "1 q_o:1 6", "1 DFF_1:Q q_o:1 3"):
+            self.assertIn(f"{line}\n", spef)
+
     def test_a_net_of_thousands_of_pieces(self):
         deep = 5000
         trees = results.read_trees("n1 1 U_1/Y 1 " + "( 1.0 0.1 " * deep + "U_2/A" + " )" * deep + "\n")

@@ -141,11 +141,12 @@ sys.setrecursionlimit(100_000)
 
 
 def read_trees(text: str) -> dict[str, Tree]:
-    """qrouter's file of nested resistances and capacitances (`net 1 driver sinks (R C end , end)`)."""
+    """qrouter's file of nested resistances and capacitances (`net 1 driver sinks (R C end , end)`). A net whose pieces form a
+    loop makes the router lose its way, which it says by a pin ERROR; such a net is left out."""
     trees = {}
     for number, line in enumerate(text.splitlines(), 1):
         words = line.replace("PIN/", "").split()
-        if not words:
+        if not words or "ERROR" in words:
             continue
         try:
             ends = _Ends(words[4:])

@@ -65,14 +65,39 @@ def _weight(branches: list[Branch]) -> float:
     return sum(branch.weight + _weight(branch.branches) for branch in branches)
 
 
+def _ohm(branches: list[Branch]) -> float:
+    return sum(branch.ohm + _ohm(branch.branches) for branch in branches)
+
+
+def _undescribed(block: Block, drivers: dict[str, str], capacitance: dict[str, float], described: set[str],
+                 ohm_per_ff: float) -> dict[str, Tree]:
+    """Stand-ins for the trees of routed nets between cells that are not `described`."""
+    pins: dict[str, list[str]] = {}
+    for cell in block.cells:
+        for pin, net in cell.pins.items():
+            pins.setdefault(net, []).append(f"{cell.name}/{pin}")
+    found = {}
+    for net in sorted((signal_nets(block) & set(capacitance)) - described):
+        driver = next((pin for pin in pins.get(net, []) if pin in drivers), None)
+        if driver is not None:
+            sinks = [pin for pin in pins[net] if pin != driver] + ([net] if net in block.ports else [])
+            found[net] = Tree(driver, [Branch(capacitance[net] * ohm_per_ff, 1.0, sinks)])
+    return found
+
+
 def spef(block: Block, library: Library, trees: dict[str, Tree], capacitance: dict[str, float]) -> str:
-    """The wires of all signal nets that the router describes."""
+    """The wires of all signal nets. One that the router does not describe has all of its pins at the end of a wire with its
+    capacitance, of as many ohm per fF as the wires of the others have."""
     lines = ['*SPEF "IEEE 1481-1998"', f'*DESIGN "{block.name}"', '*DATE "none"', '*VENDOR "none"', '*PROGRAM "none"',
              '*VERSION "none"', '*DESIGN_FLOW "none"', "*DIVIDER /", "*DELIMITER :", "*BUS_DELIMITER []", "*T_UNIT 1 NS",
              "*C_UNIT 1 FF", "*R_UNIT 1 OHM", "*L_UNIT 1 HENRY", ""]
     drivers = {f"{cell.name}/{pin}": "O" for cell in block.cells for pin in cell.pins
                if pin in library.max_load_ff[cell.kind]}
-    for net in sorted(signal_nets(block) & set(trees)):
+    described = signal_nets(block) & set(trees)
+    measured = [net for net in described if net in capacitance]
+    ohm_per_ff = sum(_ohm(trees[net].branches) for net in measured) / (sum(capacitance[net] for net in measured) or 1.0)
+    trees = {**{net: trees[net] for net in described}, **_undescribed(block, drivers, capacitance, described, ohm_per_ff)}
+    for net in sorted(trees):
         tree = trees[net]
         total = capacitance.get(net, 0.0)
         unit = total / (_weight(tree.branches) or 1.0)
