@@ -76,9 +76,9 @@ module pair_sequencer #(
   localparam logic [PAIR_WIDTH-1:0] LAST_PAIR = PAIR_WIDTH'(PAIRS - 1);
   localparam logic [STEP_WIDTH-1:0] LAST_STEP = STEP_WIDTH'(STEPS - 1);
   localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
-  // A phase ends when its last count was commanded: a clock after drain_q = 0 stream_i falls.
   localparam int FIRST_STAGE = (PARTS == 2) ? 0 : 1;    // the read of the first part is given at this T
   localparam int LAST_STAGE = FIRST_STAGE + 1 + PART_CLOCKS * PARTS;  // the write of the last one
+  // A phase ends when its last count was commanded: a clock after drain_q = 0 stream_i falls.
   localparam int DRAIN_WIDTH = $clog2(LAST_STAGE);
   localparam logic [DRAIN_WIDTH-1:0] DRAIN_CLOCKS = DRAIN_WIDTH'(LAST_STAGE - 1);
   localparam logic [2:0] PRIMED = 3'd6;

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Gates of other drive strengths, by trial: OpenSTA times the whole array anew after each. ABC chooses them without knowing when
 # an SRAM's word or a broadcast arrives, and when its outputs are due.
-#   grow     of the slowest path the gate whose larger drive takes the most negative slack away for its area, and others that are
-#            NEARLY as good, until no slack is negative, or no such gate is on the slowest PATHS, or MOST_GROWN have been enlarged
+#   grow     of the slowest path the gate whose larger drive takes the most negative slack away for its area, and others that take
+#            at least SHARE_OF_BEST of that, until no slack is negative, or no such gate is on the slowest PATHS, or MOST_GROWN
+#            have been enlarged
 #   drop     the buffers of `dispensable`, if that leaves all paths met: {kind buffer driver drive}, where `drive` is the cell of
 #            the driver that carries the load without it
 #   shrink   the gates of `shrinkable` to the next smaller drive, if that leaves all paths met
@@ -13,7 +14,7 @@
 
 set PATHS 100
 set MOST_GROWN 500
-set NEARLY 0.15
+set SHARE_OF_BEST 0.15
 
 proc index_drives {} {
   foreach family $::drives {
@@ -81,10 +82,10 @@ proc growths_of_path {path} {
   return [lsort -real -decreasing -index 0 $found]
 }
 
-# Grows the best gate of a path, and those that are still nearly as good once that is done, each as far as it gets better by it;
+# Grows the best gate of a path, and those that still take enough once that is done, each as far as it gets better by it;
 # returns them.
 proc grow {growths} {
-  set enough [expr {[lindex $growths 0 0] * $::NEARLY}]
+  set enough [expr {[lindex $growths 0 0] * $::SHARE_OF_BEST}]
   set grown {}
   foreach growth $growths {
     lassign $growth worth gate now next
