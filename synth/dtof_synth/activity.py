@@ -230,6 +230,7 @@ class Energy:
     nets: float = 0.0
     cells: float = 0.0
     sram: float = 0.0  # of the macros in it
+    sram_reads: float = 0.0  # in sram
     gated_clock: float = 0.0  # gates' outputs and the registers behind them
 
     @property
@@ -272,7 +273,9 @@ def energy(scope: Scope, phase: str, design: dict, library: Library, internal: d
     for (instance, kind), number in scope.accesses.get(phase, {}).items():
         ports, words, bits = re.fullmatch(r"sram_(1rw|1r1w)_(\d+)x(\d+)", module["cells"][instance]["type"]).groups()
         macro = sram_model.macro(sram_model.Size(1 if ports == "1rw" else 2, int(words), int(bits)))
-        result.sram += number * 1000 * (macro.read_energy if kind == "read" else macro.write_energy)
+        fj = number * 1000 * (macro.read_energy if kind == "read" else macro.write_energy)
+        result.sram += fj
+        result.sram_reads += fj if kind == "read" else 0.0
     return result
 
 

@@ -19,13 +19,14 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import activity, floorplan, liberty, netlist, simulation, sram_kit, sram_model, tools
+from . import activity, area_parts, floorplan, liberty, netlist, simulation, sram_kit, sram_model, tools
 from . import power as power_model
 from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .library import Library
 from .run import TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells, unsearched_effort
+from .sram_model import Size
 
 CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer1", "hispointer", "sifh", "fifh", "threesteps", "pifh",
                   "histogram", "coarsehistogram", "poolpointer2", "poolpointer2_lean")
@@ -35,6 +36,9 @@ ACQUISITIONS = 64
 FRAME_ACQUISITIONS = 33_333
 FRAMES_PER_S = 30
 GOALS_MW = {"poolpointer2": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
+# The one run of CACTI with a wide word that is known, without its settings.
+WIDE_RUN = Size(1, 100, 116)
+WIDE_RUN_READ_PJ = 2.5
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,7 @@ class Parts:
     sram: float
     clock: float
     leakage: float
+    sram_reads: float  # in sram
 
     @property
     def total(self) -> float:
@@ -218,10 +223,13 @@ def power(configuration: Configuration, light: str, result: Result, technology: 
         one, control = of(column), of(counted.scopes[""])
         shared = of(engine) if engine else activity.Energy()
         gated_mw = (one.gated_clock * modules + shared.gated_clock * engine_scale) * to_mw
+        def srams(of_one: float, of_control: float, of_engine: float) -> float:
+            return ((of_one + of_control) * modules + of_engine * configuration.engines) * to_mw
+
         return Parts((one.nets + one.cells) * modules * to_mw, (shared.nets + shared.cells) * engine_scale * to_mw,
                      (control.nets + control.cells) * control_scale * to_mw,
-                     (one.sram * modules + control.sram * modules + shared.sram * configuration.engines) * to_mw,
-                     clock_mw + gated_mw, leak_mw)
+                     srams(one.sram, control.sram, shared.sram), clock_mw + gated_mw, leak_mw,
+                     srams(one.sram_reads, control.sram_reads, shared.sram_reads))
 
     streaming_clocks = FRAME_ACQUISITIONS * configuration["PIXELS_PER_SRAM"] * configuration["SLOTS"]
     rate = activity.toggle_rate(column, STREAMING, design, counted.clocks[STREAMING])
@@ -267,18 +275,36 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
             met = "yes" if worst.streaming.total <= limit else "**no**"
             lines.append(f"| {worst.configuration.title}: at most {limit:g} mW | {worst.streaming.total:.1f} mW "
                          f"({worst.light}) | {met} |")
+    lines += wide_words(found)
     return "\n".join([*lines, ""])
+
+
+def wide_words(found: list[ScenePower]) -> list[str]:
+    """What the arrays with wide words would take if a read cost what CACTI's wide run has."""
+    wide = [one for one in found
+            if max(size.bits for size in memories(one.configuration).values()) > area_parts.FITTED_BITS]
+    if not wide:
+        return []
+    factor = WIDE_RUN_READ_PJ / sram_model.macro(WIDE_RUN).read_energy
+    lines = ["", "## Wide words", "",
+             f"The energy of a read is extrapolated for words of more than {area_parts.FITTED_BITS} bits. The one run of CACTI with "
+             f"a wide word that is known ({WIDE_RUN.words} x {WIDE_RUN.bits} bits, {WIDE_RUN_READ_PJ:g} pJ, settings unknown) has "
+             f"{factor:.2f} times the model's. mW of the array if that held for these words:", "",
+             "| read-out | light | reads | total | total at that energy |", "|---|---|---:|---:|---:|"]
+    return lines + [f"| {one.configuration.title} | {one.light} | {one.streaming.sram_reads:.1f} | {one.streaming.total:.1f} | "
+                    f"{one.streaming.total + (factor - 1) * one.streaming.sram_reads:.1f} |" for one in wide]
 
 
 def write_csv(path: Path, found: list[ScenePower]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["configuration", "light", "klux", "column_rate", "opensta_columns_mw", "phase", "columns_mw", "engines_mw", "control_mw",
-                         "sram_mw", "clock_mw", "leakage_mw", "total_mw", "clocks_of_a_frame", "frame_mj"])
+                         "sram_mw", "sram_reads_mw", "clock_mw", "leakage_mw", "total_mw", "clocks_of_a_frame", "frame_mj"])
         for one in found:
             for phase, part, clocks in ((STREAMING, one.streaming, one.streaming_clocks),
                                         (OTHER, one.other, one.other_clocks)):
-                figures = (part.columns, part.engines, part.control, part.sram, part.clock, part.leakage, part.total)
+                figures = (part.columns, part.engines, part.control, part.sram, part.sram_reads, part.clock, part.leakage,
+                           part.total)
                 writer.writerow([one.configuration.name, one.light, f"{KLUX[one.light]:g}", f"{one.column_rate:.4f}",
                                  f"{one.uniform_mw:.3f}", phase, *(f"{figure:.3f}" for figure in figures), clocks, f"{one.frame_mj:.4f}"])
 

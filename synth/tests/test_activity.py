@@ -131,6 +131,10 @@ class Counting(unittest.TestCase):
         self.assertAlmostEqual(one.nets, 0.5 * 1.1**2 * (inverter + inverter + macro))
         self.assertAlmostEqual(one.cells, 0.25 * 2)
         self.assertAlmostEqual(one.sram, 1000 * sram_model.macro(Size(1, 160, 14)).write_energy)
+        self.assertEqual(one.sram_reads, 0)
+        others = activity.energy(found.scopes["p0"], OTHER, netlist, library(), internal, 3.0)
+        self.assertAlmostEqual(others.sram_reads, 2000 * sram_model.macro(Size(1, 160, 14)).read_energy)
+        self.assertAlmostEqual(others.sram, others.sram_reads)
 
     def test_what_is_behind_a_clock_gate_is_charged_when_it_ticks(self):
         netlist, found = counted(VCD.replace("#6\n1!", "#6\n1!\n1'"))

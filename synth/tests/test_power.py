@@ -3,9 +3,27 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import power, standard_cells, tools
+from dtof_synth import configuration, power, scene_power, standard_cells, tools
 
 SYNTH = Path(__file__).resolve().parents[1]
+NAMED = configuration.load(SYNTH.parent / "configurations.toml")
+
+
+class WideWords(unittest.TestCase):
+    def one(self, name):
+        parts = scene_power.Parts(columns=70.0, engines=0.0, control=1.0, sram=60.0, clock=40.0, leakage=10.0, sram_reads=50.0)
+        return scene_power.ScenePower(NAMED[name], "day", 0.1, 0.0, parts, parts, 0.0, 0.0, 1, 1)
+
+    def test_reads_alone_cost_more(self):
+        lines = scene_power.wide_words([self.one("poolpointer2")])
+        factor = 2.5 / 1.94  # docs/reference/technology.md has both
+        self.assertIn(f"{factor:.2f} times", lines[-5])
+        title, light, reads, total, more = lines[-1].strip("| ").split(" | ")
+        self.assertEqual((title, light, reads, total), ("poolPointer 2", "day", "50.0", "181.0"))
+        self.assertAlmostEqual(float(more), 181.0 + 50.0 * (factor - 1), delta=0.3)
+
+    def test_narrow_words_are_not_in_doubt(self):
+        self.assertEqual(scene_power.wide_words([self.one("hispointer")]), [])
 
 
 class DataPower(unittest.TestCase):
