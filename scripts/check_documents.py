@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every relative link and anchor of the Markdown files leads somewhere, every page of docs/ stands in its index, and who
 names a page of docs/ names one that is there. Every module of the RTL has its section on one page of the blocks, which
-names only parameters and ports that the module has."""
+names only parameters and ports that the module has. The page of formats has the columns of every table of reports/."""
 
+import csv
 import re
 import subprocess
 import sys
@@ -15,11 +16,13 @@ from page import links, render
 ROOT = Path(__file__).resolve().parent.parent
 INDEX = "docs/README.md"
 BLOCKS = "docs/reference/blocks/"
+FORMATS = "docs/reference/formats.md"
 # Folders of hdl/ whose modules are blocks; the others hold package, proofs, lint waivers and SRAM stand-ins.
 BLOCK_FOLDERS = ("subsystem", "demonstrator", "top", "column", "control", "datapath", "engine", "memory")
 MODULE = re.compile(r"^module +(\w+)", re.MULTILINE)
 SECTION = re.compile(r"^## `(\w+)`$", re.MULTILINE)
 OF_A_MODULE = re.compile(r"`([A-Z][A-Z_]+|[a-z]\w*_(?:i|o|ni))`")  # a parameter or a port
+TABLE_ROW = re.compile(r"^\| `([\w/]+\.csv)` \|[^|]*\|(.*)\|$", re.MULTILINE)
 NAMED_PAGE = re.compile(r"(?<!\]\()\bdocs/[\w/-]+\.md\b")  # a link is checked as one
 
 
@@ -94,9 +97,23 @@ def blocks(root: Path, files: set[str]) -> list[str]:
     return found
 
 
+def tables(root: Path, files: set[str]) -> list[str]:
+    described = {f"reports/{name}": re.findall(r"`([^`]+)`", columns)
+                 for name, columns in TABLE_ROW.findall(read(root / FORMATS) if FORMATS in files else "")}
+    found = []
+    for file in sorted(file for file in files if file.startswith("reports/") and file.endswith(".csv")):
+        with (root / file).open(newline="", encoding="utf-8") as table:
+            header = next(csv.reader(table), [])
+        if file not in described:
+            found.append(f"{FORMATS}: {file} is not described")
+        elif described[file] != header:
+            found.append(f"{FORMATS}: {file} has the columns {', '.join(header)}, not {', '.join(described[file])}")
+    return found
+
+
 def problems(root: Path, files: list[str]) -> list[str]:
     kept = set(files)
-    return broken_links(root, kept) + missing_pages(root, kept) + blocks(root, kept)
+    return broken_links(root, kept) + missing_pages(root, kept) + blocks(root, kept) + tables(root, kept)
 
 
 def main() -> int:

@@ -54,6 +54,17 @@ class Documents(unittest.TestCase):
                 self.write("CHANGELOG.md", f"# Changes\n\n{link}\n")
                 self.assertEqual(self.found(), [f"CHANGELOG.md: {address} {sentence}"])
 
+    def test_tables_of_reports_are_described(self) -> None:
+        self.block("top", "array")
+        self.write("reports/a.csv", "mm2,light,mw\n1,day,2\n")
+        self.assertEqual(self.found(), ["docs/reference/formats.md: reports/a.csv is not described"])
+        self.write("docs/README.md", "# Index\n\n[a](a.md), [b](reference/blocks/top.md), [f](reference/formats.md)\n")
+        for columns, sentences in {
+                "`mm2`, `light` (day or dusk), `mw`": [],
+                "`mm2`, `mw`": ["docs/reference/formats.md: reports/a.csv has the columns mm2, light, mw, not mm2, mw"]}.items():
+            self.write("docs/reference/formats.md", f"# F\n\n| file | by | columns |\n|---|---|---|\n| `a.csv` | `make a` | {columns} |\n")
+            self.assertEqual(self.found(), sentences)
+
     def test_code_is_no_link(self) -> None:
         self.block("top", "array")
         self.write("CHANGELOG.md", "# Changes\n\n    [x](none.txt)\n\n`[x](none.txt)`\n\n```\n[x](none.txt)\n```\n")

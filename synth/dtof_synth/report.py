@@ -226,7 +226,9 @@ def timing(results: dict[str, Result], library: str, digest: str) -> str:
 
 def goals_section(found: list[goals.Goal]) -> str:
     rows = [[goal.text, goal.value, "yes" if goal.met else "**no**"] for goal in found]
-    return "\n".join(["## Goals", "", _table(["goal", "here", "met"], rows)])
+    reasons = [f"* {goal.text}: {goal.value}. {goal.why}" for goal in found if not goal.met and goal.why]
+    missed = ["Missed:", "", *reasons, ""] if reasons else []
+    return "\n".join(["## Goals", "", _table(["goal", "here", "met"], rows), *missed])
 
 
 def write_area_csv(path: Path, results: dict[str, Result]) -> None:
