@@ -26,7 +26,7 @@ STREAMING, OTHER = "streaming", "other"
 
 def name_for_counting(design: dict) -> None:
     """Names that the simulator writes as they are: a net by its number, a module or macro by its place."""
-    own = {name for name, module in netlist.modules(design).items() if module["cells"]}
+    own = [name for name, module in netlist.modules(design).items() if module["cells"]]
     for name in own:
         module = netlist.modules(design)[name]
         ports = {bit for port in module["ports"].values() for bit in port["bits"]}

@@ -473,8 +473,9 @@ def cell_kinds(design: dict, library: Library) -> set[str]:
 def prepare_simulation(design: dict, library: Library, suffix: str, power_up: str,
                        draw: Callable[[], bool]) -> None:
     """Gives the design's own modules a suffix, so that the RTL's can stand beside them, and every register a state
-    at time 0 in its parameter `power_up`. Registers of one module power up alike in all its instances."""
-    own = {name for name, module in modules(design).items() if module["cells"]}
+    at time 0 in its parameter `power_up`. Registers of one module power up alike in all its instances. Modules draw in
+    the design's order, for that of a set is another in each run of Python."""
+    own = [name for name, module in modules(design).items() if module["cells"]]
     for name in own:
         module = modules(design).pop(name)
         modules(design)[name + suffix] = module

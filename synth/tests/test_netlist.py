@@ -6,6 +6,7 @@ import os
 import unittest
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 from dtof_synth import netlist
 from dtof_synth.library import Buffer, Library
@@ -131,6 +132,14 @@ class FanoutTrees(unittest.TestCase):
         for pin, there in ((("", "sink1", "A"), True), (("block", "r", "D"), True), (("block", "s", "D"), False),
                            (("block", "m", "wdata_i[0]"), False), (("block", "m", "wdata_i[1]"), True)):
             self.assertEqual(netlist.on_border(design, pin), there, pin)
+
+    def test_registers_draw_their_first_state_in_the_order_of_the_modules(self):
+        modules = {f"m{number}": {"cells": {"r": {"type": "DFF"}}} for number in range(8)}
+        kinds = SimpleNamespace(sequential={"DFF": None})
+        drawn = iter([False, True, True, False, True, False, False, True])
+        netlist.prepare_simulation({"modules": modules}, kinds, "_netlist", "POWER_UP", lambda: next(drawn))
+        self.assertEqual([module["cells"]["r"]["parameters"]["POWER_UP"] for module in modules.values()], list("01101001"))
+        self.assertEqual(list(modules), [f"m{number}_netlist" for number in range(8)])
 
 
 if __name__ == "__main__":
