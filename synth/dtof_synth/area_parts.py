@@ -10,15 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from . import sram_model
+from . import sram_model, wide_words
 from .configuration import engine_memories, memories
 from .run import Result
 from .sram_model import Macro, Size
 
 UTILISATION = 0.75  # cells over the area of their rows
 HALO_UM = 2.0  # around a macro
-# CACTI's points that time and energy are fitted to (sram_model.KINDS) have at most so many bits a word.
-FITTED_BITS = 64
 OTHER_MUX = 2
 
 
@@ -86,7 +84,7 @@ def placed_with_all(result: Result) -> float:
 def doubtful_macros(results: Iterable[Result]) -> list[Size]:
     """Sizes whose array has no column multiplexer or whose words are wider than the points of the fits."""
     sizes = {size for result in results for _, size in _macros(result)}
-    return sorted(size for size in sizes if sram_model.macro(size).mux == 1 or size.bits > FITTED_BITS)
+    return sorted(size for size in sizes if sram_model.macro(size).mux == 1 or size.bits > wide_words.FITTED_BITS)
 
 
 def lacks_mux(result: Result) -> bool:

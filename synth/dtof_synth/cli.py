@@ -153,9 +153,9 @@ def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
     chosen = _select(named, arguments.configuration or list(scene_power.CONFIGURATIONS))
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
-    results = batch.run_all([batch.Job(item) for item in chosen.values()], technology, build / "runs", arguments.jobs,
-                            _say)
-    found = scene_power.run(list(chosen.values()), results, technology, build / "power", arguments.seed, arguments.jobs,
+    runs = build / "runs"
+    results = batch.run_all([batch.Job(item) for item in chosen.values()], technology, runs, arguments.jobs, _say)
+    found = scene_power.run(list(chosen.values()), results, runs, technology, build / "power", arguments.seed, arguments.jobs,
                             _say)
     text = scene_power.report(found, results, input_digest(technology), arguments.seed)
     _say(text)

@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import area_parts, floorplan, goals, power, sram_model
+from . import area_parts, floorplan, goals, power, sram_model, wide_words
 from .configuration import memories
 from .run import TARGET_MHZ, Result
 from .timing import FAST_MHZ
@@ -117,12 +117,12 @@ def _doubtful_section(results: list[Result]) -> str:
     for size in sizes:
         macro, other = sram_model.macro(size), sram_model.macro(size, area_parts.OTHER_MUX)
         rows.append([size.name, f"{macro.mux}", f"{macro.area:.0f}", f"{other.area:.0f}",
-                     "yes" if size.bits > area_parts.FITTED_BITS else "no", f"{macro.read_energy:.2f}"])
+                     "yes" if size.bits > wide_words.FITTED_BITS else "no", f"{macro.read_energy:.2f}"])
     arrays = [f"{result.configuration.title} {area_parts.total_with_other_mux(result) / 1e6:.3f} instead of "
               f"{result.total_mm2:.3f} mm2" for result in results if area_parts.lacks_mux(result)]
     ending = f"With a multiplexer of {area_parts.OTHER_MUX}: {'; '.join(arrays)}.\n" if arrays else ""
     return (_table(["macro", "mux", "um2", f"um2 with mux {area_parts.OTHER_MUX}",
-                    f"over {area_parts.FITTED_BITS} bits", "read pJ"], rows) + "\n" + ending)
+                    f"over {wide_words.FITTED_BITS} bits", "read pJ"], rows) + "\n" + ending)
 
 
 def area(results: dict[str, Result], extra: str, library: str, digest: str) -> str:
@@ -144,7 +144,7 @@ def area(results: dict[str, Result], extra: str, library: str, digest: str) -> s
         "total does not have.", "", _placed_section(main),
         "## Macros beyond the public points", "",
         "Compilers often offer no array without a column multiplexer (mux 1), and the energies of words wider than "
-        f"{area_parts.FITTED_BITS} bits are extrapolated from narrower ones.", "", _doubtful_section(main),
+        f"{wide_words.FITTED_BITS} bits are extrapolated from narrower ones.", "", _doubtful_section(main),
         "## Beside the thesis (Table 5)", "", _thesis_section(main),
         "## Shared logic and fan-out", "",
         "Buffers, repeaters and register copies that carry the shared signals to all columns are counted in the shared logic. "

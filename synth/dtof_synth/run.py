@@ -31,6 +31,7 @@ HOLD_ROUNDS = 4  # in which paths that are too early get buffers
 HOLD_BUFFER_NS = 0.0169  # what one of them adds in the fast corner, 0.014 to 0.021; too little adds a round
 HOLD_BUFFER_SLOW_NS = 0.12  # at most, in the slow corner with margins
 DEMANDED_SLACK_NS = 0.1  # of a mapping in the slow corner: wires and a clock tree are still to come
+FINISHED_COLUMN = "finished_column.json"  # in the folder of a run
 BOTH_CORNERS = ("typical", "slow")
 WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": floorplan.TYPICAL}
 
@@ -332,10 +333,14 @@ class _Netlist:
         except FlowError as error:
             raise FlowError(f"{self.configuration.name}: {error}") from None
 
+    def finished_column(self) -> dict:
+        """The module that stands in the array, its gates sized and its hold buffers in it."""
+        return netlist.modules(self.design)[netlist.column_module(self.design)]
+
     def counts(self) -> tuple[Counts, Counts, Counts]:
         """Of a column module, of everything shared, of the engines in it."""
         library = self.technology.slow
-        return (netlist.count(netlist.modules(self.design)[netlist.column_module(self.design)], library),
+        return (netlist.count(self.finished_column(), library),
                 netlist.count_shared(self.design, library), netlist.count_engines(self.design, library))
 
     def cell_area(self) -> float:
@@ -448,6 +453,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     else:
         slow = timed.time("slow", "nominal", "closing")
     timed.check_logic()
+    (folder / FINISHED_COLUMN).write_text(json.dumps(timed.finished_column()), encoding="utf-8")
     column_module, shared, engines = timed.counts()
     modules = configuration.column_modules
     macros = modules * len(memories(configuration)) + configuration.engines * len(engine_memories(configuration))

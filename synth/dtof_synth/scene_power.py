@@ -2,9 +2,10 @@
 """make power: what an array takes on a real scene, from the transitions of a small array's netlist.
 
 A column module with all its pixels (and one engine where there are engines) is simulated over a short frame of the
-room scene; activity.py counts. The column's energy is that of every column; the logic outside the columns has another
-size in the whole array, so its energy per clock is scaled by area. The result is reported by part, for the
-acquisitions, for a whole frame with its idle time, and beside what `make synth` estimates from assumed activities.
+room scene; activity.py counts. The column is the one that the whole array has at the end of its run, with sized gates
+and hold buffers; its energy is that of every column. The logic outside the columns has another size in the whole array,
+so its energy per clock is scaled by area. The result is reported by part, for the acquisitions, for a whole frame with
+its idle time, and beside what `make synth` estimates from assumed activities.
 """
 
 from __future__ import annotations
@@ -19,14 +20,13 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import activity, area_parts, floorplan, liberty, netlist, simulation, sram_kit, sram_model, tools
+from . import activity, floorplan, liberty, netlist, simulation, sram_kit, sram_model, tools, wide_words
 from . import power as power_model
 from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .library import Library
-from .run import TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells, unsearched_effort
-from .sram_model import Size
+from .run import FINISHED_COLUMN, TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells, unsearched_effort
 
 CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer1", "hispointer", "sifh", "fifh", "threesteps", "pifh",
                   "histogram", "coarsehistogram", "poolpointer2", "poolpointer2_lean")
@@ -36,9 +36,6 @@ ACQUISITIONS = 64
 FRAME_ACQUISITIONS = 33_333
 FRAMES_PER_S = 30
 GOALS_MW = {"poolpointer2": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
-# The one run of CACTI with a wide word that is known, without its settings.
-WIDE_RUN = Size(1, 100, 116)
-WIDE_RUN_READ_PJ = 2.5
 
 
 @dataclass(frozen=True)
@@ -165,15 +162,16 @@ def count_activity(design: dict, case: simulation.Case, technology: Technology, 
     return counted
 
 
-def simulate(configuration: Configuration, technology: Technology, folder: Path, klux: float,
+def simulate(configuration: Configuration, finished_column: dict, technology: Technology, folder: Path, klux: float,
              seed: int) -> tuple[dict, Activity]:
-    """The small array through the flow, and its activity."""
+    """The small array through the flow, the whole array's column in it, and its activity."""
     case = small_case(configuration, seed)
     elaborate(case.configuration, technology, folder)
     # A search over names of a pool read-out's engine and pair would take longer than the simulation.
     effort = unsearched_effort(configuration) if configuration.is_pool else efforts(configuration)[0]
     design = map_to_cells(case.configuration, technology, folder, effort)
     floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration)
+    netlist.modules(design)[netlist.column_module(design)] = finished_column
     _write_verilog(design, technology, folder, "static", case.name)
     return design, count_activity(design, case, technology, folder, klux)
 
@@ -186,10 +184,11 @@ def _area(library: Library, module: dict) -> float:
     return sum(library.area.get(cell["type"], 0.0) for cell in module["cells"].values())
 
 
-def power(configuration: Configuration, light: str, result: Result, technology: Technology, folder: Path,
+def power(configuration: Configuration, light: str, result: Result, run_folder: Path, technology: Technology, folder: Path,
           seed: int) -> ScenePower:
-    """FlowError if the netlist is not its RTL, or a step of the flow fails."""
-    design, counted = simulate(configuration, technology, folder, KLUX[light], seed)
+    """`run_folder`: of the run that `result` is of. FlowError if the netlist is not its RTL, or a step of the flow fails."""
+    finished_column = json.loads((run_folder / FINISHED_COLUMN).read_text(encoding="utf-8"))
+    design, counted = simulate(configuration, finished_column, technology, folder, KLUX[light], seed)
     library = technology.typical
     group = liberty.read(library.path)
     internal = activity.internal_energies(group, library.energy_fj)
@@ -241,7 +240,8 @@ def power(configuration: Configuration, light: str, result: Result, technology: 
 def report(found: list[ScenePower], results: dict[str, Result], digest: str, seed: int) -> str:
     """Markdown."""
     lines = ["# Power on a scene", "",
-             f"Written by `make power`: the netlist of one column module with {ACQUISITIONS} acquisitions of the scene "
+             f"Written by `make power`: the netlist of one column module, the one of [timing.md](timing.md), with "
+             f"{ACQUISITIONS} acquisitions of the scene "
              f"`{SCENE}` at {', '.join(f'{klux:g} klux ({light})' for light, klux in KLUX.items())}, every transition of "
              f"every net counted, {TARGET_MHZ:g} MHz, typical corner, seed {seed}; inputs `{digest[:12]}`. Method: "
              "[docs/reference/synthesis.md](../docs/reference/synthesis.md#power-from-activity).", "",
@@ -275,24 +275,26 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
             met = "yes" if worst.streaming.total <= limit else "**no**"
             lines.append(f"| {worst.configuration.title}: at most {limit:g} mW | {worst.streaming.total:.1f} mW "
                          f"({worst.light}) | {met} |")
-    lines += wide_words(found)
+    lines += wide_word_lines(found)
     return "\n".join([*lines, ""])
 
 
-def wide_words(found: list[ScenePower]) -> list[str]:
-    """What the arrays with wide words would take if a read cost what CACTI's wide run has."""
-    wide = [one for one in found
-            if max(size.bits for size in memories(one.configuration).values()) > area_parts.FITTED_BITS]
+def wide_word_lines(found: list[ScenePower]) -> list[str]:
+    """What the arrays with wide words would take if the energy of a read grew with the bits as CACTI's does."""
+    bits = {one.configuration.name: max(size.bits for size in memories(one.configuration).values()) for one in found}
+    wide = [one for one in found if bits[one.configuration.name] > wide_words.FITTED_BITS]
     if not wide:
         return []
-    factor = WIDE_RUN_READ_PJ / sram_model.macro(WIDE_RUN).read_energy
     lines = ["", "## Wide words", "",
-             f"The energy of a read is extrapolated for words of more than {area_parts.FITTED_BITS} bits. The one run of CACTI with "
-             f"a wide word that is known ({WIDE_RUN.words} x {WIDE_RUN.bits} bits, {WIDE_RUN_READ_PJ:g} pJ, settings unknown) has "
-             f"{factor:.2f} times the model's. mW of the array if that held for these words:", "",
-             "| read-out | light | reads | total | total at that energy |", "|---|---|---:|---:|---:|"]
-    return lines + [f"| {one.configuration.title} | {one.light} | {one.streaming.sram_reads:.1f} | {one.streaming.total:.1f} | "
-                    f"{one.streaming.total + (factor - 1) * one.streaming.sram_reads:.1f} |" for one in wide]
+             f"The energy of a read is extrapolated for words of more than {wide_words.FITTED_BITS} bits, linearly in the bits. "
+             "CACTI's grows faster ([sram.md](sram.md#words-of-96-to-256-bits)). mW of the array if that held for these words:", "",
+             "| read-out | light | bits | reads | total | reads cost | total then |", "|---|---|" + "---:|" * 5]
+    for one in wide:
+        factor = wide_words.read_factor(bits[one.configuration.name])
+        part = one.streaming
+        lines.append(f"| {one.configuration.title} | {one.light} | {bits[one.configuration.name]} | {part.sram_reads:.1f} | "
+                     f"{part.total:.1f} | x {factor:.2f} | {part.total + (factor - 1) * part.sram_reads:.1f} |")
+    return lines
 
 
 def write_csv(path: Path, found: list[ScenePower]) -> None:
@@ -309,15 +311,15 @@ def write_csv(path: Path, found: list[ScenePower]) -> None:
                                  f"{one.uniform_mw:.3f}", phase, *(f"{figure:.3f}" for figure in figures), clocks, f"{one.frame_mj:.4f}"])
 
 
-def run(chosen: list[Configuration], results: dict[str, Result], technology: Technology, folder: Path, seed: int,
-        workers: int, say: Callable[[str], None]) -> list[ScenePower]:
+def run(chosen: list[Configuration], results: dict[str, Result], run_folders: Path, technology: Technology, folder: Path,
+        seed: int, workers: int, say: Callable[[str], None]) -> list[ScenePower]:
     """All chosen configurations in all lights, `workers` at a time; the longest first. The first failure stops
     everything."""
     tasks = [(configuration, light) for configuration in chosen for light in KLUX]
     found: dict[tuple[str, str], ScenePower] = {}
     with ProcessPoolExecutor(workers) as pool:
-        futures = {pool.submit(power, configuration, light, results[configuration.name], technology,
-                               folder / f"{configuration.name}_{light}", seed): (configuration.name, light)
+        futures = {pool.submit(power, configuration, light, results[configuration.name], run_folders / configuration.name,
+                               technology, folder / f"{configuration.name}_{light}", seed): (configuration.name, light)
                    for configuration, light in sorted(tasks, key=lambda task: simulation.expected_rank(task[0]))}
         try:
             for future in as_completed(futures):

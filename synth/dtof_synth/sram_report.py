@@ -8,7 +8,7 @@ import math
 from pathlib import Path
 from statistics import mean
 
-from . import sram_model
+from . import sram_model, wide_words
 from .sram_model import LinearInBits, PowerLaw, Size
 
 CACTI_CELLS = "itrs-lstp"
@@ -159,8 +159,9 @@ def text(uses: dict[Size, list[str]], named: set[str], pdk: Path) -> str:
              "|---|---|---:|---:|---:|---:|---:|---:|---:|---|",
              *(_row(size, uses[size], named) for size in sorted(uses)), ""]
     if (pdk / "sram_points").is_dir():
-        lines += ["## Beside public points", "", *_cacti_lines(pdk), "", *_openram_lines(pdk), "",
+        lines += ["## Beside public points", "", *_cacti_lines(pdk), "", *wide_words.lines(), "", *_openram_lines(pdk), "",
                   *_ihp_lines(pdk), ""]
     else:
-        lines += ["The public points (CACTI, OpenRAM, IHP) are not beside this checkout; no comparison.", ""]
+        lines += ["## Beside public points", "", *wide_words.lines(), "",
+                  "The public points (CACTI, OpenRAM, IHP) are not beside this checkout; no comparison.", ""]
     return "\n".join(lines)

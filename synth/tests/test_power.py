@@ -3,7 +3,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from dtof_synth import configuration, power, scene_power, standard_cells, tools
+from dtof_synth import configuration, power, scene_power, standard_cells, tools, wide_words
 
 SYNTH = Path(__file__).resolve().parents[1]
 NAMED = configuration.load(SYNTH.parent / "configurations.toml")
@@ -15,15 +15,14 @@ class WideWords(unittest.TestCase):
         return scene_power.ScenePower(NAMED[name], "day", 0.1, 0.0, parts, parts, 0.0, 0.0, 1, 1)
 
     def test_reads_alone_cost_more(self):
-        lines = scene_power.wide_words([self.one("poolpointer2")])
-        factor = 2.5 / 1.94  # docs/reference/technology.md has both
-        self.assertIn(f"{factor:.2f} times", lines[-5])
-        title, light, reads, total, more = lines[-1].strip("| ").split(" | ")
-        self.assertEqual((title, light, reads, total), ("poolPointer 2", "day", "50.0", "181.0"))
-        self.assertAlmostEqual(float(more), 181.0 + 50.0 * (factor - 1), delta=0.3)
+        lines = scene_power.wide_word_lines([self.one("poolpointer2")])
+        title, light, bits, reads, total, factor, more = lines[-1].strip("| ").split(" | ")
+        self.assertEqual((title, light, bits, reads, total), ("poolPointer 2", "day", "232", "50.0", "181.0"))
+        self.assertAlmostEqual(float(more), 181.0 + 50.0 * (wide_words.read_factor(232) - 1), delta=0.05)
+        self.assertEqual(factor, f"x {wide_words.read_factor(232):.2f}")
 
     def test_narrow_words_are_not_in_doubt(self):
-        self.assertEqual(scene_power.wide_words([self.one("hispointer")]), [])
+        self.assertEqual(scene_power.wide_word_lines([self.one("hispointer")]), [])
 
 
 class DataPower(unittest.TestCase):
