@@ -23,6 +23,11 @@ struct ColumnRange {
   bool operator==(const ColumnRange&) const = default;
 };
 
+/// The columns that may change with these: of a pool read-out those of every engine that has one of them,
+/// since columns of an engine hear each other. `together`: ReadoutParameters::columns_together(); `sram_num`:
+/// of the array.
+ColumnRange heard_by(ColumnRange columns, int together, int sram_num);
+
 /// An SRAM and the columns that use it.
 struct ArraySram {
   SramKind kind = SramKind::kHistogram;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "faults/fault_study.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -42,6 +40,16 @@ struct FaultPlace {
   int column;
   ColumnRange reach;
 };
+
+/// An SRAM with a fault, and the columns that hear it.
+struct FaultySram {
+  RtlSram sram;
+  ColumnRange reach;
+};
+
+bool overlap(ColumnRange left, ColumnRange right) {
+  return left.first < right.first + right.count && right.first < left.first + left.count;
+}
 
 /// A frame's worth of faults: what it feeds the array with, and what happens in its clocks.
 struct FaultyFrame {
@@ -84,13 +92,19 @@ class FaultPlan {
     return found;
   }
 
-  [[nodiscard]] const RtlSram& sram_of(int column) const {
-    const auto found = std::ranges::find_if(
-        srams_, [&](const ArraySram& candidate) { return candidate.columns.contains(column); });
-    if (found == srams_.end()) {
-      throw std::logic_error(fmt::format("column {} has no SRAM of this kind", column));
+  /// No column hears two of them. An SRAM that lies across the border of two engines is heard by both.
+  [[nodiscard]] std::vector<FaultySram> faulty_srams() const {
+    std::vector<FaultySram> found;
+    for (std::size_t i = 0; i < srams_.size(); ++i) {
+      const ColumnRange reach =
+          heard_by(srams_[i].columns, subject_.parameters().columns_together(), kFaultColumns);
+      const bool is_free =
+          std::ranges::none_of(found, [&](const FaultySram& other) { return overlap(other.reach, reach); });
+      if (has_fault(static_cast<int>(i), frame_) && is_free) {
+        found.push_back({srams_[i].sram, reach});
+      }
     }
-    return found->sram;
+    return found;
   }
 
   struct Flip {
@@ -125,10 +139,9 @@ class FaultPlan {
   FaultyFrame flipped_bits() {
     FaultyFrame faulty;
     std::vector<Flip> flips;
-    for (const FaultPlace& place : places()) {
-      const RtlSram& sram = sram_of(place.column);
+    for (const auto& [sram, reach] : faulty_srams()) {
       flips.push_back({sram, random_clock(), pick(random_, sram.words()), pick(random_, sram.width())});
-      faulty.reaches.push_back({place.reach, std::nullopt});
+      faulty.reaches.push_back({reach, std::nullopt});
     }
     faulty.disturbance = [flips](const RtlCycle& clock) mutable {
       for (Flip& flip : flips) {
@@ -148,10 +161,9 @@ class FaultPlan {
     };
     FaultyFrame faulty;
     std::vector<Stuck> stuck;
-    for (const FaultPlace& place : places()) {
-      const RtlSram& sram = sram_of(place.column);
+    for (const auto& [sram, reach] : faulty_srams()) {
       stuck.push_back({sram, pick(random_, sram.width()), pick(random_, 2) != 0});
-      faulty.reaches.push_back({place.reach, std::nullopt});
+      faulty.reaches.push_back({reach, std::nullopt});
     }
     // A bit that reads the same from every word: the word that is read in this clock has it.
     faulty.disturbance = [stuck](const RtlCycle&) mutable {
@@ -303,12 +315,14 @@ void plan_cases(const FaultSubject& subject, const FaultStudyOptions& options,
                 std::vector<PlannedCase>& cases) {
   const Readout readout = subject.parameters().readout;
   const std::vector<ArraySram> srams = array_srams(RtlReadout(subject.configuration()));
+  const int heard_apart = kFaultColumns / subject.parameters().columns_together();  // groups of columns
   // Frames for `faults` faults on two thirds of `places` in each.
   const auto add = [&](const FaultCase& fault, int faults, int places) {
     cases.push_back({&subject, fault, std::max((3 * faults + 2 * places - 1) / (2 * places), 1)});
   };
   for (const SramKind kind : sram_kinds(srams)) {
-    const auto places = static_cast<int>(std::ranges::count(srams, kind, &ArraySram::kind));
+    const auto places =
+        std::min(static_cast<int>(std::ranges::count(srams, kind, &ArraySram::kind)), heard_apart);
     const bool scratch = kind == SramKind::kEngineScratch;
     const int flips = scratch ? options.flips / kFlipsPerScratchFlip : options.flips;
     add({readout, FaultKind::kFlippedBit, kind, std::nullopt}, flips, places);

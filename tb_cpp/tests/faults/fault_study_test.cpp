@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.hpp"
+#include "faults/array_srams.hpp"
 #include "faults/fault_report.hpp"
 
 namespace dtof {
@@ -29,6 +30,14 @@ TEST(FaultStudy, FaultsStayWhereTheyAre) {
       EXPECT_FALSE(result.effects.empty());
     }
   }
+}
+
+TEST(FaultStudy, AnSramAcrossABorderIsHeardByBothEngines) {
+  EXPECT_EQ(heard_by({4, 4}, 6, 12), (ColumnRange{0, 12}));
+  EXPECT_EQ(heard_by({0, 4}, 6, 12), (ColumnRange{0, 6}));
+  EXPECT_EQ(heard_by({8, 4}, 6, 12), (ColumnRange{6, 6}));
+  EXPECT_EQ(heard_by({8, 2}, 8, 10), (ColumnRange{8, 2}));
+  EXPECT_EQ(heard_by({5, 1}, 1, 12), (ColumnRange{5, 1}));
 }
 
 TEST(FaultStudy, StuckTimestampsAreSeenInTheirColumn) {
