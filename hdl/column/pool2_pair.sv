@@ -8,11 +8,14 @@
 //   clock (T0: last slot of the two rows)   T1            T2          T3                    T4
 //   first part                              read          registered  counted and written
 //   second part                                           read        registered            counted and written
-// At T2 it is known what will be chosen, so that the second part is read only where something counts in it.
+// At T2 it is known what will be chosen, so that the second part is read only where something counts in it, and in a sweep.
 // With LINE_HALVES = 2 there are four parts, and the accesses of two rows do not suffice. Four rows count together:
 //   clock (T0: last slot of the four rows)  T2            T3          T4                    T5
 //   first part                              read          registered  first two rows count  last two rows count, written
 //   next part                                                         read                  registered
+// In a sweep nothing counts. In the group's first visit each part is looked at in the clock in which it would count; in the
+// second visit, if a bin was full, every bin falls by a quarter of its range, or, if a bin was below that, the first part gets
+// its frozen bit, with which nothing counts in the group until the next clear.
 //
 // In the other phases the columns' pixels of a row are worked on one after the other by one pool2_pixel_update:
 //   clock (T0: last slot of a row)   T2               T3                  T4
@@ -79,11 +82,13 @@ module pool2_pair #(
     input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
                                                      // first two, and then the last two
     input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
+    input  logic                  sweep_i,           // with load_i of the first part: nothing counts, the bins are looked at
+    input  logic                  make_room_i,       // with sweep_i: the group's second visit
     // SRAM
     input  logic                  read_i,
     input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
     input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
-    output logic                  upper_t2_o,        // coarse, at T2 of a second row: something counts in the second of two parts
+    output logic                  upper_t2_o,        // coarse, at T2 of a second row: the second of two parts is needed
     output logic                  write_o,           // with write_i: there is something to write
     output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
@@ -125,12 +130,43 @@ module pool2_pair #(
   logic count_q, counts_first, counts, counted_before;
   logic [1:0] counts_here;
   logic [2*PLACE_WIDTH-1:0] places;
+  logic [PART_WIDTH-1:0] part_q;
   logic [WORD_WIDTH-1:0] counted_word;
 
   assign counts = (counts_here != '0);
 
   always_ff @(posedge clk_i) begin
     count_q <= load_i;
+    if (load_i) begin
+      part_q <= part_i;
+    end
+  end
+
+  // Sweep. The frozen bit is the first one above the lower half's bins.
+
+  localparam int FROZEN_BIT = HALF_BINS * COUNT_WIDTH;
+  logic sweep_q, making_room_q, frozen_q, full_q, low_q;  // full, low: some bin is full, or below a quarter of its range
+  logic first_part, frozen, rests, full_here, low_here, takes_quarter, freezes;
+
+  assign first_part = (part_q == '0);
+  assign frozen = first_part ? word_q[FROZEN_BIT] : frozen_q;
+  assign rests = sweep_q || frozen;
+  assign takes_quarter = making_room_q && full_q && !low_q;
+  assign freezes = making_room_q && full_q && low_q && first_part;
+
+  always_ff @(posedge clk_i) begin
+    if (load_i && part_i == '0) begin
+      sweep_q <= sweep_i;
+    end
+    // The last sweep of a phase must not outlast the phase.
+    making_room_q <= coarse_i && ((load_i && part_i == '0) ? make_room_i : making_room_q);
+    if (count_q && first_part) begin
+      frozen_q <= frozen;
+    end
+    if (count_q && sweep_q && !making_room_q) begin
+      full_q <= (full_here && !frozen) || (full_q && !first_part);
+      low_q <= low_here || (low_q && !first_part);
+    end
   end
 
   generate
@@ -145,14 +181,10 @@ module pool2_pair #(
   generate
     if (PART_WIDTH == 1) begin : g_two_parts
       // The choices last until both parts have counted.
-      logic part_q;
-      always_ff @(posedge clk_i) begin
-        part_q <= part_i;
-      end
       for (d = 0; d < 2; d = d + 1) begin : g_choice
         logic valid, part;
         assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-        assign counts_here[d] = count_q && valid && (part == part_q);
+        assign counts_here[d] = count_q && valid && (part == part_q) && !rests;
       end
       assign counts_first = 1'b0;
       assign counted_before = 1'b0;
@@ -161,16 +193,12 @@ module pool2_pair #(
     end else begin : g_four_parts
       // The next four rows' first choices come before these have counted in all parts.
       logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q, last_q, counted;
-      logic [PART_WIDTH-1:0] part_q;
       logic count_last_q, counted_q;
       assign counted = count_last_q ? last_q : first_q;
       assign counts_first = count_q;
       assign counted_before = counted_q;
       always_ff @(posedge clk_i) begin
         count_last_q <= count_q;
-        if (load_i) begin
-          part_q <= part_i;
-        end
         if (keep_first_i) begin
           waiting_q <= chosen;
         end
@@ -186,7 +214,7 @@ module pool2_pair #(
         logic valid;
         logic [PART_WIDTH-1:0] part;
         assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = counted[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-        assign counts_here[d] = (count_q || count_last_q) && valid && (part == part_q);
+        assign counts_here[d] = (count_q || count_last_q) && valid && (part == part_q) && !rests;
       end
     end
   endgenerate
@@ -203,23 +231,31 @@ module pool2_pair #(
     end
   endfunction
 
+  logic [2*HALF_BINS-1:0] full_bins, low_bins;
+  assign full_here = (full_bins != '0);
+  assign low_here = (low_bins != '0);
+
   genvar b;
   generate
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
       localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
       logic first_counts, second_counts;
+      logic [COUNT_WIDTH-1:0] bin;
+      logic [1:0] quarters;
+      assign bin = word_q[FIRST+:COUNT_WIDTH];
+      assign quarters = bin[COUNT_WIDTH-1-:2];
+      assign full_bins[b] = &bin;
+      assign low_bins[b] = (quarters == 2'd0);
       assign first_counts = counts_here[0] && (places[PLACE_WIDTH-1:0] == PLACE_WIDTH'(b));
       assign second_counts = counts_here[1] && (places[PLACE_WIDTH+:PLACE_WIDTH] == PLACE_WIDTH'(b));
       assign counted_word[FIRST+:COUNT_WIDTH] =
-          plus(word_q[FIRST+:COUNT_WIDTH], first_counts ^ second_counts, first_counts && second_counts);
+          plus({quarters - 2'(takes_quarter), bin[COUNT_WIDTH-3:0]}, first_counts ^ second_counts, first_counts && second_counts);
     end
     // Bits of a half beyond its bins.
     for (b = 0; b < 2; b = b + 1) begin : g_rest
-      if (HALF_WIDTH > HALF_BINS * COUNT_WIDTH) begin : g_bits
-        localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
-        localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
-        assign counted_word[FIRST+:WIDTH] = word_q[FIRST+:WIDTH];
-      end
+      localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
+      localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
+      assign counted_word[FIRST+:WIDTH] = word_q[FIRST+:WIDTH] | WIDTH'(freezes && b == 0);
     end
   endgenerate
 
@@ -444,10 +480,10 @@ module pool2_pair #(
     end
   endgenerate
 
-  assign upper_t2_o = (upper_t2 != '0);
+  assign upper_t2_o = (upper_t2 != '0) || sweep_i;
 
   // Pixels without a timestamp stay what they are, and a word of them alone is not written, nor one in which nothing counts.
-  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts : changed_q;
+  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (making_room_q && full_q) : changed_q;
 
   logic unused;
   assign unused = ^{1'b0, used_i, move_q[3], detected_t1};

@@ -103,6 +103,7 @@ package dtof_pkg;
   localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
+  localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
   // Bits of pool2_engine_command_t, of which Yosys 0.23 cannot take $bits, nor Icarus 11 of a variable of it. Every lint
   // finds a wrong number.
   localparam int POOL2_COMMAND_WIDTH = 63;
@@ -151,9 +152,9 @@ package dtof_pkg;
     pool2_half_width = max_of(2 * pool2_half_width, pool_group_width(labels, pool2_half_width));
   endfunction
 
-  // Halves of such a word that POOL2_BINS_PER_LINE coarse bins need, 1 or 2.
+  // Halves of such a word that POOL2_BINS_PER_LINE coarse bins and one bit more need, 1 or 2.
   function automatic int pool2_line_halves(input int half_width, input int count_width);
-    pool2_line_halves = (POOL2_BINS_PER_LINE * count_width <= half_width) ? 1 : 2;
+    pool2_line_halves = (POOL2_BINS_PER_LINE * count_width < half_width) ? 1 : 2;
   endfunction
 
   // log2 of the parts in which a group's coarse bins are counted, a word each.
