@@ -25,7 +25,7 @@
 // The next word's first pixel has a register of its own, for its turn may come while this word is written.
 //
 // Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
-// of an engine's pairs are combined by OR from pair to pair (beside_word_i), so that no wire is longer than a pair. The low half
+// of neighbouring pairs are combined by OR from pair to pair (beside_word_i, pool2_line). The low half
 // is the half that was asked for. Where eight bins need both halves, its high half is the word's. The engine writes one half;
 // the other half, and the part of the pair beside, are written with it:
 //   clock after read_i   1                                               2
@@ -102,7 +102,7 @@ module pool2_pair #(
     input  logic                  upper_i,           // with read_i: the word's upper half
     input  logic                  used_i,            // with replace_i: of that half only which candidates are used
     input  logic [HALF_WIDTH-1:0] engine_word_i,     // 0 while timestamps come
-    input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs beyond this one, seen from the engine
+    input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs to the right, as far as the segment reaches
     output logic [LINE_WIDTH-1:0] word_o
 );
 
@@ -219,18 +219,6 @@ module pool2_pair #(
     end
   endgenerate
 
-  function automatic logic [COUNT_WIDTH-1:0] plus(input logic [COUNT_WIDTH-1:0] count, input logic one, input logic two);
-    logic carry;
-    integer i;
-    carry = one && !(&count);
-    plus[0] = (count[0] ^ carry) || (two && (&count[COUNT_WIDTH-1:1]));
-    carry = (count[0] && carry) || (two && !(&count[COUNT_WIDTH-1:1]));
-    for (i = 1; i < COUNT_WIDTH; i = i + 1) begin
-      plus[i] = count[i] ^ carry;
-      carry = count[i] && carry;
-    end
-  endfunction
-
   logic [2*HALF_BINS-1:0] full_bins, low_bins;
   assign full_here = (full_bins != '0);
   assign low_here = (low_bins != '0);
@@ -239,17 +227,22 @@ module pool2_pair #(
   generate
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
       localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
-      logic first_counts, second_counts;
-      logic [COUNT_WIDTH-1:0] bin;
-      logic [1:0] quarters;
+      logic first_counts, second_counts, one, two, full_above, first_carry, carry;
+      logic [COUNT_WIDTH-1:0] bin, count;
       assign bin = word_q[FIRST+:COUNT_WIDTH];
-      assign quarters = bin[COUNT_WIDTH-1-:2];
       assign full_bins[b] = &bin;
-      assign low_bins[b] = (quarters == 2'd0);
+      assign low_bins[b] = (bin[COUNT_WIDTH-1-:2] == 2'd0);
       assign first_counts = counts_here[0] && (places[PLACE_WIDTH-1:0] == PLACE_WIDTH'(b));
       assign second_counts = counts_here[1] && (places[PLACE_WIDTH+:PLACE_WIDTH] == PLACE_WIDTH'(b));
-      assign counted_word[FIRST+:COUNT_WIDTH] =
-          plus({quarters - 2'(takes_quarter), bin[COUNT_WIDTH-3:0]}, first_counts ^ second_counts, first_counts && second_counts);
+      assign one = first_counts ^ second_counts;
+      assign two = first_counts && second_counts;
+      // Plus one or two, saturating: what a full bin does not take is left out before it is added.
+      assign count = {bin[COUNT_WIDTH-1-:2] - 2'(takes_quarter), bin[COUNT_WIDTH-3:0]};
+      assign full_above = &bin[COUNT_WIDTH-1:1];
+      assign first_carry = one && !full_bins[b];
+      assign carry = (count[0] && first_carry) || (two && !full_above);
+      assign counted_word[FIRST+:COUNT_WIDTH] = {count[COUNT_WIDTH-1:1] + (COUNT_WIDTH - 1)'(carry),
+                                                 (count[0] ^ first_carry) || (two && full_above)};
     end
     // Bits of a half beyond its bins.
     for (b = 0; b < 2; b = b + 1) begin : g_rest

@@ -14,7 +14,7 @@
 //   the confidence belongs as well.
 // Borders: every signal between the shared logic and columns or engines goes from a register to a register (broadcast.sv),
 //   timestamps from the port, which stands for the TDC's register, to those of their column (timestamp_input.sv). The words
-//   of an engine's pairs are combined by OR on the way to it, from pair to pair.
+//   of an engine's pairs are combined by OR on the way to it (pool2_line.sv).
 // Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS + what docs/reference/poolpointer2.md's
 //   cycle budget says.
 `include "dtof_macros.svh"
@@ -440,10 +440,11 @@ module pool_pointer2_array #(
         localparam int ENGINE = (FIRST + p) / STEP_PAIRS;
         localparam int PLACE = (FIRST + p) % STEP_PAIRS;  // of the engine's pairs
         localparam int PAIRS = (ENGINE == ENGINES - 1) ? LAST_PAIRS : STEP_PAIRS;
-        localparam int BEYOND = (PLACE <= PAIRS / 2) ? PLACE - 1 : PLACE + 1;  // the pair on the side away from the engine
+        // The next pair of its segment gives its word to this one, and the first pair gives the OR of all to pool2_line.
+        localparam int NEXT = PLACE + 1;
         logic [LINE_WIDTH-1:0] beside_word;
-        if (p < QUAD_PAIRS && BEYOND >= 0 && BEYOND < PAIRS) begin : g_beyond
-          assign beside_word = pair_words[(ENGINE*STEP_PAIRS+BEYOND)*LINE_WIDTH+:LINE_WIDTH];
+        if (p < QUAD_PAIRS && NEXT % dtof_pkg::POOL_LINE_PAIRS != 0 && NEXT < PAIRS) begin : g_beyond
+          assign beside_word = pair_words[(ENGINE*STEP_PAIRS+NEXT)*LINE_WIDTH+:LINE_WIDTH];
         end else begin : g_end
           assign beside_word = '0;
         end
@@ -518,28 +519,36 @@ module pool_pointer2_array #(
     end
   endgenerate
 
-  // Engines. The words of an engine's pairs come from both ends to the middle, where the engine is.
+  // Engines.
 
   logic [ENGINES*RESULT_WIDTH-1:0] results;
 
-  genvar e;
+  genvar e, s;
   generate
     for (e = 0; e < ENGINES; e = e + 1) begin : g_engine
       localparam int COLUMNS = (SRAM_NUM - e * STEPS < STEPS) ? SRAM_NUM - e * STEPS : STEPS;
       localparam int PAIRS = (COLUMNS + 1) / 2;
       localparam int FIRST = e * STEP_PAIRS;  // of all pairs, the engine's first
-      localparam int MIDDLE = PAIRS / 2;
+      localparam int SEGMENTS = (PAIRS + dtof_pkg::POOL_LINE_PAIRS - 1) / dtof_pkg::POOL_LINE_PAIRS;
 
       logic [HALF_WIDTH-1:0] word;
-      logic [LINE_WIDTH-1:0] line, right_words;
+      logic [LINE_WIDTH-1:0] line;
+      logic [SEGMENTS*LINE_WIDTH-1:0] segment_words;
       logic has_right_here;
 
-      assign line = pair_words[(FIRST+MIDDLE)*LINE_WIDTH+:LINE_WIDTH] | right_words;
-      if (PAIRS > MIDDLE + 1) begin : g_right
-        assign right_words = pair_words[(FIRST+MIDDLE+1)*LINE_WIDTH+:LINE_WIDTH];
-      end else begin : g_no_right
-        assign right_words = '0;
+      for (s = 0; s < SEGMENTS; s = s + 1) begin : g_segment
+        assign segment_words[s*LINE_WIDTH+:LINE_WIDTH] = pair_words[(FIRST+s*dtof_pkg::POOL_LINE_PAIRS)*LINE_WIDTH+:LINE_WIDTH];
       end
+
+      pool2_line #(
+          .SEGMENTS(SEGMENTS),
+          .WIDTH   (LINE_WIDTH)
+      ) u_line (
+          .clk_i   (clk_i),
+          .active_i(heard_engine),
+          .words_i (segment_words),
+          .line_o  (line)
+      );
 
       assign engine_words[FIRST*HALF_WIDTH+:PAIRS*HALF_WIDTH] = {PAIRS{word}};
 
