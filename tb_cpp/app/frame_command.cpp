@@ -14,6 +14,7 @@
 
 #include "analytic/fidelity.hpp"
 #include "app/commands.hpp"
+#include "app/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
@@ -263,8 +264,13 @@ void write_readout_files(const MeasuredFrame& frame, const Region& region, const
   const std::filesystem::path folder(options.out);
   const std::string name(readout_name(frame.parameters.readout));
   write_result_csv(folder / (name + ".csv"), result_records(frame.run.results, region));
-  write_depth_png(folder / (name + "_depth_mm.png"), frame.depth);
-  write_ply(folder / (name + ".ply"), frame.depth, depth_range, sensor.degrees_per_pixel());
+  const std::filesystem::path millimetres = folder / (name + "_depth_mm.png");
+  write_optional(millimetres, depth_png_obstacle(frame.depth),
+                 [&] { write_depth_png(millimetres, frame.depth); });
+  const std::filesystem::path cloud = folder / (name + ".ply");
+  const double degrees = sensor.degrees_per_pixel();
+  write_optional(cloud, ply_obstacle(frame.depth.width, frame.depth.height, degrees),
+                 [&] { write_ply(cloud, frame.depth, depth_range, degrees); });
   const std::string title(readout_title(frame.parameters.readout));
   const std::string scene = scene_sentence(sensor, options);
   write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{frame.depth, "", MapKind::kDepth}},
@@ -380,7 +386,6 @@ void run_frame_command(const FrameOptions& options) {
     readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
   }
   check_engine(scene, readouts, options.run, region);
-  check_ply_size(options.out, truth.width, truth.height);
   const TableRule rule = parse_table_rule(options.table);
   const std::vector<TabledReadout> tabled = with_tables(readouts, rule, scene, fidelity, options.run);
   create_output_folder(options.out);

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/truth_map.hpp"
@@ -222,20 +223,24 @@ void write_comparison(const std::vector<TruthComparison>& comparisons, const Rep
   }
   write_file(folder / "summary.csv", summary.csv());
   write_file(folder / "measurements.csv", measurements.csv());
+  const std::filesystem::path plot = folder / "error.svg";
+  const bool plotted = write_optional(plot, plot_obstacle(), [&] {
+    write_plot(
+        plot, errors_over_truth(comparisons),
+        {.title = fmt::format(
+             "Error of the measured distance in mm (median, and 80 % of the measurements): {}", recording),
+         .x_label = "true distance, mm",
+         .y_label = "error, mm",
+         .y_limits = {0.0},
+         .panels = true});
+  });
   write_file(
       folder / "summary.md",
-      fmt::format("{}\n{}\n{}\n\n![Error of the measured distance](error.svg)\n\n"
+      fmt::format("{}\n{}\n{}\n\n{}"
                   "Measured distance in mm (median of each group of true distances):\n\n{}\nCommand: `{}`\n",
-                  heading, summary.markdown(), offset_sentence(options), distances.markdown(),
+                  heading, summary.markdown(), offset_sentence(options),
+                  plotted ? "![Error of the measured distance](error.svg)\n\n" : "", distances.markdown(),
                   options.command_line));
-  write_plot(
-      folder / "error.svg", errors_over_truth(comparisons),
-      {.title = fmt::format("Error of the measured distance in mm (median, and 80 % of the measurements): {}",
-                            recording),
-       .x_label = "true distance, mm",
-       .y_label = "error, mm",
-       .y_limits = {0.0},
-       .panels = true});
   fmt::print("{}\n{}\n{}\n\nMeasured distance in mm (median of each group of true distances):\n\n{}\n",
              heading, summary.markdown(), offset_sentence(options), distances.markdown());
 }

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -871,11 +872,6 @@ TEST_F(Programs, APoolReadoutsRtlNeedsAnEngineOfTheColumns) {
 }
 
 TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
-  expect_refused("frame --array-columns 375 --array-rows 1 -a 10 --out out", "point cloud of 375 x 1 pixels");
-  expect_refused("frame --array-columns 1 --array-rows 375 -a 10 --out out", "point cloud of 1 x 375 pixels");
-  // Of a large array a part that fits a picture.
-  EXPECT_EQ(dtof("frame -r fifh --array-columns 375 --array-rows 1 --columns 0-3 -a 10 --out part").exit_code,
-            0);
   expect_refused("frame -r ezpointer,sifh --nb 7 --engine rtl --out out", "no RTL is compiled for sifh");
   expect_refused("frame -r ezpointer --engine rtl -a 65536 --array-columns 1 --array-rows 1 --out out",
                  "the RTL counts 16 bits of them, to 65535");
@@ -887,6 +883,69 @@ TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
   EXPECT_THAT(wide.output, HasSubstr("a waveform holds at most SRAM_NUM"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));
   EXPECT_FALSE(std::filesystem::exists(path("stream.csv")));
+}
+
+TEST_F(Programs, AnOutputThatIsImpossibleIsLeftOutAndTheRestIsWritten) {
+  // A point cloud has the sensor's degrees a pixel, not those of the thesis's 200 columns.
+  const std::string frame = "frame -r ezpointer --table none -a 10 --scene flat ";
+  const auto sensor = [&](const char* name, int columns, int range_ns, double signal) {
+    return file(name, fmt::format(R"(name = "v"
+[array]
+columns = {}
+rows = 2
+field_of_view_deg = 60
+[tdc]
+range_ns = {}
+timestamp_bits = 10
+[laser]
+acquisitions = 10
+pulse_fwhm_ns = 2.0
+[light]
+signal_events_at_1m = {}
+background_events_per_klux = 0.02
+)",
+                                  columns, range_ns, signal));
+  };
+  const Outcome wide = dtof(frame + "--out wide --sensor " + sensor("wide.toml", 640, 45, 0.12));
+  EXPECT_EQ(wide.exit_code, 0) << wide.output;
+  EXPECT_THAT(wide.output, Not(HasSubstr("left out")));
+  EXPECT_TRUE(std::filesystem::exists(path("wide/ezpointer.ply")));
+
+  // One from a frame before does not stay.
+  ASSERT_EQ(dtof(frame + "--array-columns 3 --array-rows 1 --out line").exit_code, 0);
+  ASSERT_TRUE(std::filesystem::exists(path("line/ezpointer.ply")));
+  const Outcome line = dtof(frame + "--array-columns 375 --array-rows 1 --out line");
+  EXPECT_EQ(line.exit_code, 0) << line.output;
+  EXPECT_THAT(line.output,
+              HasSubstr("line/ezpointer.ply is left out: a point cloud of 375 x 1 pixels of 0.48 degrees"));
+  EXPECT_FALSE(std::filesystem::exists(path("line/ezpointer.ply")));
+  EXPECT_TRUE(std::filesystem::exists(path("line/summary.csv")));
+
+  const Outcome far =
+      dtof("frame -r sifh --table none -a 500 --scene flat --distance 100 --out far --sensor " +
+           sensor("far.toml", 4, 1500, 2e3));
+  EXPECT_EQ(far.exit_code, 0) << far.output;
+  EXPECT_THAT(far.output, HasSubstr("far/sifh_depth_mm.png is left out: column 0, row 0: a depth of "));
+  EXPECT_THAT(far.output, HasSubstr("m does not fit 16 bits of millimetres"));
+  EXPECT_FALSE(std::filesystem::exists(path("far/sifh_depth_mm.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("far/sifh.ply")));
+  EXPECT_TRUE(std::filesystem::exists(path("far/summary.csv")));
+
+  // Plots without gnuplot.
+  ASSERT_EQ(dtof(frame + "--array-columns 4 --array-rows 2 --record stream.csv --out stream").exit_code, 0);
+  write_pfm(path("truth.pfm"), {.width = 4, .height = 2, .metres = std::vector<float>(8, 1.0F)});
+  const std::string bare = fmt::format("PATH=/nowhere {}", DTOF_PROGRAM);
+  const Outcome replay = run(bare, "replay stream.csv -a 10 -r sifh --truth truth.pfm --out replay");
+  EXPECT_EQ(replay.exit_code, 0) << replay.output;
+  EXPECT_THAT(replay.output, HasSubstr("replay/error.svg is left out: gnuplot does not run"));
+  EXPECT_THAT(read_file(path("replay/summary.md")), Not(HasSubstr("error.svg")));
+  const Outcome video =
+      run(bare,
+          "video --scene flat --motion still --frames 2 -r sifh --array-columns 4 --array-rows 2 "
+          "-a 10 --out video");
+  EXPECT_EQ(video.exit_code, 0) << video.output;
+  EXPECT_THAT(video.output, HasSubstr(".svg is left out: gnuplot does not run"));
+  EXPECT_THAT(read_file(path("video/video.md")), Not(HasSubstr(".svg")));
 }
 
 TEST_F(Programs, APoolReadoutsWindowsFollowThePulse) {
