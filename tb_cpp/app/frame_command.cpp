@@ -23,13 +23,13 @@
 #include "core/pixel_sampler.hpp"
 #include "frame/flat_calibration.hpp"
 #include "frame/frame_maps.hpp"
+#include "frame/frame_truth.hpp"
 #include "host/range_converter.hpp"
 #include "io/atomic_file.hpp"
 #include "io/depth_image.hpp"
 #include "io/output_folder.hpp"
 #include "io/result_csv.hpp"
 #include "metrics/confidence_interval.hpp"
-#include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
 #include "recording/stream_csv.hpp"
 #include "report/colour_png.hpp"
@@ -68,8 +68,8 @@ struct MeasuredFrame {
   ReadoutRun run;
   DepthImage depth;
   DepthImage error;
-  ErrorStatistics statistics;  ///< of all frames' pixels that have a target
-  RunningMoments before;       ///< their errors by Eq. 3.11, before the look-up table
+  FrameFigures figures;  ///< of all frames
+  double mean_square = 0.0;
   int frames = 1;
   bool precision_reached = true;
 };
@@ -151,11 +151,6 @@ void check_memory(const SensorModel& sensor, int rows) {
   }
 }
 
-DepthImage true_depth(const TargetMap& targets, const Region& region) {
-  return {static_cast<int>(region.columns.size()), region.rows.count,
-          true_depth(targets, region.columns, region.rows)};
-}
-
 /// A read-out and the look-up table that `--table` gives it.
 struct TabledReadout {
   ReadoutParameters parameters;
@@ -192,7 +187,8 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
   frame.parameters = parameters;
   frame.run = run_readout(source, parameters, options.run, region, options.command_line);
   FrameMaps maps = frame_maps(frame.run.results, parameters, sensor, readout.table, truth.metres);
-  frame.before = maps.before;
+  frame.figures = maps.figures;
+  frame.mean_square = maps.mean_square;
   frame.depth = {truth.width, truth.height, std::move(maps.depth)};
   frame.error = {truth.width, truth.height, std::move(maps.error)};
   return frame;
@@ -227,7 +223,7 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstF
                       const DepthImage& truth) {
   MeasuredFrame frame =
       measure_once(first.source(readout.parameters.readout), scene.model(), readout, options, region, truth);
-  std::vector<double> mean_squares = {add_errors(truth.metres, frame.error.metres, frame.statistics)};
+  std::vector<double> mean_squares = {frame.mean_square};
   if (!options.precision_percent) {
     return frame;
   }
@@ -242,8 +238,8 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstF
         make_source(fidelity, scene.at_frame(scene_frame(static_cast<std::uint32_t>(frame.frames))));
     const MeasuredFrame other = measure_once(*next, scene.model(), readout, options, region, truth);
     frame.run.seconds += other.run.seconds;
-    frame.before.merge(other.before);
-    mean_squares.push_back(add_errors(truth.metres, other.error.metres, frame.statistics));
+    frame.figures.merge(other.figures);
+    mean_squares.push_back(other.mean_square);
     ++frame.frames;
   }
   return frame;
@@ -290,7 +286,7 @@ Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& op
   }
   Table table(head);
   for (const MeasuredFrame& frame : frames) {
-    std::vector<std::string> row = figure_values(frame.statistics, frame.before, tables);
+    std::vector<std::string> row = figure_values(frame.figures, tables);
     row.insert(row.begin(), std::string(readout_title(frame.parameters.readout)));
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
     if (options.precision_percent) {
@@ -374,14 +370,17 @@ void run_frame_command(const FrameOptions& options) {
   check_distances(options, sensor);
   check_memory(sensor, options.array_rows.value_or(sensor.rows));
   OwnMap made = make_targets(options, sensor);
+  const bool own = !options.maps.depth.empty();
+  require_reachable(made.targets, sensor, own ? options.maps.depth : "--scene " + options.scene, own);
   const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
   const Fidelity fidelity = photon_model(options, readouts, scene);
   const Region region{.columns = parse_columns(options.run.columns, scene.columns()),
                       .rows = parse_rows(options.run.rows, scene.rows())};
-  const DepthImage truth = true_depth(scene.targets(), region);
-  if (options.precision_percent && std::ranges::all_of(truth.metres, [](float m) { return std::isnan(m); })) {
+  const FrameTruth judged = frame_truth(scene.targets(), sensor, region.columns, region.rows);
+  if (options.precision_percent && !judged.any_judged()) {
     throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
   }
+  const DepthImage truth{static_cast<int>(region.columns.size()), region.rows.count, judged.metres};
   if (options.readout.all()) {
     readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
   }
@@ -408,11 +407,11 @@ void run_frame_command(const FrameOptions& options) {
   const std::string precision = precision_sentence(frames, options);
   const std::string heading = fmt::format(
       "Scene {}: {} x {} pixels, {} klux, sensor {}, {} acquisitions, {} photons, engine {}{}, seed "
-      "{}.{}{}\n",
+      "{}.{}{}{}\n",
       options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
       options.sensor.klux, sensor.name, sensor.acquisitions, fidelity_name(fidelity), options.run.engine,
       options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
-      made.description.empty() ? "" : "\n", made.description);
+      judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
   const std::string body = fmt::format("{}\n{}\n{}\n\n{}", heading, table.markdown(),
                                        table_sentence(rule, sensor, options.run.seed), precision);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());

@@ -79,10 +79,13 @@ CLI::Validator within(double lowest, double highest, const std::string& reason) 
 
 CLI::Validator sensible_klux() { return within(0.0, 200.0, "200 klux: the brightest sunlight is about 130"); }
 
-CLI::Validator sensible_reflectivity() {
-  return within(0.0, 4.0,
-                "4: a white matt surface is 1, a glint is more, and the photon models are checked up to 4");
+std::string reflectivity_reason() {
+  return fmt::format(
+      "{0:g}: a white matt surface is 1, a glint is more, and the photon models are checked up to {0:g}",
+      kMostReflectivity);
 }
+
+CLI::Validator sensible_reflectivity() { return within(0.0, kMostReflectivity, reflectivity_reason()); }
 
 CLI::Validator sensible_acquisitions() {
   return within(1.0, kMostAcquisitions,

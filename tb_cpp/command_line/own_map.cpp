@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 
+#include "command_line/option_checks.hpp"
 #include "core/error.hpp"
 #include "io/depth_image.hpp"
 #include "scene/scene.hpp"
@@ -71,6 +73,13 @@ std::string resampling_sentence(std::string_view map, int width, int height, con
 
 std::string apply_reflectivity_map(TargetMap& targets, const std::string& file, const MapScales& scales) {
   const ReflectivityImage image = read_reflectivity_image(file, scales.reflectivity_per_unit);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    if (image.values[i] > kMostReflectivity) {
+      const auto width = static_cast<std::size_t>(image.width);
+      throw InputError(fmt::format("{}: column {}, row {}: a reflectivity of {:g} is not within 0 to {}",
+                                   file, i % width, i / width, image.values[i], reflectivity_reason()));
+    }
+  }
   set_reflectivity(targets, image.width, image.height, image.values);
   return resampling_sentence("Reflectivity map " + file, image.width, image.height, targets);
 }

@@ -334,6 +334,10 @@ DepthImage read_depth_image(const std::filesystem::path& path, std::optional<dou
     if (metres < 0.0) {
       fail_in_file(path, fmt::format("{}: negative depth {} m", pixel_name(map, i), metres));
     }
+    if (std::isfinite(metres) && metres > std::numeric_limits<float>::max()) {
+      fail_in_file(path,
+                   fmt::format("{}: a depth of {:g} m is too large a number", pixel_name(map, i), metres));
+    }
     image.metres.push_back(std::isfinite(metres) ? static_cast<float>(metres) : 0.0F);
   }
   return image;

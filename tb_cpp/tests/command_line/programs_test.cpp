@@ -975,6 +975,131 @@ default_reflectivity = 1.0
   EXPECT_EQ(dtof(frame + "--engine rtl --cell-shift 9 --verify").exit_code, 0);
 }
 
+TEST_F(Programs, APixelThatSawNothingHasNoDistance) {
+  const auto dead = [&](const char* name, const char* pixels) {
+    return file(name, fmt::format(R"(name = "d"
+[array]
+columns = 4
+rows = 3
+field_of_view_deg = 20
+[tdc]
+range_ns = 45
+timestamp_bits = 10
+[laser]
+acquisitions = 300
+pulse_fwhm_ns = 2.0
+[light]
+signal_events_at_1m = 0.12
+background_events_per_klux = 0.02
+[detector]
+{}
+)",
+                                  pixels));
+  };
+  const std::string frame =
+      "frame -r ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,coarsehistogram --scene "
+      "flat "
+      "--out out --sensor ";
+  const Outcome all = dtof(frame + dead("all.toml", "dead_pixel_share = 1.0"));
+  ASSERT_EQ(all.exit_code, 0) << all.output;
+  EXPECT_THAT(all.output, HasSubstr("12 pixels are dead and not judged."));
+  for (const Readout readout : kRtlReadouts) {
+    if (is_pool_readout(readout)) {
+      continue;  // a pixel of theirs may take its neighbours' word
+    }
+    const std::string name = path("out/") + std::string(readout_name(readout));
+    EXPECT_THAT(read_depth_image(name + "_depth_mm.png").metres, ::testing::Each(0.0F)) << name;
+    EXPECT_THAT(read_file(name + ".ply"), HasSubstr("\nelement vertex 0\n")) << name;
+  }
+  EXPECT_THAT(read_file(path("out/summary.csv")), HasSubstr("\nSiFH,-,-,-,-,-,-,-\n"));
+  const Outcome one = dtof("frame -r histogram --table none --scene flat --out out --sensor " +
+                           dead("one.toml", "dead_pixels = [[2, 1]]"));
+  ASSERT_EQ(one.exit_code, 0) << one.output;
+  EXPECT_THAT(one.output, HasSubstr("1 pixel is dead and not judged."));
+  const DepthImage depth = read_depth_image(path("out/histogram_depth_mm.png"));
+  EXPECT_EQ(std::ranges::count(depth.metres, 0.0F), 1);
+  EXPECT_EQ(depth.at(2, 1), 0.0F);
+  EXPECT_THAT(read_file(path("out/histogram.ply")), HasSubstr("\nelement vertex 11\n"));
+}
+
+TEST_F(Programs, WhatTheSensorCannotReachIsRefusedOrCountedApart) {
+  const auto map = [&](const char* name, std::vector<double> values) {
+    const std::array<std::size_t, 2> shape = {1, values.size()};
+    write_npy(path(name), shape, values);
+    return std::string(name);
+  };
+  const std::string frame = "frame -r histogram --table none --array-columns 4 --array-rows 2 --out out ";
+  expect_refused(
+      frame + "--depth " + map("mm.npy", {1000.0, 2257.0}),
+      "mm.npy: every pixel is beyond the sensor's range, 6.75 m (light there and back in 45 ns), the "
+      "nearest at 1000 m; if these are millimetres, use --depth-scale 0.001");
+  expect_refused(frame + "--depth " + map("far.npy", {10.0, 12.0}), "range, 6.75 m");
+  expect_refused(frame + "--depth " + map("nan.npy", {std::nan(""), std::nan("")}),
+                 "no pixel has a distance");
+  expect_refused(frame + "--depth " + map("huge.npy", {1.0, 1e39}),
+                 "huge.npy: column 1, row 0: a depth of 1e+39 m is too large a number");
+  expect_refused(
+      frame + "--reflectivity-map " + map("glint.npy", {1.0, 4.5}),
+      "glint.npy: column 1, row 0: a reflectivity of 4.5 is not within 0 to 4: a white matt surface");
+  EXPECT_EQ(dtof(frame + "--depth mm.npy --depth-scale 0.001").exit_code, 0);
+
+  // Half of the pixels are in range; the figures are theirs alone.
+  const Outcome half = dtof(frame + "--depth " + map("half.npy", {1.0, 10.0}));
+  ASSERT_EQ(half.exit_code, 0) << half.output;
+  EXPECT_THAT(half.output,
+              HasSubstr("4 pixels are beyond the sensor's range, 6.75 m (light there and back in "
+                        "45 ns), and not judged."));
+  const std::string figures = read_file(path("out/summary.csv"));
+  ASSERT_EQ(dtof(frame + "--columns 0-1 --depth half.npy").exit_code, 0);
+  EXPECT_EQ(read_file(path("out/summary.csv")), figures);
+  const Outcome known = dtof(frame + "--depth " + map("known.npy", {1.0, 0.0, 10.0, 2.0}));
+  EXPECT_THAT(known.output,
+              HasSubstr("2 pixels are without a true distance and not judged. 2 pixels are beyond"));
+
+  // A scene of the program's own, with a sensor that ends before its far walls.
+  ASSERT_EQ(dtof("sensor thesis > short.toml").exit_code, 0);
+  std::string text = read_file(path("short.toml"));
+  const std::size_t range = text.find("range_ns");
+  text.replace(range, text.find('\n', range) - range, "range_ns = 20");
+  const std::string short_range = file("short.toml", text);
+  const Outcome room = dtof("frame -r coarsehistogram --table none --out room --sensor " + short_range);
+  ASSERT_EQ(room.exit_code, 0) << room.output;
+  EXPECT_THAT(room.output, HasSubstr("pixels are beyond the sensor's range, 3.00 m"));
+  EXPECT_LT(std::stod(csv_cell(read_file(path("room/summary.csv")), "coarse histogram", "above 10 %")), 20.0);
+}
+
+TEST_F(Programs, WhatLiesOutsideOfARecordingsRangeIsSaid) {
+  // 10 photons a pixel: of the left one at 5 ns, of the right one at 60 ns.
+  std::vector<double> counts(160, 0.0);
+  counts[10] = 10.0;
+  counts[80 + 60] = 10.0;
+  write_npy(path("h.npy"), std::vector<std::size_t>{1, 2, 80}, counts);
+  const std::string replay = "replay h.npy --bin-width 1000 -r sifh --out out ";
+  expect_refused(replay + "--columns 1",
+                 "h.npy: all 10 photons of the pixels read are outside the range, 0 to 45 ns");
+  const Outcome half = dtof(replay);
+  ASSERT_EQ(half.exit_code, 0) << half.output;
+  EXPECT_THAT(half.output, HasSubstr("10 of 20 photons are outside the range, 0 to 45 ns, and lost."));
+  EXPECT_THAT(dtof(replay + "--t-int 90").output, Not(HasSubstr("lost")));
+
+  write_npy(path("truth.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{1.5, 9.0});
+  const Outcome judged = dtof(replay + "--truth truth.npy");
+  ASSERT_EQ(judged.exit_code, 0) << judged.output;
+  EXPECT_THAT(judged.output,
+              HasSubstr("1 pixel is beyond the range, 6.75 m (light there and back in 45 ns), and "
+                        "not judged."));
+  EXPECT_EQ(csv_cell(read_file(path("out/summary.csv")), "SiFH", "measurements"), "1");
+  write_npy(path("near.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{1.5, 6.0});
+  EXPECT_THAT(dtof(replay + "--truth near.npy").output,
+              HasSubstr("1 pixel is without a detection and not judged."));
+  std::filesystem::remove(path("out/summary.csv"));
+  write_npy(path("mm.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{1500.0, 9000.0});
+  expect_refused(
+      replay + "--truth mm.npy",
+      "mm.npy: every true distance is beyond the range, 6.75 m (light there and back in 45 ns), the "
+      "nearest at 1500 m; if these are millimetres, use --truth-scale 0.001");
+}
+
 TEST_F(Programs, OptionsWithoutEffectAreErrors) {
   expect_refused("frame --cell-shift 8 -r sifh", "--cell-shift has no effect: sifh has no CELL_SHIFT");
   expect_refused("frame --guard 3 -r sifh", "--guard has no effect: sifh has no GUARD");
