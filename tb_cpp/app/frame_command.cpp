@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -56,7 +57,7 @@ struct FrameOptions {
   std::string table = "flat";
   std::optional<double> precision_percent;
   int most_frames = 1000;
-  std::string out = "build/frame";
+  std::string out = "build/my_frame";  // build/frame is that of the main job
   std::string record;
   std::string command_line;
 };
@@ -73,6 +74,15 @@ struct MeasuredFrame {
   int frames = 1;
   bool precision_reached = true;
 };
+
+/// "flat, staircase, ..."
+std::string scene_names() {
+  std::vector<std::string_view> names;
+  for (const Scene scene : kAllScenes) {
+    names.push_back(scene_name(scene));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 OwnMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
   SceneParameters parameters = options.scene_parameters;
@@ -430,7 +440,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand(
       "frame", "One frame of a scene: photons, TDC stream, read-out, depth map with errors");
   auto* scene = command->add_option_group("scene");
-  scene->add_option("--scene", options->scene, "flat, staircase, plane or room")->capture_default_str();
+  scene->add_option("--scene", options->scene, scene_names())->capture_default_str();
   scene->add_option(
       "--depth", options->maps.depth,
       "depth map instead of a scene: PNG of 8 or 16 bits, PFM or NPY (rows, columns), resampled\n"
@@ -463,7 +473,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       ->add_option("--precision", options->precision_percent,
                    "more frames of the scene, until the 95 % interval of the rmse is within this many per "
                    "cent of its value")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--max-frames", options->most_frames, "where --precision gives up")
       ->check(CLI::Range(4, 1'000'000))
       ->capture_default_str();

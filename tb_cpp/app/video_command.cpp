@@ -403,7 +403,7 @@ void add_video_command(CLI::App& app, const std::string& command_line) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--speed", options->speed, "columns, degrees or centimetres per frame")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("--array-columns", options->columns, "columns of the array (default: the sensor's)")
       ->check(CLI::Range(1, 4096));

@@ -20,12 +20,12 @@ void MapScales::add_to(CLI::App& group) {
       .add_option("--depth-scale", metres_per_unit,
                   "metres that one unit of a depth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
                   "for PFM and NPY; a PNG of 8 bits needs it)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   group
       .add_option("--reflectivity-scale", reflectivity_per_unit,
                   "reflectivity that one unit of a reflectivity map stands for (default: a PNG's full range\n"
                   "is 1, PFM and NPY are taken as they are)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 NamedMap parse_named_map(std::string_view text) {

@@ -25,6 +25,7 @@
 #include "io/depth_image.hpp"
 #include "io/input_file.hpp"
 #include "io/npy.hpp"
+#include "scene/scene.hpp"
 
 namespace dtof {
 namespace {
@@ -109,7 +110,11 @@ TEST_F(Programs, HelpTeaches) {
   const Outcome outcome = dtof("--help");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.output, HasSubstr("dtof frame --scene room"));
-  EXPECT_EQ(dtof("frame --help").exit_code, 0);
+  const Outcome frame = dtof("frame --help");
+  EXPECT_EQ(frame.exit_code, 0);
+  for (const Scene scene : kAllScenes) {
+    EXPECT_THAT(frame.output.substr(frame.output.find("--scene"), 200), HasSubstr(scene_name(scene)));
+  }
 }
 
 TEST_F(Programs, ListNamesReadoutsPresetsScenesAndHardware) {
@@ -409,8 +414,14 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --frobnicate --out out", "--frobnicate");
   expect_refused("accuracy --distances 0 --out out", "distances");
   expect_refused("", "no command is given; known are frame,");
-  expect_refused("frame --frobnicate '' -a 3 --out out", "argument 3 is empty");
+  expect_refused("frame --frobnicate '' -a 3 --out out", "the value of --frobnicate is empty");
   expect_refused("frame '' --out out", "argument 2 is empty");
+  expect_refused("frame --out ''", "the value of --out is empty");
+  expect_refused("frame --out= -r sifh", "the value of --out is empty");
+  expect_refused("frame --precision 0 --out out", "frame: --precision: 0 is not above 0");
+  expect_refused("frame --gate 10 5 --out out", "the time gate, 10 to 5 ns, must be inside 0 to 45 ns");
+  expect_refused("frame --sensor /dev/zero --out out", "/dev/zero: cannot read: it is a device");
+  expect_refused("frame --depth /dev/zero --out out", "/dev/zero: cannot read: it is a device");
 }
 
 TEST_F(Programs, RefusesBadImages) {
