@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -396,7 +397,10 @@ void run_frame_command(const FrameOptions& options) {
   }
   check_engine(scene, readouts, options.run, region);
   const TableRule rule = parse_table_rule(options.table);
+  const auto start = std::chrono::steady_clock::now();
   const std::vector<TabledReadout> tabled = with_tables(readouts, rule, scene, fidelity, options.run);
+  const double table_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   create_output_folder(options.out);
   const ColourRange range = depth_range(std::vector<MapPanel>{{truth, "", MapKind::kDepth}});
   if (!options.record.empty()) {
@@ -428,8 +432,11 @@ void run_frame_command(const FrameOptions& options) {
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}Command: `{}`\n", body, options.command_line));
   // Times change from run to run and stay out of the files.
-  fmt::print("{}Read out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n", body,
-             seconds, options.out);
+  const std::string times =
+      rule == TableRule::kNone
+          ? fmt::format("Read out in {:.1f} s", seconds)
+          : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, seconds);
+  fmt::print("{}{}. Depth maps, error maps, point clouds and CSV are in {}\n", body, times, options.out);
 }
 
 }  // namespace

@@ -562,6 +562,21 @@ TEST_F(Programs, FrameAndScenesGiveTheSameFiguresAndNameTheirTable) {
   expect_refused("scenes --table round --out out", "--table");
 }
 
+TEST_F(Programs, FrameSaysHowLongTheLookUpTableTook) {
+  // 45 distances of 160 pixels take much longer than 2 x 2 pixels.
+  const std::string frame = "frame -r histogram --array-columns 2 --array-rows 2 --out out ";
+  const std::string text = dtof(frame).output;
+  const std::size_t at = text.find("Look-up table in ");
+  ASSERT_NE(at, std::string::npos) << text;
+  double table = 0.0;
+  double read_out = 1.0;
+  ASSERT_EQ(std::sscanf(&text[at], "Look-up table in %lf s, read out in %lf s.", &table, &read_out), 2)
+      << text;
+  EXPECT_GT(table, read_out);
+  EXPECT_THAT(dtof(frame + "--table none").output,
+              ::testing::AllOf(HasSubstr("\nRead out in "), Not(HasSubstr("Look-up table in"))));
+}
+
 TEST_F(Programs, OwnMapsOfDepthAndReflectivityInFrame) {
   // 2 x 1 pixels: the left half of the array sees 1 m at half the reflectivity of the right half at 2 m.
   const std::array<double, 2> metres = {1.0, 2.0};
