@@ -2,7 +2,7 @@
 # make synth           area, timing and power of every configuration in configurations.toml, into reports/
 #                      LIBERTY=<typical.lib> LIBERTY_SLOW=<slow.lib>   other standard cells (table only)
 #                      CONFIGURATIONS="sifh fifh"                      some configurations (table only)
-#                      STRICT=1                                        fail if a figure is worse than its budget
+#                      STRICT=1                                        fail if a goal is missed, a slack is negative or a figure is not its budget
 #                      SEARCH=1                                        search for namings that synth/namings.csv has, too
 # make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um; IHP 130 nm with
 #                      its own SRAM macros (../shared/pdk)

@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import area_parts, floorplan, goals, power, sram_model, wide_words
+from . import area_parts, floorplan, gates, goals, power, sram_model, wide_words
 from .configuration import memories
 from .run import TARGET_MHZ, Result
 from .timing import FAST_MHZ
@@ -224,11 +224,12 @@ def timing(results: dict[str, Result], library: str, digest: str) -> str:
         _table(["variant", "logic mW", "SRAM mW", "clock mW", "total mW"], _power_rows(variants))])
 
 
-def goals_section(found: list[goals.Goal]) -> str:
+def goals_section(found: list[goals.Goal], exemptions: list[gates.Exemption]) -> str:
+    reasons = {one.what: one for one in exemptions}
     rows = [[goal.text, goal.value, "yes" if goal.met else "**no**"] for goal in found]
-    reasons = [f"* {goal.text}: {goal.value}. {goal.why}" for goal in found if not goal.met and goal.why]
-    missed = ["Missed:", "", *reasons, ""] if reasons else []
-    return "\n".join(["## Goals", "", _table(["goal", "here", "met"], rows), *missed])
+    lines = [f"* {goal.text}: {goal.value}." + (f" {reasons[goal.text].reason} ({reasons[goal.text].date})"
+                                                if goal.text in reasons else "") for goal in found if not goal.met]
+    return "\n".join(["## Goals", "", _table(["goal", "here", "met"], rows), *(["Missed:", "", *lines, ""] if lines else [])])
 
 
 def write_area_csv(path: Path, results: dict[str, Result]) -> None:
