@@ -9,7 +9,8 @@ from unittest import mock
 from dtof_synth import budgets, configuration
 from dtof_synth.errors import FlowError
 
-ROOT = Path(__file__).resolve().parents[2]
+from .small_results import ROOT, result
+
 BUDGET = {"logic_column_um2": 500.0, "shared_um2": 20000.0, "sram_column_um2": 0.0, "total_mm2": 1.0, "power_mw": 200.0,
           "fmax_slow_mhz": 400.0, "fmax_typical_mhz": 1000.0}
 
@@ -26,6 +27,16 @@ class Budgets(unittest.TestCase):
             for factor, said in ((1.019, ""), (0.981, ""), (1.021, "+2.1%"), (0.979, "-2.1%")):
                 lines = [f"some: {figure} {budget:g} -> {factor * budget:g} ({said})"] if said else []
                 self.assertEqual(self.moved(**{figure: factor * budget}), lines)
+
+    def test_the_figures_are_those_of_the_result(self):
+        # 200 columns of 500 um2 and 20,000 um2 beside them are 0.12 mm2 without the SRAMs.
+        some = result("ezpointer", 500.0, 20000.0)
+        found = budgets.figures(some)
+        self.assertEqual(list(found), list(BUDGET))
+        self.assertEqual(list(found), list(budgets.FIGURES))
+        self.assertAlmostEqual(found["total_mm2"], 0.12 + 200e-6 * some.sram_area, delta=1e-4)
+        self.assertEqual([found[name] for name in ("logic_column_um2", "shared_um2", "power_mw", "fmax_slow_mhz", "fmax_typical_mhz")],
+                         [500.0, 20000.0, 6.0, 400.0, 400.0])
 
     def test_a_figure_that_was_nothing_and_is_something_has_moved(self):
         self.assertEqual(self.moved(sram_column_um2=3.0), ["some: sram_column_um2 0 -> 3 (+100.0%)"])
