@@ -100,8 +100,9 @@ class Report:
         """Of the step `margins`."""
         start, end, _ = self._slowest_path("DTOF_MARGIN_PATH_MAX")
         reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", self._section("DTOF_RESET"), re.MULTILINE)
-        return Margin(self._number("DTOF_MARGIN_SLACK"), self._number("DTOF_MARGIN_SLACK", 1),
-                      min((float(slack) for slack in reset), default=0.0), start, end)
+        if not reset:
+            raise FlowError("OpenSTA reported no check of the reset")
+        return Margin(self._number("DTOF_MARGIN_SLACK"), self._number("DTOF_MARGIN_SLACK", 1), min(map(float, reset)), start, end)
 
     @property
     def early(self) -> list[TimedPath]:
