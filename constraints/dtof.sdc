@@ -9,6 +9,7 @@ set tdc_share 0.30
 set control_share 0.30
 set stream_share 0.30
 set reset_share 0.20
+set edge_share 0.15
 
 create_clock -name clk -period $period [get_ports clk_i]
 set_clock_uncertainty -setup $setup_uncertainty [get_clocks clk]
@@ -27,6 +28,9 @@ set_output_delay [expr {$stream_share * $period}] -clock clk [get_ports {result_
 
 # The reset comes from reset_synchroniser: its release is a flip-flop and a multiplexer behind the clock's edge.
 set_input_delay [expr {$reset_share * $period}] -clock clk [get_ports rst_ni]
+
+# No edge may be slower.
+set_max_transition [expr {$edge_share * $period}] [current_design]
 
 # Exceptions. The SRAMs' side band rests while the array works, so that no path begins or ends there.
 set_false_path -from [get_ports sram_cfg_i*]

@@ -44,13 +44,15 @@ def read(path: Path) -> list[Exemption]:
 
 
 def slacks(results: dict[str, Result]) -> list[Goal]:
-    """One check for each slack of the reports that no goal has: none may be negative."""
+    """One check for each slack of the reports that no goal has: none may be negative; and one for the edges of each corner."""
     checks: list[Goal] = []
     for name, result in results.items():
         for corner, timing in result.timing.items():
             if corner != "slow" or result.configuration.variant_of:  # else it is a goal
                 checks.append(_slack(f"{name}: setup, {corner} corner", timing.slack))
             checks.append(_slack(f"{name}: hold, {corner} corner", timing.hold_slack))
+            checks.append(Goal(f"{name}: edges, {corner} corner", f"{timing.slow_edges} pins beyond max_transition",
+                               timing.slow_edges == 0))
         for corner, margin in result.margins.items():
             for kind, slack in (("setup", margin.slack), ("hold", margin.hold_slack), ("reset", margin.reset_slack)):
                 checks.append(_slack(f"{name}: {kind} with margins, {corner} corner", slack))

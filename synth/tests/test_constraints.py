@@ -21,6 +21,9 @@ class Constraints(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         registers = [f"  DFF_X1 r_{name} (.D({name}), .CK(clk_i), .Q());" for name in INPUTS if name != "rst_ni"]
+        # One register has 20 inverters of drive 8 behind it, a load beyond every table.
+        registers += [f"  INV_X8 heavy{index} (.A(q_heavy), .Y());" for index in range(20)]
+        registers += ["  DFF_X1 r_heavy (.D(start_i), .CK(clk_i), .Q(q_heavy));"]
         registers += [f"  DFF_X1 r_{name} (.D(q_r), .CK(clk_i), .Q({name}));" for name in OUTPUTS]
         ports = ["clk_i", *INPUTS, *OUTPUTS]
         with tempfile.TemporaryDirectory() as name:
@@ -28,7 +31,7 @@ class Constraints(unittest.TestCase):
             (folder / "slow.lib").write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
             (folder / "t.v").write_text("\n".join([
                 f"module t ({', '.join(ports)});", *(f"  input {port};" for port in ("clk_i", *INPUTS)),
-                *(f"  output {port};" for port in OUTPUTS), "  wire q_r;", *registers,
+                *(f"  output {port};" for port in OUTPUTS), "  wire q_r, q_heavy;", *registers,
                 "  DFFR_X1 r_rst (.D(start_i), .CK(clk_i), .RN(rst_ni), .Q(q_r));", "endmodule", ""]), encoding="utf-8")
             script = folder / "t.tcl"
             script.write_text(
@@ -36,6 +39,7 @@ class Constraints(unittest.TestCase):
                 f"source {ROOT}/constraints/dtof.sdc\n"
                 "foreach mode {max min} {\n  puts \"MODE $mode\"\n"
                 "  report_checks -path_delay $mode -group_count 1000 -endpoint_count 1 -digits 4\n}\n"
+                "puts EDGES\nreport_check_types -all_violators -max_transition\n"
                 "check_setup -verbose -unconstrained_endpoints -no_input_delay\nputs DTOF_STA_OK\nexit\n", encoding="utf-8")
             cls.output = tools.run_sta(script, folder / "settings", folder / "log", "constraints")
             cls.library = library.read(folder / "slow.lib")
@@ -73,6 +77,11 @@ class Constraints(unittest.TestCase):
         for mode, uncertainty in (("max", -0.1), ("min", 0.05)):
             text = self.paths(mode)["r_rst", "r_busy_o"]
             self.assertAlmostEqual(float(re.search(r"(-?[\d.]+) +-?[\d.]+ +clock uncertainty", text).group(1)), uncertainty, places=4)
+
+    def test_an_edge_may_take_fifteen_hundredths_of_the_period(self):
+        rows = re.findall(r"^(\S+) +(\S+) +(\S+) +\S+ \(VIOLATED\)$", self.output.split("EDGES")[1], re.MULTILINE)
+        self.assertIn("r_heavy/Q", [name for name, _, _ in rows])
+        self.assertEqual({limit for _, limit, _ in rows}, {"0.45"})
 
     def test_the_margins_have_their_figures(self):
         text = (ROOT / "constraints" / "margins.sdc").read_text(encoding="utf-8")

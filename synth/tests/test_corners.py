@@ -26,7 +26,7 @@ class Wires(unittest.TestCase):
             plan = Floorplan(design, 1)
             plan.rename(spef.plain_names(design)["array"])
             timed = run._Netlist(design, plan, None, SimpleNamespace(slow=cells), folder, None)
-            timed.write_wires()
+            timed.write_wires(design)
             for corner, ohm_per_um, ff_per_um in (("slow", 1.875, 0.25), ("typical", 1.5, 0.2), ("fast", 1.5, 0.2)):
                 text = (folder / f"wires_{corner}.spef").read_text(encoding="utf-8")
                 net = next(part for part in text.split("*D_NET ") if "far:Q" in part)
@@ -68,14 +68,13 @@ class Repairs(unittest.TestCase):
         class TooEarly(_Recorder):
             plan = SimpleNamespace(places={})
 
-            def write_netlist(self) -> None:
+            def write(self) -> None:
                 pass
 
         path = SimpleNamespace(slack=-0.03, pins=["g/A"])
         recorder = TooEarly()
         report = SimpleNamespace(early=[path], margin=lambda: MARGIN)
-        with mock.patch.object(run.netlist, "on_border", return_value=False), \
-                mock.patch.object(run.netlist, "delay_pins", return_value={}) as delayed:
+        with mock.patch.object(run.netlist, "delay_pins", return_value={}) as delayed:
             recorder.technology.slow = None
             run._Netlist.fix_hold(recorder, report, {"g/A": 1.0})
         # 0.03 ns take two buffers of 0.0169 ns.

@@ -35,6 +35,12 @@ class Slacks(unittest.TestCase):
             bad = replace(good, timing=good.timing | {corner: replace(TIMING, **{slack: -0.001})})
             self.assertEqual(failing(gates.slacks({"ezpointer": bad})), [f"ezpointer: {text}, {corner} corner"])
 
+    def test_a_slow_edge_is_a_check_that_fails(self):
+        good = result("ezpointer")
+        for corner in ("slow", "typical"):
+            bad = replace(good, timing=good.timing | {corner: replace(TIMING, slow_edges=1)})
+            self.assertEqual(failing(gates.slacks({"ezpointer": bad})), [f"ezpointer: edges, {corner} corner"])
+
     def test_setup_in_the_slow_corner_is_a_goal_or_a_check(self):
         for name, text in (("ezpointer", "ezPointer: closes 330 MHz, slow corner"), ("ezpointer_bare", "ezpointer_bare: setup, slow corner")):
             bad = result(name)
