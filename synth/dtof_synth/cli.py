@@ -15,12 +15,14 @@ from . import batch, budgets, check, configuration, gates, goals, growth, naming
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
-from .run import Result, Technology, input_digest
+from .run import Result, Technology, flat, input_digest
 
 ROOT = Path(__file__).resolve().parents[2]
 BUDGETS = ROOT / "synth" / "budgets.csv"
 PDK = ROOT.parent / "shared" / "pdk"
 SIMULATION = ROOT / "build" / "simulation"
+FLAT = ("ezpointer", "poolpointer2", "poolpointer2_lean")
+FLAT_TOLERANCE_NS = 0.005
 
 
 def _say(text: str) -> None:
@@ -142,6 +144,22 @@ def _budgets(arguments: argparse.Namespace, named: dict[str, Configuration]) -> 
     budgets.write(BUDGETS, results)
     _say(f"{BUDGETS.relative_to(ROOT)}: review with git diff and commit")
     return 0
+
+
+def _flat(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """The slack with every column real beside that with stand-ins."""
+    chosen = _select(named, arguments.configuration or list(FLAT))
+    build = ROOT / "build" / "synth"
+    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
+    results = batch.run_all([batch.Job(item) for item in chosen.values()], technology, build / "runs", arguments.jobs, _say)
+    differ = 0
+    for name, result in results.items():
+        found = flat(result, technology, build / "runs" / name)
+        agree = abs(found.with_stand_ins - found.all_real) <= FLAT_TOLERANCE_NS
+        differ += not agree
+        _say(f"{name}: setup with margins, slow corner: {found.with_stand_ins:+.4f} ns with stand-ins, {found.all_real:+.4f} ns with "
+             f"every column real: {'the same' if agree else 'ANOTHER'}")
+    return 1 if differ else 0
 
 
 def _check(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
@@ -276,6 +294,9 @@ def _parser() -> argparse.ArgumentParser:
     parts.add_argument("csv", type=Path, help="file to write")
     parts.add_argument("--seed", type=int, default=1, help="of the photons")
     parts.set_defaults(action=_part_costs)
+    all_real = commands.add_parser("flat", help="the slack with every column real beside that with stand-ins")
+    all_real.add_argument("configuration", nargs="*", help=f"names from configurations.toml; none: {', '.join(FLAT)}")
+    all_real.set_defaults(action=_flat)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),

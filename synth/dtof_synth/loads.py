@@ -3,7 +3,7 @@
 
 OpenSTA of 2019 checks neither. Inside a block a net has its pins and the wire load of each; a net between blocks has the wire of the
 floorplan besides, in the slow corner. Not looked at: the clock, which has a tree of its own; constants, of which a layout puts a tie
-wherever one is needed; what input ports drive; and the SRAMs' side band, which rests (endpoints.py).
+wherever one is needed; and what input ports drive.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from . import endpoints, netlist, spef
+from . import netlist, spef
 from .errors import FlowError
 from .floorplan import PESSIMISTIC, Floorplan
 from .library import Library
@@ -51,30 +51,81 @@ def of_block(design: dict, kind: str, library: Library, pin_load: Callable[[str,
                 yield Load(f"{kind}/{name}", netlist.load_of(found), limit, len(found))
 
 
-def of_top(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Iterable[Load]:
-    """The nets between blocks, from the cell that drives them to the last input in a block."""
+@dataclass(frozen=True)
+class _Driven:
+    """A net between blocks: the cell that drives it, of a block or of the top, and what it carries."""
+
+    name: str
+    block: str  # kind of block, or netlist.TOP
+    cell: str
+    pin: str
+    bit: int  # in the block
+    ff: float
+    inputs: int
+
+
+def _driven(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Iterable[_Driven]:
+    """Every net between blocks, from the cell that drives it to the last input in a block."""
     array = netlist.top(design)
     skip = netlist.clock_nets(array) | netlist.constant_nets(array, library)
+    inside: dict[str, dict[int, list[netlist.Sink]]] = {}
     for bit, pins in spef.Nets(design, plan, library).pins().items():
         drivers = [pin for pin in pins if pin.is_output and "/" in pin.name]
-        if bit in skip or len(drivers) != 1 or any(endpoints.SIDE_BAND.fullmatch(pin.name) for pin in pins):
+        if bit in skip or len(drivers) != 1:
             continue
-        cell, output = _cell(design, drivers[0].name)
-        limit = library.max_load_ff.get(cell["type"], {}).get(output, 0.0)
-        sinks = [pin for pin in pins if not pin.is_output]
-        ff = (max(pin.place_um for pin in pins) - min(pin.place_um for pin in pins)) * PESSIMISTIC.ff_per_um
-        for pin in sinks:
-            if "/" in pin.name:
-                sink, name = _cell(design, pin.name)
-                ff += pin_load(sink["type"], name) + pin.wire_ff
+        kind, cell, pin = netlist.local_pin(design, drivers[0].name)
+        module = netlist.modules(design)[kind] if kind else array
+        ff = (max(one.place_um for one in pins) - min(one.place_um for one in pins)) * PESSIMISTIC.ff_per_um
+        inputs = 0
+        for one in pins:
+            if not one.is_output:
+                inputs += 1
+                if "/" in one.name:
+                    ff += pin_load(*_kind_and_pin(design, one.name)) + one.wire_ff
+        own = module["cells"][cell]["connections"][pin.split("[")[0]][0]
+        if kind:  # what hangs on it in its own block
+            if kind not in inside:
+                inside[kind] = netlist.sinks_of(module, pin_load, library.wire_ff_per_sink)
+            sinks = inside[kind].get(own, [])
+            ff += netlist.load_of(sinks)
+            inputs += len(sinks)
+        yield _Driven(drivers[0].name, kind or netlist.TOP, cell, pin.split("[")[0], own, ff, inputs)
+
+
+def of_top(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Iterable[Load]:
+    """The nets between blocks."""
+    for one in _driven(design, plan, library, pin_load):
+        module = netlist.top(design) if one.block == netlist.TOP else netlist.modules(design)[one.block]
+        limit = library.max_load_ff.get(module["cells"][one.cell]["type"], {}).get(one.pin, 0.0)
         if limit:
-            yield Load(drivers[0].name, ff, limit, len(sinks))
+            yield Load(one.name, one.ff, limit, one.inputs)
 
 
-def _cell(design: dict, name: str) -> tuple[dict, str]:
-    """The cell of a pin named as OpenSTA does, and the pin's name without its bit."""
+def between_blocks(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> dict[str, dict[int, float]]:
+    """fF of the nets between blocks, by the kind of block that drives them and its net; of instances the most."""
+    found: dict[str, dict[int, float]] = {}
+    for one in _driven(design, plan, library, pin_load):
+        nets = found.setdefault(one.block, {})
+        nets[one.bit] = max(one.ff, nets.get(one.bit, 0.0))
+    return found
+
+
+def strengthen(design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> None:
+    """Gives each cell of the top that is too weak for its wire the drive that suffices, if there is one."""
+    family = {kind: kinds for kinds in library.drives for kind in kinds}
+    cells = netlist.top(design)["cells"]
+    for one in _driven(design, plan, library, pin_load):
+        if one.block == netlist.TOP and cells[one.cell]["type"] in family:
+            kinds = family[cells[one.cell]["type"]]
+            stronger = kinds[kinds.index(cells[one.cell]["type"]):]
+            cells[one.cell]["type"] = next((kind for kind in stronger if one.ff <= library.max_load_ff[kind][one.pin]
+                                            * netlist.TREE_LOAD_SHARE), stronger[-1])
+
+
+def _kind_and_pin(design: dict, name: str) -> tuple[str, str]:
+    """The type of the cell of a pin named as OpenSTA does, and the pin's name without its bit."""
     kind, cell, pin = netlist.local_pin(design, name)
-    return (netlist.modules(design)[kind] if kind else netlist.top(design))["cells"][cell], pin.split("[")[0]
+    return (netlist.modules(design)[kind] if kind else netlist.top(design))["cells"][cell]["type"], pin.split("[")[0]
 
 
 def check(name: str, design: dict, plan: Floorplan, library: Library, pin_load: Callable[[str, str], float]) -> Load:

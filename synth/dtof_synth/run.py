@@ -244,12 +244,15 @@ class _Netlist:
     cut: set[str] = field(default_factory=set)  # pins in it of which real columns have the paths
 
     def prepare(self) -> None:
-        """Plain names, and a choice of the columns that stay: the first ones and the last. Writes what cells were called."""
+        """Plain names, drives that suffice for the wires between blocks, and a choice of the columns that stay: the first ones and the
+        last. Writes what cells were called."""
         self.folder.mkdir(exist_ok=True)
         self.called.update(spef.plain_names(self.design))
         self.plan.rename(self.called[self.configuration.top])
         names = {plain: name for before in self.called.values() for plain, name in before.items()}
         (self.folder / timing.NAMES).write_text(json.dumps(names), encoding="utf-8")
+        library = self.technology.slow
+        loads.strengthen(self.design, self.plan, library, floorplan.pin_load(library, sram_kit.PIN_FF))
         columns = sorted(netlist.columns(self.design), key=lambda name: self.plan[name])
         self.real.extend(columns if len(columns) <= KEPT_COLUMNS else [*columns[:KEPT_COLUMNS - 1], columns[-1]])
         self.write()
@@ -328,6 +331,11 @@ class _Netlist:
         shrinkable, dispensable = [], []
         if not again:
             dispensable, carried = netlist.dispensable_buffers(self.design, library, kinds, pin_load)
+            for kind, nets in loads.between_blocks(self.design, self.plan, library, pin_load).items():
+                module = netlist.top(self.design) if kind == netlist.TOP else netlist.modules(self.design)[kind]
+                inside = carried.setdefault(kind, {net: netlist.load_of(sinks) for net, sinks in netlist.sinks_of(
+                    module, pin_load, library.wire_ff_per_sink).items()})
+                inside |= {net: max(ff, inside.get(net, 0.0)) for net, ff in nets.items()}
             shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load, carried)
         report = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable, dispensable))
         netlist.resize(self.design, library, report.resized)
@@ -421,11 +429,14 @@ class _Attempt:
 def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None)
+    report, early = None, None
     for number in range(RESIZE_ROUNDS):
         changed = timed.resize(again=number > 0)
+        if report is not None and not changed:
+            break
         early = timed.time("fast", "margins", "early")
         report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
-        if report.margin().slack >= 0 or not changed:
+        if report.margin().slack >= 0:
             break
     return _Attempt(timed, naming, report.slack, report.margin(), early, report.spare)
 
@@ -507,6 +518,33 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
                         power.clock_mw(typical.output, modules, tree, technology.typical, TARGET_MHZ))
     return Result(configuration, column_module, shared, engines, tree, technology.slow.nand2_area,
                   technology.slow.mux2_area, corner_timing, figures, margins, best.naming, timed.endpoints(slow), fullest)
+
+
+@dataclass(frozen=True)
+class Flat:
+    """Setup slacks with margins in the slow corner, ns: as `run` has it, and with every column real."""
+
+    with_stand_ins: float
+    all_real: float
+
+
+def flat(result: Result, technology: Technology, folder: Path) -> Flat:
+    """A second way to the slack of the netlist that `run` left in `folder`. Stand-ins have the names of the columns' cells, so that the
+    wires are the same."""
+    configuration = result.configuration
+    effort = folder / f"effort{result.naming.effort}"
+    text = (effort / "timing.v").read_text(encoding="utf-8")
+    column = json.loads((effort / timing.BLOCKS).read_text(encoding="utf-8"))["blocks"][0]
+    real = re.sub(rf"^  {netlist.STUB} (?=\w+ \()", f"  {column} ", text, flags=re.MULTILINE)
+    if real == text:
+        raise FlowError(f"{configuration.name}: no column has a stand-in")
+    (effort / "flat.v").write_text(real, encoding="utf-8")
+    files = timing.Netlist(
+        f"{configuration.name}, all columns real", effort / "flat.v", effort / "wires_slow.spef",
+        [technology.slow.path, technology.kit / "sram40_slow.lib", effort / STAND_IN_LIBERTY], technology.slow.wire_load,
+        configuration.top)
+    report = timing.measure(files, technology.root, technology.target_mhz, effort / "sta_flat.log", ("nominal", "margins"))
+    return Flat(result.margins["slow"].slack, report.margin().slack)
 
 
 @dataclass(frozen=True)

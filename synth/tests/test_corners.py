@@ -3,6 +3,7 @@
 
 import tempfile
 import unittest
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
@@ -63,6 +64,23 @@ class Repairs(unittest.TestCase):
         run._timed(recorder, None)
         self.assertEqual([asked[:3] for asked in recorder.asked if "early" in asked], [("fast", "margins", "early")])
         self.assertEqual([asked[:3] for asked in recorder.asked if "nominal" in asked], [("slow", "nominal", "margins")])
+
+    def test_what_resizing_cannot_mend_is_timed_once_after_each_change(self):
+        class Late(_Recorder):
+            changes = iter([True, True, False])
+
+            def time(self, corner: str, *steps: str, **settings) -> SimpleNamespace:
+                report = super().time(corner, *steps, **settings)
+                report.margin = lambda: replace(MARGIN, slack=-0.1)
+                return report
+
+            def resize(self, again: bool) -> bool:
+                return next(self.changes)
+
+        recorder = Late()
+        attempt = run._timed(recorder, None)
+        self.assertEqual([asked[0] for asked in recorder.asked], ["fast", "slow"] * 2)
+        self.assertFalse(attempt.closes_with_margins)
 
     def test_hold_is_mended_until_the_fast_corner_has_no_early_path(self):
         class TooEarly(_Recorder):

@@ -61,10 +61,30 @@ class Loads(WithLibrary):
         self.assertTrue(loads.Load("a", 1.0, 2.0, loads.MAX_FANOUT + 1).is_too_much)
         self.assertTrue(loads.Load("a", 2.1, 2.0, 1).is_too_much)
 
-    def test_the_side_band_is_not_looked_at(self):
+    def test_a_cell_that_is_too_weak_for_its_wire_gets_the_drive_that_suffices(self):
+        design, plan = self.design(4)
+        loads.strengthen(design, plan, self.library, self.pin_load)
+        cells = netlist.top(design)["cells"]
+        # 80 fF are more than half of 36.3 and of 72.5 fF, and than half of 145 fF.
+        self.assertEqual(cells["near"]["type"], "DFF_X1")
+        self.assertEqual(cells["far"]["type"], self.library.drives[[drives[0] for drives in self.library.drives].index("DFF_X1")][-1])
         design, plan = self.design(2)
-        netlist.top(design)["ports"]["sram_cfg_o"] = {"direction": "output", "bits": [5]}
-        self.assertNotIn("far/Q", [load.driver for load in loads.of_top(design, plan, self.library, self.pin_load)])
+        loads.strengthen(design, plan, self.library, self.pin_load)  # 100 um and two inverters are 29.6 fF
+        self.assertEqual(netlist.top(design)["cells"]["far"]["type"], "DFF_X2")
+
+    def test_a_block_that_drives_another_carries_the_wire_and_what_hangs_on_it_inside(self):
+        design, plan = self.design(2)
+        column, top = netlist.modules(design)["test_column"], netlist.top(design)
+        column["ports"]["y"] = {"direction": "output", "bits": [8]}
+        names = [name for name, cell in top["cells"].items() if cell["type"] == "test_column"]
+        for name, net, told in zip(names, (500, 501), (5, 500)):
+            top["cells"][name]["connections"] |= {"y": [net], "told": [told]}
+            top["cells"][name]["port_directions"]["y"] = "output"
+        top["cells"]["end"] = cell("DFF_X1", {"D": 501, "CK": 2}, {"Q": 502})
+        found = loads.between_blocks(design, plan, self.library, self.pin_load)
+        # The first column drives the second, 100 um away; the second a register in the middle, 50 um away.
+        inverter, wire = standard_cells.CINV_FF, self.library.wire_ff_per_sink
+        self.assertAlmostEqual(found["test_column"][8], 100 * 0.25 + (inverter + wire) + (5 * inverter + 2 * wire), places=2)
 
 
 if __name__ == "__main__":
