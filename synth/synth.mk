@@ -25,8 +25,10 @@ synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
 
 synth-growth:
+	@scripts/reports.py begin growth
 	@synth/synth.py growth
 	@scripts/growth_plot.py
+	@scripts/reports.py record growth
 
 synth-test: vectors
 	@cd synth && /usr/bin/python3 -m unittest discover -q -s tests -t .

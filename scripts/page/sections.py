@@ -4,6 +4,8 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from figures import staleness
+
 # A line that is a picture.
 PICTURE_LINE = "!["
 
@@ -36,7 +38,7 @@ FRAME = Report("frame", "One scene through every read-out", "sim", "frame/summar
 SHOWN = (
     Report("pareto", "Area against accuracy", "pareto", "pareto.md", excerpt=()),
     Report("area", "Area", "synth", "area.md", excerpt=()),
-    Report("timing", "Timing and power", "synth", "timing.md", excerpt=("Power",)),
+    Report("power", "Power on a scene", "power", "power.md", says="from the activity of netlists, by day and at dusk", excerpt=()),
     Report("scenes", "Accuracy on scenes", "scenes", "scenes.md", "scenes/scenes.md",
            excerpt=(r"14 klux, (preset|sensor) thesis/All pixels.*", r"50 klux, (preset|sensor) thesis/All pixels.*"),
            pictures=("room_50klux_thesis.png", "disparity_map_50klux_thesis.png", "held_disparity_map_50klux_thesis.png",
@@ -102,7 +104,7 @@ LISTED = (
     Report("scaling", "Sweeps", "sweep-cost", "scaling.md", "sweep_cost/scaling.md",
            "what many points cost beside their own computing"),
     Report("sram", "SRAM macros", "synth", "sram.md", says="sizes, area, access time and energy"),
-    Report("power", "Power on a scene", "power", "power.md", says="from the activity of netlists, by day and at dusk"),
+    Report("timing", "Timing", "synth", "timing.md", says="clock, slacks and slowest paths in each corner"),
     Report("coverage_study", "Confidence intervals", "coverage-study", "coverage_study.md",
            says="whether they hold over 40 seeds"),
     Report("speed_error", "Photon models: speed against error", "photon-report", "speed_error.md",
@@ -147,4 +149,4 @@ def chosen(report: Report, root: Path) -> Path | None:
         return committed if committed.is_file() else None
     if not committed.is_file() or built.stat().st_mtime >= committed.stat().st_mtime:
         return built
-    return built if for_reports(report, root) == committed.read_text(encoding="utf-8") else committed
+    return built if for_reports(report, root) == staleness.without_mark(committed.read_text(encoding="utf-8")) else committed

@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import check_pictures
+from figures import store
 from page import figures, links, render, sections
 from page.commands import commands
 from page.site import Site
@@ -148,11 +149,11 @@ class Pages(Folder):
     def test_figures_of_the_main_job(self) -> None:
         self.write("build/frame/summary.md", "Scene room: 14 klux.\n")
         self.write("build/frame/summary.csv", self.SUMMARY)
-        self.write("reports/area.csv", "configuration,total_mm2,columns,bits_per_pixel\nsifh,14.9061,200,646\n")
-        self.write("reports/timing.csv", "configuration,corner,logic_mw,sram_mw,clock_mw\nsifh,slow,,,\n"
-                                         "sifh,typical,47.1,156.7,72.0\n")
+        store.record(self.root, "synth", "make synth", "1234", {"area.sifh.array_mm2": store.Figure("14.9061", "mm2"),
+                                                                "area.sifh.bits_per_pixel": store.Figure("646")})
+        store.record(self.root, "power", "make power", "1234", {"power.sifh.day_mw": store.Figure("104.802", "mW")})
         one, = figures.figures(self.root, self.root / "build/frame")
-        self.assertEqual((one.above_3, one.rmse_mm, one.mm2, one.mw, one.bits), ("40.56 %", "478", "14.91", "276", "646"))
+        self.assertEqual((one.above_3, one.rmse_mm, one.mm2, one.mw, one.bits), ("40.56 %", "478", "14.91", "105", "646"))
         wrong, out = self.site()
         self.assertEqual(wrong, [])
         self.assertIn("draws them", (out / "index.html").read_text(encoding="utf-8"))

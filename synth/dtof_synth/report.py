@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The committed reports: area.md/.csv, timing.md/.csv, power in the latter, and the goals."""
+"""The committed reports: area.md/.csv, timing.md/.csv, and the goals."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import area_parts, floorplan, goals, power, sram_model, wide_words
+from . import area_parts, floorplan, goals, sram_model, wide_words
 from .configuration import memories
 from .run import TARGET_MHZ, Result
 from .timing import FAST_MHZ
@@ -196,17 +196,12 @@ def _margin_section(results: list[Result]) -> list[str]:
                     "reset met", "slowest from", "to"], _margin_rows(results))]
 
 
-def _power_rows(results: Iterable[Result]) -> list[list[str]]:
-    return [[result.configuration.title, f"{result.power.logic:.1f}", f"{result.power.sram:.1f}",
-             f"{result.power.clock:.1f}", f"{result.power.total:.1f}"] for result in results]
-
-
 def timing(results: dict[str, Result], library: str, digest: str) -> str:
     main, variants = _split(results)
     header = ["read-out", "corner", f"slack at {TARGET_MHZ:g} MHz", f"at {FAST_MHZ:g} MHz", "hold slack",
               "fmax MHz", "start", "end", "stages"]
     return "\n".join([
-        "# Timing and power", "", _provenance(library, digest),
+        "# Timing", "", _provenance(library, digest),
         "Slacks in ns, ideal clock with the uncertainty and port budgets of "
         "[constraints/dtof.sdc](../constraints/dtof.sdc). fmax: the shortest period without a setup violation, port "
         "budgets scaled with it. Stages: cells between start and end. Wires inside a block are a wire load; those between "
@@ -215,13 +210,8 @@ def timing(results: dict[str, Result], library: str, digest: str) -> str:
         f"{floorplan.PESSIMISTIC.ff_per_um:g} fF.", "",
         _table(header, _timing_rows(main)),
         *_margin_section(main),
-        "## Power", "",
-        f"mW of the array at {TARGET_MHZ:g} MHz, typical corner, while measuring: data nets toggle "
-        f"{power.ACTIVITY:g} times a clock, {power.DETECTION_RATE:.0%} of the TDC slots hold a detection, every "
-        "detection is counted. SRAM: CACTI energies. Clock: flip-flop clock pins and the estimated tree.", "",
-        _table(["read-out", "logic", "SRAM", "clock", "total"], _power_rows(main)),
-        "## Variants", "", _table(header, _timing_rows(variants)),
-        _table(["variant", "logic mW", "SRAM mW", "clock mW", "total mW"], _power_rows(variants))])
+        "Power from the activity of the netlists is in [power.md](power.md).", "",
+        "## Variants", "", _table(header, _timing_rows(variants))])
 
 
 def goals_section(found: list[goals.Goal]) -> str:

@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
-from . import (clock_gating, floorplan, netlist, power, same_logic, spef, sram_kit, sram_model, standard_cells, timing, tools,
-               verilog)
+from . import (clock_gating, floorplan, netlist, power, report_inputs, same_logic, spef, sram_kit, sram_model, standard_cells, timing,
+               tools, verilog)
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
@@ -502,14 +502,9 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
 
 
 def input_digest(technology: Technology) -> str:
-    """Hash of everything but the parameters that a run's result depends on."""
-    digest = hashlib.sha256()
-    synth = technology.root / "synth"
-    files = [*rtl_files(technology.root), *(technology.root / "hdl").rglob("*.svh"),
-             *synth.glob("yosys/*.tcl"), *synth.glob("sta/*.tcl"), *synth.glob("dtof_synth/*.py"),
-             *(technology.root / "constraints").glob("*.sdc"), *technology.kit.iterdir(),
-             technology.typical.path, technology.slow.path]
-    for file in sorted(set(files)):
-        digest.update(str(file.name).encode())
+    """Hash of everything but the parameters that a run's result depends on: the flow, and the libraries that it has made."""
+    digest = hashlib.sha256(report_inputs.flow_digest(technology.root).encode())
+    for file in sorted({*technology.kit.iterdir(), technology.typical.path, technology.slow.path}, key=lambda file: file.name):
+        digest.update(file.name.encode())
         digest.update(file.read_bytes())
     return digest.hexdigest()
