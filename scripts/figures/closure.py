@@ -32,17 +32,26 @@ def _includes(tree: SourceTree, name: str) -> list[str]:
 
 @functools.cache
 def _sources(tree: SourceTree) -> dict[str, list[str]]:
-    """Of each header the files that define what it declares: the one of its name, and those without a header of their own lie
-    beside it and include it first."""
+    """Of each header the files that define what it declares: the one of its name, and those without a header of their own that lie
+    beside it and include it. Of each of the latter all files beside it: they may define what it declares itself."""
     found: dict[str, list[str]] = {}
-    for name in tree.files:
+    folders: dict[PurePosixPath, list[str]] = {}
+    alone = []
+    for name in sorted(tree.files):
         if not (name.startswith(f"{CPP_ROOT}/") and name.endswith(".cpp")) or COMMAND.search(name):
             continue
+        folders.setdefault(PurePosixPath(name).parent, []).append(name)
         own = name.removesuffix(".cpp") + ".hpp"
         if own in tree.files:
             found.setdefault(own, []).append(name)
-        elif (first := _includes(tree, name)[:1]) and PurePosixPath(first[0]).parent == PurePosixPath(name).parent:
-            found.setdefault(first[0], []).append(name)
+        else:
+            alone.append(name)
+    for name in alone:
+        folder = PurePosixPath(name).parent
+        found[name] = folders[folder]
+        for header in _includes(tree, name):
+            if PurePosixPath(header).parent == folder:
+                found.setdefault(header, []).append(name)
     return found
 
 

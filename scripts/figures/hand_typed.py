@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Figures that somebody typed: mm2, um2, mW, MHz or per cent beside a read-out's name, on a page that is no dated note, outside of
-references and of blocks that a script writes. Beside: in one sentence, table row or section of that name."""
+references and of blocks that a script writes. Beside: in one sentence, table row or section of that name. A page of the blocks is
+about read-outs as a whole. The numbers of a table have the unit of its column, or of the paragraph in front of it."""
 
 import re
 import tomllib
@@ -19,16 +20,19 @@ FIGURE = re.compile(rf"(?<![\w.,]){NUMBER}(?:\s*(?:\+-|/|,|and|or|to|instead of|
 UNIT_OF_A_COLUMN = re.compile(rf"(?<![\w]){UNIT}(?!\w)")
 # What a figure is measured by: limits of errors, the level of intervals, the clock that is asked for, a node's name.
 BY_DEFINITION = re.compile(
-    r"(?:above|more than|beyond|below|at most|at least|within|>|limit) (?:3|10) ?(?:%|per cent)(?: ?/ ?10 ?(?:%|per cent))?"
-    r"|(?:3|10) ?(?:%|per cent) (?:and|or|to|/) (?:above )?10 ?(?:%|per cent)|95 ?(?:%|per cent)|(?:330|500) MHz")
+    r"(?:above|more than|beyond|below|at most|at least|within|>|limit) (?:3|10) ?(?:%|per cent)"
+    r"(?:(?: and | or |, | ?/ ?)(?:above )?10 ?(?:%|per cent))?|95 ?(?:%|per cent)|(?:330|500) MHz")
 # The name of a word that has other meanings, too, is no sign of a read-out.
 COMMON_WORDS = {"histogram"}
+OF_READOUTS = "docs/reference/blocks/"
+# "in mm2 unless said otherwise", "Per cent of the pixels": what a table below such words has.
+IN_A_UNIT = re.compile(r"\bin (?:mm2|um2|mW|MHz|per cent)\b|\b(?:[Pp]er cent|mm2|um2|mW|MHz) of\b")
 BLOCK = re.compile(r"<!-- (?P<name>[^>]*?): written by [^>]*-->.*?<!-- end of [^>]*-->", re.DOTALL)
 CODE = re.compile(r"^(```|~~~).*?^\1[ \t]*$", re.DOTALL | re.MULTILINE)
 INDENTED = re.compile(r"(?:(?<=\n\n)|\A)(?: {4}.*\n)+", re.MULTILINE)
 QUIET = (re.compile(r"<!--.*?-->", re.DOTALL), re.compile(r"`[^`\n]+`"), re.compile(r"\]\([^)\s]*\)"))
 HEADING = re.compile(r"^(#+) +(.*)$")
-SENTENCE_END = re.compile(r"(?<=[.!?])\s+(?=[A-Z*(\[])")
+SENTENCE_END = re.compile(r"(?<=[.!?])\s+(?=\D)")  # no end: Fig. 3
 
 
 @dataclass(frozen=True)
@@ -72,6 +76,7 @@ def pieces(text: str) -> Iterator[Piece]:
     path: list[str] = []
     header: list[str] | None = None
     paragraph: list[tuple[int, str]] = []
+    before = ""  # the paragraph in front of a table
 
     def sentences() -> Iterator[Piece]:
         joined, starts = "", []
@@ -79,6 +84,8 @@ def pieces(text: str) -> Iterator[Piece]:
             starts.append((len(joined), number))
             joined += line.strip() + " "
         paragraph.clear()
+        nonlocal before
+        before = joined
         begin = 0
         for part in SENTENCE_END.split(joined):
             begin = joined.index(part, begin)
@@ -94,15 +101,18 @@ def pieces(text: str) -> Iterator[Piece]:
         if not row:
             header = None
         if heading:
-            path = path[:len(heading[1]) - 1] + [heading[2]]
+            before = ""
+            level = len(heading[1])
+            path = [*path[:level - 1], *[""] * (level - 1 - len(path)), heading[2]]
         elif row:
             cells = _cells(line)
             if header is None:
                 header = cells
             elif not all(re.fullmatch(r":?-+:?", cell) for cell in cells):
                 found = list(FIGURE.findall(BY_DEFINITION.sub(" ", line)))
-                for name, cell in zip(header, cells):
-                    if UNIT_OF_A_COLUMN.search(name) and re.match(NUMBER + r"(?!\w)", cell):
+                unit = IN_A_UNIT.search(before)
+                for name, cell in list(zip(header, cells))[1:]:
+                    if (unit or UNIT_OF_A_COLUMN.search(name)) and re.match(NUMBER + r"(?!\w)", cell):
                         found.append(f"{cell} ({name})")
                 yield Piece(number, line, " / ".join([*path, *header[:1]]), tuple(found))
         elif line.strip():
@@ -111,14 +121,14 @@ def pieces(text: str) -> Iterator[Piece]:
         yield from sentences()
 
 
-def in_page(text: str, names: re.Pattern[str]) -> list[Piece]:
-    """The pieces of a page with a figure beside a read-out's name."""
+def in_page(text: str, names: re.Pattern[str], of_readouts: bool = False) -> list[Piece]:
+    """The pieces of a page with a figure beside a read-out's name; `of_readouts`: of the whole page."""
     return [replace(piece, text=piece.text.strip()) for piece in pieces(quiet(text))
-            if piece.figures and (names.search(piece.text) or names.search(piece.subject))]
+            if piece.figures and (of_readouts or names.search(piece.text) or names.search(piece.subject))]
 
 
 def check(root: Path, tree: SourceTree) -> list[str]:
     names = titles(root)
     return [f"{page}:{piece.line}: the figure {piece.figures[0]} is typed by hand beside a read-out's name: refer to it "
             "(docs/reference/figures.md)"
-            for page in references.pages(tree) if not page.startswith(NOTES) for piece in in_page(tree.text(page), names)]
+            for page in references.pages(tree) if not page.startswith(NOTES) for piece in in_page(tree.text(page), names, page.startswith(OF_READOUTS))]

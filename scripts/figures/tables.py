@@ -161,21 +161,35 @@ def reproduction(tables: Tables) -> Figures:
             "reproduction.pile_up.lost_at_0_5_m_percent": Figure(lost[2], "%")}
 
 
+QUOTED_RIVALS = {"32-bin histogram": "histogram_of_32_bins"}  # and their names as figures
+POOL_COLUMNS = {("held surface", "50"): ("edge_above_3_percent",), ("flat 5 m", "100"): ("above_10_percent",)}
+
+
 def rivals(tables: Tables) -> Figures:
     """All scenes but the flats, of the read-outs and of what they are measured against."""
     found: Figures = {}
     for row in tables.rows("rivals.csv"):
-        if row["scene"] == "all" and row["kind"] in ("read-out", "reference"):
-            for limit in ("3", "10"):
-                column = f"above_{limit}_percent"
-                found[f"rivals.{tables.name(row['estimator'])}.at_{row['klux']}_klux_{column}"] = \
+        if row["scene"] == "all" and (row["kind"] != "rival" or row["estimator"] in QUOTED_RIVALS):
+            name = QUOTED_RIVALS.get(row["estimator"]) or tables.name(row["estimator"])
+            for column in ("above_3_percent", "above_10_percent", "single_above_10_percent"):
+                found[f"rivals.{name}.at_{row['klux']}_klux_{column}"] = \
                     Figure(percent(row[column]), "%", interval(row, column))
+    return found
+
+
+def pool(tables: Tables) -> Figures:
+    """Scenes that are read badly."""
+    found: Figures = {}
+    for row in tables.rows("pool.csv"):
+        name = f"pool.{tables.name(row['estimator'])}.{tables.name(row['scene'])}_at_{row['klux']}_klux"
+        columns = POOL_COLUMNS.get((row["scene"], row["klux"]), ())
+        found |= {f"{name}_{column}": Figure(percent(row[column]), "%", interval(row, column)) for column in columns}
     return found
 
 
 MAKERS: dict[str, Callable[[Tables], Figures]] = {
     "synth": synth, "growth": growth, "power": power, "frame": frame, "pareto": pareto, "scenes": scenes,
-    "reproduction": reproduction, "rivals": rivals}
+    "reproduction": reproduction, "rivals": rivals, "pool": pool}
 
 
 def figures(root: Path, report: str) -> Figures:
