@@ -106,6 +106,7 @@ video: build
 	@scripts/publish.py video
 
 real-data: study
+	@scripts/reports.py begin real_data
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
 	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons 2000 750 300 \
 	    --background 0 0.15 --frames 4 --seed $(SEED) --out build/tmf8829 && scripts/publish.py tmf8829; \
