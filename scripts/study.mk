@@ -48,12 +48,12 @@ pool: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  scripts/reports.py begin pool; \
-	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --before reports/pool_before.csv --seed $(SEED) --out build/pool; \
+	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --seed $(SEED) --out build/pool; \
 	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --table none --seed $(SEED) --out build/pool_without_table; \
 	  scripts/publish.py pool pool_without_table; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/pool_synthetic"; \
-	  $(DTOF_STUDY) pool --held-out --before reports/pool_before.csv --seed $(SEED) --out build/pool_synthetic; \
+	  $(DTOF_STUDY) pool --held-out --seed $(SEED) --out build/pool_synthetic; \
 	fi
 
 pool-search: study
