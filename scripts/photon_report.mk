@@ -5,9 +5,9 @@
 
 photon-report: study
 	@scripts/reports.py begin photon_models
-	@$(DTOF_STUDY) speed-error --seed $(SEED) --out reports
-	@$(DTOF_STUDY) fidelity --seed $(SEED) --out reports
-	@scripts/reports.py record photon_models
+	@$(DTOF_STUDY) speed-error --seed $(SEED) --out build/photon_models
+	@$(DTOF_STUDY) fidelity --seed $(SEED) --out build/photon_models
+	@scripts/publish.py speed_error fidelity
 
 photon-bench: configure
 	@ninja -C $(BUILD) photon_bench

@@ -3,14 +3,13 @@
 """`publish.py REPORT ...`: copies what a command left in build/ to reports/: text, tables and the pictures that are kept
 there (scripts/page/sections.py has the lists). Their figures go to reports/figures.json, and the README's results follow."""
 
-import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 from figures import staleness
 from figures.reports import load
-from page.sections import ALL, for_reports
+from page.sections import ALL, copy_table, for_reports
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -36,8 +35,7 @@ def main() -> int:
             return 1
         measured[entry.name] = None
         for built, committed in report.with_it:
-            (ROOT / "reports" / committed).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(ROOT / "build" / built, ROOT / "reports" / committed)
+            copy_table(ROOT / "build" / built, ROOT / "reports" / committed)
         (ROOT / "reports" / report.committed).parent.mkdir(parents=True, exist_ok=True)
         (ROOT / "reports" / report.committed).write_text(for_reports(report, ROOT), encoding="utf-8")
         print(f"reports/{report.committed} renewed")

@@ -5,6 +5,8 @@ The name of a figure is `report.what.figure`; a read-out has its configuration's
 function to MAKERS."""
 
 import csv
+import gzip
+import io
 import re
 import sys
 from collections.abc import Callable
@@ -28,8 +30,9 @@ class Tables:
         self.names = {one.title: name for name, one in self.configurations.items()}
 
     def rows(self, name: str) -> list[dict[str, str]]:
-        with (self.root / "reports" / name).open(newline="", encoding="utf-8") as file:
-            return list(csv.DictReader(file))
+        content = (self.root / "reports" / name).read_bytes()
+        text = (gzip.decompress(content) if name.endswith(".gz") else content).decode("utf-8")
+        return list(csv.DictReader(io.StringIO(text, newline="")))
 
     def page(self, name: str) -> str:
         return (self.root / "reports" / name).read_text(encoding="utf-8")
@@ -168,7 +171,7 @@ POOL_COLUMNS = {("held surface", "50"): ("edge_above_3_percent",), ("flat 5 m", 
 def rivals(tables: Tables) -> Figures:
     """All scenes but the flats, of the read-outs and of what they are measured against."""
     found: Figures = {}
-    for row in tables.rows("rivals.csv"):
+    for row in tables.rows("data/rivals.csv.gz"):
         if row["scene"] == "all" and (row["kind"] != "rival" or row["estimator"] in QUOTED_RIVALS):
             name = QUOTED_RIVALS.get(row["estimator"]) or tables.name(row["estimator"])
             for column in ("above_3_percent", "above_10_percent", "single_above_10_percent"):
