@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measured figures on pages and what makes a report stale: on a small project of its own, in which faults are planted."""
 
+import argparse
+import contextlib
+import io
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
+import reports as command
 from figures import closure, hand_typed, references, reports, staleness, store, strip, tables
 from figures.source_tree import CommitTree, SourceTree
 
@@ -204,6 +210,105 @@ class List(Project):
             for pattern in report.inputs:
                 kind, _, root = pattern.partition(":")
                 self.assertTrue(root in tree.files if root else tree.matching(kind), f"{report.name}: {pattern}")
+
+
+MEASURE = """\
+import sys
+from pathlib import Path
+sys.path.insert(0, sys.argv[1])
+from figures import reports, staleness
+from figures.source_tree import SourceTree
+name = sys.argv[2]
+root = Path.cwd()
+with open("log.txt", "a") as log:
+    log.write(name + " ")
+if Path(name + ".broken").exists():
+    sys.exit(1)
+staleness.begin(root, reports.load(root)[name], SourceTree(root))
+if name == "area":
+    Path("reports/area.csv").write_text("mm2\\n1.3\\n")
+staleness.record(root, reports.load(root)[name])
+"""
+
+
+class Commands(Project):
+    """What `make stale`, `make stale-check` and `make reports` say and do."""
+
+    def setUp(self) -> None:
+        super().setUp()
+        self.write(".gitignore", "log.txt\n*.broken\nbuild\n")
+        self.write("measure.py", MEASURE)
+        text = LIST
+        for target, name in (("synth", "area"), ("pareto", "pareto")):
+            text = text.replace(f'"make {target}"', f'"{sys.executable} measure.py {ROOT / "scripts"} {name}"')
+        self.write("reports/reports.toml", text)
+        self.write("README.md", "text\n")
+        self.commit()
+        self.measure()
+        for where in (mock.patch.object(command, "ROOT", self.root),
+                      mock.patch.object(command.update_readme, "quoted_reports", lambda root: set())):
+            where.start()
+            self.addCleanup(where.stop)
+
+    def run_command(self, action, **options: object) -> tuple[int, str]:
+        said = io.StringIO()
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            status = action(argparse.Namespace(**options), self.reports())
+        return status, said.getvalue()
+
+    def log(self) -> list[str]:
+        path = self.root / "log.txt"
+        return path.read_text(encoding="utf-8").split() if path.is_file() else []
+
+    def test_stale_says_what_changed_and_for_how_long_and_nothing_of_what_is_fresh(self) -> None:
+        self.assertEqual(self.run_command(command.stale), (0, ""))
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")
+        status, said = self.run_command(command.stale)
+        self.assertIn("area: hdl\n    hdl/a.sv\n", said)
+        self.assertIn("40 minutes", said)
+        self.assertNotIn("pareto: ", said)
+        self.assertEqual(status, 0)
+
+    def test_what_the_first_pages_show_and_what_takes_seconds_must_be_fresh(self) -> None:
+        self.assertEqual(self.run_command(command.stale_check), (0, ""))
+        self.write("tb_cpp/core/a.hpp", "int a(int);\n")
+        self.assertIn("pareto is stale, and renewing it takes less than two minutes", self.run_command(command.stale_check)[1])
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")
+        status, said = self.run_command(command.stale_check)
+        self.assertEqual((status, len(said.splitlines())), (1, 2))
+        self.assertIn("area is stale, and the first page of `make report` shows it", said)
+
+    def test_a_stale_figure_on_the_readme_is_found(self) -> None:
+        self.write("reports/reports.toml", (self.root / "reports/reports.toml").read_text().replace("first = true\n", ""))
+        store.record(self.root, "area", "make synth", "", {"area.ez.array_mm2": store.Figure("1.3", "mm2")})
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")
+        self.assertEqual(self.run_command(command.stale_check)[0], 0)
+        self.write("README.md", "<!--=area.ez.array_mm2-->1.3<!--/--> mm2\n")
+        self.assertIn("area is stale, and README.md shows its figures", self.run_command(command.stale_check)[1])
+
+    def test_reports_are_renewed_in_order_and_only_stale_ones(self) -> None:
+        self.assertEqual(self.run_command(command.renew, list=False), (0, ""))
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")
+        self.assertEqual(self.run_command(command.renew, list=False)[0], 0)
+        self.assertEqual(self.log(), ["area", "pareto"])  # pareto reads what area wrote anew
+        self.assertEqual(self.stale(), {})
+
+    def test_renewing_stops_at_a_failure_and_goes_on_there(self) -> None:
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")
+        self.write("pareto.broken", "")
+        status, said = self.run_command(command.renew, list=False)
+        self.assertEqual(status, 1)
+        self.assertIn("error: pareto: ", said)
+        (self.root / "pareto.broken").unlink()
+        self.assertEqual(self.run_command(command.renew, list=False)[0], 0)
+        self.assertEqual(self.log(), ["area", "pareto", "pareto"])
+
+    def test_data_that_is_not_here_is_named_and_its_report_passed_over(self) -> None:
+        self.write("reports/reports.toml", (self.root / "reports/reports.toml").read_text().replace(
+            'pages = ["pareto.md"]', 'pages = ["pareto.md"]\ndata = ["photons.mat"]'))
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")
+        self.assertIn("pareto: photons.mat is not here", self.run_command(command.renew, list=False)[1])
+        self.assertEqual(self.log(), ["area"])
 
 
 class Strippers(unittest.TestCase):
