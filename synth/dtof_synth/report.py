@@ -263,7 +263,7 @@ def write_timing_csv(path: Path, results: dict[str, Result]) -> None:
 def summary(results: dict[str, Result]) -> str:
     """The table that the command prints."""
     lines = [f"{'configuration':<26}{'logic':>8}{'shared':>8}{'SRAM':>8}{'total':>9}{'thesis':>8}"
-             f"{'slack':>8}{'fmax':>6}{'fmax':>6}{'power':>8}",
+             f"{'slack':>8}{'fmax':>6}{'fmax':>6}{'assumed':>8}",
              f"{'':<26}{'um2/col':>8}{'um2':>8}{'um2/col':>8}{'mm2':>9}{'mm2':>8}"
              f"{'slow':>8}{'slow':>6}{'typ':>6}{'mW':>8}"]
     for name, result in results.items():
