@@ -21,6 +21,7 @@
 # make test-adding the worked example of docs/user/adding_a_readout.md, in a fresh clone (scripts/adding.mk)
 # make playground the C++ models in a page (scripts/playground.mk)
 # make mutate     small changes of RTL and models: which of them the tests notice (long)
+# make figures    measured figures into README.md and docs/; make stale, make reports: what is old, renewed (scripts/reports.mk)
 # make clean      remove build/
 ifneq ($(words $(CURDIR)),1)
 $(error The folder '$(CURDIR)' has a blank in its path, which Make and Verilator cannot handle: move the project)
@@ -98,3 +99,4 @@ clean:
 -include scripts/example.mk
 -include scripts/fpga.mk
 -include scripts/sweep.mk
+-include scripts/reports.mk

@@ -5,6 +5,7 @@ names a page of docs/ names one that is there. Every module of the RTL has its s
 names only parameters and ports that the module has. The page of formats has the columns of every table of reports/."""
 
 import csv
+import gzip
 import re
 import subprocess
 import sys
@@ -22,7 +23,7 @@ BLOCK_FOLDERS = ("subsystem", "demonstrator", "top", "column", "control", "datap
 MODULE = re.compile(r"^module +(\w+)", re.MULTILINE)
 SECTION = re.compile(r"^## `(\w+)`$", re.MULTILINE)
 OF_A_MODULE = re.compile(r"`([A-Z][A-Z_]+|[a-z]\w*_(?:i|o|ni))`")  # a parameter or a port
-TABLE_ROW = re.compile(r"^\| `([\w/]+\.csv)` \|[^|]*\|(.*)\|$", re.MULTILINE)
+TABLE_ROW = re.compile(r"^\| `([\w/]+\.csv(?:\.gz)?)` \|[^|]*\|(.*)\|$", re.MULTILINE)
 NAMED_PAGE = re.compile(r"(?<!\]\()\bdocs/[\w/-]+\.md\b")  # a link is checked as one
 
 
@@ -101,8 +102,9 @@ def tables(root: Path, files: set[str]) -> list[str]:
     described = {f"reports/{name}": re.findall(r"`([^`]+)`", columns)
                  for name, columns in TABLE_ROW.findall(read(root / FORMATS) if FORMATS in files else "")}
     found = []
-    for file in sorted(file for file in files if file.startswith("reports/") and file.endswith(".csv")):
-        with (root / file).open(newline="", encoding="utf-8") as table:
+    for file in sorted(file for file in files if file.startswith("reports/") and file.endswith((".csv", ".csv.gz"))):
+        opened = gzip.open if file.endswith(".gz") else open
+        with opened(root / file, "rt", newline="", encoding="utf-8") as table:
             header = next(csv.reader(table), [])
         if file not in described:
             found.append(f"{FORMATS}: {file} is not described")

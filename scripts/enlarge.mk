@@ -12,6 +12,7 @@ PHOTOGRAPHED := $(foreach map,Art Moebius,\
 # The committed report has the photographed maps, too: without them it stays as it is.
 enlarge: study
 	@if [ -f $(SHARED_DATA)/middlebury_Moebius_view1.png ]; then \
+	  scripts/reports.py begin enlarge && \
 	  $(DTOF_STUDY) enlarge --photographed $(PHOTOGRAPHED) --seed $(SEED) --out build/enlarge && scripts/publish.py enlarge; \
 	else \
 	  echo "photographed maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/enlarge_synthetic"; \

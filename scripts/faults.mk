@@ -6,9 +6,12 @@ FLIPS ?= 300
 
 coverage: | build_folder
 	@$(MAKE) --no-print-directory packages
+	@scripts/reports.py begin coverage
 	@scripts/coverage.sh
+	@scripts/reports.py record coverage
 
 faults: configure
 	@ninja -C $(BUILD) dtof-faults
+	@scripts/reports.py begin faults
 	@$(BUILD)/faults/dtof-faults --flips $(FLIPS) --seed $(SEED) --out build/faults
 	@scripts/publish.py faults

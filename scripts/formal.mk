@@ -4,4 +4,6 @@
 #                     PROOFS="minimum ..." some proofs (no report)
 .PHONY: formal
 formal:
+	@$(if $(QUICK)$(PROOFS),,scripts/reports.py begin formal)
 	@scripts/formal.py $(if $(QUICK),--quick) $(PROOFS)
+	@$(if $(QUICK)$(PROOFS),,scripts/reports.py record formal)

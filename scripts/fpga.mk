@@ -6,10 +6,14 @@
 #                     bitstreams in build/fpga/; their netlists simulated, depths compared with the models'; reports/fpga.md (minutes)
 .PHONY: fpga-check fpga
 fpga-check: packages
+	@$(if $(FPGA),,scripts/reports.py begin fpga_check)
 	@scripts/fpga_check.py $(FPGA)
+	@$(if $(FPGA),,scripts/reports.py record fpga_check)
 
 fpga: configure
 	@scripts/install_packages.sh fpga
+	@scripts/reports.py begin fpga
 	@scripts/fpga.py
 	@ninja -C $(BUILD) demonstrator_netlist_test demonstrator_pool_netlist_test
 	@scripts/fpga.py --report $(BUILD)/tests/demonstrator
+	@scripts/reports.py record fpga

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # RTL of every named configuration through Verilator -Wall, Yosys and Icarus Verilog; C++ format; names in Python; what is written from
-# readouts.toml; the engine's schedule; the README's table; the pictures under reports/; links and pages of the documents.
+# readouts.toml; the engine's schedule; figures on README.md and docs/; the pictures under reports/; links and pages of the documents.
 # --static-analysis adds clang-tidy over all C++ (half an hour).
 set -euo pipefail
 /usr/bin/python3 scripts/lint_rtl.py
@@ -21,7 +21,8 @@ scripts/schedule.py --check
 echo "engine's schedule: the page is that of the RTL"
 
 scripts/update_readme.py --check
-echo "README.md: the results table is that of reports/"
+scripts/reports.py figures --check
+echo "figures: README.md and docs/ show those of reports/figures.json, none is typed by hand, stale reports say that they are"
 
 scripts/check_pictures.py
 echo "reports/: few and small pictures, each shown by a document"

@@ -3,4 +3,6 @@
 #                 SEED=2 other mutants; COUNT=50 so many of each language
 .PHONY: mutate
 mutate: vectors
-	@scripts/mutate.py --seed $(SEED) $(if $(COUNT),--count $(COUNT))
+	@scripts/reports.py begin mutants
+	@scripts/mutate.py --seed $(SEED) $(if $(COUNT),--count $(COUNT)); status=$$?; \
+	if [ $$status -le 1 ]; then scripts/reports.py record mutants || exit; fi; exit $$status  # 1: with a report that says why

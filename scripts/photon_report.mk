@@ -4,11 +4,15 @@
 .PHONY: photon-report photon-bench
 
 photon-report: study
-	@$(DTOF_STUDY) speed-error --seed $(SEED) --out reports
-	@$(DTOF_STUDY) fidelity --seed $(SEED) --out reports
+	@scripts/reports.py begin photon_models
+	@$(DTOF_STUDY) speed-error --seed $(SEED) --out build/photon_models
+	@$(DTOF_STUDY) fidelity --seed $(SEED) --out build/photon_models
+	@scripts/publish.py speed_error fidelity
 
 photon-bench: configure
 	@ninja -C $(BUILD) photon_bench
+	@scripts/reports.py begin photon_speed
 	@$(BUILD)/bench/photon_bench --benchmark_filter='plane/(threads|hispointer)' --benchmark_out=build/photon_bench.json \
 	  --benchmark_out_format=json
 	@scripts/photon_baseline.py build/photon_bench.json reports/photon_speed.md --seed $(SEED)
+	@scripts/reports.py record photon_speed

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """`publish.py REPORT ...`: copies what a command left in build/ to reports/: text, tables and the pictures that are kept
-there (scripts/page/sections.py has the lists). The README's results follow."""
+there (scripts/page/sections.py has the lists). Their figures go to reports/figures.json, and the README's results follow."""
 
-import shutil
+import subprocess
 import sys
 from pathlib import Path
 
-import update_readme
-from page.sections import ALL, for_reports
+from figures import staleness
+from figures.reports import load
+from page.sections import ALL, copy_table, for_reports
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -18,6 +19,8 @@ def main() -> int:
     if len(sys.argv) < 2 or not reports.keys() >= set(sys.argv[1:]):
         print(f"{__doc__}\nReports: {' '.join(reports)}", file=sys.stderr)
         return 2
+    listed = {page: entry for entry in load(ROOT).values() for page in entry.pages}
+    measured: dict[str, None] = {}
     for name in sys.argv[1:]:
         report = reports[name]
         needed = [report.built, *(built for built, _ in report.with_it)]
@@ -25,13 +28,18 @@ def main() -> int:
         if missing:
             print(f"error: build/{missing[0]} is missing: run `make {report.target}` first", file=sys.stderr)
             return 1
+        entry = listed[report.committed]
+        begun = ROOT / staleness.BEGUN / f"{entry.name}.json"
+        if not begun.is_file() or (ROOT / "build" / report.built).stat().st_mtime < begun.stat().st_mtime:
+            print(f"error: build/{report.built} is not what `make {report.target}` leaves now: run it first", file=sys.stderr)
+            return 1
+        measured[entry.name] = None
         for built, committed in report.with_it:
-            (ROOT / "reports" / committed).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(ROOT / "build" / built, ROOT / "reports" / committed)
+            copy_table(ROOT / "build" / built, ROOT / "reports" / committed)
         (ROOT / "reports" / report.committed).parent.mkdir(parents=True, exist_ok=True)
         (ROOT / "reports" / report.committed).write_text(for_reports(report, ROOT), encoding="utf-8")
         print(f"reports/{report.committed} renewed")
-    return update_readme.write()
+    return subprocess.run([ROOT / "scripts" / "reports.py", "record", *measured]).returncode
 
 
 if __name__ == "__main__":

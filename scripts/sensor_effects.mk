@@ -3,4 +3,5 @@
 #                      (sensor files: scripts/sensor_effects/; those whose data are absent are skipped)
 .PHONY: sensor-effects
 sensor-effects: study
+	@scripts/reports.py begin sensor_effects
 	@scripts/sensor_effects.sh $(DTOF_STUDY) $(SHARED_DATA) $(SEED)

@@ -14,9 +14,11 @@ run_once() { # folder below build/, arguments
   for argument in "$@"; do
     if [ -f "$argument" ]; then inputs+=("$argument"); fi
   done
+  scripts/reports.py begin "${folder#build/}"
   key=$(sha256sum "${inputs[@]}" && echo "$* seed $seed")
   if [ -f "$folder/summary.md" ] && [ "$key" = "$(cat "$folder/inputs.txt" 2>/dev/null)" ]; then
     echo "$folder is up to date"
+    touch "$folder/summary.md"  # for publish.py: this is what the present program prints
     return
   fi
   rm -f "$folder/inputs.txt"

@@ -34,6 +34,7 @@ PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
 scenes: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
+	  scripts/reports.py begin scenes; \
 	  $(DTOF_STUDY) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --out build/scenes; \
 	  $(DTOF_STUDY) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --preset thesis --klux 14 50 --readout fifh \
 	    --variant $(SCENE_VARIANTS) --columns 25 --out build/scenes_variants; \
@@ -46,12 +47,13 @@ scenes: study
 pool: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
-	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --before reports/pool_before.csv --seed $(SEED) --out build/pool; \
+	  scripts/reports.py begin pool; \
+	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --seed $(SEED) --out build/pool; \
 	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --table none --seed $(SEED) --out build/pool_without_table; \
 	  scripts/publish.py pool pool_without_table; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/pool_synthetic"; \
-	  $(DTOF_STUDY) pool --held-out --before reports/pool_before.csv --seed $(SEED) --out build/pool_synthetic; \
+	  $(DTOF_STUDY) pool --held-out --seed $(SEED) --out build/pool_synthetic; \
 	fi
 
 pool-search: study
@@ -59,6 +61,7 @@ pool-search: study
 
 rivals: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
+	  scripts/reports.py begin rivals && \
 	  scripts/rivals.py $(DTOF_STUDY) --out build/rivals --held-out $(SCENE_MAPS) --photographed $(PHOTOGRAPHED) \
 	    $(RIVAL_OPTIONS) --seed $(SEED) && \
 	  scripts/publish.py rivals; \
@@ -68,32 +71,42 @@ rivals: study
 	fi
 
 claims: study
+	@scripts/reports.py begin claims
 	@$(DTOF_STUDY) claims --seed $(SEED) --out build/claims
 	@scripts/publish.py claims
 
 pareto:
+	@scripts/reports.py begin pareto
 	@/usr/bin/python3 scripts/pareto.py
+	@scripts/reports.py record pareto
 
 trade: study
+	@scripts/reports.py begin trade
 	@/usr/bin/python3 scripts/trade.py $(DTOF_STUDY)
+	@scripts/reports.py record trade
 
 walk-error: study
+	@scripts/reports.py begin walk_error
 	@$(DTOF_STUDY) walk --seed $(SEED) --out build/walk
 	@scripts/publish.py walk_error
 
 pool-parts: study vectors
+	@scripts/reports.py begin pool_parts
 	@scripts/pool_parts.py $(DTOF_STUDY) --seed $(SEED)
 	@scripts/publish.py pool_parts
 
 pulse-widths: study
+	@scripts/reports.py begin pulse_widths
 	@scripts/pulse_widths.py $(DTOF_STUDY) --seed $(SEED)
 	@scripts/publish.py pulse_widths
 
 video: build
+	@scripts/reports.py begin video
 	@$(DTOF) video --scene room planes clutter poles --motion still pan roll object cut light --frames 10 -k 50 --seed $(SEED) --seeds 4 --out build/video
 	@scripts/publish.py video
 
 real-data: study
+	@scripts/reports.py begin real_data
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
 	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons 2000 750 300 \
 	    --background 0 0.15 --frames 4 --seed $(SEED) --out build/tmf8829 && scripts/publish.py tmf8829; \

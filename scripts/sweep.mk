@@ -17,5 +17,6 @@ sweep-test: configure
 
 sweep-cost: build
 	@scripts/install_packages.sh slurm
+	@scripts/reports.py begin scaling
 	@scripts/sweep/cost.py
 	@scripts/publish.py scaling

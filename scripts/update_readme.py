@@ -1,101 +1,114 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the results of README.md from the committed reports; --check only compares.
+"""Writes the results of README.md from reports/figures.json; --check only compares.
 
-Every figure was printed by a command of this tree: areas and clock by `make synth`, accuracy of the frame by `make`, why
-the full histogram is so bad by `make scenes` and `make reproduce`.
+Every figure was printed by a command of this tree: areas and clock by `make synth`, power by `make power`, accuracy of the frame
+by `make`, why the full histogram is so bad by `make scenes` and `make reproduce`.
 """
 
-import csv
 import sys
 import textwrap
 from pathlib import Path
 
+from figures import staleness, store
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
-from dtof_synth.configuration import load  # noqa: E402
+from dtof_synth.configuration import Configuration, load  # noqa: E402
 
 BEGIN = "<!-- results: written by scripts/update_readme.py -->\n"
 END = "<!-- end of results -->"
+NONE = "-"  # not measured
 
 
-def rows(path: str) -> list[dict[str, str]]:
-    with open(ROOT / path, newline="", encoding="utf-8") as file:
-        return list(csv.DictReader(file))
+class Results:
+    """Figures by their names, and the reports that they come from."""
 
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        self.figures = store.load(root)
+        self.reports: set[str] = set()
 
-def table() -> str:
-    area = {row["configuration"]: row for row in rows("reports/area.csv")}
-    slow = {row["configuration"]: row for row in rows("reports/timing.csv") if row["corner"] == "slow"}
-    accuracy = {row["read-out"]: row for row in rows("reports/frame/summary.csv")}
-    lines = [
-        "| read-out | mm2, 200 columns | thesis mm2 | bits a pixel | logic um2 a column | fmax slow, MHz "
-        "| pixels off by > 3 % | > 10 % |",
-        "|---|---:|---:|---:|---:|---:|---:|---:|",
-    ]
-    for name, configuration in load(ROOT / "configurations.toml").items():
-        if configuration.variant_of or name not in area:
-            continue
-        a = area[name]
-        measured = accuracy.get(configuration.title, {})
-        array = f"{float(a['total_mm2']):.2f}"
-        if int(a["columns"]) * configuration["PIXELS_PER_SRAM"] != 32000:
-            array += f" ({a['columns']} x {configuration['PIXELS_PER_SRAM']} pixels)"
-        lines.append(
-            f"| {configuration.title} | {array} | {a['thesis_mm2'] or '-'} | {a['bits_per_pixel']} "
-            f"| {float(a['column_um2']):.0f} | {float(slow[name]['fmax_mhz']):.0f} "
-            f"| {measured.get('above 3 %', '-')} | {measured.get('above 10 %', '-')} |"
-        )
-    return "\n".join(lines) + "\n"
+    def text(self, reference: str) -> str:
+        text = store.text(reference, self.figures)
+        self.reports.add(self.figures[reference.partition(":")[0]].report)
+        return text
 
+    def optional(self, reference: str, unit: str = "") -> str:
+        return self.text(reference) + unit if reference.partition(":")[0] in self.figures else NONE
 
-def scene() -> str:
-    """What the table's accuracy was measured on: the first line of the frame's summary."""
-    first = (ROOT / "reports/frame/summary.md").read_text(encoding="utf-8").splitlines()[0]
-    return (f"{first.removesuffix('.')}; after each read-out's look-up table from flat targets. Areas: generated 40 nm "
-            "libraries, not sign-off.")
+    def row(self, name: str, one: Configuration) -> str:
+        array = self.text(f"area.{name}.array_mm2:.2f")
+        if one["SRAM_NUM"] * one["PIXELS_PER_SRAM"] != 32000:
+            array += f" ({one['SRAM_NUM']} x {one['PIXELS_PER_SRAM']} pixels)"
+        thesis = f"{one.thesis_mm2:g}" if one.thesis_mm2 else NONE
+        cells = (one.title, array, self.optional(f"area.{name}.placed_with_scan_and_clock_tree_mm2:.2f"), thesis,
+                 self.optional(f"power.{name}.day_mw:.0f"), self.text(f"area.{name}.bits_per_pixel"),
+                 self.text(f"area.{name}.column_um2:.0f"), self.text(f"timing.{name}.slow_fmax_mhz:.0f"),
+                 self.optional(f"frame.{name}.above_3_percent", " %"), self.optional(f"frame.{name}.above_10_percent", " %"))
+        return "| " + " | ".join(cells) + " |"
 
+    def table(self) -> str:
+        header = ("read-out", "mm2, 200 columns", "placed mm2", "thesis mm2", "mW by day", "bits a pixel", "logic um2 a column",
+                  "fmax slow, MHz", "pixels off by > 3 %", "> 10 %")
+        lines = ["| " + " | ".join(header) + " |", "|---|" + "---:|" * (len(header) - 1)]
+        lines += [self.row(name, one) for name, one in load(self.root / "configurations.toml").items()
+                  if not one.variant_of and f"area.{name}.array_mm2" in self.figures]
+        return "\n".join(lines) + "\n"
 
-def histogram_words() -> str:
-    """Why the full histogram's peak is a bad estimate, in figures of the reports."""
-    found = {}
-    for row in rows("reports/scenes.csv"):
-        sensor = next(iter(row.values()))  # the first column
-        found[sensor, row["klux"], row["scene"], row["estimator"]] = row
+    def histogram_words(self) -> str:
+        """Why the full histogram's peak is a bad estimate."""
+        def share(scene: str, estimator: str = "histogram", limit: int = 3) -> str:
+            return self.text(f"scenes.{estimator}.{scene}_klux_above_{limit}_percent:.1f") + " %"
 
-    def share(klux: int, scene_name: str, estimator: str = "histogram", limit: int = 3) -> str:
-        return f"{100 * float(found['thesis', str(klux), scene_name, estimator][f'above_{limit}_percent']):.1f} %"
+        def pile_up(distance: str) -> str:
+            return self.text(f"reproduction.pile_up.lost_at_{distance}_percent") + " %"
 
-    statements = {row["thesis"]: row for row in rows("reports/reproduction.csv")}
-    pile_up = statements["Fig. 2.4"]["here"].split(";")[0].removeprefix("lost: ")
-    return (
-        "Why is the full histogram, with the most memory, so bad? It reports its fullest bin and nothing else. The pulse is "
-        "spread over some 46 bins (2 ns, at 44 ps a bin), none of which has many counts, so which of them is the fullest is "
-        f"chance: on a wall at 1 m, {share(14, 'flat 1 m')} of its results are off by more than 3 %, but "
-        f"{share(14, 'flat 1 m', limit=10)} by more than 10 %. Farther away single bins of background are fuller than the "
-        f"pulse's: at 5 m {share(14, 'flat 5 m', limit=10)} are off by more than 10 %, and "
-        f"{share(2, 'flat 5 m', limit=10)} at 2 klux. Very near, pile-up takes {pile_up} of the events (0.2 and 0.5 m) and "
-        f"narrows the pulse. The counts themselves are good: a filter matched to the pulse and the light leaves "
-        f"{share(14, 'room', 'matched filter (single pixel)')} of the room's pixels above 3 %, on the same "
-        f"histograms, instead of "
-        f"{share(14, 'room')} ([scenes](reports/scenes.md), [reproduction](reports/reproduction.md)).")
+        return (
+            "Why is the full histogram, with the most memory, so bad? It reports its fullest bin and nothing else. The pulse is "
+            "spread over some 46 bins (2 ns, at 44 ps a bin), none of which has many counts, so which of them is the fullest is "
+            f"chance: on a wall at 1 m, {share('flat_1_m_14')} of its results are off by more than 3 %, but "
+            f"{share('flat_1_m_14', limit=10)} by more than 10 %. Farther away single bins of background are fuller than the "
+            f"pulse's: at 5 m {share('flat_5_m_14', limit=10)} are off by more than 10 %, and "
+            f"{share('flat_5_m_2', limit=10)} at 2 klux. Very near, pile-up takes {pile_up('0_2_m')} and {pile_up('0_5_m')} of the "
+            "events (0.2 and 0.5 m) and narrows the pulse. The counts themselves are good: a filter matched to the pulse and the "
+            f"light leaves {share('room_14', 'matched_filter_single_pixel')} of the room's pixels above 3 %, on the same "
+            f"histograms, instead of {share('room_14')} ([scenes](reports/scenes.md), [reproduction](reports/reproduction.md)).")
+
+    def scene(self) -> str:
+        """What the table's accuracy was measured on: the first sentence of the frame's summary."""
+        page = staleness.without_mark((self.root / "reports/frame/summary.md").read_text(encoding="utf-8"))
+        return (f"{page.splitlines()[0].removesuffix('.')}; after each read-out's look-up table from flat targets. Areas: generated "
+                "40 nm libraries, not sign-off; of cells and macros, and placed with scan and clock tree "
+                "([area](reports/area.md#placed)). Power: while acquisitions of the room at 50 klux stream in, from the activity of "
+                "the netlists ([power](reports/power.md)).")
+
+    def block(self) -> str:
+        return "\n".join((filled(self.scene()), self.table(), filled(self.histogram_words())))
 
 
 def filled(text: str) -> str:
     return textwrap.fill(text, width=118, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
-def updated(text: str) -> str:
+def quoted_reports(root: Path) -> set[str]:
+    """Reports whose figures stand in the results."""
+    results = Results(root)
+    results.block()
+    return results.reports
+
+
+def updated(text: str, root: Path = ROOT) -> str:
     head, rest = text.split(BEGIN)
-    return head + BEGIN + "\n".join((filled(scene()), table(), filled(histogram_words()))) + END + rest.split(END)[1]
+    return head + BEGIN + Results(root).block() + END + rest.split(END)[1]
 
 
 def write(check: bool = False) -> int:
     readme = ROOT / "README.md"
     text = readme.read_text(encoding="utf-8")
     if check and updated(text) != text:
-        print("error: README.md: the results differ from reports/; run scripts/update_readme.py", file=sys.stderr)
+        print("error: README.md: the results differ from reports/figures.json; run `make figures`", file=sys.stderr)
         return 1
     if not check:
         readme.write_text(updated(text), encoding="utf-8")

@@ -7,7 +7,9 @@
 .PHONY: layout orfs
 layout:
 	@scripts/install_packages.sh layout
+	@$(if $(CONFIGURATIONS),,scripts/reports.py begin layout)
 	@synth/layout.py $(CONFIGURATIONS)
+	@$(if $(CONFIGURATIONS),,scripts/reports.py record layout)
 
 orfs: packages
 	@synth/orfs.py $(CONFIGURATIONS) $(if $(COLUMNS),--columns $(COLUMNS))

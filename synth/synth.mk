@@ -29,8 +29,10 @@ synth-flat:
 	@synth/synth.py flat $(CONFIGURATIONS)
 
 synth-growth:
+	@scripts/reports.py begin growth
 	@synth/synth.py growth
 	@scripts/growth_plot.py
+	@scripts/reports.py record growth
 
 synth-test: vectors
 	@cd synth && /usr/bin/python3 -m unittest discover -q -s tests -t .

@@ -8,7 +8,8 @@ from pathlib import Path
 from mutation.mutant import Mutant
 from mutation.verdict import MutationError, Verdict
 
-EXPLAINED = Path(__file__).resolve().parent / "explained.toml"
+ROOT = Path(__file__).resolve().parent.parent.parent
+EXPLAINED = ROOT / "scripts" / "mutation" / "explained.toml"
 
 
 @dataclass(frozen=True)
@@ -35,12 +36,24 @@ def load(path: Path = EXPLAINED) -> list[Explanation]:
         raise MutationError(f"{path}: {error}") from None
 
 
-def explain(verdict: Verdict, known: list[Explanation]) -> Verdict:
-    """A survivor with its explanation; one that is argued to be equivalent becomes so. Others stay as they are."""
-    if verdict.state != "survived":
+def _still_there(mutant: Mutant, root: Path) -> bool:
+    """Whether the source has the line that the mutant changes."""
+    try:
+        lines = (root / mutant.file).read_text(encoding="utf-8").splitlines()
+    except OSError:
+        return False
+    return mutant.source in map(str.strip, lines)
+
+
+def explain(verdict: Verdict, known: list[Explanation], root: Path = ROOT) -> Verdict:
+    """A survivor with its explanation; one that is argued to be equivalent becomes so. What the table says of a line that the
+    source has no more stays, and so do all others."""
+    if verdict.state not in ("survived", "argued equivalent"):
         return verdict
     for explanation in known:
         if explanation.fits(verdict.mutant):
             state = "argued equivalent" if explanation.equivalent else "survived"
             return replace(verdict, state=state, by=explanation.reason)
-    return verdict
+    if verdict.by and not _still_there(verdict.mutant, root):
+        return verdict
+    return replace(verdict, state="survived", by="")

@@ -80,7 +80,7 @@ def write_table(parts: Mapping[str, Sequence[Verdict]], seeds: Mapping[str, int]
 
 
 def read_table(path: Path) -> tuple[dict[str, list[Verdict]], dict[str, int]]:
-    """The verdicts and seeds that a run has written; survivors without their explanations."""
+    """The verdicts and seeds that a run has written."""
     parts: dict[str, list[Verdict]] = {}
     seeds: dict[str, int] = {}
     try:
@@ -88,9 +88,7 @@ def read_table(path: Path) -> tuple[dict[str, list[Verdict]], dict[str, int]]:
             for row in csv.DictReader(file):
                 change = {name: row[name] for name in ("file", "original", "mutated", "operator", "source", "above")}
                 mutant = Mutant(line=int(row["line"]), begin=0, end=0, place=0, **change)
-                survived = row["verdict"] in ("survived", "argued equivalent")
-                verdict = Verdict(mutant, "survived", "") if survived else Verdict(mutant, row["verdict"], row["by"])
-                parts.setdefault(row["language"], []).append(verdict)
+                parts.setdefault(row["language"], []).append(Verdict(mutant, row["verdict"], row["by"]))
                 seeds[row["language"]] = int(row["seed"])
     except (OSError, KeyError, ValueError) as error:
         raise MutationError(f"{path}: {error!r}: make mutate writes it") from None

@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The main job's figures: accuracy of the frame beside area, power and memory of the synthesis."""
+"""The main job's figures: accuracy of the frame beside measured area, power and memory (reports/figures.json)."""
 
 import csv
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+
+from figures import store
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "synth"))
 
@@ -21,7 +23,7 @@ class ReadoutFigures:
     above_10: str
     rmse_mm: str
     mm2: str
-    mw: str
+    mw: str  # by day, from the activity of the netlist
     bits: str
 
 
@@ -34,23 +36,20 @@ def rows(path: Path) -> list[dict[str, str]]:
 
 def figures(root: Path, frame: Path) -> list[ReadoutFigures]:
     """One entry for each row of the frame's summary.csv, in its order."""
-    area = {row["configuration"]: row for row in rows(root / "reports/area.csv")}
-    power = {row["configuration"]: row for row in rows(root / "reports/timing.csv") if row["corner"] == "typical"}
+    measured = store.load(root)
+
+    def text(reference: str) -> str:
+        return store.text(reference, measured) if reference.partition(":")[0] in measured else NOT_MADE
+
     configurations = {configuration.title: (name, configuration)
                       for name, configuration in load(root / "configurations.toml").items()
                       if not configuration.variant_of}
     found = []
     for row in rows(frame / "summary.csv"):
         name, configuration = configurations[row["read-out"]]
-        mm2 = mw = bits = NOT_MADE
-        if name in area:
-            columns = int(area[name]["columns"])
-            mm2 = f"{float(area[name]['total_mm2']):.2f}"
-            bits = area[name]["bits_per_pixel"]
-            if columns * configuration["PIXELS_PER_SRAM"] != 32000:
-                mm2 += f" ({columns} x {configuration['PIXELS_PER_SRAM']} pixels)"
-        if name in power:
-            mw = f"{sum(float(power[name][part]) for part in ('logic_mw', 'sram_mw', 'clock_mw')):.0f}"
-        found.append(ReadoutFigures(row["read-out"], configuration.readout, row["above 3 %"], row["above 10 %"],
-                                    row["rmse mm"], mm2, mw, bits))
+        mm2 = text(f"area.{name}.array_mm2:.2f")
+        if mm2 != NOT_MADE and configuration.pixels != 32000:
+            mm2 += f" ({configuration['SRAM_NUM']} x {configuration['PIXELS_PER_SRAM']} pixels)"
+        found.append(ReadoutFigures(row["read-out"], configuration.readout, row["above 3 %"], row["above 10 %"], row["rmse mm"],
+                                    mm2, text(f"power.{name}.day_mw:.0f"), text(f"area.{name}.bits_per_pixel")))
     return found

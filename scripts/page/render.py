@@ -119,22 +119,26 @@ def title(text: str, otherwise: str) -> str:
     return otherwise
 
 
-def excerpt(text: str, headings: tuple[str, ...]) -> str:
-    """What precedes the first heading below the title and, for each path of patterns "a/b", the sections of that path
-    with their headings."""
-    parts: list[tuple[list[str], list[str]]] = [([], [])]  # path below the title, lines
+def sections(text: str) -> list[tuple[list[str], list[str]]]:
+    """Path of headings below the title, and lines with the heading; first what precedes the first of them, with the title."""
+    parts: list[tuple[list[str], list[str]]] = [([], [])]
     path: list[str] = []
     fenced = False
     for line in text.splitlines():
         fenced ^= bool(FENCE.match(line))
         match = None if fenced else HEADING.match(line)
-        if match and len(match[1]) == 1:
-            continue
-        if match:
+        if match and len(match[1]) > 1:
             path = path[:len(match[1]) - 2] + [match[2]]
             parts.append((path, []))
         parts[-1][1].append(line)
-    shown = ["\n".join(parts[0][1]).strip()]
+    return parts
+
+
+def excerpt(text: str, headings: tuple[str, ...]) -> str:
+    """What precedes the first heading below the title and, for each path of patterns "a/b", the sections of that path
+    with their headings."""
+    parts = sections(text)
+    shown = ["\n".join(line for line in parts[0][1] if not HEADING.match(line)).strip()]
     for wanted in headings:
         patterns = wanted.split("/")
         for place, lines in parts:

@@ -6,6 +6,10 @@ import shutil
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from figures import staleness
+from figures.reports import LIST, inputs, load
+from figures.source_tree import SourceTree
+
 from . import figures, render
 from .commands import Command, commands
 from .links import problems
@@ -29,6 +33,33 @@ class Site:
                 self.reports[self.root / "build" / report.built] = report
         self.documents: dict[Path, str] = {}  # Markdown file: page
         self.waiting: list[Path] = []
+        self.marks: dict[str, str] = self.stale_pages()
+
+    def stale_pages(self) -> dict[str, str]:
+        """By report, the line that says that it was measured on other inputs than those that lie here."""
+        if not (self.root / LIST).is_file():
+            return {}
+        listed = load(self.root)
+        tree = SourceTree(self.root)
+        found = {}
+        for report in ALL:
+            entry = next((one for one in listed.values() if report.committed in one.pages), None)
+            source = self.sources[report.name]
+            if entry is None or source is None:
+                continue
+            built = source.is_relative_to(self.root / "build")
+            known = staleness.begun(self.root, entry) if built else staleness.measured(self.root).get(entry.name)
+            stale = staleness.compared(entry, known, inputs(entry, tree))
+            if stale:
+                found[report.name] = stale.line.removeprefix("> ")
+        return found
+
+    def text(self, report: Report) -> str:
+        """The report with the line that says whether it is stale, which what lies in build/ does not have."""
+        source = self.sources[report.name]
+        assert source is not None
+        text = staleness.without_mark(source.read_text(encoding="utf-8"))
+        return f"> {self.marks[report.name]}\n\n{text}" if report.name in self.marks else text
 
     # ---- Links ------------------------------------------------------------------------------------------
 
@@ -108,7 +139,7 @@ class Site:
         source = self.sources[report.name]
         parts = [f'<section id="{report.name}"><h2>{html.escape(report.title)}</h2>', self.made_by(report, "index.html")]
         if source is not None:
-            text = render.excerpt(source.read_text(encoding="utf-8"), report.excerpt or ())
+            text = render.excerpt(self.text(report), report.excerpt or ())
             parts.append(render.to_html(text, self.linker(source, "index.html"), 1, f"{report.name}-"))
             parts.append(f'<p><a href="{self.whole_page(report)}">The whole report</a></p>')
         return "\n".join(parts) + "\n</section>"
@@ -119,19 +150,21 @@ class Site:
         parts = [f'<section id="{FRAME.name}"><h2>{FRAME.title}</h2>', self.made_by(FRAME, "index.html")]
         if source is None:
             return "\n".join(parts) + "\n</section>"
-        text = source.read_text(encoding="utf-8")
+        text = staleness.without_mark(source.read_text(encoding="utf-8"))
+        if FRAME.name in self.marks:
+            parts.append(f"<blockquote><p>{html.escape(self.marks[FRAME.name])}</p></blockquote>")
         parts.append(f"<p>{html.escape(text.splitlines()[0])}</p>")
         found = figures.figures(self.root, source.parent)
-        head = ("read-out", "off by > 3 %", "> 10 %", "rmse, mm", "mm2", "mW", "bits a pixel")
+        head = ("read-out", "off by > 3 %", "> 10 %", "rmse, mm", "mm2", "mW by day", "bits a pixel")
         cells = "".join(f"<th>{name}</th>" for name in head)
         parts.append(f'<div class="scroll" tabindex="0"><table class="figures"><thead><tr>{cells}</tr></thead><tbody>')
         for one in found:
             values = (one.above_3, one.above_10, one.rmse_mm, one.mm2, one.mw, one.bits)
             parts.append(f"<tr><th>{html.escape(one.title)}</th>" + "".join(f"<td>{html.escape(value)}</td>"
                                                                             for value in values) + "</tr>")
-        parts.append('</tbody></table></div>\n<p>Accuracy: this frame, after each read-out\'s look-up table. Area, power '
-                     'while measuring (typical corner) and memory: <a href="#area">area</a> and <a href="#timing">timing '
-                     "and power</a> of the array, not of this frame.</p>")
+        parts.append('</tbody></table></div>\n<p>Accuracy: this frame, after each read-out\'s look-up table. Area and memory: <a '
+                     'href="#area">the array</a>. Power: <a href="#power">the array</a> while acquisitions of the room at 50 klux '
+                     "stream in (day), not of this frame.</p>")
         maps = [self.card(one, source.parent) for one in found]
         if all(maps):
             parts += ['<div class="cards">', *maps, "</div>"]
@@ -166,6 +199,8 @@ class Site:
             if self.sources[report.name]:
                 title = f'<a href="{self.whole_page(report)}">{title}</a>'
             missing = "" if self.sources[report.name] else " <em>Not made yet.</em>"
+            if report.name in self.marks:
+                missing = f" <em>{html.escape(self.marks[report.name].split('. `')[0])}.</em>"
             lines.append(f"<tr><td>{title}</td><td>{render.to_html(report.says, lambda _: None)[3:-4]}{missing}</td>"
                          f'<td><a href="#make-{report.target}"><code>make {report.target}</code></a></td></tr>')
         return "\n".join(lines) + "</tbody></table></div></section>"
@@ -212,7 +247,7 @@ class Site:
         if source is None:
             return
         page = self.whole_page(report)
-        text = source.read_text(encoding="utf-8")
+        text = self.text(report)
         heading = render.title(text, "")
         body = "" if heading else f"<h1>{html.escape(report.title)}</h1>\n"
         body += self.made_by(report, page) + "\n" + render.to_html(text, self.linker(source, page))

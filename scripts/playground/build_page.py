@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes build/playground/index.html: page, style, worker and WebAssembly module in one file that opens without a server.
 
-Area and power are those of the committed reports (`make synth`), colours those of all pictures.
+Area and power are those of the committed reports (`make synth`, `make power`), colours those of all pictures.
 """
 
 import csv
@@ -17,6 +17,7 @@ MODULE = OUT / "cmake" / "playground" / "playground_module.js"
 sys.path[:0] = [str(ROOT / "synth"), str(ROOT / "scripts")]
 
 import plot_style  # noqa: E402
+from figures import store  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 
 THESIS_PIXELS = 32000
@@ -30,7 +31,7 @@ def rows(path: str) -> list[dict[str, str]]:
 def cost() -> dict[str, object]:
     """Area and power of each read-out's own configuration."""
     area = {row["configuration"]: row for row in rows("reports/area.csv")}
-    typical = {row["configuration"]: row for row in rows("reports/timing.csv") if row["corner"] == "typical"}
+    measured = store.load(ROOT)
     readouts: dict[str, dict[str, object]] = {}
     smaller = []
     styles = plot_style.load()
@@ -43,13 +44,13 @@ def cost() -> dict[str, object]:
             smaller.append(f"* {configuration.title}: of {columns} x {rows_a_column} pixels.")
         readouts[area[name]["readout"]] = {
             "mm2": f"{float(area[name]['total_mm2']):.2f}",
-            "mw": f"{sum(float(typical[name][part]) for part in ('logic_mw', 'sram_mw', 'clock_mw')):.0f}",
+            "mw": store.text(f"power.{name}.day_mw:.0f", measured),
             "bits": area[name]["bits_per_pixel"],
             "note": size != THESIS_PIXELS,
             "colour": plot_style.style(configuration.title, styles).colour,
         }
-    note = ("Area and power are those of an array of 200 x 160 pixels at 330 MHz in a generated 40 nm library, whatever "
-            "is chosen above (reports/area.md, reports/timing.md); no sign-off. " + " ".join(smaller))
+    note = ("Area and power (room at 50 klux) are those of an array of 200 x 160 pixels at 330 MHz in a generated 40 nm library, "
+            "whatever is chosen above (reports/area.md, reports/power.md); no sign-off. " + " ".join(smaller))
     return {"readouts": readouts, "note": note}
 
 

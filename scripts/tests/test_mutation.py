@@ -170,6 +170,14 @@ class ReportOfCpp(unittest.TestCase):
             self.assertEqual(explain(survived, known).state, state)
             self.assertEqual(explain(killed, known), killed)
 
+    def test_an_explanation_outlives_the_line_that_it_is_about_but_no_line_that_is_there(self):
+        mutant = cpp_operators.mutants("tested.cpp", TESTED)[0]
+        argued = Verdict(mutant, "argued equivalent", "because")
+        with tempfile.TemporaryDirectory() as name:
+            self.assertEqual(explain(argued, [], Path(name)), argued)
+            (Path(name) / "tested.cpp").write_text(TESTED)
+            self.assertEqual(explain(argued, [], Path(name)), Verdict(mutant, "survived", ""))
+
 
 TOY = """// SPDX-License-Identifier: Apache-2.0
 module toy #(

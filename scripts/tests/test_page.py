@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page of `make report`: its parts on small examples, and the page of this tree in a browser."""
 
+import gzip
 import json
 import os
 import re
@@ -11,6 +12,9 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 import check_pictures
+from figures import staleness, store
+from figures.reports import load
+from figures.source_tree import SourceTree
 from page import figures, links, render, sections
 from page.commands import commands
 from page.site import Site
@@ -120,6 +124,24 @@ class Sources(Folder):
         self.assertNotIn("other.svg", text)
         self.assertIn("*other: this report's command draws the picture", text)
 
+    def test_reports_leaves_out_what_a_report_names_and_says_where_it_is(self) -> None:
+        report = sections.Report("a", "A", "a", "a.md", "a/a.md", left_out=("B/.*",), text_only=("C",),
+                                 with_it=(("a/kept.csv", "kept.csv"),))
+        text = "# T\n\nfirst\n\n## B\n\nof b\n\n### D\n\nd\n\n## C\n\nSays:\n\n| x |\n|---|\n| 1 |\n\nof c\n"
+        short = sections.as_committed(report, text)
+        note = "*The whole report, with 10 more lines of tables, is what `make a` writes to build/a/a.md; `make report` shows it.*\n"
+        self.assertEqual(short, f"# T\n\nfirst\n\n## B\n\nof b\n\n## C\n\nof c\n\n{note}")
+        self.assertEqual(sections.as_committed(report, short), short)
+        self.assertEqual(sections.as_committed(report, "[t](kept.csv) [u](left.csv) [v](../area.csv)\n"),
+                         "[t](kept.csv) `build/a/left.csv` [v](../area.csv)\n")
+
+    def test_a_compressed_table_is_the_same_bytes_each_time(self) -> None:
+        source = self.write("build/a.csv", "a,b\n1,2\n")
+        for name in ("one.csv.gz", "other.csv.gz"):
+            sections.copy_table(source, self.root / name)
+        self.assertEqual((self.root / "one.csv.gz").read_bytes(), (self.root / "other.csv.gz").read_bytes())
+        self.assertEqual(gzip.decompress((self.root / "one.csv.gz").read_bytes()), source.read_bytes())
+
     def test_the_newer_one_is_shown_but_pictures_where_the_texts_agree(self) -> None:
         self.assertIsNone(sections.chosen(self.REPORT, self.root))
         committed = self.stamp(self.write("reports/walk_error.md", "else\n"), 2000)
@@ -148,11 +170,11 @@ class Pages(Folder):
     def test_figures_of_the_main_job(self) -> None:
         self.write("build/frame/summary.md", "Scene room: 14 klux.\n")
         self.write("build/frame/summary.csv", self.SUMMARY)
-        self.write("reports/area.csv", "configuration,total_mm2,columns,bits_per_pixel\nsifh,14.9061,200,646\n")
-        self.write("reports/timing.csv", "configuration,corner,logic_mw,sram_mw,clock_mw\nsifh,slow,,,\n"
-                                         "sifh,typical,47.1,156.7,72.0\n")
+        store.record(self.root, "synth", "make synth", "1234", {"area.sifh.array_mm2": store.Figure("14.9061", "mm2"),
+                                                                "area.sifh.bits_per_pixel": store.Figure("646")})
+        store.record(self.root, "power", "make power", "1234", {"power.sifh.day_mw": store.Figure("104.802", "mW")})
         one, = figures.figures(self.root, self.root / "build/frame")
-        self.assertEqual((one.above_3, one.rmse_mm, one.mm2, one.mw, one.bits), ("40.56 %", "478", "14.91", "276", "646"))
+        self.assertEqual((one.above_3, one.rmse_mm, one.mm2, one.mw, one.bits), ("40.56 %", "478", "14.91", "105", "646"))
         wrong, out = self.site()
         self.assertEqual(wrong, [])
         self.assertIn("draws them", (out / "index.html").read_text(encoding="utf-8"))
@@ -163,6 +185,24 @@ class Pages(Folder):
         text = (out / "index.html").read_text(encoding="utf-8")
         self.assertIn('src="files/build/frame/sifh_error.png"', text)
         self.assertTrue((out / "files/build/frame/sifh_error.png").is_file())
+
+    def test_a_stale_report_says_so_on_every_page_that_shows_it(self) -> None:
+        self.write("reports/reports.toml", '[report.area]\ncommand = "make synth"\nminutes = 40\npages = ["area.md"]\n'
+                                           'inputs = ["hdl/*.sv"]\n[report.sram]\ncommand = "make sram"\nminutes = 1\npages = '
+                                           '["sram.md"]\ninputs = ["hdl/*.sv"]\n')
+        self.write("hdl/a.sv", "module a; endmodule\n")
+        for name in ("area", "sram"):
+            self.write(f"reports/{name}.md", f"# {name}\n\ntext\n")
+            entry = load(self.root)[name]
+            staleness.begin(self.root, entry, SourceTree(self.root))
+            staleness.record(self.root, entry)
+        _, out = self.site()
+        self.assertNotIn("Measured before", (out / "index.html").read_text(encoding="utf-8"))
+        self.write("hdl/a.sv", "module a; wire w; endmodule\n")
+        _, out = self.site()
+        first = (out / "index.html").read_text(encoding="utf-8")
+        self.assertEqual(first.count("Measured before: changes in hdl"), 2)  # a section, and the list
+        self.assertIn("Measured before: changes in hdl", (out / "reports/sram.html").read_text(encoding="utf-8"))
 
     def test_a_foreign_folder_is_left_alone(self) -> None:
         mine = self.write("other/thesis.txt", "mine")

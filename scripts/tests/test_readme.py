@@ -8,6 +8,7 @@ import unittest
 from pathlib import Path
 
 import update_readme
+from figures import store
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 # A command may go on behind a backslash, and some make their input with Python.
@@ -75,7 +76,15 @@ class Results(unittest.TestCase):
         self.assertEqual(update_readme.updated(new), new)
 
     def test_scene_and_light_are_named(self) -> None:
-        self.assertRegex(update_readme.scene(), r"Scene \w+: \d+ x \d+ pixels, [\d.]+ klux, sensor \w+")
+        self.assertRegex(update_readme.Results(ROOT).scene(), r"Scene \w+: \d+ x \d+ pixels, [\d.]+ klux, sensor \w+")
+
+    def test_power_is_that_of_the_activity_by_day(self) -> None:
+        figures = store.load(ROOT)
+        row, = [line for line in update_readme.Results(ROOT).table().splitlines() if line.startswith("| poolPointer 2 |")]
+        cells = [cell.strip() for cell in row.strip("|").split("|")]
+        self.assertEqual(cells[4], store.text("power.poolpointer2.day_mw:.0f", figures))
+        self.assertEqual(cells[2], store.text("area.poolpointer2.placed_with_scan_and_clock_tree_mm2:.2f", figures))
+        self.assertEqual(update_readme.quoted_reports(ROOT), {"synth", "power", "frame", "scenes", "reproduction"})
 
 
 if __name__ == "__main__":

@@ -10,12 +10,12 @@ import sys
 import time
 from pathlib import Path
 
-from . import batch, budgets, check, configuration, gates, goals, growth, namings, part_costs, report, scene_power, signalled_clear, simulation, \
-    sram_kit, sram_report
+from . import batch, budgets, check, configuration, gates, goals, growth, namings, part_costs, report, report_inputs, scene_power, \
+    signalled_clear, simulation, sram_kit, sram_report
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
-from .run import Result, Technology, flat, input_digest
+from .run import Result, Technology, flat
 
 ROOT = Path(__file__).resolve().parents[2]
 BUDGETS = ROOT / "synth" / "budgets.csv"
@@ -54,6 +54,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     if foreign and arguments.liberty_slow is None:
         _say("note: no LIBERTY_SLOW: the one library serves both corners")
     full = not foreign and not arguments.configuration
+    digest = report_inputs.begin("synth") if full else ""
     jobs = [batch.Job(item) for item in chosen.values()]
     if full:
         jobs += signalled_clear.jobs(named)
@@ -69,7 +70,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
                 _say(f"note: {name}, {corner} corner: {timing.slow_edges} pins beyond max_transition")
     status = 0
     if full:
-        status = _write_reports(arguments, named, results, technology, everything)
+        status = _write_reports(arguments, named, results, technology, everything, digest)
     elif arguments.strict:
         committed = {name: one for name, one in budgets.read(BUDGETS).items() if name in main}
         status = _gate(arguments, main, goals.check(main), committed, everything=False)
@@ -78,11 +79,10 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
 
 
 def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration], results, technology,
-                   everything: list[Configuration]) -> int:
+                   everything: list[Configuration], digest: str) -> int:
     reports = ROOT / "reports"
     reports.mkdir(exist_ok=True)
     main = {name: results[name] for name in named}
-    digest = input_digest(technology)
     found = goals.check(main)
     extra = "\n".join([signalled_clear.section(named, results), report.goals_section(found, gates.read(ROOT / gates.FILE)),
                        "How cost grows (`make synth-growth`): [growth.csv](growth.csv)\n\n![growth](growth.png)\n"])
@@ -92,6 +92,7 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
     report.write_timing_csv(reports / "timing.csv", main)
     uses = technologies.needed_sizes(everything)
     (reports / "sram.md").write_text(sram_report.text(uses, set(named), PDK), encoding="utf-8")
+    report_inputs.record("synth")
     status = _gate(arguments, main, [*found, *gates.measured(reports / "pool.md")], budgets.read(BUDGETS), everything=True)
     namings.write(ROOT / namings.FILE, {name: result.naming for name, result in results.items()}, results)
     _say(f"reports/area.md, reports/timing.md, reports/sram.md, {namings.FILE} written")
@@ -170,17 +171,19 @@ def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
     """Power from the activity of netlists on a scene; the whole arrays' areas are those of `run`."""
     started = time.monotonic()
     chosen = _select(named, arguments.configuration or list(scene_power.CONFIGURATIONS))
+    digest = report_inputs.begin("power")
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     runs = build / "runs"
     results = batch.run_all([batch.Job(item) for item in chosen.values()], technology, runs, arguments.jobs, _say)
     found = scene_power.run(list(chosen.values()), results, runs, technology, build / "power", arguments.seed, arguments.jobs,
                             _say)
-    text = scene_power.report(found, results, input_digest(technology), arguments.seed)
+    text = scene_power.report(found, results, digest, arguments.seed)
     _say(text)
     if not arguments.configuration:
         (ROOT / "reports" / "power.md").write_text(text, encoding="utf-8")
         scene_power.write_csv(ROOT / "reports" / "power.csv", found)
+        report_inputs.record("power")
         _say("reports/power.md, reports/power.csv written")
     _say(f"{len(found)} simulations, seed {arguments.seed}, {time.monotonic() - started:.0f} s")
     return 0

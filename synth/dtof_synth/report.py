@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The committed reports: area.md/.csv, timing.md/.csv, power in the latter, and the goals."""
+"""The committed reports: area.md/.csv, timing.md/.csv, and the goals."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import area_parts, floorplan, gates, goals, loads, power, sram_model, wide_words
+from . import area_parts, floorplan, gates, goals, loads, sram_model, wide_words
 from .configuration import memories
 from .run import TARGET_MHZ, Result
 from .timing import FAST_MHZ
@@ -214,17 +214,12 @@ def _ends_section(results: list[Result]) -> list[str]:
             _table(["read-out", "ends", "timed", "constant", "side band", "slow edges", "fullest", "driver"], rows)]
 
 
-def _power_rows(results: Iterable[Result]) -> list[list[str]]:
-    return [[result.configuration.title, f"{result.power.logic:.1f}", f"{result.power.sram:.1f}",
-             f"{result.power.clock:.1f}", f"{result.power.total:.1f}"] for result in results]
-
-
 def timing(results: dict[str, Result], library: str, digest: str) -> str:
     main, variants = _split(results)
     header = ["read-out", "corner", f"slack at {TARGET_MHZ:g} MHz", f"at {FAST_MHZ:g} MHz", "hold slack",
               "fmax MHz", "start", "end", "stages"]
     return "\n".join([
-        "# Timing and power", "", _provenance(library, digest),
+        "# Timing", "", _provenance(library, digest),
         "Slacks in ns, ideal clock with the uncertainty and port budgets of "
         "[constraints/dtof.sdc](../constraints/dtof.sdc). fmax: the shortest period without a setup violation, port "
         "budgets scaled with it. Stages: cells between start and end. Wires inside a block are a wire load; those between "
@@ -234,13 +229,8 @@ def timing(results: dict[str, Result], library: str, digest: str) -> str:
         _table(header, _timing_rows(main)),
         *_margin_section(main),
         *_ends_section([*main, *variants]),
-        "## Power", "",
-        f"mW of the array at {TARGET_MHZ:g} MHz, typical corner, while measuring: data nets toggle "
-        f"{power.ACTIVITY:g} times a clock, {power.DETECTION_RATE:.0%} of the TDC slots hold a detection, every "
-        "detection is counted. SRAM: CACTI energies. Clock: flip-flop clock pins and the estimated tree.", "",
-        _table(["read-out", "logic", "SRAM", "clock", "total"], _power_rows(main)),
-        "## Variants", "", _table(header, _timing_rows(variants)),
-        _table(["variant", "logic mW", "SRAM mW", "clock mW", "total mW"], _power_rows(variants))])
+        "Power from the activity of the netlists is in [power.md](power.md).", "",
+        "## Variants", "", _table(header, _timing_rows(variants))])
 
 
 def goals_section(found: list[goals.Goal], exemptions: list[gates.Exemption]) -> str:
@@ -293,7 +283,7 @@ def write_timing_csv(path: Path, results: dict[str, Result]) -> None:
 def summary(results: dict[str, Result]) -> str:
     """The table that the command prints."""
     lines = [f"{'configuration':<26}{'logic':>8}{'shared':>8}{'SRAM':>8}{'total':>9}{'thesis':>8}"
-             f"{'slack':>8}{'fmax':>6}{'fmax':>6}{'power':>8}",
+             f"{'slack':>8}{'fmax':>6}{'fmax':>6}{'assumed':>8}",
              f"{'':<26}{'um2/col':>8}{'um2':>8}{'um2/col':>8}{'mm2':>9}{'mm2':>8}"
              f"{'slow':>8}{'slow':>6}{'typ':>6}{'mW':>8}"]
     for name, result in results.items():

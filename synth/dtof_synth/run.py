@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
-from . import (clock_gating, endpoints, floorplan, loads, netlist, power, same_logic, spef, sram_kit, sram_model, stand_in,
+from . import (clock_gating, endpoints, floorplan, loads, netlist, power, report_inputs, same_logic, spef, sram_kit, sram_model, stand_in,
                standard_cells, timing, tools, verilog)
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
@@ -578,14 +578,9 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
 
 
 def input_digest(technology: Technology) -> str:
-    """Hash of everything but the parameters that a run's result depends on."""
-    digest = hashlib.sha256()
-    synth = technology.root / "synth"
-    files = [*rtl_files(technology.root), *(technology.root / "hdl").rglob("*.svh"),
-             *synth.glob("yosys/*.tcl"), *synth.glob("sta/*.tcl"), *synth.glob("dtof_synth/*.py"),
-             *(technology.root / "constraints").glob("*.sdc"), *technology.kit.iterdir(),
-             technology.typical.path, technology.slow.path]
-    for file in sorted(set(files)):
-        digest.update(str(file.name).encode())
+    """Hash of everything but the parameters that a run's result depends on: the flow, and the libraries that it has made."""
+    digest = hashlib.sha256(report_inputs.flow_digest(technology.root).encode())
+    for file in sorted({*technology.kit.iterdir(), technology.typical.path, technology.slow.path}, key=lambda file: file.name):
+        digest.update(file.name.encode())
         digest.update(file.read_bytes())
     return digest.hexdigest()

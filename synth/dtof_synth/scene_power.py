@@ -5,7 +5,7 @@ A column module with all its pixels (and one engine where there are engines) is 
 room scene; activity.py counts. The column is the one that the whole array has at the end of its run, with sized gates
 and hold buffers; its energy is that of every column. The logic outside the columns has another size in the whole array,
 so its energy per clock is scaled by area. The result is reported by part, for the acquisitions, for a whole frame with
-its idle time, and beside what `make synth` estimates from assumed activities.
+its idle time, and beside what `make synth` estimates from an assumed activity.
 """
 
 from __future__ import annotations
@@ -247,7 +247,8 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
              "[docs/reference/synthesis.md](../docs/reference/synthesis.md#power-from-activity).", "",
              "mW of the whole array while acquisitions stream in. Rate: transitions of a column's data net per clock. "
              "OpenSTA: the columns' figure by the tool that knows no waveform, from this one rate for all of their data nets. "
-             "Assumed: what [timing.md](timing.md) has for the same array.", "",
+             f"Assumed: what the same array would take if every data net toggled {power_model.ACTIVITY:g} times a clock and "
+             f"{power_model.DETECTION_RATE:.0%} of the TDC slots held a detection (timing.csv).", "",
              "| read-out | light | rate | columns | OpenSTA | engines | control | SRAM | clock | leakage | total | assumed |",
              "|---|---|" + "---:|" * 10]
     for one in found:

@@ -21,7 +21,6 @@
 #include "metrics/confidence_interval.hpp"
 #include "report/table.hpp"
 #include "sensor/preset.hpp"
-#include "study/earlier_shares.hpp"
 #include "study/pool_study.hpp"
 #include "study_app/commands.hpp"
 #include "study_app/scene_list.hpp"
@@ -35,7 +34,6 @@ struct PoolOptions : SceneChoice {
   std::vector<std::string> designs = {""};
   bool references = true;
   int seeds = 4;
-  std::string before;  ///< file of EarlierShares, none if empty
   std::string table = "flat";
   int threads = 0;
   std::string out = "build/pool";
@@ -142,27 +140,7 @@ std::string per_cent(const Estimate& share) {
                      50.0 * (share.interval.high - share.interval.low));
 }
 
-/// Share of the scenes' pixels together; none where the earlier run lacks a scene.
-std::optional<double> earlier_share(const EarlierShares& before, double klux, const Scores& scores,
-                                    const std::vector<std::size_t>& scenes, const Figure& figure) {
-  double pixels = 0.0;
-  double hits = 0.0;
-  for (const std::size_t s : scenes) {
-    const auto count = static_cast<double>(scores.pixels({s}, figure));
-    if (count == 0.0) {
-      continue;
-    }
-    const std::optional<Estimate> share = before.share(klux, scores.scenes()[s], figure.column);
-    if (!share) {
-      return std::nullopt;
-    }
-    pixels += count;
-    hits += count * share->value;
-  }
-  return pixels > 0.0 ? std::optional(hits / pixels) : std::nullopt;
-}
-
-Table pooled_table(double klux, const Scores& scores, const std::optional<EarlierShares>& before) {
+Table pooled_table(const Scores& scores) {
   std::vector<std::string> header = {"estimator"};
   for (const Figure& figure : kFigures) {
     header.emplace_back(figure.name);
@@ -173,14 +151,6 @@ Table pooled_table(double klux, const Scores& scores, const std::optional<Earlie
     std::vector<std::string> row = {scores.estimators()[e]};
     for (const Figure& figure : kFigures) {
       row.push_back(scores.pixels(scenes, figure) == 0 ? "-" : per_cent(scores.estimate(scenes, e, figure)));
-    }
-    table.add(std::move(row));
-  }
-  if (before) {
-    std::vector<std::string> row = {before->estimator() + ", an earlier run"};
-    for (const Figure& figure : kFigures) {
-      const std::optional<double> share = earlier_share(*before, klux, scores, scenes, figure);
-      row.push_back(share ? fmt::format("{:.2f}", 100.0 * *share) : "-");
     }
     table.add(std::move(row));
   }
@@ -205,35 +175,7 @@ Table scene_table(const Scores& scores, const Figure& first, const Figure& secon
   return table;
 }
 
-/// Where a design is worse than the earlier read-out by more than the interval of the difference, both being
-/// independent.
-void add_losses(Table& table, double klux, const Scores& scores, const EarlierShares& before) {
-  for (std::size_t e = 0; e < scores.estimators().size(); ++e) {
-    if (!scores.estimators()[e].starts_with("poolPointer 2")) {
-      continue;
-    }
-    for (std::size_t s = 0; s < scores.scenes().size(); ++s) {
-      for (const Figure& figure : kFigures) {
-        const std::optional<Estimate> earlier = before.share(klux, scores.scenes()[s], figure.column);
-        if (scores.pixels({s}, figure) == 0 || !earlier) {
-          continue;
-        }
-        const Estimate now = scores.estimate({s}, e, figure);
-        const double difference = now.value - earlier->value;
-        const double reach =
-            std::hypot(now.value - now.interval.low, earlier->interval.high - earlier->value);
-        if (difference > reach) {
-          table.add({scores.scenes()[s], fmt::format("{:g}", klux), figure.name, scores.estimators()[e],
-                     per_cent(*earlier), per_cent(now),
-                     fmt::format("{:.2f} +-{:.2f}", 100.0 * difference, 100.0 * reach)});
-        }
-      }
-    }
-  }
-}
-
-/// A goal: at most `factor` times `of` (1 if empty), of an estimator at a light; kBefore: of the earlier
-/// read-out.
+/// A goal: at most `factor` times `of` (1 if empty), of an estimator at a light.
 struct Goal {
   double klux;
   const char* estimator;
@@ -241,7 +183,6 @@ struct Goal {
   double factor;
   const char* of;
 };
-constexpr const char* kBefore = "before";
 constexpr const char* kWith = "poolPointer 2";
 constexpr const char* kWithout = "poolPointer 2, no S1";
 constexpr std::array<Goal, 11> kGoals = {{{50.0, kWith, 0, 0.020, ""},
@@ -250,26 +191,20 @@ constexpr std::array<Goal, 11> kGoals = {{{50.0, kWith, 0, 0.020, ""},
                                           {50.0, kWithout, 1, 0.009, ""},
                                           {14.0, kWith, 0, 0.0030, ""},
                                           {14.0, kWithout, 0, 0.0060, ""},
-                                          {100.0, kWith, 0, 0.5, kBefore},
-                                          {100.0, kWithout, 0, 0.5, kBefore},
+                                          {100.0, kWith, 0, 0.0982, ""},
+                                          {100.0, kWithout, 0, 0.0982, ""},
                                           {2.0, kWith, 0, 1.0, "matched filter (single pixel)"},
-                                          {14.0, kWith, 2, 0.5, kBefore},
-                                          {14.0, kWithout, 2, 0.5, kBefore}}};
+                                          {14.0, kWith, 2, 0.0129, ""},
+                                          {14.0, kWithout, 2, 0.0129, ""}}};
 
 /// What `goal` is a factor of; none where that was not measured.
 std::optional<double> compared_with(const Goal& goal, const Scores& scores,
-                                    const std::vector<std::size_t>& scenes,
-                                    const std::optional<EarlierShares>& before) {
-  const std::string of = goal.of;
-  const Figure& figure = kFigures.at(goal.figure);
-  if (of == kBefore) {
-    return before ? earlier_share(*before, goal.klux, scores, scenes, figure) : std::nullopt;
-  }
-  const std::size_t reference = scores.estimator(of);
+                                    const std::vector<std::size_t>& scenes) {
+  const std::size_t reference = scores.estimator(goal.of);
   if (reference == scores.estimators().size()) {
     return std::nullopt;
   }
-  return scores.estimate(scenes, reference, figure).value;
+  return scores.estimate(scenes, reference, kFigures.at(goal.figure)).value;
 }
 
 /// A goal is met if the whole interval is below the limit, and open if the limit is inside.
@@ -280,7 +215,7 @@ const char* verdict(const Interval& interval, double limit) {
   return interval.low > limit ? "**no**" : "open";
 }
 
-Table goal_table(const std::map<double, Scores>& lights, const std::optional<EarlierShares>& before) {
+Table goal_table(const std::map<double, Scores>& lights) {
   Table table({"goal", "measured", "limit", "met"});
   for (const Goal& goal : kGoals) {
     const auto light = lights.find(goal.klux);
@@ -294,13 +229,12 @@ Table goal_table(const std::map<double, Scores>& lights, const std::optional<Ear
     std::string of = goal.of;
     double limit = goal.factor;
     if (!of.empty()) {
-      const std::optional<double> other = compared_with(goal, scores, scenes, before);
+      const std::optional<double> other = compared_with(goal, scores, scenes);
       if (!other) {
         continue;
       }
       limit *= *other;
-      of = fmt::format(", at most {:g} times that of the {}", goal.factor,
-                       of == kBefore ? before->estimator() : of);
+      of = fmt::format(", at most {:g} times that of the {}", goal.factor, of);
     }
     const Estimate measured = scores.estimate(scenes, scores.estimator(goal.estimator), figure);
     table.add({fmt::format("{}: {:g} klux, {}{}", goal.estimator, goal.klux, figure.name, of),
@@ -321,8 +255,6 @@ void run_pool_command(PoolOptions options) {
   for (const std::string& design : options.designs) {
     (void)parse_pool_design(design);
   }
-  const std::optional<EarlierShares> before =
-      options.before.empty() ? std::nullopt : std::optional<EarlierShares>(options.before);
   (void)make_scenes(options, sensor);  // what cannot be read is refused before anything is written
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
@@ -375,22 +307,11 @@ void run_pool_command(PoolOptions options) {
       options.sensor, first_seed, options.seed, table_sentence(rule, sensor, first_seed),
       options.command_line);
   if (options.references) {
-    report += fmt::format("\n## Goals\n\nAll scenes but the flats together.\n\n{}",
-                          goal_table(lights, before).markdown());
-  }
-  if (before) {
-    Table losses({"scene", "klux", "figure", "estimator", before->estimator(), "its own", "difference"}, 4);
-    for (const auto& [klux, scores] : lights) {
-      add_losses(losses, klux, scores, *before);
-    }
-    report += fmt::format(
-        "\n## Worse than {0}\n\nEvery scene, light and figure at which the difference is larger than its 95 "
-        "% interval. "
-        "{0}'s figures are of an earlier run, `{1}`: its code is gone.\n\n{2}",
-        before->estimator(), options.before, losses.markdown());
+    report +=
+        fmt::format("\n## Goals\n\nAll scenes but the flats together.\n\n{}", goal_table(lights).markdown());
   }
   for (const auto& [klux, scores] : lights) {
-    const Table pooled = pooled_table(klux, scores, before);
+    const Table pooled = pooled_table(scores);
     fmt::print("\n## {:g} klux\n\n{}", klux, pooled.markdown());
     report +=
         fmt::format("\n## {:g} klux\n\n### All scenes but the flats together\n\n{}", klux, pooled.markdown());
@@ -439,8 +360,6 @@ void add_pool_command(CLI::App& app, const std::string& command_line) {
                       "numbers to change, NAME=NUMBER,..., one design each\nnames: " +
                           fmt::format("{}", fmt::join(pool_design_names(), ", ")));
   command->add_flag("!--no-references", options->references, "leave out the matched filters");
-  command->add_option("--before", options->before,
-                      "pool.csv of an earlier run, of one estimator, to compare with");
   add_scene_options(*command, *options);
   command->add_option("--table", options->table, "host look-up table: flat or none (Eq. 3.11 alone)")
       ->check(CLI::IsMember({"none", "flat"}))

@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Which reports were measured on other inputs than those that lie here, and the line that says so on their pages.
+
+reports/digests.json has the inputs that each report was measured on. A command notes them when it begins
+(build/inputs/<report>.json), so that what changes while it runs makes its report stale."""
+
+import json
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from .reports import Inputs, Report, ReportsError, inputs
+from .source_tree import CommitTree, SourceTree
+
+DIGESTS = "reports/digests.json"
+BEGUN = "build/inputs"
+MARK = "> Measured before: "
+NAMED_PLACES = 6  # on a page
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What a report was measured on. `commit`: the one that the files were changed from, if git knows it."""
+
+    digest: str
+    folders: dict[str, str]
+    commit: str = ""
+
+
+@dataclass(frozen=True)
+class Stale:
+    report: Report
+    places: tuple[str, ...]  # folders and files that changed, came or went; none: nothing is known of the inputs
+
+    @property
+    def line(self) -> str:
+        """The first line of its pages."""
+        if not self.places:
+            what = "nobody noted on what"
+        else:
+            others = len(self.places) - NAMED_PLACES
+            named = ", ".join(self.places[:NAMED_PLACES]) + (f" and {others} more" if others > 0 else "")
+            what = f"changes in {named}"
+        return f"{MARK}{what}. `{self.report.command}` ({minutes(self.report)}) renews this page."
+
+
+def minutes(report: Report) -> str:
+    if report.minutes < 1:
+        return "seconds"
+    return f"{report.minutes:g} minute{'' if report.minutes == 1 else 's'}"
+
+
+def _read(path: Path) -> dict[str, dict]:
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
+
+def measured(root: Path) -> dict[str, Measured]:
+    return {name: Measured(**entry) for name, entry in _read(root / DIGESTS).items()}
+
+
+def write_lines(path: Path, entries: dict[str, dict]) -> None:
+    """JSON with a line for each entry, so that a change of one is a line of a diff."""
+    lines = [f"  {json.dumps(name)}: {json.dumps(entry, ensure_ascii=False)}" for name, entry in sorted(entries.items())]
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
+
+
+def _entry(found: Inputs, commit: str) -> dict:
+    return {"digest": found.digest, "commit": commit, "folders": found.folders}
+
+
+def _head(root: Path) -> str:
+    done = subprocess.run(["git", "rev-parse", "--verify", "--quiet", "HEAD"], cwd=root, capture_output=True, text=True)
+    return done.stdout.strip()[:12]
+
+
+def begin(root: Path, report: Report, tree: SourceTree) -> str:
+    """Notes the inputs of a measurement that begins; their digest."""
+    found = inputs(report, tree)
+    write_lines(root / BEGUN / f"{report.name}.json", {report.name: _entry(found, _head(root))})
+    return found.digest
+
+
+def begun(root: Path, report: Report) -> Measured | None:
+    entry = _read(root / BEGUN / f"{report.name}.json").get(report.name)
+    return Measured(**entry) if entry else None
+
+
+def record(root: Path, report: Report) -> Measured:
+    """What the measurement that wrote the report's files began with becomes what the report was measured on."""
+    found = begun(root, report)
+    if found is None:
+        raise ReportsError(f"{BEGUN}/{report.name}.json is missing: nothing is known of what {report.name} was measured on; "
+                           f"run `{report.command}`")
+    _store(root, report, found)
+    return found
+
+
+def record_commit(root: Path, report: Report, commit: str) -> Measured:
+    """A report that was committed with `commit`: its inputs are those of that commit."""
+    tree = CommitTree(root, commit)
+    entry = _entry(inputs(report, tree), tree.commit[:12])
+    _store(root, report, Measured(**entry))
+    return Measured(**entry)
+
+
+def _store(root: Path, report: Report, found: Measured) -> None:
+    entries = _read(root / DIGESTS)
+    entries[report.name] = {"digest": found.digest, "commit": found.commit, "folders": found.folders}
+    write_lines(root / DIGESTS, entries)
+
+
+def compared(report: Report, known: Measured | None, now: Inputs) -> Stale | None:
+    if known is None:
+        return Stale(report, ())
+    if known.digest == now.digest:
+        return None
+    return Stale(report, tuple(sorted(place for place in known.folders.keys() | now.folders.keys()
+                                      if known.folders.get(place) != now.folders.get(place))))
+
+
+def stale(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str, Stale]:
+    """By name, those whose inputs are not those that they were measured on."""
+    known = measured(root)
+    found: dict[str, Stale] = {}
+    for name, report in reports.items():
+        if one := compared(report, known.get(name), inputs(report, tree)):
+            found[name] = one
+    return found
+
+
+def changed_files(root: Path, one: Stale, tree: SourceTree) -> list[str]:
+    """The files behind the places, where git has the commit that the report was measured on."""
+    known = measured(root).get(one.report.name)
+    if known is None or not known.commit:
+        return []
+    try:
+        before = inputs(one.report, CommitTree(root, known.commit)).files
+    except subprocess.CalledProcessError:
+        return []
+    now = inputs(one.report, tree).files
+    return sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))
+
+
+# ---- Pages -----------------------------------------------------------------------------------------------
+
+def without_mark(text: str) -> str:
+    if not text.startswith(MARK):
+        return text
+    _, _, rest = text.partition("\n")
+    return rest.removeprefix("\n")
+
+
+def with_mark(text: str, one: Stale | None) -> str:
+    body = without_mark(text)
+    return body if one is None else f"{one.line}\n\n{body}"
+
+
+def unmarked_pages(root: Path, reports: dict[str, Report], found: dict[str, Stale]) -> list[str]:
+    """A sentence for each page whose first line is not what the inputs say."""
+    wrong = []
+    for name, report in reports.items():
+        for page in report.pages:
+            path = root / "reports" / page
+            if not path.is_file():
+                continue
+            text = path.read_text(encoding="utf-8")
+            if with_mark(text, found.get(name)) != text:
+                says = "is stale and its first line does not say so" if name in found and not text.startswith(MARK) else \
+                    "is fresh and its first line says that it is not" if name not in found else "does not say what changed"
+                wrong.append(f"reports/{page} {says}: run `make figures`")
+    return wrong
+
+
+def mark(root: Path, reports: dict[str, Report], found: dict[str, Stale]) -> list[str]:
+    """Writes the line into stale pages and takes it from fresh ones; the pages that changed."""
+    changed = []
+    for name, report in reports.items():
+        for page in report.pages:
+            path = root / "reports" / page
+            if not path.is_file():
+                continue
+            text = path.read_text(encoding="utf-8")
+            wanted = with_mark(text, found.get(name))
+            if wanted != text:
+                path.write_text(wanted, encoding="utf-8")
+                changed.append(f"reports/{page}")
+    return changed

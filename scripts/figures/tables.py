@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The figures of each report, read from the files that its command wrote. A page can quote these and no others.
+
+The name of a figure is `report.what.figure`; a read-out has its configuration's name there. To add figures of a report, add a
+function to MAKERS."""
+
+import csv
+import gzip
+import io
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent.parent / "synth"))
+
+from dtof_synth.configuration import Configuration, load  # noqa: E402
+
+from .store import Figure  # noqa: E402
+
+Figures = dict[str, Figure]
+
+
+class Tables:
+    """Tables of one report, and the names of its read-outs."""
+
+    def __init__(self, root: Path) -> None:
+        self.root = root
+        self.configurations: dict[str, Configuration] = load(root / "configurations.toml")
+        self.names = {one.title: name for name, one in self.configurations.items()}
+
+    def rows(self, name: str) -> list[dict[str, str]]:
+        content = (self.root / "reports" / name).read_bytes()
+        text = (gzip.decompress(content) if name.endswith(".gz") else content).decode("utf-8")
+        return list(csv.DictReader(io.StringIO(text, newline="")))
+
+    def page(self, name: str) -> str:
+        return (self.root / "reports" / name).read_text(encoding="utf-8")
+
+    def name(self, title: str) -> str:
+        """A word for the name of a figure."""
+        return self.names.get(title) or re.sub(r"\W+", "_", title.lower()).strip("_")
+
+
+def table_of(page: str, heading: str) -> list[dict[str, str]]:
+    """The first table below a heading of a Markdown page."""
+    _, found, text = page.partition(f"\n## {heading}\n")
+    if not found:
+        raise KeyError(f"no heading '{heading}'")
+    lines = []
+    for line in text.split("\n## ")[0].splitlines():
+        if line.startswith("|"):
+            lines.append([cell.strip() for cell in line.strip("|").split("|")])
+        elif lines:
+            break
+    header, _, *rows = lines
+    return [dict(zip(header, row)) for row in rows]
+
+
+def percent(share: str) -> str:
+    return f"{100 * float(share):.2f}"
+
+
+def interval(row: dict[str, str], column: str) -> tuple[str, str] | None:
+    low, high = row.get(f"{column}_low"), row.get(f"{column}_high")
+    return (percent(low), percent(high)) if low and high else None
+
+
+def synth(tables: Tables) -> Figures:
+    found: Figures = {}
+    for row in tables.rows("area.csv"):
+        name = f"area.{row['configuration']}"
+        found[f"{name}.array_mm2"] = Figure(row["total_mm2"], "mm2")
+        found[f"{name}.column_um2"] = Figure(row["column_um2"], "um2")
+        found[f"{name}.column_flip_flops"] = Figure(row["column_flip_flops"])
+        found[f"{name}.shared_mm2"] = Figure(f"{float(row['shared_um2']) / 1e6:.4f}", "mm2")
+        found[f"{name}.bits_per_pixel"] = Figure(row["bits_per_pixel"], "bits")
+    area = tables.page("area.md")
+    for row in table_of(area, "Placed"):
+        name = f"area.{tables.name(row['read-out, mm2'])}"
+        found[f"{name}.placed_mm2"] = Figure(row["placed"], "mm2")
+        found[f"{name}.placed_with_scan_and_clock_tree_mm2"] = Figure(row["placed with both"], "mm2")
+    for row in table_of(area, "What the area is made of"):
+        for part, value in list(row.items())[1:-1]:
+            found[f"area.{tables.name(row['read-out, mm2'])}.{tables.name(part)}_mm2"] = Figure(value, "mm2")
+    for row in table_of(area, "Signalled clear"):
+        found[f"area.{tables.name(row['read-out'])}.signalled_clear_mm2"] = Figure(row["with it"].split()[0], "mm2")
+    if costs := re.search(r"status bit an address costs ([\d.]+) um2", area):
+        found["area.signalled_clear.status_bit_um2"] = Figure(costs[1], "um2")
+    for row in tables.rows("timing.csv"):
+        name = f"timing.{row['configuration']}"
+        corner = row["corner"].replace(" ", "_")
+        found[f"{name}.{corner}_slack_ns"] = Figure(row["slack_330_ns"], "ns")
+        if row["fmax_mhz"]:
+            found[f"{name}.{corner}_fmax_mhz"] = Figure(row["fmax_mhz"], "MHz")
+    return found
+
+
+def growth(tables: Tables) -> Figures:
+    """Points of one parameter each."""
+    return {f"growth.{tables.name(row['readout'])}.{row['parameter'].lower()}_{row['value'].lower()}_mm2":
+            Figure(row["total_mm2"], "mm2") for row in tables.rows("growth.csv")}
+
+
+def power(tables: Tables) -> Figures:
+    """While acquisitions stream in."""
+    found: Figures = {}
+    for row in tables.rows("power.csv"):
+        if row["phase"] != "streaming":
+            continue
+        name = f"power.{row['configuration']}.{row['light']}"
+        found[f"{name}_mw"] = Figure(row["total_mw"], "mW")
+        for part in ("columns", "engines", "control", "sram", "clock", "leakage"):
+            found[f"{name}_{part}_mw"] = Figure(row[f"{part}_mw"], "mW")
+        found[f"{name}_frame_mj"] = Figure(row["frame_mj"], "mJ")
+    return found
+
+
+def frame(tables: Tables) -> Figures:
+    found: Figures = {}
+    for row in tables.rows("frame/summary.csv"):
+        name = f"frame.{tables.name(row['read-out'])}"
+        found[f"{name}.above_3_percent"] = Figure(row["above 3 %"].removesuffix(" %"), "%")
+        found[f"{name}.above_10_percent"] = Figure(row["above 10 %"].removesuffix(" %"), "%")
+        found[f"{name}.rmse_mm"] = Figure(row["rmse mm"], "mm")
+        found[f"{name}.cycles"] = Figure(row["cycles"], "clocks")
+    return found
+
+
+def pareto(tables: Tables) -> Figures:
+    found: Figures = {}
+    for row in tables.rows("pareto.csv"):
+        for light in ("indoor", "outdoor"):
+            found[f"pareto.{tables.name(row['title'])}.{light}_above_3_percent"] = \
+                Figure(percent(row[f"{light}_above_3_percent"]), "%")
+            found[f"pareto.{tables.name(row['title'])}.{light}_rmse_percent"] = \
+                Figure(percent(row[f"{light}_relative_rmse"]), "%")
+    return found
+
+
+QUOTED_SCENES = {("room", "14"), ("flat 1 m", "14"), ("flat 5 m", "14"), ("flat 5 m", "2")}
+QUOTED_ESTIMATORS = ("histogram", "matched filter (single pixel)")
+
+
+def scenes(tables: Tables) -> Figures:
+    """Of the preset thesis."""
+    found: Figures = {}
+    for row in tables.rows("scenes.csv"):
+        if next(iter(row.values())) == "thesis" and (row["scene"], row["klux"]) in QUOTED_SCENES \
+                and row["estimator"] in QUOTED_ESTIMATORS:
+            name = f"scenes.{tables.name(row['estimator'])}.{tables.name(row['scene'])}_{row['klux']}_klux"
+            for limit in ("3", "10"):
+                found[f"{name}_above_{limit}_percent"] = Figure(percent(row[f"above_{limit}_percent"]), "%")
+    return found
+
+
+def reproduction(tables: Tables) -> Figures:
+    """What pile-up takes of the events, near."""
+    here = {row["thesis"]: row["here"] for row in tables.rows("reproduction.csv")}["Fig. 2.4"]
+    lost = re.match(r"lost: ([\d.]+) % and ([\d.]+) %", here)
+    if lost is None:
+        raise KeyError(f"reports/reproduction.csv: Fig. 2.4 says '{here}', not what pile-up takes")
+    return {"reproduction.pile_up.lost_at_0_2_m_percent": Figure(lost[1], "%"),
+            "reproduction.pile_up.lost_at_0_5_m_percent": Figure(lost[2], "%")}
+
+
+QUOTED_RIVALS = {"32-bin histogram": "histogram_of_32_bins"}  # and their names as figures
+POOL_COLUMNS = {("held surface", "50"): ("edge_above_3_percent",), ("flat 5 m", "100"): ("above_10_percent",)}
+
+
+def rivals(tables: Tables) -> Figures:
+    """All scenes but the flats, of the read-outs and of what they are measured against."""
+    found: Figures = {}
+    for row in tables.rows("data/rivals.csv.gz"):
+        if row["scene"] == "all" and (row["kind"] != "rival" or row["estimator"] in QUOTED_RIVALS):
+            name = QUOTED_RIVALS.get(row["estimator"]) or tables.name(row["estimator"])
+            for column in ("above_3_percent", "above_10_percent", "single_above_10_percent"):
+                found[f"rivals.{name}.at_{row['klux']}_klux_{column}"] = \
+                    Figure(percent(row[column]), "%", interval(row, column))
+    return found
+
+
+def pool(tables: Tables) -> Figures:
+    """Scenes that are read badly."""
+    found: Figures = {}
+    for row in tables.rows("pool.csv"):
+        name = f"pool.{tables.name(row['estimator'])}.{tables.name(row['scene'])}_at_{row['klux']}_klux"
+        columns = POOL_COLUMNS.get((row["scene"], row["klux"]), ())
+        found |= {f"{name}_{column}": Figure(percent(row[column]), "%", interval(row, column)) for column in columns}
+    return found
+
+
+MAKERS: dict[str, Callable[[Tables], Figures]] = {
+    "synth": synth, "growth": growth, "power": power, "frame": frame, "pareto": pareto, "scenes": scenes,
+    "reproduction": reproduction, "rivals": rivals, "pool": pool}
+
+
+def figures(root: Path, report: str) -> Figures:
+    """What the report's files say now; nothing, if no page quotes it."""
+    make = MAKERS.get(report)
+    return make(Tables(root)) if make else {}
