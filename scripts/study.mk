@@ -12,8 +12,10 @@
 # make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
 # make pool-parts    area and power of each part of poolPointer 2, and the errors without it (20 minutes)
 # make pulse-widths  read-outs beside the matched filter for pulses of 8 to 90 bins (three minutes)
+# make dynamic-range  read-outs over acquisitions, sunlight and signal: does more light make one worse? (about 20 minutes; goes
+#                 on where it was interrupted; SMALL=1: a few cells, build/dynamic_range_small alone)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: claims pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims dynamic-range pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -76,6 +78,15 @@ pareto:
 
 trade: study
 	@/usr/bin/python3 scripts/trade.py $(DTOF_STUDY)
+
+dynamic-range: study
+ifeq ($(SMALL),1)
+	@$(DTOF_STUDY) dynamic-range --acquisitions 333 3333 33333 --klux 2 14 --signals 1 10 --seeds 2 --seed $(SEED) \
+	  --out build/dynamic_range_small
+else
+	@$(DTOF_STUDY) dynamic-range --seed $(SEED) --out build/dynamic_range
+	@scripts/publish.py dynamic_range
+endif
 
 walk-error: study
 	@$(DTOF_STUDY) walk --seed $(SEED) --out build/walk
