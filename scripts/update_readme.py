@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the results of README.md from the committed reports; --check only compares.
 
-Every figure was printed by a command of this tree: areas and clock by `make synth`, accuracy of the frame by `make`, why
-the full histogram is so bad by `make scenes` and `make reproduce`.
+Every figure was printed by a command of this tree: areas and clock by `make synth`, accuracy by `make frames`, why the full histogram is
+so bad by `make scenes` and `make reproduce`.
 """
 
 import csv
@@ -28,31 +28,33 @@ def rows(path: str) -> list[dict[str, str]]:
 def table() -> str:
     area = {row["configuration"]: row for row in rows("reports/area.csv")}
     slow = {row["configuration"]: row for row in rows("reports/timing.csv") if row["corner"] == "slow"}
-    accuracy = {row["read-out"]: row for row in rows("reports/frame/summary.csv")}
+    above_3 = {(row["sensor"], row["read-out"]): f"{100 * float(row['above_3_percent']):.2f} %"
+               for row in rows("reports/frames.csv")}
+    sensors = list(dict.fromkeys(sensor for sensor, _ in above_3))
     lines = [
         "| read-out | mm2, 200 columns | thesis mm2 | bits a pixel | logic um2 a column | fmax slow, MHz "
-        "| pixels off by > 3 % | > 10 % |",
-        "|---|---:|---:|---:|---:|---:|---:|---:|",
+        f"| pixels off by > 3 %: {' | '.join(sensors)} |",
+        "|---|" + "---:|" * (5 + len(sensors)),
     ]
     for name, configuration in load(ROOT / "configurations.toml").items():
         if configuration.variant_of or name not in area:
             continue
         a = area[name]
-        measured = accuracy.get(configuration.title, {})
         array = f"{float(a['total_mm2']):.2f}"
         if int(a["columns"]) * configuration["PIXELS_PER_SRAM"] != 32000:
             array += f" ({a['columns']} x {configuration['PIXELS_PER_SRAM']} pixels)"
         lines.append(
             f"| {configuration.title} | {array} | {a['thesis_mm2'] or '-'} | {a['bits_per_pixel']} "
             f"| {float(a['column_um2']):.0f} | {float(slow[name]['fmax_mhz']):.0f} "
-            f"| {measured.get('above 3 %', '-')} | {measured.get('above 10 %', '-')} |"
+            f"| {' | '.join(above_3.get((sensor, configuration.title), '-') for sensor in sensors)} |"
         )
     return "\n".join(lines) + "\n"
 
 
 def scene() -> str:
-    """What the table's accuracy was measured on: the first line of the frame's summary."""
-    first = (ROOT / "reports/frame/summary.md").read_text(encoding="utf-8").splitlines()[0]
+    """What the table's accuracy was measured on: the scene's line of the standard frames."""
+    lines = (ROOT / "reports/frames.md").read_text(encoding="utf-8").splitlines()
+    first = next(line for line in lines if line.startswith("Scene "))
     return (f"{first.removesuffix('.')}; after each read-out's look-up table from flat targets. Areas: generated 40 nm "
             "libraries, not sign-off.")
 

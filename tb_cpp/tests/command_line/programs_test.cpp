@@ -38,9 +38,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 12> kStudies = {
-      "claims",   "dynamic-range", "enlarge", "accuracy", "coverage",       "fidelity",
-      "measured", "reproduce",     "scenes",  "walk",     "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 13> kStudies = {
+      "claims",   "dynamic-range", "frames", "enlarge", "accuracy",       "coverage",   "fidelity",
+      "measured", "reproduce",     "scenes", "walk",    "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -682,6 +682,31 @@ TEST_F(Programs, DynamicRangeWritesItsReportAndTakesCellsThatAreDone) {
   expect_refused("dynamic-range --seeds 1 --out out", "seeds");
   expect_refused("dynamic-range --rows 161 --out out", "161 rows");
   expect_refused("dynamic-range --scene cellar --out out", "cellar");
+}
+
+TEST_F(Programs, FramesAreReadSideBySideAndCheckedInRtl) {
+  const auto sensor = [&](const std::string& name, int acquisitions) {
+    return file(
+        name + ".toml",
+        fmt::format("name = \"{}\"\n[array]\ncolumns = 34\nrows = 16\n[tdc]\nrange_ns = 45.0\n"
+                    "[laser]\nacquisitions = {}\npulse_fwhm_ns = 2.0\n[light]\nsignal_events_at_1m = 0.3\n"
+                    "background_events_per_klux = 0.01\n",
+                    name, acquisitions));
+  };
+  const std::string sensors = sensor("short", 40) + " " + sensor("long", 400);
+  const Outcome outcome =
+      dtof("frames --sensors " + sensors + " -r fifh,poolpointer2 --seeds 2 --rtl poolpointer2 --out frames");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string report = read_file(path("frames/frames.md"));
+  EXPECT_THAT(report, HasSubstr("Scene room: 34 x 16 pixels, 14 klux"));
+  EXPECT_THAT(report, HasSubstr("RTL with long: poolPointer 2, "));
+  EXPECT_THAT(report, HasSubstr("every pixel equal to the model"));
+  const std::string csv = read_file(path("frames/frames.csv"));
+  EXPECT_THAT(csv, HasSubstr("\nshort,fifh,FiFH,40,1088,"));
+  EXPECT_THAT(csv, HasSubstr("\nlong,poolpointer2,poolPointer 2,400,1088,"));
+  expect_refused("frames --seeds 1 --out out", "seeds");
+  expect_refused("frames --sensors nosensor --out out", "nosensor");
+  expect_refused("frames --rtl nothing --out out", "nothing");
 }
 
 TEST_F(Programs, VideoReadsItsDefaultReadoutsAndWritesItsReportAndPictures) {
