@@ -40,9 +40,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 11> kStudies = {
-      "claims",    "enlarge", "accuracy", "coverage",       "fidelity",   "measured",
-      "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 13> kStudies = {
+      "claims",   "dynamic-range", "frames", "enlarge", "accuracy",       "coverage",   "fidelity",
+      "measured", "reproduce",     "scenes", "walk",    "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -673,6 +673,67 @@ TEST_F(Programs, WalkWritesItsReportAndPicture) {
   expect_refused("walk --binning 2 --out out", "binning");
   expect_refused("walk --reflectivities 0 1 --out out", "reflectivity");
   expect_refused("walk --distances 0 --out out", "distance");
+}
+
+TEST_F(Programs, DynamicRangeWritesItsReportAndTakesCellsThatAreDone) {
+  const std::string command =
+      "dynamic-range -r coarsehistogram,poolpointer2 --count-width 4 -a 30 3000 -k 2 --signals 1 --seeds 2 "
+      "--rows 8 "
+      "--scene room --out range";
+  const Outcome outcome = dtof(command);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("The report is"));
+  const std::string report = read_file(path("range/dynamic_range.md"));
+  EXPECT_THAT(report, HasSubstr("More acquisitions made a pool read-out worse"));
+  EXPECT_THAT(report, HasSubstr("## Full counters"));
+  EXPECT_THAT(read_file_or_gzip(path("range/data/dynamic_range.csv.gz")),
+              HasSubstr("\npoolpointer2,grid,1,2,3000,544,"));
+  EXPECT_GT(std::filesystem::file_size(path("range/dynamic_range.svg")), 0U);
+
+  std::filesystem::path cells;
+  for (const auto& entry : std::filesystem::directory_iterator(path("range"))) {
+    cells = entry.path().filename().string().starts_with("cells_") ? entry.path() : cells;
+  }
+  const std::filesystem::path cell = cells / "grid_1_2_3000_0.csv";
+  const auto written = std::filesystem::last_write_time(cell);
+  ASSERT_EQ(dtof(command).exit_code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(cell), written);
+  EXPECT_EQ(read_file(path("range/dynamic_range.md")), report);
+  const Outcome other = dtof(command + " --seed 2");
+  EXPECT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_EQ(std::filesystem::last_write_time(cell), written) << "other settings have other cells";
+  EXPECT_NE(read_file(path("range/dynamic_range.md")), report);
+
+  expect_refused("dynamic-range -a 65536 --out out", "acquisitions");
+  expect_refused("dynamic-range --signals 0 --out out", "signals");
+  expect_refused("dynamic-range --seeds 1 --out out", "seeds");
+  expect_refused("dynamic-range --rows 161 --out out", "161 rows");
+  expect_refused("dynamic-range --scene cellar --out out", "cellar");
+}
+
+TEST_F(Programs, FramesAreReadSideBySideAndCheckedInRtl) {
+  const auto sensor = [&](const std::string& name, int acquisitions) {
+    return file(
+        name + ".toml",
+        fmt::format("name = \"{}\"\n[array]\ncolumns = 34\nrows = 16\n[tdc]\nrange_ns = 45.0\n"
+                    "[laser]\nacquisitions = {}\npulse_fwhm_ns = 2.0\n[light]\nsignal_events_at_1m = 0.3\n"
+                    "background_events_per_klux = 0.01\n",
+                    name, acquisitions));
+  };
+  const std::string sensors = sensor("short", 40) + " " + sensor("long", 400);
+  const Outcome outcome =
+      dtof("frames --sensors " + sensors + " -r fifh,poolpointer2 --seeds 2 --rtl poolpointer2 --out frames");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string report = read_file(path("frames/frames.md"));
+  EXPECT_THAT(report, HasSubstr("Scene room: 34 x 16 pixels, 14 klux"));
+  EXPECT_THAT(report, HasSubstr("RTL with long: poolPointer 2, "));
+  EXPECT_THAT(report, HasSubstr("every pixel equal to the model"));
+  const std::string csv = read_file(path("frames/frames.csv"));
+  EXPECT_THAT(csv, HasSubstr("\nshort,fifh,FiFH,40,1088,"));
+  EXPECT_THAT(csv, HasSubstr("\nlong,poolpointer2,poolPointer 2,400,1088,"));
+  expect_refused("frames --seeds 1 --out out", "seeds");
+  expect_refused("frames --sensors nosensor --out out", "nosensor");
+  expect_refused("frames --rtl nothing --out out", "nothing");
 }
 
 TEST_F(Programs, VideoReadsItsDefaultReadoutsAndWritesItsReportAndPictures) {
