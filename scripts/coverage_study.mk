@@ -6,8 +6,8 @@
 coverage-study: study
 	@scripts/reports.py begin coverage_study
 	@all_hold=true; \
-	$(DTOF_STUDY) coverage --frames 100 1000 --seed $(SEED) --out build/coverage_study || all_hold=false; \
-	$(DTOF_STUDY) coverage --klux 14 50 --distances 1 4 --frames 10000 --other-calibrations 0 --seed $(SEED) \
+	$(DTOF_STUDY) coverage --readout thesis --frames 100 1000 --seed $(SEED) --out build/coverage_study || all_hold=false; \
+	$(DTOF_STUDY) coverage --readout thesis --klux 14 50 --distances 1 4 --frames 10000 --other-calibrations 0 --seed $(SEED) \
 	  --name coverage_study_long --out build/coverage_study || all_hold=false; \
 	$(DTOF_STUDY) coverage --readout poolpointer2,poolpointer2-lean --klux 50 --distances 3 --frames 100 200 \
 	  --other-calibrations 0 --seed $(SEED) --name coverage_study_pool --out build/coverage_study || all_hold=false; \

@@ -228,17 +228,17 @@ enum class Readout : int {{
 {chr(10).join(f"  k{readout.enumerator} = {i}," for i, readout in enumerate(readouts))}
 }};
 
+/// All.
+inline constexpr std::array<Readout, {len(readouts)}> kAllReadouts = {{
+    {array(readouts)}}};
+
 /// Those of the thesis.
-inline constexpr std::array<Readout, {len(thesis)}> kAllReadouts = {{
+inline constexpr std::array<Readout, {len(thesis)}> kThesisReadouts = {{
     {array(thesis)}}};
 
 /// Those that have RTL, in dtof_array or an array of their own.
 inline constexpr std::array<Readout, {len(hardware)}> kRtlReadouts = {{
     {array(hardware)}}};
-
-/// All.
-inline constexpr std::array<Readout, {len(readouts)}> kModelReadouts = {{
-    {array(readouts)}}};
 
 /// Command-line name: {", ".join(readout.name for readout in readouts)}.
 std::string_view readout_name(Readout readout);
@@ -306,7 +306,7 @@ struct Description {{
   std::array<std::string_view, {most}> choices;  // empty ones are none
 }};
 
-constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{{{
+constexpr std::array<Description, kAllReadouts.size()> kDescriptions = {{{{
 {rows},
 }}}};
 

@@ -25,7 +25,7 @@ for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time ho
   fi
   sensors+=("$folder/$name.toml")
 done
-"$dtof" sensor-effects "${sensors[@]}" --seed "$seed" --out "$folder"
+"$dtof" sensor-effects "${sensors[@]}" -r thesis --seed "$seed" --out "$folder"
 # An independent pixel of poolPointer 2 takes a whole column: fewer frames, one light.
 "$dtof" sensor-effects "${sensors[@]}" -r poolpointer2 --klux 14 --frames 200 --seed "$seed" --out "${folder}_pool"
 if [ "$complete" = yes ]; then

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+import re
 import sys
 import unittest
 from pathlib import Path
@@ -55,9 +56,10 @@ class Descriptions(unittest.TestCase):
         table = readouts.parse(TEXT + model_only)
         self.assertIn("return make_first_photon(parameters);", generate.model_table(table))
         self.assertIn("kFirstPhoton = 11,", generate.cpp_header(table))
-        hardware, models = generate.cpp_header(table).split("kRtlReadouts")[1].split("kModelReadouts")
+        everything, thesis, hardware = re.split("k(?:Thesis|Rtl)Readouts", generate.cpp_header(table).split("kAllReadouts")[1])
+        self.assertIn("kFirstPhoton", everything)
+        self.assertNotIn("kFirstPhoton", thesis)
         self.assertNotIn("kFirstPhoton", hardware)
-        self.assertIn("kFirstPhoton", models)
         for text in (generate.systemverilog(table), generate.columns(table)):
             self.assertNotIn("FIRSTPHOTON", text)
         self.assertNotIn("DTOF_TOP_firstphoton", generate.cmake(table))

@@ -155,7 +155,7 @@ class Sources(Folder):
 
 
 class Pages(Folder):
-    SUMMARY = "read-out,rmse mm,bias mm,bias before table mm,above 3 %,above 10 %,cycles\nSiFH,478,-75,-114,40.56 %,5.35 %,1\n"
+    SUMMARY = "read-out,rmse mm,bias mm,bias before table mm,above 3 %,above 10 %,no distance,cycles\nSiFH,478,-75,-114,40.56 %,5.35 %,0.02 %,1\n"
 
     def test_without_any_report_each_section_names_its_command(self) -> None:
         wrong, out = self.site()

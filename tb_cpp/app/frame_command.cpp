@@ -308,6 +308,22 @@ Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& op
   return table;
 }
 
+/// What array the cycles are of; empty for the model. Arrays may differ with the read-out.
+std::string cycles_sentence(const std::vector<MeasuredFrame>& frames) {
+  std::vector<std::string> arrays;
+  for (const MeasuredFrame& frame : frames) {
+    if (!frame.run.array.empty() && std::ranges::find(arrays, frame.run.array) == arrays.end()) {
+      arrays.push_back(frame.run.array);
+    }
+  }
+  if (arrays.empty()) {
+    return "";
+  }
+  const bool one = arrays.size() == 1;
+  return fmt::format("Cycles: clocks of a frame in an array of {}{}.\n\n", fmt::join(arrays, ", or "),
+                     one ? "" : ", as it is simulated");
+}
+
 /// What --precision came to; empty without it.
 std::string precision_sentence(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
   if (!options.precision_percent) {
@@ -426,8 +442,9 @@ void run_frame_command(const FrameOptions& options) {
       options.sensor.klux, sensor.name, sensor.acquisitions, fidelity_name(fidelity), options.run.engine,
       options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
       judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
-  const std::string body = fmt::format("{}\n{}\n{}\n\n{}", heading, table.markdown(),
-                                       table_sentence(rule, sensor, options.run.seed), precision);
+  const std::string body =
+      fmt::format("{}\n{}\n{}{}\n\n{}", heading, table.markdown(), cycles_sentence(frames),
+                  table_sentence(rule, sensor, options.run.seed), precision);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}Command: `{}`\n", body, options.command_line));

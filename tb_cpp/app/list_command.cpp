@@ -19,7 +19,7 @@ void add_list_command(CLI::App& app) {
       app.add_subcommand("list", "Shows read-outs, presets of sensors, scenes and compiled hardware");
   command->callback([] {
     fmt::print("Read-outs (--readout):\n");
-    for (const Readout readout : kModelReadouts) {
+    for (const Readout readout : kAllReadouts) {
       fmt::print("  {:<16} {}\n", readout_name(readout), readout_summary(readout));
       fmt::print("  {:<16}   defaults: {}\n", "", ReadoutParameters::defaults(readout).to_string());
     }

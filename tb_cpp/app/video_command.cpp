@@ -19,6 +19,7 @@
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "core/error.hpp"
+#include "frame/frame_truth.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
 #include "metrics/confidence_interval.hpp"
@@ -286,7 +287,7 @@ class DepthSheet {
 
 void run_video_command(const VideoOptions& options) {
   const std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(kModelReadouts, options.sensor.described());
+      options.readout.parameters(kAllReadouts, options.sensor.described());
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
   std::vector<Video> videos;
   for (const std::string& scene : options.scenes) {
@@ -302,7 +303,8 @@ void run_video_command(const VideoOptions& options) {
       sequence.speed = options.speed;
       sequence.klux = options.sensor.klux;
       if (has_motion(sequence.scene, sequence.motion)) {
-        (void)sequence_frame(sequence, 0);  // what is wrong is said before hours of work
+        // What is wrong is said before hours of work.
+        require_reachable(sequence_frame(sequence, 0).targets, sensor, "--scene " + scene);
         videos.push_back({sequence, {}});
       }
     }
@@ -364,6 +366,7 @@ void run_video_command(const VideoOptions& options) {
         ". Seeds differ in photons and random shapes; +- is half of a change's 95 % interval, from their "
         "spread";
   }
+  report += fmt::format(". Pixels beyond {} are not judged", range_phrase(sensor));
   report += fmt::format(".\n\nMotions, {:g} columns, degrees or centimetres per frame:\n\n", options.speed);
   for (const std::string& motion : options.motions) {
     report += fmt::format("* {}: {}.\n", motion, motion_summary(parse_motion(motion)));

@@ -34,8 +34,7 @@ void ReadoutOptions::add_to(CLI::App& command) {
   group
       ->add_option(
           "-r,--readout", readouts,
-          "read-outs to run: all (accuracy: those of the thesis), or names from `dtof list`, separated by\n"
-          "commas")
+          "read-outs to run: all, thesis (its eight), or names from `dtof list`, separated by commas")
       ->take_last()
       ->capture_default_str();
   group->add_option("--np", np, "NP, bits of a timestamp (default: the sensor's, 10 for a recording)");
@@ -63,6 +62,8 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
   for (const std::string& name : CLI::detail::split(readouts, ',')) {
     if (name == "all") {
       chosen.insert(chosen.end(), all.begin(), all.end());
+    } else if (name == "thesis") {
+      chosen.insert(chosen.end(), kThesisReadouts.begin(), kThesisReadouts.end());
     } else {
       chosen.push_back(parse_readout(name));
     }

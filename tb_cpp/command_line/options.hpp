@@ -33,7 +33,8 @@ struct ReadoutOptions {
   void add_to(CLI::App& command);
   /// Whether "all" is all that is asked for.
   [[nodiscard]] bool all() const { return readouts == "all"; }
-  /// One set of parameters for each read-out asked for; "all" stands for those of `all`. Throws InputError,
+  /// One set of parameters for each read-out asked for; "all" stands for those of `all`, "thesis" for
+  /// kThesisReadouts. Throws InputError,
   /// also for an override that none of the read-outs has. What no option says is that of default_parameters
   /// (sensor/default_parameters.hpp).
   [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all,

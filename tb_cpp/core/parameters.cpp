@@ -38,7 +38,7 @@ void require_range(std::string_view name, int value, int lowest, int highest) {
 
 Readout parse_readout(std::string_view name) {
   std::vector<std::string_view> known;
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kAllReadouts) {
     if (readout_name(readout) == name) {
       return readout;
     }

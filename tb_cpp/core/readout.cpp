@@ -20,7 +20,7 @@ struct Description {
   std::array<std::string_view, 6> choices;  // empty ones are none
 };
 
-constexpr std::array<Description, kModelReadouts.size()> kDescriptions = {{
+constexpr std::array<Description, kAllReadouts.size()> kDescriptions = {{
     {"ezpointer", "ezPointer",
      "one pointer a pixel steps towards each timestamp: a circular median",
      true, false, false, true,

@@ -23,19 +23,8 @@ enum class Readout : int {
   kPoolPointer2Lean = 10,
 };
 
-/// Those of the thesis.
-inline constexpr std::array<Readout, 8> kAllReadouts = {
-    Readout::kEzPointer,
-    Readout::kHisPointer1,
-    Readout::kHisPointer,
-    Readout::kSifh,
-    Readout::kFifh,
-    Readout::kThreeSteps,
-    Readout::kPifh,
-    Readout::kHistogram};
-
-/// Those that have RTL, in dtof_array or an array of their own.
-inline constexpr std::array<Readout, 11> kRtlReadouts = {
+/// All.
+inline constexpr std::array<Readout, 11> kAllReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
     Readout::kHisPointer,
@@ -48,8 +37,19 @@ inline constexpr std::array<Readout, 11> kRtlReadouts = {
     Readout::kPoolPointer2,
     Readout::kPoolPointer2Lean};
 
-/// All.
-inline constexpr std::array<Readout, 11> kModelReadouts = {
+/// Those of the thesis.
+inline constexpr std::array<Readout, 8> kThesisReadouts = {
+    Readout::kEzPointer,
+    Readout::kHisPointer1,
+    Readout::kHisPointer,
+    Readout::kSifh,
+    Readout::kFifh,
+    Readout::kThreeSteps,
+    Readout::kPifh,
+    Readout::kHistogram};
+
+/// Those that have RTL, in dtof_array or an array of their own.
+inline constexpr std::array<Readout, 11> kRtlReadouts = {
     Readout::kEzPointer,
     Readout::kHisPointer1,
     Readout::kHisPointer,

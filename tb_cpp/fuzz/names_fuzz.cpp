@@ -36,11 +36,11 @@ void read(const std::uint8_t* data, std::size_t size) {
        {&options.nb, &options.slots, &options.count_width, &options.pointer_step, &options.fraction_bits,
         &options.confidence_width, &options.guard, &options.cell_shift}) {
     *option = value;
-    attempt([&] { (void)options.parameters(dtof::kModelReadouts); });
+    attempt([&] { (void)options.parameters(dtof::kAllReadouts); });
     option->reset();
   }
   options.code_gate = {data[2], data[3]};
-  (void)options.parameters(dtof::kModelReadouts);
+  (void)options.parameters(dtof::kAllReadouts);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace dtof {
 
 std::string playground_catalogue() {
   std::string text;
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kAllReadouts) {
     text += fmt::format("readout\t{}\t{}\t{}\n", readout_name(readout), readout_title(readout),
                         readout_summary(readout));
   }

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/select_columns.hpp"
+#include "rtl/frame_clocks.hpp"
 #include "rtl/registry.hpp"
 
 namespace dtof {
@@ -139,20 +140,26 @@ RtlSourceFrame run_frame_rtl(const StreamSource& source, const ReadoutParameters
   const bool waveform = !options.trace.empty();
   const std::vector<RtlConfiguration> arrays =
       find_rtl_configurations(parameters, source.rows(), source.columns(), selected, waveform);
+  // That of the most columns, whose frame is the longest.
+  const RtlConfiguration& widest = *std::ranges::max_element(arrays, {}, &RtlConfiguration::sram_num);
+  const auto with_clocks = [&](RtlSourceFrame frame) {
+    frame.clocks = frame_clocks(widest, frame.statistics, source.columns());
+    return frame;
+  };
   if (parameters.columns_together() > 1) {
-    return run_frame_by_engines(
+    return with_clocks(run_frame_by_engines(
         source, selected, column_groups(selected, parameters.columns_together(), source.columns()), threads,
         [&](std::size_t engine, std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
           return RtlReadout(arrays[engine]).run(streams, acquisitions, options);
         },
-        progress);
+        progress));
   }
-  return run_frame_in_groups(
+  return with_clocks(run_frame_in_groups(
       source, arrays.front(), threads, selected, !waveform,
       [&](std::span<const ColumnStream> streams, std::uint32_t acquisitions) {
         return RtlReadout(arrays.front()).run(streams, acquisitions, options);
       },
-      progress);
+      progress));
 }
 
 }  // namespace dtof

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct RtlSourceFrame {
   std::vector<PixelResult> results;          ///< index = row * n + i for the i-th of n columns read
   std::vector<std::uint64_t> result_cycles;  ///< clock of each result within its column group; same index
   RtlStatistics statistics;                  ///< sum over the column groups; `cycles` of the longest
+  /// Clocks of a frame in an array of all the source's columns; nothing if the columns read are of a pool
+  /// read-out's last engine alone, which has fewer columns than the others. Only of run_frame_rtl().
+  std::optional<std::uint64_t> clocks;
 };
 
 /// The compiled arrays that read the columns `selected` of a source of `source_columns` columns and `rows`

@@ -47,6 +47,10 @@ void verify_subsystem(const StreamSource& source, const ReadoutParameters& param
   }
 }
 
+std::string array_phrase(int columns, int rows) {
+  return fmt::format("{} columns of {} rows", columns, rows);
+}
+
 }  // namespace
 
 void check_engine(const StreamSource& source, std::span<const ReadoutParameters> readouts,
@@ -111,6 +115,9 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
     const RtlSourceFrame frame =
         run_frame_subsystem(*array.source, parameters, options.threads, columns, &progress);
     run.cycles = frame.statistics.cycles;
+    const RtlConfiguration& simulated =
+        find_subsystems(parameters, array.source->rows(), source.columns(), columns).front().configuration;
+    run.array = array_phrase(simulated.sram_num, simulated.pixels_per_sram);
     if (options.verify) {
       verify_subsystem(*array.source, parameters, options, columns, frame, command);
     }
@@ -122,7 +129,12 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
     rtl_options.trace = options.trace;
     const RtlSourceFrame frame =
         run_frame_rtl(*array.source, parameters, options.threads, columns, rtl_options, &progress);
-    run.cycles = frame.statistics.cycles;
+    run.cycles = frame.clocks.value_or(0);
+    run.array = array_phrase(
+        source.columns(), find_rtl_configurations(parameters, array.source->rows(), source.columns(), columns,
+                                                  !options.trace.empty())
+                              .front()
+                              .pixels_per_sram);
     finish(frame.results);
     if (options.verify) {
       const std::string difference = check_source_frame(

@@ -17,7 +17,8 @@ namespace dtof {
 /// A frame read out by the chosen engine.
 struct ReadoutRun {
   std::vector<PixelResult> results;  ///< of the region, as Region says
-  std::uint64_t cycles = 0;          ///< clocks of the frame; 0 for the model
+  std::uint64_t cycles = 0;          ///< clocks of a frame in `array`; 0 for the model, or if not known
+  std::string array;                 ///< "200 columns of 160 rows"; empty for the model
   double seconds = 0.0;              ///< wall time, photon generation included
 };
 

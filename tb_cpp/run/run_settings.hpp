@@ -25,7 +25,7 @@ struct RunSettings {
   [[nodiscard]] bool hardware() const { return rtl() || subsystem(); }
   /// What the engine can read out.
   [[nodiscard]] std::span<const Readout> readouts() const {
-    return hardware() ? std::span<const Readout>(kRtlReadouts) : std::span<const Readout>(kModelReadouts);
+    return hardware() ? std::span<const Readout>(kRtlReadouts) : std::span<const Readout>(kAllReadouts);
   }
 };
 

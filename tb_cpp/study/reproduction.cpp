@@ -41,7 +41,7 @@ class Measuring {
   }
 
   Reproduction run() {
-    result_.studies = thesis_studies(base_, kAllReadouts, true);
+    result_.studies = thesis_studies(base_, kThesisReadouts, true);
     more_frames();
     figures();
     guards();
@@ -257,7 +257,7 @@ class Measuring {
     }
     StudySettings settings = base_;
     settings.klux = 50.0;
-    settings.readouts = defaults_of(kAllReadouts, settings.sensor.slots);
+    settings.readouts = defaults_of(kThesisReadouts, settings.sensor.slots);
     settings.calibration_step_m = 0.1;
     result_.margins = array_margins(settings, result_.array_sizes);
     settings.distances_m = thesis_distances();

@@ -14,6 +14,7 @@
 #include "command_line/own_map.hpp"
 #include "core/error.hpp"
 #include "frame/flat_calibration.hpp"
+#include "frame/frame_truth.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
 #include "photon/photon_source.hpp"
@@ -308,6 +309,7 @@ void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
   const StudySettings sweep = settings_of(without_distances);
   OwnMap map = read_own_map(options.maps, options.map_scales, sweep.sensor.columns, sweep.sensor.rows,
                             sweep.reflectivity);
+  require_reachable(map.targets, sweep.sensor, options.maps.depth, true);
   MapAccuracySettings settings;
   settings.sensor = sweep.sensor;
   settings.targets = std::move(map.targets);

@@ -32,7 +32,7 @@ void run_fidelity_command(const FidelityOptions& options) {
   settings.frames = options.frames;
   settings.seed = options.seed;
   settings.threads = options.threads;
-  for (const Readout readout : kAllReadouts) {
+  for (const Readout readout : kThesisReadouts) {
     settings.readouts.push_back(readout);
   }
   for (const Scene scene : kAllScenes) {

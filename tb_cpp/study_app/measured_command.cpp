@@ -408,7 +408,6 @@ void run_measured_command(const MeasuredOptions& options) {
 void add_measured_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<MeasuredOptions>();
   options->command_line = command_line;
-  options->readout.readouts = "all,coarsehistogram,poolpointer2,poolpointer2-lean";
   CLI::App* command = app.add_subcommand(
       "measured", "Read-outs compared on measured data: a TMF8829 log, or photon times of two surfaces");
   command->add_option("file", options->file, "TMF8829 log (JSON), or with --surfaces photon times (MAT)")

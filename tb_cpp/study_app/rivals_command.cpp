@@ -115,7 +115,7 @@ class Comparison {
   static std::vector<ReadoutParameters> parameters(const RivalsOptions& options, const SensorModel& sensor) {
     ReadoutOptions plain;
     plain.readouts = options.readouts;
-    return plain.parameters(kModelReadouts, sensor);
+    return plain.parameters(kAllReadouts, sensor);
   }
 
   std::vector<ReadoutParameters> readouts_;

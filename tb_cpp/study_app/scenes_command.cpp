@@ -184,7 +184,7 @@ std::string file_name(std::string text) {
 std::vector<ReadoutParameters> parse_readouts(const ScenesOptions& options, const SensorModel& sensor) {
   ReadoutOptions plain;
   plain.readouts = options.readouts;
-  std::vector<ReadoutParameters> readouts = plain.parameters(kModelReadouts, sensor);
+  std::vector<ReadoutParameters> readouts = plain.parameters(kAllReadouts, sensor);
   for (const std::string& text : options.variants) {
     readouts.push_back(parse_variant(text, sensor));
   }

@@ -184,7 +184,7 @@ void write_picture(const std::filesystem::path& path, const std::vector<WalkRead
 
 void run_walk_command(const WalkOptions& options) {
   WalkSettings settings;
-  settings.readouts = options.readout.parameters(kModelReadouts, options.sensor.described());
+  settings.readouts = options.readout.parameters(kAllReadouts, options.sensor.described());
   settings.sensor = options.sensor.model(settings.readouts.front().np, settings.readouts.front().slots);
   settings.klux = options.sensor.klux;
   settings.reflectivities = options.reflectivities;

@@ -7,6 +7,7 @@
 
 #include "core/parallel.hpp"
 #include "frame/flat_calibration.hpp"
+#include "frame/frame_truth.hpp"
 #include "readout/model.hpp"
 
 namespace dtof {
@@ -111,7 +112,7 @@ std::vector<std::vector<ErrorShares>> VideoReader::read(const Sequence& sequence
       for (std::size_t pixel = 0; pixel < distance_m.size(); ++pixel) {
         const PixelTarget& target =
             seen.targets.at(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
-        if (target.returns_signal()) {
+        if (target.returns_signal() && target.depth_m < sensor_range_m(sensor_)) {
           counter.add(target.depth_m, distance_m[pixel]);
         }
       }

@@ -73,13 +73,7 @@ TEST_P(CodeDistribution, FollowsOptionsOfTheReadout) {
             kErrorRate);
 }
 
-std::vector<Readout> single_pixel_readouts() {
-  std::vector<Readout> readouts;
-  std::ranges::remove_copy_if(kAllReadouts, std::back_inserter(readouts), is_pool_readout);
-  return readouts;
-}
-
-INSTANTIATE_TEST_SUITE_P(Readouts, CodeDistribution, ::testing::ValuesIn(single_pixel_readouts()),
+INSTANTIATE_TEST_SUITE_P(Readouts, CodeDistribution, ::testing::ValuesIn(kThesisReadouts),
                          [](const auto& parameter) { return std::string(readout_name(parameter.param)); });
 
 TEST(PredictedErrors, AreThoseOfTheSameDrawnErrors) {

@@ -29,7 +29,7 @@ FidelityRequest sampled(double tolerance, std::span<const Readout> readouts) {
 
 TEST(Fidelity, AutoTakesTheFastSamplerWhereItsLimitIsWithinTheTolerance) {
   const PhotonSource scene = flat(1.0);
-  for (const Readout readout : kAllReadouts) {
+  for (const Readout readout : kThesisReadouts) {
     const std::span<const Readout> one(&readout, 1);
     const double limit = fast_sampler_difference(readout);
     EXPECT_GT(limit, 0.0);
@@ -42,12 +42,12 @@ TEST(Fidelity, AutoTakesTheFastSamplerWhereItsLimitIsWithinTheTolerance) {
 
 TEST(Fidelity, AutoKeepsTheToleranceForEveryReadoutOfTheFrame) {
   double largest = 0.0;
-  for (const Readout readout : kAllReadouts) {
+  for (const Readout readout : kThesisReadouts) {
     largest = std::max(largest, fast_sampler_difference(readout));
   }
-  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(largest, kAllReadouts)), Fidelity::kFast);
-  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(0.999 * largest, kAllReadouts)), Fidelity::kExact);
-  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, kModelReadouts)), Fidelity::kExact)
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(largest, kThesisReadouts)), Fidelity::kFast);
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(0.999 * largest, kThesisReadouts)), Fidelity::kExact);
+  EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, kAllReadouts)), Fidelity::kExact)
       << "poolPointer 2's differences were not measured";
 }
 
@@ -91,7 +91,7 @@ TEST(Fidelity, OnlyTheExactModelHasADeadTime) {
 
 TEST(Fidelity, AutoNeverTakesAModelWithoutNoise) {
   for (const double depth : {0.0, 1.0, 5.0}) {
-    EXPECT_NE(choose_fidelity(flat(depth), sampled(1e9, kAllReadouts)), Fidelity::kAnalytic);
+    EXPECT_NE(choose_fidelity(flat(depth), sampled(1e9, kThesisReadouts)), Fidelity::kAnalytic);
   }
 }
 
@@ -101,7 +101,7 @@ TEST(Fidelity, NamesAndRefusals) {
     EXPECT_EQ(parse_fidelity(fidelity_name(fidelity), scene, {}), fidelity);
     EXPECT_EQ(make_source(fidelity, scene)->columns(), 20);
   }
-  EXPECT_EQ(parse_fidelity("auto", scene, sampled(1.0, kAllReadouts)), Fidelity::kFast);
+  EXPECT_EQ(parse_fidelity("auto", scene, sampled(1.0, kThesisReadouts)), Fidelity::kFast);
   try {
     parse_fidelity("quick", scene, {});
     FAIL();
@@ -109,7 +109,7 @@ TEST(Fidelity, NamesAndRefusals) {
     EXPECT_THAT(error.what(), ::testing::HasSubstr("'quick': known are exact, fast, analytic and auto"));
   }
   for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(parse_fidelity("auto", scene, sampled(bad, kAllReadouts)), InputError);
+    EXPECT_THROW(parse_fidelity("auto", scene, sampled(bad, kThesisReadouts)), InputError);
   }
 }
 

@@ -463,10 +463,7 @@ std::vector<StabilityResult> check_peaks() {
 StabilityResult check_distributions() {
   Largest largest;
   for (const int np : {4, 7, 10}) {
-    for (const Readout readout : kAllReadouts) {
-      if (is_pool_readout(readout)) {
-        continue;
-      }
+    for (const Readout readout : kThesisReadouts) {
       const ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
       for (const double signal : {0.0, 1e-9, 0.03, 480.0}) {
         for (const double background : {0.0, 1e-12, 2.1}) {

@@ -562,6 +562,26 @@ TEST_F(Programs, FrameAndScenesGiveTheSameFiguresAndNameTheirTable) {
   expect_refused("scenes --table round --out out", "--table");
 }
 
+TEST_F(Programs, CyclesAreThoseOfTheWholeArrayWhateverIsRead) {
+  const auto cycles = [&](const std::string& options, const char* title) {
+    const Outcome outcome = dtof("frame --engine rtl --table none -a 20 --out out " + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
+    return csv_cell(read_file(path("out/summary.csv")), title, "cycles");
+  };
+  const std::string one = cycles("-r ezpointer --columns 7", "ezPointer");
+  EXPECT_EQ(cycles("-r ezpointer --columns 0-39", "ezPointer"), one);
+  EXPECT_THAT(read_file(path("out/summary.md")),
+              HasSubstr("\n\nCycles: clocks of a frame in an array of 200 columns of 160 rows.\n\n"));
+  // 20 acquisitions of 160 pixels and 2 slots; a row of 200 results takes more clocks than its columns.
+  EXPECT_GT(std::stoi(one), 160 * (2 * 20 + 200));
+  EXPECT_LT(std::stoi(one), 160 * (2 * 20 + 210));
+  EXPECT_LT(std::stoi(cycles("-r ezpointer --array-columns 20 --columns 7", "ezPointer")),
+            std::stoi(one) - 160 * 170);
+  // Of a pool read-out the last engine is narrower, and does not tell how long the others take.
+  EXPECT_NE(cycles("-r poolpointer2 --columns 0", "poolPointer 2"), "-");
+  EXPECT_EQ(cycles("-r poolpointer2 --columns 199", "poolPointer 2"), "-");
+}
+
 TEST_F(Programs, FrameSaysHowLongTheLookUpTableTook) {
   // 45 distances of 160 pixels take much longer than 2 x 2 pixels.
   const std::string frame = "frame -r histogram --array-columns 2 --array-rows 2 --out out ";

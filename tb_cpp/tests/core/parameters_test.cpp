@@ -63,24 +63,25 @@ TEST(ReadoutNames, UnknownNameListsTheKnownOnes) {
 
 TEST(ReadoutNames, PointerReadouts) {
   for (const Readout readout : kAllReadouts) {
-    const bool expected = std::string(readout_name(readout)).find("pointer") != std::string::npos;
+    const bool expected =
+        std::string(readout_name(readout)).find("pointer") != std::string::npos && !is_pool_readout(readout);
     EXPECT_EQ(is_pointer_readout(readout), expected) << readout_name(readout);
   }
 }
 
 TEST(ReadoutNames, EveryReadoutHasItsOwn) {
   std::set<std::string_view> names;
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kAllReadouts) {
     EXPECT_EQ(parse_readout(readout_name(readout)), readout);
     EXPECT_FALSE(readout_title(readout).empty());
     EXPECT_FALSE(readout_summary(readout).empty());
     names.insert(readout_name(readout));
-    const bool thesis = std::ranges::find(kAllReadouts, readout) != kAllReadouts.end();
+    const bool thesis = std::ranges::find(kThesisReadouts, readout) != kThesisReadouts.end();
     EXPECT_FALSE(is_pool_readout(readout) && thesis);
     EXPECT_EQ(has_rtl(readout), std::ranges::find(kRtlReadouts, readout) != kRtlReadouts.end());
     EXPECT_FALSE(is_pool_readout(readout) && is_pointer_readout(readout));
   }
-  EXPECT_EQ(names.size(), kModelReadouts.size());
+  EXPECT_EQ(names.size(), kAllReadouts.size());
   EXPECT_EQ(parse_readout("poolpointer2"), Readout::kPoolPointer2);
   EXPECT_EQ(parse_readout("poolpointer2-lean"), Readout::kPoolPointer2Lean);
 }
@@ -106,9 +107,15 @@ TEST(ReadoutParameters, DefaultsOfTheSpecification) {
 
 TEST(ReadoutParameters, DefaultsAreLegalForEveryWidth) {
   for (const Readout readout : kAllReadouts) {
+    const int fewest = is_pool_readout(readout) ? 8 : 3;
     for (int np = 3; np <= 16; ++np) {
-      EXPECT_NO_THROW(ReadoutParameters::defaults(readout, np).validate())
-          << readout_name(readout) << ' ' << np;
+      SCOPED_TRACE(fmt::format("{} {}", readout_name(readout), np));
+      const ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
+      if (np < fewest) {
+        EXPECT_THROW(parameters.validate(), InputError);
+      } else {
+        EXPECT_NO_THROW(parameters.validate());
+      }
     }
   }
 }
@@ -120,7 +127,7 @@ TEST(ReadoutParameters, RefusesTimestampsOfOtherWidthsBeforeAnyArithmetic) {
 }
 
 TEST(ReadoutParameters, AReadoutHasTheParametersThatItsTextNames) {
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kAllReadouts) {
     const std::string text = ReadoutParameters::defaults(readout).to_string();
     for (const char* name : {"NB", "COUNT_WIDTH", "POINTER_STEP", "FRACTION_BITS", "CONFIDENCE_WIDTH",
                              "GUARD", "WINDOW_CENTRED"}) {

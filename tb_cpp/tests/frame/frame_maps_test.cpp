@@ -35,7 +35,7 @@ TEST(FrameMaps, AResultWithoutConfidenceHasNoDistance) {
   const std::array<PixelResult, 3> results = {
       {{.code = 500, .confidence = 0}, {.code = 500, .confidence = 1}, {.code = 500, .confidence = 0}}};
   const std::array<float, 3> truth = {3.0F, 3.0F, kUnknown};
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kAllReadouts) {
     SCOPED_TRACE(readout_name(readout));
     ReadoutParameters parameters = ReadoutParameters::defaults(readout, 10);
     const FrameMaps maps = frame_maps(results, parameters, SensorModel(), std::nullopt, truth);

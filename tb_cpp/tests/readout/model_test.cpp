@@ -319,8 +319,27 @@ TEST(IllegalParameters, RefusedWithASentence) {
        },
        "gate begin must be 0 to 1023, not -1"},
   };
+  const std::vector<Case> pool_cases = {
+      {[](ReadoutParameters& p) { p.np = 7; }, "NP must be 8 to 16, not 7"},
+      {[](ReadoutParameters& p) { p.np = 17; }, "NP must be 8 to 16, not 17"},
+      {[](ReadoutParameters& p) { p.nb = 4; }, "NB must be 5, not 4"},
+      {[](ReadoutParameters& p) { p.slots = 1; }, "SLOTS must be 2 to 4, not 1"},
+      {[](ReadoutParameters& p) { p.slots = 5; }, "SLOTS must be 2 to 4, not 5"},
+      {[](ReadoutParameters& p) { p.count_width = 3; }, "COUNT_WIDTH must be 4 to 8, not 3"},
+      {[](ReadoutParameters& p) { p.count_width = 9; }, "COUNT_WIDTH must be 4 to 8, not 9"},
+      {[](ReadoutParameters& p) { p.fraction_bits = 5; }, "FRACTION_BITS must be 16 - NP, not 5"},
+      {[](ReadoutParameters& p) {
+         p.time_gate = CodeGate{0, 1024};
+       },
+       "gate end must be 0 to 1023, not 1024"},
+      {[](ReadoutParameters& p) {
+         p.time_gate = CodeGate{-1, 7};
+       },
+       "gate begin must be 0 to 1023, not -1"},
+  };
   for (const Readout readout : kAllReadouts) {
-    for (const Case& bad : cases) {
+    SCOPED_TRACE(readout_name(readout));
+    for (const Case& bad : is_pool_readout(readout) ? pool_cases : cases) {
       ReadoutParameters parameters = ReadoutParameters::defaults(readout, 10);
       bad.spoil(parameters);
       EXPECT_THAT([&] { (void)make_readout_model(parameters); },
@@ -360,22 +379,36 @@ class StreamSampler final : public PixelSampler {
 
 // Twice the light at 3 as at 11; 12 is the gate's end, 8 its begin.
 TEST(TimeGate, WhatIsOutsideDoesNotExist) {
-  const ColumnStream stream =
-      stream_of({3, 11, 3, 7, 12, 3, 8, 11, 3, 3, 11, 3, 7, 12, 3, 11, 8, 11, 11, 3}, 1);
-  const ColumnStream inside =
-      stream_of({15, 11, 15, 15, 15, 15, 8, 11, 15, 15, 11, 15, 15, 15, 15, 11, 8, 11, 11, 15});
-  StreamSampler sampler(stream);
+  // Of 4 bits; a pool read-out has at least 8.
+  const std::vector<Timestamp> all = {3, 11, 3, 7, 12, 3, 8, 11, 3, 3, 11, 3, 7, 12, 3, 11, 8, 11, 11, 3};
   for (const Readout readout : kAllReadouts) {
-    ReadoutParameters parameters = ReadoutParameters::defaults(readout, 4);
+    SCOPED_TRACE(readout_name(readout));
+    const int np = is_pool_readout(readout) ? 8 : 4;
+    ReadoutParameters parameters = ReadoutParameters::defaults(readout, np);
+    const int begin = 8 << (np - 4);
+    const int end = 12 << (np - 4);
+    std::vector<Timestamp> codes;
+    std::vector<Timestamp> kept;
+    for (const Timestamp code : all) {
+      const int scaled = code << (np - 4);
+      const bool counts = scaled >= begin && scaled < end;
+      codes.push_back(static_cast<Timestamp>(scaled));
+      kept.push_back(static_cast<Timestamp>(counts ? scaled : parameters.no_detection()));
+    }
+    const ColumnStream stream = stream_of(codes);
+    const ColumnStream inside = stream_of(kept);
     const PixelResult expected = run(parameters, inside, 20);
-    EXPECT_NE(run(parameters, stream, 20), expected) << readout_name(readout);
-    parameters.time_gate = CodeGate{8, 12};
-    EXPECT_EQ(run(parameters, stream, 20), expected) << readout_name(readout);
-    std::vector<PixelResult> sampled(1);
-    make_readout_model(parameters)->run_sampled_column(sampler, 0, 20, sampled);
-    EXPECT_EQ(sampled.front(), expected) << readout_name(readout);
-    parameters.time_gate = CodeGate{12, 12};
-    EXPECT_EQ(run(parameters, stream, 20), run(parameters, stream_of({}), 20)) << readout_name(readout);
+    EXPECT_NE(run(parameters, stream, 20), expected);
+    parameters.time_gate = CodeGate{begin, end};
+    EXPECT_EQ(run(parameters, stream, 20), expected);
+    if (!is_pool_readout(readout)) {  // it reads streams alone
+      StreamSampler sampler(stream);
+      std::vector<PixelResult> sampled(1);
+      make_readout_model(parameters)->run_sampled_column(sampler, 0, 20, sampled);
+      EXPECT_EQ(sampled.front(), expected);
+    }
+    parameters.time_gate = CodeGate{end, end};
+    EXPECT_EQ(run(parameters, stream, 20), run(parameters, stream_of({}), 20));
   }
 }
 
@@ -388,7 +421,7 @@ TEST(RawHistogram, OnlyOfReadoutsThatHoldAWholeOne) {
        {Readout::kEzPointer, Readout::kPifh, Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
     EXPECT_EQ(ReadoutParameters::defaults(readout).raw_bins(), 0) << readout_name(readout);
   }
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kAllReadouts) {
     const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
     if (parameters.raw_bins() == 0) {
       EXPECT_THROW((void)make_readout_model(parameters)->run_raw_column(stream_of({1, 2}), 2), InputError)

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <ostream>
 #include <string>
+#include <vector>
 
 #include "readout/model.hpp"
 #include "tests/core/test_seed.hpp"
@@ -104,10 +107,14 @@ TEST_P(AgainstReference, LongFrames) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllReadouts, AgainstReference, testing::ValuesIn(kAllReadouts),
-                         [](const auto& suite) { return std::string(readout_name(suite.param)); });
+/// pool_pointer2_test has what pools pixels.
+std::vector<Readout> single_pixel_readouts() {
+  std::vector<Readout> readouts;
+  std::ranges::remove_copy_if(kAllReadouts, std::back_inserter(readouts), is_pool_readout);
+  return readouts;
+}
 
-INSTANTIATE_TEST_SUITE_P(OnTrial, AgainstReference, testing::Values(Readout::kCoarseHistogram),
+INSTANTIATE_TEST_SUITE_P(SinglePixels, AgainstReference, testing::ValuesIn(single_pixel_readouts()),
                          [](const auto& suite) { return std::string(readout_name(suite.param)); });
 
 }  // namespace

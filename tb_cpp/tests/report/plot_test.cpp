@@ -46,15 +46,15 @@ std::string svg_colour(std::string_view colour) {
 TEST(Plot, EveryReadoutHasAStyleOfItsOwn) {
   std::set<int> markers;
   std::set<std::string_view> colours;
-  for (const Readout readout : kModelReadouts) {
+  for (const Readout readout : kAllReadouts) {
     const std::optional<PlotStyle> style = plot_style(readout_title(readout));
     ASSERT_TRUE(style) << readout_title(readout);
     EXPECT_EQ(style->title, readout_title(readout));
     markers.insert(style->marker);
     colours.insert(style->colour);
   }
-  EXPECT_EQ(markers.size(), kModelReadouts.size());
-  EXPECT_EQ(colours.size(), kModelReadouts.size());
+  EXPECT_EQ(markers.size(), kAllReadouts.size());
+  EXPECT_EQ(colours.size(), kAllReadouts.size());
 }
 
 TEST(Plot, ALabelHasTheStyleOfTheLongestTitle) {

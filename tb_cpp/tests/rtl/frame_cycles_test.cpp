@@ -18,7 +18,7 @@ constexpr std::uint64_t kFirstBeatClocks = 6;
 
 class FrameCycles : public testing::TestWithParam<Readout> {};
 
-INSTANTIATE_TEST_SUITE_P(FullSize, FrameCycles, testing::ValuesIn(kAllReadouts), readout_test_name);
+INSTANTIATE_TEST_SUITE_P(FullSize, FrameCycles, testing::ValuesIn(array_readouts()), readout_test_name);
 
 // One column and a sink that is as slow as 199 more columns. The full histogram, too: 160 pixels per column.
 TEST_P(FrameCycles, StayBelowTheLimit) {

@@ -70,7 +70,7 @@ TEST(Registry, IgnoresParametersTheReadoutDoesNotUse) {
 }
 
 TEST(Registry, PrefersTheThesisVariantAndTheSizeThatSimulatesLeast) {
-  for (const Readout readout : kAllReadouts) {
+  for (const Readout readout : array_readouts()) {
     const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
     for (const int columns : {1, 200}) {
       const RtlConfiguration configuration = find_rtl_configuration(parameters, 160, columns);
@@ -82,7 +82,7 @@ TEST(Registry, PrefersTheThesisVariantAndTheSizeThatSimulatesLeast) {
 }
 
 TEST(Registry, FindsTheArrayThatRecordsAWaveform) {
-  for (const Readout readout : kAllReadouts) {
+  for (const Readout readout : array_readouts()) {
     SCOPED_TRACE(readout_name(readout));
     const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
     EXPECT_FALSE(find_rtl_configuration(parameters, 160, 200).records_waveform);

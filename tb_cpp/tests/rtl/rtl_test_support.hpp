@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <ostream>
 #include <span>
 #include <string>
@@ -44,6 +45,13 @@ inline std::string configuration_test_name(const testing::TestParamInfo<RtlConfi
 
 inline std::string readout_test_name(const testing::TestParamInfo<Readout>& readout) {
   return test_name(readout_name(readout.param));
+}
+
+/// Those of dtof_array. pool_pointer2_test has pool_pointer2_array's.
+inline std::vector<Readout> array_readouts() {
+  std::vector<Readout> readouts;
+  std::ranges::remove_copy_if(kRtlReadouts, std::back_inserter(readouts), is_pool_readout);
+  return readouts;
 }
 
 /// Read-outs compiled into this program at full size.

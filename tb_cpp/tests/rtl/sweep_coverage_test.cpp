@@ -92,7 +92,7 @@ TEST_P(SweepCoverage, EveryValueOccurs) {
 }
 
 TEST(SweepCoverage, EveryReadoutHasItsDefaultsAtFullSize) {
-  for (const Readout readout : kAllReadouts) {
+  for (const Readout readout : array_readouts()) {
     const RtlConfiguration configuration =
         find_rtl_configuration(ReadoutParameters::defaults(readout), 160, 200);
     EXPECT_EQ(configuration.pixels_per_sram, 160) << readout_name(readout);

@@ -44,7 +44,7 @@ TEST(ReadoutRun, APixelsResultDoesNotDependOnTheRegion) {
     for (const bool streams_only : {false, true}) {
       RunSettings options;
       options.streams_only = streams_only;
-      for (const Readout readout : kModelReadouts) {
+      for (const Readout readout : kAllReadouts) {
         if (is_pool_readout(readout)) {
           continue;
         }

@@ -64,7 +64,7 @@ TEST(FidelityStudy, PromisesAreKeptOpenOrBroken) {
 // The limits that auto relies on, measured again with few frames: six standard errors leave chance no room.
 TEST(FidelityStudy, TheFastSamplerIsWithinTheLimitsThatAutoUses) {
   FidelitySettings settings = small_settings();
-  settings.readouts.assign(kAllReadouts.begin(), kAllReadouts.end());
+  settings.readouts.assign(kThesisReadouts.begin(), kThesisReadouts.end());
   const FidelityStudy study = run_fidelity_study(settings);
   ASSERT_EQ(study.cells.size(), settings.scenes.size() * settings.readouts.size());
   for (const FidelityCell& cell : study.cells) {
