@@ -16,7 +16,7 @@
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
 # make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)
 # make example    a frame of dtof_subsystem in a small SystemVerilog bench (scripts/example.mk)
-# make bench      speed of RTL, models and photon model
+# make bench      speed of RTL, models and photon model; SMALL=1: each once, on less work
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
 # make test-adding the worked example of docs/user/adding_a_readout.md, in a fresh clone (scripts/adding.mk)
 # make playground the C++ models in a page (scripts/playground.mk)
@@ -75,8 +75,8 @@ lint: configure
 
 bench: configure
 	@ninja -C $(BUILD) rtl_bench photon_bench
-	@$(BUILD)/bench/rtl_bench
-	@$(BUILD)/bench/photon_bench
+	@$(BUILD)/bench/rtl_bench $(if $(SMALL),--small)
+	@$(BUILD)/bench/photon_bench $(if $(SMALL),--small)
 
 clean:
 	rm -rf build

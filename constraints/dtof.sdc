@@ -9,24 +9,29 @@ set tdc_share 0.30
 set control_share 0.30
 set stream_share 0.30
 set reset_share 0.20
+set edge_share 0.15
 
 create_clock -name clk -period $period [get_ports clk_i]
 set_clock_uncertainty -setup $setup_uncertainty [get_clocks clk]
 set_clock_uncertainty -hold $hold_uncertainty [get_clocks clk]
 
+# Every port but the clock has the budget of the control ports, whatever its name; what follows are the ports with another one.
+foreach port [all_inputs] {
+  if {[get_full_name $port] ne "clk_i"} { set_input_delay [expr {$control_share * $period}] -clock clk $port }
+}
+set_output_delay [expr {$control_share * $period}] -clock clk [all_outputs]
+
 set_input_delay [expr {$tdc_share * $period}] -clock clk [get_ports {tdc_valid_i tdc_timestamp_i*}]
 set_output_delay [expr {$tdc_share * $period}] -clock clk [get_ports tdc_ready_o]
-set_input_delay [expr {$control_share * $period}] -clock clk [get_ports {start_i acq_num_i*}]
-# dtof_array has the gate, the pool read-outs' arrays the schedule and S1.
-set_input_delay [expr {$control_share * $period}] -clock clk \
-  [get_ports -quiet {gate_begin_i* gate_end_i* coarse_end_i* track_end_i* late_begin_i* smooth_i}]
-set_output_delay [expr {$control_share * $period}] -clock clk [get_ports {busy_o done_o state_o* error_o*}]
 set_input_delay [expr {$stream_share * $period}] -clock clk [get_ports result_tready_i]
 set_output_delay [expr {$stream_share * $period}] -clock clk [get_ports {result_tvalid_o result_tdata_o* result_tlast_o}]
 
 # The reset comes from reset_synchroniser: its release is a flip-flop and a multiplexer behind the clock's edge.
 set_input_delay [expr {$reset_share * $period}] -clock clk [get_ports rst_ni]
 
-# The SRAMs' side band rests while the array works.
+# No edge may be slower.
+set_max_transition [expr {$edge_share * $period}] [current_design]
+
+# Exceptions. The SRAMs' side band rests while the array works, so that no path begins or ends there.
 set_false_path -from [get_ports sram_cfg_i*]
 set_false_path -to [get_ports sram_cfg_o*]

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 #include "dtof.h"
 
-#define SHARES 64U /* a frame in 64ths */
+#define WHOLE_FRAME 64U /* a frame in 64ths */
 #define LIGHT_MM_PER_PS 0.299792458
 #define COLUMNS_OF_A_WORD 32U
 
@@ -20,9 +20,25 @@ static uint32_t most_lines(const dtof_device *device) {
 #define FIELD(value, name) (((value)&name##_MASK) >> name##_LSB)
 
 dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
-  static const uint32_t offsets[] = {DTOF_ID,     DTOF_VERSION, DTOF_READOUT, DTOF_SIZE,
-                                     DTOF_WIDTHS, DTOF_LINES,   DTOF_SLOTS,   DTOF_RAW_BINS};
-  enum { ID, VERSION, READOUT, SIZE, WIDTHS, LINES, SLOTS, RAW_BINS, REGISTERS };
+  static const uint32_t offsets[] = {DTOF_ID,    DTOF_VERSION, DTOF_READOUT,  DTOF_SIZE,      DTOF_WIDTHS,
+                                     DTOF_LINES, DTOF_SLOTS,   DTOF_RAW_BINS, DTOF_HISTOGRAM, DTOF_POINTER,
+                                     DTOF_POOL,  DTOF_ENGINES, DTOF_SHARES};
+  enum {
+    ID,
+    VERSION,
+    READOUT,
+    SIZE,
+    WIDTHS,
+    LINES,
+    SLOTS,
+    RAW_BINS,
+    HISTOGRAM,
+    POINTER,
+    POOL,
+    ENGINES,
+    SHARES,
+    REGISTERS
+  };
   uint32_t values[REGISTERS];
 
   device->bus = bus;
@@ -34,13 +50,15 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
     if (i == ID && values[ID] != DTOF_ID_EXPECTED) {
       return DTOF_NOT_FOUND;
     }
-    if (i == VERSION && FIELD(values[VERSION], DTOF_VERSION_MAJOR) != DTOF_VERSION_MAJOR_EXPECTED) {
+    if (i == VERSION && (FIELD(values[VERSION], DTOF_VERSION_MAJOR) != DTOF_VERSION_MAJOR_EXPECTED ||
+                         FIELD(values[VERSION], DTOF_VERSION_MINOR) < DTOF_VERSION_MINOR_EXPECTED)) {
       return DTOF_VERSION_UNKNOWN;
     }
   }
   device->readout = (uint8_t)FIELD(values[READOUT], DTOF_READOUT_NUMBER);
   device->has_schedule = FIELD(values[READOUT], DTOF_READOUT_SCHEDULE) != 0;
   device->has_gate = FIELD(values[READOUT], DTOF_READOUT_TIME_GATE) != 0;
+  device->has_raster_order = FIELD(values[READOUT], DTOF_READOUT_RASTER_ORDER) != 0;
   device->has_raw_histogram = FIELD(values[READOUT], DTOF_READOUT_RAW_HISTOGRAM) != 0;
   device->raw_bins = FIELD(values[RAW_BINS], DTOF_RAW_BINS_VALUE);
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
@@ -54,14 +72,30 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->acquisition_lines = (uint16_t)FIELD(values[LINES], DTOF_LINES_ACQUISITION);
   device->buffer_lines = (uint16_t)FIELD(values[LINES], DTOF_LINES_BUFFER);
   device->slots = (uint8_t)FIELD(values[SLOTS], DTOF_SLOTS_VALUE);
+  device->count_width = (uint8_t)FIELD(values[HISTOGRAM], DTOF_HISTOGRAM_COUNT_WIDTH);
+  device->nb = (uint8_t)FIELD(values[HISTOGRAM], DTOF_HISTOGRAM_NB);
+  device->window_centred = FIELD(values[HISTOGRAM], DTOF_HISTOGRAM_WINDOW_CENTRED) != 0;
+  device->pointer_step = (uint16_t)FIELD(values[POINTER], DTOF_POINTER_STEP);
+  device->guard = FIELD(values[POINTER], DTOF_POINTER_GUARD);
+  device->group_size = (uint8_t)FIELD(values[POOL], DTOF_POOL_GROUP_SIZE);
+  device->labels = (uint8_t)FIELD(values[POOL], DTOF_POOL_LABELS);
+  device->score_bits = (uint8_t)FIELD(values[POOL], DTOF_POOL_SCORE_BITS);
+  device->offset_bits = (uint8_t)FIELD(values[POOL], DTOF_POOL_OFFSET_BITS);
+  device->advantage_width = (uint8_t)FIELD(values[POOL], DTOF_POOL_ADVANTAGE_WIDTH);
+  device->pointer_shift = (uint8_t)FIELD(values[POOL], DTOF_POOL_POINTER_SHIFT);
+  device->cell_shift = (uint8_t)FIELD(values[POOL], DTOF_POOL_CELL_SHIFT);
+  device->rival_moves = FIELD(values[ENGINES], DTOF_ENGINES_RIVAL_MOVES) != 0;
+  device->engine_columns = (uint16_t)FIELD(values[ENGINES], DTOF_ENGINES_COLUMNS);
+  device->coarse_share = (uint8_t)FIELD(values[SHARES], DTOF_SHARES_COARSE);
+  device->track_share = (uint8_t)FIELD(values[SHARES], DTOF_SHARES_TRACK);
   return DTOF_OK;
 }
 
 dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions) {
   dtof_settings settings = {0};
   settings.acquisitions = acquisitions;
-  settings.coarse_share = 14;
-  settings.track_share = 20;
+  settings.coarse_share = device->coarse_share;
+  settings.track_share = device->track_share;
   settings.smooth = true;
   settings.gate_end = (uint16_t)((UINT32_C(1) << device->timestamp_bits) - 1U);
   return settings;
@@ -76,8 +110,8 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
   if (settings->acquisitions >> device->acquisition_bits != 0 || release > most_lines(device) ||
       settings->weak_below > confidences ||
       (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
-      (device->has_schedule && shares > SHARES) || (settings->second_target && !device->has_second_target) ||
-      (settings->prior && !device->has_prior) ||
+      (device->has_schedule && shares > WHOLE_FRAME) ||
+      (settings->second_target && !device->has_second_target) || (settings->prior && !device->has_prior) ||
       (settings->raw && (!device->has_raw_histogram || settings->raw_first_row > settings->raw_last_row ||
                          settings->raw_last_row >= device->rows))) {
     return DTOF_ARGUMENT;
@@ -107,8 +141,8 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
                                                                           << DTOF_RAW_ROWS_LAST_LSB,
        settings->raw},
   };
-  writes[1].value = (uint32_t)((uint64_t)settings->acquisitions * settings->coarse_share / SHARES);
-  writes[2].value = (uint32_t)((uint64_t)settings->acquisitions * shares / SHARES);
+  writes[1].value = (uint32_t)((uint64_t)settings->acquisitions * settings->coarse_share / WHOLE_FRAME);
+  writes[2].value = (uint32_t)((uint64_t)settings->acquisitions * shares / WHOLE_FRAME);
 
   for (size_t i = 0; i < sizeof writes / sizeof writes[0]; ++i) {
     if (writes[i].there) {
@@ -175,6 +209,10 @@ static dtof_status take(const dtof_device *device, uint32_t offset, uint32_t *bi
 
 dtof_status dtof_take_errors(const dtof_device *device, uint32_t *errors) {
   return take(device, DTOF_ERROR, errors);
+}
+
+dtof_status dtof_take_warnings(const dtof_device *device, uint32_t *warnings) {
+  return take(device, DTOF_WARNING, warnings);
 }
 
 dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes) {

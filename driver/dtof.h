@@ -21,7 +21,7 @@ typedef enum {
   DTOF_OK = 0,
   DTOF_BUS = -1,             /* an access of the bus failed */
   DTOF_NOT_FOUND = -2,       /* ID is another one */
-  DTOF_VERSION_UNKNOWN = -3, /* registers that this driver does not know */
+  DTOF_VERSION_UNKNOWN = -3, /* another major version, or a minor version without registers that are needed */
   DTOF_ARGUMENT = -4,        /* a value that the hardware cannot take */
   DTOF_BUSY = -5,            /* a frame is under way */
   DTOF_STREAM = -6           /* a result's row or column is not the array's */
@@ -47,12 +47,31 @@ typedef struct {
   uint8_t acquisition_bits;
   bool has_schedule; /* poolPointer 2 */
   bool has_gate;
+  bool has_raster_order; /* results come row by row */
   bool has_second_target;
   bool has_prior;
   bool has_raw_histogram;
   uint32_t raw_bins; /* of a raw histogram; 0 where there is none */
   uint16_t acquisition_lines;
   uint16_t buffer_lines;
+  /* The parameters of these names; those that the read-out does not use have no meaning. */
+  uint8_t count_width;
+  uint8_t nb;
+  bool window_centred;
+  uint16_t pointer_step;
+  uint32_t guard;
+  /* Those of poolPointer 2, by which lean is another product; 0 where has_schedule is false. */
+  uint8_t group_size;
+  uint8_t labels;
+  uint8_t score_bits;
+  uint8_t offset_bits;
+  uint8_t advantage_width;
+  uint8_t pointer_shift;
+  uint8_t cell_shift;
+  bool rival_moves;
+  uint16_t engine_columns;
+  uint8_t coarse_share; /* recommended, in 64ths of a frame */
+  uint8_t track_share;
 } dtof_device;
 
 /* What a frame uses. */
@@ -83,7 +102,7 @@ typedef struct {
   bool weak;
   bool empty;     /* confidence 0 */
   bool masked;    /* the column is not enabled */
-  bool saturated; /* a counter reads its largest value: more may have been seen */
+  bool saturated; /* the confidence has its largest value: more may have been seen */
   bool raw;       /* a bin of a raw histogram: its lowest code and, as the confidence, its count */
   bool has_second;
   uint16_t second_position; /* where has_second: of the pixel's second target */
@@ -98,8 +117,8 @@ typedef struct {
 /* Finds the subsystem and reads what it is. */
 dtof_status dtof_probe(dtof_device *device, dtof_bus bus);
 
-/* What suits the device: everything counts, poolPointer 2 smooths, its shares are 14 and 20 (lean: choose 10
- * and 14). */
+/* What suits the device, whatever the number of acquisitions: everything counts, poolPointer 2 smooths, and
+ * its shares of the frame are those that the device recommends. */
 dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions);
 
 /* Writes the settings of the next frame. DTOF_ARGUMENT, with nothing written, for what the hardware cannot
@@ -127,8 +146,10 @@ dtof_status dtof_busy(const dtof_device *device, bool *busy);
 /* Frames since reset, modulo 2^32, and clocks of the last one. */
 dtof_status dtof_frames(const dtof_device *device, uint32_t *frames, uint32_t *cycles);
 
-/* DTOF_ERROR_*_MASK of what went wrong since the last call, and forgets it; the interrupt's causes, too. */
+/* DTOF_ERROR_*_MASK of what went wrong since the last call, and forgets it; likewise DTOF_WARNING_*_MASK of
+ * what the results should be read with, and the interrupt's causes. */
 dtof_status dtof_take_errors(const dtof_device *device, uint32_t *errors);
+dtof_status dtof_take_warnings(const dtof_device *device, uint32_t *warnings);
 dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes);
 
 /* A word of the result stream. DTOF_STREAM if its place is not one of the array's. That of a second target

@@ -46,6 +46,7 @@ engine/label_chain.sv
 engine/beside_evidence.sv
 engine/smoothing.sv
 engine/pool2_candidate_decoder.sv
+engine/pool2_line.sv
 engine/pool2_engine.sv
 // Columns of dtof_array: written by scripts/generate.py
 column/ez_pointer_column.sv

@@ -41,6 +41,7 @@ engine/label_chain.sv
 engine/beside_evidence.sv
 engine/smoothing.sv
 engine/pool2_candidate_decoder.sv
+engine/pool2_line.sv
 engine/pool2_engine.sv
 column/ez_pointer_column.sv
 column/his_pointer_column.sv

@@ -56,7 +56,7 @@ def parameters(table: Table) -> dict[str, str]:
     numbers += [(top.readout, next(readout.title for readout in table.readouts.values() if readout.top == top.name))
                 for top in table.tops.values() if top.readout is not None]  # fmt: skip
     names = dict.fromkeys(name for top in table.tops.values() if top.name == "dtof_array" or top.readout is not None
-                          for name in top.parameters)  # fmt: skip
+                          for name in (*top.parameters, *top.schedule))  # fmt: skip
     return ({"READOUT": READOUT.format(", ".join(f"{number} {title}" for number, title in numbers))}
             | {name: table.parameters[name].help for name in names} | SUBSYSTEM)  # fmt: skip
 

@@ -143,22 +143,27 @@ def subsystem_number(table: Table, readout: Readout) -> int | None:
     return readout.number if readout.number is not None else table.tops[readout.top].readout
 
 
+def subsystem_names(table: Table) -> list[str]:
+    """The parameters of dtof_subsystem: those of all arrays, and the schedules that a register recommends."""
+    return list(dict.fromkeys([*(name for top in table.tops.values() for name in top.parameters),
+                               *(name for top in table.tops.values() for name in top.schedule)]))  # fmt: skip
+
+
 def subsystem_parameters(table: Table) -> str:
     """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
     tops = table.tops.values()
-    names = dict.fromkeys(name for top in tops for name in top.parameters)
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
         f"// {WRITTEN} A part of dtof_subsystem: its arrays' parameters.",
     ]
-    for name in names:
+    for name in subsystem_names(table):
         parameter = table.parameters[name]
         values: dict[str, list[str]] = {}  # by expression, those that have it
         for top in tops:
             users = [readout for readout in table.readouts.values() if readout.top == top.name]
             for readout in users if top.readout is None else users[:1]:
-                if name in readout.defaults and name in top.parameters:
+                if name in readout.defaults and name in (*top.parameters, *top.schedule):
                     constant = readout.constant if top.readout is None else top_constant(top)
                     values.setdefault(translate(readout.defaults[name]), []).append(constant)
         choices = [f"({' || '.join(f'READOUT == dtof_pkg::{constant}' for constant in constants)}) ? {text}"
@@ -180,8 +185,7 @@ def all_connections(table: Table) -> dict[str, str]:
     lists = {f"hdl/package/{top.name}_parameters.svh":
              connections(top.name, "dtof_subsystem", [name for name in top.parameters if name != "TIME_GATE"])
              for top in table.tops.values()}  # fmt: skip
-    union = list(dict.fromkeys(name for top in table.tops.values() for name in top.parameters))
-    lists["hdl/package/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", union)
+    lists["hdl/package/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", subsystem_names(table))
     return lists
 
 

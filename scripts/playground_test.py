@@ -67,7 +67,7 @@ def native(command: str, **changes: str) -> Frame:
                         if path.stem.replace("-", "") == title_name(row[0]) and path.stem in listed)
             with open(Path(folder) / f"{name}.csv", newline="", encoding="utf-8") as file:
                 frame.pixels[name] = [tuple(map(int, line[2:])) for line in list(csv.reader(file))[1:]]
-            frame.figures[name] = row[1:6]
+            frame.figures[name] = row[1:7]
     return frame
 
 

@@ -12,8 +12,13 @@
 # make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
 # make pool-parts    area and power of each part of poolPointer 2, and the errors without it (20 minutes)
 # make pulse-widths  read-outs beside the matched filter for pulses of 8 to 90 bins (three minutes)
+# make dynamic-range  read-outs over acquisitions, sunlight and signal: does more light make one worse? (about 20 minutes; goes
+#                 on where it was interrupted; SMALL=1: a few cells, build/dynamic_range_small alone)
+# make frames     the room scene through every read-out, with the sensors thesis, thesis_1mhz and thesis_full beside each
+#                 other, four seeds, and an engine of poolPointer 2 in RTL with each (five minutes; SMALL=1: two
+#                 seeds of thesis and three read-outs, build/frames_small alone)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
-.PHONY: claims pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims dynamic-range frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -84,6 +89,24 @@ trade: study
 	@scripts/reports.py begin trade
 	@/usr/bin/python3 scripts/trade.py $(DTOF_STUDY)
 	@scripts/reports.py record trade
+
+dynamic-range: study
+ifeq ($(SMALL),1)
+	@$(DTOF_STUDY) dynamic-range --acquisitions 333 3333 33333 --klux 2 14 --signals 1 10 --seeds 2 --seed $(SEED) \
+	  --out build/dynamic_range_small
+else
+	@$(DTOF_STUDY) dynamic-range --seed $(SEED) --out build/dynamic_range
+	@scripts/publish.py dynamic_range
+endif
+
+frames: study
+ifeq ($(SMALL),1)
+	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer2-lean --seeds 2 \
+	  --rtl ezpointer --seed $(SEED) --out build/frames_small
+else
+	@$(DTOF_STUDY) frames --rtl poolpointer2 --seed $(SEED) --out build/frames
+	@scripts/publish.py frames
+endif
 
 walk-error: study
 	@scripts/reports.py begin walk_error

@@ -2,12 +2,13 @@
 # make synth           area, timing and power of every configuration in configurations.toml, into reports/
 #                      LIBERTY=<typical.lib> LIBERTY_SLOW=<slow.lib>   other standard cells (table only)
 #                      CONFIGURATIONS="sifh fifh"                      some configurations (table only)
-#                      STRICT=1                                        fail if a figure is worse than its budget
+#                      STRICT=1                                        fail if a goal is missed, a slack is negative or a figure is not its budget
 #                      SEARCH=1                                        search for namings that synth/namings.csv has, too
 # make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um; IHP 130 nm with
 #                      its own SRAM macros (../shared/pdk)
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
+# make synth-flat      the slack with every column real beside that with stand-ins; CONFIGURATIONS= as above
 # make synth-test      the flow's own tests, and the porting example simulated
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
 # make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
@@ -15,7 +16,7 @@
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make power           power from the activity of netlists on a scene: reports/power.md (minutes)
 # make synth-growth    how cost grows with the parameters
-.PHONY: synth power synth-growth synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
+.PHONY: synth power synth-growth synth-flat synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -23,6 +24,9 @@ synth:
 
 synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
+
+synth-flat:
+	@synth/synth.py flat $(CONFIGURATIONS)
 
 synth-growth:
 	@scripts/reports.py begin growth

@@ -99,33 +99,36 @@ module pool2_column #(
 
   // Which of them counts, at T2: the preferred one, but in the pointer phase the other one if only that is inside.
 
-  // Whether a timestamp's cell is POINT_REACH below to POINT_REACH - 1 above the centre. The centre comes late, out of
-  // the SRAM, so that what only the timestamp decides is ready before it, and low bits are compared in a tree.
-  function automatic logic near(input logic [CELL_WIDTH-1:0] cell_of_timestamp, input logic [CELL_WIDTH-1:0] centre);
-    logic [CELL_WIDTH:0] top;
-    logic [CELL_WIDTH-4:0] same, one_less;
-    logic [3:0] above, not_below;
-    top = {1'b0, cell_of_timestamp} + (CELL_WIDTH + 1)'(POINT_REACH);
-    same = top[CELL_WIDTH:4];
-    one_less = same - 1'b1;
-    above = centre[3:0] & ~top[3:0];
-    not_below = centre[3:0] | ~top[3:0];
-    near = (above[3] || (not_below[3] && above[2]) || (not_below[3] && not_below[2] && (above[1] || (not_below[1] && above[0]))))
-        ? (one_less == {1'b0, centre[CELL_WIDTH-1:4]}) : (same == {1'b0, centre[CELL_WIDTH-1:4]});
-  endfunction
+  logic first_inside, second_inside, odd_q, use_second_q, take_second;
+  genvar n;
 
-  function automatic logic take_second(input logic odd, input logic first_inside, input logic second_inside);
-    take_second = odd ? second_inside || !first_inside : second_inside && !first_inside;
-  endfunction
-
-  logic first_inside, second_inside, odd_q, use_second_q;
+  assign take_second = odd_t1_i ? second_inside || !first_inside : second_inside && !first_inside;
   logic [LABELS-1:0] hits;
 
   generate
     if (RIVAL_MOVES != 0) begin : g_near_pointer
-      // Of two, the first one is registered.
-      assign first_inside = near(first_q[NP-1-:CELL_WIDTH], pointer_cell_t1_i);
-      assign second_inside = near(second[NP-1-:CELL_WIDTH], pointer_cell_t1_i);
+      // Whether a timestamp's cell is POINT_REACH below to POINT_REACH - 1 above the pointer's. The pointer's comes late, out
+      // of the SRAM, so that what only the timestamp decides is ready before it, and low bits are compared in a tree. Of two
+      // timestamps the first one is registered.
+      logic [2*CELL_WIDTH-1:0] cells;
+      logic [1:0] is_inside;
+      assign cells = {second[NP-1-:CELL_WIDTH], first_q[NP-1-:CELL_WIDTH]};
+      assign {second_inside, first_inside} = is_inside;
+      for (n = 0; n < 2; n = n + 1) begin : g_timestamp
+        logic [CELL_WIDTH:0] top;
+        logic [CELL_WIDTH-4:0] same, one_less, pointer_high;
+        logic [3:0] above, not_below;
+        logic is_above;
+        assign top = {1'b0, cells[n*CELL_WIDTH+:CELL_WIDTH]} + (CELL_WIDTH + 1)'(POINT_REACH);
+        assign same = top[CELL_WIDTH:4];
+        assign one_less = same - 1'b1;
+        assign pointer_high = {1'b0, pointer_cell_t1_i[CELL_WIDTH-1:4]};
+        assign above = pointer_cell_t1_i[3:0] & ~top[3:0];
+        assign not_below = pointer_cell_t1_i[3:0] | ~top[3:0];
+        assign is_above = above[3] || (not_below[3] && above[2])
+            || (not_below[3] && not_below[2] && (above[1] || (not_below[1] && above[0])));
+        assign is_inside[n] = is_above ? (one_less == pointer_high) : (same == pointer_high);
+      end
     end else begin : g_near_candidates
       assign first_inside = |hits;
       assign second_inside = 1'b1;
@@ -139,7 +142,7 @@ module pool2_column #(
   always_ff @(posedge clk_i) begin
     odd_q <= odd_t1_i;
     // In the other phases the preferred one counts.
-    use_second_q <= has_second && (point_i ? take_second(odd_t1_i, first_inside, second_inside) : odd_t1_i);
+    use_second_q <= has_second && (point_i ? take_second : odd_t1_i);
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
@@ -183,7 +186,7 @@ module pool2_column #(
       .hits_o (hits)
   );
 
-  assign track_second = take_second(odd_q, first_hits_q != '0, hits != '0);
+  assign track_second = odd_q ? (hits != '0) || (first_hits_q == '0) : (hits != '0) && (first_hits_q == '0);
   assign hits_of_second = (RIVAL_MOVES == 0 && point_i) ? use_second_q : track_second;
   assign hits_t2_o = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 

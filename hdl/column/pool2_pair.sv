@@ -8,11 +8,14 @@
 //   clock (T0: last slot of the two rows)   T1            T2          T3                    T4
 //   first part                              read          registered  counted and written
 //   second part                                           read        registered            counted and written
-// At T2 it is known what will be chosen, so that the second part is read only where something counts in it.
+// At T2 it is known what will be chosen, so that the second part is read only where something counts in it, and in a sweep.
 // With LINE_HALVES = 2 there are four parts, and the accesses of two rows do not suffice. Four rows count together:
 //   clock (T0: last slot of the four rows)  T2            T3          T4                    T5
 //   first part                              read          registered  first two rows count  last two rows count, written
 //   next part                                                         read                  registered
+// In a sweep nothing counts. In the group's first visit each part is looked at in the clock in which it would count; in the
+// second visit, if a bin was full, every bin falls by a quarter of its range, or, if a bin was below that, the first part gets
+// its frozen bit, with which nothing counts in the group until the next clear.
 //
 // In the other phases the columns' pixels of a row are worked on one after the other by one pool2_pixel_update:
 //   clock (T0: last slot of a row)   T2               T3                  T4
@@ -22,7 +25,7 @@
 // The next word's first pixel has a register of its own, for its turn may come while this word is written.
 //
 // Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
-// of an engine's pairs are combined by OR from pair to pair (beside_word_i), so that no wire is longer than a pair. The low half
+// of neighbouring pairs are combined by OR from pair to pair (beside_word_i, pool2_line). The low half
 // is the half that was asked for. Where eight bins need both halves, its high half is the word's. The engine writes one half;
 // the other half, and the part of the pair beside, are written with it:
 //   clock after read_i   1                                               2
@@ -79,11 +82,13 @@ module pool2_pair #(
     input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
                                                      // first two, and then the last two
     input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
+    input  logic                  sweep_i,           // with load_i of the first part: nothing counts, the bins are looked at
+    input  logic                  make_room_i,       // with sweep_i: the group's second visit
     // SRAM
     input  logic                  read_i,
     input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
     input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
-    output logic                  upper_t2_o,        // coarse, at T2 of a second row: something counts in the second of two parts
+    output logic                  upper_t2_o,        // coarse, at T2 of a second row: the second of two parts is needed
     output logic                  write_o,           // with write_i: there is something to write
     output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
@@ -97,7 +102,7 @@ module pool2_pair #(
     input  logic                  upper_i,           // with read_i: the word's upper half
     input  logic                  used_i,            // with replace_i: of that half only which candidates are used
     input  logic [HALF_WIDTH-1:0] engine_word_i,     // 0 while timestamps come
-    input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs beyond this one, seen from the engine
+    input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs to the right, as far as the segment reaches
     output logic [LINE_WIDTH-1:0] word_o
 );
 
@@ -125,12 +130,43 @@ module pool2_pair #(
   logic count_q, counts_first, counts, counted_before;
   logic [1:0] counts_here;
   logic [2*PLACE_WIDTH-1:0] places;
+  logic [PART_WIDTH-1:0] part_q;
   logic [WORD_WIDTH-1:0] counted_word;
 
   assign counts = (counts_here != '0);
 
   always_ff @(posedge clk_i) begin
     count_q <= load_i;
+    if (load_i) begin
+      part_q <= part_i;
+    end
+  end
+
+  // Sweep. The frozen bit is the first one above the lower half's bins.
+
+  localparam int FROZEN_BIT = HALF_BINS * COUNT_WIDTH;
+  logic sweep_q, making_room_q, frozen_q, full_q, low_q;  // full, low: some bin is full, or below a quarter of its range
+  logic first_part, frozen, rests, full_here, low_here, takes_quarter, freezes;
+
+  assign first_part = (part_q == '0);
+  assign frozen = first_part ? word_q[FROZEN_BIT] : frozen_q;
+  assign rests = sweep_q || frozen;
+  assign takes_quarter = making_room_q && full_q && !low_q;
+  assign freezes = making_room_q && full_q && low_q && first_part;
+
+  always_ff @(posedge clk_i) begin
+    if (load_i && part_i == '0) begin
+      sweep_q <= sweep_i;
+    end
+    // The last sweep of a phase must not outlast the phase.
+    making_room_q <= coarse_i && ((load_i && part_i == '0) ? make_room_i : making_room_q);
+    if (count_q && first_part) begin
+      frozen_q <= frozen;
+    end
+    if (count_q && sweep_q && !making_room_q) begin
+      full_q <= (full_here && !frozen) || (full_q && !first_part);
+      low_q <= low_here || (low_q && !first_part);
+    end
   end
 
   generate
@@ -145,14 +181,10 @@ module pool2_pair #(
   generate
     if (PART_WIDTH == 1) begin : g_two_parts
       // The choices last until both parts have counted.
-      logic part_q;
-      always_ff @(posedge clk_i) begin
-        part_q <= part_i;
-      end
       for (d = 0; d < 2; d = d + 1) begin : g_choice
         logic valid, part;
         assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-        assign counts_here[d] = count_q && valid && (part == part_q);
+        assign counts_here[d] = count_q && valid && (part == part_q) && !rests;
       end
       assign counts_first = 1'b0;
       assign counted_before = 1'b0;
@@ -161,16 +193,12 @@ module pool2_pair #(
     end else begin : g_four_parts
       // The next four rows' first choices come before these have counted in all parts.
       logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q, last_q, counted;
-      logic [PART_WIDTH-1:0] part_q;
       logic count_last_q, counted_q;
       assign counted = count_last_q ? last_q : first_q;
       assign counts_first = count_q;
       assign counted_before = counted_q;
       always_ff @(posedge clk_i) begin
         count_last_q <= count_q;
-        if (load_i) begin
-          part_q <= part_i;
-        end
         if (keep_first_i) begin
           waiting_q <= chosen;
         end
@@ -186,40 +214,41 @@ module pool2_pair #(
         logic valid;
         logic [PART_WIDTH-1:0] part;
         assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = counted[d*CHOICE_WIDTH+:CHOICE_WIDTH];
-        assign counts_here[d] = (count_q || count_last_q) && valid && (part == part_q);
+        assign counts_here[d] = (count_q || count_last_q) && valid && (part == part_q) && !rests;
       end
     end
   endgenerate
 
-  function automatic logic [COUNT_WIDTH-1:0] plus(input logic [COUNT_WIDTH-1:0] count, input logic one, input logic two);
-    logic carry;
-    integer i;
-    carry = one && !(&count);
-    plus[0] = (count[0] ^ carry) || (two && (&count[COUNT_WIDTH-1:1]));
-    carry = (count[0] && carry) || (two && !(&count[COUNT_WIDTH-1:1]));
-    for (i = 1; i < COUNT_WIDTH; i = i + 1) begin
-      plus[i] = count[i] ^ carry;
-      carry = count[i] && carry;
-    end
-  endfunction
+  logic [2*HALF_BINS-1:0] full_bins, low_bins;
+  assign full_here = (full_bins != '0);
+  assign low_here = (low_bins != '0);
 
   genvar b;
   generate
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
       localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
-      logic first_counts, second_counts;
+      logic first_counts, second_counts, one, two, full_above, first_carry, carry;
+      logic [COUNT_WIDTH-1:0] bin, count;
+      assign bin = word_q[FIRST+:COUNT_WIDTH];
+      assign full_bins[b] = &bin;
+      assign low_bins[b] = (bin[COUNT_WIDTH-1-:2] == 2'd0);
       assign first_counts = counts_here[0] && (places[PLACE_WIDTH-1:0] == PLACE_WIDTH'(b));
       assign second_counts = counts_here[1] && (places[PLACE_WIDTH+:PLACE_WIDTH] == PLACE_WIDTH'(b));
-      assign counted_word[FIRST+:COUNT_WIDTH] =
-          plus(word_q[FIRST+:COUNT_WIDTH], first_counts ^ second_counts, first_counts && second_counts);
+      assign one = first_counts ^ second_counts;
+      assign two = first_counts && second_counts;
+      // Plus one or two, saturating: what a full bin does not take is left out before it is added.
+      assign count = {bin[COUNT_WIDTH-1-:2] - 2'(takes_quarter), bin[COUNT_WIDTH-3:0]};
+      assign full_above = &bin[COUNT_WIDTH-1:1];
+      assign first_carry = one && !full_bins[b];
+      assign carry = (count[0] && first_carry) || (two && !full_above);
+      assign counted_word[FIRST+:COUNT_WIDTH] = {count[COUNT_WIDTH-1:1] + (COUNT_WIDTH - 1)'(carry),
+                                                 (count[0] ^ first_carry) || (two && full_above)};
     end
     // Bits of a half beyond its bins.
     for (b = 0; b < 2; b = b + 1) begin : g_rest
-      if (HALF_WIDTH > HALF_BINS * COUNT_WIDTH) begin : g_bits
-        localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
-        localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
-        assign counted_word[FIRST+:WIDTH] = word_q[FIRST+:WIDTH];
-      end
+      localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
+      localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
+      assign counted_word[FIRST+:WIDTH] = word_q[FIRST+:WIDTH] | WIDTH'(freezes && b == 0);
     end
   endgenerate
 
@@ -444,10 +473,10 @@ module pool2_pair #(
     end
   endgenerate
 
-  assign upper_t2_o = (upper_t2 != '0);
+  assign upper_t2_o = (upper_t2 != '0) || sweep_i;
 
   // Pixels without a timestamp stay what they are, and a word of them alone is not written, nor one in which nothing counts.
-  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts : changed_q;
+  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (making_room_q && full_q) : changed_q;
 
   logic unused;
   assign unused = ^{1'b0, used_i, move_q[3], detected_t1};

@@ -3,7 +3,8 @@
 // single-port SRAMs, two pixels a word, once per array.
 //
 // Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
-// before. Where the number of rows is no multiple of four, SLOTS clocks pass for each row that is missing.
+// before. Where the number of rows is no multiple of four (LINE_HALVES = 2: eight), SLOTS clocks pass for each row that is
+// missing.
 //
 // Schedule (T0: the clock of a pixel's last slot at the port):
 //   prime   before the first acquisition of a phase: group 0's word and pair 0's are read
@@ -15,6 +16,9 @@
 //                            T1 + k: read, T2 + k: registered, T3 + k: counted and written
 //   with LINE_HALVES = 2 second pixel of a second pair, for part k of the four:
 //                            T2 + 2 k: read, T3 + 2 k: registered, T4 + 2 k: counted, T5 + 2 k: counted and written
+// The last one of 2^POOL_SWEEP_WIDTH acquisitions of the coarse phase is a sweep: all parts are read, and nothing counts. In
+// the group's first visit (pair of rows, LINE_HALVES = 2: four rows) the columns look for full bins, in its second one they
+// make room.
 // SRAM commands and loads are given one clock early (_d) for the array to register and spread.
 // Cost: counters and the stage copies of the pixel number, per array.
 `include "dtof_macros.svh"
@@ -35,7 +39,7 @@ module pair_sequencer #(
     input  logic                  stream_i,          // a phase is under way
     input  logic                  coarse_i,          // it is the coarse phase
     input  logic                  more_i,            // another acquisition belongs to it
-    input  logic [           3:0] acquisition_t1_i,  // low bits of the number of the timestamp's at T1
+    input  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_i,  // low bits of the number of the timestamp's at T1
     input  logic                  tdc_valid_i,
     output logic                  tdc_ready_o,
     output logic                  acq_done_o,        // last timestamp of an acquisition in this clock
@@ -55,6 +59,8 @@ module pair_sequencer #(
     output logic                  keep_last_o,       // four parts, T3 of a second pair: what it has chosen is
     output logic                  load_o,            // a clock after a part's read
     output logic [PART_WIDTH-1:0] part_o,            // with load_o
+    output logic                  sweep_o,           // from the first part's load_o to the next one's: a sweep
+    output logic                  make_room_o,       // with sweep_o: the group's second visit
     // SRAM, a clock early
     output logic                  read_d_o,
     output logic                  write_d_o,
@@ -64,7 +70,9 @@ module pair_sequencer #(
     output logic                  group_upper_d_o    // with group_load_d_o: the group is the word's upper one
 );
 
-  localparam int PAIRS = 2 * ((PIXELS_PER_SRAM + 3) / 4);  // with those that are missing
+  localparam int VISIT_PAIRS = LINE_HALVES;  // that count together
+  // With those that are missing. A group has at least two visits.
+  localparam int PAIRS = 2 * VISIT_PAIRS * ((PIXELS_PER_SRAM + 4 * VISIT_PAIRS - 1) / (4 * VISIT_PAIRS));
   localparam int STEPS = 2 * SLOTS;
   localparam int STEP_WIDTH = $clog2(STEPS);
   localparam int PAIR_WIDTH = dtof_pkg::index_width(PAIRS);
@@ -183,6 +191,8 @@ module pair_sequencer #(
   logic [PAIR_WIDTH-1:0] pair_t3;
   logic second_visit_t2_q, second_visit_t3_q, second_row_t2_q, second_row_t3_q, second_pair_t2_q, second_pair_t3_q;
   logic [3:0] acquisition_t2_q;
+  logic sweep_t1, sweep_t2_q, sweep_then, second_visit_then;
+  logic [PAIR_WIDTH-1:0] pair_then;  // of the clock before the first part's load_o
   logic read_part, load_part, write_part;
   integer n;
 
@@ -218,14 +228,24 @@ module pair_sequencer #(
     end
   end
 
+  assign sweep_t1 = (acquisition_t1_i == {dtof_pkg::POOL_SWEEP_WIDTH{1'b1}});
+  assign sweep_then = (PARTS == 2) ? sweep_t1 : sweep_t2_q;
+  assign pair_then = pair_tn[(FIRST_STAGE+1)*PAIR_WIDTH+:PAIR_WIDTH];
+  assign second_visit_then = ((32'(pair_then) % GROUP_PAIRS) / VISIT_PAIRS == 1);
+
   always_ff @(posedge clk_i) begin
     pair_tn_q <= pair_tn[PAIR_WIDTH+:(LAST_STAGE-1)*PAIR_WIDTH];
-    acquisition_t2_q <= acquisition_t1_i;
+    acquisition_t2_q <= acquisition_t1_i[3:0];
+    sweep_t2_q <= sweep_t1;
     first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
     second_pair_t2_q <= pair_t1_q[0];
     second_pair_t3_q <= second_pair_t2_q;
     if (load_part) begin
       part_o <= fetch_tn[FIRST_STAGE+1] ? '0 : part_o + 1'b1;
+    end
+    if (fetch_tn[FIRST_STAGE+1]) begin
+      sweep_o <= sweep_then;
+      make_room_o <= sweep_then && second_visit_then;
     end
   end
 

@@ -21,7 +21,7 @@
 //
 // Schedule: the table below. A line says in which clocks t of a step a command is given. Columns and engines have it in
 //   the next clock, and what takes longer takes the clocks that the module in question states (dtof_pkg).
-// Latency, K labels: a pair's groups x (32 K + 45) in decode; (pixels + 4) and (pixels + 5) x max(K + 4, 9) in choose, without
+// Latency, K labels: a pair's groups x (32 K + 45) in decode; (pixels + 4) and (pixels + 5) x max(K + 5, 9) in choose, without
 //   SMOOTH_STARTS twice (pixels + 4), and (pixels + 4) and (pixels + 5) x 6 in decide, a column. With PRIOR choose has a step
 //   more per column, two if the pixels are odd.
 // Cost: counters and a register of the commands, per array.
@@ -85,10 +85,12 @@ module pool2_sequencer #(
   // Clocks of a step, from the modules' latencies.
 
   localparam int READ_CLOCKS = dtof_pkg::POOL_PAIR_READ_CLOCKS;
-  localparam int LINE_CLOCKS = READ_CLOCKS + dtof_pkg::POOL_ENGINE_LINE_CLOCKS;  // from a read to a command that uses it
+  // From a read to a command that uses it, in decode and in a chain.
+  localparam int DECODE_LINE_CLOCKS = READ_CLOCKS + dtof_pkg::POOL_LINE_CLOCKS;
+  localparam int LINE_CLOCKS = DECODE_LINE_CLOCKS + dtof_pkg::POOL_ENGINE_LINE_CLOCKS;
 
-  localparam int COUNT_OWN = LINE_CLOCKS + dtof_pkg::POOL2_DECODER_OWN_CLOCKS;
-  localparam int FILL = LINE_CLOCKS + dtof_pkg::POOL2_DECODER_FILL_CLOCKS;
+  localparam int COUNT_OWN = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_OWN_CLOCKS;
+  localparam int FILL = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_FILL_CLOCKS;
   localparam int SEARCH = FILL + BINS;  // the ring is full; a turn takes BINS clocks
   localparam int FIRST_CANDIDATE = SEARCH + BINS - 1 + dtof_pkg::POOL_DECODER_CANDIDATE_CLOCKS;
   localparam int LAST_CANDIDATE = FIRST_CANDIDATE + BINS * (LABELS - 1);
@@ -108,7 +110,7 @@ module pool2_sequencer #(
   localparam int RANK = TAKE_RIGHT + 1;
   localparam int LAST_OF_DECIDE = dtof_pkg::max_of(PASS + DECIDE_LABELS - 1, SEND);
   // All labels have passed and are ranked, and six accesses have their clocks.
-  localparam int LAST_OF_CHOOSE = dtof_pkg::max_of(PASS + LABELS - 1, LINE_CLOCKS + 5);
+  localparam int LAST_OF_CHOOSE = dtof_pkg::max_of(PASS + LABELS - 1, LINE_CLOCKS + dtof_pkg::max_of(LABELS, 4));
 
   localparam int T_WIDTH = $clog2(LAST_OF_DECODE + 1);
   // A first pointer word is known a step after the pixel's best labels where its start depends on the pixel below.
@@ -306,17 +308,17 @@ module pool2_sequencer #(
       columns.read_below    = every(t, 2, OCTET, OCTETS);
       columns.read_left     = every(t, 3, OCTET, OCTETS);
       columns.read_right    = every(t, 4, OCTET, OCTETS);
-      decode.capture_above  = every(t, LINE_CLOCKS, OCTET, OCTETS);
-      decode.capture_own    = every(t, LINE_CLOCKS + 1, OCTET, OCTETS);
-      decode.capture_below  = every(t, LINE_CLOCKS + 2, OCTET, OCTETS);
-      decode.capture_left   = every(t, LINE_CLOCKS + 3, OCTET, OCTETS);
-      decode.capture_right  = every(t, LINE_CLOCKS + 4, OCTET, OCTETS);
+      decode.capture_above  = every(t, DECODE_LINE_CLOCKS, OCTET, OCTETS);
+      decode.capture_own    = every(t, DECODE_LINE_CLOCKS + 1, OCTET, OCTETS);
+      decode.capture_below  = every(t, DECODE_LINE_CLOCKS + 2, OCTET, OCTETS);
+      decode.capture_left   = every(t, DECODE_LINE_CLOCKS + 3, OCTET, OCTETS);
+      decode.capture_right  = every(t, DECODE_LINE_CLOCKS + 4, OCTET, OCTETS);
       decode.count_own      = during(t, COUNT_OWN, COUNT_OWN + BINS - 1);
       decode.fill           = during(t, FILL, SEARCH - 1);
       decode.search         = during(t, SEARCH, LAST_OF_DECODE);
       decode.first_label    = during(t, SEARCH, SEARCH + BINS - 1);
       decode.candidate      = every(t, FIRST_CANDIDATE, BINS, LABELS);
-      columns.read_prior    = at(t, TAKE_PRIOR - LINE_CLOCKS) && (PRIOR != 0) && prior_i;
+      columns.read_prior    = at(t, TAKE_PRIOR - DECODE_LINE_CLOCKS) && (PRIOR != 0) && prior_i;
       decode.take_prior     = at(t, TAKE_PRIOR) && (PRIOR != 0);
       columns.read_group    = at(t, LAST_CANDIDATE);
       columns.write_group   = at(t, LAST_OF_DECODE);

@@ -29,7 +29,7 @@ module pool_controller #(
     output logic                  coarse_o,
     output logic                  point_o,
     output logic                  more_o,
-    output logic [           3:0] acquisition_t1_o,  // low bits of the acquisition's number, of T1
+    output logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_o,  // low bits of the acquisition's number, of T1
     input  logic                  acq_done_i,
     input  logic                  stream_idle_i,
     // clear
@@ -166,7 +166,7 @@ module pool_controller #(
   assign coarse_o = coarse_q;
   assign point_o = point_q;
   assign more_o = more_q;
-  assign acquisition_t1_o = acquisition_q[3:0];
+  assign acquisition_t1_o = dtof_pkg::POOL_SWEEP_WIDTH'(acquisition_q);
   // A clock later than the state, for an engine's word is 0 by then.
   assign clear_o = (state_q == dtof_pkg::STATE_RESET) && !entered_q;
   assign clear_address_o = address_q;

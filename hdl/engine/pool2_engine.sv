@@ -5,7 +5,7 @@
 // results of the pointer words (docs/reference/poolpointer2.md). The scratch memory has a word for each row: the messages
 // of a chain's first pass, and the column to the left's best label: in choose its cell and offset, in decide its position.
 //
-// 1. The line, what a pair of columns has read, is registered. Decode hands it to the candidate decoder, whose group word
+// 1. The line is what a pair of columns has read. Decode hands it to the candidate decoder, whose group word
 //    is written back.
 // 2. Choose and decide take from it first a pixel's word and then its group's: the pixel is prepared. In choose what the
 //    columns beside say becomes part of its evidence before the chain takes it.
@@ -54,7 +54,7 @@ module pool2_engine #(
     input  logic                    smooth_i,       // S1 is on
     input  logic                    has_right_i,    // in choose: the column in work has one to its right
     input  pool2_engine_command_t   command_i,
-    input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS after its read
+    input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
     input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of command_i.write_scratch and read_scratch
     // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}; held from one take_result
@@ -111,19 +111,19 @@ module pool2_engine #(
   genvar h;
   generate
     for (h = 0; h < LINE_HALVES; h = h + 1) begin : g_half
-      assign line_bins[h*HALF_BINS_WIDTH+:HALF_BINS_WIDTH] = line_q[h*HALF_WIDTH+:HALF_BINS_WIDTH];
+      assign line_bins[h*HALF_BINS_WIDTH+:HALF_BINS_WIDTH] = line_i[h*HALF_WIDTH+:HALF_BINS_WIDTH];
     end
   endgenerate
 
   logic [LABELS*CELL_WIDTH-1:0] new_cells;
   logic [BACKGROUND_WIDTH-1:0] new_background;
 
-  logic [LABELS-1:0] line_used;  // candidates of the group whose word is on the line
+  logic [LABELS-1:0] last_used;  // candidates of the group whose word is at line_i
   generate
-    if (PRIOR != 0) begin : g_line_used
-      assign line_used = line_q[GROUP_WIDTH+:LABELS];
-    end else begin : g_no_line_used
-      assign line_used = '0;
+    if (PRIOR != 0) begin : g_last_used
+      assign last_used = line_i[GROUP_WIDTH+:LABELS];
+    end else begin : g_no_last_used
+      assign last_used = '0;
     end
   endgenerate
 
@@ -136,8 +136,8 @@ module pool2_engine #(
       .active_i    (command_i.decoding),
       .command_i   (command_i.decode),
       .line_i      (line_bins),
-      .last_cells_i(line_q[LABELS*CELL_WIDTH-1:0]),
-      .last_used_i (line_used),
+      .last_cells_i(line_i[LABELS*CELL_WIDTH-1:0]),
+      .last_used_i (last_used),
       .cells_o     (new_cells),
       .background_o(new_background)
   );
@@ -381,7 +381,7 @@ module pool2_engine #(
       logic [LABELS-1:0] left_used_q, so_far_q, used_q;
       always_ff @(posedge clk_i) begin
         if (command_i.take_used) begin
-          left_used_q <= line_used;
+          left_used_q <= line_q[GROUP_WIDTH+:LABELS];
         end
         if (command_i.take_choice) begin
           so_far_q <= (command_i.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);

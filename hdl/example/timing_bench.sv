@@ -108,7 +108,7 @@ module timing_bench #(
     transfer(1'b1, dtof_registers_pkg::CONTROL, START);
     clocks(1);
     transfer(1'b0, dtof_registers_pkg::STATUS, '0);
-    transfer(1'b0, 12'h05C, '0);
+    transfer(1'b0, 12'h03C, '0);
     clocks(1);
     diagram = 0;
     clocks(20);

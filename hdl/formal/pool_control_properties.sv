@@ -35,6 +35,7 @@ module pool_control_properties #(
     input logic [ ACQ_WIDTH-1:0] track_end_i,
     input logic                  tdc_valid_i,
     input logic [COLUMNS*NP-1:0] timestamp_i,
+    input logic                  sweep_i,  // as an acquisition begins: the columns take it for a sweep
     // what an engine may do
     input logic                  engine_read_i,
     input logic                  engine_write_i,
@@ -52,7 +53,7 @@ module pool_control_properties #(
 
   logic busy, done, stream, coarse, point, more, acq_done, stream_idle, clear, decode, choose, decide;
   logic [2:0] state;
-  logic [3:0] acquisition;
+  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address;
 
   pool_controller #(
@@ -88,6 +89,7 @@ module pool_control_properties #(
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
+  logic sweep, make_room, is_sweep_q;  // a frame of 64 acquisitions is too long for the proof
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
@@ -100,7 +102,7 @@ module pool_control_properties #(
       .stream_i         (stream),
       .coarse_i         (coarse),
       .more_i           (more),
-      .acquisition_t1_i (acquisition),
+      .acquisition_t1_i (acquisition | {dtof_pkg::POOL_SWEEP_WIDTH{is_sweep_q}}),
       .tdc_valid_i      (tdc_valid_i),
       .tdc_ready_o      (ready),
       .acq_done_o       (acq_done),
@@ -117,6 +119,8 @@ module pool_control_properties #(
       .keep_last_o      (keep_last),
       .load_o           (load),
       .part_o           (part),
+      .sweep_o          (sweep),
+      .make_room_o      (make_room),
       .read_d_o         (stream_read),
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
@@ -182,6 +186,8 @@ module pool_control_properties #(
       .keep_last_i     (keep_last),
       .load_i          (load),
       .part_i          (part),
+      .sweep_i         (sweep),
+      .make_room_i     (make_room),
       .read_i          (read_q),
       .write_i         (write_q),
       .address_i       (address_q),
@@ -230,8 +236,10 @@ module pool_control_properties #(
       place_q <= '0;
       acq_num_q <= '0;
       begins_q <= 1'b0;
+      is_sweep_q <= 1'b0;
     end else begin
       begins_q <= acquisition_begins;
+      if (acquisition_begins) is_sweep_q <= sweep_i;
       frame_q <= (start_i && !frame_q) || (frame_q && !done);
       accepted_q <= start_i && !frame_q;
       accepted_before_q <= accepted_q;
@@ -282,7 +290,7 @@ module pool_control_properties #(
   `PROVE(a_no_state_lasts, 32'(stay_q) < LONGEST_STAY)
   `PROVE(a_reset_clears_once, !(stay_ends && state_q == dtof_pkg::STATE_RESET) || clears_q == 2'd1)
   `PROVE(a_stream_alone, !(accepted && (clear || working_q)))
-  `PROVE(a_acquisition_number, !begins_q || acquisition == 4'(acquisitions_q - 1'b1))
+  `PROVE(a_acquisition_number, !begins_q || acquisition == dtof_pkg::POOL_SWEEP_WIDTH'(acquisitions_q - 1'b1))
   `GOAL(done && acq_num_q == ACQ_WIDTH'(3) && coarse_end_q == ACQ_WIDTH'(1) && track_end_q == ACQ_WIDTH'(2))
 
 endmodule

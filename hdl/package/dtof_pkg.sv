@@ -36,7 +36,8 @@ package dtof_pkg;
   // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
   localparam int HISTOGRAM_WRITE_STAGE = 5;          // histogram_builder: a timestamp of T0 is written at T5
   localparam int POOL_PAIR_READ_CLOCKS = 2;          // pool2_pair: from read_i to word_o, and to a write with it
-  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // pool2_engine: from line_i to what its commands find on the line
+  localparam int POOL_LINE_CLOCKS = 1;               // pool2_line: from the pairs' words to the engine's line_i
+  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // pool2_engine: from line_i to what its commands find on the line, but for decode
   localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // pool2_engine: from read_scratch to the message
   localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // pool2_engine: from take_result to result_o
   localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // pool2_candidate_decoder: from a turn's last pair to its candidate
@@ -103,6 +104,8 @@ package dtof_pkg;
   localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
+  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (pool2_line)
+  localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
   // Bits of pool2_engine_command_t, of which Yosys 0.23 cannot take $bits, nor Icarus 11 of a variable of it. Every lint
   // finds a wrong number.
   localparam int POOL2_COMMAND_WIDTH = 63;
@@ -151,9 +154,9 @@ package dtof_pkg;
     pool2_half_width = max_of(2 * pool2_half_width, pool_group_width(labels, pool2_half_width));
   endfunction
 
-  // Halves of such a word that POOL2_BINS_PER_LINE coarse bins need, 1 or 2.
+  // Halves of such a word that POOL2_BINS_PER_LINE coarse bins and one bit more need, 1 or 2.
   function automatic int pool2_line_halves(input int half_width, input int count_width);
-    pool2_line_halves = (POOL2_BINS_PER_LINE * count_width <= half_width) ? 1 : 2;
+    pool2_line_halves = (POOL2_BINS_PER_LINE * count_width < half_width) ? 1 : 2;
   endfunction
 
   // log2 of the parts in which a group's coarse bins are counted, a word each.

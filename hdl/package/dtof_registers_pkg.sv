@@ -4,7 +4,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00020000;
+  localparam logic [31:0] VERSION_VALUE = 32'h00020001;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -70,6 +70,53 @@ package dtof_registers_pkg;
   localparam int RAW_BINS_VALUE_LSB = 0;
   localparam int RAW_BINS_VALUE_WIDTH = 17;
 
+  // parameters of the histograms
+  localparam logic [11:0] HISTOGRAM = 12'h020;
+  localparam int HISTOGRAM_COUNT_WIDTH_LSB = 0;
+  localparam int HISTOGRAM_COUNT_WIDTH_WIDTH = 8;
+  localparam int HISTOGRAM_NB_LSB = 8;
+  localparam int HISTOGRAM_NB_WIDTH = 8;
+  localparam int HISTOGRAM_WINDOW_CENTRED_LSB = 16;
+  localparam int HISTOGRAM_WINDOW_CENTRED_WIDTH = 1;
+
+  // parameters of a pointer read-out
+  localparam logic [11:0] POINTER = 12'h024;
+  localparam int POINTER_STEP_LSB = 0;
+  localparam int POINTER_STEP_WIDTH = 15;
+  localparam int POINTER_GUARD_LSB = 15;
+  localparam int POINTER_GUARD_WIDTH = 17;
+
+  // parameters of poolPointer 2, which tell it from poolPointer 2 lean; 0 without READOUT.SCHEDULE
+  localparam logic [11:0] POOL = 12'h028;
+  localparam int POOL_GROUP_SIZE_LSB = 0;
+  localparam int POOL_GROUP_SIZE_WIDTH = 8;
+  localparam int POOL_LABELS_LSB = 8;
+  localparam int POOL_LABELS_WIDTH = 4;
+  localparam int POOL_SCORE_BITS_LSB = 12;
+  localparam int POOL_SCORE_BITS_WIDTH = 4;
+  localparam int POOL_OFFSET_BITS_LSB = 16;
+  localparam int POOL_OFFSET_BITS_WIDTH = 4;
+  localparam int POOL_ADVANTAGE_WIDTH_LSB = 20;
+  localparam int POOL_ADVANTAGE_WIDTH_WIDTH = 4;
+  localparam int POOL_POINTER_SHIFT_LSB = 24;
+  localparam int POOL_POINTER_SHIFT_WIDTH = 4;
+  localparam int POOL_CELL_SHIFT_LSB = 28;
+  localparam int POOL_CELL_SHIFT_WIDTH = 4;
+
+  // more parameters of poolPointer 2; 0 without READOUT.SCHEDULE
+  localparam logic [11:0] ENGINES = 12'h02c;
+  localparam int ENGINES_COLUMNS_LSB = 0;
+  localparam int ENGINES_COLUMNS_WIDTH = 16;
+  localparam int ENGINES_RIVAL_MOVES_LSB = 16;
+  localparam int ENGINES_RIVAL_MOVES_WIDTH = 1;
+
+  // the recommended schedule of poolPointer 2 in 64ths of a frame; 0 without READOUT.SCHEDULE
+  localparam logic [11:0] SHARES = 12'h030;
+  localparam int SHARES_COARSE_LSB = 0;
+  localparam int SHARES_COARSE_WIDTH = 8;
+  localparam int SHARES_TRACK_LSB = 8;
+  localparam int SHARES_TRACK_WIDTH = 8;
+
   // begins frames
   localparam logic [11:0] CONTROL = 12'h040;
   localparam int CONTROL_START_LSB = 0;
@@ -124,6 +171,11 @@ package dtof_registers_pkg;
   localparam logic [11:0] FRAME_CYCLES = 12'h058;
   localparam int FRAME_CYCLES_VALUE_LSB = 0;
   localparam int FRAME_CYCLES_VALUE_WIDTH = 32;
+
+  // what the results should be read with, since it was last cleared; raises no interrupt
+  localparam logic [11:0] WARNING = 12'h05c;
+  localparam int WARNING_COUNTER_FULL_LSB = 0;
+  localparam int WARNING_COUNTER_FULL_WIDTH = 1;
 
   // of a frame; 0 is legal
   localparam logic [11:0] ACQUISITIONS = 12'h060;
@@ -207,16 +259,15 @@ package dtof_registers_pkg;
   localparam int RESULT_RAW_WIDTH = 1;
 
   function automatic bit is_register(input logic [11:0] offset);
-    is_register = (offset <= 12'h01c)
-        || (offset >= 12'h040 && offset <= 12'h058)
-        || (offset >= 12'h060 && offset <= 12'h068)
+    is_register = (offset <= 12'h030)
+        || (offset >= 12'h040 && offset <= 12'h068)
         || (offset >= 12'h070 && offset <= 12'h100);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
-        || (offset >= 12'h060 && offset <= 12'h068)
+        || (offset >= 12'h05c && offset <= 12'h068)
         || (offset >= 12'h070 && offset <= 12'h100);
   endfunction
 

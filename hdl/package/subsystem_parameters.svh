@@ -62,3 +62,7 @@
     parameter int PRIOR = 0,
     // columns that share an engine
     parameter int ENGINE_COLUMNS = 34,
+    // 64ths of a frame that the coarse phase is recommended to take
+    parameter int COARSE_SHARE = 14,
+    // 64ths of a frame that the track phase is recommended to take
+    parameter int TRACK_SHARE = 20,

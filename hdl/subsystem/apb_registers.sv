@@ -25,6 +25,23 @@ module apb_registers #(
     parameter int FRACTION_WIDTH = 0,
     parameter int CONFIDENCE_WIDTH = 4,
     parameter int ACQ_WIDTH = 16,
+    // constants that software reads; those from GROUP_SIZE on read as 0 without HAS_SCHEDULE
+    parameter int COUNT_WIDTH = 10,
+    parameter int NB = 5,
+    parameter int WINDOW_CENTRED = 0,
+    parameter int POINTER_STEP = 1,
+    parameter int GUARD = 0,
+    parameter int GROUP_SIZE = 4,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int CELL_SHIFT = 9,
+    parameter int RIVAL_MOVES = 1,
+    parameter int ENGINE_COLUMNS = 34,
+    parameter int COARSE_SHARE = 14,
+    parameter int TRACK_SHARE = 20,
     parameter int BUFFER_LINES = 324,
     parameter int MOST_RELEASE = 320
 ) (
@@ -71,6 +88,7 @@ module apb_registers #(
     input  logic                 illegal_schedule_i,
     input  logic                 overrun_i,
     input  logic                 misframed_i,
+    input  logic                 counter_full_i,
     output logic                 irq_o
 );
 
@@ -98,7 +116,7 @@ module apb_registers #(
 
   // Commands, settings, and what events leave behind.
 
-  logic start_q, flush_q, continuous_q;
+  logic start_q, flush_q, continuous_q, counter_full_q, counter_full_cleared;
   logic [ERRORS-1:0] error_q, error_event, error_cleared;
   logic [CAUSES-1:0] cause_q, cause_event, cause_cleared, cause_enable_q;
   logic [ACQ_WIDTH-1:0] acquisitions_q;
@@ -124,6 +142,9 @@ module apb_registers #(
   assign error_cleared = (write && offset == dtof_registers_pkg::ERROR) ? written[ERRORS-1:0] : '0;
   assign cause_cleared = (write && offset == dtof_registers_pkg::IRQ_STATUS) ? written[CAUSES-1:0] : '0;
 
+  assign counter_full_cleared = write && (offset == dtof_registers_pkg::WARNING)
+      && written[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB];
+
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       start_q <= 1'b0;
@@ -131,6 +152,7 @@ module apb_registers #(
       continuous_q <= 1'b0;
       error_q <= '0;
       cause_q <= '0;
+      counter_full_q <= 1'b0;
       cause_enable_q <= '0;
       acquisitions_q <= '0;
       release_q <= 16'(MOST_RELEASE);
@@ -140,6 +162,7 @@ module apb_registers #(
       flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
       error_q <= (error_q & ~error_cleared) | error_event;
       cause_q <= (cause_q & ~cause_cleared) | cause_event;
+      counter_full_q <= (counter_full_q && !counter_full_cleared) || counter_full_i;
       if (illegal_schedule_i) begin
         continuous_q <= 1'b0;
       end
@@ -343,6 +366,35 @@ module apb_registers #(
       end
       dtof_registers_pkg::SLOTS: prdata_o[dtof_registers_pkg::SLOTS_VALUE_LSB+:8] = 8'(SLOTS);
       dtof_registers_pkg::RAW_BINS: prdata_o[dtof_registers_pkg::RAW_BINS_VALUE_LSB+:17] = 17'(RAW_BINS);
+      dtof_registers_pkg::HISTOGRAM: begin
+        prdata_o[dtof_registers_pkg::HISTOGRAM_COUNT_WIDTH_LSB+:8] = 8'(COUNT_WIDTH);
+        prdata_o[dtof_registers_pkg::HISTOGRAM_NB_LSB+:8] = 8'(NB);
+        prdata_o[dtof_registers_pkg::HISTOGRAM_WINDOW_CENTRED_LSB] = (WINDOW_CENTRED != 0);
+      end
+      dtof_registers_pkg::POINTER: begin
+        prdata_o[dtof_registers_pkg::POINTER_STEP_LSB+:15] = 15'(POINTER_STEP);
+        prdata_o[dtof_registers_pkg::POINTER_GUARD_LSB+:17] = 17'(GUARD);
+      end
+      dtof_registers_pkg::POOL:
+      if (HAS_SCHEDULE != 0) begin
+        prdata_o[dtof_registers_pkg::POOL_GROUP_SIZE_LSB+:8] = 8'(GROUP_SIZE);
+        prdata_o[dtof_registers_pkg::POOL_LABELS_LSB+:4] = 4'(LABELS);
+        prdata_o[dtof_registers_pkg::POOL_SCORE_BITS_LSB+:4] = 4'(SCORE_BITS);
+        prdata_o[dtof_registers_pkg::POOL_OFFSET_BITS_LSB+:4] = 4'(OFFSET_BITS);
+        prdata_o[dtof_registers_pkg::POOL_ADVANTAGE_WIDTH_LSB+:4] = 4'(ADVANTAGE_WIDTH);
+        prdata_o[dtof_registers_pkg::POOL_POINTER_SHIFT_LSB+:4] = 4'(POINTER_SHIFT);
+        prdata_o[dtof_registers_pkg::POOL_CELL_SHIFT_LSB+:4] = 4'(CELL_SHIFT);
+      end
+      dtof_registers_pkg::ENGINES:
+      if (HAS_SCHEDULE != 0) begin
+        prdata_o[dtof_registers_pkg::ENGINES_COLUMNS_LSB+:16] = 16'(ENGINE_COLUMNS);
+        prdata_o[dtof_registers_pkg::ENGINES_RIVAL_MOVES_LSB] = (RIVAL_MOVES != 0);
+      end
+      dtof_registers_pkg::SHARES:
+      if (HAS_SCHEDULE != 0) begin
+        prdata_o[dtof_registers_pkg::SHARES_COARSE_LSB+:8] = 8'(COARSE_SHARE);
+        prdata_o[dtof_registers_pkg::SHARES_TRACK_LSB+:8] = 8'(TRACK_SHARE);
+      end
       dtof_registers_pkg::CONTROL: prdata_o[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB] = continuous_q;
       dtof_registers_pkg::STATUS: begin
         prdata_o[dtof_registers_pkg::STATUS_BUSY_LSB] = busy_i;
@@ -354,6 +406,7 @@ module apb_registers #(
       dtof_registers_pkg::IRQ_STATUS: prdata_o = 32'(cause_q);
       dtof_registers_pkg::FRAME_COUNT: prdata_o = frame_count_i;
       dtof_registers_pkg::FRAME_CYCLES: prdata_o = frame_cycles_i;
+      dtof_registers_pkg::WARNING: prdata_o[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB] = counter_full_q;
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
       dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end_o);
       dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end_o);

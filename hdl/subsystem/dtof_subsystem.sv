@@ -71,6 +71,10 @@ module dtof_subsystem #(
       : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH,
                                    dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM));
   localparam int RAW_BINS = (RAW_HISTOGRAM != 0) ? dtof_pkg::raw_bins(READOUT, NP, NB) : 0;
+  // Whether the confidence of a result is a count of detections, and not a pointer's confidence or a margin: then its bits
+  // follow COUNT_WIDTH.
+  localparam int CONFIDENCE_IS_COUNT = (POOL == 0 && dtof_pkg::confidence_width(READOUT, 1, 0) == 1) ? 1 : 0;
+  localparam int POOL_NB = $clog2(dtof_pkg::POOL_COARSE_BINS);
   localparam int POSITION_WIDTH = NP + FRACTION_WIDTH;
   localparam int TARGETS = (SECOND_TARGET != 0) ? 2 : 1;
   localparam int TARGET_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + KEPT_CONFIDENCE_WIDTH;
@@ -84,6 +88,9 @@ module dtof_subsystem #(
                 "dtof_subsystem: PRIOR must be 0, or READOUT must be READOUT_POOLPOINTER2")
   `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (POOL == 0 && RASTER_ORDER == 0),
                 "dtof_subsystem: RAW_HISTOGRAM must be 0 for READOUT_POOLPOINTER2, and where RASTER_ORDER is 1")
+  `DTOF_REQUIRE(g_illegal_coarse, COARSE_SHARE >= 1 && COARSE_SHARE <= 62, "dtof_subsystem: COARSE_SHARE must be 1 to 62")
+  `DTOF_REQUIRE(g_illegal_track, TRACK_SHARE >= 1 && COARSE_SHARE + TRACK_SHARE <= 63,
+                "dtof_subsystem: TRACK_SHARE must be at least 1, and at most 63 together with COARSE_SHARE")
   `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1 && SRAM_NUM <= 1024, "dtof_subsystem: SRAM_NUM must be 1 to 1024")
   `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1 && PIXELS_PER_SRAM <= 4096,
                 "dtof_subsystem: PIXELS_PER_SRAM must be 1 to 4096")
@@ -95,7 +102,7 @@ module dtof_subsystem #(
   // Registers and frames.
 
   logic start, flush, continuous, second, raw, smooth, prior, begin_frame, busy, done, frame;
-  logic start_ignored, illegal_schedule, underrun, misframed, overrun;
+  logic start_ignored, illegal_schedule, underrun, misframed, overrun, counter_full;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
   logic [15:0] release_lines, weak_below;
@@ -121,6 +128,22 @@ module dtof_subsystem #(
       .FRACTION_WIDTH  (FRACTION_WIDTH),
       .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH),
       .ACQ_WIDTH       (ACQ_WIDTH),
+      .COUNT_WIDTH     (COUNT_WIDTH),
+      .NB              ((POOL != 0) ? POOL_NB : NB),
+      .WINDOW_CENTRED  (WINDOW_CENTRED),
+      .POINTER_STEP    (POINTER_STEP),
+      .GUARD           ((READOUT == dtof_pkg::READOUT_HISPOINTER) ? GUARD : 0),
+      .GROUP_SIZE      (GROUP_SIZE),
+      .LABELS          (LABELS),
+      .SCORE_BITS      (SCORE_BITS),
+      .OFFSET_BITS     (OFFSET_BITS),
+      .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH),
+      .POINTER_SHIFT   (POINTER_SHIFT),
+      .CELL_SHIFT      (CELL_SHIFT),
+      .RIVAL_MOVES     (RIVAL_MOVES),
+      .ENGINE_COLUMNS  (ENGINE_COLUMNS),
+      .COARSE_SHARE    (COARSE_SHARE),
+      .TRACK_SHARE     (TRACK_SHARE),
       .BUFFER_LINES    (BUFFER_LINES),
       .MOST_RELEASE    (MOST_RELEASE)
   ) u_registers (
@@ -163,6 +186,7 @@ module dtof_subsystem #(
       .illegal_schedule_i(illegal_schedule),
       .overrun_i         (overrun),
       .misframed_i       (misframed),
+      .counter_full_i    (counter_full),
       .irq_o             (irq_o)
   );
 
@@ -520,6 +544,9 @@ module dtof_subsystem #(
   endgenerate
 
   assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
+  // A full counter may have missed detections. A pointer's confidence is at its largest value where all is well.
+  assign counter_full = m_axis_tvalid_o && m_axis_tready_i && m_axis_tdata_o[dtof_registers_pkg::RESULT_SATURATED_LSB]
+      && (m_axis_tdata_o[dtof_registers_pkg::RESULT_RAW_LSB] || CONFIDENCE_IS_COUNT != 0);
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule

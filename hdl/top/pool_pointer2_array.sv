@@ -6,16 +6,17 @@
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
 //   Recommended: coarse_end = A C >> 6 and track_end = A (C + T) >> 6 with (C, T) = (14, 20). smooth_i, sampled with
 //   start_i, too, switches S1, and with PRIOR = 1 prior_i what the last frame's choices add to this one's candidates.
-// TDC stream: as dtof_array's. Where PIXELS_PER_SRAM is no multiple of four, SLOTS clocks pass between acquisitions for each
-//   row that is missing.
+// TDC stream: as dtof_array's. Where PIXELS_PER_SRAM is no multiple of four (of eight if eight coarse bins need a whole word, as
+//   lean's do), SLOTS clocks pass between acquisitions for each row that is missing.
 // Result: AXI4-Stream, tdata = {column, row, code, fraction, confidence}; for each column of an engine, each row,
 //   each engine: column engine * ENGINE_COLUMNS + column of the engine. With SECOND_TARGET = 1 tdata = {column, row,
 //   second code, second fraction, code, fraction, confidence}: the label that lost the decision, not smoothed, to which
 //   the confidence belongs as well.
 // Borders: every signal between the shared logic and columns or engines goes from a register to a register (broadcast.sv),
 //   timestamps from the port, which stands for the TDC's register, to those of their column (timestamp_input.sv). The words
-//   of an engine's pairs are combined by OR on the way to it, from pair to pair.
-// Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to a multiple of four) * SLOTS + what docs/reference/poolpointer2.md's cycle budget says.
+//   of an engine's pairs are combined by OR on the way to it (pool2_line.sv).
+// Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS + what docs/reference/poolpointer2.md's
+//   cycle budget says.
 `include "dtof_macros.svh"
 `include "pool2_command.svh"
 
@@ -120,8 +121,8 @@ module pool_pointer2_array #(
   `DTOF_REQUIRE(g_illegal_used, PRIOR == 0 || dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH) + LABELS <= HALF_WIDTH,
                 "pool_pointer2_array: a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1")
   `DTOF_REQUIRE(g_illegal_histogram,
-                dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH <= LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,
-                "pool_pointer2_array: 32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows")
+                dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH < LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,
+                "pool_pointer2_array: 32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows")
   `DTOF_REQUIRE(g_illegal_engine, ENGINE_COLUMNS >= 2 && ENGINE_COLUMNS % 2 == 0,
                 "pool_pointer2_array: ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 4 && ACQ_WIDTH <= 24,
@@ -132,7 +133,7 @@ module pool_pointer2_array #(
   // Control, once per array.
 
   logic stream, coarse, point, more, acq_done, stream_idle, clear;
-  logic [3:0] acquisition_t1;
+  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1;
   logic decode, choose, decide, engine_done, underrun, illegal_schedule;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
 
@@ -170,6 +171,7 @@ module pool_pointer2_array #(
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
+  logic sweep, make_room;
 
   logic [NP-1:0] gate_begin, gate_end;
 
@@ -225,6 +227,8 @@ module pool_pointer2_array #(
       .keep_last_o      (keep_last),
       .load_o           (load),
       .part_o           (part),
+      .sweep_o          (sweep),
+      .make_room_o      (make_room),
       .read_d_o         (stream_read),
       .write_d_o        (stream_write),
       .address_d_o      (stream_address),
@@ -309,7 +313,7 @@ module pool_pointer2_array #(
   // own missing neighbour.
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
-  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 25;
+  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27;
 
   logic told_read, told_write, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] told_address;
@@ -364,6 +368,7 @@ module pool_pointer2_array #(
   logic [NP-1:0] heard_gate_begin, heard_gate_end;
   logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
   logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_keep_first, heard_keep_last, heard_load;
+  logic heard_sweep, heard_make_room;
   logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear;
   logic heard_upper, heard_used, heard_has_right, heard_last_has_right;
   logic [3:0] heard_acquisition_t2;
@@ -374,14 +379,14 @@ module pool_pointer2_array #(
   logic [ROW_WIDTH-1:0] heard_scratch_row;
 
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
-                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, told_read,
+                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, sweep, make_room, told_read,
                  told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
   assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
-          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_read, heard_write,
-          heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
+          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_sweep, heard_make_room, heard_read,
+          heard_write, heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
           heard_select, heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
           heard_command} = heard;
 
@@ -435,10 +440,11 @@ module pool_pointer2_array #(
         localparam int ENGINE = (FIRST + p) / STEP_PAIRS;
         localparam int PLACE = (FIRST + p) % STEP_PAIRS;  // of the engine's pairs
         localparam int PAIRS = (ENGINE == ENGINES - 1) ? LAST_PAIRS : STEP_PAIRS;
-        localparam int BEYOND = (PLACE <= PAIRS / 2) ? PLACE - 1 : PLACE + 1;  // the pair on the side away from the engine
+        // The next pair of its segment gives its word to this one, and the first pair gives the OR of all to pool2_line.
+        localparam int NEXT = PLACE + 1;
         logic [LINE_WIDTH-1:0] beside_word;
-        if (p < QUAD_PAIRS && BEYOND >= 0 && BEYOND < PAIRS) begin : g_beyond
-          assign beside_word = pair_words[(ENGINE*STEP_PAIRS+BEYOND)*LINE_WIDTH+:LINE_WIDTH];
+        if (p < QUAD_PAIRS && NEXT % dtof_pkg::POOL_LINE_PAIRS != 0 && NEXT < PAIRS) begin : g_beyond
+          assign beside_word = pair_words[(ENGINE*STEP_PAIRS+NEXT)*LINE_WIDTH+:LINE_WIDTH];
         end else begin : g_end
           assign beside_word = '0;
         end
@@ -486,6 +492,8 @@ module pool_pointer2_array #(
           .keep_last_i     (heard_keep_last),
           .load_i          (heard_load),
           .part_i          (heard_part),
+          .sweep_i         (heard_sweep),
+          .make_room_i     (heard_make_room),
           .word_load_d_i   (heard_word_load),
           .group_load_i    (heard_group_load),
           .group_upper_i   (heard_group_upper),
@@ -511,28 +519,36 @@ module pool_pointer2_array #(
     end
   endgenerate
 
-  // Engines. The words of an engine's pairs come from both ends to the middle, where the engine is.
+  // Engines.
 
   logic [ENGINES*RESULT_WIDTH-1:0] results;
 
-  genvar e;
+  genvar e, s;
   generate
     for (e = 0; e < ENGINES; e = e + 1) begin : g_engine
       localparam int COLUMNS = (SRAM_NUM - e * STEPS < STEPS) ? SRAM_NUM - e * STEPS : STEPS;
       localparam int PAIRS = (COLUMNS + 1) / 2;
       localparam int FIRST = e * STEP_PAIRS;  // of all pairs, the engine's first
-      localparam int MIDDLE = PAIRS / 2;
+      localparam int SEGMENTS = (PAIRS + dtof_pkg::POOL_LINE_PAIRS - 1) / dtof_pkg::POOL_LINE_PAIRS;
 
       logic [HALF_WIDTH-1:0] word;
-      logic [LINE_WIDTH-1:0] line, right_words;
+      logic [LINE_WIDTH-1:0] line;
+      logic [SEGMENTS*LINE_WIDTH-1:0] segment_words;
       logic has_right_here;
 
-      assign line = pair_words[(FIRST+MIDDLE)*LINE_WIDTH+:LINE_WIDTH] | right_words;
-      if (PAIRS > MIDDLE + 1) begin : g_right
-        assign right_words = pair_words[(FIRST+MIDDLE+1)*LINE_WIDTH+:LINE_WIDTH];
-      end else begin : g_no_right
-        assign right_words = '0;
+      for (s = 0; s < SEGMENTS; s = s + 1) begin : g_segment
+        assign segment_words[s*LINE_WIDTH+:LINE_WIDTH] = pair_words[(FIRST+s*dtof_pkg::POOL_LINE_PAIRS)*LINE_WIDTH+:LINE_WIDTH];
       end
+
+      pool2_line #(
+          .SEGMENTS(SEGMENTS),
+          .WIDTH   (LINE_WIDTH)
+      ) u_line (
+          .clk_i   (clk_i),
+          .active_i(heard_engine),
+          .words_i (segment_words),
+          .line_o  (line)
+      );
 
       assign engine_words[FIRST*HALF_WIDTH+:PAIRS*HALF_WIDTH] = {PAIRS{word}};
 

@@ -248,7 +248,7 @@ function describePixel(frame, title) {
   return (i) => {
     const [code, , confidence] = frame.results.subarray(4 * i, 4 * i + 4);
     const truth = scene.truth[i];
-    const off = Number.isNaN(truth) ? "" : `, off by ${(100 * frame.error[i] / truth).toFixed(1)} %`;
+    const off = Number.isNaN(frame.error[i]) ? "" : `, off by ${(100 * frame.error[i] / truth).toFixed(1)} %`;
     return `${title} measured ${metres(frame.depth[i])}, true ${metres(truth)}${off}; code ${code}, confidence ${confidence}`;
   };
 }

@@ -13,6 +13,8 @@ from figures import store
 ROOT = Path(__file__).resolve().parent.parent.parent
 # A command may go on behind a backslash, and some make their input with Python.
 EXAMPLE = re.compile(r"^    ((?:build/cpp/|/usr/bin/python3 )(?:.*\\\n)*.*?)(?:\s+#.*)?$", re.MULTILINE)
+# Those of the main job, which `make publish` copies: no example writes there.
+MAIN_JOB = re.findall(r"^ *run_once (\w+)", (ROOT / "scripts" / "simulate.sh").read_text(encoding="utf-8"), re.MULTILINE)
 PROGRAMS = ROOT / "build" / "cpp"
 # Their commands need the files that they add: make test-adding runs those of the first in a clone that has them,
 # test_adding_a_rival compiles those of the second.
@@ -34,6 +36,8 @@ class Examples(unittest.TestCase):
                 with self.subTest(document=document.name, command=command):
                     done = subprocess.run(command, shell=True, cwd=folder, capture_output=True, text=True)
                     self.assertEqual(done.returncode, 0, done.stderr[-2000:])
+                    for name in MAIN_JOB:
+                        self.assertFalse((Path(folder) / "build" / name).exists(), f"build/{name} is the main job's")
             return len(commands)
 
     def test_readme(self) -> None:
@@ -42,6 +46,24 @@ class Examples(unittest.TestCase):
     def test_documents(self) -> None:
         documents = sorted(set(ROOT.glob("docs/**/*.md")) - ADDING)
         self.assertGreater(sum(self.run_examples(document) for document in documents), 0)
+
+
+class MainJob(unittest.TestCase):
+    def test_no_command_of_a_document_names_its_folders(self) -> None:
+        self.assertEqual(MAIN_JOB, ["frame", "tmf8820"])
+        for document in [ROOT / "README.md", *ROOT.glob("docs/**/*.md")]:
+            for command in examples(document):
+                for name in MAIN_JOB:
+                    self.assertNotIn(f"--out build/{name}", f"{command} ".replace("\n", " "), document.name)
+
+    @unittest.skipUnless((PROGRAMS / "app" / "dtof").is_file(), "dtof is not built")
+    def test_no_command_of_the_program_writes_there_by_default(self) -> None:
+        for command in ("frame", "replay", "video"):
+            text = subprocess.run([PROGRAMS / "app" / "dtof", command, "--help"], capture_output=True, text=True,
+                                  check=True).stdout
+            default = re.search(r"--out TEXT=build/(\w+)", text)
+            assert default, text
+            self.assertNotIn(default[1], MAIN_JOB)
 
 
 class Results(unittest.TestCase):

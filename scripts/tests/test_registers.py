@@ -80,8 +80,9 @@ class Descriptions(unittest.TestCase):
         self.assertEqual(whole.major, 2)
         offsets = {register.name: register.offset for register in whole.registers}
         self.assertEqual(re.sub(r"\s", "", " ".join(f"{name}={offset:x}" for name, offset in offsets.items())),
-                         "ID=0VERSION=4READOUT=8SIZE=cWIDTHS=10LINES=14SLOTS=18RAW_BINS=1cCONTROL=40STATUS=44ERROR=48IRQ_ENABLE=4c"
-                         "IRQ_STATUS=50FRAME_COUNT=54FRAME_CYCLES=58ACQUISITIONS=60COARSE_END=64TRACK_END=68"
+                         "ID=0VERSION=4READOUT=8SIZE=cWIDTHS=10LINES=14SLOTS=18RAW_BINS=1cHISTOGRAM=20POINTER=24POOL=28"
+                         "ENGINES=2cSHARES=30CONTROL=40STATUS=44ERROR=48IRQ_ENABLE=4c"
+                         "IRQ_STATUS=50FRAME_COUNT=54FRAME_CYCLES=58WARNING=5cACQUISITIONS=60COARSE_END=64TRACK_END=68"
                          "GATE=70RELEASE=74WEAK_BELOW=78OUTPUT=7cCOLUMN_ENABLE=80RAW_ROWS=100")
 
 

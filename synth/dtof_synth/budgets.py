@@ -4,30 +4,21 @@
 from __future__ import annotations
 
 import csv
-from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import FlowError
 from .run import Result
 
 
-@dataclass(frozen=True)
-class Figure:
-    larger_is_worse: bool
-    tolerance: float
-
-
-_AREA = Figure(True, 0.02)
-# The smallest mapping is kept, whatever its speed: the frequencies of the same logic under other names differ by up to 9.5 %.
-_FREQUENCY = Figure(False, 0.1)
-FIGURES = {"logic_column_um2": _AREA, "shared_um2": _AREA, "sram_column_um2": _AREA, "total_mm2": _AREA,
-           "fmax_slow_mhz": _FREQUENCY, "fmax_typical_mhz": _FREQUENCY}
+TOLERANCE = 0.02  # of every figure, to both sides
+FIGURES = ("logic_column_um2", "shared_um2", "sram_column_um2", "total_mm2", "power_mw", "fmax_slow_mhz", "fmax_typical_mhz")
 Budget = dict[str, float]
 
 
 def figures(result: Result) -> Budget:
     return {"logic_column_um2": round(result.column.area, 1), "shared_um2": round(result.shared.area, 1),
             "sram_column_um2": round(result.sram_area, 1), "total_mm2": round(result.total_mm2, 4),
+            "power_mw": round(result.power.total, 1) if result.power else 0.0,
             "fmax_slow_mhz": round(result.timing["slow"].fmax_mhz, 1),
             "fmax_typical_mhz": round(result.timing["typical"].fmax_mhz, 1)}
 
@@ -52,20 +43,16 @@ def write(path: Path, results: dict[str, Result]) -> None:
             writer.writerow({"configuration": name, **figures(result)})
 
 
-def moved(budgets: dict[str, Budget], results: dict[str, Result]) -> tuple[list[str], bool]:
-    """(one line for each figure off by more than the tolerance, whether one got worse)."""
-    lines, worse = [], False
+def moved(budgets: dict[str, Budget], results: dict[str, Result]) -> list[str]:
+    """One line for each figure that is off by more than the tolerance, to either side, and for each name that only one list has."""
+    lines = []
     for name, result in results.items():
         if name not in budgets:
             lines.append(f"{name}: no budget yet")
             continue
         for figure, value in figures(result).items():
             budget = budgets[name][figure]
-            change = value / budget - 1 if budget else 0.0
-            if abs(change) > FIGURES[figure].tolerance:
-                bad = (change > 0) == FIGURES[figure].larger_is_worse
-                worse |= bad
-                lines.append(f"{name}: {figure} {budget:g} -> {value:g} ({change:+.1%}, "
-                             f"{'worse' if bad else 'better'})")
-    lines += [f"{name}: has a budget but is no configuration" for name in budgets if name not in results]
-    return lines, worse
+            change = value / budget - 1 if budget else float(value != 0)
+            if abs(change) > TOLERANCE:
+                lines.append(f"{name}: {figure} {budget:g} -> {value:g} ({change:+.1%})")
+    return lines + [f"{name}: has a budget but is no configuration" for name in budgets if name not in results]

@@ -228,8 +228,8 @@ def pin_load(library: Library, macro_pin_ff: float) -> Callable[[str, str], floa
 
 
 def finish(design: dict, library: Library, macro_pin_ff: float, configuration: Configuration
-           ) -> tuple[dict[str, list[float]], Floorplan]:
-    """Inserts the trees of column, engine and top; returns the load of the column's input ports, and the places."""
+           ) -> Floorplan:
+    """Inserts the trees of column, engine and top; returns the places."""
     wire = library.wire_ff_per_sink
     name = netlist.column_module(design)
     mean: dict[str, dict[str, float]] = {}
@@ -247,7 +247,7 @@ def finish(design: dict, library: Library, macro_pin_ff: float, configuration: C
     array = netlist.top(design)
     plan = Floorplan(design, configuration.module_columns, configuration.engine_columns)
     spread(plan, library, top_load, netlist.clock_nets(array) | netlist.constant_nets(array, library))
-    return loads, plan
+    return plan
 
 
 def check_borders(design: dict, library: Library) -> None:

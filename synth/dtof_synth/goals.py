@@ -5,30 +5,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from . import standard_cells
-from .configuration import Configuration
 from .run import TARGET_MHZ, Result
 from .timing import FAST_MHZ
 
 COLUMN_UM2 = {"ezpointer": 700.0}
 COLUMN_UM2_OTHERS = 1200.0
 ARRAY_MM2 = {"poolpointer2": 1.15, "poolpointer2_lean": 0.81}
-WHY_A_COLUMN_IS_LARGER = {
-    "coarsehistogram": "It keeps a pair of bins instead of one and divides for the place between them (pair_detector, "
-                       "pair_interpolator); the limit is that of columns without either."}
 ONE_PORT_EZPOINTER_MM2 = 0.65
 # Table 1 of the thesis: rank by area, equal where alike. It ranks SiFH apart from FiFH at a ratio of 1.35 and
-# FiFH with hisPointer; areas within this ratio count as alike.
+# FiFH with hisPointer, which differ by 0.2 %; areas within this ratio count as alike.
 THESIS_RANK = {"ezpointer": 1, "hispointer": 2, "fifh": 2, "sifh": 3}
-ALIKE = 1.25
+ALIKE = 1.05
 
 
 @dataclass(frozen=True)
 class Goal:
+    """`is_open`: the goal is not met, but the interval of the value holds the limit."""
+
     text: str
     value: str
     met: bool
-    why: str = ""  # it may be missed
+    is_open: bool = False
 
 
 def ranks(results: dict[str, Result]) -> dict[str, int]:
@@ -44,20 +41,13 @@ def ranks(results: dict[str, Result]) -> dict[str, int]:
     return found
 
 
-def waiting_um2(configuration: Configuration) -> float:
-    """Registers in which a column's timestamps wait for their commands, with a clock gate per stage. The limits of a column's
-    logic were set before they stood in the column, and hold without them."""
-    flip_flop, gate = (standard_cells.sequential_pitches(kind) * standard_cells.PITCH_AREA_UM2 for kind in ("DFF", "CLKGATE"))
-    return configuration["BROADCAST_STAGES"] * ((configuration["NP"] + 1) * flip_flop + gate)
-
-
 def check(results: dict[str, Result]) -> list[Goal]:
+    """The goals of which all results are there."""
     goals = []
     for name, result in results.items():
         if result.configuration.variant_of:
             continue
         limit = COLUMN_UM2.get(name, COLUMN_UM2_OTHERS)
-        waiting = waiting_um2(result.configuration)
         title = result.configuration.title
         slow, typical = result.timing["slow"], result.timing["typical"]
         goals += [
@@ -67,13 +57,15 @@ def check(results: dict[str, Result]) -> list[Goal]:
                  typical.fast_slack >= 0),
             Goal(f"{title}: array at most {ARRAY_MM2[name]:g} mm2", f"{result.total_mm2:.3f} mm2",
                  result.total_mm2 <= ARRAY_MM2[name]) if name in ARRAY_MM2 else
-            Goal(f"{title}: logic of a column at most {limit:g} um2 and {waiting:.0f} um2 of registers in which timestamps wait",
-                 f"{result.column.area:.0f} um2", result.column.area <= limit + waiting, WHY_A_COLUMN_IS_LARGER.get(name, ""))]
-    area = results["ezpointer_one_port"].total_mm2
-    goals.append(Goal(f"ezPointer, one-port SRAM: array at most {ONE_PORT_EZPOINTER_MM2:g} mm2",
-                      f"{area:.3f} mm2", area <= ONE_PORT_EZPOINTER_MM2))
-    found = ranks(results)
-    goals.append(Goal("Table 1: area ranks ezPointer 1, FiFH and hisPointer 2, SiFH 3",
-                      ", ".join(f"{results[name].configuration.title} {rank}" for name, rank in found.items()),
-                      found == THESIS_RANK))
+            Goal(f"{title}: logic of a column at most {limit:g} um2", f"{result.column.area:.0f} um2",
+                 result.column.area <= limit)]
+    if "ezpointer_one_port" in results:
+        area = results["ezpointer_one_port"].total_mm2
+        goals.append(Goal(f"ezPointer, one-port SRAM: array at most {ONE_PORT_EZPOINTER_MM2:g} mm2",
+                          f"{area:.3f} mm2", area <= ONE_PORT_EZPOINTER_MM2))
+    if THESIS_RANK.keys() <= results.keys():
+        found = ranks(results)
+        goals.append(Goal("Table 1: area ranks ezPointer 1, FiFH and hisPointer 2, SiFH 3",
+                          ", ".join(f"{results[name].configuration.title} {rank}" for name, rank in found.items()),
+                          found == THESIS_RANK))
     return goals

@@ -59,6 +59,7 @@ class Library:
     clock_energy_fj: dict[str, float] = field(default_factory=dict)
     energy_fj: float = 1.0  # the Liberty's unit of energy
     clock_gate: ClockGate | None = None  # the smallest
+    checked: dict[str, set[str]] = field(default_factory=dict)  # pins of a cell that have a setup time
     drives: list[list[str]] = field(default_factory=list)  # cells of one function and the same pins, smallest first
 
     @property
@@ -157,6 +158,9 @@ def read(path: Path) -> Library:
         outputs = [pin for pin in pins if pin.get("direction") == "output"]
         result.input_ff[name] = {pin.name: pin.number("capacitance") * unit for pin in inputs}
         result.max_load_ff[name] = {pin.name: pin.number("max_capacitance") * unit for pin in outputs}
+        checked = {pin.name for pin in pins for arc in pin.children("timing") if arc.get("timing_type").strip('"').startswith("setup")}
+        if checked:
+            result.checked[name] = checked
         gate = _clock_gate(cell, unit)
         if gate is not None:
             clock = next(pin for pin in inputs if pin.name == gate.clock_pin)

@@ -4,7 +4,7 @@
 The array is synthesised as it is, instances of one column module (of one column, or two that share an SRAM). A net that drives more than its
 driver can is given a tree of buffers; between the shared logic and the columns trees follow the floorplan
 (floorplan.py), so that the broadcast is counted and timed with its wires. For timing, all but a few columns are replaced by
-stubs with the same input load.
+the logic at their borders (stand_in.py).
 """
 
 from __future__ import annotations
@@ -14,13 +14,12 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import astuple, dataclass
 
 from .errors import FlowError
-from .liberty import THRESHOLDS, Group, bus_type
 from .library import Buffer, Library
 
 Module = dict
 COLUMN_SUFFIXES = ("_column", "_quad")
 ENGINE_SUFFIX = "_engine"
-STUB = "column_stub"
+STUB = "column_stand_in"
 TOP = "top"  # kind of block of what is outside all of them
 TREE_PREFIX = "fanout_"
 COPY_SUFFIX = "_copy"
@@ -59,6 +58,12 @@ def column_module(design: dict) -> str:
     if len(used) != 1:
         raise FlowError(f"the array has {len(used)} kinds of columns instead of one: {sorted(used)}")
     return used.pop()
+
+
+def columns(design: dict) -> list[str]:
+    """Names of the instances of the column module."""
+    kind = column_module(design)
+    return [name for name, cell in top(design)["cells"].items() if cell["type"] == kind]
 
 
 def engine_module(design: dict) -> str:
@@ -297,14 +302,11 @@ def in_all_blocks(design: dict, pin: tuple[str, str, str]) -> list[str]:
     return [f"{block}{cell}/{name}" for block in blocks]
 
 
-def on_border(design: dict, pin: tuple[str, str, str]) -> bool:
-    """Whether a pin (local_pin) hangs on a net between blocks."""
-    kind, cell, name = pin
-    if not kind:
-        return True
-    module = modules(design)[kind]
-    bits, index = _bits_of(module, cell, name)
-    return any(bits[index] in port["bits"] for port in module["ports"].values())
+def has_pin(design: dict, name: str) -> bool:
+    """Whether a pin named as OpenSTA does is there and connected."""
+    kind, cell, pin = local_pin(design, name)
+    cells = (modules(design)[kind] if kind else top(design))["cells"]
+    return cell in cells and pin.split("[")[0] in cells[cell]["connections"]
 
 
 def _bits_of(module: Module, cell: str, pin: str) -> tuple[list, int]:
@@ -484,37 +486,3 @@ def prepare_simulation(design: dict, library: Library, suffix: str, power_up: st
                 cell["type"] += suffix
             elif cell["type"] in library.sequential:
                 cell["parameters"] = {power_up: "1" if draw() else "0"}
-
-
-def keep_columns(design: dict, kept: int) -> None:
-    """Replaces all columns but the first `kept - 1` and the last by stubs of the same load."""
-    name = column_module(design)
-    columns = [cell for cell in top(design)["cells"].values() if cell["type"] == name]
-    for cell in columns[max(kept - 1, 1):-1]:
-        cell["type"] = STUB
-    stub = {"attributes": {"blackbox": "1"}, "cells": {}, "netnames": {},
-            "ports": modules(design)[name]["ports"]}
-    modules(design)[STUB] = stub
-
-
-def stub_liberty(design: dict, loads: dict[str, list[float]], voltage: float) -> str:
-    """Liberty of the stub: the column's ports with their loads, no arcs."""
-    library = Group("library", [STUB], [("delay_model", "table_lookup"), ("time_unit", '"1ns"'),
-                                        ("voltage_unit", '"1V"'), ("current_unit", '"1mA"'),
-                                        ("capacitive_load_unit", ["1", "ff"]),
-                                        ("nom_voltage", f"{voltage}"), *THRESHOLDS])
-    ports = modules(design)[column_module(design)]["ports"]
-    spans = {(len(port["bits"]), port.get("offset", 0)) for port in ports.values()}
-    library.groups += [bus_type(width, offset) for width, offset in sorted(spans)]
-    cell = library.add(Group("cell", [STUB], [("area", "0"), ("interface_timing", "true")]))
-    for port, description in ports.items():
-        width, offset = len(description["bits"]), description.get("offset", 0)
-        load = max(loads.get(port, [0.0]))
-        attributes: list[tuple[str, str | list[str]]] = [("direction", description["direction"])]
-        if description["direction"] == "input":
-            attributes.append(("capacitance", f"{load:.4f}"))
-        if width == 1 and not offset:
-            cell.add(Group("pin", [port], attributes))
-        else:
-            cell.add(Group("bus", [port], [("bus_type", f"bits_{width}_{offset}"), *attributes]))
-    return library.write() + "\n"

@@ -97,7 +97,7 @@ class Readout:
 class Top:
     name: str
     parameters: list[str]
-    schedule: list[str] = field(default_factory=list)  # the driver's, not the RTL's
+    schedule: list[str] = field(default_factory=list)  # what dtof_subsystem recommends to a driver; the array has no such parameters
     readout: int | None = None  # dtof_subsystem's READOUT for the whole top, where its read-outs have none of their own
 
 

@@ -7,7 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
-from . import area_parts, floorplan, goals, sram_model, wide_words
+from . import area_parts, floorplan, gates, goals, loads, sram_model, wide_words
 from .configuration import memories
 from .run import TARGET_MHZ, Result
 from .timing import FAST_MHZ
@@ -196,6 +196,24 @@ def _margin_section(results: list[Result]) -> list[str]:
                     "reset met", "slowest from", "to"], _margin_rows(results))]
 
 
+def _ends_section(results: list[Result]) -> list[str]:
+    rows = [[result.configuration.title, f"{result.ends.all}", f"{result.ends.timed}", f"{result.ends.constant}",
+             f"{result.ends.side_band}", f"{result.timing['slow'].slow_edges}",
+             f"{result.fullest_load.ff / result.fullest_load.limit_ff:.0%}", f"`{result.fullest_load.driver}`"]
+            for result in results if result.ends and result.fullest_load]
+    if not rows:
+        return []
+    return ["## Ends of paths, edges and loads", "",
+            "Ends: pins with a setup time and output ports of the netlist that is timed. It has three real columns (the first, the "
+            "second and the last) and of every other column the logic at its borders, so that each path between columns and to engines "
+            "and control is timed where it is, and those inside a column in the real ones. OpenSTA's check_setup stops the flow for "
+            "an end without a path, a register without a clock, a port without a budget and a loop. Not timed: ends that hang on a "
+            "constant, and the SRAMs' side band, which rests. Slow edges: pins beyond a limit of 15 % of the period, slow corner. Fullest: "
+            "the driver that is nearest to its max_capacitance; one beyond it, or with more than "
+            f"{loads.MAX_FANOUT} inputs behind it, stops the flow.", "",
+            _table(["read-out", "ends", "timed", "constant", "side band", "slow edges", "fullest", "driver"], rows)]
+
+
 def timing(results: dict[str, Result], library: str, digest: str) -> str:
     main, variants = _split(results)
     header = ["read-out", "corner", f"slack at {TARGET_MHZ:g} MHz", f"at {FAST_MHZ:g} MHz", "hold slack",
@@ -210,15 +228,17 @@ def timing(results: dict[str, Result], library: str, digest: str) -> str:
         f"{floorplan.PESSIMISTIC.ff_per_um:g} fF.", "",
         _table(header, _timing_rows(main)),
         *_margin_section(main),
+        *_ends_section([*main, *variants]),
         "Power from the activity of the netlists is in [power.md](power.md).", "",
         "## Variants", "", _table(header, _timing_rows(variants))])
 
 
-def goals_section(found: list[goals.Goal]) -> str:
+def goals_section(found: list[goals.Goal], exemptions: list[gates.Exemption]) -> str:
+    reasons = {one.what: one for one in exemptions}
     rows = [[goal.text, goal.value, "yes" if goal.met else "**no**"] for goal in found]
-    reasons = [f"* {goal.text}: {goal.value}. {goal.why}" for goal in found if not goal.met and goal.why]
-    missed = ["Missed:", "", *reasons, ""] if reasons else []
-    return "\n".join(["## Goals", "", _table(["goal", "here", "met"], rows), *missed])
+    lines = [f"* {goal.text}: {goal.value}." + (f" {reasons[goal.text].reason} ({reasons[goal.text].date})"
+                                                if goal.text in reasons else "") for goal in found if not goal.met]
+    return "\n".join(["## Goals", "", _table(["goal", "here", "met"], rows), *(["Missed:", "", *lines, ""] if lines else [])])
 
 
 def write_area_csv(path: Path, results: dict[str, Result]) -> None:

@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from dataclasses import astuple, dataclass, field, replace
 from pathlib import Path
 
-from . import (clock_gating, floorplan, netlist, power, report_inputs, same_logic, spef, sram_kit, sram_model, standard_cells, timing,
-               tools, verilog)
+from . import (clock_gating, endpoints, floorplan, loads, netlist, power, report_inputs, same_logic, spef, sram_kit, sram_model, stand_in,
+               standard_cells, timing, tools, verilog)
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
@@ -24,8 +24,9 @@ from .timing import Margin, Timing
 
 TARGET_MHZ = 330.0
 NAMINGS = 16
-KEPT_COLUMNS = 3
-RESIZE_ROUNDS = 3  # a stronger gate behind a column's port is a load of the broadcast in all columns
+RESIZED_COLUMNS = 10  # that resizing looks at where there are no engines
+KEPT_COLUMNS = 3  # the first, its neighbour and the last
+RESIZE_ROUNDS = 3  # a stand-in's load cells weigh what they did before resizing
 RESIZE_GUARD_NS = 0.004  # of slack that resizing leaves for that
 HOLD_ROUNDS = 4  # in which paths that are too early get buffers
 HOLD_BUFFER_NS = 0.0169  # what one of them adds in the fast corner, 0.014 to 0.021; too little adds a round
@@ -104,6 +105,8 @@ class Result:
     power: Power | None = None
     margins: dict[str, Margin] = field(default_factory=dict)
     naming: Naming | None = None
+    ends: endpoints.Endpoints | None = None  # of paths, in the netlist that was timed
+    fullest_load: loads.Load | None = None  # the nearest to its limit
     sram_area: float = field(init=False)  # of a column
     engine_sram_area: float = field(init=False)  # of all engines
 
@@ -215,15 +218,19 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
 def _resize_settings(folder: Path, library: Library, shrinkable: Iterable[tuple[str, str]] = (),
                      dispensable: Iterable[netlist.Dispensable] = ()) -> dict[str, tools.Setting]:
     """Of the step `resize` of synth/sta/timing.tcl."""
-    return {"blocks": json.loads((folder / timing.BLOCKS).read_text(encoding="utf-8")), "drives": library.drives,
+    return {**json.loads((folder / timing.BLOCKS).read_text(encoding="utf-8")), "drives": library.drives,
             "cell_areas": library.area, "guard": f"{RESIZE_GUARD_NS}", "shrinkable": [list(gate) for gate in shrinkable],
             "buffer_pins": [library.buffers[0].input_pin, library.buffers[0].output_pin],
             "dispensable": [list(astuple(one)) for one in dispensable]}
 
 
+STAND_IN_LIBERTY = "stand_in.lib"  # in the folder of a netlist
+
+
 @dataclass(frozen=True)
 class _Netlist:
-    """What is timed: the design with few real columns, where its cells stand, and the folder of its files."""
+    """What is timed: the design, where its cells stand, and the folder of its files. OpenSTA reads it with stand-ins for all columns
+    but `real`."""
 
     design: dict
     plan: floorplan.Floorplan
@@ -232,73 +239,115 @@ class _Netlist:
     folder: Path
     mapped: same_logic.Logic  # before trees, copies, hold buffers and other drives
     called: dict[str, dict[str, str]] = field(default_factory=dict)  # what cells were called before `prepare`
+    real: list[str] = field(default_factory=list)
+    written: dict = field(default_factory=dict)  # the design as OpenSTA reads it
+    cut: set[str] = field(default_factory=set)  # pins in it of which real columns have the paths
 
-    def prepare(self, loads: dict[str, list[float]]) -> None:
-        """Puts stubs in place of columns; writes the stub's Liberty and what cells were called."""
+    def prepare(self) -> None:
+        """Plain names, drives that suffice for the wires between blocks, and a choice of the columns that stay: the first ones and the
+        last. Writes what cells were called."""
         self.folder.mkdir(exist_ok=True)
-        netlist.keep_columns(self.design, KEPT_COLUMNS)
         self.called.update(spef.plain_names(self.design))
         self.plan.rename(self.called[self.configuration.top])
         names = {plain: name for before in self.called.values() for plain, name in before.items()}
         (self.folder / timing.NAMES).write_text(json.dumps(names), encoding="utf-8")
-        self.write_stub(loads)
-        self.write_wires()
-        self.write_netlist()
+        library = self.technology.slow
+        loads.strengthen(self.design, self.plan, library, floorplan.pin_load(library, sram_kit.PIN_FF))
+        columns = sorted(netlist.columns(self.design), key=lambda name: self.plan[name])
+        self.real.extend(columns if len(columns) <= KEPT_COLUMNS else [*columns[:KEPT_COLUMNS - 1], columns[-1]])
+        self.write()
 
-    def write_stub(self, loads: dict[str, list[float]]) -> None:
-        (self.folder / "column_stub.lib").write_text(
-            netlist.stub_liberty(self.design, loads, self.technology.typical.voltage), encoding="utf-8")
+    def write(self) -> None:
+        """The files that OpenSTA reads. The wires between the blocks give nets names, so that the netlist is written behind them."""
+        timed, stand = self._write(None)
+        self.written.clear()
+        self.written.update(timed)
+        self.cut.clear()
+        self.cut.update(f"{name}/{pin}" for name in netlist.columns(self.design) if name not in self.real for pin in stand.cut)
 
-    def write_wires(self) -> None:
-        """The wires between the blocks in all corners. They give nets names, so that the netlist is written behind them."""
-        clocks = netlist.clock_nets(netlist.top(self.design))
+    def _write(self, bordered: list[str] | None) -> tuple[dict, stand_in.StandIn]:
+        """With stand-ins as stand_in.timed has them."""
+        library = self.technology.slow
+        timed, stand = stand_in.timed(self.design, self.real, library, floorplan.pin_load(library, sram_kit.PIN_FF), bordered)
+        (self.folder / STAND_IN_LIBERTY).write_text(stand_in.liberty(stand, self.technology.typical.voltage), encoding="utf-8")
+        self.write_wires(timed)
+        (self.folder / "timing.v").write_text(verilog.write(timed), encoding="utf-8")
+        copies = dict(zip(self._kinds(), (self.configuration.column_modules, self.configuration.engines)))
+        instances: dict[str, list[str]] = {}
+        for name, cell in netlist.top(timed)["cells"].items():
+            instances.setdefault(cell["type"], []).append(name)
+        column = netlist.column_module(self.design)
+        (self.folder / timing.BLOCKS).write_text(json.dumps({
+            "blocks": [item for kind in self._kinds() for item in (kind, instances[kind], copies[kind])],
+            "stand_ins": [column, instances.get(netlist.STUB, []), list(stand.module["cells"])]}), encoding="utf-8")
+        return timed, stand
+
+    def _kinds(self) -> list[str]:
+        """Modules of the blocks: the column's, and the engine's where there are engines."""
+        return [kind for kind in (netlist.column_module(self.design), netlist.engine_module(self.design)) if kind]
+
+    def _first_columns(self) -> list[str]:
+        """Those that share the first engine, or as many without engines."""
+        number = -(-(self.configuration.engine_columns or RESIZED_COLUMNS) // self.configuration.module_columns)
+        return sorted(netlist.columns(self.design), key=lambda name: self.plan[name])[:number]
+
+    def write_wires(self, timed: dict) -> None:
+        """The wires between the blocks in all corners."""
+        clocks = netlist.clock_nets(netlist.top(timed))
         kinds = list(dict.fromkeys(WIRES.values()))
-        texts = dict(zip(kinds, spef.write(self.design, self.plan, self.technology.slow, kinds, clocks)))
+        texts = dict(zip(kinds, spef.write(timed, self.plan, self.technology.slow, kinds, clocks)))
         for corner, kind in WIRES.items():
             (self.folder / f"wires_{corner}.spef").write_text(texts[kind], encoding="utf-8")
 
-    def write_netlist(self) -> None:
-        (self.folder / "timing.v").write_text(verilog.write(self.design), encoding="utf-8")
-
     def time(self, corner: str, *steps: str, **settings: tools.Setting) -> timing.Report:
-        """The steps of synth/sta/timing.tcl in one corner, with their settings."""
+        """The steps of synth/sta/timing.tcl in one corner, with their settings. FlowError if an end of a path is not timed and none
+        of the reasons in endpoints.py is why."""
         library = self.technology.library(corner)
         files = timing.Netlist(
             f"{self.configuration.name}, {corner} corner", self.folder / "timing.v", self.folder / f"wires_{corner}.spef",
-            [library.path, self.technology.kit / f"sram40_{corner}.lib", self.folder / "column_stub.lib"],
+            [library.path, self.technology.kit / f"sram40_{corner}.lib", self.folder / STAND_IN_LIBERTY],
             library.wire_load, self.configuration.top)
-        return timing.measure(files, self.technology.root, self.technology.target_mhz,
-                              self.folder / f"sta_{'resize' if 'resize' in steps else corner}.log", steps, settings)
+        if "nominal" in steps:
+            steps = ("check", *steps)
+        report = timing.measure(files, self.technology.root, self.technology.target_mhz,
+                                self.folder / f"sta_{'resize' if 'resize' in steps else corner}.log", steps,
+                                {"measured_column": self.real[0], **settings})
+        if "check" in steps:
+            self.endpoints(report)
+        return report
+
+    def endpoints(self, report: timing.Report) -> endpoints.Endpoints:
+        """Of a report with the step `check`."""
+        return endpoints.judge(self.configuration.name, report.unchecked, self.written, self.technology.slow, self.cut)
 
     def resize(self, again: bool) -> bool:
         """Gives gates on paths that fail in the slow corner with margins more drive and, but for doing it `again`, others less, and
-        takes out the buffers of mapping that no path needs. Returns whether a broadcast has more to drive in the columns that are
-        stubs than it was timed with."""
+        takes out the buffers of mapping that no path needs. Returns whether anything has changed. It looks at the first engine with
+        its columns alone, for each trial is timed anew; what it misses in the others is in the slacks."""
         library = self.technology.slow
-        column, engine = netlist.column_module(self.design), netlist.engine_module(self.design)
-        cells = netlist.top(self.design)["cells"]
-        copies = {column: self.configuration.column_modules, engine: self.configuration.engines}
-        kinds = [kind for kind in (column, engine) if kind]
-        (self.folder / timing.BLOCKS).write_text(json.dumps([item for kind in kinds for item in (
-            kind, [name for name, cell in cells.items() if cell["type"] == kind], copies[kind])]), encoding="utf-8")
+        self._write(self._first_columns())
+        kinds = self._kinds()
         pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
         shrinkable, dispensable = [], []
         if not again:
             dispensable, carried = netlist.dispensable_buffers(self.design, library, kinds, pin_load)
+            for kind, nets in loads.between_blocks(self.design, self.plan, library, pin_load).items():
+                module = netlist.top(self.design) if kind == netlist.TOP else netlist.modules(self.design)[kind]
+                inside = carried.setdefault(kind, {net: netlist.load_of(sinks) for net, sinks in netlist.sinks_of(
+                    module, pin_load, library.wire_ff_per_sink).items()})
+                inside |= {net: max(ff, inside.get(net, 0.0)) for net, ff in nets.items()}
             shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load, carried)
-        before = netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink)
         report = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable, dispensable))
         netlist.resize(self.design, library, report.resized)
         netlist.drop_buffers(self.design, library, report.dropped)
-        loads = netlist.port_loads(netlist.modules(self.design)[column], pin_load, library.wire_ff_per_sink)
-        self.write_stub(loads)
-        self.write_netlist()
-        return any(load > timed for port in loads for load, timed in zip(loads[port], before[port]))
+        self.write()
+        return bool(report.resized or report.dropped)
 
     def early_pins(self, report: timing.Report) -> list[str]:
         """Those of paths that are too early, in all blocks of a kind."""
         pins = {netlist.local_pin(self.design, pin) for path in report.early for pin in path.pins}
-        return [name for pin in sorted(pins) for name in netlist.in_all_blocks(self.design, pin)]
+        return [name for pin in sorted(pins) for name in netlist.in_all_blocks(self.design, pin)
+                if netlist.has_pin(self.written, name)]
 
     def fix_hold(self, report: timing.Report, slacks: dict[str, float]) -> Margin:
         """Delays what comes too early in the fast corner with margins, HOLD_ROUNDS times at most; returns that corner. `report`:
@@ -317,12 +366,9 @@ class _Netlist:
                 buffers[pin] = max(buffers.get(pin, 1), needed)
             for pin, added in buffers.items():
                 spare[pin] = spare.get(pin, 0.0) - added * HOLD_BUFFER_SLOW_NS
-            on_border = any(netlist.on_border(self.design, pin) for pin in buffers)
             beside = netlist.delay_pins(self.design, buffers, self.technology.slow)
             self.plan.places |= {name: self.plan[cell] for name, cell in beside.items()}
-            if on_border:
-                self.write_wires()
-            self.write_netlist()
+            self.write()
             report = self.time("fast", "margins", "early")
         return report.margin()
 
@@ -383,11 +429,14 @@ class _Attempt:
 def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None)
+    report, early = None, None
     for number in range(RESIZE_ROUNDS):
-        heavier = timed.resize(again=number > 0)
+        changed = timed.resize(again=number > 0)
+        if report is not None and not changed:
+            break
         early = timed.time("fast", "margins", "early")
         report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
-        if report.margin().slack >= 0 or not heavier:
+        if report.margin().slack >= 0:
             break
     return _Attempt(timed, naming, report.slack, report.margin(), early, report.spare)
 
@@ -403,27 +452,25 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
     design = map_to_cells(configuration, technology, folder, efforts(configuration)[number], known)
     library = technology.slow
     mapped = same_logic.of(design, library)
-    loads, plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration)
+    plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration)
     try:
         floorplan.check_borders(design, library)
     except FlowError as error:
         raise FlowError(f"{configuration.name}: {error}") from None
     timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}", mapped)
-    timed.prepare(loads)
+    timed.prepare()
     return _timed(timed, _found_naming(folder, number, digest))
 
 
 def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None,
               known: Naming | None) -> list[_Attempt]:
-    """With the known namings, where they are those of what is mapped; else, or where they do not close, effort after effort
-    until one does."""
+    """With the known namings, where they are those of what is mapped, whether they close or not: the search that found them found
+    nothing better. Else effort after effort until one closes."""
     tried = efforts(configuration)[:most]
     digest = mapping_digest(folder / "generic.il", technology, tried)
-    attempts: list[_Attempt] = []
     if known is not None and known.digest == digest:
-        attempts.append(_attempt(configuration, technology, folder, known.effort, digest, known))
-        if most is not None or attempts[-1].closes_with_margins:
-            return attempts
+        return [_attempt(configuration, technology, folder, known.effort, digest, known)]
+    attempts: list[_Attempt] = []
     for number in range(len(tried)):
         attempts.append(_attempt(configuration, technology, folder, number, digest))
         if attempts[-1].closes_with_margins:
@@ -453,6 +500,8 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     else:
         slow = timed.time("slow", "nominal", "closing")
     timed.check_logic()
+    fullest = loads.check(configuration.name, timed.design, timed.plan, technology.slow,
+                          floorplan.pin_load(technology.slow, sram_kit.PIN_FF))
     (folder / FINISHED_COLUMN).write_text(json.dumps(timed.finished_column()), encoding="utf-8")
     column_module, shared, engines = timed.counts()
     modules = configuration.column_modules
@@ -468,7 +517,34 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         figures = Power(power.logic_mw(typical.output, modules), power.sram_mw(configuration, TARGET_MHZ),
                         power.clock_mw(typical.output, modules, tree, technology.typical, TARGET_MHZ))
     return Result(configuration, column_module, shared, engines, tree, technology.slow.nand2_area,
-                  technology.slow.mux2_area, corner_timing, figures, margins, best.naming)
+                  technology.slow.mux2_area, corner_timing, figures, margins, best.naming, timed.endpoints(slow), fullest)
+
+
+@dataclass(frozen=True)
+class Flat:
+    """Setup slacks with margins in the slow corner, ns: as `run` has it, and with every column real."""
+
+    with_stand_ins: float
+    all_real: float
+
+
+def flat(result: Result, technology: Technology, folder: Path) -> Flat:
+    """A second way to the slack of the netlist that `run` left in `folder`. Stand-ins have the names of the columns' cells, so that the
+    wires are the same."""
+    configuration = result.configuration
+    effort = folder / f"effort{result.naming.effort}"
+    text = (effort / "timing.v").read_text(encoding="utf-8")
+    column = json.loads((effort / timing.BLOCKS).read_text(encoding="utf-8"))["blocks"][0]
+    real = re.sub(rf"^  {netlist.STUB} (?=\w+ \()", f"  {column} ", text, flags=re.MULTILINE)
+    if real == text:
+        raise FlowError(f"{configuration.name}: no column has a stand-in")
+    (effort / "flat.v").write_text(real, encoding="utf-8")
+    files = timing.Netlist(
+        f"{configuration.name}, all columns real", effort / "flat.v", effort / "wires_slow.spef",
+        [technology.slow.path, technology.kit / "sram40_slow.lib", effort / STAND_IN_LIBERTY], technology.slow.wire_load,
+        configuration.top)
+    report = timing.measure(files, technology.root, technology.target_mhz, effort / "sta_flat.log", ("nominal", "margins"))
+    return Flat(result.margins["slow"].slack, report.margin().slack)
 
 
 @dataclass(frozen=True)
@@ -490,7 +566,7 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
     configuration = result.configuration
     files = timing.Netlist(
         f"{configuration.name}, slow corner, {um_per_sink:.2f} um of wire per sink", effort / "timing.v",
-        effort / "wires_slow.spef", [liberty, technology.kit / "sram40_slow.lib", effort / "column_stub.lib"],
+        effort / "wires_slow.spef", [liberty, technology.kit / "sram40_slow.lib", effort / STAND_IN_LIBERTY],
         technology.slow.wire_load, configuration.top)
 
     def time(log: str, steps: tuple[str, ...], settings: dict[str, tools.Setting]) -> timing.Report:

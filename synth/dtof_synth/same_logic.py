@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from . import netlist
 from .errors import FlowError
 from .library import Library
-from .netlist import COPY_SUFFIX, STUB, Module
+from .netlist import COPY_SUFFIX, Module
 
 Source = tuple[str, ...]
 Logic = dict[str, dict[str, tuple]]  # of each module: what its cells and outputs are, by name
@@ -59,7 +59,7 @@ class _Reader:
 
         found: dict[str, tuple] = {}
         for cell, description in self.module["cells"].items():
-            kind = self.column if description["type"] == STUB else description["type"]
+            kind = description["type"]
             if kind in buffers:
                 continue
             original = self._original(cell)

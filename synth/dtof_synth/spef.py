@@ -60,7 +60,7 @@ class _Pin:
     wire_ff: float  # of the wires inside its block
 
 
-class _Nets:
+class Nets:
     """The pins of the top's nets, inside columns and engines as well."""
 
     def __init__(self, design: dict, plan: Floorplan, library: Library) -> None:
@@ -150,7 +150,7 @@ def write(design: dict, plan: Floorplan, library: Library, wires: Iterable[Wire]
     header = _HEADER.format(design=next(name for name, module in netlist.modules(design).items() if module is array))
     described: list[tuple[str, list[_Pin]]] = []
     named: dict[str, dict] = {}
-    for bit, pins in sorted(_Nets(design, plan, library).pins().items()):
+    for bit, pins in sorted(Nets(design, plan, library).pins().items()):
         places = [pin.place_um for pin in pins]
         drivers = sum(pin.is_output for pin in pins)
         if bit in skip or bit in ties or drivers != 1 or len(pins) < 2 or max(places) - min(places) < LOCAL_UM:

@@ -92,6 +92,21 @@ class Report:
         return self._number("DTOF_SLACK")
 
     @property
+    def unchecked(self) -> dict[str, list[str]]:
+        """What OpenSTA's check_setup warns of: kind of warning without its number, pins and ports; of the step `check`."""
+        found: dict[str, list[str]] = {}
+        names: list[str] = []
+        for line in self._section("DTOF_CHECK").splitlines():
+            warning = re.match(r"Warning: There (?:is|are) (?:\d+ )?(.*?)\.?$", line)
+            if warning:
+                names = found.setdefault(warning.group(1), [])
+            elif line.startswith("  "):
+                names.append(line.strip())
+            elif line.strip():
+                found.setdefault(line.strip(), [])
+        return found
+
+    @property
     def too_fast_for_sram(self) -> bool:
         """The clock is faster than an SRAM's minimum period, of the step `nominal`."""
         return "VIOLATED" in self._section("DTOF_MIN_PERIOD")
@@ -100,8 +115,9 @@ class Report:
         """Of the step `margins`."""
         start, end, _ = self._slowest_path("DTOF_MARGIN_PATH_MAX")
         reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", self._section("DTOF_RESET"), re.MULTILINE)
-        return Margin(self._number("DTOF_MARGIN_SLACK"), self._number("DTOF_MARGIN_SLACK", 1),
-                      min((float(slack) for slack in reset), default=0.0), start, end)
+        if not reset:
+            raise FlowError("OpenSTA reported no check of the reset")
+        return Margin(self._number("DTOF_MARGIN_SLACK"), self._number("DTOF_MARGIN_SLACK", 1), min(map(float, reset)), start, end)
 
     @property
     def early(self) -> list[TimedPath]:

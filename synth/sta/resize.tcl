@@ -3,18 +3,20 @@
 # an SRAM's word or a broadcast arrives, and when its outputs are due.
 #   grow     of the slowest path the gate whose larger drive takes the most negative slack away for its area, and others that take
 #            at least SHARE_OF_BEST of that, until no slack is negative, or no such gate is on the slowest PATHS, or MOST_GROWN
-#            have been enlarged
+#            have been enlarged; nothing grows where a path misses by more than HOPELESS_NS, which no drive mends
 #   drop     the buffers of `dispensable`, if that leaves all paths met: {kind buffer driver drive}, where `drive` is the cell of
 #            the driver that carries the load without it
 #   shrink   the gates of `shrinkable` to the next smaller drive, if that leaves all paths met
 # `drives`: cells of one function, smallest first, by list. `blocks`: kind of a block, its instances, how many the array has of
-# it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`.
+# it; a gate is resized in all of them at once. Gates outside blocks have the kind `top`. `stand_ins`: kind of a block, the
+# instances that have only its border, and the gates that these have.
 # `buffer_pins`: input and output of all buffers.
 # Prints what is another drive now, which buffers are not needed, the area of it all and the slack.
 
 set PATHS 100
 set MOST_GROWN 500
 set SHARE_OF_BEST 0.15
+set HOPELESS_NS 0.4
 
 proc index_drives {} {
   foreach family $::drives {
@@ -33,9 +35,18 @@ proc gate_of {pin} {
   if {[llength $parts] == 3} { return [list $::kind_of([lindex $parts 0]) [lindex $parts 1]] }
 }
 
+# Blocks that have a gate, stand-ins behind the others.
+proc blocks_with {kind gate} {
+  if {[info exists ::in_stand_ins([list $kind $gate])]} { return [concat $::instances_of($kind) $::stand_ins_of($kind)] }
+  return $::instances_of($kind)
+}
+
 proc instances {kind gate} {
-  if {$kind eq "top"} { return [list [get_cells $gate]] }
-  return [lmap block $::instances_of($kind) { get_cells $block/$gate }]
+  if {![info exists ::cells_of([list $kind $gate])]} {
+    set ::cells_of([list $kind $gate]) [expr {$kind eq "top" ? [list [get_cells $gate]]
+                                              : [lmap block [blocks_with $kind $gate] { get_cells $block/$gate }]}]
+  }
+  return $::cells_of([list $kind $gate])
 }
 
 # What another drive of a gate adds to the array's area.
@@ -145,6 +156,7 @@ proc note {gate now next} {
 }
 
 proc grow_late_paths {} {
+  if {[worst_slack -max] < -$::HOPELESS_NS} { return }
   for {set grown 0} {$grown < $::MOST_GROWN && [total_negative_slack] < 0} {} {
     set growths [best_growths]
     if {$growths eq ""} { break }
@@ -164,7 +176,7 @@ proc drop {kind buffer driver drive} {
   if {$::area_of($drive) - $::area_of($now) >= $::area_of($own)} { return }
   set limit [total_negative_slack]
   set places {}
-  foreach block $::instances_of($kind) {
+  foreach block [blocks_with $kind $buffer] {
     set pin [get_pins $block/$buffer/$input]
     set net [get_nets -of_objects $pin]
     set own_net [get_nets -of_objects [get_pins $block/$buffer/$output]]
@@ -209,6 +221,11 @@ proc resize {} {
     set ::instances_of($kind) $names
     set ::copies_of($kind) $copies
     foreach name $names { set ::kind_of($name) $kind }
+  }
+  foreach {kind names gates} $::stand_ins {
+    set ::stand_ins_of($kind) $names
+    foreach name $names { set ::kind_of($name) $kind }
+    foreach gate $gates { set ::in_stand_ins([list $kind $gate]) 1 }
   }
   set ::copies_of(top) 1
   array set ::area_of $::cell_areas

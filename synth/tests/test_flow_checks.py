@@ -46,7 +46,7 @@ class FlowChecks(unittest.TestCase):
         tools.write_settings(settings, {
             "liberty_files": libraries or [self.folder / "typical.lib"], "netlist": self.folder / "netlist.v",
             "wires": "", "top": "t", "wire_load": "block_1k", "constraints": self.folder / "test.sdc",
-            "target_period": 3.0, "fast_period": 2.0, "activity": 0.1, "steps": ["closing", "nominal", "power"]})
+            "target_period": 3.0, "fast_period": 2.0, "activity": 0.1, "measured_column": "x_u_column", "steps": ["closing", "nominal", "power"]})
         return tools.run_sta(SYNTH / "sta" / "timing.tcl", settings, self.folder / "sta.log", "test")
 
     def test_clean_rtl_passes(self):

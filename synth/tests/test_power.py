@@ -2,8 +2,10 @@
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
-from dtof_synth import configuration, power, scene_power, standard_cells, tools, wide_words
+from dtof_synth import configuration, power, scene_power, sram_model, standard_cells, tools, wide_words
+from dtof_synth.library import Buffer
 
 SYNTH = Path(__file__).resolve().parents[1]
 NAMED = configuration.load(SYNTH.parent / "configurations.toml")
@@ -62,6 +64,44 @@ class DataPower(unittest.TestCase):
             nets = 0.5 * 2 * (standard_cells.CINV_FF + wire) * 1.1**2
             self.assertAlmostEqual(found[0] / (0.1 * (internal + nets) / 3.0 * 1e-3), 1, delta=0.02)
             self.assertAlmostEqual(found[1] / found[0], 3, delta=0.01)
+
+
+class Clock(unittest.TestCase):
+    def test_the_tree_has_a_level_of_buffers_for_each_load_that_is_too_large(self):
+        # 1,000 flip-flops of 1 fF and 0.5 fF of wire each are 1,500 fF; a buffer takes half of 160 fF: 19 buffers, whose pins of
+        # 2 fF and wires of 0.5 fF are 47.5 fF. One buffer drives these.
+        library = SimpleNamespace(buffers=[Buffer("BUF_X16", "A", "Y", 3.0, 2.0, 160.0)], wire_ff_per_sink=0.5)
+        tree = power.clock_tree(1000, 1000.0, library)
+        self.assertEqual((tree.buffers, tree.area, tree.load_ff), (19, 57.0, 1547.5))
+
+    def test_a_clock_charges_pins_and_tree_once(self):
+        # OpenSTA's internal power is halved: 10 columns of 2 uW and 1 uW beside them are 0.021 mW; 1,000 fF at 1.1 V and 330 MHz
+        # are 0.3993 mW.
+        output = "DTOF_POWER CLOCK column 4.0e-06 9.0 9.0\nDTOF_POWER CLOCK shared 2.0e-06 9.0 9.0\n"
+        found = power.clock_mw(output, 10, power.ClockTree(1, 1.0, 1000.0), SimpleNamespace(voltage=1.1), 330.0)
+        self.assertAlmostEqual(found, 0.021 + 0.3993, places=9)
+
+
+class Accesses(unittest.TestCase):
+    """Reads and writes a clock of each SRAM of a column, by hand, with two slots a pixel."""
+
+    def test_rates(self):
+        for name, rates in (
+                # Words of two rows: a word in four clocks, in three quarters of the frame; two parts of each in the first.
+                ("poolpointer2", {"pixels and groups": (0.25 * 2 * 0.25 + 0.75 * 0.25,) * 2}),
+                ("ezpointer", {"pointer": (0.5, 0.5)}),
+                # The histogram is counted in for half of the frame, a quarter of the slots hold a detection.
+                ("hispointer", {"histogram": (0.125, 0.125), "pointer": (0.25, 0.25)}),
+                ("sifh", {"histogram": (0.25, 0.25)})):
+            found = power.access_rates(NAMED[name])
+            self.assertEqual({use: found[use] for use in rates}, rates, name)
+        self.assertEqual(power.access_rates(NAMED["poolpointer2"])["pixels and groups"], (0.3125, 0.3125))
+
+    def test_an_array_takes_its_accesses_and_leakage(self):
+        # ezPointer: 200 SRAMs, each read and written in every second clock of 330 MHz.
+        macro = sram_model.macro(sram_model.Size(2, 160, 14))
+        expected = 200 * (0.5 * (macro.read_energy + macro.write_energy) * 330e-3 + macro.leakage * 1e-3)
+        self.assertAlmostEqual(power.sram_mw(NAMED["ezpointer"], 330.0), expected, places=6)
 
 
 if __name__ == "__main__":

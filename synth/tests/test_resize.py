@@ -51,7 +51,7 @@ class Resize(unittest.TestCase):
             "liberty_files": [self.folder / "slow.lib"], "netlist": self.folder / "t.v", "wires": "", "top": "t",
             "wire_load": self.library.wire_load, "constraints": self.folder / "t.sdc", "margins": self.folder / "none.sdc",
             "target_period": f"{period}", "steps": [step], "guard": "0.0",
-            "blocks": ["a_pair", ["u_pair", "v_pair"], COPIES], "drives": self.library.drives,
+            "blocks": ["a_pair", ["u_pair", "v_pair"], COPIES], "stand_ins": [], "drives": self.library.drives,
             "cell_areas": self.library.area, "shrinkable": shrinkable or [],
             "buffer_pins": ["A", "Y"], "dispensable": [list(astuple(one)) for one in dispensable or []]})
         return timing.Report(tools.run_sta(ROOT / "synth/sta/timing.tcl", self.folder / "settings.tcl",

@@ -45,7 +45,6 @@ class SameLogic(unittest.TestCase):
         leaf = builder.buffer(4, builder.nets[4][:3])
         builder.copy_register(4, [leaf])
         netlist.insert_fanout_trees(array, self.library, self.load, {2})
-        netlist.keep_columns(design, 3)
         called = spef.plain_names(design)
         netlist.resize(design, self.library, [("a_quad", "gate", "NAND2_X4"), (netlist.TOP, "told", "DFF_X2")])
         netlist.drop_buffers(design, self.library, [("a_quad", "buffer")])
@@ -65,7 +64,7 @@ class SameLogic(unittest.TestCase):
     def test_what_the_steps_do_is_no_difference(self):
         design, called = self.finished()
         kinds = {gate["type"] for kind in design["modules"].values() for gate in kind["cells"].values()}
-        self.assertTrue({"BUF_X1", netlist.STUB, "NAND2_X4", "DFF_X2"} <= kinds, kinds)
+        self.assertTrue({"BUF_X1", "NAND2_X4", "DFF_X2"} <= kinds, kinds)
         self.assertTrue(any(netlist.COPY_SUFFIX in name for name in netlist.top(design)["cells"]))
         same_logic.check(same_logic.of(mapped(), self.library), same_logic.of(design, self.library, called))
 

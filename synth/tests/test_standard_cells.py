@@ -23,6 +23,17 @@ class StandardCells(unittest.TestCase):
         self.assertAlmostEqual(fo4(SLOW) / fo4(TYPICAL), 81 / 25.8, places=6)
         self.assertAlmostEqual(fo4(FAST) / fo4(TYPICAL), 16 / 25.8, places=6)
 
+    def test_setup_and_hold_of_a_flip_flop(self):
+        # Nangate's 0.029 and 0.017 ns by 28 / 25.8; slow 0.137 and 0.058 ns, fast 0.026 and 0.008 ns by the same.
+        for corner, setup, hold in ((TYPICAL, 0.029, 0.017), (SLOW, 0.137, 0.058), (FAST, 0.026, 0.008)):
+            cell = next(cell for cell in liberty.parse(standard_cells.library(corner), "generated").children("cell")
+                        if cell.name == "DFF_X1")
+            pin = next(pin for pin in cell.children("pin") if pin.name == "D")
+            found = {arc.get("timing_type"): float(dict(arc.groups[0].attributes)["values"][0]) for arc in pin.children("timing")}
+            self.assertEqual(list(found), ["setup_rising", "hold_rising"])
+            self.assertAlmostEqual(found["setup_rising"], setup * 28 / 25.8, places=4)
+            self.assertAlmostEqual(found["hold_rising"], hold * 28 / 25.8, places=4)
+
     def test_area_anchors(self):
         cells = {cell.name: cell.number("area") for cell in
                  liberty.parse(standard_cells.library(TYPICAL), "generated").children("cell")}

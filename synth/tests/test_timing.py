@@ -7,8 +7,27 @@ import unittest
 from pathlib import Path
 
 from dtof_synth import standard_cells, timing, tools
+from dtof_synth.errors import FlowError
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+class Slacks(unittest.TestCase):
+    def test_setup_stands_before_hold(self):
+        path = "Startpoint: a\nEndpoint: b\n  0.30   data arrival time\n 0.1000   slack (MET)\n"
+        output = "".join(f"{prefix}_SLACK 0.1 0.2\n{prefix}_PATH_MAX\n{path}" for prefix in ("DTOF", "DTOF_MARGIN"))
+        output += ("DTOF_TRANSITION\nDTOF_END\nDTOF_CLOSING_PERIOD 2.5\nDTOF_FAST_SLACK 0.05\n"
+                   "DTOF_RESET\n**async_default** 0.4000\n**async_default** 0.3000\nDTOF_END\n")
+        report = timing.Report(output, {})
+        found = report.timing()
+        self.assertEqual((found.slack, found.hold_slack, found.fast_slack, found.fmax_mhz), (0.1, 0.2, 0.05, 400.0))
+        margin = report.margin()
+        self.assertEqual((margin.slack, margin.hold_slack, margin.reset_slack), (0.1, 0.2, 0.3))
+
+    def test_a_corner_without_a_check_of_the_reset_is_refused(self):
+        output = "DTOF_MARGIN_SLACK 0.1 0.2\nDTOF_MARGIN_PATH_MAX\nStartpoint: a\nEndpoint: b\n 0.1  slack (MET)\nDTOF_RESET\nDTOF_END\n"
+        with self.assertRaisesRegex(FlowError, "no check of the reset"):
+            timing.Report(output, {}).margin()
 
 
 class Names(unittest.TestCase):

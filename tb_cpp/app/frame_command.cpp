@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +16,7 @@
 
 #include "analytic/fidelity.hpp"
 #include "app/commands.hpp"
+#include "app/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
@@ -22,13 +25,13 @@
 #include "core/pixel_sampler.hpp"
 #include "frame/flat_calibration.hpp"
 #include "frame/frame_maps.hpp"
+#include "frame/frame_truth.hpp"
 #include "host/range_converter.hpp"
 #include "io/atomic_file.hpp"
 #include "io/depth_image.hpp"
 #include "io/output_folder.hpp"
 #include "io/result_csv.hpp"
 #include "metrics/confidence_interval.hpp"
-#include "metrics/error_statistics.hpp"
 #include "photon/photon_source.hpp"
 #include "recording/stream_csv.hpp"
 #include "report/colour_png.hpp"
@@ -55,7 +58,7 @@ struct FrameOptions {
   std::string table = "flat";
   std::optional<double> precision_percent;
   int most_frames = 1000;
-  std::string out = "build/frame";
+  std::string out = "build/my_frame";  // build/frame is that of the main job
   std::string record;
   std::string command_line;
 };
@@ -67,11 +70,20 @@ struct MeasuredFrame {
   ReadoutRun run;
   DepthImage depth;
   DepthImage error;
-  ErrorStatistics statistics;  ///< of all frames' pixels that have a target
-  RunningMoments before;       ///< their errors by Eq. 3.11, before the look-up table
+  FrameFigures figures;  ///< of all frames
+  double mean_square = 0.0;
   int frames = 1;
   bool precision_reached = true;
 };
+
+/// "flat, staircase, ..."
+std::string scene_names() {
+  std::vector<std::string_view> names;
+  for (const Scene scene : kAllScenes) {
+    names.push_back(scene_name(scene));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 OwnMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
   SceneParameters parameters = options.scene_parameters;
@@ -150,11 +162,6 @@ void check_memory(const SensorModel& sensor, int rows) {
   }
 }
 
-DepthImage true_depth(const TargetMap& targets, const Region& region) {
-  return {static_cast<int>(region.columns.size()), region.rows.count,
-          true_depth(targets, region.columns, region.rows)};
-}
-
 /// A read-out and the look-up table that `--table` gives it.
 struct TabledReadout {
   ReadoutParameters parameters;
@@ -191,7 +198,8 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
   frame.parameters = parameters;
   frame.run = run_readout(source, parameters, options.run, region, options.command_line);
   FrameMaps maps = frame_maps(frame.run.results, parameters, sensor, readout.table, truth.metres);
-  frame.before = maps.before;
+  frame.figures = maps.figures;
+  frame.mean_square = maps.mean_square;
   frame.depth = {truth.width, truth.height, std::move(maps.depth)};
   frame.error = {truth.width, truth.height, std::move(maps.error)};
   return frame;
@@ -226,7 +234,7 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstF
                       const DepthImage& truth) {
   MeasuredFrame frame =
       measure_once(first.source(readout.parameters.readout), scene.model(), readout, options, region, truth);
-  std::vector<double> mean_squares = {add_errors(truth.metres, frame.error.metres, frame.statistics)};
+  std::vector<double> mean_squares = {frame.mean_square};
   if (!options.precision_percent) {
     return frame;
   }
@@ -241,8 +249,8 @@ MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstF
         make_source(fidelity, scene.at_frame(scene_frame(static_cast<std::uint32_t>(frame.frames))));
     const MeasuredFrame other = measure_once(*next, scene.model(), readout, options, region, truth);
     frame.run.seconds += other.run.seconds;
-    frame.before.merge(other.before);
-    mean_squares.push_back(add_errors(truth.metres, other.error.metres, frame.statistics));
+    frame.figures.merge(other.figures);
+    mean_squares.push_back(other.mean_square);
     ++frame.frames;
   }
   return frame;
@@ -263,8 +271,13 @@ void write_readout_files(const MeasuredFrame& frame, const Region& region, const
   const std::filesystem::path folder(options.out);
   const std::string name(readout_name(frame.parameters.readout));
   write_result_csv(folder / (name + ".csv"), result_records(frame.run.results, region));
-  write_depth_png(folder / (name + "_depth_mm.png"), frame.depth);
-  write_ply(folder / (name + ".ply"), frame.depth, depth_range, sensor.degrees_per_pixel());
+  const std::filesystem::path millimetres = folder / (name + "_depth_mm.png");
+  write_optional(millimetres, depth_png_obstacle(frame.depth),
+                 [&] { write_depth_png(millimetres, frame.depth); });
+  const std::filesystem::path cloud = folder / (name + ".ply");
+  const double degrees = sensor.degrees_per_pixel();
+  write_optional(cloud, ply_obstacle(frame.depth.width, frame.depth.height, degrees),
+                 [&] { write_ply(cloud, frame.depth, depth_range, degrees); });
   const std::string title(readout_title(frame.parameters.readout));
   const std::string scene = scene_sentence(sensor, options);
   write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{frame.depth, "", MapKind::kDepth}},
@@ -284,7 +297,7 @@ Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& op
   }
   Table table(head);
   for (const MeasuredFrame& frame : frames) {
-    std::vector<std::string> row = figure_values(frame.statistics, frame.before, tables);
+    std::vector<std::string> row = figure_values(frame.figures, tables);
     row.insert(row.begin(), std::string(readout_title(frame.parameters.readout)));
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
     if (options.precision_percent) {
@@ -368,21 +381,26 @@ void run_frame_command(const FrameOptions& options) {
   check_distances(options, sensor);
   check_memory(sensor, options.array_rows.value_or(sensor.rows));
   OwnMap made = make_targets(options, sensor);
+  const bool own = !options.maps.depth.empty();
+  require_reachable(made.targets, sensor, own ? options.maps.depth : "--scene " + options.scene, own);
   const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
   const Fidelity fidelity = photon_model(options, readouts, scene);
   const Region region{.columns = parse_columns(options.run.columns, scene.columns()),
                       .rows = parse_rows(options.run.rows, scene.rows())};
-  const DepthImage truth = true_depth(scene.targets(), region);
-  if (options.precision_percent && std::ranges::all_of(truth.metres, [](float m) { return std::isnan(m); })) {
+  const FrameTruth judged = frame_truth(scene.targets(), sensor, region.columns, region.rows);
+  if (options.precision_percent && !judged.any_judged()) {
     throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
   }
+  const DepthImage truth{static_cast<int>(region.columns.size()), region.rows.count, judged.metres};
   if (options.readout.all()) {
     readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
   }
   check_engine(scene, readouts, options.run, region);
-  check_ply_size(options.out, truth.width, truth.height);
   const TableRule rule = parse_table_rule(options.table);
+  const auto start = std::chrono::steady_clock::now();
   const std::vector<TabledReadout> tabled = with_tables(readouts, rule, scene, fidelity, options.run);
+  const double table_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   create_output_folder(options.out);
   const ColourRange range = depth_range(std::vector<MapPanel>{{truth, "", MapKind::kDepth}});
   if (!options.record.empty()) {
@@ -403,19 +421,22 @@ void run_frame_command(const FrameOptions& options) {
   const std::string precision = precision_sentence(frames, options);
   const std::string heading = fmt::format(
       "Scene {}: {} x {} pixels, {} klux, sensor {}, {} acquisitions, {} photons, engine {}{}, seed "
-      "{}.{}{}\n",
+      "{}.{}{}{}\n",
       options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
       options.sensor.klux, sensor.name, sensor.acquisitions, fidelity_name(fidelity), options.run.engine,
       options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
-      made.description.empty() ? "" : "\n", made.description);
+      judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
   const std::string body = fmt::format("{}\n{}\n{}\n\n{}", heading, table.markdown(),
                                        table_sentence(rule, sensor, options.run.seed), precision);
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}Command: `{}`\n", body, options.command_line));
   // Times change from run to run and stay out of the files.
-  fmt::print("{}Read out in {:.1f} s. Depth maps, error maps, point clouds and CSV are in {}\n", body,
-             seconds, options.out);
+  const std::string times =
+      rule == TableRule::kNone
+          ? fmt::format("Read out in {:.1f} s", seconds)
+          : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, seconds);
+  fmt::print("{}{}. Depth maps, error maps, point clouds and CSV are in {}\n", body, times, options.out);
 }
 
 }  // namespace
@@ -426,7 +447,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand(
       "frame", "One frame of a scene: photons, TDC stream, read-out, depth map with errors");
   auto* scene = command->add_option_group("scene");
-  scene->add_option("--scene", options->scene, "flat, staircase, plane or room")->capture_default_str();
+  scene->add_option("--scene", options->scene, scene_names())->capture_default_str();
   scene->add_option(
       "--depth", options->maps.depth,
       "depth map instead of a scene: PNG of 8 or 16 bits, PFM or NPY (rows, columns), resampled\n"
@@ -459,7 +480,7 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
       ->add_option("--precision", options->precision_percent,
                    "more frames of the scene, until the 95 % interval of the rmse is within this many per "
                    "cent of its value")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command->add_option("--max-frames", options->most_frames, "where --precision gives up")
       ->check(CLI::Range(4, 1'000'000))
       ->capture_default_str();

@@ -11,7 +11,7 @@ Program dtof_program() {
           "Runs the hardware (Verilated RTL) or its bit-exact model on modelled or recorded TDC streams.",
       .examples =
           "Try:\n"
-          "  dtof frame --scene room --readout all --out build/frame     model every read-out on one scene\n"
+          "  dtof frame --scene room --readout all --out build/room      model every read-out on one scene\n"
           "  dtof frame --readout sifh --engine rtl --verify --columns 0-7 --out build/sifh\n"
           "  dtof replay recording.csv --readout hispointer --engine rtl --out build/replay\n"
           "  dtof video --scene room --motion pan --frames 8 --out build/pan\n"

@@ -4,21 +4,27 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 
 #include "app/commands.hpp"
+#include "app/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/truth_map.hpp"
 #include "core/error.hpp"
+#include "core/physical_constants.hpp"
+#include "frame/frame_truth.hpp"
 #include "io/atomic_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/result_csv.hpp"
 #include "metrics/depth.hpp"
 #include "metrics/error_statistics.hpp"
 #include "recording/recording.hpp"
+#include "recording/resampling.hpp"
 #include "report/plot.hpp"
 #include "report/table.hpp"
 #include "run/readout_run.hpp"
@@ -222,20 +228,24 @@ void write_comparison(const std::vector<TruthComparison>& comparisons, const Rep
   }
   write_file(folder / "summary.csv", summary.csv());
   write_file(folder / "measurements.csv", measurements.csv());
+  const std::filesystem::path plot = folder / "error.svg";
+  const bool plotted = write_optional(plot, plot_obstacle(), [&] {
+    write_plot(
+        plot, errors_over_truth(comparisons),
+        {.title = fmt::format(
+             "Error of the measured distance in mm (median, and 80 % of the measurements): {}", recording),
+         .x_label = "true distance, mm",
+         .y_label = "error, mm",
+         .y_limits = {0.0},
+         .panels = true});
+  });
   write_file(
       folder / "summary.md",
-      fmt::format("{}\n{}\n{}\n\n![Error of the measured distance](error.svg)\n\n"
+      fmt::format("{}\n{}\n{}\n\n{}"
                   "Measured distance in mm (median of each group of true distances):\n\n{}\nCommand: `{}`\n",
-                  heading, summary.markdown(), offset_sentence(options), distances.markdown(),
+                  heading, summary.markdown(), offset_sentence(options),
+                  plotted ? "![Error of the measured distance](error.svg)\n\n" : "", distances.markdown(),
                   options.command_line));
-  write_plot(
-      folder / "error.svg", errors_over_truth(comparisons),
-      {.title = fmt::format("Error of the measured distance in mm (median, and 80 % of the measurements): {}",
-                            recording),
-       .x_label = "true distance, mm",
-       .y_label = "error, mm",
-       .y_limits = {0.0},
-       .panels = true});
   fmt::print("{}\n{}\n{}\n\nMeasured distance in mm (median of each group of true distances):\n\n{}\n",
              heading, summary.markdown(), offset_sentence(options), distances.markdown());
 }
@@ -260,6 +270,77 @@ void check_recording_options(const CLI::App& command, const RecordingOptions& re
       refuse_without_effect(command, option, "only MATLAB files have one");
     }
   }
+}
+
+/// Distance whose light, there and back, still falls into T_int, m.
+double reach_m(const ReplayOptions& options) {
+  return 0.5 * kSpeedOfLight * 1e-9 * (options.t_int_ns - options.shift_ns);
+}
+
+/// The range as sentences name it.
+std::string range_phrase(const ReplayOptions& options) {
+  return fmt::format(
+      "the range, {:.2f} m (light there and back in {:g} ns{})", reach_m(options), options.t_int_ns,
+      options.shift_ns == 0.0 ? "" : fmt::format(", times shifted by {:g} ns", options.shift_ns));
+}
+
+/// Makes unknown what the pixels of the region cannot be judged by, and says so. Throws InputError if no true
+/// distance can be measured.
+std::string drop_unjudged(Recording& recording, const Region& region, const ReplayOptions& options) {
+  std::uint64_t beyond = 0;
+  std::uint64_t dark = 0;
+  std::uint64_t judged = 0;
+  double nearest = std::numeric_limits<double>::infinity();
+  bool whole = true;
+  const auto width = static_cast<std::size_t>(recording.source->columns());
+  for (const int column : region.columns) {
+    const ColumnStream stream = recording.source->column_rows(column, region.rows);
+    for (int row = 0; row < region.rows.count; ++row) {
+      double& truth = recording.true_distance[static_cast<std::size_t>(region.rows.first + row) * width +
+                                              static_cast<std::size_t>(column)];
+      if (!(truth > 0.0)) {
+        continue;
+      }
+      nearest = std::min(nearest, truth);
+      whole = whole && truth == std::floor(truth);
+      const bool out_of_reach = truth >= reach_m(options);
+      const bool saw_nothing = stream.row(row).empty();
+      beyond += out_of_reach ? 1 : 0;
+      dark += !out_of_reach && saw_nothing ? 1 : 0;
+      judged += !out_of_reach && !saw_nothing ? 1 : 0;
+      if (out_of_reach || saw_nothing) {
+        truth = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  if (judged == 0 && dark == 0) {
+    throw InputError(fmt::format("{}: every true distance is beyond {}, {}",
+                                 options.truth_file.empty() ? options.recording.file : options.truth_file,
+                                 range_phrase(options),
+                                 unreachable_phrase(nearest, reach_m(options),
+                                                    whole && !options.truth_file.empty(), "--truth-scale")));
+  }
+  return not_judged_sentence(beyond, fmt::format("beyond {},", range_phrase(options))) +
+         not_judged_sentence(dark, "without a detection");
+}
+
+/// What is lost of a measurement because it lies outside the range; empty if nothing is. Throws InputError if
+/// everything is.
+std::string lost_photons_sentence(const Recording& recording, const Region& region,
+                                  const ReplayOptions& options) {
+  const auto* measured = dynamic_cast<const ResampledStream*>(recording.source.get());
+  const PhotonCount photons =
+      measured == nullptr ? PhotonCount() : measured->count_photons(region.columns, region.rows);
+  const std::string range = fmt::format("0 to {:g} ns", options.t_int_ns);
+  if (photons.all > 0 && photons.outside == photons.all) {
+    throw InputError(
+        fmt::format("{}: all {} photons of the pixels read are outside the range, {}: --t-int and "
+                    "--shift move it",
+                    options.recording.file, photons.all, range));
+  }
+  return photons.outside == 0 ? ""
+                              : fmt::format(" {} of {} photons are outside the range, {}, and lost.",
+                                            photons.outside, photons.all, range);
 }
 
 void run_replay_command(const ReplayOptions& options) {
@@ -294,10 +375,15 @@ void run_replay_command(const ReplayOptions& options) {
     recording.true_distance = read_truth_map(options.truth_file, options.truth_scale,
                                              recording.source->columns(), recording.source->rows(), region);
   }
-  const bool judged = has_truth(recording, region);
+  bool judged = has_truth(recording, region);
   if (!judged && (!options.truth_file.empty() || options.offset_mm)) {
     throw InputError(options.truth_file.empty() ? "--offset needs true distances: name a map with --truth"
                                                 : "--truth: the pixels read have no true distance");
+  }
+  std::string losses = lost_photons_sentence(recording, region, options);
+  if (judged) {
+    losses += drop_unjudged(recording, region, options);
+    judged = has_truth(recording, region);
   }
   create_output_folder(options.out);
   std::vector<TruthComparison> comparisons;
@@ -312,10 +398,11 @@ void run_replay_command(const ReplayOptions& options) {
     }
   }
   const std::string heading = fmt::format(
-      "{} ({}): {} columns x {} rows, {} acquisitions{}, engine {}{}, seed {}.\n", options.recording.file,
+      "{} ({}): {} columns x {} rows, {} acquisitions{}, engine {}{}, seed {}.{}\n", options.recording.file,
       recording.description, region.columns.size(), region.rows.count, recording.source->acquisitions(),
       options.photons ? fmt::format(", thinned to {:g} photons per pixel and frame", *options.photons) : "",
-      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed);
+      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      losses);
   if (comparisons.empty()) {
     fmt::print("{}", heading);
   } else {

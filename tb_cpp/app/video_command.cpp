@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "core/error.hpp"
@@ -205,7 +206,8 @@ Table frames_csv(const std::vector<Video>& videos, const std::vector<std::string
 }
 
 void write_picture(const std::filesystem::path& path, const Video& video,
-                   const std::vector<std::string>& estimators, const std::string& sensor) {
+                   const std::vector<std::string>& estimators, const std::string& sensor,
+                   const std::string& obstacle) {
   std::vector<PlotSeries> series;
   for (std::size_t e = 0; e < estimators.size(); ++e) {
     PlotSeries line{estimators[e], {}, {}};
@@ -215,12 +217,14 @@ void write_picture(const std::filesystem::path& path, const Video& video,
     }
     series.push_back(std::move(line));
   }
-  write_plot(
-      path, series,
-      {.title = fmt::format("Pixels above 3 % in % per frame: {}, sensor {}", video.description(), sensor),
-       .x_label = "frame",
-       .y_label = "above 3 %, %",
-       .logarithmic_y = true});
+  write_optional(path, obstacle, [&] {
+    write_plot(
+        path, series,
+        {.title = fmt::format("Pixels above 3 % in % per frame: {}, sensor {}", video.description(), sensor),
+         .x_label = "frame",
+         .y_label = "above 3 %, %",
+         .logarithmic_y = true});
+  });
 }
 
 /// Frames whose depth maps are drawn: the first, the middle and the last.
@@ -316,6 +320,7 @@ void run_video_command(const VideoOptions& options) {
   const std::vector<std::string>& estimators = reader.estimators();
   const std::filesystem::path folder(options.out);
   create_output_folder(folder);
+  const std::string plots_obstacle = plot_obstacle();
   Progress progress("frames", videos.size() * readers.size() * static_cast<std::size_t>(options.frames));
   for (Video& video : videos) {
     DepthSheet sheet(options.frames, estimators);
@@ -329,7 +334,8 @@ void run_video_command(const VideoOptions& options) {
         }
       }));
     }
-    write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor.name);
+    write_picture(folder / fmt::format("{}.svg", video.name()), video, estimators, sensor.name,
+                  plots_obstacle);
     sheet.write(folder / fmt::format("{}_depth.png", video.name()),
                 fmt::format("Depth in m: {}, sensor {}", video.description(), sensor.name),
                 options.command_line);
@@ -363,7 +369,7 @@ void run_video_command(const VideoOptions& options) {
     report += fmt::format("* {}: {}.\n", motion, motion_summary(parse_motion(motion)));
   }
   report += fmt::format("\n{}\nEvery frame: [video.csv](video.csv).\n", tables);
-  for (const Video& video : videos) {
+  for (const Video& video : plots_obstacle.empty() ? videos : std::vector<Video>()) {
     report += fmt::format("\n![{} {}]({}.svg)\n", scene_name(video.sequence.scene),
                           motion_name(video.sequence.motion), video.name());
   }
@@ -397,7 +403,7 @@ void add_video_command(CLI::App& app, const std::string& command_line) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--speed", options->speed, "columns, degrees or centimetres per frame")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("--array-columns", options->columns, "columns of the array (default: the sensor's)")
       ->check(CLI::Range(1, 4096));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Speed of the photon models and of a frame through the read-out models: thesis preset, 14 klux, 200 x 160
 // pixels, 3,333 acquisitions; a plane from 0.8 to 5 m (columns of equal pixels) and the room (every pixel
-// different). CPU time adds the threads up; scripts/photon_baseline.py sets it beside NumPy.
+// different). CPU time adds the threads up; scripts/photon_baseline.py sets it beside NumPy. --small: frames
+// of few acquisitions.
 
 #include <benchmark/benchmark.h>
 
@@ -13,6 +14,7 @@
 
 #include "analytic/code_distribution.hpp"
 #include "analytic/fidelity.hpp"
+#include "bench/small_option.hpp"
 #include "core/parallel.hpp"
 #include "photon/photon_source.hpp"
 #include "readout/run_frame.hpp"
@@ -25,7 +27,19 @@ namespace {
 constexpr std::array kReadouts = {Readout::kEzPointer, Readout::kHisPointer, Readout::kSifh,
                                   Readout::kFifh,      Readout::kThreeSteps, Readout::kHistogram};
 
-PhotonSource full_frame(Scene scene) { return {parse_preset("thesis"), make_scene(scene, {}), 14.0, 1}; }
+constexpr std::uint32_t kFewAcquisitions = 50;
+
+SensorModel bench_sensor(bool small) {
+  SensorModel sensor = parse_preset("thesis");
+  if (small) {
+    sensor.acquisitions = kFewAcquisitions;
+  }
+  return sensor;
+}
+
+PhotonSource full_frame(const SensorModel& sensor, Scene scene) {
+  return {sensor, make_scene(scene, {}), 14.0, 1};
+}
 
 void set_rate(benchmark::State& state, std::uint64_t detections) {
   state.counters["detections/s"] =
@@ -33,8 +47,9 @@ void set_rate(benchmark::State& state, std::uint64_t detections) {
 }
 
 /// Streams of all columns, not read.
-void photons(benchmark::State& state, Fidelity fidelity, Scene scene, int threads) {
-  const auto source = make_source(fidelity, full_frame(scene));
+void photons(benchmark::State& state, const SensorModel& sensor, Fidelity fidelity, Scene scene,
+             int threads) {
+  const auto source = make_source(fidelity, full_frame(sensor, scene));
   std::atomic<std::uint64_t> detections = 0;
   for ([[maybe_unused]] auto _ : state) {
     parallel_for(static_cast<std::size_t>(source->columns()), threads, [&](std::size_t column) {
@@ -45,8 +60,8 @@ void photons(benchmark::State& state, Fidelity fidelity, Scene scene, int thread
 }
 
 /// The sampler's timestamps of all pixels over the whole range, not read.
-void sampled_photons(benchmark::State& state, Scene scene, int threads) {
-  const auto source = make_source(Fidelity::kFast, full_frame(scene));
+void sampled_photons(benchmark::State& state, const SensorModel& sensor, Scene scene, int threads) {
+  const auto source = make_source(Fidelity::kFast, full_frame(sensor, scene));
   const auto& sampled = dynamic_cast<const SampledSource&>(*source);
   std::atomic<std::uint64_t> detections = 0;
   for ([[maybe_unused]] auto _ : state) {
@@ -64,8 +79,9 @@ void sampled_photons(benchmark::State& state, Scene scene, int threads) {
 }
 
 /// Photons and read-out of a frame, as `dtof frame` does it.
-void frame(benchmark::State& state, Fidelity fidelity, Scene scene, Readout readout) {
-  const auto source = make_source(fidelity, full_frame(scene));
+void frame(benchmark::State& state, const SensorModel& sensor, Fidelity fidelity, Scene scene,
+           Readout readout) {
+  const auto source = make_source(fidelity, full_frame(sensor, scene));
   const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
   const auto* sampled = dynamic_cast<const SampledSource*>(source.get());
   for ([[maybe_unused]] auto _ : state) {
@@ -75,8 +91,7 @@ void frame(benchmark::State& state, Fidelity fidelity, Scene scene, Readout read
 }
 
 /// One point of a distance sweep without drawing anything.
-void distribution(benchmark::State& state, Readout readout) {
-  const SensorModel sensor = parse_preset("thesis");
+void distribution(benchmark::State& state, const SensorModel& sensor, Readout readout) {
   const PhotonSource source(sensor, TargetMap(1, 1, {.depth_m = 3.0, .reflectivity = 1.0}), 14.0, 1);
   for ([[maybe_unused]] auto _ : state) {
     benchmark::DoNotOptimize(
@@ -84,33 +99,36 @@ void distribution(benchmark::State& state, Readout readout) {
   }
 }
 
-void register_benchmarks() {
-  const auto add = [](const std::string& name, auto function) {
-    benchmark::RegisterBenchmark(name.c_str(), function)
-        ->Unit(benchmark::kMillisecond)
-        ->MeasureProcessCPUTime()
-        ->UseRealTime();
+void register_benchmarks(bool small) {
+  constexpr double kSeconds = 0.5;
+  const SensorModel sensor = bench_sensor(small);
+  const auto add = [small](const std::string& name, auto function) {
+    auto* bench = benchmark::RegisterBenchmark(name.c_str(), function);
+    bench->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
+    run_for(*bench, kSeconds, small);
   };
   for (const Scene scene : {Scene::kPlane, Scene::kRoom}) {
     const std::string name(scene_name(scene));
     for (const int threads : {1, hardware_threads()}) {
       const std::string suffix = name + "/threads:" + std::to_string(threads);
-      add("photons/exact/" + suffix, [=](auto& state) { photons(state, Fidelity::kExact, scene, threads); });
+      add("photons/exact/" + suffix,
+          [=](auto& state) { photons(state, sensor, Fidelity::kExact, scene, threads); });
       add("photons/fast_stream/" + suffix,
-          [=](auto& state) { photons(state, Fidelity::kFast, scene, threads); });
-      add("photons/fast_sampler/" + suffix, [=](auto& state) { sampled_photons(state, scene, threads); });
+          [=](auto& state) { photons(state, sensor, Fidelity::kFast, scene, threads); });
+      add("photons/fast_sampler/" + suffix,
+          [=](auto& state) { sampled_photons(state, sensor, scene, threads); });
     }
     for (const Fidelity fidelity : {Fidelity::kExact, Fidelity::kFast, Fidelity::kAnalytic}) {
       for (const Readout readout : kReadouts) {
         add("frame/" + std::string(fidelity_name(fidelity)) + "/" + name + "/" +
                 std::string(readout_name(readout)),
-            [=](auto& state) { frame(state, fidelity, scene, readout); });
+            [=](auto& state) { frame(state, sensor, fidelity, scene, readout); });
       }
     }
   }
   for (const Readout readout : kReadouts) {
     add("distribution/" + std::string(readout_name(readout)),
-        [=](auto& state) { distribution(state, readout); });
+        [=](auto& state) { distribution(state, sensor, readout); });
   }
 }
 
@@ -118,7 +136,7 @@ void register_benchmarks() {
 }  // namespace dtof
 
 int main(int argc, char** argv) {
-  dtof::register_benchmarks();
+  dtof::register_benchmarks(dtof::take_small_option(argc, argv));
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {
     return 1;

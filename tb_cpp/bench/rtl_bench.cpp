@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed of the Verilated full-size arrays with their driver, in column-cycles per second (one clock of one
-// column), at the photon density of the thesis's 14 klux. One array per thread.
+// Speed of the Verilated arrays that `dtof` simulates, with their driver, in column-cycles per second (one
+// clock of one column), at the photon density of the thesis's 14 klux. One array per thread. --small: frames
+// of few acquisitions.
 #include <benchmark/benchmark.h>
 
 #include <vector>
 
+#include "bench/small_option.hpp"
 #include "core/random.hpp"
 #include "rtl/registry.hpp"
 #include "rtl/rtl_readout.hpp"
@@ -13,16 +15,18 @@ namespace dtof {
 namespace {
 
 constexpr std::uint32_t kAcquisitions = 2000;
+constexpr std::uint32_t kFewAcquisitions = 50;
+constexpr int kColumns = 200;
 constexpr double kEventsPerWindow = 0.3;
 
 // Signal and background alike are spread over the range: what the bus carries matters little for speed.
-std::vector<ColumnStream> make_columns(const RtlConfiguration& configuration) {
+std::vector<ColumnStream> make_columns(const RtlConfiguration& configuration, std::uint32_t acquisitions) {
   std::vector<ColumnStream> columns(static_cast<std::size_t>(configuration.sram_num));
   for (std::size_t index = 0; index < columns.size(); ++index) {
     CounterRandom random(1, static_cast<std::uint32_t>(RandomPurpose::kTestStream),
                          static_cast<std::uint32_t>(index), 0);
     for (int row = 0; row < configuration.pixels_per_sram; ++row) {
-      for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+      for (std::uint32_t acquisition = 0; acquisition < acquisitions; ++acquisition) {
         if (random.uniform() < kEventsPerWindow) {
           const std::uint32_t code =
               random() % static_cast<std::uint32_t>(configuration.parameters.no_detection());
@@ -35,14 +39,16 @@ std::vector<ColumnStream> make_columns(const RtlConfiguration& configuration) {
   return columns;
 }
 
-void run_array(benchmark::State& state, Readout readout) {
-  const RtlConfiguration configuration =
-      find_rtl_configuration(ReadoutParameters::defaults(readout), 160, 200);
-  const std::vector<ColumnStream> columns = make_columns(configuration);
+/// The columns of a pool read-out's array are those of one engine.
+void run_array(benchmark::State& state, Readout readout, std::uint32_t acquisitions) {
+  const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
+  const int columns_of_array = parameters.columns_together() > 1 ? parameters.columns_together() : kColumns;
+  const RtlConfiguration configuration = find_rtl_configuration(parameters, kArrayRows, columns_of_array);
+  const std::vector<ColumnStream> columns = make_columns(configuration, acquisitions);
   RtlReadout rtl(configuration);
   double column_cycles = 0;
   for (auto _ : state) {
-    const RtlFrame frame = rtl.run(columns, kAcquisitions);
+    const RtlFrame frame = rtl.run(columns, acquisitions);
     column_cycles += static_cast<double>(frame.statistics.column_cycles);
     benchmark::DoNotOptimize(frame.results.data());
   }
@@ -53,14 +59,14 @@ void run_array(benchmark::State& state, Readout readout) {
 }  // namespace dtof
 
 int main(int argc, char** argv) {
+  const bool small = dtof::take_small_option(argc, argv);
+  const std::uint32_t acquisitions = small ? dtof::kFewAcquisitions : dtof::kAcquisitions;
   for (const dtof::Readout readout : dtof::kRtlReadouts) {
-    benchmark::RegisterBenchmark(std::string("rtl/").append(dtof::readout_name(readout)).c_str(),
-                                 dtof::run_array, readout)
-        ->Threads(1)
-        ->Threads(2)
-        ->UseRealTime()
-        ->MinTime(2.0)  // the first frame touches the streams' memory
-        ->Unit(benchmark::kMillisecond);
+    auto* bench =
+        benchmark::RegisterBenchmark(std::string("rtl/").append(dtof::readout_name(readout)).c_str(),
+                                     dtof::run_array, readout, acquisitions);
+    bench->Threads(1)->Threads(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+    dtof::run_for(*bench, 2.0, small);  // the first frame touches the streams' memory
   }
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) {

@@ -145,10 +145,19 @@ std::unique_ptr<CLI::App> make_command_line(const Program& program, const std::s
 }
 
 void run_command_line(CLI::App& app, int count, const char* const* arguments) {
-  // CLI11 passes over an empty argument, or never returns from one that follows an unknown option.
+  // CLI11 passes over an empty argument, or never returns from one that follows an unknown option; behind
+  // "--option=" it takes the next one.
   for (int i = 1; i < count; ++i) {
-    if (*arguments[i] == '\0') {
+    const std::string_view text = arguments[i];
+    const std::string_view before = i > 1 ? arguments[i - 1] : "";
+    if (text.empty() && before.starts_with('-')) {
+      throw InputError(fmt::format("the value of {} is empty", before));
+    }
+    if (text.empty()) {
       throw InputError(fmt::format("argument {} is empty", i));
+    }
+    if (text.starts_with("--") && text.ends_with('=')) {
+      throw InputError(fmt::format("the value of {} is empty", text.substr(0, text.size() - 1)));
     }
   }
   if (count > 1) {

@@ -46,6 +46,14 @@ std::string whole_number_error(const std::string& text, bool negative_is_legal) 
   return "";
 }
 
+/// -0 is 0.
+void drop_sign_of_zero(std::string& text) {
+  double value = 1.0;
+  if (text.starts_with('-') && parse(text, value) == std::errc() && value == 0.0) {
+    text.erase(0, 1);
+  }
+}
+
 }  // namespace
 
 std::string number_error(const std::string& text, const std::string& type) {
@@ -63,13 +71,43 @@ std::string number_error(const std::string& text, const std::string& type) {
   return "";
 }
 
+namespace {
+
+/// The value of a number option, or what is wrong with the text.
+std::string read_number(const std::string& text, double& value) {
+  std::string error = number_error(text, "FLOAT");
+  if (error.empty()) {
+    (void)parse(text, value);
+  }
+  return error;
+}
+
+}  // namespace
+
+CLI::Validator above_zero() {
+  return {[](std::string& text) {
+            double value = 0.0;
+            const std::string error = read_number(text, value);
+            return error.empty() && value <= 0.0 ? fmt::format("{} is not above 0", text) : error;
+          },
+          ""};
+}
+
+CLI::Validator not_negative() {
+  return {[](std::string& text) {
+            double value = 0.0;
+            const std::string error = read_number(text, value);
+            return error.empty() && value < 0.0 ? fmt::format("{} is negative", text) : error;
+          },
+          ""};
+}
+
 CLI::Validator within(double lowest, double highest, const std::string& reason) {
   return {[lowest, highest, reason](std::string& text) {
             double value = 0.0;
-            if (std::string error = number_error(text, "FLOAT"); !error.empty()) {
+            if (std::string error = read_number(text, value); !error.empty()) {
               return error;
             }
-            (void)parse(text, value);
             return value >= lowest && value <= highest
                        ? std::string()
                        : fmt::format("{} is not within {} to {}", text, lowest, reason);
@@ -79,10 +117,13 @@ CLI::Validator within(double lowest, double highest, const std::string& reason) 
 
 CLI::Validator sensible_klux() { return within(0.0, 200.0, "200 klux: the brightest sunlight is about 130"); }
 
-CLI::Validator sensible_reflectivity() {
-  return within(0.0, 4.0,
-                "4: a white matt surface is 1, a glint is more, and the photon models are checked up to 4");
+std::string reflectivity_reason() {
+  return fmt::format(
+      "{0:g}: a white matt surface is 1, a glint is more, and the photon models are checked up to {0:g}",
+      kMostReflectivity);
 }
+
+CLI::Validator sensible_reflectivity() { return within(0.0, kMostReflectivity, reflectivity_reason()); }
 
 CLI::Validator sensible_acquisitions() {
   return within(1.0, kMostAcquisitions,
@@ -94,6 +135,12 @@ void check_numbers(CLI::App& command) {
     const std::string type = option->get_type_name();
     if (type.starts_with("FLOAT") || type.starts_with("INT") || type.starts_with("UINT")) {
       option->check([type](const std::string& text) { return number_error(text, type); });
+      option->transform(CLI::Validator(
+          [](std::string& text) {
+            drop_sign_of_zero(text);
+            return std::string();
+          },
+          ""));
     }
   }
   // An option group is a subcommand without a name.

@@ -13,6 +13,12 @@ CLI::Validator within(double lowest, double highest, const std::string& reason);
 /// Full sun is 100 to 130 klux.
 CLI::Validator sensible_klux();
 /// 1 is a white matt surface; a glint or a retroreflector is more.
+/// Any number above 0, or of at least 0.
+CLI::Validator above_zero();
+CLI::Validator not_negative();
+inline constexpr double kMostReflectivity = 4.0;  ///< up to which the photon models are checked
+/// "4: a white matt surface is 1, ...", to end a refusal with.
+std::string reflectivity_reason();
 CLI::Validator sensible_reflectivity();
 /// Of a frame; more than the RTL's 16 bits, and a column of 160 rows and 2 slots still fits 2.7 GB.
 inline constexpr double kMostAcquisitions = 1048575;

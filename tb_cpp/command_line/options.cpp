@@ -11,7 +11,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "core/error.hpp"
-#include "core/physical_constants.hpp"
+#include "frame/frame_truth.hpp"
 #include "sensor/default_parameters.hpp"
 #include "sensor/preset.hpp"
 
@@ -243,11 +243,8 @@ void SensorOptions::refuse_options_without_effect(const CLI::App& command) const
 }
 
 void SensorOptions::require_in_range(const SensorModel& sensor, double metres, const std::string& option) {
-  const double range_m = 0.5 * kSpeedOfLight * sensor.integration_time_s;
-  if (metres >= range_m) {
-    throw InputError(
-        fmt::format("{}: {} m is beyond the sensor's range, {:.2f} m (light there and back in {:g} ns)",
-                    option, metres, range_m, sensor.integration_time_s * kNanosecondsPerSecond));
+  if (metres >= sensor_range_m(sensor)) {
+    throw InputError(fmt::format("{}: {} m is beyond {}", option, metres, range_phrase(sensor)));
   }
 }
 

@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
 
+#include "command_line/option_checks.hpp"
 #include "core/error.hpp"
 #include "io/depth_image.hpp"
 #include "scene/scene.hpp"
@@ -18,12 +20,12 @@ void MapScales::add_to(CLI::App& group) {
       .add_option("--depth-scale", metres_per_unit,
                   "metres that one unit of a depth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
                   "for PFM and NPY; a PNG of 8 bits needs it)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   group
       .add_option("--reflectivity-scale", reflectivity_per_unit,
                   "reflectivity that one unit of a reflectivity map stands for (default: a PNG's full range\n"
                   "is 1, PFM and NPY are taken as they are)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 NamedMap parse_named_map(std::string_view text) {
@@ -71,6 +73,13 @@ std::string resampling_sentence(std::string_view map, int width, int height, con
 
 std::string apply_reflectivity_map(TargetMap& targets, const std::string& file, const MapScales& scales) {
   const ReflectivityImage image = read_reflectivity_image(file, scales.reflectivity_per_unit);
+  for (std::size_t i = 0; i < image.values.size(); ++i) {
+    if (image.values[i] > kMostReflectivity) {
+      const auto width = static_cast<std::size_t>(image.width);
+      throw InputError(fmt::format("{}: column {}, row {}: a reflectivity of {:g} is not within 0 to {}",
+                                   file, i % width, i / width, image.values[i], reflectivity_reason()));
+    }
+  }
   set_reflectivity(targets, image.width, image.height, image.values);
   return resampling_sentence("Reflectivity map " + file, image.width, image.height, targets);
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "command_line/option_checks.hpp"
 #include "core/error.hpp"
 #include "io/depth_image.hpp"
 
@@ -19,7 +20,7 @@ void add_truth_scale_option(CLI::App& command, std::optional<double>& metres_per
       .add_option("--truth-scale", metres_per_unit,
                   "metres that one unit of the truth map stands for (default: 0.001 for a PNG of 16 bits, 1\n"
                   "for PFM and NPY; a PNG of 8 bits needs it)")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
 }
 
 std::vector<double> read_truth_map(const std::string& file, std::optional<double> metres_per_unit,

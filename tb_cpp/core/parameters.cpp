@@ -83,9 +83,9 @@ void PoolPointerParameters::validate(int count_width) const {
   const int half_bits = std::max(2 * word_bits(), group_bits);
   require(!prior || group_bits + labels <= half_bits,
           "a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1", labels);
-  const int line_halves = 8 * count_width <= half_bits ? 1 : 2;  // halves of a word that eight bins take
-  require(8 * count_width <= line_halves * half_bits && group_size >= 4 * line_halves,
-          "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows", count_width);
+  const int line_halves = 8 * count_width < half_bits ? 1 : 2;  // halves of a word that eight bins take
+  require(8 * count_width < line_halves * half_bits && group_size >= 4 * line_halves,
+          "32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows", count_width);
   require(engine_columns >= 2 && engine_columns % 2 == 0,
           "ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM", engine_columns);
 }

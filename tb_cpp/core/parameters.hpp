@@ -89,7 +89,7 @@ struct ReadoutParameters {
 
   /// Spec defaults: NB = floor(NP/2) + 1 for SiFH (Eq. 2.3), floor(NP/2) for FiFH and hisPointer,
   /// min(NP, 6) for PiFH, NP for the histogram; GUARD = ceil(FWHM / T_res) scaled to NP. The pool read-outs
-  /// have NB = 5, COUNT_WIDTH = 7 (lean: 8) and FRACTION_BITS = 16 - NP, which is no free choice there.
+  /// have NB = 5, COUNT_WIDTH = 7 and FRACTION_BITS = 16 - NP, which is no free choice there.
   /// Throws InputError for an NP outside 3 to 16.
   static ReadoutParameters defaults(Readout readout, int np = 10);
 

@@ -113,7 +113,7 @@ int default_value(Readout readout, std::string_view parameter, int np) {
     return 5;
   }
   if (readout == Readout::kPoolPointer2Lean && parameter == "COUNT_WIDTH") {
-    return 8;
+    return 7;
   }
   if (readout == Readout::kPoolPointer2Lean && parameter == "FRACTION_BITS") {
     return 16 - np;

@@ -50,8 +50,9 @@ std::vector<double> calibration_distances(const SensorModel& sensor) {
   return distances;
 }
 
-TargetMap calibration_targets(const std::vector<double>& distances, int pitch, double reflectivity) {
-  TargetMap targets(static_cast<int>(distances.size()) * pitch, FlatCalibration::kPixels);
+TargetMap calibration_targets(const std::vector<double>& distances, int pitch, int pixels,
+                              double reflectivity) {
+  TargetMap targets(static_cast<int>(distances.size()) * pitch, pixels);
   for (int column = 0; column < targets.columns(); ++column) {
     for (int row = 0; row < targets.rows(); ++row) {
       targets.at(column, row) = {.depth_m = distances[static_cast<std::size_t>(column / pitch)],
@@ -74,12 +75,12 @@ TableRule parse_table_rule(std::string_view name) {
   throw InputError(fmt::format("unknown look-up table '{}': known are none, flat", name));
 }
 
-FlatCalibration::FlatCalibration(const SensorModel& sensor)
+FlatCalibration::FlatCalibration(const SensorModel& sensor, int pixels)
     : reflectivity_(sensor.default_reflectivity),
       // With coincidence, the neighbours of the block that is read belong to the same distance.
       pitch_(sensor.coincidence_window_s ? 3 * sensor.binning : sensor.binning),
       distances_m_(calibration_distances(sensor)),
-      targets_(calibration_targets(distances_m_, pitch_, reflectivity_)) {}
+      targets_(calibration_targets(distances_m_, pitch_, pixels, reflectivity_)) {}
 
 int FlatCalibration::column(std::size_t distance) const {
   return static_cast<int>(distance) * pitch_ + pitch_ / 2;
@@ -100,7 +101,7 @@ RangeConverter FlatCalibration::fit(std::span<const Measurement> measurements, d
   std::vector<TargetRun> runs;
   for (std::size_t d = 0; d < distances_m_.size(); ++d) {
     TargetRun run{{seed, kFrame}, distances_m_[d], {}};
-    for (std::size_t row = 0; row < kPixels; ++row) {
+    for (std::size_t row = 0; row < pixels(); ++row) {
       run.measurements.push_back(measurements[row * distances_m_.size() + d]);
     }
     runs.push_back(std::move(run));
@@ -113,9 +114,9 @@ std::vector<RangeConverter> FlatCalibration::fit(const Photons& photons,
                                                  std::uint64_t seed, int threads) const {
   const std::size_t width = distances_m_.size();
   std::vector<std::vector<Measurement>> measurements(readouts.size(),
-                                                     std::vector<Measurement>(width * kPixels));
+                                                     std::vector<Measurement>(width * pixels()));
   const auto store = [&](std::size_t readout, std::size_t d, std::span<const PixelResult> results) {
-    for (std::size_t row = 0; row < kPixels; ++row) {
+    for (std::size_t row = 0; row < pixels(); ++row) {
       measurements[readout][row * width + d] = to_measurement(results[row], readouts[readout].fraction_bits);
     }
   };
@@ -145,7 +146,8 @@ std::vector<RangeConverter> FlatCalibration::fit(const Photons& photons,
 
 std::string FlatCalibration::description() const {
   return fmt::format("flat targets of reflectivity {:g} at {} distances from {:g} to {:g} m, {} pixels each",
-                     reflectivity_, distances_m_.size(), distances_m_.front(), distances_m_.back(), kPixels);
+                     reflectivity_, distances_m_.size(), distances_m_.front(), distances_m_.back(),
+                     targets_.rows());
 }
 
 std::string table_sentence(TableRule rule, const SensorModel& sensor, std::uint64_t seed) {

@@ -32,15 +32,15 @@ TableRule parse_table_rule(std::string_view name);
 /// The calibration run behind `--table flat`, the same for every command: flat targets of the sensor's
 /// default reflectivity at 45 distances, 0.05 m apart up to 1 m and 0.2 m beyond, for T_int = 45 ns, and in
 /// proportion for another. Left out are those whose pulse has the middle of its falling edge beyond T_int, or
-/// its centre outside the time gate. Each has 160 pixels. The photons are those of a frame of its own
-/// (kFrame), so that no scene shares them.
+/// its centre outside the time gate. Each has kPixels pixels, or as many as a study asks for. The photons are
+/// those of a frame of its own (kFrame), so that no scene shares them.
 class FlatCalibration {
  public:
-  static constexpr int kPixels = 160;         ///< of each distance
+  static constexpr int kPixels = 160;         ///< of each distance, where nothing else is said
   static constexpr std::uint32_t kFrame = 1;  ///< of the seed
 
-  /// Throws InputError if fewer than two distances are left.
-  explicit FlatCalibration(const SensorModel& sensor);
+  /// Throws InputError if fewer than two distances are left, or for no pixel.
+  explicit FlatCalibration(const SensorModel& sensor, int pixels = kPixels);
 
   [[nodiscard]] const std::vector<double>& distances_m() const { return distances_m_; }
   /// Each distance has as many columns as binning and coincidence need to keep the distances apart; the one
@@ -67,6 +67,8 @@ class FlatCalibration {
   [[nodiscard]] std::string description() const;
 
  private:
+  [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(targets_.rows()); }
+
   double reflectivity_;
   int pitch_;  ///< columns of a distance
   std::vector<double> distances_m_;

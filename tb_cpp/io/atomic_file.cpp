@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <cerrno>
 #include <cstddef>
@@ -113,6 +114,30 @@ void write_file(const std::filesystem::path& target, std::string_view contents) 
   AtomicFile file(target);
   file.append(contents);
   file.commit();
+}
+
+void write_gzip_file(const std::filesystem::path& target, std::string_view contents) {
+  constexpr int kGzip = 15 + 16;  // the largest window, and zlib's flag for gzip's header
+  constexpr int kMemory = 8;      // zlib's default
+  z_stream stream = {};
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw InputError(fmt::format("{}: cannot compress", target.string()));
+  }
+  std::string compressed(deflateBound(&stream, static_cast<uLong>(contents.size())), '\0');
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast,cppcoreguidelines-pro-type-reinterpret-cast): zlib's
+  // types
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(contents.data()));
+  stream.avail_in = static_cast<uInt>(contents.size());
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): zlib's type
+  stream.next_out = reinterpret_cast<Bytef*>(compressed.data());
+  stream.avail_out = static_cast<uInt>(compressed.size());
+  const int outcome = deflate(&stream, Z_FINISH);
+  compressed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (outcome != Z_STREAM_END) {
+    throw InputError(fmt::format("{}: cannot compress", target.string()));
+  }
+  write_file(target, compressed);
 }
 
 }  // namespace dtof

@@ -38,4 +38,7 @@ class AtomicFile {
 /// `contents` as one AtomicFile.
 void write_file(const std::filesystem::path& target, std::string_view contents);
 
+/// The same as gzip; equal contents give equal files.
+void write_gzip_file(const std::filesystem::path& target, std::string_view contents);
+
 }  // namespace dtof

@@ -308,6 +308,9 @@ void check_extent(const DepthImage& image) {
   }
 }
 
+/// Of a known depth, else 0.
+double millimetres(float metres) { return metres > 0.0F ? std::round(double{metres} * 1000.0) : 0.0; }
+
 void append_to_string(png_structp png, png_bytep data, std::size_t length) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), length);
 }
@@ -330,6 +333,10 @@ DepthImage read_depth_image(const std::filesystem::path& path, std::optional<dou
     const double metres = map.values[i] * scale;
     if (metres < 0.0) {
       fail_in_file(path, fmt::format("{}: negative depth {} m", pixel_name(map, i), metres));
+    }
+    if (std::isfinite(metres) && metres > std::numeric_limits<float>::max()) {
+      fail_in_file(path,
+                   fmt::format("{}: a depth of {:g} m is too large a number", pixel_name(map, i), metres));
     }
     image.metres.push_back(std::isfinite(metres) ? static_cast<float>(metres) : 0.0F);
   }
@@ -379,18 +386,27 @@ ReflectivityImage read_photograph(const std::filesystem::path& path) {
   return image;
 }
 
+std::string depth_png_obstacle(const DepthImage& image) {
+  const auto width = static_cast<std::size_t>(image.width);
+  for (std::size_t i = 0; i < image.metres.size(); ++i) {
+    if (millimetres(image.metres[i]) > std::numeric_limits<std::uint16_t>::max()) {
+      return fmt::format("column {}, row {}: a depth of {} m does not fit 16 bits of millimetres", i % width,
+                         i / width, image.metres[i]);
+    }
+  }
+  return "";
+}
+
 void write_depth_png(const std::filesystem::path& path, const DepthImage& image) {
   check_extent(image);
+  if (const std::string obstacle = depth_png_obstacle(image); !obstacle.empty()) {
+    fail_in_file(path, obstacle);
+  }
   const auto width = static_cast<std::size_t>(image.width);
   std::vector<png_byte> pixels;
   pixels.reserve(image.metres.size() * 2);
-  for (std::size_t i = 0; i < image.metres.size(); ++i) {
-    const double millimetres = image.metres[i] > 0.0F ? std::round(double{image.metres[i]} * 1000.0) : 0.0;
-    if (millimetres > std::numeric_limits<std::uint16_t>::max()) {
-      fail_in_file(path, fmt::format("column {}, row {}: a depth of {} m does not fit 16 bits of millimetres",
-                                     i % width, i / width, image.metres[i]));
-    }
-    const auto value = static_cast<std::uint16_t>(millimetres);
+  for (const float metres : image.metres) {
+    const auto value = static_cast<std::uint16_t>(millimetres(metres));
     pixels.push_back(static_cast<png_byte>(value >> 8U));
     pixels.push_back(static_cast<png_byte>(value & 0xFFU));
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace dtof {
@@ -51,8 +52,11 @@ DepthImage read_disparity_png(const std::filesystem::path& path, double metres_a
 /// reflectivity. Throws InputError as the others do.
 ReflectivityImage read_photograph(const std::filesystem::path& path);
 
-/// Rounds to millimetres; unknown, 0 and negative depths become 0. Throws InputError for a depth above 65.535
-/// m.
+/// Why a map does not fit a PNG of 16 bits in mm: a depth above 65.535 m. Empty if it fits.
+std::string depth_png_obstacle(const DepthImage& image);
+
+/// Rounds to millimetres; unknown, 0 and negative depths become 0. Throws InputError for what
+/// depth_png_obstacle says.
 void write_depth_png(const std::filesystem::path& path, const DepthImage& image);
 
 /// Little-endian PFM, any values.

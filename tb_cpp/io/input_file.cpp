@@ -40,6 +40,9 @@ std::string read_file(const std::filesystem::path& path, std::size_t longest) {
   if (std::error_code error; std::filesystem::is_directory(path, error)) {
     throw InputError(fmt::format("{}: cannot read: it is a directory", path.string()));
   }
+  if (std::error_code error; std::filesystem::is_character_file(path, error)) {
+    throw InputError(fmt::format("{}: cannot read: it is a device", path.string()));
+  }
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rbe"));
   if (!file) {
     throw InputError(

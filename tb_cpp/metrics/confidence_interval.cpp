@@ -272,6 +272,16 @@ Estimate estimate_rare_share(std::uint64_t successes, std::uint64_t trials) {
   return estimate;
 }
 
+Estimate estimate_share_of_frames(std::span<const double> frames, std::uint64_t pixels_of_a_frame) {
+  Estimate estimate = estimate_mean(frames);
+  const auto trials = pixels_of_a_frame * frames.size();
+  const auto hits = static_cast<std::uint64_t>(std::llround(estimate.value * static_cast<double>(trials)));
+  const Interval wilson = estimate_share(hits, trials).interval;
+  estimate.interval = {std::max(0.0, std::min(estimate.interval.low, wilson.low)),
+                       std::min(1.0, std::max(estimate.interval.high, wilson.high))};
+  return estimate;
+}
+
 Estimate reciprocal(double numerator, const Estimate& estimate) {
   const auto turned = [&](const Interval& interval) {
     return Interval{numerator / interval.high, numerator / interval.low};

@@ -85,6 +85,11 @@ Estimate estimate_share(std::uint64_t successes, std::uint64_t trials);
 /// Clopper and Pearson's, which is exact, and `with_unseen` is set to it.
 Estimate estimate_rare_share(std::uint64_t successes, std::uint64_t trials);
 
+/// Share of pixels over frames (or seeds) of equally many pixels, from each frame's own share, at least 2.
+/// Pixels of a frame may hang together, frames do not: the interval is that of the frames' mean, and at least
+/// Wilson's for independent pixels, which holds where no frame has an event.
+Estimate estimate_share_of_frames(std::span<const double> frames, std::uint64_t pixels_of_a_frame);
+
 /// numerator / estimate: the interval's ends change places. `numerator` >= 0; infinite where the estimate is
 /// 0.
 Estimate reciprocal(double numerator, const Estimate& estimate);

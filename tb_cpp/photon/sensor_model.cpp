@@ -14,6 +14,8 @@
 namespace dtof {
 namespace {
 
+constexpr double kNanosecondsPerSecond = 1e9;
+
 void require_at_least_zero(double value, std::string_view what) {
   if (!std::isfinite(value) || value < 0.0) {
     throw InputError(
@@ -123,8 +125,9 @@ void SensorModel::validate() const {
   if (time_gate && !(time_gate->begin_s >= 0.0 && time_gate->begin_s < time_gate->end_s &&
                      time_gate->end_s <= integration_time_s)) {
     throw InputError(fmt::format(
-        "sensor model: the time gate [{} s, {} s) must be inside [0, {} s], its begin below its end",
-        time_gate->begin_s, time_gate->end_s, integration_time_s));
+        "sensor model: the time gate, {:g} to {:g} ns, must be inside 0 to {:g} ns, its begin below its end",
+        time_gate->begin_s * kNanosecondsPerSecond, time_gate->end_s * kNanosecondsPerSecond,
+        integration_time_s * kNanosecondsPerSecond));
   }
 }
 

@@ -7,11 +7,10 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/physical_constants.hpp"
 #include "frame/array_rows.hpp"
 #include "frame/flat_calibration.hpp"
 #include "frame/frame_maps.hpp"
-#include "metrics/error_statistics.hpp"
+#include "frame/frame_truth.hpp"
 #include "readout/model.hpp"
 #include "scene/scene.hpp"
 #include "sensor/default_parameters.hpp"
@@ -21,9 +20,8 @@ namespace dtof {
 namespace {
 
 void require_in_range(const SensorModel& sensor, double metres) {
-  const double range_m = 0.5 * kSpeedOfLight * sensor.integration_time_s;
-  if (metres >= range_m) {
-    throw InputError(fmt::format("{} m is beyond the sensor's range, {:.2f} m", metres, range_m));
+  if (metres >= sensor_range_m(sensor)) {
+    throw InputError(fmt::format("{} m is beyond {}", metres, range_phrase(sensor)));
   }
 }
 
@@ -54,7 +52,8 @@ PlaygroundSession::PlaygroundSession(const PlaygroundRequest& request)
     : scene_(make_photons(request)), seed_(request.seed) {
   std::vector<int> columns(static_cast<std::size_t>(scene_.columns()));
   std::iota(columns.begin(), columns.end(), 0);
-  truth_ = true_depth(scene_.targets(), columns, {.first = 0, .count = scene_.rows()});
+  truth_ =
+      frame_truth(scene_.targets(), scene_.model(), columns, {.first = 0, .count = scene_.rows()}).metres;
   for (int row = 0; row < rows(); ++row) {
     for (const int column : columns) {
       reflectivity_.push_back(static_cast<float>(scene_.targets().at(column, row).reflectivity));
@@ -106,9 +105,7 @@ PlaygroundFrame PlaygroundSession::frame(std::size_t readout) const {
   frame.results = results_.at(readout);
   FrameMaps maps =
       frame_maps(frame.results, readouts_.at(readout), scene_.model(), tables_.at(readout), truth_);
-  ErrorStatistics statistics;
-  add_errors(truth_, maps.error, statistics);
-  frame.figures = figure_values(statistics, maps.before, true);
+  frame.figures = figure_values(maps.figures, true);
   frame.depth_m = std::move(maps.depth);
   frame.error_m = std::move(maps.error);
   return frame;

@@ -32,6 +32,24 @@ std::int32_t gear_step(std::span<const Gear> gears, int advantage) {
 
 }  // namespace
 
+bool count_period(CoarseHistogram& histogram, const CoarseHistogram& counts, bool sweep, int count_width) {
+  const int limit = (1 << count_width) - 1;
+  for (std::size_t i = 0; i < kCoarseBins; ++i) {
+    histogram[i] = static_cast<std::uint16_t>(std::min(histogram[i] + counts[i], limit));
+  }
+  if (!sweep || std::ranges::max(histogram) < limit) {
+    return true;
+  }
+  const int room = 1 << (count_width - 2);
+  if (std::ranges::min(histogram) < room) {
+    return false;
+  }
+  for (std::uint16_t& bin : histogram) {
+    bin = static_cast<std::uint16_t>(bin - room);
+  }
+  return true;
+}
+
 int group_background(const CoarseHistogram& histogram, int count_width) {
   int least_octet = std::numeric_limits<int>::max();
   for (std::size_t octet = 0; octet < kCoarseBins; octet += 8) {

@@ -31,6 +31,13 @@ inline constexpr std::int32_t kPoolPositions = 1 << 16;
 
 using CoarseHistogram = std::array<std::uint16_t, kCoarseBins>;
 
+/// The last acquisition of each kSweepPeriod is a sweep: nothing counts in it, and full histograms make room.
+inline constexpr std::uint32_t kSweepPeriod = 64;
+/// Adds the counts of one period to a group's histogram; bins saturate at 2^count_width - 1. With `sweep`, a
+/// histogram that has a full bin makes room: every bin falls by 2^(count_width - 2). Returns false where some
+/// bin is too small for that: the histogram is then frozen, and nothing may be added any more.
+bool count_period(CoarseHistogram& histogram, const CoarseHistogram& counts, bool sweep, int count_width);
+
 /// What a group keeps of its coarse histogram: the group word.
 struct PoolGroup {
   int labels;                                         ///< candidates in use

@@ -15,9 +15,9 @@ namespace dtof {
 namespace {
 
 constexpr std::int32_t kCellsPerCoarseBin = kUnitsPerCoarseBin / kUnitsPerCell;
-constexpr int kPairColumns = 2;         // columns that share an SRAM, and so a group
-constexpr int kSmoothShift = 2;         // S1 moves by a quarter
-constexpr std::int32_t kNoOpinion = 0;  // no candidate has this cell
+constexpr std::size_t kPairColumns = 2;  // columns that share a group
+constexpr int kSmoothShift = 2;          // S1 moves by a quarter
+constexpr std::int32_t kNoOpinion = 0;   // no candidate has this cell
 
 void require_range(const char* name, int value, int lowest, int highest) {
   if (value < lowest || value > highest) {
@@ -41,8 +41,10 @@ class Groups {
       throw InputError(
           fmt::format("a prior of {} groups for an engine of {}", prior.size(), histograms_.size()));
     }
-    for (std::size_t column = 0; column < columns.size(); ++column) {
-      count(columns[column], column, coarse_end);
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+      for (std::size_t g = 0; g < height_; ++g) {
+        histograms_[index(pair, g)] = count(columns, pair, g, coarse_end);
+      }
     }
     groups_.reserve(histograms_.size());
     for (std::size_t pair = 0; pair < pairs; ++pair) {
@@ -64,23 +66,37 @@ class Groups {
  private:
   [[nodiscard]] std::size_t index(std::size_t pair, std::size_t g) const { return pair * height_ + g; }
 
-  void count(const PoolColumn& column, std::size_t number, std::uint32_t coarse_end) {
-    const auto coarse = [&](std::size_t row) {
-      const std::span<const PoolEvent> events(column[row]);
-      const auto end = std::ranges::partition_point(
-          events, [&](const PoolEvent& event) { return event.acquisition < coarse_end; });
-      return events.first(static_cast<std::size_t>(end - events.begin()));
-    };
-    const int limit = (1 << parameters_.count_width) - 1;
-    for (std::size_t row = 0; row < column.size(); row += 2) {
-      CoarseHistogram& histogram = histograms_[index(number / kPairColumns, row / rows_)];
-      count_one_of_two_rows(coarse(row),
-                            row + 1 < column.size() ? coarse(row + 1) : std::span<const PoolEvent>(),
-                            [&](const PoolEvent& event) {
-                              std::uint16_t& bin = histogram[event.preferred / kUnitsPerCoarseBin];
-                              bin = static_cast<std::uint16_t>(bin + (bin < limit ? 1 : 0));
-                            });
+  /// The coarse histogram of group `g` of a pair after the coarse phase. Each kSweepPeriod acquisitions,
+  /// which end with a sweep, are counted apart, for the order of the counts between two sweeps changes
+  /// nothing.
+  [[nodiscard]] CoarseHistogram count(std::span<const PoolColumn> columns, std::size_t pair, std::size_t g,
+                                      std::uint32_t coarse_end) const {
+    std::vector<CoarseHistogram> periods((coarse_end + kSweepPeriod - 1) / kSweepPeriod);
+    for (std::size_t number = kPairColumns * pair;
+         number < std::min(columns.size(), kPairColumns * (pair + 1)); ++number) {
+      const PoolColumn& column = columns[number];
+      const auto coarse = [&](std::size_t row) {
+        const std::span<const PoolEvent> events =
+            row < column.size() ? std::span<const PoolEvent>(column[row]) : std::span<const PoolEvent>();
+        const auto end = std::ranges::partition_point(
+            events, [&](const PoolEvent& event) { return event.acquisition < coarse_end; });
+        return events.first(static_cast<std::size_t>(end - events.begin()));
+      };
+      for (std::size_t row = g * rows_; row < std::min(column.size(), (g + 1) * rows_); row += 2) {
+        count_one_of_two_rows(coarse(row), coarse(row + 1), [&](const PoolEvent& event) {
+          if (event.acquisition % kSweepPeriod != kSweepPeriod - 1) {
+            ++periods[event.acquisition / kSweepPeriod][event.preferred / kUnitsPerCoarseBin];
+          }
+        });
+      }
     }
+    CoarseHistogram histogram{};
+    bool frozen = false;
+    for (std::size_t period = 0; period < periods.size() && !frozen; ++period) {
+      const bool ends_with_sweep = (period + 1) * kSweepPeriod <= coarse_end;
+      frozen = !count_period(histogram, periods[period], ends_with_sweep, parameters_.count_width);
+    }
+    return histogram;
   }
 
   [[nodiscard]] PoolGroup decode(std::size_t pair, std::size_t g, std::size_t pairs,

@@ -23,6 +23,13 @@ std::uint64_t poisson(double mean, CounterRandom& random) {
   return mean > 0.0 ? std::poisson_distribution<std::uint64_t>(mean)(random) : 0;
 }
 
+/// A time in 2^-32 of T_int; nothing outside of it.
+std::optional<std::uint64_t> time_step(double time, const Resampling& resampling) {
+  constexpr double kTimeSteps = 0x1.0p32;
+  const double step = std::floor(time / resampling.integration_time * kTimeSteps);
+  return step >= 0.0 && step < kTimeSteps ? std::optional(static_cast<std::uint64_t>(step)) : std::nullopt;
+}
+
 }  // namespace
 
 void Resampling::validate() const {
@@ -42,24 +49,43 @@ ResampledStream::ResampledStream(int columns, int rows, const Resampling& resamp
   resampling_.validate();
 }
 
+CounterRandom ResampledStream::random(int column, int row) const {
+  const auto pixel = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns_) +
+                     static_cast<std::uint32_t>(column);
+  return {resampling_.seed, static_cast<std::uint32_t>(RandomPurpose::kResampling), resampling_.frame, pixel};
+}
+
+PhotonCount ResampledStream::count_photons(std::span<const int> columns, RowRange rows) const {
+  PhotonCount count;
+  std::vector<double> times;
+  for (const int column : columns) {
+    for (int row = rows.first; row < rows.first + rows.count; ++row) {
+      CounterRandom numbers = random(column, row);
+      times.clear();
+      draw_times(column, row, numbers, times);
+      count.all += times.size();
+      count.outside += static_cast<std::uint64_t>(std::ranges::count_if(
+          times, [&](double time) { return !time_step(time + resampling_.time_shift, resampling_); }));
+    }
+  }
+  return count;
+}
+
 ColumnStream ResampledStream::column_rows(int index, RowRange range) const {
   ColumnStream stream;
   std::vector<double> times;
   for (int row = range.first; row < range.first + range.count; ++row) {
-    const auto pixel = static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns_) +
-                       static_cast<std::uint32_t>(index);
-    CounterRandom random(resampling_.seed, static_cast<std::uint32_t>(RandomPurpose::kResampling),
-                         resampling_.frame, pixel);
+    CounterRandom numbers = random(index, row);
     times.clear();
-    draw_times(index, row, random, times);
+    draw_times(index, row, numbers, times);
     for (double& time : times) {
       time += resampling_.time_shift;
     }
-    const std::uint64_t background = poisson(resampling_.background * resampling_.acquisitions, random);
+    const std::uint64_t background = poisson(resampling_.background * resampling_.acquisitions, numbers);
     for (std::uint64_t i = 0; i < background; ++i) {
-      times.push_back(random.uniform() * resampling_.integration_time);
+      times.push_back(numbers.uniform() * resampling_.integration_time);
     }
-    stream.append_row(assign_to_acquisitions(times, resampling_, random));
+    stream.append_row(assign_to_acquisitions(times, resampling_, numbers));
   }
   return stream;
 }
@@ -76,14 +102,12 @@ std::vector<Detection> assign_to_acquisitions(std::span<const double> times, con
     return detections;
   }
   // One key sorts by acquisition, then by time in 2^-32 of T_int; its upper time bits are the timestamp.
-  constexpr double kTimeSteps = 0x1.0p32;
   std::vector<std::uint64_t> keys;
   keys.reserve(times.size());
   for (const double time : times) {
     const std::uint64_t acquisition = (static_cast<std::uint64_t>(random()) * resampling.acquisitions) >> 32U;
-    const double step = std::floor(time / resampling.integration_time * kTimeSteps);
-    if (step >= 0.0 && step < kTimeSteps) {
-      keys.push_back(acquisition << 32U | static_cast<std::uint64_t>(step));
+    if (const std::optional<std::uint64_t> step = time_step(time, resampling)) {
+      keys.push_back(acquisition << 32U | *step);
     }
   }
   std::sort(keys.begin(), keys.end());

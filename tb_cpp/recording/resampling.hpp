@@ -39,6 +39,12 @@ struct Resampling {
   void validate() const;
 };
 
+/// Measured photons of a frame.
+struct PhotonCount {
+  std::uint64_t all = 0;
+  std::uint64_t outside = 0;  ///< of T_int, and therefore lost
+};
+
 /// A measurement replayed as a TDC stream: every photon goes to a uniformly random acquisition; within one
 /// the first `slots` events in time are kept (pile-up, thesis 2.2.2). A pixel's numbers depend on seed, frame
 /// and the pixel's address alone.
@@ -49,6 +55,8 @@ class ResampledStream : public StreamSource {
   [[nodiscard]] std::uint32_t acquisitions() const override { return resampling_.acquisitions; }
   [[nodiscard]] ColumnStream column(int index) const override { return column_rows(index, {0, rows_}); }
   [[nodiscard]] ColumnStream column_rows(int index, RowRange range) const override;
+  /// Those of these rows of some columns, background left out.
+  [[nodiscard]] PhotonCount count_photons(std::span<const int> columns, RowRange rows) const;
 
  protected:
   ResampledStream(int columns, int rows, const Resampling& resampling);
@@ -59,6 +67,9 @@ class ResampledStream : public StreamSource {
  private:
   /// Appends the measured arrival times (s, before `time_shift`) of one pixel in this frame.
   virtual void draw_times(int column, int row, CounterRandom& random, std::vector<double>& times) const = 0;
+
+  /// Random numbers of a pixel in this frame.
+  [[nodiscard]] CounterRandom random(int column, int row) const;
 
   int columns_;
   int rows_;

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <memory>
@@ -225,6 +226,11 @@ std::optional<PlotStyle> plot_style(std::string_view label) {
     }
   }
   return found;
+}
+
+std::string plot_obstacle() {
+  return std::system("gnuplot --version > /dev/null 2>&1") == 0 ? ""
+                                                                : "gnuplot does not run (is it installed?)";
 }
 
 void write_plot(const std::filesystem::path& path, const std::vector<PlotSeries>& series,

@@ -46,6 +46,9 @@ std::span<const PlotStyle> plot_styles();
 /// for a label that names no read-out.
 std::optional<PlotStyle> plot_style(std::string_view label);
 
+/// Why nothing can be plotted here: gnuplot does not run. Empty if it does.
+std::string plot_obstacle();
+
 /// Draws lines with points as SVG through gnuplot. Values that are not finite are left out. Throws
 /// InputError if gnuplot is missing or fails, or the file cannot be written; then nothing is left behind.
 void write_plot(const std::filesystem::path& path, const std::vector<PlotSeries>& series,

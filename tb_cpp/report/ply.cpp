@@ -27,19 +27,22 @@ Point point_of_pixel(const DepthImage& image, int column, int row, double degree
           .z = static_cast<float>(range * std::cos(azimuth) * std::cos(elevation))};
 }
 
-void check_ply_size(const std::filesystem::path& path, int width, int height, double degrees_per_pixel) {
-  if (!(degrees_per_pixel > 0.0) || std::max(width, height) * degrees_per_pixel >= 180.0) {
-    throw InputError(
-        fmt::format("{}: a point cloud of {} x {} pixels of {} degrees each: its sides must be above 0 and "
-                    "below 180 degrees",
-                    path.string(), width, height, degrees_per_pixel));
+std::string ply_obstacle(int width, int height, double degrees_per_pixel) {
+  if (degrees_per_pixel > 0.0 && std::max(width, height) * degrees_per_pixel < 180.0) {
+    return "";
   }
+  return fmt::format(
+      "a point cloud of {} x {} pixels of {:g} degrees each: its sides must be above 0 and below 180 degrees",
+      width, height, degrees_per_pixel);
 }
 
 void write_ply(const std::filesystem::path& path, const DepthImage& image, const ColourRange& range,
                double degrees_per_pixel) {
   static_assert(std::endian::native == std::endian::little);
-  check_ply_size(path, image.width, image.height, degrees_per_pixel);
+  if (const std::string obstacle = ply_obstacle(image.width, image.height, degrees_per_pixel);
+      !obstacle.empty()) {
+    throw InputError(fmt::format("{}: {}", path.string(), obstacle));
+  }
   std::string vertices;
   std::size_t count = 0;
   for (int row = 0; row < image.height; ++row) {

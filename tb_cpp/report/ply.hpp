@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "io/depth_image.hpp"
 #include "report/colour_png.hpp"
@@ -20,13 +21,12 @@ struct Point {
 };
 Point point_of_pixel(const DepthImage& image, int column, int row, double degrees_per_pixel = kPixelAngle);
 
-/// Throws InputError, which names the file, when an image of so many pixels would turn a ray by 90 degrees or
-/// more: 375 pixels of 0.48 degrees.
-void check_ply_size(const std::filesystem::path& path, int width, int height,
-                    double degrees_per_pixel = kPixelAngle);
+/// Why an image of so many pixels has no point cloud: a ray would turn by 90 degrees or more, as with 375
+/// pixels of 0.48 degrees. Empty if it has one.
+std::string ply_obstacle(int width, int height, double degrees_per_pixel = kPixelAngle);
 
 /// Writes the known pixels as a binary little-endian PLY (x, y, z float m; red, green, blue), coloured by
-/// depth over `range`. Throws InputError as check_ply_size.
+/// depth over `range`. Throws InputError for what ply_obstacle says.
 void write_ply(const std::filesystem::path& path, const DepthImage& image, const ColourRange& range,
                double degrees_per_pixel = kPixelAngle);
 

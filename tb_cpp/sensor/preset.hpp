@@ -8,7 +8,8 @@
 
 namespace dtof {
 
-/// Names of the sensor files that are compiled into the program (sensor/presets/): thesis, phone.
+/// Names of the sensor files that are compiled into the program (sensor/presets/): thesis, thesis_1mhz,
+/// thesis_full, phone.
 std::vector<std::string_view> preset_names();
 /// Throws InputError that names the known presets.
 SensorModel parse_preset(std::string_view name);

@@ -359,7 +359,7 @@ class SensorReader {
     if (!node.is_number() || (key.whole && !node.is_integer())) {
       fail(node, fmt::format("{} must be a {}number", key.name, key.whole ? "whole " : ""));
     }
-    const double value = *node.value<double>();
+    const double value = *node.value<double>() + 0.0;  // -0 is 0
     const bool high_enough = key.lowest_allowed ? value >= key.lowest : value > key.lowest;
     // Written so that a NaN fails.
     if (!(high_enough && value <= key.highest)) {

@@ -65,16 +65,6 @@ struct FrameFigures {
   std::vector<double> above_10_percent;
 };
 
-Estimate share(std::span<const double> frames, std::uint64_t pixels) {
-  Estimate estimate = estimate_mean(frames);
-  const auto trials = pixels * frames.size();
-  const auto hits = static_cast<std::uint64_t>(std::llround(estimate.value * static_cast<double>(trials)));
-  const Interval wilson = estimate_share(hits, trials).interval;
-  estimate.interval = {std::max(0.0, std::min(estimate.interval.low, wilson.low)),
-                       std::min(1.0, std::max(estimate.interval.high, wilson.high))};
-  return estimate;
-}
-
 Estimate root(const Estimate& square) {
   return {std::sqrt(square.value),
           {std::sqrt(std::max(0.0, square.interval.low)), std::sqrt(square.interval.high)}};
@@ -167,8 +157,8 @@ std::vector<BandAccuracy> run_map_accuracy(const MapAccuracySettings& settings) 
       const FrameFigures& figure = figures[r][b];
       row.bias_m = estimate_mean(figure.bias_m);
       row.rmse_m = root(estimate_mean(figure.mean_square));
-      row.above_3_percent = share(figure.above_3_percent, row.pixels);
-      row.above_10_percent = share(figure.above_10_percent, row.pixels);
+      row.above_3_percent = estimate_share_of_frames(figure.above_3_percent, row.pixels);
+      row.above_10_percent = estimate_share_of_frames(figure.above_10_percent, row.pixels);
     }
   }
   return rows;

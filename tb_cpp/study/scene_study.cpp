@@ -155,19 +155,22 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
 }
 
 SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts,
-                       std::uint64_t seed, int threads, TableRule table)
+                       std::uint64_t seed, int threads, TableRule table, bool references)
     : sensor_(std::move(sensor)),
       klux_(klux),
       readouts_(readouts.begin(), readouts.end()),
       seed_(seed),
       threads_(threads),
+      references_(references),
       scale_(sensor_.integration_time_s, sensor_.np, sensor_.pulse_fwhm_s) {
   for (const ReadoutParameters& readout : readouts_) {
     titles_.push_back(variant_title(readout, sensor_));
   }
-  titles_.emplace_back("hisPointer pairs");
-  titles_.emplace_back("matched filter (single pixel)");
-  titles_.emplace_back("pooled matched filter");
+  if (references_) {
+    titles_.emplace_back("hisPointer pairs");
+    titles_.emplace_back("matched filter (single pixel)");
+    titles_.emplace_back("pooled matched filter");
+  }
 
   if (table == TableRule::kNone) {
     return;
@@ -217,6 +220,9 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
         continue;
       }
       store(e, *make_readout_model(readouts_[e]), readouts_[e].fraction_bits);
+    }
+    if (!references_) {
+      return;
     }
     const ReadoutParameters his_pointer = default_parameters(Readout::kHisPointer, sensor_);
     store(readouts_.size(), *make_paired_his_pointer(his_pointer), his_pointer.fraction_bits);

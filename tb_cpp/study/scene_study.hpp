@@ -67,15 +67,15 @@ SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurem
 double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
                                const SceneMeasurement& measurement);
 
-/// Reads scenes out with the models of several read-outs, hisPointer with paired coarse bins, and two
-/// references on full histograms that know each pixel's signal and background: the matched filter of the
-/// single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the same photons;
-/// poolPointer 2 also those of the other columns of its engines. With TableRule::kFlat each has a look-up
-/// table by FlatCalibration, else distances are those of Eq. 3.11.
+/// Reads scenes out with the models of several read-outs and, unless `references` is false, hisPointer with
+/// paired coarse bins and two references on full histograms that know each pixel's signal and background: the
+/// matched filter of the single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the
+/// same photons; poolPointer 2 also those of the other columns of its engines. With TableRule::kFlat each has
+/// a look-up table by FlatCalibration, else distances are those of Eq. 3.11.
 class SceneStudy {
  public:
   SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts, std::uint64_t seed,
-             int threads, TableRule table = TableRule::kFlat);
+             int threads, TableRule table = TableRule::kFlat, bool references = true);
 
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
   /// One measurement an estimator.
@@ -99,6 +99,7 @@ class SceneStudy {
   std::vector<std::string> titles_;
   std::uint64_t seed_;
   int threads_;
+  bool references_;
   DepthScale scale_;
   std::vector<RangeConverter> converters_;  // of each estimator; empty without look-up tables
 };

@@ -378,7 +378,7 @@ void add_accuracy_command(CLI::App& app, const std::string& command_line) {
       ->add_option("--precision", options->precision_percent,
                    "more frames until the 95 % intervals of relative precision and rmse are within this many "
                    "per cent of their value")
-      ->check(CLI::PositiveNumber);
+      ->check(above_zero());
   command
       ->add_option("--rare-outliers", options->rare_outliers_percent,
                    "--precision does not wait for outliers rarer than this many per cent")

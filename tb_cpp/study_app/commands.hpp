@@ -28,6 +28,8 @@ void add_walk_command(CLI::App& app, const std::string& command_line);
 void add_sensor_effects_command(CLI::App& app, const std::string& command_line);
 void add_speed_error_command(CLI::App& app, const std::string& command_line);
 void add_fidelity_command(CLI::App& app, const std::string& command_line);
+void add_frames_command(CLI::App& app, const std::string& command_line);
+void add_dynamic_range_command(CLI::App& app, const std::string& command_line);
 void add_enlarge_command(CLI::App& app, const std::string& command_line);
 
 }  // namespace dtof

@@ -421,27 +421,27 @@ void add_measured_command(CLI::App& app, const std::string& command_line) {
       "NPY) of the recording's size");
   add_truth_scale_option(*command, options->truth_scale);
   command->add_option("--from-tick", options->from_tick, "photon times: leave earlier ones out")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   command->add_option("--tick", options->tick_ps, "photon times: duration of a tick in ps")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("--shift", options->shift_ns, "photon times: ns to add to every time")
       ->capture_default_str();
   command->add_option("--t-int", options->t_int_ns, "T_int in ns")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command->add_option("-a,--acquisitions", options->acquisitions, "laser pulses per frame")
       ->capture_default_str();
   command
       ->add_option("--photons", options->photons,
                    "mean photons per pixel and frame, one or more; 0: all there are")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   command
       ->add_option("--background", options->background,
                    "background events to add per acquisition, one or more")
-      ->check(CLI::NonNegativeNumber)
+      ->check(not_negative())
       ->capture_default_str();
   command->add_option("--frames", options->frames, "frames drawn from the recording")
       ->check(CLI::Range(1, 1000))

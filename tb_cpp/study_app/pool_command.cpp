@@ -207,6 +207,14 @@ std::optional<double> compared_with(const Goal& goal, const Scores& scores,
   return scores.estimate(scenes, reference, kFigures.at(goal.figure)).value;
 }
 
+/// A goal is met if the whole interval is below the limit, and open if the limit is inside.
+const char* verdict(const Interval& interval, double limit) {
+  if (interval.high < limit) {
+    return "yes";
+  }
+  return interval.low > limit ? "**no**" : "open";
+}
+
 Table goal_table(const std::map<double, Scores>& lights) {
   Table table({"goal", "measured", "limit", "met"});
   for (const Goal& goal : kGoals) {
@@ -230,8 +238,7 @@ Table goal_table(const std::map<double, Scores>& lights) {
     }
     const Estimate measured = scores.estimate(scenes, scores.estimator(goal.estimator), figure);
     table.add({fmt::format("{}: {:g} klux, {}{}", goal.estimator, goal.klux, figure.name, of),
-               per_cent(measured), fmt::format("{:.2f}", 100.0 * limit),
-               measured.value <= limit ? "yes" : "**no**"});
+               per_cent(measured), fmt::format("{:.2f}", 100.0 * limit), verdict(measured.interval, limit)});
   }
   return table;
 }

@@ -26,6 +26,8 @@ Program study_program() {
         add_sensor_effects_command(app, command_line);
         add_speed_error_command(app, command_line);
         add_fidelity_command(app, command_line);
+        add_frames_command(app, command_line);
+        add_dynamic_range_command(app, command_line);
         add_enlarge_command(app, command_line);
       }};
 }

@@ -230,7 +230,7 @@ void add_scene_options(CLI::App& command, SceneChoice& choice) {
                      "also a disparity map with its photograph, which gives the reflectivity:\n"
                      "NAME=DISPARITY,PHOTOGRAPH (PNG of 8 bits; 0 = unknown); one or more");
   command.add_option("--nearest", choice.nearest_m, "distance of the disparity maps' nearest point, m")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
   command.add_option(
       "--surface", choice.surface_file,
@@ -244,7 +244,7 @@ void add_scene_options(CLI::App& command, SceneChoice& choice) {
   command
       .add_option("--distance-scale", choice.distance_scale,
                   "all scenes' distances times this number, for a sensor of another range")
-      ->check(CLI::PositiveNumber)
+      ->check(above_zero())
       ->capture_default_str();
 }
 

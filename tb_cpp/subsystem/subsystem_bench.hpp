@@ -51,6 +51,7 @@ class SubsystemBench {
   [[nodiscard]] const std::vector<ArrayFrame>& frames() const { return frames_; }
   [[nodiscard]] SubsystemEvents& events() { return events_; }
   [[nodiscard]] bool interrupt() const { return *ports_.irq != 0; }
+  [[nodiscard]] bool axi_lite() const { return *ports_.axi_lite != 0; }
 
   /// Two clocks of reset; the source forgets its lines.
   void reset();
@@ -62,7 +63,11 @@ class SubsystemBench {
 
   BusResponse read(std::uint32_t offset);
   BusResponse write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe = RegisterBus::kAllBytes);
-  /// The same for a register that must be there: throws RtlError for an error response.
+  /// Begins to write all bytes of a register; the clocks that follow carry the transfer out.
+  void begin_write(std::uint32_t offset, std::uint32_t data) {
+    bus_.write(offset, data, RegisterBus::kAllBytes);
+  }
+  /// The same as `read` and `write` for a register that must be there: throws RtlError for an error response.
   std::uint32_t get(std::uint32_t offset);
   void set(std::uint32_t offset, std::uint32_t data);
   /// The line buffer was told to empty itself; the source must have no line waiting.

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <string>
+#include <vector>
 
 #include "core/error.hpp"
 
@@ -44,6 +46,33 @@ TEST(Within, BothEndsAreLegal) {
   EXPECT_EQ(error("2.001"), "2.001 is not within 0 to 2: reason");
   EXPECT_EQ(error("-0.1"), "-0.1 is not within 0 to 2: reason");
   EXPECT_EQ(error("x"), "'x' is not a number");
+}
+
+TEST(AboveZero, NamesTheNumber) {
+  const auto error = [](const CLI::Validator& validator, std::string text) { return validator(text); };
+  EXPECT_EQ(error(above_zero(), "1e-300"), "");
+  EXPECT_EQ(error(above_zero(), "0"), "0 is not above 0");
+  EXPECT_EQ(error(above_zero(), "-2"), "-2 is not above 0");
+  EXPECT_EQ(error(above_zero(), "x"), "'x' is not a number");
+  EXPECT_EQ(error(not_negative(), "0"), "");
+  EXPECT_EQ(error(not_negative(), "-2"), "-2 is negative");
+}
+
+TEST(CheckNumbers, MinusZeroIsZero) {
+  CLI::App app;
+  double real = 1.0;
+  unsigned whole = 1;
+  std::vector<double> several;
+  app.add_option("--real", real);
+  app.add_option_group("group")->add_option("--whole", whole);
+  app.add_option("--several", several);
+  check_numbers(app);
+  app.parse("--real -0.0 --whole -0 --several -1 -0e3 2");
+  EXPECT_FALSE(std::signbit(real));
+  EXPECT_EQ(whole, 0U);
+  ASSERT_EQ(several.size(), 3U);
+  EXPECT_EQ(several[0], -1.0);
+  EXPECT_FALSE(std::signbit(several[1]));
 }
 
 TEST(RefuseWithoutEffect, OnlyOptionsThatWereGiven) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -24,6 +25,7 @@
 #include "io/depth_image.hpp"
 #include "io/input_file.hpp"
 #include "io/npy.hpp"
+#include "scene/scene.hpp"
 
 namespace dtof {
 namespace {
@@ -38,9 +40,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 11> kStudies = {
-      "claims",    "enlarge", "accuracy", "coverage",       "fidelity",   "measured",
-      "reproduce", "scenes",  "walk",     "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 13> kStudies = {
+      "claims",   "dynamic-range", "frames", "enlarge", "accuracy",       "coverage",   "fidelity",
+      "measured", "reproduce",     "scenes", "walk",    "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -108,7 +110,11 @@ TEST_F(Programs, HelpTeaches) {
   const Outcome outcome = dtof("--help");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.output, HasSubstr("dtof frame --scene room"));
-  EXPECT_EQ(dtof("frame --help").exit_code, 0);
+  const Outcome frame = dtof("frame --help");
+  EXPECT_EQ(frame.exit_code, 0);
+  for (const Scene scene : kAllScenes) {
+    EXPECT_THAT(frame.output.substr(frame.output.find("--scene"), 200), HasSubstr(scene_name(scene)));
+  }
 }
 
 TEST_F(Programs, ListNamesReadoutsPresetsScenesAndHardware) {
@@ -408,8 +414,14 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --frobnicate --out out", "--frobnicate");
   expect_refused("accuracy --distances 0 --out out", "distances");
   expect_refused("", "no command is given; known are frame,");
-  expect_refused("frame --frobnicate '' -a 3 --out out", "argument 3 is empty");
+  expect_refused("frame --frobnicate '' -a 3 --out out", "the value of --frobnicate is empty");
   expect_refused("frame '' --out out", "argument 2 is empty");
+  expect_refused("frame --out ''", "the value of --out is empty");
+  expect_refused("frame --out= -r sifh", "the value of --out is empty");
+  expect_refused("frame --precision 0 --out out", "frame: --precision: 0 is not above 0");
+  expect_refused("frame --gate 10 5 --out out", "the time gate, 10 to 5 ns, must be inside 0 to 45 ns");
+  expect_refused("frame --sensor /dev/zero --out out", "/dev/zero: cannot read: it is a device");
+  expect_refused("frame --depth /dev/zero --out out", "/dev/zero: cannot read: it is a device");
 }
 
 TEST_F(Programs, RefusesBadImages) {
@@ -550,6 +562,21 @@ TEST_F(Programs, FrameAndScenesGiveTheSameFiguresAndNameTheirTable) {
   expect_refused("scenes --table round --out out", "--table");
 }
 
+TEST_F(Programs, FrameSaysHowLongTheLookUpTableTook) {
+  // 45 distances of 160 pixels take much longer than 2 x 2 pixels.
+  const std::string frame = "frame -r histogram --array-columns 2 --array-rows 2 --out out ";
+  const std::string text = dtof(frame).output;
+  const std::size_t at = text.find("Look-up table in ");
+  ASSERT_NE(at, std::string::npos) << text;
+  double table = 0.0;
+  double read_out = 1.0;
+  ASSERT_EQ(std::sscanf(&text[at], "Look-up table in %lf s, read out in %lf s.", &table, &read_out), 2)
+      << text;
+  EXPECT_GT(table, read_out);
+  EXPECT_THAT(dtof(frame + "--table none").output,
+              ::testing::AllOf(HasSubstr("\nRead out in "), Not(HasSubstr("Look-up table in"))));
+}
+
 TEST_F(Programs, OwnMapsOfDepthAndReflectivityInFrame) {
   // 2 x 1 pixels: the left half of the array sees 1 m at half the reflectivity of the right half at 2 m.
   const std::array<double, 2> metres = {1.0, 2.0};
@@ -646,6 +673,67 @@ TEST_F(Programs, WalkWritesItsReportAndPicture) {
   expect_refused("walk --binning 2 --out out", "binning");
   expect_refused("walk --reflectivities 0 1 --out out", "reflectivity");
   expect_refused("walk --distances 0 --out out", "distance");
+}
+
+TEST_F(Programs, DynamicRangeWritesItsReportAndTakesCellsThatAreDone) {
+  const std::string command =
+      "dynamic-range -r coarsehistogram,poolpointer2 --count-width 4 -a 30 3000 -k 2 --signals 1 --seeds 2 "
+      "--rows 8 "
+      "--scene room --out range";
+  const Outcome outcome = dtof(command);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  EXPECT_THAT(outcome.output, HasSubstr("The report is"));
+  const std::string report = read_file(path("range/dynamic_range.md"));
+  EXPECT_THAT(report, HasSubstr("More acquisitions made a pool read-out worse"));
+  EXPECT_THAT(report, HasSubstr("## Full counters"));
+  EXPECT_THAT(read_file_or_gzip(path("range/data/dynamic_range.csv.gz")),
+              HasSubstr("\npoolpointer2,grid,1,2,3000,544,"));
+  EXPECT_GT(std::filesystem::file_size(path("range/dynamic_range.svg")), 0U);
+
+  std::filesystem::path cells;
+  for (const auto& entry : std::filesystem::directory_iterator(path("range"))) {
+    cells = entry.path().filename().string().starts_with("cells_") ? entry.path() : cells;
+  }
+  const std::filesystem::path cell = cells / "grid_1_2_3000_0.csv";
+  const auto written = std::filesystem::last_write_time(cell);
+  ASSERT_EQ(dtof(command).exit_code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(cell), written);
+  EXPECT_EQ(read_file(path("range/dynamic_range.md")), report);
+  const Outcome other = dtof(command + " --seed 2");
+  EXPECT_EQ(other.exit_code, 0) << other.output;
+  EXPECT_EQ(std::filesystem::last_write_time(cell), written) << "other settings have other cells";
+  EXPECT_NE(read_file(path("range/dynamic_range.md")), report);
+
+  expect_refused("dynamic-range -a 65536 --out out", "acquisitions");
+  expect_refused("dynamic-range --signals 0 --out out", "signals");
+  expect_refused("dynamic-range --seeds 1 --out out", "seeds");
+  expect_refused("dynamic-range --rows 161 --out out", "161 rows");
+  expect_refused("dynamic-range --scene cellar --out out", "cellar");
+}
+
+TEST_F(Programs, FramesAreReadSideBySideAndCheckedInRtl) {
+  const auto sensor = [&](const std::string& name, int acquisitions) {
+    return file(
+        name + ".toml",
+        fmt::format("name = \"{}\"\n[array]\ncolumns = 34\nrows = 16\n[tdc]\nrange_ns = 45.0\n"
+                    "[laser]\nacquisitions = {}\npulse_fwhm_ns = 2.0\n[light]\nsignal_events_at_1m = 0.3\n"
+                    "background_events_per_klux = 0.01\n",
+                    name, acquisitions));
+  };
+  const std::string sensors = sensor("short", 40) + " " + sensor("long", 400);
+  const Outcome outcome =
+      dtof("frames --sensors " + sensors + " -r fifh,poolpointer2 --seeds 2 --rtl poolpointer2 --out frames");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string report = read_file(path("frames/frames.md"));
+  EXPECT_THAT(report, HasSubstr("Scene room: 34 x 16 pixels, 14 klux"));
+  EXPECT_THAT(report, HasSubstr("RTL with long: poolPointer 2, "));
+  EXPECT_THAT(report, HasSubstr("every pixel equal to the model"));
+  const std::string csv = read_file(path("frames/frames.csv"));
+  EXPECT_THAT(csv, HasSubstr("\nshort,fifh,FiFH,40,1088,"));
+  EXPECT_THAT(csv, HasSubstr("\nlong,poolpointer2,poolPointer 2,400,1088,"));
+  expect_refused("frames --seeds 1 --out out", "seeds");
+  expect_refused("frames --sensors nosensor --out out", "nosensor");
+  expect_refused("frames --rtl nothing --out out", "nothing");
 }
 
 TEST_F(Programs, VideoReadsItsDefaultReadoutsAndWritesItsReportAndPictures) {
@@ -871,11 +959,6 @@ TEST_F(Programs, APoolReadoutsRtlNeedsAnEngineOfTheColumns) {
 }
 
 TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
-  expect_refused("frame --array-columns 375 --array-rows 1 -a 10 --out out", "point cloud of 375 x 1 pixels");
-  expect_refused("frame --array-columns 1 --array-rows 375 -a 10 --out out", "point cloud of 1 x 375 pixels");
-  // Of a large array a part that fits a picture.
-  EXPECT_EQ(dtof("frame -r fifh --array-columns 375 --array-rows 1 --columns 0-3 -a 10 --out part").exit_code,
-            0);
   expect_refused("frame -r ezpointer,sifh --nb 7 --engine rtl --out out", "no RTL is compiled for sifh");
   expect_refused("frame -r ezpointer --engine rtl -a 65536 --array-columns 1 --array-rows 1 --out out",
                  "the RTL counts 16 bits of them, to 65535");
@@ -887,6 +970,69 @@ TEST_F(Programs, WhatCanBeRefusedIsRefusedBeforeTheFirstFile) {
   EXPECT_THAT(wide.output, HasSubstr("a waveform holds at most SRAM_NUM"));
   EXPECT_FALSE(std::filesystem::exists(path("out")));
   EXPECT_FALSE(std::filesystem::exists(path("stream.csv")));
+}
+
+TEST_F(Programs, AnOutputThatIsImpossibleIsLeftOutAndTheRestIsWritten) {
+  // A point cloud has the sensor's degrees a pixel, not those of the thesis's 200 columns.
+  const std::string frame = "frame -r ezpointer --table none -a 10 --scene flat ";
+  const auto sensor = [&](const char* name, int columns, int range_ns, double signal) {
+    return file(name, fmt::format(R"(name = "v"
+[array]
+columns = {}
+rows = 2
+field_of_view_deg = 60
+[tdc]
+range_ns = {}
+timestamp_bits = 10
+[laser]
+acquisitions = 10
+pulse_fwhm_ns = 2.0
+[light]
+signal_events_at_1m = {}
+background_events_per_klux = 0.02
+)",
+                                  columns, range_ns, signal));
+  };
+  const Outcome wide = dtof(frame + "--out wide --sensor " + sensor("wide.toml", 640, 45, 0.12));
+  EXPECT_EQ(wide.exit_code, 0) << wide.output;
+  EXPECT_THAT(wide.output, Not(HasSubstr("left out")));
+  EXPECT_TRUE(std::filesystem::exists(path("wide/ezpointer.ply")));
+
+  // One from a frame before does not stay.
+  ASSERT_EQ(dtof(frame + "--array-columns 3 --array-rows 1 --out line").exit_code, 0);
+  ASSERT_TRUE(std::filesystem::exists(path("line/ezpointer.ply")));
+  const Outcome line = dtof(frame + "--array-columns 375 --array-rows 1 --out line");
+  EXPECT_EQ(line.exit_code, 0) << line.output;
+  EXPECT_THAT(line.output,
+              HasSubstr("line/ezpointer.ply is left out: a point cloud of 375 x 1 pixels of 0.48 degrees"));
+  EXPECT_FALSE(std::filesystem::exists(path("line/ezpointer.ply")));
+  EXPECT_TRUE(std::filesystem::exists(path("line/summary.csv")));
+
+  const Outcome far =
+      dtof("frame -r sifh --table none -a 500 --scene flat --distance 100 --out far --sensor " +
+           sensor("far.toml", 4, 1500, 2e3));
+  EXPECT_EQ(far.exit_code, 0) << far.output;
+  EXPECT_THAT(far.output, HasSubstr("far/sifh_depth_mm.png is left out: column 0, row 0: a depth of "));
+  EXPECT_THAT(far.output, HasSubstr("m does not fit 16 bits of millimetres"));
+  EXPECT_FALSE(std::filesystem::exists(path("far/sifh_depth_mm.png")));
+  EXPECT_TRUE(std::filesystem::exists(path("far/sifh.ply")));
+  EXPECT_TRUE(std::filesystem::exists(path("far/summary.csv")));
+
+  // Plots without gnuplot.
+  ASSERT_EQ(dtof(frame + "--array-columns 4 --array-rows 2 --record stream.csv --out stream").exit_code, 0);
+  write_pfm(path("truth.pfm"), {.width = 4, .height = 2, .metres = std::vector<float>(8, 1.0F)});
+  const std::string bare = fmt::format("PATH=/nowhere {}", DTOF_PROGRAM);
+  const Outcome replay = run(bare, "replay stream.csv -a 10 -r sifh --truth truth.pfm --out replay");
+  EXPECT_EQ(replay.exit_code, 0) << replay.output;
+  EXPECT_THAT(replay.output, HasSubstr("replay/error.svg is left out: gnuplot does not run"));
+  EXPECT_THAT(read_file(path("replay/summary.md")), Not(HasSubstr("error.svg")));
+  const Outcome video =
+      run(bare,
+          "video --scene flat --motion still --frames 2 -r sifh --array-columns 4 --array-rows 2 "
+          "-a 10 --out video");
+  EXPECT_EQ(video.exit_code, 0) << video.output;
+  EXPECT_THAT(video.output, HasSubstr(".svg is left out: gnuplot does not run"));
+  EXPECT_THAT(read_file(path("video/video.md")), Not(HasSubstr(".svg")));
 }
 
 TEST_F(Programs, APoolReadoutsWindowsFollowThePulse) {
@@ -914,6 +1060,131 @@ default_reflectivity = 1.0
   expect_refused(frame + "--cell-shift 7", "CELL_SHIFT must be 8 to 10, not 7");
   EXPECT_EQ(dtof(frame).exit_code, 0);
   EXPECT_EQ(dtof(frame + "--engine rtl --cell-shift 9 --verify").exit_code, 0);
+}
+
+TEST_F(Programs, APixelThatSawNothingHasNoDistance) {
+  const auto dead = [&](const char* name, const char* pixels) {
+    return file(name, fmt::format(R"(name = "d"
+[array]
+columns = 4
+rows = 3
+field_of_view_deg = 20
+[tdc]
+range_ns = 45
+timestamp_bits = 10
+[laser]
+acquisitions = 300
+pulse_fwhm_ns = 2.0
+[light]
+signal_events_at_1m = 0.12
+background_events_per_klux = 0.02
+[detector]
+{}
+)",
+                                  pixels));
+  };
+  const std::string frame =
+      "frame -r ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,coarsehistogram --scene "
+      "flat "
+      "--out out --sensor ";
+  const Outcome all = dtof(frame + dead("all.toml", "dead_pixel_share = 1.0"));
+  ASSERT_EQ(all.exit_code, 0) << all.output;
+  EXPECT_THAT(all.output, HasSubstr("12 pixels are dead and not judged."));
+  for (const Readout readout : kRtlReadouts) {
+    if (is_pool_readout(readout)) {
+      continue;  // a pixel of theirs may take its neighbours' word
+    }
+    const std::string name = path("out/") + std::string(readout_name(readout));
+    EXPECT_THAT(read_depth_image(name + "_depth_mm.png").metres, ::testing::Each(0.0F)) << name;
+    EXPECT_THAT(read_file(name + ".ply"), HasSubstr("\nelement vertex 0\n")) << name;
+  }
+  EXPECT_THAT(read_file(path("out/summary.csv")), HasSubstr("\nSiFH,-,-,-,-,-,-,-\n"));
+  const Outcome one = dtof("frame -r histogram --table none --scene flat --out out --sensor " +
+                           dead("one.toml", "dead_pixels = [[2, 1]]"));
+  ASSERT_EQ(one.exit_code, 0) << one.output;
+  EXPECT_THAT(one.output, HasSubstr("1 pixel is dead and not judged."));
+  const DepthImage depth = read_depth_image(path("out/histogram_depth_mm.png"));
+  EXPECT_EQ(std::ranges::count(depth.metres, 0.0F), 1);
+  EXPECT_EQ(depth.at(2, 1), 0.0F);
+  EXPECT_THAT(read_file(path("out/histogram.ply")), HasSubstr("\nelement vertex 11\n"));
+}
+
+TEST_F(Programs, WhatTheSensorCannotReachIsRefusedOrCountedApart) {
+  const auto map = [&](const char* name, std::vector<double> values) {
+    const std::array<std::size_t, 2> shape = {1, values.size()};
+    write_npy(path(name), shape, values);
+    return std::string(name);
+  };
+  const std::string frame = "frame -r histogram --table none --array-columns 4 --array-rows 2 --out out ";
+  expect_refused(
+      frame + "--depth " + map("mm.npy", {1000.0, 2257.0}),
+      "mm.npy: every pixel is beyond the sensor's range, 6.75 m (light there and back in 45 ns), the "
+      "nearest at 1000 m; if these are millimetres, use --depth-scale 0.001");
+  expect_refused(frame + "--depth " + map("far.npy", {10.0, 12.0}), "range, 6.75 m");
+  expect_refused(frame + "--depth " + map("nan.npy", {std::nan(""), std::nan("")}),
+                 "no pixel has a distance");
+  expect_refused(frame + "--depth " + map("huge.npy", {1.0, 1e39}),
+                 "huge.npy: column 1, row 0: a depth of 1e+39 m is too large a number");
+  expect_refused(
+      frame + "--reflectivity-map " + map("glint.npy", {1.0, 4.5}),
+      "glint.npy: column 1, row 0: a reflectivity of 4.5 is not within 0 to 4: a white matt surface");
+  EXPECT_EQ(dtof(frame + "--depth mm.npy --depth-scale 0.001").exit_code, 0);
+
+  // Half of the pixels are in range; the figures are theirs alone.
+  const Outcome half = dtof(frame + "--depth " + map("half.npy", {1.0, 10.0}));
+  ASSERT_EQ(half.exit_code, 0) << half.output;
+  EXPECT_THAT(half.output,
+              HasSubstr("4 pixels are beyond the sensor's range, 6.75 m (light there and back in "
+                        "45 ns), and not judged."));
+  const std::string figures = read_file(path("out/summary.csv"));
+  ASSERT_EQ(dtof(frame + "--columns 0-1 --depth half.npy").exit_code, 0);
+  EXPECT_EQ(read_file(path("out/summary.csv")), figures);
+  const Outcome known = dtof(frame + "--depth " + map("known.npy", {1.0, 0.0, 10.0, 2.0}));
+  EXPECT_THAT(known.output,
+              HasSubstr("2 pixels are without a true distance and not judged. 2 pixels are beyond"));
+
+  // A scene of the program's own, with a sensor that ends before its far walls.
+  ASSERT_EQ(dtof("sensor thesis > short.toml").exit_code, 0);
+  std::string text = read_file(path("short.toml"));
+  const std::size_t range = text.find("range_ns");
+  text.replace(range, text.find('\n', range) - range, "range_ns = 20");
+  const std::string short_range = file("short.toml", text);
+  const Outcome room = dtof("frame -r coarsehistogram --table none --out room --sensor " + short_range);
+  ASSERT_EQ(room.exit_code, 0) << room.output;
+  EXPECT_THAT(room.output, HasSubstr("pixels are beyond the sensor's range, 3.00 m"));
+  EXPECT_LT(std::stod(csv_cell(read_file(path("room/summary.csv")), "coarse histogram", "above 10 %")), 20.0);
+}
+
+TEST_F(Programs, WhatLiesOutsideOfARecordingsRangeIsSaid) {
+  // 10 photons a pixel: of the left one at 5 ns, of the right one at 60 ns.
+  std::vector<double> counts(160, 0.0);
+  counts[10] = 10.0;
+  counts[80 + 60] = 10.0;
+  write_npy(path("h.npy"), std::vector<std::size_t>{1, 2, 80}, counts);
+  const std::string replay = "replay h.npy --bin-width 1000 -r sifh --out out ";
+  expect_refused(replay + "--columns 1",
+                 "h.npy: all 10 photons of the pixels read are outside the range, 0 to 45 ns");
+  const Outcome half = dtof(replay);
+  ASSERT_EQ(half.exit_code, 0) << half.output;
+  EXPECT_THAT(half.output, HasSubstr("10 of 20 photons are outside the range, 0 to 45 ns, and lost."));
+  EXPECT_THAT(dtof(replay + "--t-int 90").output, Not(HasSubstr("lost")));
+
+  write_npy(path("truth.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{1.5, 9.0});
+  const Outcome judged = dtof(replay + "--truth truth.npy");
+  ASSERT_EQ(judged.exit_code, 0) << judged.output;
+  EXPECT_THAT(judged.output,
+              HasSubstr("1 pixel is beyond the range, 6.75 m (light there and back in 45 ns), and "
+                        "not judged."));
+  EXPECT_EQ(csv_cell(read_file(path("out/summary.csv")), "SiFH", "measurements"), "1");
+  write_npy(path("near.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{1.5, 6.0});
+  EXPECT_THAT(dtof(replay + "--truth near.npy").output,
+              HasSubstr("1 pixel is without a detection and not judged."));
+  std::filesystem::remove(path("out/summary.csv"));
+  write_npy(path("mm.npy"), std::vector<std::size_t>{1, 2}, std::vector<double>{1500.0, 9000.0});
+  expect_refused(
+      replay + "--truth mm.npy",
+      "mm.npy: every true distance is beyond the range, 6.75 m (light there and back in 45 ns), the "
+      "nearest at 1500 m; if these are millimetres, use --truth-scale 0.001");
 }
 
 TEST_F(Programs, OptionsWithoutEffectAreErrors) {

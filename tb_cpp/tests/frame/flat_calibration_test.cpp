@@ -96,6 +96,27 @@ TEST(FlatCalibration, FitsPositionsToTheirDistances) {
   }
 }
 
+TEST(FlatCalibration, HasAsManyPixelsAsAStudyAsksFor) {
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 400;
+  const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram)};
+  const auto table = [&](int pixels) {
+    const FlatCalibration calibration(sensor, pixels);
+    EXPECT_EQ(calibration.targets().rows(), pixels);
+    return calibration
+        .fit(
+            [&](const TargetMap& map) {
+              return std::make_unique<PhotonSource>(sensor, map, 14.0, 5, FlatCalibration::kFrame);
+            },
+            readouts, 5, 2)
+        .front();
+  };
+  // A wall at 2 m arrives at code 349.
+  EXPECT_NEAR(table(16).distance(349.0), table(160).distance(349.0), 0.05);
+  EXPECT_NE(table(16).distance(349.0), table(160).distance(349.0));
+  EXPECT_THROW(FlatCalibration(sensor, 0), InputError);
+}
+
 TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;

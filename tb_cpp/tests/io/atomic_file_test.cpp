@@ -34,6 +34,18 @@ TEST_F(AtomicFileTest, WritesTheWholeFileWithOrdinaryPermissions) {
   EXPECT_EQ(status.st_mode & 0777U, 0666U & ~mask);
 }
 
+TEST_F(AtomicFileTest, GzipHoldsTheContentsAndIsAlwaysTheSame) {
+  std::string table = "a,b\n";
+  for (int line = 0; line < 20'000; ++line) {
+    table += std::to_string(line % 97) + ",0\n";
+  }
+  write_gzip_file(path("a.gz"), table);
+  write_gzip_file(path("b.gz"), table);
+  EXPECT_EQ(read_file_or_gzip(path("a.gz")), table);
+  EXPECT_EQ(contents(path("a.gz")), contents(path("b.gz")));
+  EXPECT_LT(contents(path("a.gz")).size(), table.size() / 10);
+}
+
 TEST_F(AtomicFileTest, ReplacesAnOlderFileOnlyAtCommit) {
   const auto file = write("a", "old");
   {

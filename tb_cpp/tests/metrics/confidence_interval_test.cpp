@@ -60,6 +60,20 @@ TEST(ConfidenceInterval, ShareByHand) {
   EXPECT_EQ(estimate_share(10, 10).interval.high, 1.0);
 }
 
+TEST(ConfidenceInterval, ShareOfFramesByHand) {
+  // Shares 0.1, 0.2, 0.3 of 100 pixels: t(0.975, 2) * 0.1 / sqrt(3) is wider than Wilson's for 60 of 300.
+  const Estimate spread = estimate_share_of_frames(std::vector<double>{0.1, 0.2, 0.3}, 100);
+  EXPECT_NEAR(spread.value, 0.2, 1e-12);
+  EXPECT_EQ(spread.interval.low, 0.0);
+  EXPECT_NEAR(spread.interval.high, 0.2 + 4.302653 * 0.1 / std::sqrt(3.0), 1e-6);
+  // Frames that agree say nothing of pixels that were not seen: Wilson's interval is left.
+  const Estimate equal = estimate_share_of_frames(std::vector<double>{0.2, 0.2, 0.2}, 100);
+  EXPECT_EQ(equal.interval, estimate_share(60, 300).interval);
+  const Estimate none = estimate_share_of_frames(std::vector<double>{0.0, 0.0}, 500);
+  EXPECT_EQ(none.interval, estimate_share(0, 1000).interval);
+  EXPECT_GT(none.interval.high, 0.0);
+}
+
 TEST(ConfidenceInterval, StandardDeviationByHand) {
   // Relative variance of the variance: (kurtosis - (n - 3) / (n - 1)) / n, with the powers over n and the
   // unbiased variance.

@@ -48,7 +48,7 @@ TEST(PlaygroundSession, ReadsWhatAFrameReads) {
     ASSERT_EQ(frame.error_m.size(), 48U);
     EXPECT_FLOAT_EQ(frame.depth_m[5] - frame.error_m[5], session.truth_m()[5]);
     EXPECT_FLOAT_EQ(session.truth_m()[5], 5.0F);
-    EXPECT_EQ(frame.figures.size(), 5U);
+    EXPECT_EQ(frame.figures.size(), 6U);
   }
 }
 

@@ -59,6 +59,7 @@ struct Group {
   std::vector<int> h = std::vector<int>(32, 0);
   std::vector<int> cell;
   int b = 0;
+  bool frozen = false;
 };
 
 int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
@@ -151,7 +152,6 @@ class Reference {
 
   [[nodiscard]] int labels() const { return open_.lean ? 4 : 5; }
   [[nodiscard]] int group_rows() const { return open_.lean ? 8 : 4; }
-  [[nodiscard]] int largest_count() const { return open_.lean ? 255 : 127; }
 
   Group& group(Place place) { return groups_[{place.column / 2, place.row / group_rows()}]; }
 
@@ -160,24 +160,42 @@ class Reference {
   }
 
   void coarse() {
+    for (const auto& [place, pixel] : pixels_) {
+      (void)group(place);  // one without a timestamp is a group, too
+    }
     for (int a = 0; a < coarse_end(); ++a) {
+      if ((a + 1) % 64 == 0) {
+        for (auto& [place, swept] : groups_) {
+          sweep(swept);
+        }
+        continue;
+      }
       for (int c = 0; c < columns_; ++c) {
         for (int r = 0; r < rows_; r += 2) {
           // Even acquisitions are the even row's turn, if it has a timestamp.
           for (const int row : {r + a % 2, r + 1 - a % 2}) {
             const auto pixel = pixels_.find({c, row});
             if (pixel != pixels_.end() && pixel->second.seen.contains(a)) {
-              int& bin =
-                  group({c, r}).h[static_cast<std::size_t>(preferred(a, pixel->second.seen[a]) / 2048)];
-              bin = std::min(largest_count(), bin + 1);
+              Group& counting = group({c, r});
+              int& bin = counting.h[static_cast<std::size_t>(preferred(a, pixel->second.seen[a]) / 2048)];
+              bin = counting.frozen ? bin : std::min(127, bin + 1);
               break;
             }
           }
         }
       }
     }
-    for (const auto& [place, pixel] : pixels_) {
-      (void)group(place);  // one without a timestamp is a group, too
+  }
+
+  static void sweep(Group& swept) {
+    std::vector<int> ascending = swept.h;
+    std::sort(ascending.begin(), ascending.end());
+    if (swept.frozen || ascending.back() != 127) {
+      return;
+    }
+    swept.frozen = ascending.front() < 32;
+    for (int& bin : swept.h) {
+      bin -= swept.frozen ? 0 : 32;
     }
   }
 
@@ -204,7 +222,7 @@ class Reference {
         w.back() += wanted ? 28 : 0;
       }
     }
-    own.b = 5 * *std::min_element(octets.begin(), octets.end()) / (largest_count() + 1);
+    own.b = 5 * *std::min_element(octets.begin(), octets.end()) / 128;
     own.b = open_.lean ? own.b / 4 * 4 + 2 : own.b;
     const int least = *std::min_element(w.begin(), w.end());
     std::vector<int> free_pairs(31);
@@ -873,6 +891,25 @@ TEST_F(PoolPointer2, LongFramesAsReference) {
   }
 }
 
+// Bins that fill: in light alone all of them, so that sweeps make room; of a strong pulse only its own, so
+// that a sweep freezes the group.
+TEST_F(PoolPointer2, FullBinsAsReference) {
+  CounterRandom draw = random(10);
+  constexpr int kAcquisitions = 4000;
+  for (const auto& [signal, background] :
+       {std::pair(0.0, 0.95), std::pair(0.03, 0.9), std::pair(0.9, 0.02)}) {
+    std::vector<ColumnStream> array(3);
+    for (ColumnStream& column : array) {
+      for (int row = 0; row < 9; ++row) {
+        column.append_row(pulse(10, 2, 300 + 20 * row, signal, background, kAcquisitions, draw));
+      }
+    }
+    for (const bool lean : {false, true}) {
+      expect_as_reference(array, 10, kAcquisitions, 34, {.coarse = 40, .track = 12, .lean = lean});
+    }
+  }
+}
+
 TEST_F(PoolPointer2, ShortFramesAsReference) {
   CounterRandom draw = random(4);
   const ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer2);
@@ -953,7 +990,7 @@ TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
   refused([](PoolPointer2Parameters& p) { p.group_rows = 3; },
           "GROUP_SIZE must be a power of two from 4 to 32, not 3");
   refused([](PoolPointer2Parameters& p) { p.count_width = 8; },
-          "32 bins of COUNT_WIDTH must fit the words of GROUP_SIZE rows, not 8");
+          "32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows, not 8");
   refused([](PoolPointer2Parameters& p) { p.rival_moves = 0; },
           "OFFSET_BITS must be 0 if RIVAL_MOVES is 0, not 6");
   refused([](PoolPointer2Parameters& p) { p.cell_shift = 7; }, "CELL_SHIFT must be 8 to 10, not 7");

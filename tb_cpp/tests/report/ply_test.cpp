@@ -47,6 +47,8 @@ TEST_F(PlyTest, Refusals) {
   test::expect_input_error(
       [&] { write_ply(path("a.ply"), image, {}); },
       EndsWith("400 x 1 pixels of 0.48 degrees each: its sides must be above 0 and below 180 degrees"));
+  EXPECT_THAT(ply_obstacle(400, 1), StartsWith("a point cloud of 400 x 1 pixels"));
+  EXPECT_EQ(ply_obstacle(400, 1, 0.1), "");
   test::expect_input_error([&] { write_ply(path("none/a.ply"), image, {}, 0.1); },
                            EndsWith("cannot write: No such file or directory"));
   EXPECT_EQ(file_count(), 0U);

@@ -167,6 +167,36 @@ TEST_P(SmallPoolPointer2, AgreesWithModelInTheFineGears) {
   }
 }
 
+// Coarse phases so long that bins fill. Light without a pulse lets every bin fill, so that sweeps take a
+// quarter of the range from all; a strong pulse fills its own bins alone, so that a sweep freezes the group.
+TEST_P(SmallPoolPointer2, AgreesWithModelInFullBins) {
+  SCOPED_TRACE(test_seed_message());
+  constexpr std::uint32_t kAcquisitions = 900;
+  CounterRandom random = test_random(test_seed(), 46);
+  RtlConfiguration configuration = GetParam();
+  configuration.parameters.pool.coarse_share = 62;
+  configuration.parameters.pool.track_share = 1;
+  const int codes = configuration.parameters.no_detection();
+  RtlReadout rtl(configuration);
+  RtlRunOptions options = default_options(test_seed());
+  for (const double pulses : {0.0, 0.1, 0.5}) {
+    SCOPED_TRACE(testing::Message() << "share of pulses " << pulses);
+    std::vector<ColumnStream> columns(static_cast<std::size_t>(std::min(configuration.sram_num, 4)));
+    for (ColumnStream& column : columns) {
+      const int pulse = pick(random, codes - 1);
+      for (int row = 0; row < configuration.pixels_per_sram; ++row) {
+        for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+          const int code = random.uniform() < pulses ? pulse + pick(random, 2) : pick(random, codes);
+          column.append({acquisition, static_cast<Timestamp>(code)});
+        }
+        column.finish_row();
+      }
+    }
+    ASSERT_TRUE(agrees_with_model(rtl, columns, kAcquisitions, options));
+    options.reset_first = false;
+  }
+}
+
 // The sweep in CMakeLists.txt holds every promised value.
 TEST(PoolPointer2Sweep, EveryValueOccurs) {
   using C = RtlConfiguration;

@@ -37,6 +37,60 @@ TEST(Preset, ThesisCalibration) {
   EXPECT_NEAR(model.time_resolution_s(), 43.9e-12, 0.1e-12);
 }
 
+/// Expected events of a pixel and frame, signal and background (dark counts included), before the TDC's
+/// slots.
+struct FrameEvents {
+  double signal;
+  double background;
+};
+
+FrameEvents frame_events(const char* preset, double distance_m, double klux) {
+  const SensorModel model = parse_preset(preset);
+  const auto pulses = static_cast<double>(model.acquisitions);
+  return {pulses * model.signal_events(distance_m, 1.0), pulses * model.background_events(klux, 1.0)};
+}
+
+TEST(Preset, FramesOfAMegahertzLaserInClosedForm) {
+  // 33,333 pulses. A wall at 2 m returns a quarter of the events at 1 m; background is that of 14 klux and
+  // the dark counts, 10 kHz in 45 ns.
+  const FrameEvents weak = frame_events("thesis_1mhz", 2.0, 14.0);
+  EXPECT_NEAR(weak.signal, 33'333 * 0.030 / 4.0, 1e-9);
+  EXPECT_NEAR(weak.background, 33'333 * (0.15 + 4.5e-4), 1e-9);
+  const FrameEvents full = frame_events("thesis_full", 2.0, 14.0);
+  EXPECT_NEAR(full.signal, 33'333 * 0.30 / 4.0, 1e-9);
+  EXPECT_NEAR(full.background, weak.background, 1e-9);
+}
+
+TEST(Preset, AMegahertzLaserHasThePowerOrTheEnergyOfThesis) {
+  constexpr double kMorePulses = 33'333.0 / 3'333.0;
+  for (const double klux : {0.0, 14.0, 100.0}) {
+    const FrameEvents thesis = frame_events("thesis", 1.0, klux);
+    const FrameEvents weak = frame_events("thesis_1mhz", 1.0, klux);
+    const FrameEvents full = frame_events("thesis_full", 1.0, klux);
+    EXPECT_NEAR(weak.signal / thesis.signal, kMorePulses / 10.0, 1e-9);
+    EXPECT_NEAR(full.signal / thesis.signal, kMorePulses, 1e-9);
+    EXPECT_NEAR(weak.background / thesis.background, kMorePulses, 1e-9);
+    EXPECT_NEAR(full.background / thesis.background, kMorePulses, 1e-9);
+  }
+}
+
+TEST(Preset, FramesOfAMegahertzLaserDifferFromThesisInNothingElse) {
+  const SensorModel thesis = parse_preset("thesis");
+  for (const char* name : {"thesis_1mhz", "thesis_full"}) {
+    SensorModel model = parse_preset(name);
+    EXPECT_EQ(model.acquisitions, 33'333U) << name;
+    EXPECT_EQ(model.columns, thesis.columns) << name;
+    EXPECT_EQ(model.rows, thesis.rows) << name;
+    EXPECT_EQ(model.field_of_view_deg, thesis.field_of_view_deg) << name;
+    EXPECT_EQ(model.np, thesis.np) << name;
+    EXPECT_EQ(model.slots, thesis.slots) << name;
+    EXPECT_EQ(model.integration_time_s, thesis.integration_time_s) << name;
+    EXPECT_EQ(model.pulse_fwhm_s, thesis.pulse_fwhm_s) << name;
+    EXPECT_EQ(model.dark_count_rate_hz, thesis.dark_count_rate_hz) << name;
+    EXPECT_EQ(model.default_reflectivity, thesis.default_reflectivity) << name;
+  }
+}
+
 TEST(Preset, PhoneIsDerived) {
   const SensorModel model = parse_preset("phone");
   EXPECT_DOUBLE_EQ(model.default_reflectivity, 0.5);
@@ -65,10 +119,10 @@ TEST(Preset, ThesisIsTheDefaultModelToTheLastBit) {
 }
 
 TEST(Preset, UnknownNameListsTheKnown) {
-  EXPECT_THAT(preset_names(), ElementsAre("thesis", "phone"));
+  EXPECT_THAT(preset_names(), ElementsAre("thesis", "thesis_1mhz", "thesis_full", "phone"));
   const std::string message = refusal([] { parse_preset("tablet"); });
   EXPECT_THAT(message, HasSubstr("tablet"));
-  EXPECT_THAT(message, HasSubstr("thesis, phone"));
+  EXPECT_THAT(message, HasSubstr("thesis, thesis_1mhz, thesis_full, phone"));
 }
 
 TEST(Preset, EveryPresetIsLegal) {

@@ -46,6 +46,37 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_second_target, configuration.parameters.pool.second_target);
   EXPECT_EQ(device_.has_prior, configuration.parameters.pool.prior);
   EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
+  EXPECT_EQ(device_.has_raster_order, (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0);
+  EXPECT_EQ(device_.count_width, configuration.parameters.count_width);
+  EXPECT_EQ(device_.nb, configuration.parameters.nb);
+  EXPECT_EQ(device_.window_centred, configuration.parameters.window_centred);
+  EXPECT_EQ(device_.pointer_step, configuration.parameters.pointer_step);
+  if (configuration.parameters.readout == Readout::kHisPointer) {
+    EXPECT_EQ(device_.guard, static_cast<std::uint32_t>(configuration.parameters.guard));
+  }
+  const PoolPointerParameters pool = device_.has_schedule ? configuration.parameters.pool
+                                                          : PoolPointerParameters{.group_size = 0,
+                                                                                  .labels = 0,
+                                                                                  .score_bits = 0,
+                                                                                  .offset_bits = 0,
+                                                                                  .count_bits = 0,
+                                                                                  .pointer_shift = 0,
+                                                                                  .rival_moves = false,
+                                                                                  .cell_shift = 0,
+                                                                                  .coarse_share = 0,
+                                                                                  .track_share = 0,
+                                                                                  .engine_columns = 0};
+  EXPECT_EQ(device_.group_size, pool.group_size);
+  EXPECT_EQ(device_.labels, pool.labels);
+  EXPECT_EQ(device_.score_bits, pool.score_bits);
+  EXPECT_EQ(device_.offset_bits, pool.offset_bits);
+  EXPECT_EQ(device_.advantage_width, pool.count_bits);
+  EXPECT_EQ(device_.pointer_shift, pool.pointer_shift);
+  EXPECT_EQ(device_.rival_moves, pool.rival_moves);
+  EXPECT_EQ(device_.cell_shift, pool.cell_shift);
+  EXPECT_EQ(device_.engine_columns, pool.engine_columns);
+  EXPECT_EQ(device_.coarse_share, pool.coarse_share);
+  EXPECT_EQ(device_.track_share, pool.track_share);
 }
 
 TEST_P(Driver, ReadsFramesInMillimetres) {
@@ -239,14 +270,18 @@ TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
     settings.raw = true;
     settings.raw_last_row = 1000;
   }));
-  EXPECT_EQ(refused([](dtof_settings& settings) { settings.track_share = 51; }), device_.has_schedule);
+  EXPECT_EQ(refused([](dtof_settings& settings) {
+              settings.track_share = static_cast<std::uint8_t>(65 - settings.coarse_share);
+            }),
+            device_.has_schedule);
 }
 
 // Registers without hardware behind them.
 struct Memory {
-  std::map<std::uint32_t, std::uint32_t> values = {{DTOF_ID, DTOF_ID_EXPECTED},
-                                                   {DTOF_VERSION, DTOF_VERSION_MAJOR_EXPECTED << 16U},
-                                                   {DTOF_SIZE, 3U << 16U | 2U}};
+  std::map<std::uint32_t, std::uint32_t> values = {
+      {DTOF_ID, DTOF_ID_EXPECTED},
+      {DTOF_VERSION, DTOF_VERSION_MAJOR_EXPECTED << 16U | DTOF_VERSION_MINOR_EXPECTED},
+      {DTOF_SIZE, 3U << 16U | 2U}};
   int accesses_left = 1000;
 };
 
@@ -267,10 +302,42 @@ TEST(DriverAlone, TellsWhatItDoesNotFind) {
   dtof_device device{};
   const dtof_bus bus = {&memory, memory_read, memory_write};
   EXPECT_EQ(dtof_probe(&device, bus), DTOF_OK);
-  memory.values[DTOF_VERSION] = (DTOF_VERSION_MAJOR_EXPECTED + 1) << 16U;
+  memory.values[DTOF_VERSION] = DTOF_VERSION_MAJOR_EXPECTED << 16U | (DTOF_VERSION_MINOR_EXPECTED + 1);
+  EXPECT_EQ(dtof_probe(&device, bus), DTOF_OK) << "more registers do no harm";
+  memory.values[DTOF_VERSION] = DTOF_VERSION_MAJOR_EXPECTED << 16U | (DTOF_VERSION_MINOR_EXPECTED - 1);
+  EXPECT_EQ(dtof_probe(&device, bus), DTOF_VERSION_UNKNOWN) << "registers that the driver reads are missing";
+  memory.values[DTOF_VERSION] = (DTOF_VERSION_MAJOR_EXPECTED + 1) << 16U | DTOF_VERSION_MINOR_EXPECTED;
   EXPECT_EQ(dtof_probe(&device, bus), DTOF_VERSION_UNKNOWN);
   memory.values[DTOF_ID] = 0xFFFFFFFF;
   EXPECT_EQ(dtof_probe(&device, bus), DTOF_NOT_FOUND);
+}
+
+TEST(DriverAlone, TakesTheScheduleFromTheRegistersAtAnyNumberOfAcquisitions) {
+  for (const Readout readout : {Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
+    const PoolPointerParameters pool = PoolPointerParameters::defaults(readout);
+    Memory memory;
+    memory.accesses_left = 1000000;
+    memory.values[DTOF_READOUT] = DTOF_READOUT_SCHEDULE_MASK;
+    memory.values[DTOF_WIDTHS] = 10U << DTOF_WIDTHS_TIMESTAMP_LSB | 24U << DTOF_WIDTHS_ACQUISITIONS_LSB;
+    memory.values[DTOF_SHARES] = static_cast<std::uint32_t>(pool.coarse_share) << DTOF_SHARES_COARSE_LSB |
+                                 static_cast<std::uint32_t>(pool.track_share) << DTOF_SHARES_TRACK_LSB;
+    dtof_device device{};
+    ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);
+    const auto expect_the_schedule = [&](std::uint32_t acquisitions) {
+      const dtof_settings settings = dtof_default_settings(&device, acquisitions);
+      ASSERT_EQ(dtof_configure(&device, &settings), DTOF_OK);
+      const PoolSchedule schedule(acquisitions, pool);
+      ASSERT_EQ(memory.values[DTOF_ACQUISITIONS], acquisitions);
+      ASSERT_EQ(memory.values[DTOF_COARSE_END], schedule.coarse_end);
+      ASSERT_EQ(memory.values[DTOF_TRACK_END], schedule.track_end);
+      ASSERT_LE(schedule.coarse_end, schedule.track_end);
+      ASSERT_LE(schedule.track_end, acquisitions);
+    };
+    for (std::uint32_t acquisitions = 0; acquisitions < 65536; ++acquisitions) {
+      ASSERT_NO_FATAL_FAILURE(expect_the_schedule(acquisitions));
+    }
+    expect_the_schedule((1U << 24U) - 1);  // the most that any ACQ_WIDTH takes
+  }
 }
 
 TEST(DriverAlone, TellsWhenTheBusFails) {
@@ -291,6 +358,7 @@ TEST(DriverAlone, TellsWhenTheBusFails) {
   EXPECT_EQ(dtof_busy(&device, &busy), DTOF_BUS);
   EXPECT_EQ(dtof_frames(&device, &value, &value), DTOF_BUS);
   EXPECT_EQ(dtof_take_errors(&device, &value), DTOF_BUS);
+  EXPECT_EQ(dtof_take_warnings(&device, &value), DTOF_BUS);
 }
 
 TEST(DriverAlone, TellsWhenAFrameIsNotWhole) {

@@ -56,6 +56,7 @@ TEST_P(SubsystemFrames, AreTheModelsUnderGapsAndBackPressure) {
     EXPECT_EQ(bench_.get(DTOF_FRAME_CYCLES), bench_.frames().back().cycles);
     EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
     EXPECT_EQ(bench_.get(DTOF_ERROR), bench_.events().overrun ? DTOF_ERROR_OVERRUN_MASK : 0U);
+    EXPECT_EQ(bench_.get(DTOF_WARNING), 0U) << "no counter of these read-outs is full so soon";
   }
 }
 
@@ -94,19 +95,29 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
   EXPECT_EQ(bench_.get(DTOF_FRAME_COUNT), kFrames);
 }
 
+constexpr std::uint32_t kAcquisitionsThatFillACounter = 4200;  // more than a bin counts, in each pass
+
+// One pixel of the first column sees a detection at the same code in each acquisition, the others see none.
+std::vector<Line> lines_that_fill_a_counter(const RtlConfiguration& configuration) {
+  std::vector<Line> lines = dark_lines(configuration, kAcquisitionsThatFillACounter);
+  const auto acquisition_lines =
+      static_cast<std::size_t>(configuration.pixels_per_sram * configuration.parameters.slots);
+  for (std::size_t i = 0; i < lines.size(); i += acquisition_lines) {
+    lines[i].front() = static_cast<Timestamp>(configuration.parameters.code_count() / 3);
+  }
+  return lines;
+}
+
+// The confidence of a result is a count of detections.
+bool confidence_is_count(const ReadoutParameters& parameters) {
+  return !is_pointer_readout(parameters.readout) && !is_pool_readout(parameters.readout);
+}
+
 TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
   const RtlConfiguration& configuration = bench_.configuration();
   const ReadoutParameters& parameters = configuration.parameters;
-  constexpr std::uint32_t kAcquisitions = 4200;  // more than a bin counts, in each pass
-  const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
-  const auto slots = static_cast<std::size_t>(parameters.slots);
-  std::vector<Line> lines(kAcquisitions * rows * slots,
-                          Line(static_cast<std::size_t>(configuration.sram_num),
-                               static_cast<Timestamp>(parameters.no_detection())));
-  // One pixel of the first column sees a detection at the same code in each acquisition, the others see none.
-  for (std::size_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
-    lines[acquisition * rows * slots].front() = static_cast<Timestamp>(parameters.code_count() / 3);
-  }
+  constexpr std::uint32_t kAcquisitions = kAcquisitionsThatFillACounter;
+  const std::vector<Line> lines = lines_that_fill_a_counter(configuration);
   FrameSettings settings{
       .acquisitions = kAcquisitions, .gate = {0, parameters.no_detection()}, .enabled = {}};
   settings.raw_last = configuration.pixels_per_sram - 1;
@@ -121,6 +132,48 @@ TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
     const std::vector<ResultFields> received = received_results(bench_, frame++);
     ASSERT_EQ(received, expected_results(bench_, settings, lines));
     EXPECT_EQ(std::ranges::count_if(received, &ResultFields::saturated), has_counter ? 1 : 0);
+    const bool counts = confidence_is_count(parameters) || (raw && configuration.raw_histogram);
+    const std::uint32_t warning = counts ? DTOF_WARNING_COUNTER_FULL_MASK : 0U;
+    EXPECT_EQ(bench_.get(DTOF_WARNING), warning) << "a full confidence of a pointer is no warning";
+    bench_.set(DTOF_WARNING, ~DTOF_WARNING_COUNTER_FULL_MASK);
+    EXPECT_EQ(bench_.get(DTOF_WARNING), warning) << "it was not written as 1";
+    EXPECT_FALSE(bench_.write(DTOF_WARNING, DTOF_WARNING_COUNTER_FULL_MASK, 0).error);
+    EXPECT_EQ(bench_.get(DTOF_WARNING), warning) << "no byte was written";
+    EXPECT_EQ(bench_.get(DTOF_IRQ_STATUS), DTOF_IRQ_STATUS_FRAME_MASK) << "a warning is no error";
+    bench_.set(DTOF_WARNING, DTOF_WARNING_COUNTER_FULL_MASK);
+    EXPECT_EQ(bench_.get(DTOF_WARNING), 0U);
+  }
+}
+
+TEST_P(SubsystemFrames, AWarningIsNotLostInTheClockInWhichItIsCleared) {
+  const RtlConfiguration& configuration = bench_.configuration();
+  if (!confidence_is_count(configuration.parameters) || bench_.axi_lite()) {
+    GTEST_SKIP() << "no such warning, or a bus whose clocks are random";
+  }
+  write_settings(bench_, {.acquisitions = kAcquisitionsThatFillACounter,
+                          .gate = {0, configuration.parameters.no_detection()},
+                          .enabled = {}});
+  for (const std::uint64_t clock : {0U, 1U, 2U, 3U}) {
+    SCOPED_TRACE(testing::Message() << "the word is taken in clock " << clock << " of the write");
+    bench_.sink().blocked = true;
+    push_lines(bench_, lines_that_fill_a_counter(configuration));
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    while (bench_.source().waiting() > 0) {
+      bench_.clock();
+    }
+    bench_.clocks(2000);  // the frame's first result, whose counter is full, waits for the sink
+    EXPECT_EQ(bench_.get(DTOF_WARNING), 0U);
+    bench_.begin_write(DTOF_WARNING, DTOF_WARNING_COUNTER_FULL_MASK);
+    bench_.clocks(clock);
+    bench_.sink().blocked = false;
+    bench_.clock();
+    bench_.sink().blocked = true;
+    bench_.clocks(4);
+    constexpr std::uint64_t kClearingClock = 1;  // the second of APB's two
+    EXPECT_EQ(bench_.get(DTOF_WARNING), clock < kClearingClock ? 0U : DTOF_WARNING_COUNTER_FULL_MASK);
+    bench_.sink().blocked = false;
+    bench_.wait_for_frames(1);
+    bench_.set(DTOF_WARNING, DTOF_WARNING_COUNTER_FULL_MASK);
   }
 }
 

@@ -40,6 +40,32 @@ TEST_P(Subsystem, SaysWhatItIs) {
   EXPECT_EQ(field(widths, DTOF_WIDTHS_ACQUISITIONS_MASK, DTOF_WIDTHS_ACQUISITIONS_LSB), 16U);
   EXPECT_EQ(bench_.get(DTOF_LINES) & DTOF_LINES_ACQUISITION_MASK, bench_.acquisition_lines());
   EXPECT_EQ(bench_.get(DTOF_SLOTS), static_cast<std::uint32_t>(parameters.slots));
+  const auto number = [](int value) { return static_cast<std::uint32_t>(value); };
+  EXPECT_EQ(bench_.get(DTOF_HISTOGRAM),
+            number(parameters.count_width) << DTOF_HISTOGRAM_COUNT_WIDTH_LSB |
+                number(parameters.nb) << DTOF_HISTOGRAM_NB_LSB |
+                (parameters.window_centred ? DTOF_HISTOGRAM_WINDOW_CENTRED_MASK : 0U));
+  EXPECT_EQ(bench_.get(DTOF_POINTER),
+            number(parameters.pointer_step) << DTOF_POINTER_STEP_LSB |
+                (parameters.readout == Readout::kHisPointer ? number(parameters.guard) : 0U)
+                    << DTOF_POINTER_GUARD_LSB);
+  const PoolPointerParameters& of_pool = parameters.pool;
+  EXPECT_EQ(bench_.get(DTOF_POOL), !pool ? 0U
+                                         : number(of_pool.group_size) << DTOF_POOL_GROUP_SIZE_LSB |
+                                               number(of_pool.labels) << DTOF_POOL_LABELS_LSB |
+                                               number(of_pool.score_bits) << DTOF_POOL_SCORE_BITS_LSB |
+                                               number(of_pool.offset_bits) << DTOF_POOL_OFFSET_BITS_LSB |
+                                               number(of_pool.count_bits) << DTOF_POOL_ADVANTAGE_WIDTH_LSB |
+                                               number(of_pool.pointer_shift) << DTOF_POOL_POINTER_SHIFT_LSB |
+                                               number(of_pool.cell_shift) << DTOF_POOL_CELL_SHIFT_LSB);
+  EXPECT_EQ(bench_.get(DTOF_ENGINES), !pool ? 0U
+                                            : number(of_pool.engine_columns) << DTOF_ENGINES_COLUMNS_LSB |
+                                                  (of_pool.rival_moves ? DTOF_ENGINES_RIVAL_MOVES_MASK : 0U));
+  const PoolPointerParameters recommended = PoolPointerParameters::defaults(parameters.readout);
+  EXPECT_EQ(bench_.get(DTOF_SHARES), !pool ? 0U
+                                           : number(recommended.coarse_share) << DTOF_SHARES_COARSE_LSB |
+                                                 number(recommended.track_share) << DTOF_SHARES_TRACK_LSB);
+  EXPECT_EQ(bench_.get(DTOF_WARNING), 0U);
   EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
   EXPECT_EQ(bench_.get(DTOF_OUTPUT), pool ? DTOF_OUTPUT_SMOOTH_MASK : 0U);
   EXPECT_EQ(bench_.get(DTOF_RELEASE),
@@ -114,12 +140,13 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
 }
 
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x020U, 0x03CU, 0x05CU, 0x06CU, 0x104U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x06CU, 0x104U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }
   for (const std::uint32_t offset :
-       {DTOF_ID, DTOF_VERSION, DTOF_SIZE, DTOF_STATUS, DTOF_FRAME_COUNT, DTOF_FRAME_CYCLES}) {
+       {DTOF_ID, DTOF_VERSION, DTOF_SIZE, DTOF_HISTOGRAM, DTOF_POINTER, DTOF_POOL, DTOF_ENGINES, DTOF_SHARES,
+        DTOF_STATUS, DTOF_FRAME_COUNT, DTOF_FRAME_CYCLES}) {
     const std::uint32_t value = bench_.get(offset);
     EXPECT_TRUE(bench_.write(offset, ~value).error) << offset;
     EXPECT_EQ(bench_.get(offset), value) << offset;

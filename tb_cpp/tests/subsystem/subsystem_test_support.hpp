@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -202,25 +203,36 @@ inline std::vector<ResultFields> received_results(const SubsystemBench& bench, s
   return received;
 }
 
-/// Lines of whole acquisitions: every pixel another kind of stream.
-inline std::vector<Line> make_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,
-                                    CounterRandom& random) {
+/// Lines of whole acquisitions without a detection.
+inline std::vector<Line> dark_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions) {
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(configuration.parameters.slots);
   const auto none = static_cast<Timestamp>(configuration.parameters.no_detection());
-  std::vector<Line> lines(acquisitions * rows * slots,
-                          Line(static_cast<std::size_t>(configuration.sram_num), none));
+  return {acquisitions * rows * slots, Line(static_cast<std::size_t>(configuration.sram_num), none)};
+}
+
+/// Puts a pixel's detections, which are sorted by acquisition, into the lines.
+inline void put_pixel(std::vector<Line>& lines, const RtlConfiguration& configuration, std::size_t column,
+                      std::size_t row, std::span<const Detection> detections) {
+  const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
+  const auto slots = static_cast<std::size_t>(configuration.parameters.slots);
+  std::size_t slot = 0;
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    slot = i > 0 && detections[i].acquisition == detections[i - 1].acquisition ? slot + 1 : 0;
+    lines[(detections[i].acquisition * rows + row) * slots + slot][column] = detections[i].timestamp;
+  }
+}
+
+/// Lines of whole acquisitions: every pixel another kind of stream.
+inline std::vector<Line> make_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,
+                                    CounterRandom& random) {
+  std::vector<Line> lines = dark_lines(configuration, acquisitions);
   std::size_t kind = random() % kStreamKinds.size();
   for (std::size_t column = 0; column < static_cast<std::size_t>(configuration.sram_num); ++column) {
-    for (std::size_t row = 0; row < rows; ++row) {
-      std::uint32_t acquisition = acquisitions;
-      std::size_t slot = 0;
-      for (const Detection& detection : make_stream(kStreamKinds[kind++ % kStreamKinds.size()],
-                                                    configuration.parameters, acquisitions, random)) {
-        slot = detection.acquisition == acquisition ? slot + 1 : 0;
-        acquisition = detection.acquisition;
-        lines[(acquisition * rows + row) * slots + slot][column] = detection.timestamp;
-      }
+    for (std::size_t row = 0; row < static_cast<std::size_t>(configuration.pixels_per_sram); ++row) {
+      put_pixel(lines, configuration, column, row,
+                make_stream(kStreamKinds[kind++ % kStreamKinds.size()], configuration.parameters,
+                            acquisitions, random));
     }
   }
   return lines;
@@ -245,8 +257,10 @@ class Subsystem : public testing::TestWithParam<CompiledSubsystem> {
 
 inline std::string subsystem_test_name(const testing::TestParamInfo<CompiledSubsystem>& subsystem) {
   const RtlConfiguration& configuration = subsystem.param.configuration;
-  return fmt::format("{}_{}x{}", readout_name(configuration.parameters.readout), configuration.sram_num,
-                     configuration.pixels_per_sram);
+  std::string name = fmt::format("{}_{}x{}", readout_name(configuration.parameters.readout),
+                                 configuration.sram_num, configuration.pixels_per_sram);
+  std::ranges::replace(name, '-', '_');  // GoogleTest wants letters, digits and these
+  return name;
 }
 
 inline void PrintTo(const CompiledSubsystem& subsystem, std::ostream* stream) {

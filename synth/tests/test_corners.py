@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Each corner has its own wires, and each repair is measured in the corner that it is for."""
+
+import tempfile
+import unittest
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
+
+from dtof_synth import floorplan, library, run, spef, standard_cells
+from dtof_synth.floorplan import Floorplan
+
+from .small_results import MARGIN
+from .test_floorplan import array
+
+COLUMNS = 13  # from the middle of the first to that of the last: 12 pitches of 25 um, 300 um
+
+
+class Wires(unittest.TestCase):
+    def test_the_slow_corner_has_a_quarter_more_resistance_and_capacitance(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "slow.lib").write_text(standard_cells.library(standard_cells.SLOW), encoding="utf-8")
+            cells = library.read(folder / "slow.lib")
+            design = array(COLUMNS)
+            plan = Floorplan(design, 1)
+            plan.rename(spef.plain_names(design)["array"])
+            timed = run._Netlist(design, plan, None, SimpleNamespace(slow=cells), folder, None)
+            timed.write_wires(design)
+            for corner, ohm_per_um, ff_per_um in (("slow", 1.875, 0.25), ("typical", 1.5, 0.2), ("fast", 1.5, 0.2)):
+                text = (folder / f"wires_{corner}.spef").read_text(encoding="utf-8")
+                net = next(part for part in text.split("*D_NET ") if "far:Q" in part)
+                ohm = [float(line.split()[3]) for line in net.split("*RES\n")[1].split("*END")[0].splitlines()]
+                ff = [float(line.split()[2]) for line in net.split("*CAP\n")[1].split("*RES")[0].splitlines()]
+                # A node of no length has 0.01 ohm; each column's pin has the wire load of a sink, 2 um of 0.2 fF.
+                self.assertAlmostEqual(sum(ohm), 300 * ohm_per_um, delta=0.05, msg=corner)
+                self.assertAlmostEqual(sum(ff), 300 * ff_per_um + COLUMNS * cells.wire_ff_per_sink, delta=0.01, msg=corner)
+
+
+class _Recorder:
+    """A netlist that notes what it is asked to time."""
+
+    design: dict = {"modules": {"t": {"attributes": {"top": "1"}, "cells": {}}}}
+
+    def __init__(self) -> None:
+        self.asked: list[tuple[str, ...]] = []
+        self.technology = SimpleNamespace(fast=object())
+
+    def time(self, corner: str, *steps: str, **_) -> SimpleNamespace:
+        self.asked.append((corner, *steps))
+        return SimpleNamespace(slack=0.2, margin=lambda: MARGIN, early=[], spare={})
+
+    def resize(self, again: bool) -> bool:
+        return False
+
+    def early_pins(self, _) -> list[str]:
+        return []
+
+
+class Repairs(unittest.TestCase):
+    def test_setup_is_judged_in_the_slow_corner_and_hold_in_the_fast_one(self):
+        recorder = _Recorder()
+        run._timed(recorder, None)
+        self.assertEqual([asked[:3] for asked in recorder.asked if "early" in asked], [("fast", "margins", "early")])
+        self.assertEqual([asked[:3] for asked in recorder.asked if "nominal" in asked], [("slow", "nominal", "margins")])
+
+    def test_what_resizing_cannot_mend_is_timed_once_after_each_change(self):
+        class Late(_Recorder):
+            changes = iter([True, True, False])
+
+            def time(self, corner: str, *steps: str, **settings) -> SimpleNamespace:
+                report = super().time(corner, *steps, **settings)
+                report.margin = lambda: replace(MARGIN, slack=-0.1)
+                return report
+
+            def resize(self, again: bool) -> bool:
+                return next(self.changes)
+
+        recorder = Late()
+        attempt = run._timed(recorder, None)
+        self.assertEqual([asked[0] for asked in recorder.asked], ["fast", "slow"] * 2)
+        self.assertFalse(attempt.closes_with_margins)
+
+    def test_hold_is_mended_until_the_fast_corner_has_no_early_path(self):
+        class TooEarly(_Recorder):
+            plan = SimpleNamespace(places={})
+
+            def write(self) -> None:
+                pass
+
+        path = SimpleNamespace(slack=-0.03, pins=["g/A"])
+        recorder = TooEarly()
+        report = SimpleNamespace(early=[path], margin=lambda: MARGIN)
+        with mock.patch.object(run.netlist, "delay_pins", return_value={}) as delayed:
+            recorder.technology.slow = None
+            run._Netlist.fix_hold(recorder, report, {"g/A": 1.0})
+        # 0.03 ns take two buffers of 0.0169 ns.
+        self.assertEqual(delayed.call_args.args[1], {("", "g", "A"): 2})
+        self.assertEqual(recorder.asked, [("fast", "margins", "early")])
+
+
+if __name__ == "__main__":
+    unittest.main()
