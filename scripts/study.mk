@@ -95,6 +95,7 @@ ifeq ($(SMALL),1)
 	@$(DTOF_STUDY) dynamic-range --acquisitions 333 3333 33333 --klux 2 14 --signals 1 10 --seeds 2 --seed $(SEED) \
 	  --out build/dynamic_range_small
 else
+	@scripts/reports.py begin dynamic_range
 	@$(DTOF_STUDY) dynamic-range --seed $(SEED) --out build/dynamic_range
 	@scripts/publish.py dynamic_range
 endif
@@ -104,6 +105,7 @@ ifeq ($(SMALL),1)
 	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer2-lean --seeds 2 \
 	  --rtl ezpointer --seed $(SEED) --out build/frames_small
 else
+	@scripts/reports.py begin frames
 	@$(DTOF_STUDY) frames --rtl poolpointer2 --seed $(SEED) --out build/frames
 	@scripts/publish.py frames
 endif

@@ -10,7 +10,7 @@ import sys
 import textwrap
 from pathlib import Path
 
-from figures import staleness, store
+from figures import store
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
@@ -20,6 +20,8 @@ from dtof_synth.configuration import Configuration, load  # noqa: E402
 BEGIN = "<!-- results: written by scripts/update_readme.py -->\n"
 END = "<!-- end of results -->"
 NONE = "-"  # not measured
+FRAMES = "frames.ezpointer."  # figures of the standard frames begin so, one for each sensor
+ABOVE = "_above_3_percent"
 
 
 class Results:
@@ -29,6 +31,9 @@ class Results:
         self.root = root
         self.figures = store.load(root)
         self.reports: set[str] = set()
+        # Sensors of the standard frames. Before `make frames` has run it is the main job's frame.
+        self.sensors = [name.removeprefix(FRAMES).removesuffix(ABOVE) for name in self.figures
+                        if name.startswith(FRAMES) and name.endswith(ABOVE)]
 
     def text(self, reference: str) -> str:
         text = store.text(reference, self.figures)
@@ -45,13 +50,18 @@ class Results:
         thesis = f"{one.thesis_mm2:g}" if one.thesis_mm2 else NONE
         cells = (one.title, array, self.optional(f"area.{name}.placed_with_scan_and_clock_tree_mm2:.2f"), thesis,
                  self.optional(f"power.{name}.day_mw:.0f"), self.text(f"area.{name}.bits_per_pixel"),
-                 self.text(f"area.{name}.column_um2:.0f"), self.text(f"timing.{name}.slow_fmax_mhz:.0f"),
-                 self.optional(f"frame.{name}.above_3_percent", " %"), self.optional(f"frame.{name}.above_10_percent", " %"))
+                 self.text(f"area.{name}.column_um2:.0f"), self.text(f"timing.{name}.slow_fmax_mhz:.0f"), *self.accuracy(name))
         return "| " + " | ".join(cells) + " |"
+
+    def accuracy(self, name: str) -> tuple[str, ...]:
+        references = [f"frames.{name}.{sensor}{ABOVE}" for sensor in self.sensors] or \
+            [f"frame.{name}.above_3_percent", f"frame.{name}.above_10_percent"]
+        return tuple(self.optional(reference, " %") for reference in references)
 
     def table(self) -> str:
         header = ("read-out", "mm2, 200 columns", "placed mm2", "thesis mm2", "mW by day", "bits a pixel", "logic um2 a column",
-                  "fmax slow, MHz", "pixels off by > 3 %", "> 10 %")
+                  "fmax slow, MHz", *([f"pixels off by > 3 %: {sensor}" for sensor in self.sensors]
+                                      or ["pixels off by > 3 %", "> 10 %"]))
         lines = ["| " + " | ".join(header) + " |", "|---|" + "---:|" * (len(header) - 1)]
         lines += [self.row(name, one) for name, one in load(self.root / "configurations.toml").items()
                   if not one.variant_of and f"area.{name}.array_mm2" in self.figures]
@@ -77,9 +87,10 @@ class Results:
             f"histograms, instead of {share('room_14')} ([scenes](reports/scenes.md), [reproduction](reports/reproduction.md)).")
 
     def scene(self) -> str:
-        """What the table's accuracy was measured on: the first sentence of the frame's summary."""
-        page = staleness.without_mark((self.root / "reports/frame/summary.md").read_text(encoding="utf-8"))
-        return (f"{page.splitlines()[0].removesuffix('.')}; after each read-out's look-up table from flat targets. Areas: generated "
+        """What the table's accuracy was measured on: the page's line that names the scene."""
+        page = (self.root / "reports" / ("frames.md" if self.sensors else "frame/summary.md")).read_text(encoding="utf-8")
+        scene = next(line for line in page.splitlines() if line.startswith("Scene "))
+        return (f"{scene.removesuffix('.')}; after each read-out's look-up table from flat targets. Areas: generated "
                 "40 nm libraries, not sign-off; of cells and macros, and placed with scan and clock tree "
                 "([area](reports/area.md#placed)). Power: while acquisitions of the room at 50 klux stream in, from the activity of "
                 "the netlists ([power](reports/power.md)).")

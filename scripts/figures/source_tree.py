@@ -5,6 +5,7 @@ import functools
 import hashlib
 import re
 import subprocess
+import weakref
 from pathlib import Path
 
 from . import strip
@@ -44,17 +45,44 @@ class SourceTree:
 
 
 class CommitTree(SourceTree):
+    """Read by one git process; a file that is the same in several commits is read and stripped once."""
+
+    digests: dict[tuple[str, str], str] = {}  # by blob and suffix
+
     def __init__(self, root: Path, commit: str) -> None:
         self.commit = subprocess.run(["git", "rev-parse", "--verify", "--quiet", f"{commit}^{{commit}}"], cwd=root, check=True,
                                      capture_output=True, text=True).stdout.strip()
+        self.blobs: dict[str, str] = {}
+        self.git = subprocess.Popen(["git", "cat-file", "--batch"], cwd=root, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        weakref.finalize(self, _end, self.git)
         super().__init__(root)
 
     def _listed(self) -> frozenset[str]:
-        done = subprocess.run(["git", "ls-tree", "-r", "-z", "--name-only", self.commit], cwd=self.root, check=True,
+        done = subprocess.run(["git", "ls-tree", "-r", "-z", "--full-tree", self.commit], cwd=self.root, check=True,
                               capture_output=True, text=True)
-        return frozenset(name for name in done.stdout.split("\0") if name)
+        for entry in filter(None, done.stdout.split("\0")):
+            description, name = entry.split("\t", 1)
+            self.blobs[name] = description.split()[2]
+        return frozenset(self.blobs)
 
-    @functools.cache
     def read(self, name: str) -> bytes:
-        return subprocess.run(["git", "cat-file", "blob", f"{self.commit}:{name}"], cwd=self.root, check=True,
-                              capture_output=True).stdout
+        assert self.git.stdin is not None and self.git.stdout is not None
+        self.git.stdin.write(f"{self.blobs[name]}\n".encode())
+        self.git.stdin.flush()
+        size = int(self.git.stdout.readline().split()[2])
+        content = self.git.stdout.read(size)
+        self.git.stdout.read(1)
+        return content
+
+    def digest(self, name: str) -> str:
+        key = (self.blobs[name], Path(name).suffix)
+        if key not in self.digests:
+            self.digests[key] = super().digest(name)
+        return self.digests[key]
+
+
+def _end(git: subprocess.Popen[bytes]) -> None:
+    assert git.stdin is not None and git.stdout is not None
+    git.stdin.close()
+    git.stdout.close()
+    git.wait()

@@ -127,6 +127,17 @@ def frame(tables: Tables) -> Figures:
     return found
 
 
+def frames(tables: Tables) -> Figures:
+    """The standard frames, by their sensors."""
+    found: Figures = {}
+    for row in tables.rows("frames.csv"):
+        for limit in ("3", "10"):
+            found[f"frames.{tables.name(row['read-out'])}.{tables.name(row['sensor'])}_above_{limit}_percent"] = Figure(
+                percent(row[f"above_{limit}_percent"]), "%",
+                (percent(row[f"above_{limit}_low"]), percent(row[f"above_{limit}_high"])))
+    return found
+
+
 def pareto(tables: Tables) -> Figures:
     found: Figures = {}
     for row in tables.rows("pareto.csv"):
@@ -191,7 +202,7 @@ def pool(tables: Tables) -> Figures:
 
 
 MAKERS: dict[str, Callable[[Tables], Figures]] = {
-    "synth": synth, "growth": growth, "power": power, "frame": frame, "pareto": pareto, "scenes": scenes,
+    "synth": synth, "growth": growth, "power": power, "frame": frame, "frames": frames, "pareto": pareto, "scenes": scenes,
     "reproduction": reproduction, "rivals": rivals, "pool": pool}
 
 

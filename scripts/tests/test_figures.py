@@ -205,7 +205,8 @@ class List(Project):
         written = {name for report in known.values() for name in report.written}
         kept = {name for name in tree.files if name.startswith("reports/")}
         self.assertEqual(kept - written, {reports.LIST, staleness.DIGESTS, store.FILE})
-        self.assertEqual(written - kept, set())
+        measured = {name for report in staleness.measured(ROOT) for name in known[report].written}
+        self.assertEqual(measured - kept, set())
         for report in known.values():
             for pattern in report.inputs:
                 kind, _, root = pattern.partition(":")
@@ -385,7 +386,7 @@ class Figures(Project):
 
     def test_the_figures_of_this_project_are_those_of_its_tables(self) -> None:
         known = store.load(ROOT)
-        for report in tables.MAKERS:
+        for report in tables.MAKERS.keys() & staleness.measured(ROOT).keys():
             for name, figure in tables.figures(ROOT, report).items():
                 self.assertEqual((known[name].value, known[name].report), (figure.value, report), name)
 

@@ -209,6 +209,14 @@ class Pages(Folder):
         self.assertIn("has other files", Site(self.root, mine.parent).write()[0])
         self.assertTrue(mine.is_file())
 
+    def test_every_report_of_the_list_is_shown(self) -> None:
+        listed = load(ROOT)
+        self.assertEqual({page for report in listed.values() for page in report.pages},
+                         {report.committed for report in sections.ALL})
+        first = {report.committed for report in (sections.FRAME, *sections.SHOWN)}
+        for report in listed.values():
+            self.assertEqual(report.first, bool(first & set(report.pages)), report.name)
+
     def test_every_command_named_is_one_of_make(self) -> None:
         known = commands(ROOT)
         for report in sections.ALL:

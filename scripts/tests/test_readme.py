@@ -6,6 +6,7 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import update_readme
 from figures import store
@@ -84,7 +85,18 @@ class Results(unittest.TestCase):
         cells = [cell.strip() for cell in row.strip("|").split("|")]
         self.assertEqual(cells[4], store.text("power.poolpointer2.day_mw:.0f", figures))
         self.assertEqual(cells[2], store.text("area.poolpointer2.placed_with_scan_and_clock_tree_mm2:.2f", figures))
-        self.assertEqual(update_readme.quoted_reports(ROOT), {"synth", "power", "frame", "scenes", "reproduction"})
+        self.assertEqual(update_readme.quoted_reports(ROOT) - {"frame", "frames"}, {"synth", "power", "scenes", "reproduction"})
+
+    def test_standard_frames_stand_beside_each_other_once_they_are_measured(self) -> None:
+        measured = {name: one for name, one in store.load(ROOT).items() if one.report != "frames"}
+        for readout, share in (("ezpointer", "53.95"), ("poolpointer2", "0.16")):
+            for sensor in ("thesis", "thesis_1mhz"):
+                measured[f"frames.{readout}.{sensor}_above_3_percent"] = store.Figure(share, "%", report="frames")
+        with mock.patch.object(store, "load", lambda root: measured):
+            lines = update_readme.Results(ROOT).table().splitlines()
+        self.assertTrue(lines[0].endswith("| pixels off by > 3 %: thesis | pixels off by > 3 %: thesis_1mhz |"), lines[0])
+        self.assertTrue(next(line for line in lines if "| poolPointer 2 |" in line).endswith("| 0.16 % | 0.16 % |"))
+        self.assertTrue(next(line for line in lines if "| SiFH |" in line).endswith("| - | - |"))
 
 
 if __name__ == "__main__":

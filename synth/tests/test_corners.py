@@ -8,7 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
-from dtof_synth import floorplan, library, run, spef, standard_cells
+from dtof_synth import library, run, spef, standard_cells
 from dtof_synth.floorplan import Floorplan
 
 from .small_results import MARGIN

@@ -4,12 +4,12 @@
 import unittest
 from unittest import mock
 
-from dtof_synth import floorplan, loads, netlist, spef, standard_cells
+from dtof_synth import loads, netlist, spef, standard_cells
 from dtof_synth.errors import FlowError
 from dtof_synth.floorplan import Floorplan
 
 from .small_netlists import cell
-from .test_floorplan import COLUMN_PIN_FF, WithLibrary, array
+from .test_floorplan import WithLibrary, array
 
 
 class Loads(WithLibrary):
