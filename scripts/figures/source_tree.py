@@ -11,6 +11,15 @@ from pathlib import Path
 from . import strip
 
 
+def git_says(root: Path, *arguments: str) -> str | None:
+    """What git prints; None if it fails or is not here, as for an archive of the project."""
+    try:
+        done = subprocess.run(["git", *arguments], cwd=root, capture_output=True, text=True)
+    except FileNotFoundError:
+        return None
+    return done.stdout if done.returncode == 0 else None
+
+
 class SourceTree:
     """Files that git keeps or would keep, by their names from the root with slashes."""
 
@@ -19,10 +28,10 @@ class SourceTree:
         self.files = self._listed()
 
     def _listed(self) -> frozenset[str]:
-        done = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=self.root, capture_output=True, text=True)
-        if done.returncode == 0:
-            names = [name for name in done.stdout.split("\0") if name]
-        else:  # an archive without git
+        listed = git_says(self.root, "ls-files", "-co", "--exclude-standard", "-z")
+        if listed is not None:
+            names = [name for name in listed.split("\0") if name]
+        else:
             names = [path.relative_to(self.root).as_posix() for path in self.root.rglob("*")
                      if not {"build", "__pycache__"} & set(path.relative_to(self.root).parts)]
         return frozenset(name for name in names if (self.root / name).is_file())

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .reports import Inputs, Report, ReportsError, inputs
-from .source_tree import CommitTree, SourceTree
+from .source_tree import CommitTree, SourceTree, git_says
 
 DIGESTS = "reports/digests.json"
 BEGUN = "build/inputs"
@@ -70,8 +70,7 @@ def _entry(found: Inputs, commit: str) -> dict:
 
 
 def _head(root: Path) -> str:
-    done = subprocess.run(["git", "rev-parse", "--verify", "--quiet", "HEAD"], cwd=root, capture_output=True, text=True)
-    return done.stdout.strip()[:12]
+    return (git_says(root, "rev-parse", "--verify", "--quiet", "HEAD") or "").strip()[:12]
 
 
 def begin(root: Path, report: Report, tree: SourceTree) -> str:
@@ -136,7 +135,7 @@ def changed_files(root: Path, one: Stale, tree: SourceTree) -> list[str]:
         return []
     try:
         before = inputs(one.report, CommitTree(root, known.commit)).files
-    except subprocess.CalledProcessError:
+    except (subprocess.CalledProcessError, FileNotFoundError):
         return []
     now = inputs(one.report, tree).files
     return sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))

@@ -4,6 +4,7 @@
 import argparse
 import contextlib
 import io
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -127,6 +128,15 @@ class Staleness(Project):
         self.write("hdl/a.sv", "module a; wire w; endmodule\n")
         staleness.record(self.root, self.reports()["area"])
         self.assertEqual(self.stale(), {"area": ("hdl",)})
+
+    def test_an_archive_without_git_has_the_same_digest(self) -> None:
+        before = reports.inputs(self.reports()["area"], SourceTree(self.root)).digest
+        shutil.rmtree(self.root / ".git")
+        self.assertEqual(reports.inputs(self.reports()["area"], SourceTree(self.root)).digest, before)
+        with mock.patch.object(subprocess, "run", side_effect=FileNotFoundError("git")):
+            staleness.begin(self.root, self.reports()["area"], SourceTree(self.root))
+            staleness.record(self.root, self.reports()["area"])
+        self.assertEqual(staleness.measured(self.root)["area"].digest, before)
 
     def test_a_digest_does_not_depend_on_where_the_project_lies(self) -> None:
         before = reports.inputs(self.reports()["area"], SourceTree(self.root)).digest
