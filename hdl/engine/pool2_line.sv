@@ -12,8 +12,7 @@ module pool2_line #(
     parameter int WIDTH = 58
 ) (
     input  logic                      clk_i,
-    input  logic                      active_i,  // an engine may read; otherwise nothing moves
-    input  logic [SEGMENTS*WIDTH-1:0] words_i,   // of each segment
+    input  logic [SEGMENTS*WIDTH-1:0] words_i,  // of each segment
     output logic [         WIDTH-1:0] line_o
 );
 
@@ -21,9 +20,7 @@ module pool2_line #(
   integer i;
 
   always_ff @(posedge clk_i) begin
-    if (active_i) begin
-      words_q <= words_i;
-    end
+    words_q <= words_i;
   end
 
   always_comb begin

@@ -544,10 +544,9 @@ module pool_pointer2_array #(
           .SEGMENTS(SEGMENTS),
           .WIDTH   (LINE_WIDTH)
       ) u_line (
-          .clk_i   (clk_i),
-          .active_i(heard_engine),
-          .words_i (segment_words),
-          .line_o  (line)
+          .clk_i  (clk_i),
+          .words_i(segment_words),
+          .line_o (line)
       );
 
       assign engine_words[FIRST*HALF_WIDTH+:PAIRS*HALF_WIDTH] = {PAIRS{word}};

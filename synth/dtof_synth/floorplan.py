@@ -31,6 +31,8 @@ TIMESTAMP_PORT = "tdc_timestamp_i"
 # Ports whose way is shorter than an engine is wide, and has gates on it: the words of an engine's pairs are combined by OR from
 # pair to pair on the way to it (docs/reference/poolpointer2.md).
 GATED_PORTS = {"line_i", "first_beside_i", "second_beside_i"}
+# Registers that stand where their inputs come from: those of the segments of an engine's line (hdl/engine/pool2_line.sv).
+BESIDE_COLUMNS = re.compile(r"\bu_line\.words_q\b")
 UNTIMED_PORTS = {"clk_i", "rst_ni", "sram_cfg_i"}
 
 
@@ -82,20 +84,23 @@ class Floorplan:
         return self[sink] if net in self.timestamps else self.centre_um
 
     def _place_gates(self) -> None:
-        """Gates whose inputs all come from columns stand in the middle of these: the OR of an engine's pairs."""
+        """Gates whose inputs all come from columns stand in the middle of these, and so do the registers BESIDE_COLUMNS: the OR of
+        an engine's pairs."""
         driver: dict[int, str] = {}
         for name, cell in self.array["cells"].items():
             for pin, bits in cell["connections"].items():
                 if cell["port_directions"].get(pin) == "output":
                     driver.update((bit, name) for bit in bits if isinstance(bit, int))
+        beside = {bit for name, net in self.array["netnames"].items() if BESIDE_COLUMNS.search(name) for bit in net["bits"]}
         known: dict[str, float | None] = {name: self.places[name] for name in self.blocks}
 
         def place(name: str) -> float | None:
             if name not in known:
                 known[name] = None  # a loop through registers ends here
                 cell = self.array["cells"][name]
-                if "CK" not in cell["connections"] and name not in self.places:
-                    inputs = [bit for pin, bits in cell["connections"].items()
+                registered = "CK" in cell["connections"]
+                if name not in self.places and (not registered or beside.intersection(cell["connections"].get("Q", []))):
+                    inputs = [bit for pin, bits in cell["connections"].items() if pin == "D" or not registered
                               if cell["port_directions"].get(pin) == "input" for bit in bits if isinstance(bit, int)]
                     places = [place(driver[bit]) if bit in driver else None for bit in inputs]
                     if places and all(where is not None for where in places):
