@@ -108,8 +108,6 @@ LISTED = (
     Report("sensor_effects", "Effects of real sensors", "sensor-effects", "sensor_effects.md",
            "sensor_effects/sensor_effects.md",
            "measured TDC code widths, a measured pulse, dead time, hot pixels", text_only=(".+",)),
-    Report("sensor_effects_pool", "Effects of real sensors: poolPointer 2", "sensor-effects", "sensor_effects_pool.md",
-           "sensor_effects_pool/sensor_effects.md", "the same for poolPointer 2, at one light"),
     Report("scaling", "Sweeps", "sweep-cost", "scaling.md", "sweep_cost/scaling.md",
            "what many points cost beside their own computing"),
     Report("sram", "SRAM macros", "synth", "sram.md", says="sizes, area, access time and energy"),
