@@ -68,7 +68,7 @@ void add_frames_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-k,--klux", settings.klux, "background light in klux")
       ->check(sensible_klux())
       ->capture_default_str();
-  command->add_option("--seeds", settings.seeds, "frames with other photons, for the intervals")
+  command->add_option("-n,--frames", settings.frames, "frames with photons of their own, for the intervals")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command->add_option("--rtl", options->rtl,
