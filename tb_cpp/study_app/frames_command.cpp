@@ -35,7 +35,7 @@ void run_frames_command(FramesOptions options) {
   }
   ReadoutOptions readouts;
   readouts.readouts = options.readouts;
-  for (const ReadoutParameters& parameters : readouts.parameters(kModelReadouts)) {
+  for (const ReadoutParameters& parameters : readouts.parameters(kAllReadouts)) {
     settings.readouts.push_back(parameters.readout);
   }
   settings.scene = parse_scene(options.scene);
