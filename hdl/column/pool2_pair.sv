@@ -82,14 +82,13 @@ module pool2_pair #(
     input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
                                                      // first two, and then the last two
     input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
-    input  logic                  read_all_i,        // with load_i of the first part: both parts are needed
     input  logic                  sweep_i,           // in the clocks in which parts count: nothing counts, the bins are looked at
     input  logic                  make_room_i,       // with sweep_i: the group's second visit; low in the other phases
     // SRAM
     input  logic                  read_i,
     input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
     input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
-    output logic                  upper_t2_o,        // coarse, at T2 of a second row: the second of two parts is needed
+    output logic                  upper_t2_o,        // coarse, at T2 of a second row: something counts in the second of two parts
     output logic                  write_o,           // with write_i: there is something to write
     output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
@@ -473,7 +472,7 @@ module pool2_pair #(
     end
   endgenerate
 
-  assign upper_t2_o = (upper_t2 != '0) || read_all_i;
+  assign upper_t2_o = (upper_t2 != '0);
 
   // Pixels without a timestamp stay what they are, and a word of them alone is not written, nor one in which nothing counts.
   assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (make_room_i && full_q) : changed_q;

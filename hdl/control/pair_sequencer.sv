@@ -59,8 +59,7 @@ module pair_sequencer #(
     output logic                  keep_last_o,       // four parts, T3 of a second pair: what it has chosen is
     output logic                  load_o,            // a clock after a part's read
     output logic [PART_WIDTH-1:0] part_o,            // with load_o
-    output logic                  read_all_o,        // from the first part's load_o to the next one's: a sweep
-    output logic                  sweep_o,           // a clock later
+    output logic                  sweep_o,           // from the first part's load_o to the next one's: a sweep
     output logic                  make_room_o,       // with sweep_o: the group's second visit; low in the other phases
     // SRAM, a clock early
     output logic                  read_d_o,
@@ -192,7 +191,7 @@ module pair_sequencer #(
   logic [PAIR_WIDTH-1:0] pair_t3;
   logic second_visit_t2_q, second_visit_t3_q, second_row_t2_q, second_row_t3_q, second_pair_t2_q, second_pair_t3_q;
   logic [3:0] acquisition_t2_q;
-  logic sweep_t1, sweep_t2_q, sweep_then, second_visit_then, second_visit_q;
+  logic sweep_t1, sweep_t2_q, sweep_then, second_visit_then;
   logic [PAIR_WIDTH-1:0] pair_then;  // of the clock before the first part's load_o
   logic read_part, load_part, write_part;
   integer n;
@@ -245,11 +244,9 @@ module pair_sequencer #(
       part_o <= fetch_tn[FIRST_STAGE+1] ? '0 : part_o + 1'b1;
     end
     if (fetch_tn[FIRST_STAGE+1]) begin
-      read_all_o <= sweep_then;
-      second_visit_q <= second_visit_then;
+      sweep_o <= sweep_then;
     end
-    sweep_o <= read_all_o;
-    make_room_o <= coarse_i && read_all_o && second_visit_q;
+    make_room_o <= coarse_i && (fetch_tn[FIRST_STAGE+1] ? sweep_then && second_visit_then : make_room_o);
   end
 
   `DTOF_ASSERT(a_phase_complete, stream_i || (!busy_t1_q && !second_visit_t2_q && !second_visit_t3_q && fetch_tn_q == '0),

@@ -89,7 +89,7 @@ module pool_control_properties #(
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
-  logic read_all, sweep, make_room, is_sweep_q;  // a frame of 64 acquisitions is too long for the proof
+  logic sweep, make_room, is_sweep_q;  // a frame of 64 acquisitions is too long for the proof
 
   pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
@@ -119,7 +119,6 @@ module pool_control_properties #(
       .keep_last_o      (keep_last),
       .load_o           (load),
       .part_o           (part),
-      .read_all_o       (read_all),
       .sweep_o          (sweep),
       .make_room_o      (make_room),
       .read_d_o         (stream_read),
@@ -187,7 +186,6 @@ module pool_control_properties #(
       .keep_last_i     (keep_last),
       .load_i          (load),
       .part_i          (part),
-      .read_all_i      (read_all),
       .sweep_i         (sweep),
       .make_room_i     (make_room),
       .read_i          (read_q),

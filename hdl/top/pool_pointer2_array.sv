@@ -171,7 +171,7 @@ module pool_pointer2_array #(
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
-  logic read_all, sweep, make_room;
+  logic sweep, make_room;
 
   logic [NP-1:0] gate_begin, gate_end;
 
@@ -227,7 +227,6 @@ module pool_pointer2_array #(
       .keep_last_o      (keep_last),
       .load_o           (load),
       .part_o           (part),
-      .read_all_o       (read_all),
       .sweep_o          (sweep),
       .make_room_o      (make_room),
       .read_d_o         (stream_read),
@@ -314,7 +313,7 @@ module pool_pointer2_array #(
   // own missing neighbour.
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
-  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 28;
+  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27;
 
   logic told_read, told_write, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] told_address;
@@ -369,7 +368,7 @@ module pool_pointer2_array #(
   logic [NP-1:0] heard_gate_begin, heard_gate_end;
   logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
   logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_keep_first, heard_keep_last, heard_load;
-  logic heard_read_all, heard_sweep, heard_make_room;
+  logic heard_sweep, heard_make_room;
   logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear;
   logic heard_upper, heard_used, heard_has_right, heard_last_has_right;
   logic [3:0] heard_acquisition_t2;
@@ -380,13 +379,13 @@ module pool_pointer2_array #(
   logic [ROW_WIDTH-1:0] heard_scratch_row;
 
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
-                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, read_all, sweep, make_room,
+                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, sweep, make_room,
                  told_read, told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
   assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
-          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_read_all, heard_sweep, heard_make_room,
+          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_sweep, heard_make_room,
           heard_read, heard_write, heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
           heard_select, heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
           heard_command} = heard;
@@ -493,7 +492,6 @@ module pool_pointer2_array #(
           .keep_last_i     (heard_keep_last),
           .load_i          (heard_load),
           .part_i          (heard_part),
-          .read_all_i      (heard_read_all),
           .sweep_i         (heard_sweep),
           .make_room_i     (heard_make_room),
           .word_load_d_i   (heard_word_load),
