@@ -69,6 +69,10 @@ class _Borders:
         kind = self.module["cells"][name]["type"]
         return kind in self.library.sequential or kind in self.library.clock_pin_ff or kind not in self.library.area
 
+    def drives(self, name: str | None) -> bool:
+        """Whether a cell stays with its outputs: a register that stays as the end of a path alone has none."""
+        return name is not None and name in self.kept and (not self.ends_paths(name) or name in self.launching)
+
     def _of(self, name: str, direction: str) -> Iterable[int]:
         cell = self.module["cells"][name]
         return (bit for pin, bits in cell["connections"].items() for bit in bits
@@ -119,10 +123,10 @@ def of(module: Module, library: Library, pin_load: Callable[[str, str], float]) 
         connections = {}
         for pin, bits in cell["connections"].items():
             if cell["port_directions"].get(pin) == "output":
-                if not borders.ends_paths(name) or name in borders.launching:
+                if borders.drives(name):
                     connections[pin] = bits
                 continue
-            there = [not isinstance(bit, int) or bit in inputs or borders.driver.get(bit) in borders.kept for bit in bits]
+            there = [not isinstance(bit, int) or bit in inputs or borders.drives(borders.driver.get(bit)) for bit in bits]
             if any(there) or module["cells"][name]["type"] not in library.area:  # a macro's pins are all connected
                 connections[pin] = [bit if stays else "0" for bit, stays in zip(bits, there)]
             if borders.ends_paths(name):

@@ -101,6 +101,12 @@ class StandIns(unittest.TestCase):
         self.assertEqual([cell["type"] for cell in netlist.top(timed)["cells"].values() if "told" in cell["connections"]],
                          ["a_column", "a_column", *[netlist.STUB] * 3, "a_column"])
 
+    def test_a_pin_behind_a_register_that_is_an_end_alone_is_cut(self):
+        column = module({"clk_i": ("input", 2), "told": ("input", 3)}, {
+            "end": cell("DFF_X1", {"D": 3, "CK": 2}, {"Q": 10}), "after": cell("DFFR_X1", {"D": 10, "RN": 3, "CK": 2}, {"Q": 11})})
+        stand = stand_in.of(column, self.library, self.load)
+        self.assertEqual(stand.cut, {"after/D"})
+
     def test_a_mere_load_weighs_what_the_column_does_and_has_no_path(self):
         design = array()
         timed, stand = stand_in.timed(design, ["c0", "c1", f"c{COLUMNS - 1}"], self.library, self.load, ["c2"])
