@@ -8,6 +8,13 @@ dtof=$1
 data=$(realpath -m "$2")
 seed=$3
 folder=build/sensor_effects
+small=()
+pool=(--klux 14 --frames 200)
+if [ -n "${SMALL:-}" ]; then
+  folder=build/small/$folder
+  small=(--frames 4 --klux 14 --distances 1.03)
+  pool=("${small[@]}")
+fi
 rm -rf "$folder"
 mkdir -p "$folder"
 sensors=()
@@ -25,9 +32,9 @@ for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time ho
   fi
   sensors+=("$folder/$name.toml")
 done
-"$dtof" sensor-effects "${sensors[@]}" -r thesis --seed "$seed" --out "$folder"
+"$dtof" sensor-effects "${sensors[@]}" -r thesis "${small[@]}" --seed "$seed" --out "$folder"
 # An independent pixel of poolPointer 2 takes a whole column: fewer frames, one light.
-"$dtof" sensor-effects "${sensors[@]}" -r poolpointer2 --klux 14 --frames 200 --seed "$seed" --out "${folder}_pool"
+"$dtof" sensor-effects "${sensors[@]}" -r poolpointer2 "${pool[@]}" --seed "$seed" --out "${folder}_pool"
 if [ "$complete" = yes ]; then
   scripts/publish.py sensor_effects sensor_effects_pool
 else
