@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The sensor files of scripts/sensor_effects/ against the preset thesis: reports/sensor_effects.md and .csv,
-# for poolPointer 2 reports/sensor_effects_pool.md and .csv.
+# The sensor files of scripts/sensor_effects/ against the preset thesis: reports/sensor_effects.md. poolPointer 2 takes hours:
+# an independent pixel of it takes a whole column (`dtof-study sensor-effects FILE -r poolpointer2`).
 # Data that a sensor file names is looked for beside it, so both are linked into one folder.
 set -euo pipefail
 dtof=$1
@@ -9,11 +9,9 @@ data=$(realpath -m "$2")
 seed=$3
 folder=build/sensor_effects
 small=()
-pool=(--klux 14 --frames 200)
 if [ -n "${SMALL:-}" ]; then
   folder=build/small/$folder
   small=(--frames 4 --klux 14 --distances 1.03)
-  pool=("${small[@]}")
 fi
 rm -rf "$folder"
 mkdir -p "$folder"
@@ -33,10 +31,8 @@ for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time ho
   sensors+=("$folder/$name.toml")
 done
 "$dtof" sensor-effects "${sensors[@]}" -r thesis "${small[@]}" --seed "$seed" --out "$folder"
-# An independent pixel of poolPointer 2 takes a whole column: fewer frames, one light.
-"$dtof" sensor-effects "${sensors[@]}" -r poolpointer2 "${pool[@]}" --seed "$seed" --out "${folder}_pool"
 if [ "$complete" = yes ]; then
-  scripts/publish.py sensor_effects sensor_effects_pool
+  scripts/publish.py sensor_effects
 else
   echo "sensor-effects: reports/ keeps the report of all sensors; this one is in $folder"
 fi

@@ -15,8 +15,8 @@
 # make dynamic-range  read-outs over acquisitions, sunlight and signal: does more light make one worse? (about 20 minutes; goes
 #                 on where it was interrupted; SMALL=1: a few cells, build/dynamic_range_small alone)
 # make frames     the room scene through every read-out, with the sensors thesis, thesis_1mhz and thesis_full beside each
-#                 other, four seeds, and an engine of poolPointer 2 in RTL with each (five minutes; SMALL=1: two
-#                 seeds of thesis and three read-outs, build/frames_small alone)
+#                 other, four frames, and an engine of poolPointer 2 in RTL with each (five minutes; SMALL=1: two
+#                 frames of thesis and three read-outs, build/frames_small alone)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
 .PHONY: claims dynamic-range frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
@@ -104,7 +104,7 @@ endif
 
 frames: study
 ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer2-lean --seeds 2 \
+	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer2-lean --frames 2 \
 	  --rtl ezpointer --seed $(SEED) --out build/frames_small
 else
 	@scripts/reports.py begin frames

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the results of README.md from reports/figures.json; --check only compares.
 
-Every figure was printed by a command of this tree: areas and clock by `make synth`, power by `make power`, accuracy of the frame
-by `make`, why the full histogram is so bad by `make scenes` and `make reproduce`.
+Every figure was printed by a command of this tree: areas and clock by `make synth`, power by `make power`, accuracy by `make frames`,
+or by `make` until the standard frames are measured.
 """
 
 import sys
@@ -67,25 +67,6 @@ class Results:
                   if not one.variant_of and f"area.{name}.array_mm2" in self.figures]
         return "\n".join(lines) + "\n"
 
-    def histogram_words(self) -> str:
-        """Why the full histogram's peak is a bad estimate."""
-        def share(scene: str, estimator: str = "histogram", limit: int = 3) -> str:
-            return self.text(f"scenes.{estimator}.{scene}_klux_above_{limit}_percent:.1f") + " %"
-
-        def pile_up(distance: str) -> str:
-            return self.text(f"reproduction.pile_up.lost_at_{distance}_percent") + " %"
-
-        return (
-            "Why is the full histogram, with the most memory, so bad? It reports its fullest bin and nothing else. The pulse is "
-            "spread over some 46 bins (2 ns, at 44 ps a bin), none of which has many counts, so which of them is the fullest is "
-            f"chance: on a wall at 1 m, {share('flat_1_m_14')} of its results are off by more than 3 %, but "
-            f"{share('flat_1_m_14', limit=10)} by more than 10 %. Farther away single bins of background are fuller than the "
-            f"pulse's: at 5 m {share('flat_5_m_14', limit=10)} are off by more than 10 %, and "
-            f"{share('flat_5_m_2', limit=10)} at 2 klux. Very near, pile-up takes {pile_up('0_2_m')} and {pile_up('0_5_m')} of the "
-            "events (0.2 and 0.5 m) and narrows the pulse. The counts themselves are good: a filter matched to the pulse and the "
-            f"light leaves {share('room_14', 'matched_filter_single_pixel')} of the room's pixels above 3 %, on the same "
-            f"histograms, instead of {share('room_14')} ([scenes](reports/scenes.md), [reproduction](reports/reproduction.md)).")
-
     def scene(self) -> str:
         """What the table's accuracy was measured on: the page's line that names the scene."""
         page = (self.root / "reports" / ("frames.md" if self.sensors else "frame/summary.md")).read_text(encoding="utf-8")
@@ -96,7 +77,7 @@ class Results:
                 "the netlists ([power](reports/power.md)).")
 
     def block(self) -> str:
-        return "\n".join((filled(self.scene()), self.table(), filled(self.histogram_words())))
+        return "\n".join((filled(self.scene()), self.table()))
 
 
 def filled(text: str) -> str:

@@ -9,6 +9,7 @@
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-flat      the slack with every column real beside that with stand-ins; CONFIGURATIONS= as above
+# make synth-corners   the slack if gates and SRAMs are slowed by one ratio; CONFIGURATIONS= as above
 # make synth-test      the flow's own tests, and the porting example simulated
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
 # make sim-netlist     netlist of every configuration, small, beside its RTL; LIBERTY= and LIBERTY_SLOW= as above
@@ -16,7 +17,7 @@
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make power           power from the activity of netlists on a scene: reports/power.md (minutes)
 # make synth-growth    how cost grows with the parameters
-.PHONY: synth power synth-growth synth-flat synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
+.PHONY: synth power synth-growth synth-flat synth-corners synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -25,8 +26,8 @@ synth:
 synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
 
-synth-flat:
-	@synth/synth.py flat $(CONFIGURATIONS)
+synth-flat synth-corners: synth-%:
+	@synth/synth.py $* $(CONFIGURATIONS)
 
 synth-growth:
 	@scripts/reports.py begin growth

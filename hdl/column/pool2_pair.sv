@@ -14,7 +14,7 @@
 //   first part                              read          registered  first two rows count  last two rows count, written
 //   next part                                                         read                  registered
 // In a sweep nothing counts. In the group's first visit each part is looked at in the clock in which it would count; in the
-// second visit, if a bin was full, every bin falls by a quarter of its range, or, if a bin was below that, the first part gets
+// second visit, if a bin was full, every bin falls by a quarter of its range, or, if a bin was below that, every part gets
 // its frozen bit, with which nothing counts in the group until the next clear.
 //
 // In the other phases the columns' pixels of a row are worked on one after the other by one pool2_pixel_update:
@@ -82,13 +82,13 @@ module pool2_pair #(
     input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
                                                      // first two, and then the last two
     input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
-    input  logic                  sweep_i,           // with load_i of the first part: nothing counts, the bins are looked at
-    input  logic                  make_room_i,       // with sweep_i: the group's second visit
+    input  logic                  sweep_i,           // in the clocks in which parts count: nothing counts, the bins are looked at
+    input  logic                  make_room_i,       // with sweep_i: the group's second visit; low in the other phases
     // SRAM
     input  logic                  read_i,
     input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
     input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
-    output logic                  upper_t2_o,        // coarse, at T2 of a second row: the second of two parts is needed
+    output logic                  upper_t2_o,        // coarse, at T2 of a second row: something counts in the second of two parts
     output logic                  write_o,           // with write_i: there is something to write
     output logic [WORD_WIDTH-1:0] write_data_o,
     input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
@@ -142,29 +142,20 @@ module pool2_pair #(
     end
   end
 
-  // Sweep. The frozen bit is the first one above the lower half's bins.
+  // Sweep. The frozen bit is the first one above the lower half's bins, in every part.
 
   localparam int FROZEN_BIT = HALF_BINS * COUNT_WIDTH;
-  logic sweep_q, making_room_q, frozen_q, full_q, low_q;  // full, low: some bin is full, or below a quarter of its range
-  logic first_part, frozen, rests, full_here, low_here, takes_quarter, freezes;
+  logic full_q, low_q;  // some bin is full, or below a quarter of its range
+  logic first_part, rests, full_here, low_here, takes_quarter, freezes;
 
   assign first_part = (part_q == '0);
-  assign frozen = first_part ? word_q[FROZEN_BIT] : frozen_q;
-  assign rests = sweep_q || frozen;
-  assign takes_quarter = making_room_q && full_q && !low_q;
-  assign freezes = making_room_q && full_q && low_q && first_part;
+  assign rests = sweep_i || word_q[FROZEN_BIT];
+  assign takes_quarter = make_room_i && full_q && !low_q;
+  assign freezes = make_room_i && full_q && low_q;
 
   always_ff @(posedge clk_i) begin
-    if (load_i && part_i == '0) begin
-      sweep_q <= sweep_i;
-    end
-    // The last sweep of a phase must not outlast the phase.
-    making_room_q <= coarse_i && ((load_i && part_i == '0) ? make_room_i : making_room_q);
-    if (count_q && first_part) begin
-      frozen_q <= frozen;
-    end
-    if (count_q && sweep_q && !making_room_q) begin
-      full_q <= (full_here && !frozen) || (full_q && !first_part);
+    if (count_q && sweep_i && !make_room_i) begin
+      full_q <= (full_here && !word_q[FROZEN_BIT]) || (full_q && !first_part);
       low_q <= low_here || (low_q && !first_part);
     end
   end
@@ -227,8 +218,9 @@ module pool2_pair #(
   generate
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
       localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
-      logic first_counts, second_counts, one, two, full_above, first_carry, carry;
-      logic [COUNT_WIDTH-1:0] bin, count;
+      logic first_counts, second_counts, one, two, full_above, carry;
+      logic [COUNT_WIDTH-1:0] bin, count, counted_bin;
+      integer n;
       assign bin = word_q[FIRST+:COUNT_WIDTH];
       assign full_bins[b] = &bin;
       assign low_bins[b] = (bin[COUNT_WIDTH-1-:2] == 2'd0);
@@ -237,12 +229,19 @@ module pool2_pair #(
       assign one = first_counts ^ second_counts;
       assign two = first_counts && second_counts;
       // Plus one or two, saturating: what a full bin does not take is left out before it is added.
-      assign count = {bin[COUNT_WIDTH-1-:2] - 2'(takes_quarter), bin[COUNT_WIDTH-3:0]};
       assign full_above = &bin[COUNT_WIDTH-1:1];
-      assign first_carry = one && !full_bins[b];
-      assign carry = (count[0] && first_carry) || (two && !full_above);
-      assign counted_word[FIRST+:COUNT_WIDTH] = {count[COUNT_WIDTH-1:1] + (COUNT_WIDTH - 1)'(carry),
-                                                 (count[0] ^ first_carry) || (two && full_above)};
+      assign count = {bin[COUNT_WIDTH-1] && (bin[COUNT_WIDTH-2] || !takes_quarter), bin[COUNT_WIDTH-2] ^ takes_quarter,
+                      bin[COUNT_WIDTH-3:0]};
+      always_comb begin
+        carry = one && !full_bins[b];
+        counted_bin[0] = (count[0] ^ carry) || (two && full_above);
+        carry = (count[0] && carry) || (two && !full_above);
+        for (n = 1; n < COUNT_WIDTH; n = n + 1) begin
+          counted_bin[n] = count[n] ^ carry;
+          carry = count[n] && carry;
+        end
+      end
+      assign counted_word[FIRST+:COUNT_WIDTH] = counted_bin;
     end
     // Bits of a half beyond its bins.
     for (b = 0; b < 2; b = b + 1) begin : g_rest
@@ -473,10 +472,10 @@ module pool2_pair #(
     end
   endgenerate
 
-  assign upper_t2_o = (upper_t2 != '0) || sweep_i;
+  assign upper_t2_o = (upper_t2 != '0);
 
   // Pixels without a timestamp stay what they are, and a word of them alone is not written, nor one in which nothing counts.
-  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (making_room_q && full_q) : changed_q;
+  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (make_room_i && full_q) : changed_q;
 
   logic unused;
   assign unused = ^{1'b0, used_i, move_q[3], detected_t1};

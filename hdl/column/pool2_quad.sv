@@ -63,7 +63,7 @@ module pool2_quad #(
     input  logic                        keep_last_i,
     input  logic                        load_i,
     input  logic [      PART_WIDTH-1:0] part_i,
-    input  logic                        sweep_i,
+    input  logic                        sweep_i,      // with load_i of the first part: a sweep, and the group's second visit in one
     input  logic                        make_room_i,
     input  logic                        word_load_d_i,
     input  logic                        group_load_i,
@@ -85,7 +85,7 @@ module pool2_quad #(
 
   logic [PAIRS*WORD_WIDTH-1:0] read_data, write_data;
   logic [PAIRS-1:0] pair_writes, upper_t2;
-  logic engine_load_q, nothing_upper;
+  logic engine_load_q, nothing_upper, sweep_q, make_room_q;
 
   dtof_sram #(
       .PORTS(1),
@@ -105,10 +105,13 @@ module pool2_quad #(
   );
 
   // The second of two parts is read at T2 of a second row. Where nothing counts in it, what was read before is loaded once more.
-  assign nothing_upper = (PART_WIDTH == 1) && second_row_t2_i && upper_t2 == '0;
+  // A sweep needs both.
+  assign nothing_upper = (PART_WIDTH == 1) && second_row_t2_i && upper_t2 == '0 && !sweep_i;
 
   // Timestamps begin when the engine's last read is long done.
   always_ff @(posedge clk_i) begin
+    sweep_q <= sweep_i;
+    make_room_q <= make_room_i;
     if (engine_i) begin
       engine_load_q <= read_i && select_i != '0;
     end
@@ -156,8 +159,8 @@ module pool2_quad #(
           .keep_last_i     (keep_last_i),
           .load_i          (load_i),
           .part_i          (part_i),
-          .sweep_i         (sweep_i),
-          .make_room_i     (make_room_i),
+          .sweep_i         (sweep_q),
+          .make_room_i     (make_room_q),
           .read_i          (read_i),
           .engine_load_i   (engine_load_q),
           .read_data_i     (read_data[p*WORD_WIDTH+:WORD_WIDTH]),

@@ -60,7 +60,7 @@ module pair_sequencer #(
     output logic                  load_o,            // a clock after a part's read
     output logic [PART_WIDTH-1:0] part_o,            // with load_o
     output logic                  sweep_o,           // from the first part's load_o to the next one's: a sweep
-    output logic                  make_room_o,       // with sweep_o: the group's second visit
+    output logic                  make_room_o,       // with sweep_o: the group's second visit; low in the other phases
     // SRAM, a clock early
     output logic                  read_d_o,
     output logic                  write_d_o,
@@ -245,8 +245,8 @@ module pair_sequencer #(
     end
     if (fetch_tn[FIRST_STAGE+1]) begin
       sweep_o <= sweep_then;
-      make_room_o <= sweep_then && second_visit_then;
     end
+    make_room_o <= coarse_i && (fetch_tn[FIRST_STAGE+1] ? sweep_then && second_visit_then : make_room_o);
   end
 
   `DTOF_ASSERT(a_phase_complete, stream_i || (!busy_t1_q && !second_visit_t2_q && !second_visit_t3_q && fetch_tn_q == '0),

@@ -379,14 +379,14 @@ module pool_pointer2_array #(
   logic [ROW_WIDTH-1:0] heard_scratch_row;
 
   assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
-                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, sweep, make_room, told_read,
-                 told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
+                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, sweep, make_room,
+                 told_read, told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
   assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
-          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_sweep, heard_make_room, heard_read,
-          heard_write, heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
+          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_sweep, heard_make_room,
+          heard_read, heard_write, heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
           heard_select, heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
           heard_command} = heard;
 

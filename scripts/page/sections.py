@@ -46,24 +46,27 @@ FRAME = Report("frame", "One scene through every read-out", "sim", "frame/summar
 # Shown on the first page, in this order.
 SHOWN = (
     Report("pareto", "Area against accuracy", "pareto", "pareto.md", excerpt=()),
+    Report("frames", "Standard frames", "frames", "frames.md", "frames/frames.md",
+           "the room scene with 3,333 pulses, and with 33,333 of a tenth of the energy and of the same",
+           excerpt=(r"Pixels above 3 %.*",),
+           with_it=(("frames/frames.csv", "frames.csv"),)),
     Report("area", "Area", "synth", "area.md", excerpt=()),
     Report("power", "Power on a scene", "power", "power.md", says="from the activity of netlists, by day and at dusk", excerpt=()),
-    Report("scenes", "Accuracy on scenes", "scenes", "scenes.md", "scenes/scenes.md",
-           excerpt=(r"14 klux, (preset|sensor) thesis/All pixels.*", r"50 klux, (preset|sensor) thesis/All pixels.*"),
+)
+
+# Listed, each on a page of its own.
+LISTED = (
+    Report("scenes", "Accuracy on scenes", "scenes", "scenes.md", "scenes/scenes.md", "every read-out on twelve scenes, by light",
            pictures=("room_50klux_thesis.png", "disparity_map_50klux_thesis.png", "held_disparity_map_50klux_thesis.png",
                      "clutter_14klux_thesis.png", "confidence_14klux_thesis.svg", "confidence_50klux_thesis.svg"),
            with_it=(("scenes/scenes.csv", "scenes.csv"), ("scenes_variants/scenes.csv", "scenes_variants.csv")),
            left_out=(r"[^/]*/(?!All pixels).*",)),
     Report("reproduction", "The thesis's statements, measured", "reproduce", "reproduction.md",
-           "reproduce/reproduction.md", excerpt=(),
+           "reproduce/reproduction.md", "each statement of the thesis beside what is measured here",
            with_it=(("reproduce/reproduction.csv", "reproduction.csv"),),
            left_out=("Other assumptions", "Other readings", "What relative precision hides", "Future work: .*")),
-    Report("formal", "Proofs", "formal", "formal.md", excerpt=()),
-    Report("faults", "Faults", "faults", "faults.md", "faults/faults.md", excerpt=()),
-)
-
-# Listed, each on a page of its own.
-LISTED = (
+    Report("formal", "Proofs", "formal", "formal.md", says="what is proved of the RTL, and the planted bugs that break each proof"),
+    Report("faults", "Faults", "faults", "faults.md", "faults/faults.md", "what one fault does to a frame and to the next one"),
     Report("tmf8820", "Measured data: ams TMF8820", "sim", "tmf8820/summary.md", "tmf8820/summary.md",
            "a plane at 159 distances from 5 to 400 mm, through the RTL of every read-out",
            with_it=same("tmf8820/error.svg")),
@@ -96,9 +99,6 @@ LISTED = (
            "read-outs beside the matched filter for pulses of 8 to 90 bins"),
     Report("pool_parts", "poolPointer 2, part by part", "pool-parts", "pool_parts.md", "pool_parts/pool_parts.md",
            "area and power of each part beside the errors without it"),
-    Report("frames", "Standard frames", "frames", "frames.md", "frames/frames.md",
-           "the room scene with 3,333 pulses, and with 33,333 of a tenth of the energy and of the same",
-           with_it=(("frames/frames.csv", "frames.csv"),)),
     Report("dynamic_range", "Dynamic range", "dynamic-range", "dynamic_range.md", "dynamic_range/dynamic_range.md",
            "read-outs from 8 to 65,535 acquisitions, in the dark and in the sun, with weak and strong signal",
            with_it=(("dynamic_range/data/dynamic_range.csv.gz", "data/dynamic_range.csv.gz"),)),
@@ -108,8 +108,6 @@ LISTED = (
     Report("sensor_effects", "Effects of real sensors", "sensor-effects", "sensor_effects.md",
            "sensor_effects/sensor_effects.md",
            "measured TDC code widths, a measured pulse, dead time, hot pixels", text_only=(".+",)),
-    Report("sensor_effects_pool", "Effects of real sensors: poolPointer 2", "sensor-effects", "sensor_effects_pool.md",
-           "sensor_effects_pool/sensor_effects.md", "the same for poolPointer 2, at one light"),
     Report("scaling", "Sweeps", "sweep-cost", "scaling.md", "sweep_cost/scaling.md",
            "what many points cost beside their own computing"),
     Report("sram", "SRAM macros", "synth", "sram.md", says="sizes, area, access time and energy"),

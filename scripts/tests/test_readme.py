@@ -85,7 +85,7 @@ class Results(unittest.TestCase):
         cells = [cell.strip() for cell in row.strip("|").split("|")]
         self.assertEqual(cells[4], store.text("power.poolpointer2.day_mw:.0f", figures))
         self.assertEqual(cells[2], store.text("area.poolpointer2.placed_with_scan_and_clock_tree_mm2:.2f", figures))
-        self.assertEqual(update_readme.quoted_reports(ROOT) - {"frame", "frames"}, {"synth", "power", "scenes", "reproduction"})
+        self.assertEqual(update_readme.quoted_reports(ROOT) - {"frame", "frames"}, {"synth", "power"})
 
     def test_standard_frames_stand_beside_each_other_once_they_are_measured(self) -> None:
         measured = {name: one for name, one in store.load(ROOT).items() if one.report != "frames"}

@@ -10,8 +10,8 @@ import sys
 import time
 from pathlib import Path
 
-from . import batch, budgets, check, configuration, gates, goals, growth, namings, part_costs, report, report_inputs, scene_power, \
-    signalled_clear, simulation, sram_kit, sram_report
+from . import batch, budgets, check, configuration, corner_ratios, gates, goals, growth, namings, part_costs, report, report_inputs, \
+    scene_power, signalled_clear, simulation, sram_kit, sram_report
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
@@ -163,6 +163,19 @@ def _flat(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int
     return 1 if differ else 0
 
 
+def _corners(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """The slack for each reading of the slow corner."""
+    chosen = _select(named, arguments.configuration or list(FLAT))
+    build = ROOT / "build" / "synth"
+    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
+    results = batch.run_all([batch.Job(item) for item in chosen.values()], technology, build / "runs", arguments.jobs, _say)
+    _say("setup slack with margins, slow corner, of the same netlist; ratios of slow to typical delay")
+    for name, result in results.items():
+        for one in corner_ratios.read(result, technology, build / "runs" / name):
+            _say(f"{name:<20}{one.name:<28}gates x {one.gates:.2f}  SRAMs x {one.srams:.2f}  {one.slack:+.3f} ns")
+    return 0
+
+
 def _check(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     return check.run(ROOT, PDK, named, all_configurations(named), arguments.jobs, _say)
 
@@ -300,6 +313,9 @@ def _parser() -> argparse.ArgumentParser:
     all_real = commands.add_parser("flat", help="the slack with every column real beside that with stand-ins")
     all_real.add_argument("configuration", nargs="*", help=f"names from configurations.toml; none: {', '.join(FLAT)}")
     all_real.set_defaults(action=_flat)
+    readings = commands.add_parser("corners", help="the slack for each reading of the slow corner")
+    readings.add_argument("configuration", nargs="*", help=f"names from configurations.toml; none: {', '.join(FLAT)}")
+    readings.set_defaults(action=_corners)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),

@@ -128,7 +128,7 @@ class _Spreader:
         for sink in sorted(sinks, key=lambda sink: self.plan[sink.cell]):
             last = found[-1] if found else []
             if (not last or self.plan[sink.cell] - self.plan[last[0].cell] > span_um
-                    or netlist.load_of(last) + sink.load > limit_ff):
+                    or netlist.load_of(last) + sink.load > limit_ff or len(last) == netlist.MAX_FANOUT):
                 found.append([sink])
             else:
                 last.append(sink)
@@ -151,11 +151,11 @@ class _Spreader:
         sinks = self.builder.nets[net]
         start = self.plan[driver] if driver is not None else self.plan.port_um(net, sinks[0].cell)
         limit = maximum_ff * TREE_LOAD_SHARE
-        if netlist.load_of(sinks) + self._span_ff(sinks, start) <= limit and all(
+        if len(sinks) <= netlist.MAX_FANOUT and netlist.load_of(sinks) + self._span_ff(sinks, start) <= limit and all(
                 abs(self.plan[sink.cell] - start) <= REPEATER_UM for sink in sinks):
             return
         near = [sink for sink in sinks if abs(self.plan[sink.cell] - start) <= self.plan.module_um]
-        if netlist.load_of(near) > limit / 2:
+        if netlist.load_of(near) > limit / 2 or len(near) > netlist.MAX_FANOUT / 2:
             near = []
         far = [sink for sink in sinks if all(sink is not other for other in near)]
         leaves = [self._buffer(net, cluster, self._centre(cluster))
@@ -187,7 +187,7 @@ class _Spreader:
 
     def _relieve(self, net: int, start: float, sinks: list[Sink], limit: float) -> list[Sink]:
         """Buffers beside the driver where it is too weak."""
-        while netlist.load_of(sinks) + self._span_ff(sinks, start) > limit:
+        while netlist.load_of(sinks) + self._span_ff(sinks, start) > limit or len(sinks) > netlist.MAX_FANOUT:
             room = self.leaf_ff - REPEATER_UM * self.wire.ff_per_um
             parents = [self._buffer(net, cluster, start) for cluster in self._clusters(sinks, room, 2 * REPEATER_UM)]
             if len(parents) == 1 or len(parents) == len(sinks):

@@ -15,8 +15,8 @@ from . import netlist, spef
 from .errors import FlowError
 from .floorplan import PESSIMISTIC, Floorplan
 from .library import Library
+from .netlist import MAX_FANOUT
 
-MAX_FANOUT = 200  # inputs of a net; the reset's tree has up to 174 of 1 fF each behind its strongest buffers
 _MOST_NAMED = 3
 
 

@@ -27,6 +27,7 @@ HOLD_PREFIX = "hold_"
 CLOCK_GATE_PREFIX = "clock_gate_"  # instances that clock_gating.py put in
 # A driver is given a tree when its load exceeds this share of its max_capacitance; trees fill to it.
 TREE_LOAD_SHARE = 0.5
+MAX_FANOUT = 200  # inputs of a net, at whatever load
 
 
 @dataclass(frozen=True)
@@ -184,7 +185,7 @@ def clusters(sinks: list[Sink], limit: float) -> list[list[Sink]]:
     clusters: list[list[Sink]] = [[]]
     filled = 0.0
     for sink in sinks:
-        if clusters[-1] and filled + sink.load > share * 1.0001:
+        if clusters[-1] and (filled + sink.load > share * 1.0001 or len(clusters[-1]) == MAX_FANOUT):
             clusters.append([])
             filled = 0.0
         clusters[-1].append(sink)
@@ -248,7 +249,7 @@ class TreeBuilder:
         limit = maximum * TREE_LOAD_SHARE
         leaf = self.buffers[-1].max_load_ff * TREE_LOAD_SHARE
         sinks = self.nets[net]
-        while len(sinks) > 1 and load_of(sinks) > limit:
+        while len(sinks) > 1 and (load_of(sinks) > limit or len(sinks) > MAX_FANOUT):
             parents = [self.buffer(net, cluster) for cluster in clusters(sinks, leaf)]
             if len(parents) == len(sinks):
                 break
@@ -281,7 +282,8 @@ def insert_fanout_trees(module: Module, library: Library, pin_load: Callable[[st
     strengthen(module, library, pin_load, skip)
     builder = TreeBuilder(module, library, pin_load)
     for net, maximum in list(drivers_of(module, library, library.buffers[0].max_load_ff)):
-        if net not in skip and load_of(builder.nets.get(net, [])) > maximum * TREE_LOAD_SHARE:
+        sinks = builder.nets.get(net, [])
+        if net not in skip and (load_of(sinks) > maximum * TREE_LOAD_SHARE or len(sinks) > MAX_FANOUT):
             builder.relieve(net, maximum)
 
 

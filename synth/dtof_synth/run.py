@@ -520,6 +520,15 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
                   technology.slow.mux2_area, corner_timing, figures, margins, best.naming, timed.endpoints(slow), fullest)
 
 
+def retimed(result: Result, technology: Technology, folder: Path, cells: Path, srams: Path, log: str, steps: tuple[str, ...], how: str,
+            netlist_file: str = "timing.v", **settings: tools.Setting) -> timing.Report:
+    """The netlist that `run` left in `folder`, in the slow corner with other libraries. `how`: in messages."""
+    effort = folder / f"effort{result.naming.effort}"
+    files = timing.Netlist(f"{result.configuration.name}, slow corner, {how}", effort / netlist_file, effort / "wires_slow.spef",
+                           [cells, srams, effort / STAND_IN_LIBERTY], technology.slow.wire_load, result.configuration.top)
+    return timing.measure(files, technology.root, technology.target_mhz, effort / log, steps, settings)
+
+
 @dataclass(frozen=True)
 class Flat:
     """Setup slacks with margins in the slow corner, ns: as `run` has it, and with every column real."""
@@ -539,11 +548,8 @@ def flat(result: Result, technology: Technology, folder: Path) -> Flat:
     if real == text:
         raise FlowError(f"{configuration.name}: no column has a stand-in")
     (effort / "flat.v").write_text(real, encoding="utf-8")
-    files = timing.Netlist(
-        f"{configuration.name}, all columns real", effort / "flat.v", effort / "wires_slow.spef",
-        [technology.slow.path, technology.kit / "sram40_slow.lib", effort / STAND_IN_LIBERTY], technology.slow.wire_load,
-        configuration.top)
-    report = timing.measure(files, technology.root, technology.target_mhz, effort / "sta_flat.log", ("nominal", "margins"))
+    report = retimed(result, technology, folder, technology.slow.path, technology.kit / "sram40_slow.lib", "sta_flat.log",
+                     ("nominal", "margins"), "all columns real", "flat.v")
     return Flat(result.margins["slow"].slack, report.margin().slack)
 
 
@@ -563,17 +569,13 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
     effort = folder / f"effort{result.naming.effort}"
     liberty = effort / "slow_wires.lib"
     liberty.write_text(standard_cells.library(standard_cells.SLOW, um_per_sink), encoding="utf-8")
-    configuration = result.configuration
-    files = timing.Netlist(
-        f"{configuration.name}, slow corner, {um_per_sink:.2f} um of wire per sink", effort / "timing.v",
-        effort / "wires_slow.spef", [liberty, technology.kit / "sram40_slow.lib", effort / STAND_IN_LIBERTY],
-        technology.slow.wire_load, configuration.top)
 
-    def time(log: str, steps: tuple[str, ...], settings: dict[str, tools.Setting]) -> timing.Report:
-        return timing.measure(files, technology.root, technology.target_mhz, effort / log, steps, settings)
+    def time(log: str, steps: tuple[str, ...], **settings: tools.Setting) -> timing.Report:
+        return retimed(result, technology, folder, liberty, technology.kit / "sram40_slow.lib", log, steps,
+                       f"{um_per_sink:.2f} um of wire per sink", **settings)
 
-    report = time("sta_slow_wires.log", ("nominal", "margins"), {})
-    resized = time("sta_resize_wires.log", ("resize",), _resize_settings(effort, technology.slow))
+    report = time("sta_slow_wires.log", ("nominal", "margins"))
+    resized = time("sta_resize_wires.log", ("resize",), **_resize_settings(effort, technology.slow))
     return OtherWires(report.slack, report.margin().slack, resized.resized_slack, resized.resized_area / 1e6)
 
 

@@ -67,6 +67,18 @@ class Trees(WithLibrary):
         self.assertEqual(plan.port_um(3, "near"), 60.0)
         self.assertEqual(plan["near"], 60.0)
 
+    def test_a_segment_of_the_line_stands_where_its_words_come_from(self):
+        design = array(12)
+        top = netlist.top(design)
+        for index, word in ((1, 300), (2, 301)):
+            top["cells"][f"g_column[{index}].u_column"]["connections"]["word"] = [word]
+            top["cells"][f"g_column[{index}].u_column"]["port_directions"]["word"] = "output"
+        top["cells"] |= {"or": cell("OR2_X1", {"A": 300, "B": 301}, {"Y": 302}), "segment": cell("DFF_X1", {"D": 302, "CK": 2}, {"Q": 303}),
+                         "line": cell("BUF_X1", {"A": 303}, {"Y": 304}), "other": cell("DFF_X1", {"D": 302, "CK": 2}, {"Q": 305})}
+        top["netnames"] = {"g_engine[0].u_line.words_q[7]": {"bits": [303]}, "u_line_of_another.words_q[7]": {"bits": [305]}}
+        plan = Floorplan(design, 1, pitch_um=10.0)
+        self.assertEqual([plan[name] for name in ("or", "segment", "line", "other")], [20.0, 20.0, 20.0, 60.0])
+
     def test_every_column_hears_the_register_and_no_driver_is_overloaded_or_far_away(self):
         seed = int(os.environ.get("DTOF_TEST_SEED", random.randrange(2**31)))
         for columns in (1, 2, 200, *random.Random(seed).sample(range(3, 400), 4)):

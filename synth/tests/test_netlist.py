@@ -120,6 +120,18 @@ class FanoutTrees(unittest.TestCase):
         self.assertEqual(buffers[tuple(nets[0])], nets[1])
         self.assertEqual(buffers[tuple(nets[1])], [4])
 
+    def test_a_net_has_no_more_inputs_than_the_limit_however_light_they_are(self):
+        module = fan(2 * netlist.MAX_FANOUT + 1)
+        netlist.insert_fanout_trees(module, replace(library(), wire_ff_per_sink=0.0), lambda *_: 1e-3, set())
+        inputs: dict[int, int] = {}
+        for item in module["cells"].values():
+            for pin, bits in item["connections"].items():
+                if item["port_directions"][pin] == "input":
+                    inputs[bits[0]] = inputs.get(bits[0], 0) + 1
+        self.assertEqual(max(inputs.values()), netlist.MAX_FANOUT)
+        self.assertEqual({source(module, module["cells"][f"sink{index}"]["connections"]["A"][0])
+                          for index in range(2 * netlist.MAX_FANOUT + 1)}, {"D3"})
+
     def test_names_of_a_pin(self):
         block = {"attributes": {}, "ports": {"d": {"direction": "input", "bits": [6, 7]}},
                  "cells": {"r": cell("DFF", {"D": 7, "CK": 2}, {"Q": 8}), "s": cell("DFF", {"D": 8, "CK": 2}, {"Q": 9}),

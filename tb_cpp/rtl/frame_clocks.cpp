@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 
 namespace dtof {
 namespace {
@@ -35,16 +36,85 @@ std::uint64_t array_clocks(int rows, int simulated, const RtlStatistics& statist
          static_cast<std::uint64_t>(wanted_scanning - scanning + rows * (wanted_sending - sending));
 }
 
-/// pool_pointer2_array. The engines decide in lockstep, more slowly than their results are sent; those of the
-/// last pixels are sent one after the other. The last engine may have fewer columns, and then has none of
-/// them.
-std::optional<std::uint64_t> pool_clocks(int together, int simulated, const RtlStatistics& statistics,
-                                         int columns) {
+/// Clocks of decide in pool_pointer2_array until the last result is sent, clock by clock: all engines decide
+/// in lockstep (pool2_sequencer), and pool_result_output sends a set of results, one of each engine that has
+/// the column, while two more sets wait. A step that gives results begins when there is a place for them.
+class Decide {
+ public:
+  Decide(int rows, int columns, int together)
+      : rows_(rows), columns_(columns), together_(together), steps_(std::min(together, columns)) {}
+
+  [[nodiscard]] std::int64_t clocks() {
+    std::int64_t clocks = 0;
+    for (int column = 0; column < steps_; ++column) {
+      for (int step = 0; step < 2 * rows_ + kStepsWithoutResult; ++step) {
+        const bool gives = step >= rows_ + kStepsWithoutResult;
+        for (; !has_place(); ++clocks) {
+          clock(0);
+        }
+        for (int t = 0; t + 1 < kStepClocks; ++t, ++clocks) {
+          clock(0);
+        }
+        clock(gives ? set_of(column) : 0);
+        ++clocks;
+      }
+    }
+    for (; sets_ > 0 || given_ > 0; ++clocks) {
+      clock(0);
+    }
+    return clocks;
+  }
+
+ private:
+  static constexpr int kStepClocks = 6;
+  static constexpr int kStepsWithoutResult = 9;  // of both passes of a column
+  static constexpr int kPlaces = 3;
+  static constexpr std::size_t kLatency = 2;  // BROADCAST_STAGES
+
+  /// Results in a set: engines that have the column.
+  [[nodiscard]] int set_of(int column) const { return (columns_ - column + together_ - 1) / together_; }
+
+  [[nodiscard]] bool has_place() const { return sets_ + (given_ > 0 ? 1 : 0) < kPlaces; }
+
+  /// `gives`: results of the set that is given in this clock, 0 for none.
+  void clock(int gives) {
+    way_.push_back(given_);
+    const int arrives = way_.size() > kLatency ? way_.front() : 0;
+    if (way_.size() > kLatency) {
+      way_.pop_front();
+    }
+    sets_ += given_ > 0 ? 1 : 0;
+    if (arrives > 0) {
+      waiting_.push_back(arrives);
+    }
+    if (left_ > 0) {
+      sets_ -= --left_ == 0 ? 1 : 0;
+    } else if (!waiting_.empty()) {
+      left_ = waiting_.front();
+      waiting_.pop_front();
+    }
+    given_ = gives;
+  }
+
+  int rows_;
+  int columns_;
+  int together_;
+  int steps_;
+  int given_ = 0;  // results of the set that pool_result_output is told of
+  int sets_ = 0;   // told of and not sent
+  int left_ = 0;   // results of the set that is being sent
+  std::deque<int> way_;
+  std::deque<int> waiting_;
+};
+
+/// The last engine may have fewer columns than `together`.
+std::optional<std::uint64_t> pool_clocks(int rows, int together, int simulated,
+                                         const RtlStatistics& statistics, int columns) {
   if (simulated != std::min(together, columns)) {
     return std::nullopt;
   }
-  const int last_results = columns % together == 0 ? columns / together : std::max(columns / together, 1);
-  return statistics.cycles + static_cast<std::uint64_t>(last_results - 1);
+  return statistics.cycles + static_cast<std::uint64_t>(Decide(rows, columns, together).clocks() -
+                                                        Decide(rows, simulated, together).clocks());
 }
 
 }  // namespace
@@ -53,7 +123,8 @@ std::optional<std::uint64_t> frame_clocks(const RtlConfiguration& configuration,
                                           const RtlStatistics& statistics, int columns) {
   const int together = configuration.parameters.columns_together();
   return together > 1
-             ? pool_clocks(together, configuration.sram_num, statistics, columns)
+             ? pool_clocks(configuration.pixels_per_sram, together, configuration.sram_num, statistics,
+                           columns)
              : array_clocks(configuration.pixels_per_sram, configuration.sram_num, statistics, columns);
 }
 

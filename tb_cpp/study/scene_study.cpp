@@ -256,8 +256,8 @@ SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t fr
   return positions;
 }
 
-void SceneStudy::read_engines(const StudyScene& scene, Positions& positions) const {
-  const PhotonSource source(sensor_, scene.targets, klux_, seed_, kSceneFrame);
+void SceneStudy::read_engines(const StudyScene& scene, std::uint32_t frame, Positions& positions) const {
+  const PhotonSource source(sensor_, scene.targets, klux_, seed_, frame);
   std::vector<int> columns(static_cast<std::size_t>(scene.columns));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     columns[i] = picked_column(scene, static_cast<int>(i));
@@ -273,9 +273,9 @@ void SceneStudy::read_engines(const StudyScene& scene, Positions& positions) con
   }
 }
 
-std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene) const {
-  Positions positions = read(scene, kSceneFrame);
-  read_engines(scene, positions);
+std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene, std::uint32_t n) const {
+  Positions positions = read(scene, scene_frame(n));
+  read_engines(scene, scene_frame(n), positions);
   std::vector<SceneMeasurement> measurements;
   for (std::size_t e = 0; e < titles_.size(); ++e) {
     SceneMeasurement measurement;

@@ -78,8 +78,8 @@ class SceneStudy {
              int threads, TableRule table = TableRule::kFlat, bool references = true);
 
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
-  /// One measurement an estimator.
-  [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
+  /// One measurement an estimator. `n`: the n-th frame of the scene, with photons of its own.
+  [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene, std::uint32_t n = 0) const;
   /// Cramer-Rao bound of each pixel on its own over its distance, in the order of SceneMeasurement; 0 where
   /// there is no target.
   [[nodiscard]] std::vector<double> relative_bounds(const StudyScene& scene) const;
@@ -90,7 +90,7 @@ class SceneStudy {
   /// All but the read-outs whose columns hear each other.
   [[nodiscard]] Positions read(const StudyScene& scene, std::uint32_t frame) const;
   /// Those, which read whole engines of the scene, however few columns are asked for.
-  void read_engines(const StudyScene& scene, Positions& positions) const;
+  void read_engines(const StudyScene& scene, std::uint32_t frame, Positions& positions) const;
   [[nodiscard]] double distance(std::size_t estimator, double position) const;
 
   SensorModel sensor_;

@@ -43,29 +43,30 @@ std::vector<ReadoutParameters> parameters_of(const StandardFramesSettings& setti
 }
 
 /// What frames have of one read-out, before their mean is taken.
-struct Seeds {
+struct Figures {
   std::vector<ErrorShares> shares;
   std::vector<double> found;
 };
 
-StandardFrame figures(const SensorModel& sensor, Readout readout, const Seeds& seeds) {
+StandardFrame figures(const SensorModel& sensor, Readout readout, const Figures& of_frames) {
   std::vector<double> above_3_percent;
   std::vector<double> above_10_percent;
-  for (const ErrorShares& shares : seeds.shares) {
+  for (const ErrorShares& shares : of_frames.shares) {
     above_3_percent.push_back(shares.above_3_percent);
     above_10_percent.push_back(shares.above_10_percent);
   }
-  const std::uint64_t pixels = seeds.shares.front().pixels;
-  const double found = seeds.found.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                           : std::accumulate(seeds.found.begin(), seeds.found.end(), 0.0) /
-                                                 static_cast<double>(seeds.found.size());
+  const std::uint64_t pixels = of_frames.shares.front().pixels;
+  const double found = of_frames.found.empty()
+                           ? std::numeric_limits<double>::quiet_NaN()
+                           : std::accumulate(of_frames.found.begin(), of_frames.found.end(), 0.0) /
+                                 static_cast<double>(of_frames.found.size());
   return {.sensor = sensor.name,
           .acquisitions = sensor.acquisitions,
           .readout = readout,
-          .pixels = pixels * seeds.shares.size(),
+          .pixels = pixels * of_frames.shares.size(),
           .above_3_percent = estimate_share_of_frames(above_3_percent, pixels),
           .above_10_percent = estimate_share_of_frames(above_10_percent, pixels),
-          .rmse = pooled(seeds.shares).rmse,
+          .rmse = pooled(of_frames.shares).rmse,
           .found_by_confidence = found};
 }
 
@@ -99,34 +100,33 @@ std::vector<StandardFrame> run_standard_frames(const StandardFramesSettings& set
   if (settings.sensors.empty() || settings.readouts.empty()) {
     throw InputError("frames: needs a sensor and a read-out");
   }
-  if (settings.seeds < 2) {
-    throw InputError(fmt::format("frames: an interval needs at least 2 seeds, not {}", settings.seeds));
+  if (settings.frames < 2) {
+    throw InputError(fmt::format("frames: an interval needs at least 2 frames, not {}", settings.frames));
   }
   std::vector<StandardFrame> frames;
-  Progress progress("frames", settings.sensors.size() * static_cast<std::size_t>(settings.seeds));
+  Progress progress("frames", settings.sensors.size() * static_cast<std::size_t>(settings.frames));
   for (const SensorModel& sensor : settings.sensors) {
     const StudyScene scene{std::string(scene_name(settings.scene)), targets_of(settings, sensor),
                            sensor.columns};
     const SceneTruth truth = scene_truth(scene);
-    std::vector<Seeds> seeds(settings.readouts.size());
-    for (int s = 0; s < settings.seeds; ++s) {
-      const SceneStudy study(sensor, settings.klux, parameters_of(settings, sensor),
-                             settings.seed + static_cast<std::uint64_t>(s), settings.threads,
-                             TableRule::kFlat, false);
-      const std::vector<SceneMeasurement> measured = study.measure(scene);
-      for (std::size_t r = 0; r < seeds.size(); ++r) {
+    std::vector<Figures> all(settings.readouts.size());
+    const SceneStudy study(sensor, settings.klux, parameters_of(settings, sensor), settings.seed,
+                           settings.threads, TableRule::kFlat, false);
+    for (int n = 0; n < settings.frames; ++n) {
+      const std::vector<SceneMeasurement> measured = study.measure(scene, static_cast<std::uint32_t>(n));
+      for (std::size_t r = 0; r < all.size(); ++r) {
         const SceneScore score = score_scene(truth, measured[r]);
-        seeds[r].shares.push_back(score.all);
+        all[r].shares.push_back(score.all);
         const auto* const tenth = std::ranges::find(kDropped, kDroppedTenth);
         const double found = score.removed[static_cast<std::size_t>(tenth - kDropped.begin())];
         if (std::isfinite(found)) {
-          seeds[r].found.push_back(found);
+          all[r].found.push_back(found);
         }
       }
       progress.advance();
     }
-    for (std::size_t r = 0; r < seeds.size(); ++r) {
-      frames.push_back(figures(sensor, settings.readouts[r], seeds[r]));
+    for (std::size_t r = 0; r < all.size(); ++r) {
+      frames.push_back(figures(sensor, settings.readouts[r], all[r]));
     }
   }
   return frames;
@@ -170,10 +170,10 @@ std::string standard_frames_report(const StandardFramesSettings& settings,
                                   sensor.acquisitions, sensor.signal_events(1.0, 1.0)));
   }
   std::string report = fmt::format(
-      "# Standard frames\n\nScene {}: {} x {} pixels, {:g} klux, sensor {}; models, exact photons, {} seeds "
-      "from {}.\n\n",
+      "# Standard frames\n\nScene {}: {} x {} pixels, {:g} klux, sensor {}; models, exact photons, {} frames "
+      "with seed {}.\n\n",
       scene_name(settings.scene), settings.sensors.front().columns, settings.sensors.front().rows,
-      settings.klux, fmt::join(sensors, ", "), settings.seeds, settings.seed);
+      settings.klux, fmt::join(sensors, ", "), settings.frames, settings.seed);
   report += "## Pixels above 3 %, in % of all\n\n" + matrix(settings, frames, [](const StandardFrame& frame) {
               return per_cent(frame.above_3_percent);
             });
@@ -189,11 +189,11 @@ std::string standard_frames_report(const StandardFramesSettings& settings,
                    : std::string("-");
       });
   report +=
-      "\nEach read-out has a look-up table from flat targets for each seed, as `dtof frame` has; the first "
-      "seed's figures "
-      "are those of `dtof frame --sensor NAME`. Intervals (95 %) come from the spread of the seeds, and are "
-      "at least "
-      "Wilson's for independent pixels.\n";
+      "\nEach read-out has a look-up table from flat targets, as in `dtof frame`; the first frame's figures "
+      "are those of "
+      "`dtof frame --sensor NAME`. Intervals (95 %) come from the spread of the frames, and are at least "
+      "Wilson's for "
+      "independent pixels.\n";
   if (checked.empty()) {
     report += "\nNo RTL was run.\n";
   }

@@ -19,7 +19,7 @@ struct StandardFramesSettings {
   std::vector<Readout> readouts;
   Scene scene = Scene::kRoom;
   double klux = 14.0;
-  int seeds = 4;  ///< frames, at least 2
+  int frames = 4;  ///< with other photons each, at least 2
   std::uint64_t seed = 1;
   int threads = 0;
 };
@@ -29,17 +29,17 @@ struct StandardFrame {
   std::string sensor;
   std::uint32_t acquisitions = 0;
   Readout readout = Readout::kEzPointer;
-  std::uint64_t pixels = 0;  ///< of all seeds
+  std::uint64_t pixels = 0;  ///< of all frames
   Estimate above_3_percent;
   Estimate above_10_percent;
-  double rmse = 0.0;  ///< of the relative error, over all seeds
+  double rmse = 0.0;  ///< of the relative error, over all frames
   /// Share of the errors above 10 % that are among the tenth of the pixels with the least confidence; mean
-  /// over the seeds that have such errors, NaN if none has.
+  /// over the frames that have such errors, NaN if none has.
   double found_by_confidence = 0.0;
 };
 
-/// Models, exact photons, look-up tables by FlatCalibration for each seed: the first seed's figures are those
-/// of `dtof frame`. Sensor by sensor. Throws InputError for fewer than two seeds, or no sensor or read-out.
+/// Models, exact photons, look-up tables by FlatCalibration: the first frame's figures are those of `dtof
+/// frame`. Sensor by sensor. Throws InputError for fewer than two frames, or no sensor or read-out.
 std::vector<StandardFrame> run_standard_frames(const StandardFramesSettings& settings);
 
 /// A frame that RTL read out, each pixel equal to the model's.

@@ -49,7 +49,7 @@ std::string digest(const RangeSettings& settings, const std::string& sensor_text
 void run_dynamic_range_command(DynamicRangeOptions options) {
   RangeSettings& settings = options.settings;
   settings.sensor = find_sensor(options.sensor);
-  settings.readouts = options.readout.parameters(kModelReadouts, settings.sensor);
+  settings.readouts = options.readout.parameters(kAllReadouts, settings.sensor);
   settings.scenes.clear();
   for (const std::string& name : options.scenes) {
     settings.scenes.push_back(parse_scene(name));

@@ -35,7 +35,7 @@ void run_frames_command(FramesOptions options) {
   }
   ReadoutOptions readouts;
   readouts.readouts = options.readouts;
-  for (const ReadoutParameters& parameters : readouts.parameters(kModelReadouts)) {
+  for (const ReadoutParameters& parameters : readouts.parameters(kAllReadouts)) {
     settings.readouts.push_back(parameters.readout);
   }
   settings.scene = parse_scene(options.scene);
@@ -68,7 +68,7 @@ void add_frames_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-k,--klux", settings.klux, "background light in klux")
       ->check(sensible_klux())
       ->capture_default_str();
-  command->add_option("--seeds", settings.seeds, "frames with other photons, for the intervals")
+  command->add_option("-n,--frames", settings.frames, "frames with photons of their own, for the intervals")
       ->check(CLI::Range(2, 1000))
       ->capture_default_str();
   command->add_option("--rtl", options->rtl,

@@ -741,8 +741,8 @@ TEST_F(Programs, FramesAreReadSideBySideAndCheckedInRtl) {
                     name, acquisitions));
   };
   const std::string sensors = sensor("short", 40) + " " + sensor("long", 400);
-  const Outcome outcome =
-      dtof("frames --sensors " + sensors + " -r fifh,poolpointer2 --seeds 2 --rtl poolpointer2 --out frames");
+  const Outcome outcome = dtof("frames --sensors " + sensors +
+                               " -r fifh,poolpointer2 --frames 2 --rtl poolpointer2 --out frames");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string report = read_file(path("frames/frames.md"));
   EXPECT_THAT(report, HasSubstr("Scene room: 34 x 16 pixels, 14 klux"));
@@ -751,7 +751,7 @@ TEST_F(Programs, FramesAreReadSideBySideAndCheckedInRtl) {
   const std::string csv = read_file(path("frames/frames.csv"));
   EXPECT_THAT(csv, HasSubstr("\nshort,fifh,FiFH,40,1088,"));
   EXPECT_THAT(csv, HasSubstr("\nlong,poolpointer2,poolPointer 2,400,1088,"));
-  expect_refused("frames --seeds 1 --out out", "seeds");
+  expect_refused("frames --frames 1 --out out", "frames");
   expect_refused("frames --sensors nosensor --out out", "nosensor");
   expect_refused("frames --rtl nothing --out out", "nothing");
 }
