@@ -114,7 +114,7 @@ endif
 
 walk-error: study
 	@scripts/reports.py begin walk_error
-	@$(DTOF_STUDY) walk $(if $(SMALL),--columns 4 --distances 1 3) --seed $(SEED) --out $(OUT)/walk
+	@$(DTOF_STUDY) walk $(if $(SMALL),--columns 4 --distances 1 --reflectivities 0.2 1 --acquisitions 333) --seed $(SEED) --out $(OUT)/walk
 	@scripts/publish.py walk_error
 
 pool-parts: study vectors
@@ -129,7 +129,7 @@ pulse-widths: study
 
 video: build
 	@scripts/reports.py begin video
-	@$(DTOF) video $(if $(SMALL),--scene room --motion still light --frames 2,--scene room planes clutter poles --motion still pan roll object cut light --frames 10) -k 50 --seed $(SEED) --seeds $(if $(SMALL),1,4) --out $(OUT)/video
+	@$(DTOF) video $(if $(SMALL),--scene room --motion light --frames 2 --array-columns 20 --array-rows 32,--scene room planes clutter poles --motion still pan roll object cut light --frames 10) -k 50 --seed $(SEED) --seeds $(if $(SMALL),1,4) --out $(OUT)/video
 	@scripts/publish.py video
 
 real-data: study
