@@ -37,6 +37,10 @@ RIVAL_OPTIONS := --pooled --claims --seeds $(if $(SMALL),2 --klux 50,4) --column
 PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
   --surfaces $(SHARED_DATA)/shin2016_two_layer_obj.mat --shift -20
 
+# What make real-data has the data of, published together: they are one entry of reports/reports.toml.
+REAL_DATA := $(strip $(if $(wildcard $(SHARED_DATA)/ams_tmf8829_log.json.gz),tmf8829) \
+  $(if $(wildcard $(SHARED_DATA)/shin2016_two_layer_photon_times.mat),photon_times photon_times_behind))
+
 # The committed report has the maps, too: without them it stays as it is.
 scenes: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
@@ -136,7 +140,7 @@ real-data: study
 	@scripts/reports.py begin real_data
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
 	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons $(if $(SMALL),300,2000 750 300) \
-	    --background $(if $(SMALL),0,0 0.15) --frames $(if $(SMALL),1,4) --seed $(SEED) --out $(OUT)/tmf8829 && scripts/publish.py tmf8829; \
+	    --background $(if $(SMALL),0,0 0.15) --frames $(if $(SMALL),1,4) --seed $(SEED) --out $(OUT)/tmf8829; \
 	else echo "TMF8829 frames are not here ($(SHARED_DATA)): skipped"; fi
 	@if [ -f $(SHARED_DATA)/shin2016_two_layer_photon_times.mat ]; then \
 	  set -e; \
@@ -144,5 +148,5 @@ real-data: study
 	    --background $(if $(SMALL),0,0 0.15) --seed $(SEED) --out $(OUT)/photon_times; \
 	  $(DTOF_STUDY) measured $(PHOTON_TIMES) --from-tick 5200 --photons $(if $(SMALL),12,0 12) \
 	    --background $(if $(SMALL),0,0 0.15) --seed $(SEED) --out $(OUT)/photon_times_behind; \
-	  scripts/publish.py photon_times photon_times_behind; \
 	else echo "photon times are not here ($(SHARED_DATA)): skipped"; fi
+	@$(if $(REAL_DATA),scripts/publish.py $(REAL_DATA))

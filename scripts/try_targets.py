@@ -9,6 +9,7 @@ A target that passed is passed over in the next run of the same commit.
 """
 
 import argparse
+import fnmatch
 import json
 import os
 import shlex
@@ -36,7 +37,7 @@ class TryError(Exception):
 @dataclass(frozen=True)
 class Plan:
     """How a target is tried. `arguments`: of make, beside SMALL=1. `after`: targets whose files it reads. `needs`: programs, and
-    files if there is a slash in the name. `writes`: files of the project that it may change. `fails_with`: a line with these words
+    files if there is a slash in the name. `writes`: patterns of files that it may change. `fails_with`: a line with these words
     is an honest end, too. `fresh`: in a copy of its own. `long`: why it is not tried here."""
 
     target: str
@@ -129,7 +130,7 @@ def run_make(plan: Plan, tree: Path, log: Path, limit_minutes: float) -> str:
 
 def attempt(plan: Plan, tree: Path, log: Path, limit_minutes: float) -> str:
     problem = run_make(plan, tree, log, limit_minutes)
-    changed = [name for name in changed_files(tree) if name not in plan.writes]
+    changed = [name for name in changed_files(tree) if not any(fnmatch.fnmatch(name, pattern) for pattern in plan.writes)]
     if changed:
         log.open("a", encoding="utf-8").write("".join(f"changed: {name}\n" for name in changed))
         problem = problem or f"it changed {changed[0]}" + (f" and {len(changed) - 1} more files" if len(changed) > 1 else "")
