@@ -9,6 +9,7 @@
 # make enlarge    small arrays' maps, enlarged, beside the large array's; make train-enlarger: the weights (scripts/enlarge.mk)
 # make power      power from the activity of netlists on a scene
 # make layout     columns placed and routed in OSU 0.18 um, checked, with GDS; make orfs: files for OpenROAD (synth/layout.mk)
+# make try-targets  every target on little work, in a copy of the last commit: what is broken (scripts/try_targets.py)
 # make lint       RTL in three tools, C++ format and static analysis
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
@@ -28,13 +29,16 @@ $(error The folder '$(CURDIR)' has a blank in its path, which Make and Verilator
 endif
 
 BUILD := build/cpp
+# SMALL=1: the same steps on less work, whose results lie in build/small and never in reports/ (scripts/figures/small.py)
+OUT := $(if $(SMALL),build/small/)build
+REPORTS := $(if $(SMALL),build/small/)reports
 SEED ?= 1
 SHARED_DATA ?= ../shared/data
 DTOF := $(BUILD)/app/dtof
 DTOF_STUDY := $(BUILD)/study_app/dtof-study
 
 .DEFAULT_GOAL := all
-.PHONY: all packages configure build study sim report publish test lint bench clean
+.PHONY: all packages configure build study sim report publish test try-targets lint bench clean
 
 all: packages sim
 	@$(MAKE) --no-print-directory report
@@ -62,13 +66,17 @@ report: packages
 	@scripts/print_report.sh
 
 publish:
-	@scripts/publish.py frame $(if $(wildcard build/tmf8820/summary.md),tmf8820)
+	@scripts/publish.py frame $(if $(wildcard $(OUT)/tmf8820/summary.md),tmf8820)
 
 test: configure
 	@scripts/install_packages.sh browser
 	@ninja -C $(BUILD)
 	@scripts/lint.sh
 	@scripts/run_tests.sh $(BUILD)
+
+# TARGETS="sim claims": some; OPTIONS=--quick, --again: scripts/try_targets.py --help
+try-targets:
+	@scripts/try_targets.py $(OPTIONS) $(TARGETS)
 
 lint: configure
 	@scripts/lint.sh --static-analysis

@@ -29,4 +29,4 @@ verilator_coverage --annotate "$folder/hdl" --annotate-min 1 "$folder/rtl.dat" >
 
 gcovr --root . --object-directory "$build" --filter 'tb_cpp/' --exclude-throw-branches --exclude-unreachable-branches \
   --json-summary "$folder/cpp.json" --html-details "$folder/html/index.html" -j "$(nproc)" 2> "$folder/gcovr.log"
-/usr/bin/python3 scripts/coverage.py "$folder/rtl.dat" "$folder/cpp.json" reports/coverage.md
+/usr/bin/python3 scripts/coverage.py "$folder/rtl.dat" "$folder/cpp.json" "${SMALL:+build/small/}reports/coverage.md"

@@ -2,7 +2,7 @@
 # make coverage   lines and toggles of hdl/, lines and branches of tb_cpp/ that the tests reach (a build of its own)
 # make faults     what flipped bits, stuck columns, hot and dead pixels and resets do to a frame
 .PHONY: coverage faults
-FLIPS ?= 300
+FLIPS ?= $(if $(SMALL),3,300)
 
 coverage: | build_folder
 	@$(MAKE) --no-print-directory packages
@@ -13,5 +13,5 @@ coverage: | build_folder
 faults: configure
 	@ninja -C $(BUILD) dtof-faults
 	@scripts/reports.py begin faults
-	@$(BUILD)/faults/dtof-faults --flips $(FLIPS) --seed $(SEED) --out build/faults
+	@$(BUILD)/faults/dtof-faults --flips $(FLIPS) --seed $(SEED) --out $(OUT)/faults
 	@scripts/publish.py faults

@@ -17,11 +17,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import fpga_check
+from figures.small import written_root
 
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 BUILD = ROOT / "build" / "fpga"
-REPORT = ROOT / "reports" / "fpga.md"
+REPORT = written_root(ROOT) / "reports" / "fpga.md"
 TOP = "demonstrator"
 FOLDER = HDL / "demonstrator"
 BOARD_MHZ = 12

@@ -3,7 +3,7 @@
 #                     ThreadSanitizer (half an hour)
 # make fuzz           readers and command line on damaged input, FUZZ_SECONDS (600) each of FUZZ_TARGETS (all, else
 #                     names of tb_cpp/fuzz/corpus)
-FUZZ_SECONDS ?= 600
+FUZZ_SECONDS ?= $(if $(SMALL),2,600)
 FUZZ_TARGETS ?=
 .PHONY: test-sanitize fuzz
 

@@ -15,8 +15,11 @@ import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
+from figures.small import written_root
+
 ROOT = Path(__file__).resolve().parent.parent
 REPORTS = ROOT / "reports"
+WRITTEN = written_root(ROOT) / "reports"
 sys.path.insert(0, str(ROOT / "synth"))
 
 import plot_style  # noqa: E402
@@ -349,16 +352,16 @@ def main() -> int:
         references[name] = {light: scenes.overall(klux, name) for light, klux in LIGHTS.items()}
         if None in references[name].values():
             raise SystemExit(f"error: reports/scenes.csv has no '{name}' on every scene: run `make scenes`")
-    with open(REPORTS / "pareto.csv", "w", newline="", encoding="utf-8") as file:
+    with open(WRITTEN / "pareto.csv", "w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["title", "read_out", "variant", "mm2", "thesis_mm2", "bits_per_pixel"] +
                         [f"{light}_{name}" for light in LIGHTS for name in ("above_3_percent", "relative_rmse")])
         for p in points:
             writer.writerow([f"{p.title}", p.family, int(p.variant), f"{p.mm2:.4f}", p.thesis_mm2 or "", p.bits] +
                             [f"{value:.6f}" for light in LIGHTS for value in p.accuracy[light]])
-    (REPORTS / "pareto.md").write_text(report(points, missing, scenes, references), encoding="utf-8")
-    draw(points, 0, "pixels off by more than 3 %", REPORTS / "pareto.svg", references)
-    draw(points, 1, "relative rmse", REPORTS / "pareto_rmse.svg", references)
+    (WRITTEN / "pareto.md").write_text(report(points, missing, scenes, references), encoding="utf-8")
+    draw(points, 0, "pixels off by more than 3 %", WRITTEN / "pareto.svg", references)
+    draw(points, 1, "relative rmse", WRITTEN / "pareto_rmse.svg", references)
     print(f"reports/pareto.md: {len(points)} configurations")
     for goal, measured, met in goals(scenes):
         print(f"  {met:7} {goal}: {measured}")

@@ -13,9 +13,11 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from figures.small import is_small, written_root
+
 ROOT = Path(__file__).resolve().parent.parent
-FOLDER = ROOT / "build" / "pool_parts"
-SCENES = ("room", "planes", "clutter", "poles", "isolated")
+FOLDER = written_root(ROOT) / "build" / "pool_parts"
+SCENES = ("room", "isolated") if is_small() else ("room", "planes", "clutter", "poles", "isolated")
 LIGHTS = ("14", "50")
 SEEDS = "2"
 WHOLE = "poolPointer 2"

@@ -15,18 +15,19 @@ from collections import defaultdict
 from pathlib import Path
 
 import plot_style
+from figures.small import is_small, written_root
 
 ROOT = Path(__file__).resolve().parent.parent
 PRESET = ROOT / "tb_cpp" / "sensor" / "presets" / "thesis.toml"
-FOLDER = ROOT / "build" / "pulse_widths"
-FWHM_BINS = (8, 12, 20, 45, 90)
+FOLDER = written_root(ROOT) / "build" / "pulse_widths"
+FWHM_BINS = (8, 45) if is_small() else (8, 12, 20, 45, 90)
 POOLED = ("poolpointer2", "poolpointer2-lean")
 READOUTS = ("hispointer", *POOLED)
 WINDOWS_FOR_45 = " CELL_SHIFT=9"
 FIXED = " (windows for 45 bins)"
-SCENES = ("flat", "room", "planes", "clutter", "poles")
-COLUMNS = 20
-LIGHTS = ("14", "50")
+SCENES = ("flat", "room") if is_small() else ("flat", "room", "planes", "clutter", "poles")
+COLUMNS = 2 if is_small() else 20
+LIGHTS = ("14",) if is_small() else ("14", "50")
 WALL = "flat 3 m"
 
 

@@ -9,6 +9,8 @@
 `stale`              lists stale reports, what changed, and how long renewing takes
 `stale-check`        fails if a figure that README.md or the report's first page shows is stale, or a report of two minutes
 `renew [--list]`     renews every stale report, in order; what is fresh is passed over
+
+With SMALL=1 `begin` and `record` leave what lies here alone and note in build/small; no page follows.
 """
 
 import argparse
@@ -20,6 +22,7 @@ from pathlib import Path
 import update_readme
 from figures import hand_typed, references, staleness, store, tables
 from figures.reports import LIST, Report, ReportsError, load
+from figures.small import is_small, written_root
 from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -44,15 +47,18 @@ def chosen(names: list[str], known: dict[str, Report]) -> list[Report]:
 def begin(options: argparse.Namespace, known: dict[str, Report]) -> int:
     tree = SourceTree(ROOT)
     for report in chosen(options.report, known):
-        staleness.begin(ROOT, report, tree)
+        staleness.begin(written_root(ROOT), report, tree)
     return 0
 
 
 def record(options: argparse.Namespace, known: dict[str, Report]) -> int:
     for report in chosen(options.report, known):
-        missing = [name for name in report.written if not (ROOT / name).is_file()]
+        missing = [name for name in report.written if not (written_root(ROOT) / name).is_file()]
         if missing:
             raise ReportsError(f"{missing[0]} is missing: run `{report.command}` first")
+        if is_small():
+            staleness.record(written_root(ROOT), report)
+            continue
         measured = staleness.record_commit(ROOT, report, options.commit) if options.commit else staleness.record(ROOT, report)
         try:
             found = tables.figures(ROOT, report.name)
@@ -60,7 +66,7 @@ def record(options: argparse.Namespace, known: dict[str, Report]) -> int:
             raise ReportsError(f"the files of {report.name} are not as scripts/figures/tables.py reads them: {error}") from error
         if found:
             store.record(ROOT, report.name, report.command, measured.digest, found)
-    return figures(argparse.Namespace(check=False), known) if not options.commit else 0
+    return figures(argparse.Namespace(check=False), known) if not options.commit and not is_small() else 0
 
 
 def figures(options: argparse.Namespace, known: dict[str, Report]) -> int:

@@ -3,5 +3,5 @@
 .PHONY: reproduce
 reproduce: study
 	@scripts/reports.py begin reproduction
-	@$(DTOF_STUDY) reproduce --seed $(SEED) --out build/reproduce
+	@$(DTOF_STUDY) reproduce $(if $(SMALL),--frames 40) --seed $(SEED) --out $(OUT)/reproduce
 	@scripts/publish.py reproduction

@@ -17,6 +17,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from figures.small import is_small
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
@@ -48,8 +50,8 @@ SENSORS = (Sensor("phone, 200 x 160", "phone", 1.0), Sensor("robot, 80 x 64", "r
            Sensor("car-like, 320 x 120", "rivals/car.toml", 8.9),
            Sensor("small array, 64 x 50", "rivals/small.toml", 1.0))
 THESIS = "thesis, 200 x 160"
-SENSOR_OPTIONS = ("--scene", "room", "planes", "clutter", "poles", "--klux", INDOORS, SUN, "--pooled", "--seeds", "4",
-                  "--columns", "10")
+SENSOR_OPTIONS = ("--scene", "room", "planes", "clutter", "poles", "--klux", INDOORS, SUN, "--pooled", "--seeds", "2" if is_small() else "4",
+                  "--columns", "1" if is_small() else "10")
 
 
 @dataclass

@@ -8,6 +8,11 @@ dtof=$1
 data=$(realpath -m "$2")
 seed=$3
 folder=build/sensor_effects
+small=()
+if [ -n "${SMALL:-}" ]; then
+  folder=build/small/$folder
+  small=(--frames 4 --klux 14 --distances 1.03)
+fi
 rm -rf "$folder"
 mkdir -p "$folder"
 sensors=()
@@ -25,7 +30,7 @@ for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time ho
   fi
   sensors+=("$folder/$name.toml")
 done
-"$dtof" sensor-effects "${sensors[@]}" -r thesis --seed "$seed" --out "$folder"
+"$dtof" sensor-effects "${sensors[@]}" -r thesis "${small[@]}" --seed "$seed" --out "$folder"
 if [ "$complete" = yes ]; then
   scripts/publish.py sensor_effects
 else

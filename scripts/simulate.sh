@@ -6,15 +6,21 @@ set -euo pipefail
 dtof=$1
 seed=${SEED:-1}
 data=${SHARED_DATA:-../shared/data}
+out=build
+small=()
+if [ -n "${SMALL:-}" ]; then
+  out=build/small/build
+  small=(--columns 0-9 --rows 0-19 --acquisitions 333)
+fi
 
 # Runs dtof unless it has filled the folder with the same program, arguments and files before.
 run_once() { # folder below build/, arguments
-  local folder=build/$1 inputs=("$dtof") key argument
+  local folder=$out/$1 inputs=("$dtof") key argument
   shift
   for argument in "$@"; do
     if [ -f "$argument" ]; then inputs+=("$argument"); fi
   done
-  scripts/reports.py begin "${folder#build/}"
+  scripts/reports.py begin "${folder#"$out/"}"
   key=$(sha256sum "${inputs[@]}" && echo "$* seed $seed")
   if [ -f "$folder/summary.md" ] && [ "$key" = "$(cat "$folder/inputs.txt" 2>/dev/null)" ]; then
     echo "$folder is up to date"
@@ -26,7 +32,7 @@ run_once() { # folder below build/, arguments
   echo "$key" > "$folder/inputs.txt"
 }
 
-run_once frame frame --scene room --readout all --engine rtl --verify
+run_once frame frame --scene room --readout all --engine rtl --verify "${small[@]}"
 
 captures=$data/sifferman_tmf8820_distance_data.json
 if [ -f "$captures" ]; then

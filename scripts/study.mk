@@ -19,6 +19,8 @@
 #                 frames of thesis and three read-outs, build/frames_small alone)
 # make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
 .PHONY: claims dynamic-range frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
+SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
   --surface $(SHARED_DATA)/shin2016_two_layer_obj.mat
 SCENE_VARIANTS := ezpointer:FRACTION_BITS=4 hispointer:FRACTION_BITS=4 hispointer:COUNT_WIDTH=8 \
@@ -30,54 +32,58 @@ POOL_NUMBERS := COARSE_SHARE=12,14,16,18 TRACK_SHARE=16,18,20,22,24 OWN_WEIGHT L
   OFFSET_GEAR_1 LABEL_COST LABEL_COST_SLOPE CHOOSE_PENALTY CHOOSE_PENALTY_SLOPE LEFT_COST LEFT_COST_SLOPE RIGHT_LIMIT \
   RIGHT_LIMIT_SLOPE LATERAL_REACH RIVAL_REACH DECIDE_PENALTY DECIDE_PENALTY_SLOPE SMOOTH_DARK=768,1280 \
   SMOOTH_BRIGHT=1280,2048 SMOOTH_BRIGHT_FROM WEIGHT_0 WEIGHT_1 WEIGHT_5 WEIGHT_6 WEIGHT_7
-RIVAL_COLUMNS ?= 16
-RIVAL_OPTIONS := --pooled --claims --seeds 4 --columns $(RIVAL_COLUMNS)
+RIVAL_COLUMNS ?= $(if $(SMALL),2,16)
+RIVAL_OPTIONS := --pooled --claims --seeds $(if $(SMALL),2 --klux 50,4) --columns $(RIVAL_COLUMNS)
 PHOTON_TIMES := $(SHARED_DATA)/shin2016_two_layer_photon_times.mat \
   --surfaces $(SHARED_DATA)/shin2016_two_layer_obj.mat --shift -20
+
+# What make real-data has the data of, published together: they are one entry of reports/reports.toml.
+REAL_DATA := $(strip $(if $(wildcard $(SHARED_DATA)/ams_tmf8829_log.json.gz),tmf8829) \
+  $(if $(wildcard $(SHARED_DATA)/shin2016_two_layer_photon_times.mat),photon_times photon_times_behind))
 
 # The committed report has the maps, too: without them it stays as it is.
 scenes: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  scripts/reports.py begin scenes; \
-	  $(DTOF_STUDY) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --out build/scenes; \
+	  $(DTOF_STUDY) scenes --held-out $(SCENE_MAPS) $(SMALL_SCENES) --seed $(SEED) --out $(OUT)/scenes; \
 	  $(DTOF_STUDY) scenes --held-out $(SCENE_MAPS) --seed $(SEED) --preset thesis --klux 14 50 --readout fifh \
-	    --variant $(SCENE_VARIANTS) --columns 25 --out build/scenes_variants; \
+	    --variant $(SCENE_VARIANTS) --columns $(if $(SMALL),4,25) --out $(OUT)/scenes_variants; \
 	  scripts/publish.py scenes; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/scenes_synthetic"; \
-	  $(DTOF_STUDY) scenes --held-out --seed $(SEED) --out build/scenes_synthetic; \
+	  $(DTOF_STUDY) scenes --held-out $(SMALL_SCENES) --seed $(SEED) --out $(OUT)/scenes_synthetic; \
 	fi
 
 pool: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  scripts/reports.py begin pool; \
-	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --seed $(SEED) --out build/pool; \
-	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) --table none --seed $(SEED) --out build/pool_without_table; \
+	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) $(SMALL_POOL) --seed $(SEED) --out $(OUT)/pool; \
+	  $(DTOF_STUDY) pool --held-out $(SCENE_MAPS) $(SMALL_POOL) --table none --seed $(SEED) --out $(OUT)/pool_without_table; \
 	  scripts/publish.py pool pool_without_table; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/pool_synthetic"; \
-	  $(DTOF_STUDY) pool --held-out --seed $(SEED) --out build/pool_synthetic; \
+	  $(DTOF_STUDY) pool --held-out $(SMALL_POOL) --seed $(SEED) --out $(OUT)/pool_synthetic; \
 	fi
 
 pool-search: study
-	@$(DTOF_STUDY) pool-search $(POOL_TRAINING_MAP) --vary $(POOL_NUMBERS) --seeds 2 --rounds 2 --out build/pool_search
+	@$(DTOF_STUDY) pool-search $(POOL_TRAINING_MAP) --vary $(if $(SMALL),OWN_WEIGHT --scene planes --klux 14,$(POOL_NUMBERS)) --seeds 2 --rounds 2 --out $(OUT)/pool_search
 
 rivals: study
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  scripts/reports.py begin rivals && \
-	  scripts/rivals.py $(DTOF_STUDY) --out build/rivals --held-out $(SCENE_MAPS) --photographed $(PHOTOGRAPHED) \
+	  scripts/rivals.py $(DTOF_STUDY) --out $(OUT)/rivals --held-out $(SCENE_MAPS) --photographed $(PHOTOGRAPHED) \
 	    $(RIVAL_OPTIONS) --seed $(SEED) && \
 	  scripts/publish.py rivals; \
 	else \
 	  echo "depth maps are not here ($(SHARED_DATA)): synthetic scenes only, in build/rivals_synthetic"; \
-	  scripts/rivals.py $(DTOF_STUDY) --out build/rivals_synthetic --held-out $(RIVAL_OPTIONS) --seed $(SEED); \
+	  scripts/rivals.py $(DTOF_STUDY) --out $(OUT)/rivals_synthetic --held-out $(RIVAL_OPTIONS) --seed $(SEED); \
 	fi
 
 claims: study
 	@scripts/reports.py begin claims
-	@$(DTOF_STUDY) claims --seed $(SEED) --out build/claims
+	@$(DTOF_STUDY) claims $(if $(SMALL),--pixels 100) --seed $(SEED) --out $(OUT)/claims
 	@scripts/publish.py claims
 
 pareto:
@@ -96,7 +102,7 @@ ifeq ($(SMALL),1)
 	  --out build/dynamic_range_small
 else
 	@scripts/reports.py begin dynamic_range
-	@$(DTOF_STUDY) dynamic-range --seed $(SEED) --out build/dynamic_range
+	@$(DTOF_STUDY) dynamic-range --seed $(SEED) --out $(OUT)/dynamic_range
 	@scripts/publish.py dynamic_range
 endif
 
@@ -106,13 +112,13 @@ ifeq ($(SMALL),1)
 	  --rtl ezpointer --seed $(SEED) --out build/frames_small
 else
 	@scripts/reports.py begin frames
-	@$(DTOF_STUDY) frames --rtl poolpointer2 --seed $(SEED) --out build/frames
+	@$(DTOF_STUDY) frames --rtl poolpointer2 --seed $(SEED) --out $(OUT)/frames
 	@scripts/publish.py frames
 endif
 
 walk-error: study
 	@scripts/reports.py begin walk_error
-	@$(DTOF_STUDY) walk --seed $(SEED) --out build/walk
+	@$(DTOF_STUDY) walk $(if $(SMALL),--columns 4 --distances 1 --reflectivities 0.2 1 --acquisitions 333) --seed $(SEED) --out $(OUT)/walk
 	@scripts/publish.py walk_error
 
 pool-parts: study vectors
@@ -127,20 +133,20 @@ pulse-widths: study
 
 video: build
 	@scripts/reports.py begin video
-	@$(DTOF) video --scene room planes clutter poles --motion still pan roll object cut light --frames 10 -k 50 --seed $(SEED) --seeds 4 --out build/video
+	@$(DTOF) video $(if $(SMALL),--scene room --motion light --frames 2 --array-columns 20 --array-rows 32,--scene room planes clutter poles --motion still pan roll object cut light --frames 10) -k 50 --seed $(SEED) --seeds $(if $(SMALL),1,4) --out $(OUT)/video
 	@scripts/publish.py video
 
 real-data: study
 	@scripts/reports.py begin real_data
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
-	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons 2000 750 300 \
-	    --background 0 0.15 --frames 4 --seed $(SEED) --out build/tmf8829 && scripts/publish.py tmf8829; \
+	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons $(if $(SMALL),300,2000 750 300) \
+	    --background $(if $(SMALL),0,0 0.15) --frames $(if $(SMALL),1,4) --seed $(SEED) --out $(OUT)/tmf8829; \
 	else echo "TMF8829 frames are not here ($(SHARED_DATA)): skipped"; fi
 	@if [ -f $(SHARED_DATA)/shin2016_two_layer_photon_times.mat ]; then \
 	  set -e; \
-	  $(DTOF_STUDY) measured $(PHOTON_TIMES) --photons 0 25 \
-	    --background 0 0.15 --seed $(SEED) --out build/photon_times; \
-	  $(DTOF_STUDY) measured $(PHOTON_TIMES) --from-tick 5200 --photons 0 12 \
-	    --background 0 0.15 --seed $(SEED) --out build/photon_times_behind; \
-	  scripts/publish.py photon_times photon_times_behind; \
+	  $(DTOF_STUDY) measured $(PHOTON_TIMES) --photons $(if $(SMALL),25,0 25) \
+	    --background $(if $(SMALL),0,0 0.15) --seed $(SEED) --out $(OUT)/photon_times; \
+	  $(DTOF_STUDY) measured $(PHOTON_TIMES) --from-tick 5200 --photons $(if $(SMALL),12,0 12) \
+	    --background $(if $(SMALL),0,0 0.15) --seed $(SEED) --out $(OUT)/photon_times_behind; \
 	else echo "photon times are not here ($(SHARED_DATA)): skipped"; fi
+	@$(if $(REAL_DATA),scripts/publish.py $(REAL_DATA))

@@ -3,7 +3,7 @@
 #                    table in build/sweep/ (docs/user/scaling.md)
 # make sweep-test    a small sweep through a real Slurm of one node, with killed jobs and a killed workflow (a minute)
 # make sweep-cost    what 10^3 to 10^6 points cost beside their own computing: reports/scaling.md (ten minutes)
-SWEEP ?= scripts/sweep/readouts.toml
+SWEEP ?= scripts/sweep/$(if $(SMALL),small,readouts).toml
 .PHONY: sweep sweep-test sweep-cost
 sweep: configure
 	@scripts/install_packages.sh sweep

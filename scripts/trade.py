@@ -13,9 +13,12 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
+from figures.small import is_small, written_root
+
 ROOT = Path(__file__).resolve().parent.parent
 REPORTS = ROOT / "reports"
-BUILD = ROOT / "build" / "trade"
+WRITTEN = written_root(ROOT) / "reports"
+BUILD = written_root(ROOT) / "build" / "trade"
 sys.path.insert(0, str(ROOT / "synth"))
 
 import plot_style  # noqa: E402
@@ -26,8 +29,8 @@ from dtof_synth.goals import ARRAY_MM2  # noqa: E402
 # 64ths of the frame: coarse, track; the rest is the pointer phase.
 SCHEDULES = ((18, 20), (16, 20), (16, 16), (14, 24), (14, 20), (14, 16), (12, 24), (12, 20), (12, 16), (10, 20))
 SCENES = ("flat", "room", "planes", "clutter", "poles", "isolated")
-COLUMNS = 50
-SINGLE_COLUMNS = 200  # single pixels are few
+COLUMNS = 2 if is_small() else 50
+SINGLE_COLUMNS = 20 if is_small() else 200  # single pixels are few
 SEED = 1
 BOUND_GOAL = 1.5
 OTHER_MARKER = 4  # gnuplot's open square, for the second figure in a panel
@@ -219,7 +222,7 @@ def main() -> int:
                   for labels, bits in growth.CANDIDATES]
     if sys.argv[1] == "--draw":
         read(schedules + candidates)
-        plot(schedules, candidates, ARRAY_MM2["poolpointer2"], REPORTS / "trade.svg")
+        plot(schedules, candidates, ARRAY_MM2["poolpointer2"], WRITTEN / "trade.svg")
         return 0
     try:
         measure(sys.argv[1], schedules + candidates)
@@ -228,7 +231,7 @@ def main() -> int:
         return 1
     limit = ARRAY_MM2["poolpointer2"]
     BUILD.mkdir(parents=True, exist_ok=True)
-    plot(schedules, candidates, limit, REPORTS / "trade.svg")
+    plot(schedules, candidates, limit, WRITTEN / "trade.svg")
     lines = ["# Goals of poolPointer 2 that collide", "",
              f"Written by `make trade`: preset `thesis`, seed {SEED}, {COLUMNS} columns of the scenes "
              f"{', '.join(SCENES[1:])} ({SINGLE_COLUMNS} of isolated for the single pixels), 14 and 50 klux; areas of "
@@ -239,8 +242,8 @@ def main() -> int:
              f"Number and bits of a score; {base['LABELS']}x{base['SCORE_BITS']} is the product. "
              + candidate_sentence(candidates), "",
              *table("candidates", candidates, with_area=True), ""]
-    (REPORTS / "trade.md").write_text("\n".join(lines), encoding="utf-8")
-    with (REPORTS / "trade.csv").open("w", newline="", encoding="utf-8") as file:
+    (WRITTEN / "trade.md").write_text("\n".join(lines), encoding="utf-8")
+    with (WRITTEN / "trade.csv").open("w", newline="", encoding="utf-8") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["variant", "total_mm2", *FIGURES])
         for point in schedules + candidates:

@@ -9,6 +9,7 @@ MAKEFILES = ("Makefile", "scripts/*.mk", "synth/*.mk")
 # `# make NAME[, NAME ...]  what it does`; what follows more deeply indented belongs to it, but for variables.
 LINE = re.compile(r"^# make (?P<names>[a-z-]+(?:, (?:make )?[a-z-]+)*)(?P<rest>:? .*)$")
 VARIABLE = re.compile(r"^[A-Z_]+=")
+PHONY = re.compile(r"^\.PHONY:(.*)$", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -18,26 +19,38 @@ class Command:
     makefile: str
 
 
+def makefiles(root: Path) -> list[Path]:
+    return [makefile for pattern in MAKEFILES for makefile in sorted(root.glob(pattern))]
+
+
+def targets_of(text: str) -> set[str]:
+    return {name for line in PHONY.findall(text) for name in line.split()}
+
+
+def targets(root: Path) -> dict[str, str]:
+    """What make can be asked for by name, described or not, and the makefile that has it."""
+    return {name: str(makefile.relative_to(root)) for makefile in makefiles(root)
+            for name in targets_of(makefile.read_text(encoding="utf-8"))}
+
+
 def commands(root: Path) -> dict[str, Command]:
     """By target, those that a comment describes. A makefile of its own says more than the first one's list."""
     found: dict[str, Command] = {}
-    for pattern in MAKEFILES:
-        for makefile in sorted(root.glob(pattern)):
-            text = makefile.read_text(encoding="utf-8")
-            targets = {name for line in re.findall(r"^\.PHONY:(.*)$", text, re.MULTILINE) for name in line.split()}
-            says: dict[str, list[str]] = {}
-            current: list[str] = []
-            for line in text.splitlines():
-                match = LINE.match(line)
-                if match:
-                    current = [name.removeprefix("make ") for name in match["names"].split(", ")]
-                    for name in current:
-                        says[name] = [match["rest"].strip(" :")]
-                elif not line.startswith("#   ") or VARIABLE.match(line[1:].strip()):
-                    current = []
-                else:
-                    for name in current:
-                        says[name].append(line[1:].strip())
-            for target in targets & says.keys():
-                found[target] = Command(target, " ".join(says[target]), str(makefile.relative_to(root)))
+    for makefile in makefiles(root):
+        text = makefile.read_text(encoding="utf-8")
+        says: dict[str, list[str]] = {}
+        current: list[str] = []
+        for line in text.splitlines():
+            match = LINE.match(line)
+            if match:
+                current = [name.removeprefix("make ") for name in match["names"].split(", ")]
+                for name in current:
+                    says[name] = [match["rest"].strip(" :")]
+            elif not line.startswith("#   ") or VARIABLE.match(line[1:].strip()):
+                current = []
+            else:
+                for name in current:
+                    says[name].append(line[1:].strip())
+        for target in targets_of(text) & says.keys():
+            found[target] = Command(target, " ".join(says[target]), str(makefile.relative_to(root)))
     return found
