@@ -214,13 +214,12 @@ module pool2_pair #(
   assign full_here = (full_bins != '0);
   assign low_here = (low_bins != '0);
 
-  genvar b;
+  genvar b, n;
   generate
     for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
       localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
-      logic first_counts, second_counts, one, two, full_above, carry;
-      logic [COUNT_WIDTH-1:0] bin, count, counted_bin;
-      integer n;
+      logic first_counts, second_counts, one, two, full_above, first_carry, carry;
+      logic [COUNT_WIDTH-1:0] bin, count;
       assign bin = word_q[FIRST+:COUNT_WIDTH];
       assign full_bins[b] = &bin;
       assign low_bins[b] = (bin[COUNT_WIDTH-1-:2] == 2'd0);
@@ -232,16 +231,12 @@ module pool2_pair #(
       assign full_above = &bin[COUNT_WIDTH-1:1];
       assign count = {bin[COUNT_WIDTH-1] && (bin[COUNT_WIDTH-2] || !takes_quarter), bin[COUNT_WIDTH-2] ^ takes_quarter,
                       bin[COUNT_WIDTH-3:0]};
-      always_comb begin
-        carry = one && !full_bins[b];
-        counted_bin[0] = (count[0] ^ carry) || (two && full_above);
-        carry = (count[0] && carry) || (two && !full_above);
-        for (n = 1; n < COUNT_WIDTH; n = n + 1) begin
-          counted_bin[n] = count[n] ^ carry;
-          carry = count[n] && carry;
-        end
+      assign first_carry = one && !full_bins[b];
+      assign carry = (count[0] && first_carry) || (two && !full_above);
+      assign counted_word[FIRST+:2] = {count[1] ^ carry, (count[0] ^ first_carry) || (two && full_above)};
+      for (n = 2; n < COUNT_WIDTH; n = n + 1) begin : g_high
+        assign counted_word[FIRST+n] = count[n] ^ (carry && (&count[n-1:1]));
       end
-      assign counted_word[FIRST+:COUNT_WIDTH] = counted_bin;
     end
     // Bits of a half beyond its bins.
     for (b = 0; b < 2; b = b + 1) begin : g_rest
