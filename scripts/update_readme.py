@@ -32,8 +32,8 @@ class Results:
         self.figures = store.load(root)
         self.reports: set[str] = set()
         # Sensors of the standard frames. Before `make frames` has run it is the main job's frame.
-        self.sensors = [name.removeprefix(FRAMES).removesuffix(ABOVE) for name in self.figures
-                        if name.startswith(FRAMES) and name.endswith(ABOVE)]
+        self.sensors = sorted(name.removeprefix(FRAMES).removesuffix(ABOVE) for name in self.figures
+                              if name.startswith(FRAMES) and name.endswith(ABOVE))
 
     def text(self, reference: str) -> str:
         text = store.text(reference, self.figures)
