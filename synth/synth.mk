@@ -3,12 +3,12 @@
 #                      LIBERTY=<typical.lib> LIBERTY_SLOW=<slow.lib>   other standard cells (table only)
 #                      CONFIGURATIONS="sifh fifh"                      some configurations (table only)
 #                      STRICT=1                                        fail if a goal is missed, a slack is negative or a figure is not its budget
-#                      SEARCH=1                                        search for namings that synth/namings.csv has, too
 # make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um; IHP 130 nm with
 #                      its own SRAM macros (../shared/pdk)
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-flat      the slack with every column real beside that with stand-ins; CONFIGURATIONS= as above
+# make synth-namings   area and slack over eight namings of the same logic (long): reports/namings.md; CONFIGURATIONS= as above
 # make synth-corners   the slack if gates and SRAMs are slowed by one ratio; CONFIGURATIONS= as above
 # make synth-test      the flow's own tests, and the porting example simulated
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
@@ -17,16 +17,16 @@
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make power           power from the activity of netlists on a scene: reports/power.md (minutes)
 # make synth-growth    how cost grows with the parameters
-.PHONY: synth power synth-growth synth-flat synth-corners synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
+.PHONY: synth power synth-growth synth-flat synth-corners synth-namings synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
-	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict) $(if $(SEARCH),--search)
+	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict)
 
 synth-check synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
 
-synth-flat synth-corners: synth-%:
+synth-flat synth-corners synth-namings: synth-%:
 	@synth/synth.py $* $(CONFIGURATIONS)
 
 synth-growth:

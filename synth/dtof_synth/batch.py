@@ -12,28 +12,31 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import namings
 from .configuration import Configuration
-from .namings import Naming
 from .run import BOTH_CORNERS, Result, Technology, input_digest, run
 
 
 @dataclass(frozen=True)
 class Job:
-    """`most_attempts` 1: the first mapping stands, whether timing closes or not."""
+    """`most_attempts` 1: the first mapping stands, whether timing closes or not. `naming`: run.map_to_cells."""
 
     configuration: Configuration
     corners: tuple[str, ...] = BOTH_CORNERS
     most_attempts: int | None = None  # all
+    naming: int = 0
+
+    @property
+    def name(self) -> str:
+        return self.configuration.name + (f"_naming{self.naming}" if self.naming else "")
 
 
-def _key(job: Job, digest: str, search: bool) -> str:
-    text = json.dumps([job.configuration.rtl_parameters(), job.corners, job.most_attempts, digest, search], sort_keys=True)
+def _key(job: Job, digest: str) -> str:
+    text = json.dumps([job.configuration.rtl_parameters(), job.corners, job.most_attempts, job.naming, digest], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def _work(job: Job, technology: Technology, folder: Path, key: str, known: Naming | None) -> Result:
-    result = run(job.configuration, technology, folder, job.corners, job.most_attempts, known)
+def _work(job: Job, technology: Technology, folder: Path, key: str) -> Result:
+    result = run(job.configuration, technology, folder, job.corners, job.most_attempts, job.naming)
     (folder / "result.pickle").write_bytes(pickle.dumps((key, result)))
     return result
 
@@ -47,35 +50,31 @@ def _kept(folder: Path, key: str) -> Result | None:
 
 
 def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: int,
-            progress: Callable[[str], None], search: bool = False) -> dict[str, Result]:
-    """Results by configuration name, in the order of the jobs; the longest, with engines, run first. The first
-    failure stops everything. `search`: for namings, whether they are known or not."""
+            progress: Callable[[str], None]) -> dict[str, Result]:
+    """Results by the jobs' names, in the order of the jobs; the longest, with engines, run first. The first failure stops
+    everything."""
     digest = input_digest(technology)
-    known = {} if search else namings.read(technology.root / namings.FILE)
     jobs = list(jobs)
     results: dict[str, Result] = {}
     waiting = []
     for job in jobs:
-        name = job.configuration.name
-        kept = _kept(build / name, _key(job, digest, search))
+        kept = _kept(build / job.name, _key(job, digest))
         if kept is not None:
-            results[name] = kept
+            results[job.name] = kept
         else:
             waiting.append(job)
     waiting.sort(key=lambda job: not job.configuration.is_pool)
     done = len(results)
     # A run builds large trees without cycles, which the collector would walk again and again.
     with ProcessPoolExecutor(workers, initializer=gc.disable) as pool:
-        futures = {pool.submit(_work, job, technology, build / job.configuration.name, _key(job, digest, search),
-                               known.get(job.configuration.name)): job
-                   for job in waiting}
+        futures = {pool.submit(_work, job, technology, build / job.name, _key(job, digest)): job for job in waiting}
         try:
             for future in as_completed(futures):
-                name = futures[future].configuration.name
+                name = futures[future].name
                 results[name] = future.result()
                 done += 1
                 progress(f"[{done}/{len(jobs)}] {name}")
         except BaseException:
             pool.shutdown(wait=False, cancel_futures=True)
             raise
-    return {job.configuration.name: results[job.configuration.name] for job in jobs}
+    return {job.name: results[job.name] for job in jobs}

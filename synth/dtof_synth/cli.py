@@ -59,7 +59,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     if full:
         jobs += signalled_clear.jobs(named)
     runs = build / ("runs" if not foreign else f"runs_{technology.typical.name}")
-    results = batch.run_all(jobs, technology, runs, arguments.jobs, _say, arguments.search)
+    results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
     main = {name: results[name] for name in chosen}
     _say(report.summary(main))
     if arguments.csv:
@@ -94,8 +94,7 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
     (reports / "sram.md").write_text(sram_report.text(uses, set(named), PDK), encoding="utf-8")
     report_inputs.record("synth")
     status = _gate(arguments, main, [*found, *gates.measured(reports / "pool.md")], budgets.read(BUDGETS), everything=True)
-    namings.write(ROOT / namings.FILE, {name: result.naming for name, result in results.items()}, results)
-    _say(f"reports/area.md, reports/timing.md, reports/sram.md, {namings.FILE} written")
+    _say("reports/area.md, reports/timing.md, reports/sram.md written")
     return status
 
 
@@ -161,6 +160,23 @@ def _flat(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int
         _say(f"{name}: setup with margins, slow corner: {found.with_stand_ins:+.4f} ns with stand-ins, {found.all_real:+.4f} ns with "
              f"every column real: {'the same' if agree else 'ANOTHER'}")
     return 1 if differ else 0
+
+
+def _namings(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
+    """Area and slack over several namings; 1 if a read-out does not close with every one."""
+    chosen = list(_select(named, arguments.configuration or [name for name, item in named.items() if not item.variant_of]).values())
+    digest = report_inputs.begin("namings")
+    build = ROOT / "build" / "synth"
+    technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
+    results = batch.run_all(namings.jobs(chosen), technology, build / "runs", arguments.jobs, _say)
+    found = namings.spreads(chosen, results)
+    _say(namings.table(found))
+    if not arguments.configuration:
+        (ROOT / "reports" / "namings.md").write_text(namings.report(found, digest), encoding="utf-8")
+        namings.write_csv(ROOT / "reports" / "namings.csv", found)
+        report_inputs.record("namings")
+        _say("reports/namings.md, reports/namings.csv written")
+    return 0 if all(one.closes for one in found.values()) else 1
 
 
 def _corners(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
@@ -286,7 +302,6 @@ def _parser() -> argparse.ArgumentParser:
     run.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, with reports")
     _add_liberty(run)
     run.add_argument("--strict", action="store_true", help="fail if a goal is missed, a slack is negative or a figure is not its budget")
-    run.add_argument("--search", action="store_true", help=f"search for namings that {namings.FILE} has, too")
     run.add_argument("--csv", type=Path, help="also the areas as this file")
     run.set_defaults(action=_run)
     for name, action, text in (("sim-icarus", _sim_icarus, "RTL against the model, four-state"),
@@ -316,6 +331,9 @@ def _parser() -> argparse.ArgumentParser:
     readings = commands.add_parser("corners", help="the slack for each reading of the slow corner")
     readings.add_argument("configuration", nargs="*", help=f"names from configurations.toml; none: {', '.join(FLAT)}")
     readings.set_defaults(action=_corners)
+    several = commands.add_parser("namings", help="area and slack over several namings of the same logic")
+    several.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all but variants, with a report")
+    several.set_defaults(action=_namings)
     for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
                                ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
                                ("budgets", _budgets, "propose new budgets from the current state"),

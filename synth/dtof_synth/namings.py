@@ -1,48 +1,96 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which names ABC mapped best with, kept from one run to the next.
+"""How far area and slack depend on names, on which nothing but ABC's result depends.
 
-A search over names takes most of a run's time and ends the same way as long as what is mapped is the same. So its end is
-committed beside a digest of everything that goes into the mapping; where the digest is another, the search is made again.
+`make synth` maps with one naming, the same for every configuration. Here each configuration is mapped with several, and a read-out
+closes its clock only if every one closes.
 """
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass, fields
+import statistics
+from dataclasses import dataclass
 from pathlib import Path
 
-from .errors import FlowError
-from .files import write_if_changed
+from .batch import Job
+from .configuration import Configuration
+from .run import Result
 
-FILE = "synth/namings.csv"
+NAMINGS = 8
+_SLOW, _FAST = "slow", "fast"
 
 
 @dataclass(frozen=True)
-class Naming:
-    """`effort`: index of run.efforts. `column`, `shared`: the naming of either part (synth/yosys/4_map.tcl)."""
+class Spread:
+    """One configuration with all namings. Areas of the array in mm2, slacks in ns; `quoted` is the naming of `make synth`."""
 
-    effort: int
-    column: int
-    shared: int
-    digest: str
+    title: str
+    quoted: float
+    areas: tuple[float, ...]
+    setup: tuple[float, ...]  # slow corner, with margins
+    hold: tuple[float, ...]  # fast corner, with margins
+
+    @property
+    def median(self) -> float:
+        return statistics.median(self.areas)
+
+    @property
+    def spread(self) -> float:
+        """Largest less smallest area, as a share of the median."""
+        return (max(self.areas) - min(self.areas)) / self.median
+
+    @property
+    def closing(self) -> int:
+        return sum(setup >= 0 and hold >= 0 for setup, hold in zip(self.setup, self.hold, strict=True))
+
+    @property
+    def closes(self) -> bool:
+        return self.closing == len(self.areas)
 
 
-def read(path: Path) -> dict[str, Naming]:
-    """By configuration; none if there is no file."""
-    if not path.exists():
-        return {}
-    try:
-        with path.open(newline="", encoding="utf-8") as file:
-            return {row["configuration"]: Naming(int(row["effort"]), int(row["column"]), int(row["shared"]), row["digest"])
-                    for row in csv.DictReader(file)}
-    except (KeyError, ValueError, TypeError):
-        raise FlowError(f"{path}: not a list of namings; without this file make synth searches and writes a new one") from None
+def jobs(configurations: list[Configuration]) -> list[Job]:
+    return [Job(item, naming=naming) for item in configurations for naming in range(NAMINGS)]
 
 
-def write(path: Path, namings: dict[str, Naming], keep: Iterable[str]) -> None:
-    """Adds to the file, in the order of `keep`, and drops what is not in there."""
-    known = read(path) | namings
-    lines = [",".join(["configuration", *(field.name for field in fields(Naming))])]
-    lines += [",".join([name, *map(str, asdict(known[name]).values())]) for name in keep if name in known]
-    write_if_changed(path, "\n".join(lines) + "\n")
+def spreads(configurations: list[Configuration], results: dict[str, Result]) -> dict[str, Spread]:
+    """By configuration, of the results of `jobs`."""
+    found = {}
+    for item in configurations:
+        own = [results[Job(item, naming=naming).name] for naming in range(NAMINGS)]
+        found[item.name] = Spread(item.title, own[0].total_mm2, tuple(one.total_mm2 for one in own),
+                                  tuple(one.margins[_SLOW].slack for one in own),
+                                  tuple(one.margins[_FAST].hold_slack for one in own))
+    return found
+
+
+def table(found: dict[str, Spread]) -> str:
+    rows = ["| read-out | quoted mm2 | median | smallest | largest | spread | worst setup ns | worst hold ns | closing |",
+            "|---|---:|---:|---:|---:|---:|---:|---:|---:|"]
+    rows += [f"| {one.title} | {one.quoted:.3f} | {one.median:.3f} | {min(one.areas):.3f} | {max(one.areas):.3f} | "
+             f"{one.spread:.1%} | {min(one.setup):+.4f} | {min(one.hold):+.4f} | {one.closing} of {len(one.areas)} |"
+             for one in found.values()]
+    return "\n".join(rows)
+
+
+def report(found: dict[str, Spread], digest: str) -> str:
+    open_ones = [one.title for one in found.values() if not one.closes]
+    answer = (f"Every read-out closes with every naming; the areas of one read-out differ by at most "
+              f"{max(one.spread for one in found.values()):.1%}." if not open_ones
+              else f"Not closed with every naming: {', '.join(open_ones)}.")
+    return "\n".join([
+        "# Namings", "",
+        f"{answer}", "",
+        f"Written by `make synth-namings`: {NAMINGS} namings, inputs `{digest[:12]}`. ABC's result depends on the names of cells and "
+        "wires, on which nothing else depends. `make synth` maps every configuration with the first naming: `quoted` is its area, which "
+        "no search chose. Slacks are with margins: setup in the slow corner, hold in the fast one.", "",
+        table(found), ""])
+
+
+def write_csv(path: Path, found: dict[str, Spread]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["configuration", "quoted_mm2", "median_mm2", "smallest_mm2", "largest_mm2", "worst_setup_ns", "worst_hold_ns",
+                         "closing", "namings"])
+        for name, one in found.items():
+            writer.writerow([name, f"{one.quoted:.4f}", f"{one.median:.4f}", f"{min(one.areas):.4f}", f"{max(one.areas):.4f}",
+                             f"{min(one.setup):.4f}", f"{min(one.hold):.4f}", one.closing, len(one.areas)])

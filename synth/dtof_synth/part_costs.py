@@ -17,7 +17,7 @@ from pathlib import Path
 from . import activity, liberty, netlist, scene_power, sram_kit, sram_model
 from .activity import STREAMING
 from .configuration import Configuration, engine_memories, memories
-from .run import TARGET_MHZ, Technology, elaborate, map_to_cells, unsearched_effort
+from .run import TARGET_MHZ, Technology, efforts, elaborate, map_to_cells
 
 CONFIGURATION = "poolpointer2"
 KEPT_MODULES = ("pool2_column", "timestamp_input", "label_match", "pool2_pixel_update", "pixel_distance", "pool2_track_update",
@@ -64,7 +64,7 @@ def measure(configuration: Configuration, technology: Technology, folder: Path, 
     times = {"quad": configuration.column_modules, "engine": configuration.engines}
     case = scene_power.small_case(configuration, seed)
     elaborate(case.configuration, technology, folder, KEPT_MODULES)
-    mapped = map_to_cells(case.configuration, technology, folder, unsearched_effort(configuration))
+    mapped = map_to_cells(case.configuration, technology, folder, efforts(configuration)[0])
     instances = _instances(mapped)
     area = {(block, SRAM): times[block] * sum(sram_model.macro(size).area for size in sizes.values())
             for block, sizes in (("quad", memories(configuration)), ("engine", engine_memories(configuration)))}

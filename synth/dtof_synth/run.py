@@ -17,13 +17,11 @@ from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
 from .errors import FlowError
 from .library import Library
-from .namings import Naming
 from .netlist import Counts
 from .power import ClockTree, Power
 from .timing import Margin, Timing
 
 TARGET_MHZ = 330.0
-NAMINGS = 16
 RESIZED_COLUMNS = 10  # that resizing looks at where there are no engines
 KEPT_COLUMNS = 3  # the first, its neighbour and the last
 RESIZE_ROUNDS = 3  # a stand-in's load cells weigh what they did before resizing
@@ -39,35 +37,32 @@ WIRES = {"typical": floorplan.TYPICAL, "slow": floorplan.PESSIMISTIC, "fast": fl
 
 @dataclass(frozen=True)
 class Effort:
-    """How hard ABC tries: its script, and its delay target as a share of the period (what clock-to-data, setup,
-    uncertainty and the late broadcast signals, of which ABC knows nothing, leave). `naming_seeds`: the namings that it maps
-    with (synth/yosys/4_map.tcl), 0 for the names as they are."""
+    """How hard ABC tries: its delay target as a share of the period (clock-to-data, setup, uncertainty and the late broadcast
+    signals, of which ABC knows nothing, take the rest), and its scripts for the column, which the array has many times, and for
+    what the columns share."""
 
     share: float
-    script: str
-    naming_seeds: range = range(NAMINGS)
+    column: str
+    shared: str
 
 
 _SIZING = "topo;buffer,-c;upsize,{D};dnsize,{D};stime,-p"
 _START = "+strash;ifraig;scorr;dc2"
 _BALANCE = "dch,-f;if,-g;strash"
 _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
+_AREA_MAP = "&get,-n;&syn3;&syn3;&dch,-f;&nf;&put"
+_SMALLEST = ";".join([_START, _BALANCE, _AREA_MAP, _SIZING])
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
 # From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
 # as well as larger where ABC tries harder: what they miss is left to resizing.
-EFFORTS = (Effort(0.62, _FAST), Effort(0.55, _FAST))
-POOL_EFFORTS = (Effort(0.75, _SMALL), Effort(0.72, _SMALL), Effort(0.68, _SMALL))
-LAYOUT_EFFORT = Effort(0.68, _SMALL, range(4))
+EFFORTS = (Effort(0.62, _SMALLEST, _FAST), Effort(0.62, _SMALL, _FAST), Effort(0.55, _FAST, _FAST))
+POOL_EFFORTS = (Effort(0.75, _SMALL, _SMALL), Effort(0.72, _SMALL, _SMALL), Effort(0.68, _SMALL, _SMALL))
+LAYOUT_EFFORT = Effort(0.68, _SMALL, _SMALL)
 
 
 def efforts(configuration: Configuration) -> tuple[Effort, ...]:
     return POOL_EFFORTS if configuration.is_pool else EFFORTS
-
-
-def unsearched_effort(configuration: Configuration) -> Effort:
-    """The first, with the names as they are: for netlists that are not compared in size."""
-    return replace(efforts(configuration)[0], naming_seeds=range(1))
 
 
 @dataclass(frozen=True)
@@ -104,7 +99,7 @@ class Result:
     timing: dict[str, Timing]
     power: Power | None = None
     margins: dict[str, Margin] = field(default_factory=dict)
-    naming: Naming | None = None
+    effort: int = 0  # the number of the effort that was taken
     ends: endpoints.Endpoints | None = None  # of paths, in the netlist that was timed
     fullest_load: loads.Load | None = None  # the nearest to its limit
     sram_area: float = field(init=False)  # of a column
@@ -177,20 +172,10 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
     clock_gating.insert(folder / "generic.il", technology.slow)
 
 
-def mapping_digest(generic: Path, technology: Technology, tried: tuple[Effort, ...]) -> str:
-    """Hash of everything that a mapping depends on."""
-    digest = hashlib.sha256(generic.read_bytes())
-    digest.update((technology.root / "synth" / "yosys" / "4_map.tcl").read_bytes())
-    digest.update(technology.slow.path.read_bytes())
-    digest.update(repr((tried, technology.target_mhz)).encode())
-    return digest.hexdigest()[:16]
-
-
-def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort,
-                 known: Naming | None = None) -> dict:
-    """generic.il to the mapped design, checks passed. `known`: the namings that its search would find."""
+def map_to_cells(configuration: Configuration, technology: Technology, folder: Path, effort: Effort, naming: int = 0) -> dict:
+    """generic.il to the mapped design, checks passed. `naming`: 0 keeps the names of cells and wires, another number scrambles
+    them, which changes what ABC finds (namings.py)."""
     library = technology.slow
-    seeds = list(effort.naming_seeds)
     inverter_ff = next(iter(library.input_ff[library.inverter].values()))
     constraints = folder / "abc.constr"
     constraints.write_text(f"set_driving_cell {library.inverter}\nset_load {4 * inverter_ff:.3f} [all_outputs]\n",
@@ -200,9 +185,7 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     tools.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / technology.target_mhz * effort.share:.0f}",
-        "abc_script": effort.script, "column_seeds": [known.column] if known else seeds,
-        "shared_seeds": [known.shared] if known else seeds,
-        "area_log": folder / "area.log",
+        "column_script": effort.column, "shared_script": effort.shared, "naming": str(naming),
         "tie_low": list(library.tie.get("0", ())),
         "tie_high": list(library.tie.get("1", ())), "netlist_json": folder / "mapped.json"})
     tools.run_yosys(scripts / "map.tcl", settings, folder / "map.log", configuration.name)
@@ -410,7 +393,7 @@ class _Attempt:
     """Mapped with one effort and timed in the slow corner."""
 
     netlist: _Netlist
-    naming: Naming
+    effort: int
     slack: float
     margin: Margin | None  # where the technology has a fast corner, too
     early: timing.Report | None = None  # of the fast corner
@@ -426,9 +409,9 @@ class _Attempt:
         return min(self.slack - DEMANDED_SLACK_NS, self.margin.slack if self.margin is not None else math.inf)
 
 
-def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
+def _timed(timed: _Netlist, effort: int) -> _Attempt:
     if timed.technology.fast is None:
-        return _Attempt(timed, naming, timed.time("slow", "nominal").slack, None)
+        return _Attempt(timed, effort, timed.time("slow", "nominal").slack, None)
     report, early = None, None
     for number in range(RESIZE_ROUNDS):
         changed = timed.resize(again=number > 0)
@@ -438,18 +421,11 @@ def _timed(timed: _Netlist, naming: Naming) -> _Attempt:
         report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
         if report.margin().slack >= 0:
             break
-    return _Attempt(timed, naming, report.slack, report.margin(), early, report.spare)
+    return _Attempt(timed, effort, report.slack, report.margin(), early, report.spare)
 
 
-def _found_naming(folder: Path, number: int, digest: str) -> Naming:
-    """Which namings map.tcl kept."""
-    found = dict(re.findall(r"^DTOF_NAMING (\w+) (\d+)$", (folder / "map.log").read_text(encoding="utf-8"), re.MULTILINE))
-    return Naming(number, int(found["column"]), int(found["shared"]), digest)
-
-
-def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int, digest: str,
-             known: Naming | None = None) -> _Attempt:
-    design = map_to_cells(configuration, technology, folder, efforts(configuration)[number], known)
+def _attempt(configuration: Configuration, technology: Technology, folder: Path, number: int, naming: int) -> _Attempt:
+    design = map_to_cells(configuration, technology, folder, efforts(configuration)[number], naming)
     library = technology.slow
     mapped = same_logic.of(design, library)
     plan = floorplan.finish(design, library, sram_kit.PIN_FF, configuration)
@@ -459,20 +435,14 @@ def _attempt(configuration: Configuration, technology: Technology, folder: Path,
         raise FlowError(f"{configuration.name}: {error}") from None
     timed = _Netlist(design, plan, configuration, technology, folder / f"effort{number}", mapped)
     timed.prepare()
-    return _timed(timed, _found_naming(folder, number, digest))
+    return _timed(timed, number)
 
 
-def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None,
-              known: Naming | None) -> list[_Attempt]:
-    """With the known namings, where they are those of what is mapped, whether they close or not: the search that found them found
-    nothing better. Else effort after effort until one closes."""
-    tried = efforts(configuration)[:most]
-    digest = mapping_digest(folder / "generic.il", technology, tried)
-    if known is not None and known.digest == digest:
-        return [_attempt(configuration, technology, folder, known.effort, digest, known)]
+def _attempts(configuration: Configuration, technology: Technology, folder: Path, most: int | None, naming: int) -> list[_Attempt]:
+    """Effort after effort until one closes."""
     attempts: list[_Attempt] = []
-    for number in range(len(tried)):
-        attempts.append(_attempt(configuration, technology, folder, number, digest))
+    for number in range(len(efforts(configuration)[:most])):
+        attempts.append(_attempt(configuration, technology, folder, number, naming))
         if attempts[-1].closes_with_margins:
             break
     return attempts
@@ -486,11 +456,11 @@ def _best(attempts: list[_Attempt]) -> _Attempt:
 
 
 def run(configuration: Configuration, technology: Technology, folder: Path,
-        corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None, known: Naming | None = None) -> Result:
+        corners: Iterable[str] = BOTH_CORNERS, most_attempts: int | None = None, naming: int = 0) -> Result:
     """The whole flow of one configuration; FlowError at the first step that fails. The slow corner is always
     timed: with further efforts until it closes with DEMANDED_SLACK_NS and with margins, else the best attempt stands."""
     elaborate(configuration, technology, folder)
-    best = _best(_attempts(configuration, technology, folder, most_attempts, known))
+    best = _best(_attempts(configuration, technology, folder, most_attempts, naming))
     timed = best.netlist
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
@@ -517,13 +487,13 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         figures = Power(power.logic_mw(typical.output, modules), power.sram_mw(configuration, TARGET_MHZ),
                         power.clock_mw(typical.output, modules, tree, technology.typical, TARGET_MHZ))
     return Result(configuration, column_module, shared, engines, tree, technology.slow.nand2_area,
-                  technology.slow.mux2_area, corner_timing, figures, margins, best.naming, timed.endpoints(slow), fullest)
+                  technology.slow.mux2_area, corner_timing, figures, margins, best.effort, timed.endpoints(slow), fullest)
 
 
 def retimed(result: Result, technology: Technology, folder: Path, cells: Path, srams: Path, log: str, steps: tuple[str, ...], how: str,
             netlist_file: str = "timing.v", **settings: tools.Setting) -> timing.Report:
     """The netlist that `run` left in `folder`, in the slow corner with other libraries. `how`: in messages."""
-    effort = folder / f"effort{result.naming.effort}"
+    effort = folder / f"effort{result.effort}"
     files = timing.Netlist(f"{result.configuration.name}, slow corner, {how}", effort / netlist_file, effort / "wires_slow.spef",
                            [cells, srams, effort / STAND_IN_LIBERTY], technology.slow.wire_load, result.configuration.top)
     return timing.measure(files, technology.root, technology.target_mhz, effort / log, steps, settings)
@@ -541,7 +511,7 @@ def flat(result: Result, technology: Technology, folder: Path) -> Flat:
     """A second way to the slack of the netlist that `run` left in `folder`. Stand-ins have the names of the columns' cells, so that the
     wires are the same."""
     configuration = result.configuration
-    effort = folder / f"effort{result.naming.effort}"
+    effort = folder / f"effort{result.effort}"
     text = (effort / "timing.v").read_text(encoding="utf-8")
     column = json.loads((effort / timing.BLOCKS).read_text(encoding="utf-8"))["blocks"][0]
     real = re.sub(rf"^  {netlist.STUB} (?=\w+ \()", f"  {column} ", text, flags=re.MULTILINE)
@@ -566,7 +536,7 @@ class OtherWires:
 
 def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink: float) -> OtherWires:
     """Of the netlist that `run` left in `folder`."""
-    effort = folder / f"effort{result.naming.effort}"
+    effort = folder / f"effort{result.effort}"
     liberty = effort / "slow_wires.lib"
     liberty.write_text(standard_cells.library(standard_cells.SLOW, um_per_sink), encoding="utf-8")
 

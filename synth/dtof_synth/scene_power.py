@@ -26,7 +26,7 @@ from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .library import Library
-from .run import FINISHED_COLUMN, TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells, unsearched_effort
+from .run import FINISHED_COLUMN, TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
 
 CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer1", "hispointer", "sifh", "fifh", "threesteps", "pifh",
                   "histogram", "coarsehistogram", "poolpointer2", "poolpointer2_lean")
@@ -168,8 +168,7 @@ def simulate(configuration: Configuration, finished_column: dict, technology: Te
     case = small_case(configuration, seed)
     elaborate(case.configuration, technology, folder)
     # A search over names of a pool read-out's engine and pair would take longer than the simulation.
-    effort = unsearched_effort(configuration) if configuration.is_pool else efforts(configuration)[0]
-    design = map_to_cells(case.configuration, technology, folder, effort)
+    design = map_to_cells(case.configuration, technology, folder, efforts(configuration)[0])
     floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration)
     netlist.modules(design)[netlist.column_module(design)] = finished_column
     _write_verilog(design, technology, folder, "static", case.name)

@@ -17,7 +17,7 @@ from pathlib import Path
 from . import cell_models, floorplan, liberty, netlist, sram_kit, tools
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
-from .run import Technology, elaborate, map_to_cells, rtl_files, unsearched_effort
+from .run import Technology, efforts, elaborate, map_to_cells, rtl_files
 
 VECTORS = Path("build/cpp/vectors/dtof-vectors")
 BENCHES = Path("synth/simulation")
@@ -103,7 +103,7 @@ def full_case(configuration: Configuration, seed: int) -> Case:
 def write_netlist(configuration: Configuration, technology: Technology, folder: Path, seed: int) -> tuple[Path, ...]:
     """The configuration through the flow's own steps, its cells and macros as models; the Verilog files."""
     elaborate(configuration, technology, folder)
-    design = map_to_cells(configuration, technology, folder, unsearched_effort(configuration))
+    design = map_to_cells(configuration, technology, folder, efforts(configuration)[0])
     floorplan.finish(design, technology.slow, sram_kit.PIN_FF, configuration)
     return write_simulation_netlist(design, configuration, technology, folder, seed)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""When a search over names is made and when its known end serves."""
+"""One naming for `make synth`; the spread over several is a report of its own."""
 
 import tempfile
 import unittest
@@ -7,45 +7,38 @@ from pathlib import Path
 from types import SimpleNamespace
 from unittest import mock
 
-from dtof_synth import configuration, namings, run
-from dtof_synth.errors import FlowError
-from dtof_synth.namings import Naming
+from dtof_synth import batch, configuration, namings, run
 
 ROOT = Path(__file__).resolve().parents[2]
-KNOWN = Naming(1, 3, 7, "digest")
 
 
-class Namings(unittest.TestCase):
-    def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.file = Path(self.folder.name) / "namings.csv"
+def result(mm2: float, setup: float = 0.01, hold: float = 0.0) -> SimpleNamespace:
+    return SimpleNamespace(total_mm2=mm2, margins={"slow": SimpleNamespace(slack=setup), "fast": SimpleNamespace(hold_slack=hold)})
 
-    def efforts_tried(self, known: Naming | None, closing: set, most: int | None = None, name: str = "hispointer") -> list:
-        """(effort, namings known) of each mapping, where those in `closing` close."""
+
+class Efforts(unittest.TestCase):
+    def efforts_tried(self, closing: set, most: int | None = None, name: str = "hispointer", naming: int = 0) -> list:
+        """(effort, naming) of each mapping, where the efforts in `closing` close."""
         tried = []
 
-        def attempt(_configuration, _technology, _folder, number, _digest, naming=None):
+        def attempt(_configuration, _technology, _folder, number, naming):
             tried.append((number, naming))
-            return SimpleNamespace(closes_with_margins=(number, naming) in closing)
+            return SimpleNamespace(closes_with_margins=number in closing)
 
-        with mock.patch.object(run, "_attempt", attempt), mock.patch.object(run, "mapping_digest", lambda *_: "digest"):
-            run._attempts(configuration.load(ROOT / "configurations.toml")[name], None, Path(), most, known)
+        with mock.patch.object(run, "_attempt", attempt):
+            run._attempts(configuration.load(ROOT / "configurations.toml")[name], None, Path(), most, naming)
         return tried
-
-    def test_a_known_naming_of_the_same_mapping_is_all_that_is_tried(self):
-        self.assertEqual(self.efforts_tried(KNOWN, {(1, KNOWN)}), [(1, KNOWN)])
-
-    def test_a_naming_of_another_mapping_is_not_used(self):
-        self.assertEqual(self.efforts_tried(Naming(1, 3, 7, "other"), {(0, None)}), [(0, None)])
-
-    def test_a_known_naming_that_does_not_close_is_what_the_search_found(self):
-        self.assertEqual(self.efforts_tried(KNOWN, {(1, None)}), [(1, KNOWN)])
 
     def test_efforts_are_tried_until_one_closes(self):
         for name in ("ezpointer", "poolpointer2"):
-            self.assertEqual(self.efforts_tried(None, {(0, None)}, name=name), [(0, None)])
-            self.assertEqual(self.efforts_tried(None, {(1, None)}, name=name), [(0, None), (1, None)])
+            self.assertEqual(self.efforts_tried({0}, name=name), [(0, 0)])
+            self.assertEqual(self.efforts_tried({1}, name=name), [(0, 0), (1, 0)])
+
+    def test_every_effort_has_the_naming_that_was_asked_for(self):
+        self.assertEqual(self.efforts_tried({1}, naming=5), [(0, 5), (1, 5)])
+
+    def test_the_first_effort_stands_where_timing_need_not_close(self):
+        self.assertEqual(self.efforts_tried(set(), most=1), [(0, 0)])
 
     def test_the_smallest_that_closes_is_taken_else_the_one_that_misses_least(self):
         def attempt(area: float, rank: float) -> SimpleNamespace:
@@ -54,20 +47,47 @@ class Namings(unittest.TestCase):
         self.assertEqual(run._best([attempt(3, 0.2), attempt(2, 0.0), attempt(1, -0.1)]).netlist.cell_area(), 2)
         self.assertEqual(run._best([attempt(3, -0.1), attempt(2, -0.2)]).netlist.cell_area(), 3)
 
-    def test_without_a_search_for_timing_it_need_not_close(self):
-        self.assertEqual(self.efforts_tried(KNOWN, set(), most=1), [(1, KNOWN)])
 
-    def test_what_is_written_is_read(self):
-        other = Naming(0, 0, 1, "d")
-        namings.write(self.file, {"a": KNOWN, "b": other}, ["b", "a"])
-        namings.write(self.file, {"c": other}, ["c", "a"])
-        self.assertEqual(namings.read(self.file), {"c": other, "a": KNOWN})
-        self.assertEqual(list(namings.read(self.file)), ["c", "a"])
+class Spread(unittest.TestCase):
+    def setUp(self):
+        self.configuration = configuration.load(ROOT / "configurations.toml")["ezpointer"]
+        self.jobs = namings.jobs([self.configuration])
 
-    def test_a_damaged_file_is_one_clear_line(self):
-        self.file.write_text("configuration,effort,column,shared,digest\na,one,2,3,d\n", encoding="utf-8")
-        with self.assertRaisesRegex(FlowError, "namings.csv: not a list of namings"):
-            namings.read(self.file)
+    def spread(self, **changed: SimpleNamespace) -> namings.Spread:
+        """Areas 1.00, 1.01 ... 1.07 mm2, all closing, but for the `changed` jobs."""
+        results = {job.name: result(1 + job.naming / 100) for job in self.jobs} | changed
+        return namings.spreads([self.configuration], results)["ezpointer"]
+
+    def test_each_naming_is_a_job_with_a_folder_of_its_own(self):
+        self.assertEqual([job.naming for job in self.jobs], list(range(8)))
+        self.assertEqual(len({job.name for job in self.jobs}), 8)
+        self.assertEqual(self.jobs[0].name, batch.Job(self.configuration).name)
+
+    def test_results_of_two_namings_have_different_keys(self):
+        self.assertEqual(len({batch._key(job, "digest") for job in self.jobs}), 8)
+
+    def test_the_quoted_area_is_the_first_naming_and_not_the_smallest(self):
+        spread = self.spread(ezpointer=result(1.2))
+        self.assertEqual(spread.quoted, 1.2)
+        self.assertAlmostEqual(spread.median, 1.045)
+        self.assertAlmostEqual(spread.spread, 0.19 / 1.045)
+
+    def test_one_naming_that_misses_is_a_read_out_that_does_not_close(self):
+        self.assertTrue(self.spread().closes)
+        for missing in (result(1, setup=-0.001), result(1, hold=-0.001)):
+            spread = self.spread(ezpointer_naming3=missing)
+            self.assertEqual((spread.closes, spread.closing), (False, 7))
+            self.assertIn("Not closed with every naming: ezPointer.", namings.report({"ezpointer": spread}, "0" * 64))
+
+    def test_the_table_has_the_worst_slacks(self):
+        spread = self.spread(ezpointer_naming2=result(1.02, setup=0.002), ezpointer_naming4=result(1.04, hold=-0.0003))
+        self.assertIn("| +0.0020 | -0.0003 | 7 of 8 |", namings.table({"ezpointer": spread}))
+
+    def test_the_csv_has_a_line_for_each_configuration(self):
+        with tempfile.TemporaryDirectory() as folder:
+            namings.write_csv(Path(folder) / "namings.csv", {"ezpointer": self.spread()})
+            lines = (Path(folder) / "namings.csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines[1], "ezpointer,1.0000,1.0350,1.0000,1.0700,0.0100,0.0000,8,8")
 
 
 if __name__ == "__main__":

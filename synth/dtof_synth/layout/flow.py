@@ -94,8 +94,7 @@ def synthesise(configuration: Configuration, technology: Technology, folder: Pat
     steps.write_settings(settings, {
         "scripts": scripts, "generic_netlist": folder / "generic.il", "liberty": library.path,
         "abc_constraints": constraints, "abc_period_ps": f"{1e6 / run.TARGET_MHZ * effort.share:.0f}",
-        "abc_script": effort.script, "column_seeds": list(effort.naming_seeds), "shared_seeds": [0],
-        "area_log": folder / "area.log",
+        "column_script": effort.column, "shared_script": effort.shared, "naming": "0",
         "tie_low": list(library.tie.get("0", ())), "tie_high": list(library.tie.get("1", ())),
         "netlist_json": folder / "column.json"})
     steps.run_yosys(scripts / "map_column.tcl", settings, folder / "column.log", configuration.name)
