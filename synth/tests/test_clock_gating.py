@@ -51,9 +51,9 @@ class ClockGating(unittest.TestCase):
         (cls.folder / "abc.constr").write_text("set_driving_cell INV_X1\nset_load 6 [all_outputs]\n", encoding="utf-8")
         tools.write_settings(settings, {
             "scripts": SYNTH / "yosys", "generic_netlist": cls.folder / "generic.il", "liberty": cls.folder / "slow.lib",
-            "abc_constraints": cls.folder / "abc.constr", "abc_period_ps": "2000", "abc_script": "+strash;map",
-            "column_seeds": [0], "shared_seeds": [0], "area_log": cls.folder / "area.log", "tie_low": ["TIE0_X1", "Y"],
-            "tie_high": ["TIE1_X1", "Y"], "netlist_json": cls.folder / "mapped.json"})
+            "abc_constraints": cls.folder / "abc.constr", "abc_period_ps": "2000",
+            "column_script": "+strash;map", "shared_script": "+strash;map", "naming": "0", "tie_low": ["TIE0_X1", "Y"], "tie_high": ["TIE1_X1", "Y"],
+            "netlist_json": cls.folder / "mapped.json"})
         tools.run_yosys(SYNTH / "yosys" / "map.tcl", settings, cls.folder / "map.log", "test")
         cls.design = json.loads((cls.folder / "mapped.json").read_text(encoding="utf-8"))
         netlist.rename_parts(cls.design)
