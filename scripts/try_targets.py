@@ -5,7 +5,8 @@
 The targets are those that the makefiles call .PHONY; scripts/try_targets.toml says how little work each can do. A target that the
 list does not have is an error before anything runs. Each target runs as `make TARGET SMALL=1 ...` in build/try/tree and writes
 build/try/TARGET.log. A target passes if make succeeds and no file of the project has changed, but for those that the list allows.
-A target that passed is passed over in the next run of the same commit.
+A target that passed is passed over in the next run of the same commit. With --here the targets run in this folder, with what is built in
+it, which must have no change that is not committed.
 """
 
 import argparse
@@ -153,9 +154,16 @@ def chosen(plans: dict[str, Plan], names: list[str], quick: bool) -> list[Plan]:
 def try_all(root: Path, arguments: argparse.Namespace) -> int:
     folder = root / "build" / "try"
     tree = folder / "tree"
-    if changed_files(root):
-        print("note: changes that are not committed are not tried", file=sys.stderr)
-    commit = copy(root, tree)
+    changed = changed_files(root)
+    if arguments.here and changed:
+        raise TryError(f"--here: {changed[0]} is not committed, and would be lost")
+    if arguments.here:
+        tree, commit = root, git(root, "rev-parse", "HEAD").strip()
+        folder.mkdir(parents=True, exist_ok=True)
+    else:
+        if changed:
+            print("note: changes that are not committed are not tried", file=sys.stderr)
+        commit = copy(root, tree)
     plans = load(tree)
     results = folder / "results.json"
     known: dict[str, dict] = {}
@@ -213,6 +221,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("target", nargs="*", help="some targets, and those whose files they read; none: all")
     parser.add_argument("--quick", action="store_true", help="only those that take about a minute or less")
+    parser.add_argument("--here", action="store_true", help="in this folder instead of a copy")
     parser.add_argument("--again", action="store_true", help="also those that passed with this commit")
     parser.add_argument("--minutes", type=float, default=LIMIT_MINUTES, help=f"that a target may take ({LIMIT_MINUTES})")
     parser.add_argument("--root", type=Path, default=ROOT, help="another project")

@@ -75,6 +75,19 @@ class TryTargets(unittest.TestCase):
         self.assertEqual((self.project.root / "reports" / "page.md").read_text(), "measured\n")
         self.assertFalse((self.project.root / "build" / "first").exists())
 
+    def test_targets_run_in_this_folder(self) -> None:
+        done = self.project.run("--here")
+        self.assertIn("3 targets passed", done.stdout, done.stderr)
+        self.assertEqual((self.project.root / "build" / "first").read_text(), "1\n")
+        self.assertEqual((self.project.root / "reports" / "page.md").read_text(), "measured\n")
+
+    def test_a_change_that_is_not_committed_is_not_lost(self) -> None:
+        (self.project.root / "reports" / "page.md").write_text("mine\n")
+        done = self.project.run("--here")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("--here: reports/page.md is not committed, and would be lost", done.stderr)
+        self.assertEqual((self.project.root / "reports" / "page.md").read_text(), "mine\n")
+
     def test_a_broken_target_is_found_and_the_others_are_tried(self) -> None:
         self.project.write(MAKEFILE.replace("@cat build/first", "@cat build/another"), PLANS)
         done = self.project.run()
