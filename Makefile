@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-# make            install what is missing, build, read one scene out through the RTL of every read-out, report
+# make help       this list in groups, with minutes
+# make all        install what is missing, build, read one scene out through the RTL of every read-out, report (make alone does the same)
 # make test       every test and the lint
 # make sim        the main job without the installation step
 # make report     build/report/index.html, all results on a page, and the main job's tables; make publish: reports/ has them
 # make reproduce  the thesis's accuracy statements, measured (minutes); make coverage-study: their intervals checked
-# make scenes     read-outs on scenes (ten minutes); make pareto, make trade, make real-data: scripts/study.mk
+# make study      one study, by NAME=scenes; make study-program: the program that most of them run
 # make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
 # make enlarge    small arrays' maps, enlarged, beside the large array's; make train-enlarger: the weights (scripts/enlarge.mk)
 # make power      power from the activity of netlists on a scene
@@ -38,7 +39,7 @@ DTOF := $(BUILD)/app/dtof
 DTOF_STUDY := $(BUILD)/study_app/dtof-study
 
 .DEFAULT_GOAL := all
-.PHONY: all packages configure build study sim report publish test try-targets lint bench clean
+.PHONY: all help packages configure build study study-program sim report publish test try-targets lint bench clean
 
 all: packages sim
 	@$(MAKE) --no-print-directory report
@@ -52,8 +53,14 @@ configure: packages | build_folder
 build: configure
 	@ninja -C $(BUILD) dtof
 
-study: configure
+study-program: configure
 	@ninja -C $(BUILD) dtof-study
+
+study:
+	@name=$$(scripts/help.py --study "$(NAME)") && $(MAKE) --no-print-directory "$$name"
+
+help:
+	@scripts/help.py $(if $(ALL),--all)
 
 build_folder:
 	@mkdir -p build

@@ -3,7 +3,7 @@
 #                      of 10,000 frames coverage_study_long.md, of poolPointer 2 coverage_study_pool.md
 # It fails where an interval does not hold, after all three reports are written.
 .PHONY: coverage-study
-coverage-study: study
+coverage-study: study-program
 	@scripts/reports.py begin coverage_study
 	@all_hold=true; \
 	$(DTOF_STUDY) coverage --readout thesis --frames $(if $(SMALL),100 --seeds 8 --klux 14 --distances 1,100 1000) --seed $(SEED) --out $(OUT)/coverage_study || all_hold=false; \

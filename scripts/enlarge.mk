@@ -11,7 +11,7 @@ PHOTOGRAPHED := $(foreach map,Art Moebius,\
   $(map)=$(SHARED_DATA)/middlebury_$(map)_disp1.png$(COMMA)$(SHARED_DATA)/middlebury_$(map)_view1.png)
 
 # The committed report has the photographed maps, too: without them it stays as it is.
-enlarge: study
+enlarge: study-program
 	@if [ -f $(SHARED_DATA)/middlebury_Moebius_view1.png ]; then \
 	  scripts/reports.py begin enlarge && \
 	  $(DTOF_STUDY) enlarge $(SMALL_ENLARGE) --photographed $(PHOTOGRAPHED) --seed $(SEED) --out $(OUT)/enlarge && scripts/publish.py enlarge; \

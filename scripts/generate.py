@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and the README
+"""Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and docs/user/configuration.md
 need, from readouts.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C and the page on integration, from
 hdl/subsystem/registers.toml. --check only says which are stale."""
 
@@ -26,6 +26,7 @@ PARAMETERS_END = "<!-- end of parameters -->\n"
 COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
 COLUMNS_END = "// end of columns\n"
 INTEGRATION = "docs/user/integration.md"
+CONFIGURATION = "docs/user/configuration.md"
 
 
 def translated(expression: Expression, name: Callable[[str], str], function: Callable[[str], str]) -> str:
@@ -405,11 +406,12 @@ def column_files(text: str, table: Table) -> str:
     return head + COLUMNS_BEGIN + "".join(f"{column}\n" for column in columns) + COLUMNS_END + rest.split(COLUMNS_END)[1]
 
 
-def readme(text: str, table: Table) -> str:
+def defaults(text: str, table: Table) -> str:
+    """The page of the parameters with a table of defaults for each top."""
     for top in table.tops.values():
         begin = PARAMETERS_BEGIN.format(top.name)
         if text.count(begin) != 1:
-            raise FlowError(f"README.md has no place for the parameters of {top.name}")
+            raise FlowError(f"{CONFIGURATION} has no place for the parameters of {top.name}")
         head, rest = text.split(begin)
         users = [name for name, readout in table.readouts.items() if readout.top == top.name]
         lines = ["| parameter | default | meaning |", "|---|---|---|"]
@@ -456,7 +458,7 @@ def main() -> int:
     try:
         table = load()
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
-                   ("hdl/dtof.f", "README.md", INTEGRATION)}
+                   ("hdl/dtof.f", CONFIGURATION, INTEGRATION)}
         whole = registers.load()
         listing = column_files(current["hdl/dtof.f"], table)
         files = {
@@ -470,7 +472,7 @@ def main() -> int:
             "hdl/dtof_no_srams.f": file_lists.without_srams(listing),
             "hdl/dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),
             "hdl/Bender.yml": file_lists.bender(listing),
-            "README.md": readme(current["README.md"], table),
+            CONFIGURATION: defaults(current[CONFIGURATION], table),
             "hdl/package/subsystem_parameters.svh": subsystem_parameters(table),
             **all_connections(table),
             "hdl/package/dtof_registers_pkg.sv": registers.systemverilog(whole),

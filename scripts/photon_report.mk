@@ -3,7 +3,7 @@
 # make photon-bench   speed of the photon models beside NumPy (reports/photon_speed.md)
 .PHONY: photon-report photon-bench
 
-photon-report: study
+photon-report: study-program
 	@scripts/reports.py begin photon_models
 	@$(DTOF_STUDY) speed-error $(if $(SMALL),--frames 200) --seed $(SEED) --out $(OUT)/photon_models
 	@$(DTOF_STUDY) fidelity $(if $(SMALL),--frames 1) --seed $(SEED) --out $(OUT)/photon_models

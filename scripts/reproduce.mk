@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # make reproduce  the thesis's accuracy statements against the models: reports/reproduction.md
 .PHONY: reproduce
-reproduce: study
+reproduce: study-program
 	@scripts/reports.py begin reproduction
 	@$(DTOF_STUDY) reproduce $(if $(SMALL),--frames 40) --seed $(SEED) --out $(OUT)/reproduce
 	@scripts/publish.py reproduction

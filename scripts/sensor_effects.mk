@@ -2,6 +2,6 @@
 # make sensor-effects  what measured TDC code widths, a measured pulse, dead time and hot pixels do to each read-out
 #                      (sensor files: scripts/sensor_effects/; those whose data are absent are skipped)
 .PHONY: sensor-effects
-sensor-effects: study
+sensor-effects: study-program
 	@scripts/reports.py begin sensor_effects
 	@scripts/sensor_effects.sh $(DTOF_STUDY) $(SHARED_DATA) $(SEED)

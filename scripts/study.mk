@@ -42,7 +42,7 @@ REAL_DATA := $(strip $(if $(wildcard $(SHARED_DATA)/ams_tmf8829_log.json.gz),tmf
   $(if $(wildcard $(SHARED_DATA)/shin2016_two_layer_photon_times.mat),photon_times photon_times_behind))
 
 # The committed report has the maps, too: without them it stays as it is.
-scenes: study
+scenes: study-program
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  scripts/reports.py begin scenes; \
@@ -55,7 +55,7 @@ scenes: study
 	  $(DTOF_STUDY) scenes --held-out $(SMALL_SCENES) --seed $(SEED) --out $(OUT)/scenes_synthetic; \
 	fi
 
-pool: study
+pool: study-program
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  set -e; \
 	  scripts/reports.py begin pool; \
@@ -67,10 +67,10 @@ pool: study
 	  $(DTOF_STUDY) pool --held-out $(SMALL_POOL) --seed $(SEED) --out $(OUT)/pool_synthetic; \
 	fi
 
-pool-search: study
+pool-search: study-program
 	@$(DTOF_STUDY) pool-search $(POOL_TRAINING_MAP) --vary $(if $(SMALL),OWN_WEIGHT --scene planes --klux 14,$(POOL_NUMBERS)) --seeds 2 --rounds 2 --out $(OUT)/pool_search
 
-rivals: study
+rivals: study-program
 	@if [ -f $(SHARED_DATA)/middlebury_Art_disp1.png ]; then \
 	  scripts/reports.py begin rivals && \
 	  scripts/rivals.py $(DTOF_STUDY) --out $(OUT)/rivals --held-out $(SCENE_MAPS) --photographed $(PHOTOGRAPHED) \
@@ -81,7 +81,7 @@ rivals: study
 	  scripts/rivals.py $(DTOF_STUDY) --out $(OUT)/rivals_synthetic --held-out $(RIVAL_OPTIONS) --seed $(SEED); \
 	fi
 
-claims: study
+claims: study-program
 	@scripts/reports.py begin claims
 	@$(DTOF_STUDY) claims $(if $(SMALL),--pixels 100) --seed $(SEED) --out $(OUT)/claims
 	@scripts/publish.py claims
@@ -91,12 +91,12 @@ pareto:
 	@/usr/bin/python3 scripts/pareto.py
 	@scripts/reports.py record pareto
 
-trade: study
+trade: study-program
 	@scripts/reports.py begin trade
 	@/usr/bin/python3 scripts/trade.py $(DTOF_STUDY)
 	@scripts/reports.py record trade
 
-dynamic-range: study
+dynamic-range: study-program
 ifeq ($(SMALL),1)
 	@$(DTOF_STUDY) dynamic-range --acquisitions 333 3333 33333 --klux 2 14 --signals 1 10 --seeds 2 --seed $(SEED) \
 	  --out build/dynamic_range_small
@@ -106,7 +106,7 @@ else
 	@scripts/publish.py dynamic_range
 endif
 
-frames: study
+frames: study-program
 ifeq ($(SMALL),1)
 	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer2-lean --frames 2 \
 	  --rtl ezpointer --seed $(SEED) --out build/frames_small
@@ -116,17 +116,17 @@ else
 	@scripts/publish.py frames
 endif
 
-walk-error: study
+walk-error: study-program
 	@scripts/reports.py begin walk_error
 	@$(DTOF_STUDY) walk $(if $(SMALL),--columns 4 --distances 1 --reflectivities 0.2 1 --acquisitions 333) --seed $(SEED) --out $(OUT)/walk
 	@scripts/publish.py walk_error
 
-pool-parts: study vectors
+pool-parts: study-program vectors
 	@scripts/reports.py begin pool_parts
 	@scripts/pool_parts.py $(DTOF_STUDY) --seed $(SEED)
 	@scripts/publish.py pool_parts
 
-pulse-widths: study
+pulse-widths: study-program
 	@scripts/reports.py begin pulse_widths
 	@scripts/pulse_widths.py $(DTOF_STUDY) --seed $(SEED)
 	@scripts/publish.py pulse_widths
@@ -136,7 +136,7 @@ video: build
 	@$(DTOF) video $(if $(SMALL),--scene room --motion light --frames 2 --array-columns 20 --array-rows 32,--scene room planes clutter poles --motion still pan roll object cut light --frames 10) -k 50 --seed $(SEED) --seeds $(if $(SMALL),1,4) --out $(OUT)/video
 	@scripts/publish.py video
 
-real-data: study
+real-data: study-program
 	@scripts/reports.py begin real_data
 	@if [ -f $(SHARED_DATA)/ams_tmf8829_log.json.gz ]; then \
 	  $(DTOF_STUDY) measured $(SHARED_DATA)/ams_tmf8829_log.json.gz --photons $(if $(SMALL),300,2000 750 300) \

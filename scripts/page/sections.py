@@ -111,6 +111,7 @@ LISTED = (
     Report("scaling", "Sweeps", "sweep-cost", "scaling.md", "sweep_cost/scaling.md",
            "what many points cost beside their own computing"),
     Report("sram", "SRAM macros", "synth", "sram.md", says="sizes, area, access time and energy"),
+    Report("namings", "Namings", "synth-namings", "namings.md", says="how far area and slack depend on names alone"),
     Report("timing", "Timing", "synth", "timing.md", says="clock, slacks and slowest paths in each corner"),
     Report("coverage_study", "Confidence intervals", "coverage-study", "coverage_study.md", "coverage_study/coverage_study.md",
            "whether they hold over 40 seeds"),

@@ -49,7 +49,7 @@ class Descriptions(unittest.TestCase):
         self.assertIn("kFirstPhoton = 11,", generate.cpp_header(table))
         self.assertIn('"first photon"', generate.cpp_source(table))
         self.assertIn("set(DTOF_NUMBER_firstphoton 9)", generate.cmake(table))
-        self.assertIn("9 first photon |", generate.readme((ROOT / "README.md").read_text(), table))
+        self.assertIn("9 first photon |", generate.defaults((ROOT / generate.CONFIGURATION).read_text(), table))
 
     def test_a_read_out_without_rtl_is_in_the_lists_of_models_alone(self):
         model_only = "\n".join(line for line in FIRST_PHOTON.splitlines() if not line.startswith(("number", "column")))
@@ -63,7 +63,7 @@ class Descriptions(unittest.TestCase):
         for text in (generate.systemverilog(table), generate.columns(table)):
             self.assertNotIn("FIRSTPHOTON", text)
         self.assertNotIn("DTOF_TOP_firstphoton", generate.cmake(table))
-        self.assertNotIn("first photon", generate.readme((ROOT / "README.md").read_text(), table))
+        self.assertNotIn("first photon", generate.defaults((ROOT / generate.CONFIGURATION).read_text(), table))
 
     def test_a_changed_default_is_in_every_list(self):
         table = readouts.parse(TEXT.replace('defaults.NB = "min(NP, 6)"', 'defaults.NB = "min(NP, 7)"'))
