@@ -23,7 +23,7 @@ BENCH = {"ACQUISITIONS": "of the example's frame"}
 
 
 def split(text: str) -> tuple[list[str], list[str], list[str]]:
-    """Of hdl/dtof.f: package, technology, the rest."""
+    """The files of hdl/dtof.f in three parts: package, technology, the rest."""
     files = [line for line in text.splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
     part = lambda folder: [name for name in files if name.startswith(folder)]  # noqa: E731
     package, technology = part("package/"), part("technology/behavioural/")

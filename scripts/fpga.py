@@ -131,7 +131,7 @@ def place_and_route(design: Design) -> Result:
 
 
 def result(report: dict, icetime: str) -> Result:
-    """Of nextpnr's report and icetime's text."""
+    """Reads nextpnr's report and icetime's text."""
     use = {name: Use(entry["used"], entry["available"]) for name, entry in report["utilization"].items()}
     clocks = [clock["achieved"] for clock in report["fmax"].values()]
     other = re.search(r"\(([\d.]+) MHz\)", icetime)
@@ -198,7 +198,7 @@ def passed(design: Design, program: Path) -> str:
 
 
 def kept_outcome(design: Design, tests: Path) -> Outcome:
-    """Of the last run for this design, and what its netlist's test says, which is run."""
+    """The outcome of the last run for this design. Runs the test of its netlist."""
     kept = json.loads(design.file("_result.json").read_text(encoding="utf-8"))
     found = result(json.loads(design.file("_report.json").read_text(encoding="utf-8")),
                    design.file("_icetime.log").read_text(encoding="utf-8"))  # fmt: skip

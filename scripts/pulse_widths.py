@@ -40,7 +40,7 @@ def sensor_of(bins: int, preset: str) -> str:
 
 
 class Figures:
-    """Of a read-out at a width and light."""
+    """Error figures of one read-out at one pulse width and one light level."""
 
     def __init__(self) -> None:
         self.pixels = 0

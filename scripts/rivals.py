@@ -144,7 +144,7 @@ def front(points: Iterable[Point], value: Callable[[Point], float | None] = AXES
 
 
 def script(klux: str, points: list[Point], axis: Axis, output: Path) -> str:
-    """Of gnuplot: numbered points, and beside them what the numbers are."""
+    """A gnuplot script that draws numbered points with a legend of the numbers beside them."""
     styles = plot_style.load()
     shown = sorted((p for p in points if axis.value(p)), key=lambda p: (axis.value(p), p.percent))
     level = lambda percent: max(percent, LEAST_PERCENT)  # noqa: E731

@@ -178,7 +178,7 @@ module pair_sequencer #(
 
   assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
   assign next_group_t1 = (GROUPS > 1) && ((32'(next_pair_t1) % GROUP_PAIRS) == 0);
-  // Of a pixel, whether it is missing or not.
+  // The last step of a pixel; a missing pixel has one, too.
   assign last_step_t1 = busy_t1_q && (step_t1_q == STEP_WIDTH'(SLOTS - 1) || step_t1_q == LAST_STEP);
   assign second_row_t1 = coarse_i && last_step_t1 && second_pixel_t1_q;
 

@@ -92,7 +92,7 @@ module pool_controller #(
     endcase
   end
 
-  // Of the phase under way or, before it, of the next one, so that the comparison waits for no change of state.
+  // End of the current phase. Between two phases: end of the next one, so that the comparison does not depend on the change of state.
   always_comb begin
     phase_end = coarse_end_q;
     if (state_q == dtof_pkg::POOL_STATE_CHOOSE || state_q == dtof_pkg::POOL_STATE_POINT) begin

@@ -211,7 +211,7 @@ module example_bench #(
     fraction_bits = int'(value[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:dtof_registers_pkg::WIDTHS_FRACTION_WIDTH]);
 
     write(dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    // Of poolPointer 2: 14/64 of the frame for the coarse phase, 20/64 for the track phase.
+    // poolPointer 2's schedule: 14/64 of the frame for the coarse phase, 20/64 for the track phase.
     write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
     write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
     write(dtof_registers_pkg::WEAK_BELOW, 2);

@@ -32,8 +32,8 @@ def _includes(tree: SourceTree, name: str) -> list[str]:
 
 @functools.cache
 def _sources(tree: SourceTree) -> dict[str, list[str]]:
-    """Of each header the files that define what it declares: the one of its name, and those without a header of their own that lie
-    beside it and include it. Of each of the latter all files beside it: they may define what it declares itself."""
+    """By header, the files that define what the header declares: the file of its name, and the files beside it that include it and have
+    no header of their own. By file without a header, all files beside it, which may define what it declares itself."""
     found: dict[str, list[str]] = {}
     folders: dict[PurePosixPath, list[str]] = {}
     alone = []

@@ -46,7 +46,7 @@ class Piece:
 
 
 def titles(root: Path) -> re.Pattern[str]:
-    """Of the read-outs, as they stand on pages."""
+    """A pattern of the read-outs' titles, as pages write them."""
     described = tomllib.loads((root / "readouts.toml").read_text(encoding="utf-8"))["readout"]
     names = {entry["title"] for entry in (described.values() if isinstance(described, dict) else described)} - COMMON_WORDS
     names |= {name.replace(" v1", "") for name in names} | {"lean", "Lean", "full histogram"}

@@ -154,7 +154,7 @@ QUOTED_ESTIMATORS = ("histogram", "matched filter (single pixel)")
 
 
 def scenes(tables: Tables) -> Figures:
-    """Of the preset thesis."""
+    """Figures of the preset `thesis` from the table of scenes."""
     found: Figures = {}
     for row in tables.rows("scenes.csv"):
         if next(iter(row.values())) == "thesis" and (row["scene"], row["klux"]) in QUOTED_SCENES \

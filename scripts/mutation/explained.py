@@ -14,7 +14,7 @@ EXPLAINED = ROOT / "scripts" / "mutation" / "explained.toml"
 
 @dataclass(frozen=True)
 class Explanation:
-    """Of every change of a text in one file to another."""
+    """Explains every mutant that changes one text of a file to another text."""
 
     file: str
     change: str

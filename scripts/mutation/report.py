@@ -13,7 +13,7 @@ LEAST_KILLED = 0.95  # of the mutants that are not equivalent
 
 
 def killed_share(verdicts: Sequence[Verdict]) -> float:
-    """Of the mutants that are not equivalent; 1 if there are none."""
+    """Share of non-equivalent mutants that were killed; 1.0 if there is no such mutant."""
     states = Counter(verdict.state for verdict in verdicts)
     judged = states["killed"] + states["survived"]
     return states["killed"] / judged if judged else 1.0

@@ -97,7 +97,7 @@ def _file_hash(path: Path) -> str:
 
 
 def input_hash(root: Path, inputs: list[str]) -> str:
-    """Of the contents of files, and of all files below folders."""
+    """Hash of the contents of these files and of all files below these folders."""
     digest = hashlib.sha256()
     for name in inputs:
         path = root / name

@@ -65,7 +65,7 @@ class SingleNodeSlurm:
         self._daemons.clear()
 
     def output(self, *command: str) -> str:
-        """Of one of Slurm's programs; empty if it fails."""
+        """What one of Slurm's programs prints; empty if the program fails."""
         result = subprocess.run(command, env=self.environment, capture_output=True, text=True, check=False)
         return result.stdout if result.returncode == 0 else ""
 

@@ -38,7 +38,7 @@ def alone(folder: Path) -> Iterator[int]:
 
 
 def job_name(folder: Path) -> str:
-    """Of a sweep's jobs in Slurm."""
+    """The name that all Slurm jobs of this sweep share."""
     return f"sweep-{hashlib.sha256(str(folder).encode()).hexdigest()[:12]}"
 
 
@@ -65,7 +65,7 @@ def cancel_jobs(name: str) -> None:
 
 
 def snakemake(sweep: Path, folder: Path, arguments: argparse.Namespace) -> list[str]:
-    # Of each file, Snakemake would keep a file of its own about where it comes from: our files' names say that.
+    # Snakemake would write a file about the origin of each result; the names of our files say that already.
     command = ["snakemake", "--snakefile", str(HERE / "Snakefile"), "--directory", str(folder), "--config",
                f"sweep={sweep}", f"folder={folder}", "--rerun-triggers", "mtime", "--rerun-incomplete", "--keep-going",
                "--drop-metadata", "--scheduler", "greedy", "--nocolor"]
@@ -75,7 +75,7 @@ def snakemake(sweep: Path, folder: Path, arguments: argparse.Namespace) -> list[
 
 
 def show(lines: Iterable[str]) -> None:
-    """Of Snakemake's output the progress, on a terminal, and what went wrong; the rest is in its log."""
+    """Shows the progress in Snakemake's output on a terminal, and its errors; everything is in Snakemake's log."""
     terminal = sys.stderr.isatty()
     shown = False
     for line in lines:

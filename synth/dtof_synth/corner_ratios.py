@@ -41,7 +41,7 @@ def macros(sizes: list[sram_model.Size], srams: float) -> list[sram_model.Macro]
 
 
 def read(result: Result, prepared: Technology, folder: Path) -> list[Reading]:
-    """Of the netlist that run.run left in `folder`."""
+    """Times the netlist that run.run left in `folder` with each reading of the slow corner."""
     sizes = sram_kit.read_sizes(prepared.root / technology.SIZES)
     found = []
     for name, (gates, srams) in READINGS.items():

@@ -130,7 +130,7 @@ def _drives(cells: list[Group]) -> list[list[str]]:
 
 
 def _clock_gate(cell: Group, unit: float) -> ClockGate | None:
-    """Of a cell for rising-edge registers, without a pin for scan mode."""
+    """The cell as a clock gate; None unless it serves rising-edge registers and has no pin for scan mode."""
     if cell.get("clock_gating_integrated_cell").strip('"') != "latch_posedge":
         return None
     pins = [next((pin for pin in cell.children("pin") if pin.get(f"clock_gate_{role}_pin").strip('"') == "true"), None)

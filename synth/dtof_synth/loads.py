@@ -22,7 +22,7 @@ _MOST_NAMED = 3
 
 @dataclass(frozen=True)
 class Load:
-    """Of one driver: fF with its limit, and inputs."""
+    """What one driver drives: load in fF with its limit, and the number of inputs."""
 
     driver: str
     ff: float

@@ -447,7 +447,7 @@ def shrinkable(design: dict, library: Library, kinds: Iterable[str], pin_load: C
 
 
 def clock_nets(module: Module) -> set[int]:
-    """Of the ports, and those behind clock gates."""
+    """Clock nets of the module: those of its ports, and those behind clock gates."""
     return port_clock_nets(module) | {bit for name, cell in module["cells"].items() if name.startswith(CLOCK_GATE_PREFIX)
                                       for pin, bits in cell["connections"].items()
                                       if cell["port_directions"].get(pin) == "output" for bit in bits}

@@ -29,7 +29,7 @@ MOST_MACROS = 16  # side by side
 
 @dataclass(frozen=True)
 class Hardware:
-    """Of one pixel's memory and of its column (tb_cpp/rival/rival.hpp, RivalHardware)."""
+    """Hardware of one pixel's memory and of its column (tb_cpp/rival/rival.hpp, RivalHardware)."""
 
     words: int
     word_bits: int

@@ -200,7 +200,7 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
 
 def _resize_settings(folder: Path, library: Library, shrinkable: Iterable[tuple[str, str]] = (),
                      dispensable: Iterable[netlist.Dispensable] = ()) -> dict[str, tools.Setting]:
-    """Of the step `resize` of synth/sta/timing.tcl."""
+    """Settings for the step `resize` of synth/sta/timing.tcl."""
     return {**json.loads((folder / timing.BLOCKS).read_text(encoding="utf-8")), "drives": library.drives,
             "cell_areas": library.area, "guard": f"{RESIZE_GUARD_NS}", "shrinkable": [list(gate) for gate in shrinkable],
             "buffer_pins": [library.buffers[0].input_pin, library.buffers[0].output_pin],
@@ -300,7 +300,7 @@ class _Netlist:
         return report
 
     def endpoints(self, report: timing.Report) -> endpoints.Endpoints:
-        """Of a report with the step `check`."""
+        """Judges the ends of paths in a report that has the step `check`."""
         return endpoints.judge(self.configuration.name, report.unchecked, self.written, self.technology.slow, self.cut)
 
     def resize(self, again: bool) -> bool:
@@ -367,13 +367,13 @@ class _Netlist:
         return netlist.modules(self.design)[netlist.column_module(self.design)]
 
     def counts(self) -> tuple[Counts, Counts, Counts]:
-        """Of a column module, of everything shared, of the engines in it."""
+        """Cells of a column module, of everything shared, and of the engines in the shared part."""
         library = self.technology.slow
         return (netlist.count(self.finished_column(), library),
                 netlist.count_shared(self.design, library), netlist.count_engines(self.design, library))
 
     def cell_area(self) -> float:
-        """Of the whole array, without macros."""
+        """Area of the whole array's cells in um2, without macros."""
         column, shared, _ = self.counts()
         return column.area * self.configuration.column_modules + shared.area
 
@@ -535,7 +535,7 @@ class OtherWires:
 
 
 def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink: float) -> OtherWires:
-    """Of the netlist that `run` left in `folder`."""
+    """Times and resizes the netlist that `run` left in `folder` with wires of this length."""
     effort = folder / f"effort{result.effort}"
     liberty = effort / "slow_wires.lib"
     liberty.write_text(standard_cells.library(standard_cells.SLOW, um_per_sink), encoding="utf-8")

@@ -160,7 +160,7 @@ def write_vectors(case: Case, root: Path, folder: Path, options: tuple[str, ...]
 
 
 def bench_parameters(case: Case, folder: Path) -> dict[str, int]:
-    """Of the bench: those of the array, and how much dtof-vectors wrote."""
+    """Parameters of the bench: those of the array, and the lengths of the files that dtof-vectors wrote."""
     return {**case.configuration.rtl_parameters(), "FRAMES": len(case.frames),
             "BEATS": max(1, _lines(folder / "timestamps.hex")), "SEED": case.seed}
 

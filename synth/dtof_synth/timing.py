@@ -81,7 +81,7 @@ class Report:
     called: dict[str, str]
 
     def timing(self) -> Timing:
-        """Of the steps `closing` and `nominal`."""
+        """Timing from the steps `closing` and `nominal`."""
         return Timing(self.slack, self._number("DTOF_SLACK", 1), self._number("DTOF_FAST_SLACK"),
                       1000 / self._number("DTOF_CLOSING_PERIOD"), *self._slowest_path("DTOF_PATH_MAX"),
                       self._section("DTOF_TRANSITION").count("VIOLATED"))
@@ -112,7 +112,7 @@ class Report:
         return "VIOLATED" in self._section("DTOF_MIN_PERIOD")
 
     def margin(self) -> Margin:
-        """Of the step `margins`."""
+        """Slacks with margins, from the step `margins`."""
         start, end, _ = self._slowest_path("DTOF_MARGIN_PATH_MAX")
         reset = re.findall(r"^\*\*async_default\*\* +(-?\d+\.\d+)$", self._section("DTOF_RESET"), re.MULTILINE)
         if not reset:
@@ -170,8 +170,8 @@ class Report:
         return _readable(start, self.called), _readable(end, self.called), len(gates)
 
     def _paths(self, section: str) -> list[TimedPath]:
-        """Of reports with input pins, those that do not end at a port: from the end on every second pin is an input, the last of
-        them the clock pin that a path begins at."""
+        """Paths in a section of a report with input pins, without the paths that end at a port. Counted from the path's end, every
+        second pin is an input; the last input is the clock pin at which the path begins."""
         found = []
         for report in self._section(section).split("Startpoint: ")[1:]:
             data, times = report.split("data arrival time", 1)

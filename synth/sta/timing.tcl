@@ -82,7 +82,7 @@ proc early {} {
   puts "DTOF_END"
 }
 
-# Of the slowest path through each pin, ns.
+# Slack of the slowest path through each pin, in ns.
 proc spare {} {
   puts "DTOF_SPARE"
   foreach name $::pins {

@@ -5,7 +5,7 @@
 #
 # `synth` up to its fine part, and that without opt_share: merging the +step and -step of a pointer behind one
 # multiplexed adder saves some area but puts the comparison in front of the adder.
-# Of a pool read-out four columns share an SRAM: there these are the module.
+# In a pool read-out four columns share an SRAM: there the four columns are the module.
 setattr -mod -set keep_hierarchy 1 *_column *_quad *_engine
 setattr -mod -unset keep_hierarchy *pool2_column
 if {[llength $kept_modules]} { setattr -mod -set keep_hierarchy 1 {*}$kept_modules }

@@ -61,7 +61,7 @@ struct Video {
         "{}, {}, {}", scene_name(sequence.scene), motion_name(sequence.motion),
         sequence.motion == Motion::kLight ? "2 to 50 klux" : fmt::format("{:g} klux", sequence.klux));
   }
-  /// Of the frames from `first` to before `end`, for each seed.
+  /// Error shares of the frames from `first` to before `end`, for each seed.
   [[nodiscard]] std::vector<ErrorShares> of(std::size_t estimator, int first, int end) const {
     std::vector<ErrorShares> seeds;
     for (const auto& of_seed : shares) {

@@ -42,7 +42,7 @@ void add_options(const CLI::App& app, std::vector<const CLI::Option*>& options) 
   }
 }
 
-/// Of a command and its option groups.
+/// All options of a command and of its option groups.
 std::vector<const CLI::Option*> all_options(const CLI::App& command) {
   std::vector<const CLI::Option*> options;
   add_options(command, options);

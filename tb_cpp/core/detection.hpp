@@ -103,7 +103,7 @@ struct RowRange {
 /// the next call, so that a reader of many columns holds one.
 using ColumnReader = std::function<const ColumnStream&(int column)>;
 
-/// Of columns that are all there, as long as they are.
+/// Returns a reader over columns that are already in memory. The columns must outlive the reader.
 inline ColumnReader reader_of(std::span<const ColumnStream> columns) {
   return [columns](int column) -> const ColumnStream& { return columns[static_cast<std::size_t>(column)]; };
 }

@@ -32,7 +32,7 @@ int pick(CounterRandom& random, int count) {
   return static_cast<int>(random.bits64() % static_cast<std::uint64_t>(count));
 }
 
-/// Of the columns, or engines, of an array those that have a fault in this frame: two of three, in turns.
+/// Whether this column, or engine, has a fault in this frame: two of three have one, in turns.
 bool has_fault(int place, int frame) { return (place + frame) % 3 != 0; }
 
 /// A column with a fault, and the columns that hear it.
@@ -247,7 +247,7 @@ class FaultRunner {
   [[nodiscard]] const FaultCaseResult& result() const { return result_; }
 
  private:
-  /// Of the random numbers: cases draw their own, whatever other cases there are.
+  /// Number of this case's random stream. A case draws the same numbers whatever other cases run.
   [[nodiscard]] std::uint32_t stream_number() const {
     constexpr int kCasesPerPart = 10;
     const FaultCase& fault = result_.fault;

@@ -308,7 +308,7 @@ void check_extent(const DepthImage& image) {
   }
 }
 
-/// Of a known depth, else 0.
+/// A known depth in whole millimetres, else 0.
 double millimetres(float metres) { return metres > 0.0F ? std::round(double{metres} * 1000.0) : 0.0; }
 
 void append_to_string(png_structp png, png_bytep data, std::size_t length) {

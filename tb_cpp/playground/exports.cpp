@@ -70,7 +70,7 @@ bool playground_frame(int readout) {
 }
 const float* playground_depth() { return frame.depth_m.data(); }
 const float* playground_error_map() { return frame.error_m.data(); }
-/// Of each pixel: code, fraction, confidence, second position.
+/// Four numbers a pixel: code, fraction, confidence, second position.
 const std::uint16_t* playground_results() {
   static_assert(sizeof(dtof::PixelResult) == 4 * sizeof(std::uint16_t));
   return &frame.results.front().code;

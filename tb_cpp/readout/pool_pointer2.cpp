@@ -58,7 +58,7 @@ class Groups {
     return groups_[group_of(column, row)];
   }
   [[nodiscard]] std::size_t size() const { return groups_.size(); }
-  /// Of a pixel's group.
+  /// Number of the group that has this pixel.
   [[nodiscard]] std::size_t group_of(std::size_t column, std::size_t row) const {
     return index(column / kPairColumns, row / rows_);
   }

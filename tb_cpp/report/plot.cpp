@@ -31,7 +31,7 @@ constexpr std::array<std::string_view, 8> kOtherColours = {"#4c72b0", "#dd8452",
 constexpr std::array<int, 8> kOtherMarkers = {7, 5, 9, 13, 6, 4, 8, 12};
 constexpr int kDashes = 5;  ///< dash types that can be told apart
 
-/// Of every series: further series of one read-out take other dashes.
+/// The style of every series: further series of one read-out take other dashes.
 std::vector<PlotStyle> styles_of(const std::vector<PlotSeries>& series) {
   std::vector<PlotStyle> styles;
   std::map<std::string_view, int> seen;

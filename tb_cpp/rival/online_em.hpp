@@ -24,7 +24,7 @@ namespace dtof {
 /// rounded to nearest. 32 bits a pixel with NP = 10, and a divider that works once a detection.
 std::unique_ptr<Rival> make_online_em(const SensorModel& sensor);
 
-/// Of the schedule: stage 0 .. 6 of an acquisition.
+/// Stage of the schedule, 0 to 6, in which an acquisition lies.
 std::size_t online_em_stage(std::uint32_t acquisition, std::uint32_t acquisitions);
 
 }  // namespace dtof

@@ -360,7 +360,7 @@ class RtlReadout::Simulation {
   bool was_reset_ = false;
   std::uint64_t time_ = 0;
 
-  // Of the current run.
+  // Belong to the current run.
   TdcDriver* driver_ = nullptr;
   const RtlRunOptions* options_ = nullptr;
   std::uint32_t acquisitions_ = 0;

@@ -130,11 +130,11 @@ class AccuracyBench {
  private:
   void read_rtl(const StreamSource& source, const IndependentPixels& pixels,
                 const ReadoutParameters& parameters, std::vector<Measurement>& measurements) const;
-  /// Of all rows of the column that counts, in the engine of the pixel number `index`.
+  /// Measurements of all rows of the judged column, in the engine that has pixel number `index`.
   [[nodiscard]] std::vector<Measurement> read_engine(const StreamSource& source,
                                                      const IndependentPixels& pixels, int index,
                                                      const ReadoutParameters& readout) const;
-  /// Of all rows of the stream.
+  /// Measurements of all rows of the stream.
   [[nodiscard]] std::vector<Measurement> read_model(const ColumnStream& stream, const Estimator& estimator,
                                                     double distance_m) const;
   [[nodiscard]] PixelRates stream_rates(double distance_m) const;

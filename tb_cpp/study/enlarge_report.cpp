@@ -50,7 +50,7 @@ Estimate difference(std::vector<double> first, const std::vector<double>& second
   return estimate_mean(first);
 }
 
-/// Of a difference of errors.
+/// The word for a difference of errors with its interval.
 const char* verdict(const Estimate& gap) {
   if (gap.interval.high < 0.0) {
     return "better";

@@ -204,8 +204,8 @@ std::string by_scene(std::span<const PaperScene> scenes, const Figure& figure) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// Of a family's codes that lose a tenth of the full histogram's precision at most, the one with the fewest
-/// values.
+/// The code of a family with the fewest values among those that lose at most a tenth of the full histogram's
+/// precision.
 std::optional<CodePrecision> smallest_without_loss(const PaperScene& scene,
                                                    std::span<const std::string_view> families) {
   std::optional<CodePrecision> best;

@@ -36,7 +36,7 @@ struct PaperScene {
   [[nodiscard]] double ratio(std::string_view name, std::string_view other) const;
 };
 
-/// Of the conditions that a claim is tested under.
+/// Whether a claim holds under all conditions that it is tested under, under some, or under none.
 enum class ClaimVerdict { kHolds, kInPart, kFails };
 std::string_view claim_verdict_word(ClaimVerdict verdict);
 

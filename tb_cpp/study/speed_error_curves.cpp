@@ -79,7 +79,7 @@ BlockErrors sampler_errors(const SampledSource& source, const SensorModel& senso
   });
 }
 
-/// Of the timed runs; long ones are steady enough.
+/// Number of timed runs; one is enough where a run is long.
 int repeats_of(int frames) { return frames > 10'000 ? 1 : 3; }
 
 bool is_blocks(int frames) { return frames >= kCurveBlock && frames % kCurveBlock == 0; }

@@ -64,7 +64,7 @@ struct ErrorAnswer {
   double precision = 0.0;  ///< relative precision (Eq. 3.14)
 };
 
-/// Of all blocks together. Throws InputError if they hold no frame.
+/// The errors of all blocks together. Throws InputError if they hold no frame.
 ErrorAnswer error_answer(std::span<const ErrorStatistics> blocks, double distance_m);
 
 /// Root of the mean squared difference of answers from the truth, two differences (bias and precision) an

@@ -325,7 +325,7 @@ double mean_loss(const Example& example, const std::vector<double>& distances) {
   return loss / static_cast<double>(distances.size());
 }
 
-/// Of all examples.
+/// Mean loss over all examples.
 template <typename Enlarge>
 double mean_loss(const std::vector<Example>& examples, Enlarge enlarge) {
   double loss = 0.0;

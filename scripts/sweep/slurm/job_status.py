@@ -14,7 +14,7 @@ RUNNING = {"PENDING", "RUNNING", "COMPLETING", "CONFIGURING", "SUSPENDED", "REQU
 
 
 def status(answer: str, error: str = "") -> str:
-    """Of what `scontrol --oneliner show job` prints on its two outputs."""
+    """The status that `scontrol --oneliner show job` tells on its two outputs."""
     states = [word.removeprefix("JobState=") for word in answer.split() if word.startswith("JobState=")]
     if not states:
         return "failed" if FORGOTTEN in error else "running"

@@ -74,7 +74,7 @@ class Result:
 
 
 def columns(configuration: Configuration) -> int:
-    """Of the block that is laid out."""
+    """Number of columns in the block that is laid out."""
     return min(2, configuration.module_columns)
 
 

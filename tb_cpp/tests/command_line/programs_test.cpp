@@ -577,7 +577,7 @@ TEST_F(Programs, CyclesAreThoseOfTheWholeArrayWhateverIsRead) {
   EXPECT_LT(std::stoi(one), 160 * (2 * 20 + 300));
   EXPECT_LT(std::stoi(cycles("-r ezpointer --array-columns 20 --columns 7", "ezPointer")),
             std::stoi(one) - 160 * 170);
-  // Of a pool read-out the last engine is narrower, and does not tell how long the others take.
+  // A pool read-out's last engine is narrower: its clocks are not those of the other engines.
   EXPECT_NE(cycles("-r poolpointer2 --columns 0", "poolPointer 2"), "-");
   EXPECT_EQ(cycles("-r poolpointer2 --columns 199", "poolPointer 2"), "-");
 }

@@ -46,7 +46,7 @@ std::vector<Row> parameter_limits() {
   return rows;
 }
 
-// Of the array alone: a model has no such parameter, or no other value of it.
+// Parameters of the array alone: a model does not have them, or has one value of them.
 const std::set<std::string> kOfTheArray = {
     "READOUT",     "PIXELS_PER_SRAM", "SRAM_NUM", "POINTER_PORTS", "ENGINE_COLUMNS",  "ACQ_WIDTH",
     "RIVAL_MOVES", "SECOND_TARGET",   "PRIOR",    "RAW_HISTOGRAM", "BROADCAST_STAGES"};

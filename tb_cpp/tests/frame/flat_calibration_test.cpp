@@ -152,7 +152,7 @@ TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
   }
 }
 
-// Of a pair, whose left column is no other read-out's.
+// A pair of columns: no other read-out judges its left column.
 TEST(FlatCalibration, ColumnsThatHearEachOtherAreFittedInPairs) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;

@@ -74,7 +74,7 @@ TEST(RangeConverter, MedianIsFinerThanACode) {
 }
 
 TEST(RangeConverter, WeightIsTheReciprocalVarianceOfAMedian) {
-  // Of a normal distribution with the same quartiles, here 3 and 63.
+  // The weight of a normal distribution with the same quartiles, here 3 and 63.
   const std::vector<TargetRun> spread = {run_at(0, 1.0, {0, 1, 3, 7, 15, 31, 63, 127, 255}),
                                          run_at(1, 2.0, {1000, 1000, 1000, 1000})};
   const RangeConverter converter = RangeConverter::calibrate(spread);

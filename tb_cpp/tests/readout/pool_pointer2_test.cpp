@@ -77,7 +77,7 @@ class Reference {
     int cell = 512;  ///< positions of a settled pointer's cell
   };
 
-  /// Of a group the cells that its pixels chose.
+  /// By group, the cells that its pixels chose.
   using Used = std::map<Place, std::set<int>>;
 
   /// One engine: columns from left to right. `before`: of the last frame.
@@ -328,7 +328,7 @@ class Reference {
     return {order[0], order[1]};
   }
 
-  /// Of every pixel and label the best sum over all assignments of the others, by walking outwards from it.
+  /// By pixel and label, the best sum over all assignments of the other pixels, found by walking outwards from the pixel.
   static std::vector<std::vector<int>> beliefs(const std::vector<std::vector<int>>& evidence,
                                                const std::vector<std::vector<int>>& position,
                                                const std::vector<int>& lambda) {
@@ -441,7 +441,7 @@ class Reference {
     return sum >= 0 ? sum / 4 : -(-sum / 4);
   }
 
-  /// Of a rival that rests at its candidate, and a pointer that leaves its own by half a coarse bin at most.
+  /// Moves lean's pointer: the rival stays at its candidate, and the pointer leaves its own candidate by at most half a coarse bin.
   void point_lean(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) const {
     const int centre = 512 * g.cell[static_cast<std::size_t>(pixel.ka)];
     int x = preferred(a, times);

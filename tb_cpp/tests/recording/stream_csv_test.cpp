@@ -89,7 +89,7 @@ TEST_F(StreamCsvTest, RefusesValuesOutsideTheirRange) {
 TEST_F(StreamCsvTest, RefusesTooManySlotsAtTheFirstLineTooMany) {
   refused("7,1,0,5\n3,0,1,1\n3,0,1,2\n7,1,0,6\n3,0,1,3\n7,1,0,7\n",
           "6: more than 2 timestamps for acquisition 3, column 0, row 1 (SLOTS = 2)");
-  // Of one pixel, too: acquisition 9 is full first, and later again.
+  // Acquisitions of one pixel out of order: acquisition 9 is full first, and comes again later.
   refused("9,0,0,1\n9,0,0,2\n3,0,0,1\n3,0,0,2\n9,0,0,2\n",
           "3: more than 1 timestamps for acquisition 9, column 0, row 0 (SLOTS = 1)", {.slots = 1});
   EXPECT_EQ(read("3,0,1,1\n3,0,1,2\n3,0,1,3\n", {.slots = 3}).detection_count(), 3U);

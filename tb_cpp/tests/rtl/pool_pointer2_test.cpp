@@ -515,7 +515,7 @@ class TenColumnsOfTheRoom : public testing::Test {
  protected:
   static constexpr std::uint32_t kAcquisitions = 700;
 
-  /// Of the whole array's rows.
+  /// Configurations of ten columns with the whole array's rows.
   static std::vector<RtlConfiguration> ten_columns(Readout readout, bool prior) {
     return configurations_with([&](const RtlConfiguration& configuration) {
       return configuration.parameters.readout == readout && configuration.parameters.pool.prior == prior &&
