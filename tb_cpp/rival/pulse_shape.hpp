@@ -15,7 +15,8 @@ class PulseShape {
 
   /// Offsets -reach() .. reach() hold all of the pulse but for 1e-9 of it.
   [[nodiscard]] int reach() const { return reach_; }
-  /// Share of the pulse in the code `offset` codes behind the code that has the pulse's mean; 0 beyond the reach.
+  /// Share of the pulse in the code `offset` codes behind the code that has the pulse's mean; 0 beyond the
+  /// reach.
   [[nodiscard]] double share(int offset) const;
   /// Standard deviation in codes.
   [[nodiscard]] double sigma() const { return sigma_; }

@@ -33,7 +33,8 @@ struct Box {
 
 constexpr Vector kRoomLow = {-2.2, -1.4, -1.0};
 constexpr Vector kRoomHigh = {2.2, 1.4, 4.2};
-// By axis x, y, z, the reflectivity at its low and its high end: left, right; ceiling, floor; (behind the sensor), back.
+// By axis x, y, z, the reflectivity at its low and its high end: left, right; ceiling, floor; (behind the
+// sensor), back.
 constexpr std::array<std::array<double, 2>, 3> kRoomReflectivity = {{{0.6, 0.6}, {1.0, 0.3}, {0.0, 0.8}}};
 
 constexpr Sphere kSphere = {{-0.45, 0.0, 1.6}, 0.5, 0.7};

@@ -126,7 +126,8 @@ Results results_of(const ArrayParameters& array, std::span<const ColumnStream> c
   return make_readout_model(array.readout)->run_columns(columns, acquisitions);
 }
 
-/// Results of an array with PRIOR = 1. `priors` is what the frame begins from and, afterwards, what the frame leaves.
+/// Results of an array with PRIOR = 1. `priors` is what the frame begins from and, afterwards, what the frame
+/// leaves.
 Results results_of(const ArrayParameters& array, std::span<const ColumnStream> columns,
                    std::uint32_t acquisitions, std::vector<PoolPrior>& priors) {
   const auto column = [&](int index) -> const ColumnStream& {

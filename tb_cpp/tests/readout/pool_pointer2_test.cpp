@@ -328,7 +328,8 @@ class Reference {
     return {order[0], order[1]};
   }
 
-  /// By pixel and label, the best sum over all assignments of the other pixels, found by walking outwards from the pixel.
+  /// By pixel and label, the best sum over all assignments of the other pixels, found by walking outwards
+  /// from the pixel.
   static std::vector<std::vector<int>> beliefs(const std::vector<std::vector<int>>& evidence,
                                                const std::vector<std::vector<int>>& position,
                                                const std::vector<int>& lambda) {
@@ -441,7 +442,8 @@ class Reference {
     return sum >= 0 ? sum / 4 : -(-sum / 4);
   }
 
-  /// Moves lean's pointer: the rival stays at its candidate, and the pointer leaves its own candidate by at most half a coarse bin.
+  /// Moves lean's pointer: the rival stays at its candidate, and the pointer leaves its own candidate by at
+  /// most half a coarse bin.
   void point_lean(Pixel& pixel, const Group& g, int a, const std::vector<int>& times) const {
     const int centre = 512 * g.cell[static_cast<std::size_t>(pixel.ka)];
     int x = preferred(a, times);
