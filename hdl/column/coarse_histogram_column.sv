@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coarse histogram: wide bins over the whole range, for the whole frame; a pulse that is wider than a bin shows in several,
-// and what is in which of them tells its place to a small part of a bin. No part of the frame is spent on finding the
+// Coarse histogram: wide bins over the whole range, for the whole frame; a pulse that is wider than a bin counts in several
+// bins, and their counts give its place to a small part of a bin. No part of the frame is spent on finding the
 // pulse, and no pixel has a word beside its histogram.
 //
 // 1. Every timestamp x is counted in bin x >> (NP - NB).

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the shared logic tells all columns, on its way to them: as many registers as the way is long.
+// Registers between the shared logic and all columns: STAGES registers for each signal.
 //
 // The array is several millimetres wide and the shared logic sits in its middle, so that the first register belongs beside
 // the logic that it is fed from, and the last beside the columns. A layout (and the flow of `make synth`) gives each group
 // of neighbouring columns its own copy of the last register. Timestamps, which come from above their columns, wait there for
-// as many clocks (timestamp_input.sv), so that a column sees everything as if there were no way.
+// as many clocks (timestamp_input.sv), so that timestamps and commands stay aligned.
 //
 // Latency: STAGES clocks.
 // Cost: STAGES flip-flops per bit.

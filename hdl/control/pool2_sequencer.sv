@@ -8,7 +8,7 @@
 //    the decoder's ring one a clock. The ring then turns once for each candidate, and the group's word is written.
 // 3. Choose and decide: a step is a pixel of a chain. A first pass goes from a column's last pixel to its first, keeping
 //    the messages, and a second one goes back. A pixel is fetched three steps before it becomes this pixel: in the first
-//    it is prepared, in the second it hears what the columns beside say, in the third it is the next pixel, whose labels
+//    it is prepared, in the second it takes the evidence of the columns beside, in the third it is the next pixel, whose labels
 //    pass. When all of them have passed, this pixel's best two labels are known, early in the next step. Where the pixel
 //    below has its own, too, a step later, this one's position moves towards its neighbours': choose gives its first pointer
 //    word (without SMOOTH_STARTS a step earlier) and writes two of these together; decide gives its result, and stands still

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a timestamp is from where a pixel's word points: what the word's update needs to know. Combinational.
+// The distance from a timestamp to the place where a pixel's word points, as the word's update needs it. Combinational.
 //
 // Equations (docs/reference/poolpointer2.md, Track and Point), distances floored to cells of 512 positions, those to a settled
 // pointer (n >= 16, or 12 of 15) to cells of 2^CELL_SHIFT:

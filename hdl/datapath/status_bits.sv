@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Signalled clear (thesis 4.4.2): one flip-flop an SRAM address tells whether it was written since the last
+// Signalled clear (thesis 4.4.2): one flip-flop an SRAM address shows whether the address was written since the last
 // clear, so that clearing takes one clock. The thesis's price stands: DEPTH flip-flops a column.
 //
 // Schedule: valid_o belongs to read_addr_i of the clock before, as the SRAM's read data does; write_i makes an

@@ -3,13 +3,13 @@
 // shared logic have come to the column, too, and, with TIME_GATE = 1, the digital time gate.
 //
 // Equation: a detection is a timestamp x that is not all ones and, with the gate, gate_begin_i <= x < gate_end_i.
-// Timestamps come from above their columns. The way of the commands is the long one (broadcast.sv), and a column sees both as
-// if there were none. Whether there is a detection goes from register to register; a timestamp's registers load detections
+// Commands take STAGES clocks to reach a column (broadcast.sv). Timestamps are delayed by the same number of clocks, so that
+// both are aligned in the column. Whether there is a detection goes from register to register; a timestamp's registers load detections
 // alone, so that nothing moves where nothing was detected, and their clocks rest.
 //
 //   clock         what happens
 //   T0 - STAGES   the timestamp is at the port: is it a detection?
-//   T0            it has waited: is it in the gate, whose ends have come with the commands?
+//   T0            the timestamp is compared with the ends of the gate, which came with the commands
 //   T1            it is at work in the column
 //
 // Latency: STAGES + 1 clocks, with or without the gate. gate_begin_i and gate_end_i do not change during a frame.

@@ -15,7 +15,7 @@
 //    decide's result leaves.
 // 5. With PRIOR choose also collects which candidates of a group are used, for the next frame's decode.
 //
-// It knows neither rows nor columns nor clocks: in each clock it does what the command says, and nothing else.
+// An engine has no counters of rows, columns or clocks: in each clock it does what the command says, and nothing else.
 //
 // Schedule: the table of pool2_sequencer, with this module's POOL2_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
 // Cost: pool2_candidate_decoder, beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.

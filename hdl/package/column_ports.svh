@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ports of every column of dtof_array: each column includes this file in its port list.
 //
-// A column has no state machine. The array's control tells all columns alike in which clock a timestamp, a scan or a
-// clear is where, and a column uses what its read-out needs; the array ties the rest to zero. Clocks are named by the
+// A column has no state machine. The array's control gives all columns the same commands: in which clock a timestamp, a scan
+// or a clear reaches which stage. A column uses the commands that its read-out needs; the array ties the others to zero. Clocks are named by the
 // stage of a timestamp (T0: it is at the port) or of a scan (S0: an address is read).
 //
 // Beside its histograms a column may keep one word a pixel (a pointer, a coarse peak, the best peak so far); readouts.toml

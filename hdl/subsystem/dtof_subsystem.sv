@@ -32,7 +32,7 @@ module dtof_subsystem #(
     input  logic                     scan_mode_i,      // 1: the array's clock is never gated
     // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
-    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // the AND of what they answer
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // AND of the cfg_o of all SRAM macros
     // APB4, registers
     input  logic                     psel_i,
     input  logic                     penable_i,

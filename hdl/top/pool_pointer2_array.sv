@@ -49,7 +49,7 @@ module pool_pointer2_array #(
     input  logic                   rst_ni,
     // side band of the SRAM macros, which the technology folder gives a meaning; all get the same
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
-    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // the AND of what they answer
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,  // AND of the cfg_o of all SRAM macros
     input  logic                   start_i,  // ignored while busy_o, also in the clock of done_o
     input  logic [  ACQ_WIDTH-1:0] acq_num_i,
     input  logic [         NP-1:0] gate_begin_i,  // time gate of the frame, sampled with start_i

@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Comments, docstrings and pages have sentences that a stranger can read.
+
+An error is: a comment, docstring or sentence that begins with "Of", whose noun the reader must guess; in the RTL a verb of people (hear,
+know), for a wire does neither. docs/notes/ and CHANGELOG.md may say what they like.
+"""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+SOURCES = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".sh", ".mk", ".tcl", ".toml", ".cmake", ".in")
+NO_NOUN = re.compile(r"(?:^|\s)(?://+|#+|\"\"\"|\*)\s*Of\s+[a-zA-Z]")
+NO_NOUN_ON_A_PAGE = re.compile(r"(?:^|[.:|]\s+)Of [a-z]")
+PERSON = re.compile(r"//.*\b(hears?|heard|knows?|knew)\b")
+
+
+def problem(name: str, line: str) -> str:
+    """What is wrong with this line of a file; empty if nothing is."""
+    if name.endswith(".md"):
+        return "a sentence begins with 'Of': say what it is about" if NO_NOUN_ON_A_PAGE.search(line) else ""
+    if NO_NOUN.search(line):
+        return "a comment begins with 'Of': say what it describes"
+    found = PERSON.search(line) if name.startswith("hdl/") and name.endswith((".sv", ".svh")) else None
+    return f"'{found[1]}' in the RTL: wires do not" if found else ""
+
+
+def files(root: Path) -> list[str]:
+    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True, text=True, check=True)
+    return [name for name in listed.stdout.splitlines() if (root / name).is_file() and (
+        name.endswith(SOURCES) or (name.endswith(".md") and not name.startswith(("reports/", "docs/notes/", "CHANGELOG"))))]
+
+
+def problems(root: Path) -> list[str]:
+    found = []
+    for name in files(root):
+        for number, line in enumerate((root / name).read_text(encoding="utf-8").splitlines(), 1):
+            sentence = problem(name, line)
+            if sentence:
+                found.append(f"{name}:{number}: {sentence}")
+    return found
+
+
+def main() -> int:
+    found = problems(ROOT)
+    for line in found:
+        print(f"error: {line}", file=sys.stderr)
+    if not found:
+        print(f"language: {len(files(ROOT))} files, no comment without a noun, no wire that hears")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

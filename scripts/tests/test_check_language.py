@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sentences that the lint refuses."""
+
+import sys
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import check_language  # noqa: E402
+
+
+class Language(unittest.TestCase):
+    def test_sentences_without_a_noun(self) -> None:
+        o = "Of"
+        for name, line in (("a.hpp", f"/// {o} all rows."), ("a.py", f'    """{o} a sweep\'s jobs."""'), ("a.tcl", f"# {o} each pin"),
+                           ("hdl/a.sv", f"  x = 1;  // {o} a pixel"), ("docs/a.md", f"It is so. {o} the others one is."),
+                           ("docs/a.md", f"{o} a column one row counts."), ("docs/a.md", f"| a | {o} the array |")):
+            self.assertIn("begins with", check_language.problem(name, line), line)
+
+    def test_wires_that_hear(self) -> None:
+        self.assertIn("'hears' in the RTL", check_language.problem("hdl/column/a.sv", "// a column hears its neighbour"))
+        self.assertEqual(check_language.problem("scripts/a.py", "# a user hears"), "")
+        self.assertEqual(check_language.problem("hdl/column/a.sv", "assign heard_o = 1;"), "")
+
+    def test_good_sentences(self) -> None:
+        for name, line in (("a.hpp", "/// The rows of a frame."), ("a.py", "x = 1  # Office"), ("docs/a.md", "Most of them are here."),
+                           ("docs/a.md", "## Of")):
+            self.assertEqual(check_language.problem(name, line), "")
+
+    def test_the_project(self) -> None:
+        self.assertEqual(check_language.problems(ROOT), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
