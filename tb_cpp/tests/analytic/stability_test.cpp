@@ -409,7 +409,7 @@ std::vector<StabilityResult> check_peaks() {
   for (int width = 1; width <= 16; ++width) {
     const std::uint32_t limit = (1U << static_cast<unsigned>(width)) - 1;
     for (std::uint32_t first = 0; first < 16; first += 5) {
-      Histogram histogram(4, width);
+      Histogram histogram(4, width, FullBin::kStays);
       // Descending order of bins, so that the first touched is not the lowest.
       for (std::uint32_t bin = 16; bin-- > first;) {
         histogram.add(bin);
