@@ -61,7 +61,7 @@ module stream_bench #(
   // Outputs, of the RTL and of the netlist.
 
   logic [dtof_pkg::ERROR_WIDTH-1:0] error, wanted_error;
-  logic sram_cfg, busy, done, tdc_ready, tvalid, tlast;
+  logic unused_counter_full, sram_cfg, busy, done, tdc_ready, tvalid, tlast;
   logic [2:0] state;
   logic [TDATA_WIDTH-1:0] tdata;
   logic netlist_tvalid, netlist_tlast;
