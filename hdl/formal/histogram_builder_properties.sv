@@ -126,7 +126,8 @@ module histogram_builder_properties #(
   assign hit = watched_t1_q && keep_i && !frozen_q;
   assign hit_count = counts_q[bin_i*COUNT_WIDTH+:COUNT_WIDTH];
   assign fills = hit && (32'(hit_count) + 1 >= (1 << COUNT_WIDTH) - 1);
-  assign prepared = (FREEZE == 0) || ((&known_q) && frozen_known_q && (frozen_q || full == '0));
+  assign prepared = (FREEZE == 0) || ((&known_q) && (frozen_known_q || clear_all_i)
+      && (full == '0 || (frozen_q && !clear_all_i) || (clear_all_i && SIGNALLED_CLEAR != 0)));
 
   genvar b;
   generate

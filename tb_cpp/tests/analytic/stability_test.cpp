@@ -431,8 +431,10 @@ std::vector<StabilityResult> check_peaks() {
       for (const double ratio : {0.0, 1e-6, 0.5, 1.0}) {
         std::vector<double> means(32, mean * ratio);
         means[20] = mean;
-        const std::vector<double> share = peak_distribution(means, limit);
-        sums.add(std::abs(std::accumulate(share.begin(), share.end(), 0.0) - 1.0));
+        for (const FullBin full : {FullBin::kStays, FullBin::kFreezes}) {
+          const std::vector<double> share = peak_distribution(means, limit, full);
+          sums.add(std::abs(std::accumulate(share.begin(), share.end(), 0.0) - 1.0));
+        }
       }
     }
   }
@@ -445,7 +447,7 @@ std::vector<StabilityResult> check_peaks() {
         first += p * (1 - exact_at_least(n + 1, Real(b)));
         p *= Real(a) / (n + 1);
       }
-      const std::vector<double> share = peak_distribution({a, b}, 1023);
+      const std::vector<double> share = peak_distribution({a, b}, 1023, FullBin::kFreezes);
       values.add(share[0], first, Real(1));
       values.add(share[1], 1 - first, Real(1));
     }
