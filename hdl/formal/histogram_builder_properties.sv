@@ -109,7 +109,7 @@ module histogram_builder_properties #(
       .full_t5_o      (full_t5)
   );
 
-  // The reference: the counters of one pixel.
+  // The reference: the counters of one pixel, which count a timestamp when the design's write of it is due, at T5.
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
   (* anyconst *) logic [BIN_WIDTH-1:0] watched_bin;
   logic [ROW_WIDTH-1:0] pixel_q;  // of the next timestamp
@@ -119,12 +119,13 @@ module histogram_builder_properties #(
   logic [BINS*COUNT_WIDTH-1:0] counts_q;
   logic [BINS-1:0] known_q, full;
   logic frozen_q, frozen_known_q, hit, fills, scans_watched;
-  logic [5:2] fills_tn_q;
+  logic hit_t2_q, hit_t3_q, hit_t4_q, hit_t5_q;
+  logic [BIN_WIDTH-1:0] bin_t2_q, bin_t3_q, bin_t4_q, bin_t5_q;
 
   assign accepted = checking && ready && tdc_valid_i;
   assign scans_watched = scan_i && scan_pixel_i == watched_pixel && scan_bin_i == watched_bin;
-  assign hit = watched_t1_q && keep_i && !frozen_q;
-  assign hit_count = counts_q[bin_i*COUNT_WIDTH+:COUNT_WIDTH];
+  assign hit = hit_t5_q && !frozen_q;
+  assign hit_count = counts_q[bin_t5_q*COUNT_WIDTH+:COUNT_WIDTH];
   assign fills = hit && (32'(hit_count) + 1 >= (1 << COUNT_WIDTH) - 1);
   assign prepared = (FREEZE == 0) || ((&known_q) && (frozen_known_q || clear_all_i)
       && (full == '0 || (frozen_q && !clear_all_i) || (clear_all_i && SIGNALLED_CLEAR != 0)));
@@ -142,7 +143,7 @@ module histogram_builder_properties #(
         end else if (cleared) begin
           known_q[b] <= 1'b1;
           counts_q[b*COUNT_WIDTH+:COUNT_WIDTH] <= '0;
-        end else if (hit && 32'(bin_i) == b && !full[b]) begin
+        end else if (hit && 32'(bin_t5_q) == b && !full[b]) begin
           counts_q[b*COUNT_WIDTH+:COUNT_WIDTH] <= hit_count + 1'b1;
         end
       end
@@ -159,7 +160,10 @@ module histogram_builder_properties #(
       frozen_known_q <= 1'b0;
       scanned_q <= 1'b0;
       check_q <= 1'b0;
-      fills_tn_q <= '0;
+      hit_t2_q <= 1'b0;
+      hit_t3_q <= 1'b0;
+      hit_t4_q <= 1'b0;
+      hit_t5_q <= 1'b0;
     end else begin
       if (accepted) begin
         slot_q <= (slot_q == SLOT_WIDTH'(SLOTS - 1)) ? '0 : slot_q + 1'b1;
@@ -175,7 +179,14 @@ module histogram_builder_properties #(
       end else if (fills && FREEZE != 0) begin
         frozen_q <= 1'b1;
       end
-      fills_tn_q <= {fills_tn_q[4:2], fills};
+      hit_t2_q <= watched_t1_q && keep_i;
+      hit_t3_q <= hit_t2_q;
+      hit_t4_q <= hit_t3_q;
+      hit_t5_q <= hit_t4_q;
+      bin_t2_q <= bin_i;
+      bin_t3_q <= bin_t2_q;
+      bin_t4_q <= bin_t3_q;
+      bin_t5_q <= bin_t4_q;
       scanned_q <= scans_watched && known_q[watched_bin];
       scanned_count_q <= counts_q[watched_bin*COUNT_WIDTH+:COUNT_WIDTH];
       check_q <= scanned_q;
@@ -190,7 +201,7 @@ module histogram_builder_properties #(
   `ASSUME(m_clear_all_alone, !(clear_all_i && scan_i))
   `PROVE(a_every_timestamp_passes, beat_t1 == accepted_q)
   `PROVE(a_count, !check_q || count == expected_q)
-  `PROVE(a_full, !(&known_q) || (full_t5 && pixel_t5 == watched_pixel) == fills_tn_q[5])
+  `PROVE(a_full, !(&known_q) || (full_t5 && pixel_t5 == watched_pixel) == fills)
   `GOAL(check_q && count == '1)
 
 endmodule
