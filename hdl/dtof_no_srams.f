@@ -20,6 +20,7 @@ control/pool_controller.sv
 control/pool_result_output.sv
 control/pool2_sequencer.sv
 datapath/data_filter.sv
+datapath/full_counter_link.sv
 datapath/histogram_builder.sv
 datapath/pair_detector.sv
 datapath/pair_interpolator.sv

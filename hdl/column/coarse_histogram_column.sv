@@ -33,7 +33,7 @@ module coarse_histogram_column #(
   localparam int PLACE_BITS = dtof_pkg::max_of(PLACE_WIDTH, 1);
   localparam int POSITION_WIDTH = NP + FRACTION_BITS;
 
-  logic unused_detected, unused_low_bits, detected_t1;
+  logic unused_detected, unused_low_bits, detected_t1, full_t5;
   logic [NP-1:0] timestamp_t1;
   logic [COUNT_WIDTH-1:0] count_s2, last_count, confidence;
   logic [COUNT_WIDTH:0] pair_count;
@@ -81,7 +81,8 @@ module coarse_histogram_column #(
       .clear_bin_s1_i (clear_bin_s1_i),
       .write_pixel_i  (histogram_write_pixel_i),
       .clear_all_i    (clear_all_i),
-      .count_s2_o     (count_s2)
+      .count_s2_o     (count_s2),
+      .full_t5_o      (full_t5)
   );
 
   assign unused_low_bits = ^timestamp_t1;
@@ -138,6 +139,14 @@ module coarse_histogram_column #(
       assign result = {position, confidence};
     end
   endgenerate
+
+  full_counter_link u_full_counter_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .full_i       (full_t5),
+      .next_column_i(next_counter_full_i),
+      .full_o       (counter_full_o)
+  );
 
   result_register #(
       .WIDTH(RESULT_WIDTH)

@@ -26,7 +26,11 @@ module ez_pointer_column #(
   logic [NP-1:0] timestamp_t1;
   logic [POINTER_WIDTH-1:0] pointer;
   logic [CONFIDENCE_BITS-1:0] confidence;
-  logic unused_tag;
+  logic unused_tag, unused_next_counter_full;
+
+  // No counters.
+  assign unused_next_counter_full = next_counter_full_i;
+  assign counter_full_o = 1'b0;
 
   timestamp_input #(
       .NP       (NP),

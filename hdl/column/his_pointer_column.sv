@@ -31,6 +31,7 @@ module his_pointer_column #(
   localparam int HALF_BIN = (1 << (NP - NB)) >> 1;
 
   logic detected_t0, detected_t1;
+  logic full_t5;
   logic [NP-1:0] timestamp_t1, centre;
   logic hit, in_window;
   logic [BIN_WIDTH-1:0] scan_peak;
@@ -64,6 +65,7 @@ module his_pointer_column #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
+      .FREEZE         (WINDOWED),
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
   ) u_peak_histogram (
       .clk_i          (clk_i),
@@ -90,7 +92,8 @@ module his_pointer_column #(
       .peak_o         (scan_peak),
       .count_o        (scan_count),
       .confidence_o   (unused_confidence),
-      .start_o        (unused_start)
+      .start_o        (unused_start),
+      .full_t5_o      (full_t5)
   );
 
   generate
@@ -169,6 +172,14 @@ module his_pointer_column #(
       assign result = RESULT_WIDTH'({pointer, confidence} >> (CONFIDENCE_BITS - CONFIDENCE_WIDTH));
     end
   endgenerate
+
+  full_counter_link u_full_counter_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .full_i       (full_t5),
+      .next_column_i(next_counter_full_i),
+      .full_o       (counter_full_o)
+  );
 
   result_register #(
       .WIDTH(RESULT_WIDTH)

@@ -27,6 +27,7 @@ module interframe_histogram_column #(
   localparam int PEAK_WIDTH = dtof_pkg::peak_width(READOUT, NP, NB);
 
   logic unused_detected, detected_t1;
+  logic full_t5;
   logic [NP-1:0] timestamp_t1;
   logic [PEAK_WIDTH-1:0] peak_data, peak_q, new_peak;
   logic [BIN_WIDTH-1:0] scan_peak;
@@ -91,7 +92,8 @@ module interframe_histogram_column #(
       .peak_o         (scan_peak),
       .count_o        (unused_count),
       .confidence_o   (confidence),
-      .start_o        (start)
+      .start_o        (start),
+      .full_t5_o      (full_t5)
   );
 
   dtof_sram #(
@@ -135,6 +137,14 @@ module interframe_histogram_column #(
   assign code = peak_code[NP+1] ? '0
       : (RAW_HISTOGRAM != 0 && peak_code[NP]) ? {NP{1'b1}} : peak_code[NP-1:0];
   assign unused_peak_code = peak_code[NP];
+
+  full_counter_link u_full_counter_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .full_i       (full_t5),
+      .next_column_i(next_counter_full_i),
+      .full_o       (counter_full_o)
+  );
 
   result_register #(
       .WIDTH(RESULT_WIDTH)

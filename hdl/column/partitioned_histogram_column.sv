@@ -23,6 +23,7 @@ module partitioned_histogram_column #(
 );
 
   logic unused_detected, detected_t1;
+  logic full_t5;
   logic [NP-1:0] timestamp_t1;
   logic [BIN_WIDTH-1:0] scan_peak;
   logic [NP-1:0] scan_code;
@@ -53,6 +54,7 @@ module partitioned_histogram_column #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
+      .FREEZE         ((dtof_pkg::coarse_passes(READOUT, NP, NB) == 0) ? 1 : 0),
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
   ) u_peak_histogram (
       .clk_i          (clk_i),
@@ -79,7 +81,8 @@ module partitioned_histogram_column #(
       .peak_o         (scan_peak),
       .count_o        (scan_count),
       .confidence_o   (scan_confidence),
-      .start_o        (unused_start)
+      .start_o        (unused_start),
+      .full_t5_o      (full_t5)
   );
 
   generate
@@ -138,6 +141,14 @@ module partitioned_histogram_column #(
       assign loaded_result = {scan_code, scan_confidence};
     end
   endgenerate
+
+  full_counter_link u_full_counter_link (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .full_i       (full_t5),
+      .next_column_i(next_counter_full_i),
+      .full_o       (counter_full_o)
+  );
 
   result_register #(
       .WIDTH(RESULT_WIDTH)

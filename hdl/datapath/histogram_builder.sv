@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The histograms of a column in one two-port SRAM, which counts one timestamp a clock (thesis 4.4, Fig. 4.9 to 4.11).
 //
-// 1. Counting. A timestamp's address {pixel, bin} is read, one is added, and the count is written back: count = min(
-//    count + 1, 2^COUNT_WIDTH - 1). That takes five clocks, and a new timestamp starts in every one of them.
+// 1. Counting. A timestamp's address {pixel, bin} is read, one is added, and the count is written back. That takes five
+//    clocks, and a new timestamp starts in every one of them.
 // 2. Timestamps up to three clocks apart may meet in one address before it is written. Then the pending count is
 //    forwarded at T4 instead of what the SRAM returned. Only distances at which two timestamps can be of one pixel have
 //    a comparator.
-// 3. Scanning. The control reads the addresses one after the other; count_s2_o shows each count, and the address is
+// 3. Freezing. A bin at 2^COUNT_WIDTH - 1 is full. With FREEZE the write that fills the first bin of a pixel freezes the
+//    pixel: the writes of all its later timestamps are dropped until clear_all_i, so that no other bin catches up with
+//    the full one, and no counter wraps. A flip-flop a pixel says so, which is read and set at T5. What was forwarded from
+//    a dropped write is dropped, too, for it is of the same pixel and later. Without FREEZE a full bin stays full, and the
+//    others count on.
+// 4. Scanning. The control reads the addresses one after the other; count_s2_o shows each count, and the address is
 //    cleared behind the read. With SIGNALLED_CLEAR a status bit an address says whether it was written since the last
 //    clear_all_i, and nothing is cleared by writing.
 //
@@ -15,10 +20,10 @@
 //   T2 / S0  SRAM read                             SRAM read
 //   T3 / S1  data registered, bins compared        data registered, the address cleared
 //   T4 / S2  + 1                                   the count is at count_s2_o
-//   T5       SRAM write
+//   T5       SRAM write, unless frozen
 //
 // The registers need no reset: beat_t5_i masks every write. They rest where there is no hit and no scan.
-// Cost at the defaults: 47 flip-flops, an incrementer, one bin comparator; block RAM on an FPGA.
+// Cost at the defaults: 47 flip-flops and with FREEZE one a pixel, an incrementer, one bin comparator; block RAM on an FPGA.
 `include "dtof_macros.svh"
 
 module histogram_builder #(
@@ -26,6 +31,7 @@ module histogram_builder #(
     parameter int BIN_WIDTH = 5,         // log2 of the bins of each
     parameter int SLOTS = 2,             // timestamps of a pixel one after the other
     parameter int COUNT_WIDTH = 10,      // bits of a count
+    parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: counters saturate
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
 ) (
@@ -46,8 +52,9 @@ module histogram_builder #(
     input  logic                   clear_s1_i,      // clear instead of T5
     input  logic [  BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [  ROW_WIDTH-1:0] write_pixel_i,   // pixel of T5 or S1
-    input  logic                   clear_all_i,     // signalled clear
-    output logic [COUNT_WIDTH-1:0] count_s2_o       // of the address of S0
+    input  logic                   clear_all_i,     // of what is frozen, and signalled clear
+    output logic [COUNT_WIDTH-1:0] count_s2_o,      // of the address of S0
+    output logic                   full_t5_o        // a bin gets full, or with FREEZE = 0 was full already
 );
 
   localparam int BINS = 1 << BIN_WIDTH;
@@ -61,11 +68,12 @@ module histogram_builder #(
   logic [BIN_WIDTH-1:0] bin_t2_q, bin_t3_q, bin_t4_q, bin_t5_q;
   logic [COUNT_WIDTH-1:0] sram_data, valid_data, count_q, operand, incremented, written_q;
   logic [ADDR_WIDTH-1:0] read_addr, write_addr;
-  logic read_en, build_write, write_en;
+  logic read_en, build_write, frozen, write_en;
 
   assign read_en = scan_s0_i || hit_t2_q;
   assign read_addr = ADDR_WIDTH'({read_pixel_i, scan_s0_i ? scan_bin_s0_i : bin_t2_q});
-  assign build_write = beat_t5_i && hit_t5_q;
+  assign build_write = beat_t5_i && hit_t5_q && !frozen;
+  assign full_t5_o = build_write && (&written_q);
   assign write_addr = ADDR_WIDTH'({write_pixel_i, clear_s1_i ? clear_bin_s1_i : bin_t5_q});
 
   dtof_sram #(
@@ -134,10 +142,28 @@ module histogram_builder #(
   end
 
   assign count_s2_o = count_q;
-  // All ones plus one overflows to zero: the overflow bit puts the ones back, beside the adder.
-  logic [COUNT_WIDTH:0] plus_one;
-  assign plus_one = {1'b0, operand} + 1'b1;
-  assign incremented = plus_one[COUNT_WIDTH-1:0] | {COUNT_WIDTH{plus_one[COUNT_WIDTH]}};
+
+  generate
+    if (FREEZE != 0) begin : g_freeze
+      logic [PIXELS_PER_SRAM-1:0] frozen_q;
+      always_ff @(posedge clk_i) begin
+        if (clear_all_i) begin
+          frozen_q <= '0;
+        end else if (full_t5_o) begin
+          frozen_q[write_pixel_i] <= 1'b1;
+        end
+      end
+      assign frozen = frozen_q[write_pixel_i];
+      // A full bin's pixel is frozen: what its counter would wrap to is never written.
+      assign incremented = operand + 1'b1;
+    end else begin : g_saturate
+      // All ones plus one overflows to zero: the overflow bit puts the ones back, beside the adder.
+      logic [COUNT_WIDTH:0] plus_one;
+      assign plus_one = {1'b0, operand} + 1'b1;
+      assign frozen = 1'b0;
+      assign incremented = plus_one[COUNT_WIDTH-1:0] | {COUNT_WIDTH{plus_one[COUNT_WIDTH]}};
+    end
+  endgenerate
 
   // A pending count is forwarded if pixel and bin are the same; decided at T3, one clock before the addition.
   generate

@@ -14,7 +14,8 @@ module peak_histogram #(
     parameter int NB = 6,                // bits of the coarse index
     parameter int PIXELS_PER_SRAM = 160,  // histograms
     parameter int SLOTS = 2,             // timestamps of a pixel one after the other
-    parameter int COUNT_WIDTH = 10,      // bits of a bin; counters saturate
+    parameter int COUNT_WIDTH = 10,      // bits of a bin
+    parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: counters saturate
     parameter int WINDOW_CENTRED = 0,    // SiFH: 1 centres the window on the coarse bin
     parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
@@ -42,7 +43,7 @@ module peak_histogram #(
     input  logic                   clear_s1_i,       // clear what was read
     input  logic [  BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [  ROW_WIDTH-1:0] write_pixel_i,    // pixel of T5 or S1
-    input  logic                   clear_all_i,      // signalled clear
+    input  logic                   clear_all_i,      // of what is frozen, and signalled clear
     input  logic                   scan_s2_i,        // the count of bin_s2_i is known
     input  logic                   first_s2_i,       // ... and is the first of its pixel
     input  logic [  BIN_WIDTH-1:0] bin_s2_i,
@@ -50,7 +51,8 @@ module peak_histogram #(
     output logic [  BIN_WIDTH-1:0] peak_o,           // lowest bin with the largest count
     output logic [COUNT_WIDTH-1:0] count_o,          // its count
     output logic [COUNT_WIDTH-1:0] confidence_o,     // its height above the mean of the others
-    output logic signed [NP+1:0]   start_o           // code of bin 0 in the final pass, from peak_i
+    output logic signed [NP+1:0]   start_o,          // code of bin 0 in the final pass, from peak_i
+    output logic                   full_t5_o         // a bin gets full, or with FREEZE = 0 was full already
 );
 
   logic keep;
@@ -77,6 +79,7 @@ module peak_histogram #(
       .BIN_WIDTH      (BIN_WIDTH),
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
+      .FREEZE         (FREEZE),
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
   ) u_histogram_builder (
       .clk_i          (clk_i),
@@ -94,7 +97,8 @@ module peak_histogram #(
       .clear_bin_s1_i (clear_bin_s1_i),
       .write_pixel_i  (write_pixel_i),
       .clear_all_i    (clear_all_i),
-      .count_s2_o     (count_s2)
+      .count_s2_o     (count_s2),
+      .full_t5_o      (full_t5_o)
   );
 
   peak_detector #(

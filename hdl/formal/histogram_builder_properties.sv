@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// histogram_builder, driven by pixel_sequencer, is a memory of saturating counters: one arbitrary pixel and bin is
-// followed through passes, scans and clears. Pixels and timestamps are counted here from the handshake alone.
+// histogram_builder, driven by pixel_sequencer, is a memory of counters of which a pixel's first full one ends the pixel's
+// counting (FREEZE = 0: which saturate): all bins of one arbitrary pixel are followed through passes, scans and clears.
+// Pixels and timestamps are counted here from the handshake alone.
 `include "properties.svh"
 
 module histogram_builder_properties #(
@@ -9,6 +10,8 @@ module histogram_builder_properties #(
     parameter int SIGNALLED_CLEAR = 0,
     parameter int BIN_WIDTH = 1,
     parameter int COUNT_WIDTH = 2,
+    parameter int FREEZE = 1,
+    localparam int BINS = 1 << BIN_WIDTH,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS),
     localparam int SLOT_WIDTH = dtof_pkg::index_width(SLOTS)
 ) (
@@ -32,13 +35,15 @@ module histogram_builder_properties #(
     checking <= 1'b1;
   end
 
-  // A pass ends as soon as it is idle, as in controller; scans and clears come between passes.
-  logic stream_q, more_q, ready, acq_done, idle, accepted;
+  // A pass ends as soon as it is idle, as in controller; scans and clears come between passes. It begins with known counts;
+  // where one of them is full, its pixel is frozen, for clear_all_i comes with the clearing of all bins.
+  logic stream_q, more_q, ready, acq_done, idle, accepted, prepared;
   logic [2:0] quiet_q;
   logic fetch, beat_t1, first_slot, visit, first_acq, last_slot, beat_t5;
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
   logic [3:1] same_pixel;
   logic [COUNT_WIDTH-1:0] count;
+  logic full_t5;
 
   always_ff @(posedge clk_i) begin
     if (!checking) begin
@@ -46,7 +51,7 @@ module histogram_builder_properties #(
       more_q <= 1'b0;
       quiet_q <= '0;
     end else begin
-      stream_q <= stream_q ? !idle : begin_i && (&quiet_q) && !scan_i && !clear_i;
+      stream_q <= stream_q ? !idle : begin_i && prepared && (&quiet_q) && !scan_i && !clear_i;
       quiet_q <= {quiet_q[1:0], !scan_i && !clear_i && !clear_all_i};
       if (!stream_q || acq_done) begin
         more_q <= more_i;
@@ -84,6 +89,7 @@ module histogram_builder_properties #(
       .BIN_WIDTH      (BIN_WIDTH),
       .SLOTS          (SLOTS),
       .COUNT_WIDTH    (COUNT_WIDTH),
+      .FREEZE         (FREEZE),
       .SIGNALLED_CLEAR(SIGNALLED_CLEAR)
   ) u_dut (
       .clk_i          (clk_i),
@@ -99,22 +105,50 @@ module histogram_builder_properties #(
       .clear_bin_s1_i (clear_bin_i),
       .write_pixel_i  (clear_i ? clear_pixel_i : pixel_t5),
       .clear_all_i    (clear_all_i),
-      .count_s2_o     (count)
+      .count_s2_o     (count),
+      .full_t5_o      (full_t5)
   );
 
-  // The reference: one counter.
+  // The reference: the counters of one pixel, which count a timestamp when the design's write of it is due, at T5.
   (* anyconst *) logic [ROW_WIDTH-1:0] watched_pixel;
   (* anyconst *) logic [BIN_WIDTH-1:0] watched_bin;
   logic [ROW_WIDTH-1:0] pixel_q;  // of the next timestamp
   logic [SLOT_WIDTH-1:0] slot_q;
-  logic accepted_q, watched_t1_q, known_q, scanned_q, scanned_known_q, check_q;
-  logic [COUNT_WIDTH-1:0] count_q, scanned_count_q, expected_q;
-  logic cleared, scans_watched;
+  logic accepted_q, watched_t1_q, scanned_q, check_q;
+  logic [COUNT_WIDTH-1:0] scanned_count_q, expected_q, hit_count;
+  logic [BINS*COUNT_WIDTH-1:0] counts_q;
+  logic [BINS-1:0] known_q, full;
+  logic frozen_q, frozen_known_q, hit, fills, scans_watched;
+  logic hit_t2_q, hit_t3_q, hit_t4_q, hit_t5_q;
+  logic [BIN_WIDTH-1:0] bin_t2_q, bin_t3_q, bin_t4_q, bin_t5_q;
 
   assign accepted = checking && ready && tdc_valid_i;
-  assign cleared = (SIGNALLED_CLEAR != 0) ? clear_all_i
-      : clear_i && clear_pixel_i == watched_pixel && clear_bin_i == watched_bin;
   assign scans_watched = scan_i && scan_pixel_i == watched_pixel && scan_bin_i == watched_bin;
+  assign hit = hit_t5_q && !frozen_q;
+  assign hit_count = counts_q[bin_t5_q*COUNT_WIDTH+:COUNT_WIDTH];
+  assign fills = hit && (32'(hit_count) + 1 >= (1 << COUNT_WIDTH) - 1);
+  assign prepared = (FREEZE == 0) || ((&known_q) && (frozen_known_q || clear_all_i)
+      && (full == '0 || (frozen_q && !clear_all_i) || (clear_all_i && SIGNALLED_CLEAR != 0)));
+
+  genvar b;
+  generate
+    for (b = 0; b < BINS; b = b + 1) begin : g_bin
+      logic cleared;
+      assign cleared = (SIGNALLED_CLEAR != 0) ? clear_all_i
+          : clear_i && clear_pixel_i == watched_pixel && 32'(clear_bin_i) == b;
+      assign full[b] = &counts_q[b*COUNT_WIDTH+:COUNT_WIDTH];
+      always_ff @(posedge clk_i) begin
+        if (!checking) begin
+          known_q[b] <= 1'b0;
+        end else if (cleared) begin
+          known_q[b] <= 1'b1;
+          counts_q[b*COUNT_WIDTH+:COUNT_WIDTH] <= '0;
+        end else if (hit && 32'(bin_t5_q) == b && !full[b]) begin
+          counts_q[b*COUNT_WIDTH+:COUNT_WIDTH] <= hit_count + 1'b1;
+        end
+      end
+    end
+  endgenerate
 
   always_ff @(posedge clk_i) begin
     if (!checking) begin
@@ -122,9 +156,14 @@ module histogram_builder_properties #(
       slot_q <= '0;
       accepted_q <= 1'b0;
       watched_t1_q <= 1'b0;
-      known_q <= 1'b0;
+      frozen_q <= 1'b0;
+      frozen_known_q <= 1'b0;
       scanned_q <= 1'b0;
       check_q <= 1'b0;
+      hit_t2_q <= 1'b0;
+      hit_t3_q <= 1'b0;
+      hit_t4_q <= 1'b0;
+      hit_t5_q <= 1'b0;
     end else begin
       if (accepted) begin
         slot_q <= (slot_q == SLOT_WIDTH'(SLOTS - 1)) ? '0 : slot_q + 1'b1;
@@ -134,14 +173,22 @@ module histogram_builder_properties #(
       end
       accepted_q <= accepted;
       watched_t1_q <= accepted && (pixel_q == watched_pixel);
-      if (cleared) begin
-        known_q <= 1'b1;
-        count_q <= '0;
-      end else if (watched_t1_q && keep_i && bin_i == watched_bin && count_q != '1) begin
-        count_q <= count_q + 1'b1;
+      if (clear_all_i) begin
+        frozen_q <= 1'b0;
+        frozen_known_q <= 1'b1;
+      end else if (fills && FREEZE != 0) begin
+        frozen_q <= 1'b1;
       end
-      scanned_q <= scans_watched && known_q;
-      scanned_count_q <= count_q;
+      hit_t2_q <= watched_t1_q && keep_i;
+      hit_t3_q <= hit_t2_q;
+      hit_t4_q <= hit_t3_q;
+      hit_t5_q <= hit_t4_q;
+      bin_t2_q <= bin_i;
+      bin_t3_q <= bin_t2_q;
+      bin_t4_q <= bin_t3_q;
+      bin_t5_q <= bin_t4_q;
+      scanned_q <= scans_watched && known_q[watched_bin];
+      scanned_count_q <= counts_q[watched_bin*COUNT_WIDTH+:COUNT_WIDTH];
       check_q <= scanned_q;
       expected_q <= scanned_count_q;
     end
@@ -154,6 +201,7 @@ module histogram_builder_properties #(
   `ASSUME(m_clear_all_alone, !(clear_all_i && scan_i))
   `PROVE(a_every_timestamp_passes, beat_t1 == accepted_q)
   `PROVE(a_count, !check_q || count == expected_q)
+  `PROVE(a_full, !(&known_q) || (full_t5 && pixel_t5 == watched_pixel) == fills)
   `GOAL(check_q && count == '1)
 
 endmodule

@@ -6,7 +6,7 @@
     parameter int NB = 5,                // bits of the coarse index
     parameter int PIXELS_PER_SRAM = 160,  // pixels that the column serves
     parameter int SLOTS = 2,             // timestamps per pixel and acquisition
-    parameter int COUNT_WIDTH = 10,      // bits of a histogram bin; counters saturate
+    parameter int COUNT_WIDTH = 10,      // bits of a histogram bin
     parameter int POINTER_STEP = 1,      // bins that a pointer moves
     parameter int FRACTION_BITS = 0,     // fractional bits of a pointer
     parameter int CONFIDENCE_WIDTH = 4,  // bits of a pointer's confidence, 0 for none

@@ -8,7 +8,7 @@
 // Beside its histograms a column may keep one word a pixel (a pointer, a coarse peak, the best peak so far); readouts.toml
 // says when it is read. The rules between these ports are assertions: control/column_rules.sv.
     input  logic                    clk_i,
-    input  logic                    rst_ni,                   // of assertions alone: a column needs no reset
+    input  logic                    rst_ni,                   // of assertions and the chain of full counters alone
     // side band of the SRAM macros, which the technology folder gives a meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
@@ -32,7 +32,8 @@
     input  logic                    clear_s1_i,               // clear what was read
     input  logic [   BIN_WIDTH-1:0] clear_bin_s1_i,
     input  logic [   ROW_WIDTH-1:0] histogram_write_pixel_i,  // pixel of T5, or of S1 with clear_s1_i
-    input  logic                    clear_all_i,              // signalled clear of the whole memory
+    input  logic                    clear_all_i,              // before a histogram is built anew: nothing is frozen; signalled
+                                                              // clear of the whole memory
     input  logic                    scan_s2_i,                // the count of bin_s2_i is known
     input  logic                    first_s2_i,               // ... and is the first of its pixel
     input  logic [  SCAN_WIDTH-1:0] bin_s2_i,                 // past the last bin: a clock of what follows the scan
@@ -52,4 +53,7 @@
     input  logic                    result_load_i,            // S3 of M4: the result of the pixel is known
     input  logic                    result_shift_i,           // take the next column's, never while loading
     input  logic [RESULT_WIDTH-1:0] next_column_i,
-    output logic [RESULT_WIDTH-1:0] result_o                  // {code, fraction, confidence}
+    output logic [RESULT_WIDTH-1:0] result_o,                 // {code, fraction, confidence}
+    // chain of full counters, of read-outs with a histogram
+    input  logic                    next_counter_full_i,
+    output logic                    counter_full_o            // a counter of this column, or of one behind it, got full

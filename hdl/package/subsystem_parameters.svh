@@ -14,7 +14,7 @@
     parameter int SRAM_NUM = 200,
     // timestamps per pixel and acquisition
     parameter int SLOTS = 2,
-    // bits of a histogram bin; counters saturate
+    // bits of a histogram bin, a counter that never wraps
     parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 7
         : 10,
     // bins a pointer moves per timestamp

@@ -71,9 +71,6 @@ module dtof_subsystem #(
       : dtof_pkg::confidence_width(READOUT, COUNT_WIDTH,
                                    dtof_pkg::kept_confidence_width(CONFIDENCE_WIDTH, COUNT_WIDTH, RAW_HISTOGRAM));
   localparam int RAW_BINS = (RAW_HISTOGRAM != 0) ? dtof_pkg::raw_bins(READOUT, NP, NB) : 0;
-  // Whether the confidence of a result is a count of detections, and not a pointer's confidence or a margin: then its bits
-  // follow COUNT_WIDTH.
-  localparam int CONFIDENCE_IS_COUNT = (POOL == 0 && dtof_pkg::confidence_width(READOUT, 1, 0) == 1) ? 1 : 0;
   localparam int POOL_NB = $clog2(dtof_pkg::POOL_COARSE_BINS);
   localparam int POSITION_WIDTH = NP + FRACTION_WIDTH;
   localparam int TARGETS = (SECOND_TARGET != 0) ? 2 : 1;
@@ -321,6 +318,7 @@ module dtof_subsystem #(
 
   generate
     if (POOL != 0) begin : g_pool
+      assign counter_full = 1'b0;  // its coarse bins make room
       pool_pointer2_array #(
 `include "pool_pointer2_array_parameters.svh"
       ) u_array (
@@ -370,6 +368,7 @@ module dtof_subsystem #(
           .done_o         (done),
           .state_o        (state),
           .error_o        (array_error),
+          .counter_full_o (counter_full),
           .tdc_valid_i    (tdc_valid),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
@@ -544,9 +543,6 @@ module dtof_subsystem #(
   endgenerate
 
   assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
-  // A full counter may have missed detections. A pointer's confidence is at its largest value where all is well.
-  assign counter_full = m_axis_tvalid_o && m_axis_tready_i && m_axis_tdata_o[dtof_registers_pkg::RESULT_SATURATED_LSB]
-      && (m_axis_tdata_o[dtof_registers_pkg::RESULT_RAW_LSB] || CONFIDENCE_IS_COUNT != 0);
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule

@@ -22,9 +22,9 @@
 // Raw frame (RAW_HISTOGRAM = 1, raw_i with start_i): instead of the results, the histograms that the read-out holds at the
 //   frame's end, of the rows from raw_first_row_i to raw_last_row_i: row by row, bin by bin, column by column. code is
 //   the bin's lowest, limited to 0 .. 2^NP - 1, fraction 0, and confidence the count.
-// Borders: every signal between the shared logic and the columns goes from a register to a register (broadcast.sv); of what
-//   comes back there is only the result chain's head. Timestamps go from the port, which stands for the TDC's register, to
-//   those of their column (timestamp_input.sv).
+// Borders: every signal between the shared logic and the columns goes from a register to a register (broadcast.sv); what
+//   comes back are the heads of the result chain and of the chain of full counters. Timestamps go from the port, which
+//   stands for the TDC's register, to those of their column (timestamp_input.sv).
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: see reports/area.md.
@@ -72,6 +72,7 @@ module dtof_array #(
     output logic                   done_o,           // the last result was taken; one clock
     output logic [            2:0] state_o,          // dtof_pkg::STATE_*
     output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (array_errors)
+    output logic                   counter_full_o,   // a histogram's first counter got full; within busy_o
     // TDC stream
     input  logic                   tdc_valid_i,      // high for a whole acquisition
     output logic                   tdc_ready_o,      // an acquisition may start, or is under way
@@ -378,6 +379,11 @@ module dtof_array #(
   logic [(SRAM_NUM+1)*RESULT_WIDTH-1:0] chain;
   assign chain[SRAM_NUM*RESULT_WIDTH+:RESULT_WIDTH] = '0;
 
+  // Full counters go the same way, a column a clock, while timestamps stream in. The last one arrives before the results of
+  // the first row have left.
+  logic [SRAM_NUM:0] full_chain;
+  assign full_chain[SRAM_NUM] = 1'b0;
+
   // What the columns are told, on its way to them. What the read-out has no use for is zero: synthesis keeps the columns
   // as modules, and with their ports what drives them.
 
@@ -506,7 +512,9 @@ module dtof_array #(
       .result_load_i          (column_result_load), \
       .result_shift_i         (column_result_shift), \
       .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]), \
-      .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH]) \
+      .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH]), \
+      .next_counter_full_i    (full_chain[c+1]), \
+      .counter_full_o         (full_chain[c]) \
   );
 
   logic [SRAM_NUM*dtof_pkg::SRAM_CFG_WIDTH-1:0] column_cfg;
@@ -532,6 +540,16 @@ module dtof_array #(
   always_ff @(posedge clk_i) begin
     head_q <= chain[RESULT_WIDTH-1:0];
   end
+
+  full_counter_link u_full_counter_head (
+      .clk_i        (clk_i),
+      .rst_ni       (rst_ni),
+      .full_i       (1'b0),
+      .next_column_i(full_chain[0]),
+      .full_o       (counter_full_o)
+  );
+
+  `DTOF_ASSERT(a_counter_full_in_frame, !counter_full_o || busy_o, "a counter got full outside of a frame")
 
   result_output #(
       .SRAM_NUM    (SRAM_NUM),

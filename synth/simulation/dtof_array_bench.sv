@@ -37,7 +37,7 @@ module dtof_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, gate_begin, gate_end;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+11:0] rtl, netlist;  // as stream_bench has them
+  logic [TDATA_WIDTH+12:0] rtl, netlist;  // as stream_bench has them
 
 `ifndef NETLIST_ALONE
   dtof_array #(
@@ -74,6 +74,7 @@ module dtof_array_bench #(
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
       .error_o        (rtl[TDATA_WIDTH+9+:3]),
+      .counter_full_o (rtl[TDATA_WIDTH+12]),
       .sram_cfg_o     (rtl[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (rtl[TDATA_WIDTH+2]),
@@ -101,6 +102,7 @@ module dtof_array_bench #(
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),
       .error_o        (netlist[TDATA_WIDTH+9+:3]),
+      .counter_full_o (netlist[TDATA_WIDTH+12]),
       .sram_cfg_o     (netlist[TDATA_WIDTH+8+:1]),
       .tdc_valid_i    (tdc_valid),
       .tdc_ready_o    (netlist[TDATA_WIDTH+2]),

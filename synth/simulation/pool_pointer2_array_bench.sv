@@ -39,7 +39,7 @@ module pool_pointer2_array_bench #(
   logic clk, rst_n, start, tdc_valid, result_tready;
   logic [ACQ_WIDTH-1:0] acq_num, coarse_end, track_end, settings;
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
-  logic [TDATA_WIDTH+11:0] rtl, netlist;  // as stream_bench has them
+  logic [TDATA_WIDTH+12:0] rtl, netlist;  // as stream_bench has them
 
 `ifndef NETLIST_ALONE
   pool_pointer2_array #(
@@ -87,6 +87,7 @@ module pool_pointer2_array_bench #(
       .result_tdata_o (rtl[TDATA_WIDTH-1:0]),
       .result_tlast_o (rtl[TDATA_WIDTH])
   );
+  assign rtl[TDATA_WIDTH+12] = 1'b0;  // counter_full_o is dtof_array's
 `endif
 
 `ifdef NETLIST
@@ -115,6 +116,7 @@ module pool_pointer2_array_bench #(
       .result_tdata_o (netlist[TDATA_WIDTH-1:0]),
       .result_tlast_o (netlist[TDATA_WIDTH])
   );
+  assign netlist[TDATA_WIDTH+12] = 1'b0;
 `ifdef NETLIST_ALONE
   assign rtl = netlist;
 `endif

@@ -25,7 +25,7 @@ module stream_bench #(
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int RESULT_WIDTH = NP + FRACTION_BITS + CONFIDENCE_WIDTH,
     localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + RESULT_WIDTH,
-    localparam int OUTPUT_WIDTH = 12 + TDATA_WIDTH
+    localparam int OUTPUT_WIDTH = 13 + TDATA_WIDTH
 ) (
     output logic                   clk_o,
     output logic                   rst_no,
@@ -37,7 +37,7 @@ module stream_bench #(
     output logic                   tdc_valid_o,
     output logic [SRAM_NUM*NP-1:0] tdc_timestamp_o,
     output logic                   result_tready_o,
-    // {error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata}
+    // {counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata}
     input  logic [OUTPUT_WIDTH-1:0] rtl_i,
     input  logic [OUTPUT_WIDTH-1:0] netlist_i
 );
@@ -61,13 +61,13 @@ module stream_bench #(
   // Outputs, of the RTL and of the netlist.
 
   logic [dtof_pkg::ERROR_WIDTH-1:0] error, wanted_error;
-  logic sram_cfg, busy, done, tdc_ready, tvalid, tlast;
+  logic unused_counter_full, sram_cfg, busy, done, tdc_ready, tvalid, tlast;
   logic [2:0] state;
   logic [TDATA_WIDTH-1:0] tdata;
   logic netlist_tvalid, netlist_tlast;
   logic [TDATA_WIDTH-1:0] netlist_tdata;
 
-  assign {error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata} = rtl_i;
+  assign {unused_counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid, tlast, tdata} = rtl_i;
   assign {netlist_tvalid, netlist_tlast, netlist_tdata} = netlist_i[TDATA_WIDTH+1:0];
 
   // Random numbers (xorshift), the same in every simulator.
@@ -133,7 +133,7 @@ module stream_bench #(
   task check_unknown;
     begin
       if ((^rtl_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]) === 1'bx) begin
-        $display("RTL: a control output is X: {error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
+        $display("RTL: a control output is X: {counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
                  rtl_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]);
         fail;
       end
@@ -143,7 +143,7 @@ module stream_bench #(
       end
       if (COMPARE != 0) begin
         if ((^netlist_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]) === 1'bx) begin
-          $display("netlist: a control output is X: {error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
+          $display("netlist: a control output is X: {counter_full, error, sram_cfg, busy, done, state, tdc_ready, tvalid} = %b",
                    netlist_i[OUTPUT_WIDTH-1:TDATA_WIDTH+1]);
           fail;
         end
@@ -158,6 +158,7 @@ module stream_bench #(
   task check_netlist;
     begin
       if (COMPARE != 0 && rtl_i !== netlist_i) begin
+        compare("counter_full_o", TDATA_WIDTH + 12, 1);
         compare("error_o", TDATA_WIDTH + 9, 3);
         compare("sram_cfg_o", TDATA_WIDTH + 8, 1);
         compare("busy_o", TDATA_WIDTH + 7, 1);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <cstddef>
@@ -50,6 +51,60 @@ PoissonTable tabulate_poisson(double mean, std::int64_t from, std::int64_t to) {
     table.at_most[i] = below;
   }
   return table;
+}
+
+/// Nine standard deviations and a bit: how far a Poisson number of this mean lies from it at most.
+double poisson_margin(double mean) { return 9.0 * std::sqrt(mean) + 40.0; }
+
+/// P(bin i is the first whose Poisson process reaches `limit`, and before its end).
+std::vector<double> first_full_distribution(const std::vector<double>& means, unsigned limit) {
+  std::vector<double> result(means.size(), 0.0);
+  const double full = limit;
+  std::vector<std::size_t> candidates;
+  for (std::size_t bin = 0; bin < means.size(); ++bin) {
+    if (means[bin] > 0.0 && means[bin] + poisson_margin(means[bin]) >= full) {
+      candidates.push_back(bin);
+    }
+  }
+  if (candidates.empty()) {
+    return result;
+  }
+  // The bin of the largest mean is full at about limit / mean of the time.
+  const double largest = *std::max_element(means.begin(), means.end());
+  const double begin = std::max(full - poisson_margin(full), 0.0) / largest;
+  const double end = std::min((full + poisson_margin(full)) / largest, 1.0);
+  if (begin >= end) {
+    return result;
+  }
+  constexpr int kPanels = 64;
+  const double half_panel = 0.5 * (end - begin) / kPanels;
+  std::vector<double> not_full_behind(candidates.size() + 1, 1.0);
+  const auto add = [&](double time, double weight) {
+    for (std::size_t k = candidates.size(); k-- > 0;) {
+      not_full_behind[k] = not_full_behind[k + 1] * boost::math::gamma_q(full, means[candidates[k]] * time);
+    }
+    double not_full_before = 1.0;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const double mean = means[candidates[k]];
+      const double density =
+          mean * std::exp((full - 1.0) * std::log(mean * time) - mean * time - log_gamma(full));
+      result[candidates[k]] += weight * density * not_full_before * not_full_behind[k + 1];
+      not_full_before *= boost::math::gamma_q(full, mean * time);
+    }
+  };
+  using Gauss = boost::math::quadrature::gauss<double, 15>;
+  for (int panel = 0; panel < kPanels; ++panel) {
+    const double middle = begin + (2 * panel + 1) * half_panel;
+    for (std::size_t k = 0; k < Gauss::abscissa().size(); ++k) {
+      const double offset = half_panel * Gauss::abscissa()[k];
+      const double weight = half_panel * Gauss::weights()[k];
+      add(middle + offset, weight);
+      if (offset != 0.0) {
+        add(middle - offset, weight);
+      }
+    }
+  }
+  return result;
 }
 
 double sum_of(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -117,7 +172,7 @@ class ReadoutDistribution {
  private:
   /// Peak of `bins` bins of `width` codes from code `first` on (which may be outside the range).
   [[nodiscard]] std::vector<double> peak(std::uint32_t acquisitions, std::int64_t first, std::int64_t width,
-                                         std::int64_t bins) const {
+                                         std::int64_t bins, FullBin full) const {
     std::vector<double> counts(static_cast<std::size_t>(bins), 0.0);
     const auto codes = static_cast<std::int64_t>(means_.size());
     for (std::int64_t code = std::max<std::int64_t>(first, 0); code < std::min(first + width * bins, codes);
@@ -125,12 +180,12 @@ class ReadoutDistribution {
       counts[static_cast<std::size_t>((code - first) / width)] +=
           acquisitions * means_[static_cast<std::size_t>(code)];
     }
-    return peak_distribution(counts, limit_);
+    return peak_distribution(counts, limit_, full);
   }
 
   /// Fine pass of single-code bins; adds to the result.
   void fine(std::uint32_t acquisitions, std::int64_t first, std::int64_t bins, double probability) {
-    const std::vector<double> share = peak(acquisitions, first, 1, bins);
+    const std::vector<double> share = peak(acquisitions, first, 1, bins, FullBin::kFreezes);
     for (std::int64_t bin = 0; bin < bins; ++bin) {
       const std::int64_t code = std::clamp<std::int64_t>(first + bin, 0, parameters_.no_detection() - 1);
       positions_[static_cast<std::size_t>(code)] += probability * share[static_cast<std::size_t>(bin)];
@@ -139,7 +194,8 @@ class ReadoutDistribution {
 
   [[nodiscard]] std::vector<double> coarse() const {
     return peak(measurement_1(acquisitions_).size(), 0, std::int64_t{1} << (parameters_.np - parameters_.nb),
-                std::int64_t{1} << parameters_.nb);
+                std::int64_t{1} << parameters_.nb,
+                parameters_.readout == Readout::kHisPointer1 ? FullBin::kStays : FullBin::kFreezes);
   }
 
   void sifh() {
@@ -182,7 +238,7 @@ class ReadoutDistribution {
     const int next_shift = std::max(shift - kStepBits, 0);
     const std::int64_t width = std::int64_t{1} << next_shift;
     const std::vector<double> share =
-        peak(frame_part(zoom, step, kSteps).size(), begin, width, section / width);
+        peak(frame_part(zoom, step, kSteps).size(), begin, width, section / width, FullBin::kFreezes);
     for (std::size_t bin = 0; bin < share.size(); ++bin) {
       if (probability * share[bin] > kNegligible) {
         zoom_in(zoom, step + 1, begin + static_cast<std::int64_t>(bin) * width, next_shift,
@@ -202,7 +258,7 @@ class ReadoutDistribution {
           frame_part(acquisitions_, static_cast<std::uint32_t>(code >> static_cast<unsigned>(bin_bits)), runs)
               .size();
     }
-    positions_ = peak_distribution(counts, limit_);
+    positions_ = peak_distribution(counts, limit_, runs == 1 ? FullBin::kFreezes : FullBin::kStays);
   }
 
   void his_pointer() {
@@ -307,13 +363,16 @@ class ReadoutDistribution {
 
 }  // namespace
 
-std::vector<double> peak_distribution(const std::vector<double>& means, unsigned limit) {
+std::vector<double> peak_distribution(const std::vector<double>& means, unsigned limit, FullBin full) {
   const std::size_t bins = means.size();
-  std::vector<double> result(bins, 0.0);
+  const bool freezes = full == FullBin::kFreezes;
+  std::vector<double> result =
+      freezes ? first_full_distribution(means, limit) : std::vector<double>(bins, 0.0);
+  const unsigned most = freezes ? limit - 1 : limit;  // of a peak that is still to be found by its count
   // Counts outside mean -+ 9 standard deviations of the largest bin decide nothing.
   const double largest = *std::max_element(means.begin(), means.end());
-  const double margin = 9.0 * std::sqrt(largest) + 40.0;
-  const auto top = std::min<std::int64_t>(static_cast<std::int64_t>(std::min(largest + margin, 1e9)), limit);
+  const double margin = poisson_margin(largest);
+  const auto top = std::min<std::int64_t>(static_cast<std::int64_t>(std::min(largest + margin, 1e9)), most);
   const auto bottom = std::min(std::max<std::int64_t>(static_cast<std::int64_t>(largest - margin), 0), top);
   std::vector<PoissonTable> tables;
   tables.reserve(bins);

@@ -6,6 +6,7 @@
 #include "core/parameters.hpp"
 #include "photon/event_sampler.hpp"
 #include "photon/sensor_model.hpp"
+#include "readout/histogram.hpp"
 
 namespace dtof {
 
@@ -14,7 +15,7 @@ namespace dtof {
 ///
 /// Expected detections (photon/expected_detections.hpp) are exact; then
 ///  - histogram read-outs: counts of different bins are taken as independent Poisson numbers, and the peak's
-///    distribution follows exactly (saturation and ties included), pass by pass;
+///    distribution follows exactly (full bins and ties included), pass by pass;
 ///  - pointer read-outs: the pointer is a Markov chain that makes one move per acquisition and slot; the
 ///  slots
 ///    of one acquisition are taken as independent.
@@ -36,7 +37,8 @@ PredictedErrors predict_errors(const std::vector<double>& distribution, const Se
                                const ReadoutParameters& parameters, double distance_m);
 
 /// Probability of every bin to be the peak (largest count, lowest index on a tie, 0 if all are 0) of a
-/// histogram whose counts are independent Poisson numbers with these means, saturating at `limit` >= 1.
-std::vector<double> peak_distribution(const std::vector<double>& means, unsigned limit);
+/// histogram whose counts are independent Poisson processes with these means at their end, and full at
+/// `limit` >= 1.
+std::vector<double> peak_distribution(const std::vector<double>& means, unsigned limit, FullBin full);
 
 }  // namespace dtof

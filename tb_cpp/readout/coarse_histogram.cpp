@@ -16,7 +16,7 @@ class CoarseHistogramPixel {
         bin_shift_(static_cast<unsigned>(parameters.np - parameters.nb)),
         fraction_bits_(static_cast<unsigned>(parameters.fraction_bits)),
         limit_((1U << static_cast<unsigned>(parameters.count_width)) - 1),
-        histogram_(parameters.nb, parameters.count_width) {}
+        histogram_(parameters.nb, parameters.count_width, FullBin::kFreezes) {}
 
   void start_frame(std::uint32_t acquisitions) { end_ = acquisitions; }
 

@@ -14,7 +14,7 @@ namespace dtof {
 struct HistogramPeak {
   std::uint32_t bin = 0;    ///< largest count, lowest index on a tie; 0 for an empty histogram
   std::uint32_t count = 0;  ///< count of `bin`
-  std::uint32_t sum = 0;    ///< sum of all saturated counts
+  std::uint32_t sum = 0;    ///< sum of all counts
 };
 
 /// The highest pair of neighbouring bins after a scan, and the pairs on either side of it, each of which has
@@ -24,7 +24,7 @@ struct PairPeak {
   std::uint32_t before = 0;  ///< sum of the lower bin and the one before it
   std::uint32_t count = 0;   ///< sum of the pair
   std::uint32_t behind = 0;  ///< sum of the upper bin and the one behind it
-  std::uint32_t sum = 0;     ///< sum of all saturated counts
+  std::uint32_t sum = 0;     ///< sum of all counts
 };
 
 /// Height of the peak above the mean of the other bins of a histogram of 2^bin_bits bins, never negative
@@ -40,21 +40,30 @@ struct HistogramBins {
   int shift = 0;
 };
 
-/// Histogram of saturating counters. Scan and clear visit the touched bins only, so that a pass costs its
-/// detections and not its bins.
+/// What a histogram does behind its first full bin, which is one at 2^count_width - 1
+/// (docs/reference/readouts.md, "Full counters").
+enum class FullBin : std::uint8_t {
+  kFreezes,  ///< nothing more is counted until the next scan
+  kStays,    ///< it stays full, and the other bins count on
+};
+
+/// Histogram of counters that never wrap. Scan and clear visit the touched bins only, so that a pass costs
+/// its detections and not its bins.
 class Histogram {
  public:
   /// 2^bin_bits bins (bin_bits 0 .. 16) of count_width bits (1 .. 16).
-  Histogram(int bin_bits, int count_width)
+  Histogram(int bin_bits, int count_width, FullBin full)
       : counts_(std::size_t{1} << static_cast<unsigned>(bin_bits)),
         touched_(counts_.size() + 1),  // `add` writes one entry past the last touched bin
-        limit_(static_cast<std::uint16_t>((1U << static_cast<unsigned>(count_width)) - 1)) {}
+        limit_(static_cast<std::uint16_t>((1U << static_cast<unsigned>(count_width)) - 1)),
+        step_when_full_(full == FullBin::kFreezes ? 0 : 1) {}
 
   void add(std::uint32_t bin) {
     std::uint16_t& count = counts_[bin];
     touched_[touched_count_] = static_cast<std::uint16_t>(bin);
-    touched_count_ += count == 0 ? 1 : 0;
-    count = static_cast<std::uint16_t>(count + (count < limit_ ? 1 : 0));
+    touched_count_ += count == 0 ? step_ : 0U;
+    count = static_cast<std::uint16_t>(count + (count < limit_ ? step_ : 0U));
+    step_ = count == limit_ ? step_when_full_ : step_;
   }
 
   /// From here on take_peak copies all counts to `counts` before it clears them; null: it does not.
@@ -76,6 +85,7 @@ class Histogram {
       best = std::max(best, (count << 16U) | (kIndexMask - bin));
     }
     touched_count_ = 0;
+    step_ = 1;
     return {kIndexMask - (best & kIndexMask), best >> 16U, sum};
   }
 
@@ -102,6 +112,7 @@ class Histogram {
       counts_[touched_[i]] = 0;
     }
     touched_count_ = 0;
+    step_ = 1;
     return peak;
   }
 
@@ -112,6 +123,8 @@ class Histogram {
   std::vector<std::uint16_t> touched_;
   std::size_t touched_count_ = 0;
   std::uint16_t limit_;
+  std::uint32_t step_when_full_;
+  std::uint32_t step_ = 1;  // of a detection; 0: frozen
   std::vector<std::uint16_t>* copy_ = nullptr;
 };
 

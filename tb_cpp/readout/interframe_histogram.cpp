@@ -22,7 +22,7 @@ class SifhPixel {
   explicit SifhPixel(const ReadoutParameters& parameters)
       : fine_bits_(parameters.nb),
         coarse_{0, parameters.np, parameters.np - parameters.nb},
-        histogram_(parameters.nb, parameters.count_width) {
+        histogram_(parameters.nb, parameters.count_width, FullBin::kFreezes) {
     const int coarse_bin = 1 << (parameters.np - parameters.nb);
     const int half_window = (1 << parameters.nb) / 2;
     const int centring = parameters.window_centred ? std::max(coarse_bin / 2 - 1, 0) : 0;
@@ -61,7 +61,7 @@ class FifhPixel {
       : fine_bits_(parameters.np - parameters.nb),
         coarse_{0, parameters.np, fine_bits_},
         fine_{0, fine_bits_, 0},
-        histogram_(std::max(parameters.nb, fine_bits_), parameters.count_width) {}
+        histogram_(std::max(parameters.nb, fine_bits_), parameters.count_width, FullBin::kFreezes) {}
 
   void start_frame(std::uint32_t acquisitions) {
     coarse_.end = measurement_1(acquisitions).end;
@@ -92,7 +92,7 @@ class FifhPixel {
 class ThreeStepsPixel {
  public:
   explicit ThreeStepsPixel(const ReadoutParameters& parameters)
-      : histogram_(kFineBits, parameters.count_width) {
+      : histogram_(kFineBits, parameters.count_width, FullBin::kFreezes) {
     int shift = parameters.np;
     for (PrefixPass& step : steps_) {
       step.prefix_shift = shift;

@@ -13,7 +13,8 @@ class PartitionedPixel {
   explicit PartitionedPixel(const ReadoutParameters& parameters)
       : bin_bits_(parameters.readout == Readout::kHistogram ? parameters.np : parameters.nb),
         run_end_(std::size_t{1} << static_cast<unsigned>(parameters.np - bin_bits_)),
-        histogram_(bin_bits_, parameters.count_width) {}
+        histogram_(bin_bits_, parameters.count_width,
+                   run_end_.size() == 1 ? FullBin::kFreezes : FullBin::kStays) {}
 
   void start_frame(std::uint32_t acquisitions) {
     const auto runs = static_cast<std::uint32_t>(run_end_.size());

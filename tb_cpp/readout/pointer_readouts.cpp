@@ -34,7 +34,8 @@ class HisPointerPixel {
       : coarse_{0, parameters.np, parameters.np - parameters.nb},
         reach_(parameters.readout == Readout::kHisPointer1 ? parameters.code_count()
                                                            : (1 << parameters.nb) / 2 + parameters.guard),
-        histogram_(parameters.nb, parameters.count_width),
+        histogram_(parameters.nb, parameters.count_width,
+                   parameters.readout == Readout::kHisPointer1 ? FullBin::kStays : FullBin::kFreezes),
         pointer_(parameters) {}
 
   void start_frame(std::uint32_t acquisitions) {

@@ -34,7 +34,8 @@ class ArrayModel {
     const std::uint8_t* busy;
     const std::uint8_t* done;
     const std::uint8_t* state;
-    const std::uint8_t* error;  ///< kRtlUnderrun and so on
+    const std::uint8_t* error;         ///< kRtlUnderrun and so on
+    const std::uint8_t* counter_full;  ///< of dtof_array only, else null
     const std::uint8_t* tdc_ready;
     const std::uint8_t* result_valid;
     const std::uint8_t* result_last;

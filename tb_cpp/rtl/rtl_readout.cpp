@@ -220,6 +220,7 @@ class RtlReadout::Simulation {
     row_stall_left_ = options_->row_stall;
     expected_error_ = 0;
     frame_.statistics = RtlStatistics{};
+    frame_.counter_full_clocks = 0;
     const std::uint64_t limit = cycle_limit();
     const bool disturb = options_->stall_probability > 0.0 || options_->start_probability > 0.0;
     constexpr std::uint64_t kInterruptionInterval = 1U << 20U;
@@ -292,6 +293,9 @@ class RtlReadout::Simulation {
     const bool busy = cycle_ > 0;
     require((*ports_.busy != 0) == busy, busy ? "busy_o fell before done" : "busy before start");
     require(busy || *ports_.tdc_ready == 0, "tdc_ready_o is high in IDLE");
+    if (ports_.counter_full != nullptr && *ports_.counter_full != 0) {
+      ++frame_.counter_full_clocks;
+    }
     if (*ports_.result_valid != 0 || pending_beat_) {
       observe_result();
     }

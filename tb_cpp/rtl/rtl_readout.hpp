@@ -70,6 +70,7 @@ struct RtlFrame {
   /// Index = row * columns + column; of a raw frame ((row - first) * bins + bin) * columns + column.
   std::vector<PixelResult> results;
   std::vector<std::uint64_t> result_cycles;  ///< clock of each result, since start; same index
+  std::uint64_t counter_full_clocks = 0;     ///< clocks in which counter_full_o was high
   RtlStatistics statistics;
 };
 

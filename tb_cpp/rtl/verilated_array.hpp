@@ -27,6 +27,10 @@ class VerilatedArray : public ArrayModel {
     if constexpr (requires { model_.result_second_o; }) {
       second = &model_.result_second_o;
     }
+    const std::uint8_t* counter_full = nullptr;
+    if constexpr (requires { model_.counter_full_o; }) {
+      counter_full = &model_.counter_full_o;
+    }
     if constexpr (requires { model_.coarse_end_i; }) {
       registers = {.coarse_end = &model_.coarse_end_i,
                    .track_end = &model_.track_end_i,
@@ -58,6 +62,7 @@ class VerilatedArray : public ArrayModel {
             .done = &model_.done_o,
             .state = &model_.state_o,
             .error = &model_.error_o,
+            .counter_full = counter_full,
             .tdc_ready = &model_.tdc_ready_o,
             .result_valid = &model_.result_tvalid_o,
             .result_last = &model_.result_tlast_o,

@@ -70,6 +70,11 @@ module first_photon_column #(
       .word_o         (word)
   );
 
+  // No counters.
+  logic unused_next_counter_full;
+  assign unused_next_counter_full = next_counter_full_i;
+  assign counter_full_o = 1'b0;
+
   result_register #(
       .WIDTH(RESULT_WIDTH)
   ) u_result_register (

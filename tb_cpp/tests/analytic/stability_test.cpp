@@ -409,7 +409,7 @@ std::vector<StabilityResult> check_peaks() {
   for (int width = 1; width <= 16; ++width) {
     const std::uint32_t limit = (1U << static_cast<unsigned>(width)) - 1;
     for (std::uint32_t first = 0; first < 16; first += 5) {
-      Histogram histogram(4, width);
+      Histogram histogram(4, width, FullBin::kStays);
       // Descending order of bins, so that the first touched is not the lowest.
       for (std::uint32_t bin = 16; bin-- > first;) {
         histogram.add(bin);
@@ -431,8 +431,10 @@ std::vector<StabilityResult> check_peaks() {
       for (const double ratio : {0.0, 1e-6, 0.5, 1.0}) {
         std::vector<double> means(32, mean * ratio);
         means[20] = mean;
-        const std::vector<double> share = peak_distribution(means, limit);
-        sums.add(std::abs(std::accumulate(share.begin(), share.end(), 0.0) - 1.0));
+        for (const FullBin full : {FullBin::kStays, FullBin::kFreezes}) {
+          const std::vector<double> share = peak_distribution(means, limit, full);
+          sums.add(std::abs(std::accumulate(share.begin(), share.end(), 0.0) - 1.0));
+        }
       }
     }
   }
@@ -445,7 +447,7 @@ std::vector<StabilityResult> check_peaks() {
         first += p * (1 - exact_at_least(n + 1, Real(b)));
         p *= Real(a) / (n + 1);
       }
-      const std::vector<double> share = peak_distribution({a, b}, 1023);
+      const std::vector<double> share = peak_distribution({a, b}, 1023, FullBin::kFreezes);
       values.add(share[0], first, Real(1));
       values.add(share[1], 1 - first, Real(1));
     }

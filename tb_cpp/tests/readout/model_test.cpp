@@ -129,10 +129,11 @@ TEST(PifhModel, WithOnePartitionIsTheHistogram) {
   EXPECT_EQ(run(pifh, codes), run(ReadoutParameters::defaults(Readout::kHistogram, 8), codes));
 }
 
-TEST(HistogramModel, TieSaturationAndNoDetection) {
+TEST(HistogramModel, TieFullBinAndNoDetection) {
   ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kHistogram, 10);
   parameters.count_width = 2;
-  EXPECT_EQ(run(parameters, {9, 9, 9, 9, 9, 4, 4, 4}).code, 4U) << "both saturate at 3";
+  EXPECT_EQ(run(parameters, {9, 9, 4, 4}).code, 4U);
+  EXPECT_EQ(run(parameters, {9, 9, 4, 9, 4, 4, 4}).code, 9U) << "full first";
   EXPECT_EQ(run(parameters, {1023, 1023, 1023, 1022}).code, 1022U);
 }
 
@@ -204,7 +205,10 @@ TEST(CoarseHistogramModel, BeyondEitherEndThereIsNothing) {
 TEST(CoarseHistogramModel, ConfidenceStaysInItsBits) {
   ReadoutParameters parameters = eight_bins(0);
   parameters.count_width = 3;
-  EXPECT_EQ(run(parameters, codes_of({0, 0, 9, 9, 0, 0, 0, 0}, 8)), (PixelResult{24, 0, 7}));
+  EXPECT_EQ(run(parameters, codes_of({0, 0, 6, 7, 0, 0, 0, 0}, 8)), (PixelResult{24, 0, 7}));
+  EXPECT_EQ(run(parameters, codes_of({0, 0, 3, 9, 2, 0, 0, 0}, 8)),
+            run(parameters, codes_of({0, 0, 3, 7, 0, 0, 0, 0}, 8)))
+      << "frozen";
   EXPECT_EQ(run(parameters, codes_of({0, 0, 3, 3, 0, 0, 0, 0}, 8)).confidence, 6);
   EXPECT_EQ(run(parameters, codes_of({0, 0, 4, 4, 0, 0, 0, 0}, 8)).confidence, 7);
 }

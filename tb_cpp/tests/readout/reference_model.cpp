@@ -86,6 +86,11 @@ class Frame {
     std::int64_t width = 1;  // codes of a bin
   };
 
+  bool freezes() const {
+    const bool one_of_runs = p_.readout == Readout::kPifh && p_.nb < p_.np;
+    return p_.readout != Readout::kHisPointer1 && !one_of_runs;
+  }
+
   std::int64_t half() const { return acquisitions_ / 2; }
 
   std::vector<std::int64_t> timestamps(std::int64_t begin, std::int64_t end, const Keep& keep) const {
@@ -102,7 +107,9 @@ class Frame {
   Scan scan(std::int64_t begin, std::int64_t end, const Keep& keep, const Bin& bin, std::int64_t bins) const {
     std::map<std::int64_t, std::int64_t> counts;
     for (const std::int64_t timestamp : timestamps(begin, end, keep)) {
-      ++counts[bin(timestamp)];
+      if (++counts[bin(timestamp)] == power2(p_.count_width) - 1 && freezes()) {
+        break;  // this bin is full: the histogram has seen enough
+      }
     }
     Scan found;
     std::int64_t sum = 0;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <ostream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "readout/model.hpp"
@@ -104,6 +105,42 @@ TEST_P(AgainstReference, LongFrames) {
     ReadoutParameters parameters = ReadoutParameters::defaults(GetParam(), 10);
     parameters.fraction_bits = pick(random, 5);
     expect_as_reference(parameters, acquisitions, random);
+  }
+}
+
+// Light that fills bins: a pulse over several of them, background alone, and both.
+TEST_P(AgainstReference, FullBins) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream),
+                       static_cast<std::uint32_t>(GetParam()), 1U << 17U);
+  constexpr std::uint32_t kAcquisitions = 2000;
+  for (int count_width = 1; count_width <= 8; ++count_width) {
+    ReadoutParameters parameters = ReadoutParameters::defaults(GetParam(), 8);
+    parameters.count_width = count_width;
+    for (const auto& [signal, background] : {std::pair(0.9, 0.1), std::pair(0.0, 1.0), std::pair(0.5, 0.9)}) {
+      ColumnStream column;
+      std::vector<std::vector<Detection>> rows;
+      for (int row = 0; row < 8; ++row) {
+        const int middle = 20 + pick(random, 200);
+        std::vector<Detection>& stream = rows.emplace_back();
+        for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+          if (random.uniform() < signal) {
+            stream.push_back(
+                {acquisition, static_cast<Timestamp>(middle + pick(random, 7) + pick(random, 7))});
+          }
+          if (random.uniform() < background) {
+            stream.push_back({acquisition, static_cast<Timestamp>(pick(random, parameters.no_detection()))});
+          }
+        }
+        column.append_row(stream);
+      }
+      const auto results = make_readout_model(parameters)->run_column(column, kAcquisitions);
+      for (std::size_t row = 0; row < rows.size(); ++row) {
+        ASSERT_EQ(results[row], reference_result(parameters, rows[row], kAcquisitions))
+            << parameters.to_string() << ", signal " << signal << ", background " << background << ", row "
+            << row;
+      }
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tests/rtl/rtl_test_support.hpp"
 
@@ -119,6 +120,100 @@ TEST_P(EveryHistogram, CountersSaturate) {
   RtlFrame frame;
   ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, default_options(1), &frame));
   EXPECT_EQ(frame.results.at(0).confidence, most);
+  EXPECT_GT(frame.counter_full_clocks, 0U);
+}
+
+// All that count detections of a pixel, hisPointer's measurement 1 included.
+std::vector<RtlConfiguration> counting_configurations() {
+  std::vector<RtlConfiguration> configurations = compiled_rtl_configurations();
+  std::erase_if(configurations, [](const RtlConfiguration& configuration) {
+    const Readout readout = configuration.parameters.readout;
+    return is_pool_readout(readout) || !has_histogram(readout);
+  });
+  return configurations;
+}
+
+class EveryCounter : public testing::TestWithParam<RtlConfiguration> {
+ protected:
+  // Acquisitions of a frame whose first pass has `acquisitions`.
+  static std::uint32_t frame_of(std::uint32_t acquisitions) {
+    const ReadoutParameters& parameters = GetParam().parameters;
+    switch (parameters.readout) {
+      case Readout::kPifh:
+        return acquisitions << static_cast<unsigned>(parameters.np - parameters.nb);
+      case Readout::kThreeSteps:
+        return 6 * acquisitions;
+      case Readout::kHistogram:
+      case Readout::kCoarseHistogram:
+        return acquisitions;
+      default:
+        return 2 * acquisitions;
+    }
+  }
+
+  const std::uint32_t most_ = (1U << GetParam().parameters.count_width) - 1;
+};
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(EveryCounter);
+
+INSTANTIATE_TEST_SUITE_P(Compiled, EveryCounter, testing::ValuesIn(counting_configurations()),
+                         configuration_test_name);
+
+// One pixel of the last column has a bin that gets full in the last acquisition of the first pass, or misses
+// that by one.
+TEST_P(EveryCounter, TellsOfTheFirstFullOneAlone) {
+  RtlReadout rtl(GetParam());
+  const std::uint32_t acquisitions = frame_of(most_);
+  ASSERT_LT(acquisitions, 65536U);
+  RtlRunOptions options = default_options(1);
+  for (const std::uint32_t missing : {1U, 0U, 1U}) {
+    SCOPED_TRACE(testing::Message() << missing << " missing");
+    std::vector<ColumnStream> columns(static_cast<std::size_t>(GetParam().sram_num));
+    for (std::uint32_t acquisition = missing; acquisition < most_; ++acquisition) {
+      columns.back().append({acquisition, 0});
+    }
+    for (ColumnStream& column : columns) {
+      column.finish_row();
+    }
+    RtlFrame frame;
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, options, &frame));
+    EXPECT_EQ(frame.counter_full_clocks, 1U - missing);
+    options.reset_first = false;
+  }
+}
+
+// Light that fills several bins of a pixel, and those of its neighbours in other acquisitions.
+TEST_P(EveryCounter, AgreesWithModelInFullBins) {
+  const ReadoutParameters& parameters = GetParam().parameters;
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 70);
+  RtlReadout rtl(GetParam());
+  RtlRunOptions options = default_options(test_seed());
+  const std::uint32_t acquisitions = std::min(frame_of(4 * most_), 4000U);
+  constexpr int kLitRows = 7;
+  for (const auto& [signal, background] : {std::pair(0.8, 0.1), std::pair(0.0, 1.0), std::pair(0.4, 0.6)}) {
+    SCOPED_TRACE(testing::Message() << "signal " << signal << ", background " << background);
+    std::vector<ColumnStream> columns(static_cast<std::size_t>(GetParam().sram_num));
+    for (ColumnStream& column : columns) {
+      for (int row = 0; row < GetParam().pixels_per_sram; ++row) {
+        const int middle = pick(random, parameters.no_detection());
+        for (std::uint32_t acquisition = 0; row < kLitRows && acquisition < acquisitions; ++acquisition) {
+          for (int slot = 0; slot < parameters.slots; ++slot) {
+            const double draw = random.uniform();
+            if (draw < signal) {
+              column.append({acquisition, static_cast<Timestamp>(std::min(middle + pick(random, 4),
+                                                                          parameters.no_detection()))});
+            } else if (draw < signal + background) {
+              column.append({acquisition, static_cast<Timestamp>(pick(random, parameters.code_count()))});
+            }
+          }
+        }
+        column.finish_row();
+      }
+    }
+    RtlFrame frame;
+    ASSERT_TRUE(agrees_with_model(rtl, columns, acquisitions, options, &frame));
+    options.reset_first = false;
+  }
 }
 
 }  // namespace

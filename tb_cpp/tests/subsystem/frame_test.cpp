@@ -108,9 +108,9 @@ std::vector<Line> lines_that_fill_a_counter(const RtlConfiguration& configuratio
   return lines;
 }
 
-// The confidence of a result is a count of detections.
-bool confidence_is_count(const ReadoutParameters& parameters) {
-  return !is_pointer_readout(parameters.readout) && !is_pool_readout(parameters.readout);
+// It counts detections in histograms of pixels.
+bool has_counters(const ReadoutParameters& parameters) {
+  return has_histogram(parameters.readout) && !is_pool_readout(parameters.readout);
 }
 
 TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
@@ -132,8 +132,7 @@ TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
     const std::vector<ResultFields> received = received_results(bench_, frame++);
     ASSERT_EQ(received, expected_results(bench_, settings, lines));
     EXPECT_EQ(std::ranges::count_if(received, &ResultFields::saturated), has_counter ? 1 : 0);
-    const bool counts = confidence_is_count(parameters) || (raw && configuration.raw_histogram);
-    const std::uint32_t warning = counts ? DTOF_WARNING_COUNTER_FULL_MASK : 0U;
+    const std::uint32_t warning = has_counters(parameters) ? DTOF_WARNING_COUNTER_FULL_MASK : 0U;
     EXPECT_EQ(bench_.get(DTOF_WARNING), warning) << "a full confidence of a pointer is no warning";
     bench_.set(DTOF_WARNING, ~DTOF_WARNING_COUNTER_FULL_MASK);
     EXPECT_EQ(bench_.get(DTOF_WARNING), warning) << "it was not written as 1";
@@ -145,36 +144,85 @@ TEST_P(SubsystemFrames, TellWhichCountersAreFull) {
   }
 }
 
+// Acquisitions of a frame whose first pass can fill a counter: three steps take a sixth of them for their
+// first one.
+std::uint32_t acquisitions_to_fill_a_counter(const ReadoutParameters& parameters) {
+  return 6 * ((1U << static_cast<unsigned>(parameters.count_width)) - 1);
+}
+
+// One pixel of the last column sees a detection in each of the first acquisitions, all of which are in the
+// first pass.
+std::vector<Line> lines_with_detections(const RtlConfiguration& configuration, std::size_t detections) {
+  std::vector<Line> lines =
+      dark_lines(configuration, acquisitions_to_fill_a_counter(configuration.parameters));
+  const auto acquisition_lines =
+      static_cast<std::size_t>(configuration.pixels_per_sram * configuration.parameters.slots);
+  for (std::size_t i = 0; i < detections; ++i) {
+    lines[i * acquisition_lines].back() = 0;
+  }
+  return lines;
+}
+
+// No result shows a counter that is full in the first of several passes.
+TEST_P(SubsystemFrames, TellOfFullCountersOfAnyPass) {
+  const RtlConfiguration& configuration = bench_.configuration();
+  const ReadoutParameters& parameters = configuration.parameters;
+  const std::uint32_t acquisitions = acquisitions_to_fill_a_counter(parameters);
+  const std::size_t most = acquisitions / 6;
+  const FrameSettings settings{
+      .acquisitions = acquisitions, .gate = {0, parameters.no_detection()}, .enabled = {}};
+  std::size_t frame = 0;
+  for (const std::size_t detections : {most - 1, most}) {
+    SCOPED_TRACE(testing::Message() << detections << " detections");
+    const std::vector<Line> lines = lines_with_detections(configuration, detections);
+    write_settings(bench_, settings);
+    push_lines(bench_, lines);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    ASSERT_EQ(received_results(bench_, frame++), expected_results(bench_, settings, lines));
+    const bool full = has_counters(parameters) && detections == most;
+    EXPECT_EQ(bench_.get(DTOF_WARNING), full ? DTOF_WARNING_COUNTER_FULL_MASK : 0U);
+  }
+}
+
 TEST_P(SubsystemFrames, AWarningIsNotLostInTheClockInWhichItIsCleared) {
   const RtlConfiguration& configuration = bench_.configuration();
-  if (!confidence_is_count(configuration.parameters) || bench_.axi_lite()) {
+  const ReadoutParameters& parameters = configuration.parameters;
+  if (!has_counters(parameters) || bench_.axi_lite()) {
     GTEST_SKIP() << "no such warning, or a bus whose clocks are random";
   }
-  write_settings(bench_, {.acquisitions = kAcquisitionsThatFillACounter,
-                          .gate = {0, configuration.parameters.no_detection()},
-                          .enabled = {}});
-  for (const std::uint64_t clock : {0U, 1U, 2U, 3U}) {
-    SCOPED_TRACE(testing::Message() << "the word is taken in clock " << clock << " of the write");
-    bench_.sink().blocked = true;
-    push_lines(bench_, lines_that_fill_a_counter(configuration));
+  const std::uint32_t acquisitions = acquisitions_to_fill_a_counter(parameters);
+  const std::size_t most = acquisitions / 6;
+  write_settings(bench_,
+                 {.acquisitions = acquisitions, .gate = {0, parameters.no_detection()}, .enabled = {}});
+  const std::vector<Line> lines = lines_with_detections(configuration, most);
+  // The warning, read so many clocks behind the start, and then again if `clear` instead writes it.
+  const auto warning_at = [&](std::uint64_t clocks, bool clear) {
+    push_lines(bench_, lines);
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
-    while (bench_.source().waiting() > 0) {
-      bench_.clock();
+    bench_.clocks(clocks);
+    if (clear) {
+      bench_.set(DTOF_WARNING, DTOF_WARNING_COUNTER_FULL_MASK);
+      bench_.clocks(4);
     }
-    bench_.clocks(2000);  // the frame's first result, whose counter is full, waits for the sink
-    EXPECT_EQ(bench_.get(DTOF_WARNING), 0U);
-    bench_.begin_write(DTOF_WARNING, DTOF_WARNING_COUNTER_FULL_MASK);
-    bench_.clocks(clock);
-    bench_.sink().blocked = false;
-    bench_.clock();
-    bench_.sink().blocked = true;
-    bench_.clocks(4);
-    constexpr std::uint64_t kClearingClock = 1;  // the second of APB's two
-    EXPECT_EQ(bench_.get(DTOF_WARNING), clock < kClearingClock ? 0U : DTOF_WARNING_COUNTER_FULL_MASK);
-    bench_.sink().blocked = false;
+    const std::uint32_t warning = bench_.get(DTOF_WARNING);
     bench_.wait_for_frames(1);
     bench_.set(DTOF_WARNING, DTOF_WARNING_COUNTER_FULL_MASK);
+    return warning;
+  };
+  std::uint64_t before = 0;
+  std::uint64_t behind = lines.size() / 3;  // twice the acquisitions that fill the counter
+  ASSERT_EQ(warning_at(before, false), 0U);
+  ASSERT_EQ(warning_at(behind, false), DTOF_WARNING_COUNTER_FULL_MASK);
+  while (behind - before > 1) {
+    const std::uint64_t middle = (before + behind) / 2;
+    (warning_at(middle, false) == 0 ? before : behind) = middle;
   }
+  // A read sees the register from the clock behind the event on; a write in the clock of the event is too
+  // early.
+  EXPECT_EQ(warning_at(behind, true), 0U);
+  EXPECT_EQ(warning_at(behind - 1, true), DTOF_WARNING_COUNTER_FULL_MASK);
+  EXPECT_EQ(warning_at(behind - 2, true), DTOF_WARNING_COUNTER_FULL_MASK);
 }
 
 TEST_P(SubsystemFrames, AreWholeBehindAResetAtAnyTime) {
