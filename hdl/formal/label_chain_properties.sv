@@ -2,7 +2,6 @@
 // Two labels, three pixels, driven by pool2_sequencer and with the messages in an SRAM, as in pool2_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
 // of the one that is farther from the pixel in question (docs/reference/poolpointer2.md, Chain: the sender's lambda).
-`include "pool2_command.svh"
 `include "properties.svh"
 
 module label_chain_properties #(
@@ -28,6 +27,7 @@ module label_chain_properties #(
   (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
   (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
 
+  `include "pool2_command.svh"
   pool2_engine_command_t command;
   logic [1:0] scratch_row;
   logic unused_done, unused_select, unused_read, unused_write, unused_upper, unused_neighbour, unused_column, unused_send,

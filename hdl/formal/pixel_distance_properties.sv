@@ -2,8 +2,6 @@
 // How far a timestamp is from where a pixel's word points: docs/reference/poolpointer2.md, Track and Point, on integers.
 `include "properties.svh"
 
-`include "pixel_distance.svh"
-
 module pixel_distance_properties #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
@@ -31,6 +29,7 @@ module pixel_distance_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
+  `include "pixel_distance.svh"
   pixel_distance_t distance;
 
   label_match #(

@@ -3,8 +3,6 @@
 // word to the next word. Distances come from pixel_distance and label_match, so that the three are proved together.
 `include "properties.svh"
 
-`include "pixel_distance.svh"
-
 module twin_pointer_update_properties #(
     parameter int LABELS = 5,
     parameter int ADVANTAGE_WIDTH = 7,
@@ -27,6 +25,7 @@ module twin_pointer_update_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
+  `include "pixel_distance.svh"
   pixel_distance_t distance;
   logic [POINT_WIDTH-1:0] word;
 

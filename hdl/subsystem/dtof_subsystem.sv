@@ -296,7 +296,7 @@ module dtof_subsystem #(
   // The array. Its clock rests between frames. Behind a reset it runs for as long as what had no reset takes to leave the
   // array's pipelines.
 
-  logic array_clk;
+  logic array_clk, array_busy;
   logic [7:0] settling_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -316,7 +316,6 @@ module dtof_subsystem #(
 
   logic result_tvalid, result_tready, result_tlast;
   logic [RESULT_WIDTH-1:0] result_tdata;
-  logic array_busy;
   logic [dtof_pkg::ERROR_WIDTH-1:0] array_error;
 
   generate

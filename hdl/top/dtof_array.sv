@@ -29,6 +29,7 @@
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
+`include "dtof_readout_range.svh"
 
 module dtof_array #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,  // dtof_pkg::READOUT_*
