@@ -19,8 +19,9 @@ ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 sys.path.insert(0, str(ROOT / "synth"))
 
-from dtof_synth import readouts  # noqa: E402
+from dtof_synth import readouts, statistics  # noqa: E402
 from dtof_synth.configuration import Configuration, load  # noqa: E402
+from dtof_synth.errors import FlowError  # noqa: E402
 
 SIZE = {  # enough to see every connection between columns, and between engines
     "dtof_array": {"SRAM_NUM": 2},
@@ -144,8 +145,7 @@ def block_rams(target: str, module: str, depth: int, width: int) -> tuple[int, d
         f"synth_{target} -top {module}; tee -o /dev/stdout stat"
     )
     output = run(["yosys", "-Q", "-T", "-p", script]).stdout
-    statistics = output[output.rfind("Number of cells:"):]
-    cells = {kind: int(number) for kind, number in re.findall(r"^ +(\w+) +(\d+)$", statistics, re.MULTILINE)}
+    cells = statistics.cells(output)
     return cells.get(BLOCK_RAM[target], 0), cells
 
 
@@ -155,7 +155,11 @@ def check_block_rams() -> list[str]:
     for target in BLOCK_RAM:
         for module in ("sram_1r1w", "sram_1rw"):
             depth, width = 5120, 10
-            found, cells = block_rams(target, module, depth, width)
+            try:
+                found, cells = block_rams(target, module, depth, width)
+            except FlowError as error:
+                failures.append(f"{module} ({depth} x {width}) with synth_{target}: {error}")
+                continue
             others = sum(cells.values()) - found
             if found == 0 or others > depth * width // 100:
                 failures.append(f"{module} ({depth} x {width}) does not become block RAM with synth_{target}: {cells}")
