@@ -29,9 +29,10 @@ for purpose in "$@"; do
     slurm) packages+=(snakemake slurm-wlm munge) ;;  # a cluster of one node, for make sweep-test only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
     learning) packages+=(libdlib-dev) ;;        # trains the enlarger's weights, for make train-enlarger only
+    slang) packages+=(npm) ;;                   # fetches slang, for make lint-slang only
     playground)  # the models as WebAssembly, for make playground only
       packages+=(emscripten librange-v3-dev) ;;
-    *) echo "error: $purpose: packages for fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, learning and playground are known" >&2; exit 2 ;;
+    *) echo "error: $purpose: packages for fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, learning, slang and playground are known" >&2; exit 2 ;;
   esac
 done
 

@@ -6,7 +6,7 @@
 Also checks that illegal parameters stop elaboration with their sentence and the last legal ones do not
 (hdl/lint/parameter_limits.csv), that no construct is used which a tool is known
 to read wrongly, that hdl/dtof.f reads in all three tools as its head says, and that the SRAM stand-ins become
-block RAM. Exits non-zero with the tool's message.
+block RAM. Where slang is installed (make lint-slang), it reads the tops, too. Exits non-zero with the tool's message.
 """
 
 import re
@@ -17,17 +17,14 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
-sys.path.insert(0, str(ROOT / "synth"))
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
 
+import slang  # noqa: E402
 from dtof_synth import readouts, statistics  # noqa: E402
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
-SIZE = {  # enough to see every connection between columns, and between engines
-    "dtof_array": {"SRAM_NUM": 2},
-    "dtof_subsystem": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
-    "pool_pointer2_array": {"SRAM_NUM": 7, "ENGINE_COLUMNS": 4},
-}
+SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
 IN_FRONT = {"axi_lite_to_apb": {"ADDR_WIDTH": 12}, "reset_synchroniser": {}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in a folder of its own
@@ -216,9 +213,13 @@ def main() -> int:
         subsystem = pool.map(check_subsystem, subsystem_numbers())
         in_front = [text for top, settings in IN_FRONT.items() for text in check_read(top, top, settings)]
         failures += [text for group in (*legal, *limit, *subsystem, in_front, check_demonstrator(), block_ram.result()) for text in group]
+    if slang.is_installed():
+        failures += slang.check()
     for text in failures:
         print(text, file=sys.stderr)
     if not failures:
+        print(f"slang: {len(SIZE)} tops clean" if slang.is_installed()
+              else f"slang: {len(SIZE)} tops skipped, for it is not installed (make lint-slang installs it)")
         print(
             f"RTL lint: {len(configurations)} configurations, the subsystem of {len(subsystem_numbers())} read-outs and the "
             "demonstrator clean in Verilator, Yosys and Icarus Verilog; "
