@@ -33,6 +33,11 @@ MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
      "a parameter is set to '1, which Yosys 0.23 folds to the value 1 where it has a type: write {WIDTH{1'b1}}"),
 ]
+# A name that nobody has declared is an error in every file, and no wire of one bit; what a user's files declare stays theirs. No
+# file but the benches has a delay, so that a `timescale of a user's files matters to none.
+HEAD = re.compile(r"^// verilator lint_off TIMESCALEMOD\n`default_nettype none\n\n(?:module|package) \w+", re.MULTILINE)
+TAIL = "\n\n`default_nettype wire\n"
+FIRST = re.compile(r"^(?:module|package|interface) \w+", re.MULTILINE)
 HARMLESS_SORRY: dict[str, str] = {}  # part of an Icarus line, and why it does no harm
 BLOCK_RAM = {"ecp5": "DP16KD", "ice40": "SB_RAM40_4K"}
 
@@ -123,6 +128,19 @@ def check_misread(sources: dict[str, str]) -> list[str]:
             for name, text in sources.items() for pattern, why in MISREAD for found in pattern.finditer(text)]
 
 
+def check_nettype(sources: dict[str, str]) -> list[str]:
+    """Every file turns implicit nets off in front of its first module and on behind its last one, and takes any time scale."""
+    failures = []
+    for name, text in sources.items():
+        head, first = HEAD.search(text), FIRST.search(text)
+        if head is None or first is None or head.end() != first.end() or not text.endswith(TAIL):
+            failures.append(f"{name}: in front of the first module stand '// verilator lint_off TIMESCALEMOD' and '`default_nettype "
+                            "none', a blank line behind them, and at the file's end, behind a blank line, '`default_nettype wire'")
+        if "`timescale" in text and not name.startswith("hdl/example/"):
+            failures.append(f"{name}: a `timescale, which every file behind this one would have")
+    return failures
+
+
 def check_file_list() -> list[str]:
     """The commands in the head of dtof.f, as a user runs them."""
     head = (HDL / "dtof.f").read_text().splitlines()
@@ -205,7 +223,7 @@ def main() -> int:
     sources = {str(path.relative_to(ROOT)): path.read_text() for path in sorted(HDL.rglob("*.sv"))}
     limits = parameter_limits()
     illegal = [sentence for _, _, sentence in limits if sentence]
-    failures = [*check_misread(sources), *check_file_list(), *check_sentences(limits)]
+    failures = [*check_misread(sources), *check_nettype(sources), *check_file_list(), *check_sentences(limits)]
     with ThreadPoolExecutor(max_workers=2) as pool:
         block_ram = pool.submit(check_block_rams)
         legal = pool.map(check_configuration, configurations)

@@ -27,6 +27,9 @@
 // Cost: counters and a register of the commands, per array.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,  // rows of a column
     parameter int GROUP_SIZE = 4,         // rows of a group
@@ -475,3 +478,5 @@ module pool2_sequencer #(
                "an operation is started together with another one, or while one is in work")
 
 endmodule
+
+`default_nettype wire

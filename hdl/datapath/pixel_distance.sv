@@ -9,6 +9,9 @@
 //          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
 // Cost: a row of carries and an adder of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pixel_distance #(
     parameter int LABELS = 5,
     parameter int SCORES_WIDTH = 24,
@@ -170,3 +173,5 @@ module pixel_distance #(
   assign unused = ^{1'b0, settled, position_i, word_i, leader_cell_i, hits_i};
 
 endmodule
+
+`default_nettype wire

@@ -8,6 +8,9 @@
 // A clock without a timestamp leaves all registers as they are, so that nothing behind them moves.
 // Throughput: a pixel a clock. Cost at the defaults: see reports/area.md.
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_pixel_update #(
     parameter int NP = 10,
     parameter int LABELS = 5,
@@ -138,3 +141,5 @@ module pool2_pixel_update #(
   assign word_o = (PIXEL_WIDTH'(tracked) & {PIXEL_WIDTH{track_i}}) | (PIXEL_WIDTH'(pointed) & {PIXEL_WIDTH{point_i}});
 
 endmodule
+
+`default_nettype wire

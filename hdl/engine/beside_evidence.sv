@@ -14,6 +14,9 @@
 //   advance_i, which may come in that clock.
 // Cost: three comparators of cells, some 150 flip-flops at the defaults, per engine.
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module beside_evidence #(
     parameter int LABELS = 5,      // candidates of a group
     parameter int SCORE_BITS = 4,  // of each
@@ -165,3 +168,5 @@ module beside_evidence #(
   assign background_o = background_q;
 
 endmodule
+
+`default_nettype wire

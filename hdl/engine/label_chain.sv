@@ -15,6 +15,9 @@
 // Schedule: the table of pool2_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
 // Cost: LABELS comparators of positions and of differences.
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module label_chain #(
     parameter int LABELS = 8,           // of a pixel
     parameter int POSITION_WIDTH = 8,   // bits of a label's position, signed
@@ -224,3 +227,5 @@ module label_chain #(
   assign margin_o = best_q - second_q;
 
 endmodule
+
+`default_nettype wire

@@ -17,6 +17,9 @@
 // With PRIOR a pair sum is larger by 28 where the last frame used a candidate (Prior from the last frame).
 // Cost at the defaults: 384 flip-flops of ring, 280 of shift registers, per engine.
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_candidate_decoder #(
     parameter int COUNT_WIDTH = 7,    // bits of a coarse bin
     parameter int LABELS = 5,         // candidates of a group
@@ -254,3 +257,5 @@ module pool2_candidate_decoder #(
   assign cells_o = cells;
 
 endmodule
+
+`default_nettype wire

@@ -20,6 +20,9 @@
 // Schedule: the table of pool2_sequencer, with this module's POOL2_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
 // Cost: pool2_candidate_decoder, beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_engine #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
@@ -448,3 +451,5 @@ module pool2_engine #(
                     left_lead, left_start, start, start_margin, prepared_q, new_background};
 
 endmodule
+
+`default_nettype wire

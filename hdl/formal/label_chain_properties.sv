@@ -4,6 +4,9 @@
 // of the one that is farther from the pixel in question (docs/reference/poolpointer2.md, Chain: the sender's lambda).
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module label_chain_properties #(
     parameter int EVIDENCE_WIDTH = 3,
     parameter int POSITION_WIDTH = 3,
@@ -174,3 +177,5 @@ module label_chain_properties #(
   `GOAL(found && results_q == 2'd2 && margin != '0 && best_label)
 
 endmodule
+
+`default_nettype wire

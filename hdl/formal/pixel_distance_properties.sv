@@ -2,6 +2,9 @@
 // How far a timestamp is from where a pixel's word points: docs/reference/poolpointer2.md, Track and Point, on integers.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pixel_distance_properties #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
@@ -140,3 +143,5 @@ module pixel_distance_properties #(
   `GOAL(point_i && distance.rival_hit && distance.reach)
 
 endmodule
+
+`default_nettype wire

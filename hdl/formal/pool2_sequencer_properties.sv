@@ -3,6 +3,9 @@
 // in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_sequencer_properties #(
     parameter int PIXELS = 3,
     parameter int GROUP_SIZE = 4,
@@ -157,3 +160,5 @@ module pool2_sequencer_properties #(
   `GOAL(done && sending_q)
 
 endmodule
+
+`default_nettype wire

@@ -3,6 +3,9 @@
 // word to the next word. Distances come from pixel_distance and label_match, so that the three are proved together.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module twin_pointer_update_properties #(
     parameter int LABELS = 5,
     parameter int ADVANTAGE_WIDTH = 7,
@@ -167,3 +170,5 @@ module twin_pointer_update_properties #(
   `GOAL(update_i && roles_change && distance.reach)
 
 endmodule
+
+`default_nettype wire

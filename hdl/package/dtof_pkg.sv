@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Read-outs (dtof_readouts.svh) and the sizes that follow from a read-out's parameters (docs/reference/readouts.md).
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 package dtof_pkg;
 
   // Values of state_o of dtof_array: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
@@ -197,3 +201,5 @@ package dtof_pkg;
   endfunction
 
 endpackage
+
+`default_nettype wire

@@ -18,6 +18,9 @@
 // Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts' (reports/fpga_check.md).
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module dtof_subsystem #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
 `include "subsystem_parameters.svh"
@@ -549,3 +552,5 @@ module dtof_subsystem #(
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule
+
+`default_nettype wire

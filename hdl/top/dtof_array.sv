@@ -31,6 +31,9 @@
 `include "dtof_macros.svh"
 `include "dtof_readout_range.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module dtof_array #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,  // dtof_pkg::READOUT_*
     parameter int NP = 10,               // bits of a timestamp, 3 to 16
@@ -556,3 +559,5 @@ module dtof_array #(
   );
 
 endmodule
+
+`default_nettype wire

@@ -19,6 +19,9 @@
 //   cycle budget says.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool_pointer2_array #(
     parameter int NP = 10,                // bits of a timestamp, 8 to 16
     parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
@@ -614,3 +617,5 @@ module pool_pointer2_array #(
   );
 
 endmodule
+
+`default_nettype wire
