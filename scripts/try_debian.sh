@@ -5,8 +5,8 @@
 #   --folder   where the Debian system lies (build/debian/SUITE)
 #   --run      this command, in the project's folder, instead of 'make' and 'make test'; may be given several times
 # The system is made once by debootstrap and used again by the next run, with its packages, its build folder and its ccache;
-# remove FOLDER to begin anew. The project in it is always the last commit. Logs: FOLDER.NUMBER.log, of debootstrap
-# FOLDER.debootstrap.log. DEBIAN_MIRROR names another mirror than deb.debian.org. Needs root, because of chroot and mount.
+# remove FOLDER to begin anew. The project in it is always the last commit. Logs: FOLDER.COMMAND.log, with the command's blanks as _;
+# a command replaces its log of the run before. DEBIAN_MIRROR names another mirror than deb.debian.org. Needs root, because of chroot and mount.
 # Everything that the commands start ends with them: they run in namespaces of their own.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -69,10 +69,9 @@ inside() {
     sh "$folder" "$project" "$1" < /dev/null
 }
 
-number=0
 for command in "${commands[@]}"; do
-  number=$((number + 1))
-  log=$folder.$number.log
+  name=$(printf '%s' "$command" | tr -cs '[:alnum:]' _ | cut -c 1-40)
+  log=$folder.${name%_}.log
   echo "$suite: $command (log: $log)"
   begin=$SECONDS
   if inside "$command" > "$log" 2>&1; then
