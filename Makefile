@@ -11,7 +11,7 @@
 # make power      power from the activity of netlists on a scene
 # make layout     columns placed and routed in OSU 0.18 um, checked, with GDS; make orfs: files for OpenROAD (synth/layout.mk)
 # make try-targets  every target on little work, in a copy of the last commit: what is broken (scripts/try_targets.py)
-# make lint       RTL in three tools, C++ format and static analysis
+# make lint       RTL in three tools, C++ format and static analysis; make lint-slang: RTL in slang, a strict front end from npm
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
 # make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer 2 (scripts/wave.mk)
@@ -39,7 +39,7 @@ DTOF := $(BUILD)/app/dtof
 DTOF_STUDY := $(BUILD)/study_app/dtof-study
 
 .DEFAULT_GOAL := all
-.PHONY: all help packages configure build study study-program sim report publish test try-targets lint bench clean
+.PHONY: all help packages configure build study study-program sim report publish test try-targets lint lint-slang bench clean
 
 all: packages sim
 	@$(MAKE) --no-print-directory report
@@ -87,6 +87,10 @@ try-targets:
 
 lint: configure
 	@scripts/lint.sh --static-analysis
+
+lint-slang: | build_folder
+	@command -v npm > /dev/null || scripts/install_packages.sh slang
+	@scripts/slang.py --install
 
 bench: configure
 	@ninja -C $(BUILD) rtl_bench photon_bench

@@ -28,6 +28,7 @@ FOLDER = HDL / "demonstrator"
 BOARD_MHZ = 12
 SEED = 1  # of the placement: the same result in every run
 
+from dtof_synth import statistics  # noqa: E402, fpga_check has set the path
 from dtof_synth.errors import FlowError  # noqa: E402, fpga_check has set the path
 
 
@@ -105,8 +106,7 @@ def synthesise(design: Design) -> dict[str, int]:
     share = Path(shutil.which("yosys") or "").resolve().parents[1] / "share/yosys"
     models = (share / "ice40/cells_sim.v").read_text(encoding="utf-8")
     (BUILD / "ice40_cells.v").write_text("`define NO_ICE40_DEFAULT_ASSIGNMENTS\n" + models, encoding="utf-8")
-    statistics = text[text.rfind("Number of cells:"):]
-    return {kind: int(number) for kind, number in re.findall(r"^ +(\w+) +(\d+)$", statistics, re.MULTILINE)}
+    return statistics.cells(text)
 
 
 def memories(design: Design) -> int:

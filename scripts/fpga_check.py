@@ -25,7 +25,7 @@ TOP = "dtof_subsystem"
 SIZE = {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 16}
 sys.path.insert(0, str(ROOT / "synth"))
 
-from dtof_synth import readouts  # noqa: E402
+from dtof_synth import readouts, statistics  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
 
@@ -88,9 +88,9 @@ def memories(parameters: dict[str, int]) -> list[str]:
     return re.findall(r"\d+ words x \d+ bits", text)
 
 
-def counted(family: Family, statistics: str) -> Counts:
+def counted(family: Family, text: str) -> Counts:
     """Cells of the text of Yosys's stat."""
-    cells = {kind: int(number) for kind, number in re.findall(r"^ +(\w+) +(\d+)$", statistics, re.MULTILINE)}
+    cells = statistics.cells(text)
 
     def total(pattern: str) -> int:
         return sum(number for kind, number in cells.items() if re.fullmatch(pattern, kind)) if pattern else 0
@@ -113,10 +113,11 @@ def mapped(target: str, parameters: dict[str, int], technology: Path) -> Counts:
     if result.returncode != 0:
         errors = [line for line in result.stdout.splitlines() if line.startswith("ERROR")]
         raise FlowError(errors[-1] if errors else "Yosys failed")
-    statistics = result.stdout[result.stdout.rfind("Number of cells:"):]
+    text = statistics.last(result.stdout)
+    counts = counted(FAMILIES[target], text)
     BUILD.mkdir(parents=True, exist_ok=True)
-    kept.write_text(statistics)
-    return counted(FAMILIES[target], statistics)
+    kept.write_text(text)
+    return counts
 
 
 def problem(expected: list[str], counts: Counts) -> str:

@@ -60,6 +60,19 @@ def matching(text: str) -> int:
     return -1
 
 
+def readout_range(table: Table) -> str:
+    """A file of its own, because dtof_array uses the sentence outside the compilation unit of dtof_pkg, too."""
+    last = max(readout.number for readout in table.readouts.values() if readout.number is not None)
+    return "\n".join([
+        "// SPDX-License-Identifier: Apache-2.0",
+        f"// {WRITTEN} What dtof_array says of a READOUT that it does not know.",
+        "`ifndef DTOF_READOUT_RANGE",
+        f'`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to {last}"',
+        "`endif",
+        "",
+    ])
+
+
 def systemverilog(table: Table) -> str:
     readouts = [readout for readout in table.readouts.values() if readout.number is not None]
     own = {"CONFIDENCE_WIDTH": "pointer_confidence_width"}  # beside the result's
@@ -101,7 +114,6 @@ def systemverilog(table: Table) -> str:
         *(f"  localparam int {readout.constant} = {readout.number};" for readout in readouts),
         *(f"  localparam int {top_constant(top)} = {top.readout};  // of dtof_subsystem alone: {top.name}"
           for top in table.tops.values() if top.readout is not None),
-        f'`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to {len(readouts) - 1}"',
         "",
         "  function automatic bit is_readout(input int readout);",
         f"    is_readout = readout >= 0 && readout < {len(readouts)};",
@@ -464,6 +476,7 @@ def main() -> int:
         files = {
             "hdl/dtof.f": listing,
             "hdl/package/dtof_readouts.svh": systemverilog(table),
+            "hdl/package/dtof_readout_range.svh": readout_range(table),
             "hdl/package/dtof_columns.svh": columns(table),
             "tb_cpp/core/readout.hpp": cpp_header(table),
             "tb_cpp/core/readout.cpp": cpp_source(table),

@@ -6,7 +6,7 @@
 Also checks that illegal parameters stop elaboration with their sentence and the last legal ones do not
 (hdl/lint/parameter_limits.csv), that no construct is used which a tool is known
 to read wrongly, that hdl/dtof.f reads in all three tools as its head says, and that the SRAM stand-ins become
-block RAM. Exits non-zero with the tool's message.
+block RAM. Where slang is installed (make lint-slang), it reads the tops, too. Exits non-zero with the tool's message.
 """
 
 import re
@@ -17,16 +17,14 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
-sys.path.insert(0, str(ROOT / "synth"))
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
 
-from dtof_synth import readouts  # noqa: E402
+import slang  # noqa: E402
+from dtof_synth import readouts, statistics  # noqa: E402
 from dtof_synth.configuration import Configuration, load  # noqa: E402
+from dtof_synth.errors import FlowError  # noqa: E402
 
-SIZE = {  # enough to see every connection between columns, and between engines
-    "dtof_array": {"SRAM_NUM": 2},
-    "dtof_subsystem": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
-    "pool_pointer2_array": {"SRAM_NUM": 7, "ENGINE_COLUMNS": 4},
-}
+SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
 IN_FRONT = {"axi_lite_to_apb": {"ADDR_WIDTH": 12}, "reset_synchroniser": {}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in a folder of its own
@@ -35,6 +33,11 @@ MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
      "a parameter is set to '1, which Yosys 0.23 folds to the value 1 where it has a type: write {WIDTH{1'b1}}"),
 ]
+# A name that nobody has declared is an error in every file, and no wire of one bit; what a user's files declare stays theirs. No
+# file but the benches has a delay, so that a `timescale of a user's files matters to none.
+HEAD = re.compile(r"^// verilator lint_off TIMESCALEMOD\n`default_nettype none\n\n(?:module|package) \w+", re.MULTILINE)
+TAIL = "\n\n`default_nettype wire\n"
+FIRST = re.compile(r"^(?:module|package|interface) \w+", re.MULTILINE)
 HARMLESS_SORRY: dict[str, str] = {}  # part of an Icarus line, and why it does no harm
 BLOCK_RAM = {"ecp5": "DP16KD", "ice40": "SB_RAM40_4K"}
 
@@ -125,6 +128,19 @@ def check_misread(sources: dict[str, str]) -> list[str]:
             for name, text in sources.items() for pattern, why in MISREAD for found in pattern.finditer(text)]
 
 
+def check_nettype(sources: dict[str, str]) -> list[str]:
+    """Every file turns implicit nets off in front of its first module and on behind its last one, and takes any time scale."""
+    failures = []
+    for name, text in sources.items():
+        head, first = HEAD.search(text), FIRST.search(text)
+        if head is None or first is None or head.end() != first.end() or not text.endswith(TAIL):
+            failures.append(f"{name}: in front of the first module stand '// verilator lint_off TIMESCALEMOD' and '`default_nettype "
+                            "none', a blank line behind them, and at the file's end, behind a blank line, '`default_nettype wire'")
+        if "`timescale" in text and not name.startswith("hdl/example/"):
+            failures.append(f"{name}: a `timescale, which every file behind this one would have")
+    return failures
+
+
 def check_file_list() -> list[str]:
     """The commands in the head of dtof.f, as a user runs them."""
     head = (HDL / "dtof.f").read_text().splitlines()
@@ -144,8 +160,7 @@ def block_rams(target: str, module: str, depth: int, width: int) -> tuple[int, d
         f"synth_{target} -top {module}; tee -o /dev/stdout stat"
     )
     output = run(["yosys", "-Q", "-T", "-p", script]).stdout
-    statistics = output[output.rfind("Number of cells:"):]
-    cells = {kind: int(number) for kind, number in re.findall(r"^ +(\w+) +(\d+)$", statistics, re.MULTILINE)}
+    cells = statistics.cells(output)
     return cells.get(BLOCK_RAM[target], 0), cells
 
 
@@ -155,7 +170,11 @@ def check_block_rams() -> list[str]:
     for target in BLOCK_RAM:
         for module in ("sram_1r1w", "sram_1rw"):
             depth, width = 5120, 10
-            found, cells = block_rams(target, module, depth, width)
+            try:
+                found, cells = block_rams(target, module, depth, width)
+            except FlowError as error:
+                failures.append(f"{module} ({depth} x {width}) with synth_{target}: {error}")
+                continue
             others = sum(cells.values()) - found
             if found == 0 or others > depth * width // 100:
                 failures.append(f"{module} ({depth} x {width}) does not become block RAM with synth_{target}: {cells}")
@@ -204,7 +223,7 @@ def main() -> int:
     sources = {str(path.relative_to(ROOT)): path.read_text() for path in sorted(HDL.rglob("*.sv"))}
     limits = parameter_limits()
     illegal = [sentence for _, _, sentence in limits if sentence]
-    failures = [*check_misread(sources), *check_file_list(), *check_sentences(limits)]
+    failures = [*check_misread(sources), *check_nettype(sources), *check_file_list(), *check_sentences(limits)]
     with ThreadPoolExecutor(max_workers=2) as pool:
         block_ram = pool.submit(check_block_rams)
         legal = pool.map(check_configuration, configurations)
@@ -212,9 +231,13 @@ def main() -> int:
         subsystem = pool.map(check_subsystem, subsystem_numbers())
         in_front = [text for top, settings in IN_FRONT.items() for text in check_read(top, top, settings)]
         failures += [text for group in (*legal, *limit, *subsystem, in_front, check_demonstrator(), block_ram.result()) for text in group]
+    if slang.is_installed():
+        failures += slang.check()
     for text in failures:
         print(text, file=sys.stderr)
     if not failures:
+        print(f"slang: {len(SIZE)} tops clean" if slang.is_installed()
+              else f"slang: {len(SIZE)} tops skipped, for it is not installed (make lint-slang installs it)")
         print(
             f"RTL lint: {len(configurations)} configurations, the subsystem of {len(subsystem_numbers())} read-outs and the "
             "demonstrator clean in Verilator, Yosys and Icarus Verilog; "

@@ -131,6 +131,10 @@ def systemverilog(whole: Map) -> str:
         "// SPDX-License-Identifier: Apache-2.0",
         f"// {WRITTEN}",
         "// Offsets of the registers, and of each field the lowest bit and the number of bits.",
+        "",
+        "// verilator lint_off TIMESCALEMOD",
+        "`default_nettype none",
+        "",
         "package dtof_registers_pkg;",
         "",
         f"  localparam logic [31:0] ID_VALUE = 32'h{whole.id:08x};",
@@ -151,7 +155,7 @@ def systemverilog(whole: Map) -> str:
                          ("is_writable", [register for register in whole.registers if register.writable])):  # fmt: skip
         lines += ["", f"  function automatic bit {name}(input logic [11:0] offset);",
                   f"    {name} = {within(chosen)};", "  endfunction"]  # fmt: skip
-    return "\n".join([*lines, "", "endpackage"]) + "\n"
+    return "\n".join([*lines, "", "endpackage", "", "`default_nettype wire"]) + "\n"
 
 
 def c_header(whole: Map) -> str:

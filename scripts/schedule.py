@@ -31,7 +31,6 @@ WITH = "with "  # so begins the meaning of what goes with a command and is none 
 SMALL = {"PIXELS_PER_SRAM": 48, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2}  # groups and pixels between others; two columns
 # Frames without acquisitions: one operation after the other. The second one has a last frame to begin from.
 BENCH = """
-`include "pool2_command.svh"
 module schedule_bench;
   logic clk = 1'b0, rst_n = 1'b0, start = 1'b0;
   wire done;

@@ -23,7 +23,11 @@ synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
 	  $(if $(LIBERTY_SLOW),--liberty-slow $(LIBERTY_SLOW)) $(if $(STRICT),--strict)
 
-synth-check synth-budgets synth-sizes: synth-%:
+synth-check:
+	@scripts/install_packages.sh osu018
+	@synth/synth.py check
+
+synth-budgets synth-sizes: synth-%:
 	@synth/synth.py $*
 
 synth-flat synth-corners synth-namings: synth-%:

@@ -22,6 +22,10 @@
 //   S3 of the last         result loaded
 //
 // Cost at the defaults: about 170 flip-flops and a histogram SRAM.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module coarse_histogram_column #(
     `include "column_parameters.svh"
 ) (
@@ -161,3 +165,5 @@ module coarse_histogram_column #(
   );
 
 endmodule
+
+`default_nettype wire

@@ -12,6 +12,10 @@
 //   S3 of M4  result loaded
 //
 // Cost at the defaults: about 50 flip-flops and PIXELS_PER_SRAM x 14 bits (10 without confidence).
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module ez_pointer_column #(
     `include "column_parameters.svh"
 ) (
@@ -94,3 +98,5 @@ module ez_pointer_column #(
   );
 
 endmodule
+
+`default_nettype wire

@@ -17,6 +17,10 @@
 //   S3 of M4                                           result loaded
 //
 // Cost at the defaults: about 140 flip-flops, the coarse histogram SRAM and PIXELS_PER_SRAM x 19 bits.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module his_pointer_column #(
     `include "column_parameters.svh"
 ) (
@@ -194,3 +198,5 @@ module his_pointer_column #(
   );
 
 endmodule
+
+`default_nettype wire

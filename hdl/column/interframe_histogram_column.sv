@@ -18,6 +18,10 @@
 //   S3 of M4  result loaded
 //
 // Cost at the defaults: about 130 flip-flops, a histogram SRAM and PIXELS_PER_SRAM x PEAK_WIDTH bits.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module interframe_histogram_column #(
     `include "column_parameters.svh"
 ) (
@@ -159,3 +163,5 @@ module interframe_histogram_column #(
   );
 
 endmodule
+
+`default_nettype wire

@@ -16,6 +16,10 @@
 //   S3                 the better of the two is set (M1) or loaded as result (M4)
 //
 // Cost: about 140 flip-flops, a histogram SRAM, and PIXELS_PER_SRAM x (2 COUNT_WIDTH + NP) bits if NB < NP.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module partitioned_histogram_column #(
     `include "column_parameters.svh"
 ) (
@@ -163,3 +167,5 @@ module partitioned_histogram_column #(
   );
 
 endmodule
+
+`default_nettype wire

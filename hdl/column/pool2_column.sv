@@ -13,6 +13,10 @@
 //   T2      of two pixels one is chosen     which one counts; track: the candidates that the second one hits, or the only
 //                                           one, and which of the two scores
 // Cost at the defaults: see reports/area.md.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_column #(
     parameter int NP = 10,
     parameter int SLOTS = 2,
@@ -201,3 +205,5 @@ module pool2_column #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -38,6 +38,9 @@
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_pair #(
     parameter int COLUMNS = 2,  // 1 for the last one of an odd number
     parameter int NP = 10,
@@ -476,3 +479,5 @@ module pool2_pair #(
   assign unused = ^{1'b0, used_i, move_q[3], detected_t1};
 
 endmodule
+
+`default_nettype wire

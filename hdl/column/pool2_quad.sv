@@ -8,6 +8,9 @@
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_quad #(
     parameter int COLUMNS = 4,  // fewer for the last ones
     parameter int NP = 10,
@@ -192,3 +195,5 @@ module pool2_quad #(
   assign first_word_o = g_pair[0].word;
 
 endmodule
+
+`default_nettype wire

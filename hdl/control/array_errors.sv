@@ -8,6 +8,10 @@
 //                           results mean nothing
 //
 // Latency: one clock. Cost: three flip-flops.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module array_errors (
     input  logic                              clk_i,
     input  logic                              rst_ni,
@@ -38,3 +42,5 @@ module array_errors (
   assign error_o = error_q;
 
 endmodule
+
+`default_nettype wire

@@ -10,6 +10,9 @@
 // Cost: STAGES flip-flops per bit.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module broadcast #(
     parameter int WIDTH = 1,
     parameter int STAGES = 2  // registers on the way, at least 1
@@ -43,3 +46,5 @@ module broadcast #(
   assign to_o = stages_q[STAGES*WIDTH-1:(STAGES-1)*WIDTH];
 
 endmodule
+
+`default_nettype wire

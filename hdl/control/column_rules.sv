@@ -8,6 +8,9 @@
 // Cost: none in silicon.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module column_rules #(
     parameter int COARSE_PASSES = 1,
     parameter int WORD_MOVED = 0  // 1: timestamps change a pixel's word, which its own SRAM's ports are made for
@@ -56,3 +59,5 @@ module column_rules #(
   `DTOF_ASSERT(a_load_or_shift, !(result_load_i && result_shift_i), "a result is loaded while the chain shifts")
 
 endmodule
+
+`default_nettype wire

@@ -9,6 +9,9 @@
 // Cost: 3 state bits, a pass counter and the run-time acquisition number, per array.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module controller #(
     parameter int COARSE_PASSES = 1,
     parameter int ACQ_WIDTH = 16,
@@ -154,3 +157,5 @@ module controller #(
   assign result_start_o = entering && (state_d == dtof_pkg::STATE_M5);
 
 endmodule
+
+`default_nettype wire

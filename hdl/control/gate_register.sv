@@ -4,6 +4,10 @@
 // Equation: gate = the ports in the clock in which start_i is taken, which is while busy_i is low.
 // Latency: one clock, long before the first timestamp can come.
 // Cost: 2 NP flip-flops; with TIME_GATE = 0 none, and the gate reads as zero.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module gate_register #(
     parameter int NP = 10,
     parameter int TIME_GATE = 0
@@ -37,3 +41,5 @@ module gate_register #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

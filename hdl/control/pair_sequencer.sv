@@ -23,6 +23,9 @@
 // Cost: counters and the stage copies of the pixel number, per array.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pair_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int SLOTS = 2,
@@ -313,3 +316,5 @@ module pair_sequencer #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -11,6 +11,10 @@
 //
 // Schedule: more_o and gear_o are valid from the clock after load_i, next_pass_i or acq_done_i.
 // Cost: one accumulator of about ACQ_WIDTH + 2 bits an array; for GEARS > 0 a threshold of ACQ_WIDTH bits more.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pass_sequencer #(
     parameter int COARSE_PASSES = 1,
     parameter int THREE_STEPS = 0,  // 1: the split of three steps
@@ -112,3 +116,5 @@ module pass_sequencer #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

@@ -16,6 +16,9 @@
 // Cost: counters and the stage copies of the pixel number, per array.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pixel_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int SLOTS = 2,
@@ -155,3 +158,5 @@ module pixel_sequencer #(
   assign pixel_t5_o = pixel_t5_q;
 
 endmodule
+
+`default_nettype wire

@@ -26,7 +26,9 @@
 //   more per column, two if the pixels are odd.
 // Cost: counters and a register of the commands, per array.
 `include "dtof_macros.svh"
-`include "pool2_command.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pool2_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,  // rows of a column
@@ -61,7 +63,7 @@ module pool2_sequencer #(
     output logic                    upper_o,          // the upper half of the word
     output logic                    neighbour_o,      // select_o is the pair to the right of the one in work
     // engines, in step with what the columns get
-    output pool2_engine_command_t   command_o,
+    output logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_o,  // pool2_engine_command_t
     output logic [   ROW_WIDTH-1:0] scratch_row_o,    // of write_scratch and read_scratch
     output logic [COLUMN_WIDTH-1:0] column_o,         // of a chain: the column in work
     // results of all engines: column e ENGINE_COLUMNS + send_column_o of engine e, column by column, row by row
@@ -277,6 +279,7 @@ module pool2_sequencer #(
     every = (t >= first) && (t < first + period * times) && (((t - first) & (period - 1)) == 0);
   endfunction
 
+  `include "pool2_command.svh"
   pool2_column_command_t columns;
   pool2_decode_command_t decode;
   beside_command_t beside;
@@ -475,3 +478,5 @@ module pool2_sequencer #(
                "an operation is started together with another one, or while one is in work")
 
 endmodule
+
+`default_nettype wire

@@ -9,6 +9,9 @@
 // Cost: an acquisition counter, three registers of ACQ_WIDTH bits, two comparators, per array.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool_controller #(
     parameter int CLEAR_WORDS = 80,
     parameter int ADDR_WIDTH = 7,
@@ -175,3 +178,5 @@ module pool_controller #(
   assign decide_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECIDE);
 
 endmodule
+
+`default_nettype wire

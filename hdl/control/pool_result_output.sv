@@ -9,6 +9,9 @@
 // Cost: three results per engine, counters, per array.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool_result_output #(
     parameter int ENGINES = 8,
     parameter int ENGINE_COLUMNS = 25,
@@ -154,3 +157,5 @@ module pool_result_output #(
 `endif
 
 endmodule
+
+`default_nettype wire

@@ -10,6 +10,9 @@
 // Cost: LATENCY + 2 results, three counters.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module result_output #(
     parameter int SRAM_NUM = 200,
     parameter int ROW_WIDTH = 8,
@@ -135,3 +138,5 @@ module result_output #(
 `endif
 
 endmodule
+
+`default_nettype wire

@@ -10,6 +10,10 @@
 // Latency: one clock an address and 3 more; RESET clears only. In M4 it stops after one pixel, whose last bin it
 // holds back until the results of the pixel before have left the result chain (one clock at least).
 // Cost: two counters and their stage copies an array.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module scan_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,
     parameter int BIN_WIDTH = 5,   // log2 of the addresses a pixel
@@ -185,3 +189,5 @@ module scan_sequencer #(
   assign pixel_s3_o = pixel_s3_q;
 
 endmodule
+
+`default_nettype wire

@@ -5,6 +5,9 @@
 // Cost: none in silicon.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module stream_rules #(
     parameter int WIDTH = 8
 ) (
@@ -37,3 +40,5 @@ module stream_rules #(
                "tdata or tlast changed before tready")
 
 endmodule
+
+`default_nettype wire

@@ -10,6 +10,10 @@
 //   start = (Q << s) + (2^s >> 1) - 8, s = the undecided low bits.
 // PiFH: kept if x >> NB = run, bin = the low NB bits. Histogram: bin = x.
 // Cost: one subtractor or comparator.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module data_filter #(
     parameter int READOUT = dtof_pkg::READOUT_SIFH,
     parameter int NP = 10,
@@ -89,3 +93,5 @@ module data_filter #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

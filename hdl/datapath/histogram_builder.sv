@@ -26,6 +26,9 @@
 // Cost at the defaults: 47 flip-flops and with FREEZE one a pixel, an incrementer, one bin comparator; block RAM on an FPGA.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module histogram_builder #(
     parameter int PIXELS_PER_SRAM = 160,  // histograms
     parameter int BIN_WIDTH = 5,         // log2 of the bins of each
@@ -206,3 +209,5 @@ module histogram_builder #(
                "histogram cleared while a count is being written")
 
 endmodule
+
+`default_nettype wire

@@ -3,6 +3,10 @@
 //
 // Equation (docs/reference/poolpointer2.md, Track): hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW).
 // Cost: a 7-bit subtractor and a range check a candidate.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module label_match #(
     parameter int LABELS = 5,
     parameter int WINDOW = 4  // cells to either side of a candidate
@@ -56,3 +60,5 @@ module label_match #(
   assign unused = ^{1'b0, one_less};
 
 endmodule
+
+`default_nettype wire

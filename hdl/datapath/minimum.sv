@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smallest of NUMBER unsigned values, by a tree of comparators. Combinational.
 // Cost: NUMBER - 1 comparators and multiplexers, log2(NUMBER) deep.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module minimum #(
     parameter int NUMBER = 8,
     parameter int WIDTH = 5
@@ -24,3 +28,5 @@ module minimum #(
   assign smallest_o = tree[WIDTH-1:0];
 
 endmodule
+
+`default_nettype wire

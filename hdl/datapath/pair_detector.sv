@@ -10,6 +10,10 @@
 // A bin that is a scan of its own (first_s2_i again behind it) shows in that clock, too: its index at peak_o, its count
 // at last_o.
 // Cost: 5 COUNT_WIDTH + 2 BIN_WIDTH + 7 flip-flops, three adders, a comparator.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pair_detector #(
     parameter int BIN_WIDTH = 5,
     parameter int COUNT_WIDTH = 10,
@@ -71,3 +75,5 @@ module pair_detector #(
   assign last_o = last_q;
 
 endmodule
+
+`default_nettype wire

@@ -13,6 +13,10 @@
 // each of which finds a bit, the highest one first. In the clock behind the last one the outputs are valid. The clocks
 // need not follow each other.
 // Cost: 2 COUNT_WIDTH + PLACE_WIDTH + 5 flip-flops, six adders or comparators.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pair_interpolator #(
     parameter int BIN_WIDTH = 5,
     parameter int COUNT_WIDTH = 10,
@@ -88,3 +92,5 @@ module pair_interpolator #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

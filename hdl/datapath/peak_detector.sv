@@ -6,6 +6,10 @@
 // Schedule: a bin's count arrives at S2; after the last bin the outputs are valid in the next clock (S3) for
 // one clock, while the next pixel's first bin may already arrive.
 // Cost: 2 COUNT_WIDTH + 2 BIN_WIDTH flip-flops, a comparator, an adder, two subtractors.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module peak_detector #(
     parameter int BIN_WIDTH = 5,
     parameter int COUNT_WIDTH = 10,
@@ -43,3 +47,5 @@ module peak_detector #(
   assign confidence_o = (share >= SUM_WIDTH'(count_q)) ? '0 : count_q - COUNT_WIDTH'(share);
 
 endmodule
+
+`default_nettype wire

@@ -8,6 +8,10 @@
 // 3. At S3, the clock after a pixel's last bin, peak, count and confidence are final, for one clock.
 //
 // Cost: that of its parts, and nothing more.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module peak_histogram #(
     parameter int READOUT = dtof_pkg::READOUT_SIFH,  // chooses the filter
     parameter int NP = 10,               // bits of a timestamp
@@ -117,3 +121,5 @@ module peak_histogram #(
   );
 
 endmodule
+
+`default_nettype wire

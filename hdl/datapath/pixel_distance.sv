@@ -8,7 +8,9 @@
 //          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
 //          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
 // Cost: a row of carries and an adder of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
-`include "pixel_distance.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pixel_distance #(
     parameter int LABELS = 5,
@@ -27,8 +29,12 @@ module pixel_distance #(
     input  logic [                     PIXEL_WIDTH-1:0] word_i,
     input  logic [       dtof_pkg::POOL_CELL_WIDTH-1:0] leader_cell_i,   // of the candidate that the word leans on
     input  logic [                          LABELS-1:0] hits_i,
-    output pixel_distance_t                             distance_o       // 0 without a timestamp
+    output logic [  dtof_pkg::POOL2_DISTANCE_WIDTH-1:0] distance_o       // pixel_distance_t; 0 without a timestamp
 );
+
+  `include "pixel_distance.svh"
+  pixel_distance_t found;
+  assign distance_o = found;
 
   localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
   localparam int OFFSET_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 1);
@@ -61,7 +67,7 @@ module pixel_distance #(
 
   // Under valid_i alone, so that a simulator works on timestamps; the defaults say that nothing is kept.
   always_comb begin
-    distance_o = '0;
+    found = '0;
     resting_rival = '0;
     offset = '0;
     track_position = '0;
@@ -98,8 +104,8 @@ module pixel_distance #(
       track_carry = (track_position & minus_leader) | (track_position & minus_offset) | (minus_leader & minus_offset);
       track_distance = track_sum + ((track_carry << 1) | 11'd1) + 11'd1;
       track_cells = 8'(track_distance >> 3);
-      distance_o.offset_up = (OFFSET_BITS > 0) && (track_cells != 8'd0) && (track_cells < 8'd8);
-      distance_o.offset_down = (OFFSET_BITS > 0) && (track_cells >= -8'd8) && (track_cells != -8'd1);
+      found.offset_up = (OFFSET_BITS > 0) && (track_cells != 8'd0) && (track_cells < 8'd8);
+      found.offset_down = (OFFSET_BITS > 0) && (track_cells >= -8'd8) && (track_cells != -8'd1);
 
       // Point: leader, in the pointer's units; of a pointer beside a candidate both are taken away in one addition, too.
       pointer = POINTER_WIDTH'(word_i);
@@ -123,29 +129,29 @@ module pixel_distance #(
       cells_away = 3'(point_cells) ^ {3{below}};
       reach = (point_cells < REACH) || (point_cells >= -REACH);
       hit = reach && (cells_away <= NEAR);
-      distance_o.reach = reach;
-      distance_o.hit = hit;
-      distance_o.up = !below;
-      distance_o.weight = WEIGHTS[3*cells_away+:3];
+      found.reach = reach;
+      found.hit = hit;
+      found.up = !below;
+      found.weight = WEIGHTS[3*cells_away+:3];
 
       advantage = 7'(ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH)));
       if (ADVANTAGE_WIDTH == 7) begin
-        if (advantage >= 7'd124) distance_o.gear = 4'd0;
-        else if (advantage >= 7'd116) distance_o.gear = 4'd1;
-        else if (advantage >= 7'd100) distance_o.gear = 4'd2;
-        else if (advantage >= 7'd80) distance_o.gear = 4'd3;
-        else if (advantage >= 7'd64) distance_o.gear = 4'd4;
-        else if (advantage >= 7'd32) distance_o.gear = 4'd5;
-        else if (advantage >= 7'd16) distance_o.gear = 4'd6;
-        else if (advantage >= 7'd8) distance_o.gear = 4'd7;
-        else distance_o.gear = 4'd8;
+        if (advantage >= 7'd124) found.gear = 4'd0;
+        else if (advantage >= 7'd116) found.gear = 4'd1;
+        else if (advantage >= 7'd100) found.gear = 4'd2;
+        else if (advantage >= 7'd80) found.gear = 4'd3;
+        else if (advantage >= 7'd64) found.gear = 4'd4;
+        else if (advantage >= 7'd32) found.gear = 4'd5;
+        else if (advantage >= 7'd16) found.gear = 4'd6;
+        else if (advantage >= 7'd8) found.gear = 4'd7;
+        else found.gear = 4'd8;
       end else begin
-        if (advantage == 7'd15) distance_o.gear = 4'(4 - POINTER_SHIFT);
-        else if (advantage == 7'd14) distance_o.gear = 4'(5 - POINTER_SHIFT);
-        else if (advantage >= 7'd12) distance_o.gear = 4'(6 - POINTER_SHIFT);
-        else if (advantage >= 7'd8) distance_o.gear = 4'(7 - POINTER_SHIFT);
-        else if (advantage >= 7'd4) distance_o.gear = 4'(8 - POINTER_SHIFT);
-        else distance_o.gear = 4'(9 - POINTER_SHIFT);
+        if (advantage == 7'd15) found.gear = 4'(4 - POINTER_SHIFT);
+        else if (advantage == 7'd14) found.gear = 4'(5 - POINTER_SHIFT);
+        else if (advantage >= 7'd12) found.gear = 4'(6 - POINTER_SHIFT);
+        else if (advantage >= 7'd8) found.gear = 4'(7 - POINTER_SHIFT);
+        else if (advantage >= 7'd4) found.gear = 4'(8 - POINTER_SHIFT);
+        else found.gear = 4'(9 - POINTER_SHIFT);
       end
 
       // Point: rival.
@@ -154,11 +160,11 @@ module pixel_distance #(
       rival_away = 3'(rival_cells) ^ {3{rival_below}};
       resting_rival = LABEL_WIDTH'(word_i >> (POINTER_WIDTH + LABEL_WIDTH));
       if (RIVAL_MOVES != 0) begin
-        distance_o.rival_hit = !hit && (rival_cells < 8'd8 || rival_cells >= -8'd8) && (rival_away <= RIVAL_NEAR);
-        distance_o.rival_up = !rival_below && (rival_cells != 8'd0);
-        distance_o.rival_down = rival_below;
+        found.rival_hit = !hit && (rival_cells < 8'd8 || rival_cells >= -8'd8) && (rival_away <= RIVAL_NEAR);
+        found.rival_up = !rival_below && (rival_cells != 8'd0);
+        found.rival_down = rival_below;
       end else begin
-        distance_o.rival_hit = !hit && hits_i[resting_rival];
+        found.rival_hit = !hit && hits_i[resting_rival];
       end
     end
   end
@@ -167,3 +173,5 @@ module pixel_distance #(
   assign unused = ^{1'b0, settled, position_i, word_i, leader_cell_i, hits_i};
 
 endmodule
+
+`default_nettype wire

@@ -7,6 +7,10 @@
 //
 // A broadcast signal arrives late in a column: the step is registered here, like the timestamp, where it changes.
 // Cost at the defaults: 31 flip-flops of a column, one pointer_update, PIXELS_PER_SRAM words of SRAM.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pointer_builder #(
     parameter int NP = 10,               // bits of a timestamp
     parameter int PIXELS_PER_SRAM = 160,  // pointers
@@ -144,3 +148,5 @@ module pointer_builder #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

@@ -6,6 +6,10 @@
 // Confidence: near (the top five bits of d all equal) adds 1, far with x mod 8 = 0 subtracts 1; it saturates.
 // The low bits of a background timestamp are uniform, so a far one counts 1/8 (docs/reference/readouts.md).
 // Cost: a subtractor, two incrementers in its shadow, equality tests; about 25 gate delays.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pointer_update #(
     parameter int NP = 10,
     parameter int POINTER_STEP = 1,
@@ -67,3 +71,5 @@ module pointer_update #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

@@ -7,7 +7,9 @@
 //   1       the next word, combinational
 // A clock without a timestamp leaves all registers as they are, so that nothing behind them moves.
 // Throughput: a pixel a clock. Cost at the defaults: see reports/area.md.
-`include "pixel_distance.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pool2_pixel_update #(
     parameter int NP = 10,
@@ -49,6 +51,7 @@ module pool2_pixel_update #(
     end
   endgenerate
 
+  `include "pixel_distance.svh"
   pixel_distance_t distance, distance_q;
   logic [LABELS-1:0] hits_q;
   logic [SCORE_BITS-1:0] leader_score, leader_score_q;
@@ -138,3 +141,5 @@ module pool2_pixel_update #(
   assign word_o = (PIXEL_WIDTH'(tracked) & {PIXEL_WIDTH{track_i}}) | (PIXEL_WIDTH'(pointed) & {PIXEL_WIDTH{point_i}});
 
 endmodule
+
+`default_nettype wire

@@ -5,6 +5,10 @@
 // score is full; it leads if it is now ahead of the leader. The leader's offset follows the timestamp by 4, 2 or 1, as
 // the leader's score grows, and starts anew with a new leader.
 // Cost: an incrementer or decrementer per score, an adder of the offset; about 20 gate delays.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_track_update #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
@@ -94,3 +98,5 @@ module pool2_track_update #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

@@ -2,6 +2,9 @@
 // One link of the result chain: loads the column's result, or takes the next column's when the chain shifts.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module result_register #(
     parameter int WIDTH = 14
 ) (
@@ -29,3 +32,5 @@ module result_register #(
   assign result_o = result_q;
 
 endmodule
+
+`default_nettype wire

@@ -4,6 +4,10 @@
 //
 // Schedule: valid_o belongs to read_addr_i of the clock before, as the SRAM's read data does; write_i makes an
 // address valid from the next clock on; clear_i makes all invalid.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module status_bits #(
     parameter int DEPTH = 5120,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH)
@@ -31,3 +35,5 @@ module status_bits #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -16,6 +16,9 @@
 // Cost: (STAGES + 1) (NP + 1) flip-flops; the gate adds two comparators of NP bits, TIME_GATE = 0 nothing.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module timestamp_input #(
     parameter int NP = 10,
     parameter int TIME_GATE = 0,
@@ -79,3 +82,5 @@ module timestamp_input #(
   assign timestamp_t1_o = timestamp_q;
 
 endmodule
+
+`default_nettype wire

@@ -7,6 +7,10 @@
 // RIVAL_MOVES = 1: both pointers are absolute and the rival follows its hits in cells, quarters of a coarse bin.
 // RIVAL_MOVES = 0: the pointer is relative to candidate a, the rival is candidate b.
 // Cost: an adder of the pointer's width, a shifter; about 25 gate delays.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module twin_pointer_update #(
     parameter int LABELS = 5,
     parameter int ADVANTAGE_WIDTH = 7,  // 7, or 4 with the short gears, multiples of u
@@ -138,3 +142,5 @@ module twin_pointer_update #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -24,6 +24,9 @@
 // Cost: 2 WIDTH + 3 flip-flops, a multiplexer, PIXELS_PER_SRAM words of SRAM; an FPGA's block RAM fits.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module word_builder #(
     parameter int WIDTH = 14,             // bits of a word
     parameter int PIXELS_PER_SRAM = 160,  // words
@@ -137,3 +140,5 @@ module word_builder #(
   `DTOF_ASSERT(a_one_write, !(write_i && start_write_i), "a word is started while another one is written")
 
 endmodule
+
+`default_nettype wire

@@ -9,6 +9,10 @@
 // Frames follow each other without an end. The serial line is slower than the array, which waits for it.
 // Clock: any; at 12 MHz the line has 1 Mbaud. There is no reset input: the FPGA's configuration clears the registers of the
 // reset, which ends eight clocks later.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module demonstrator #(
     parameter int READOUT = dtof_pkg::READOUT_HISPOINTER,  // or dtof_pkg::READOUT_POOLPOINTER2
     parameter int NP = 10,
@@ -184,3 +188,5 @@ module demonstrator #(
   assign frame_o = frame_q;
 
 endmodule
+
+`default_nettype wire

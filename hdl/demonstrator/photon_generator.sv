@@ -18,6 +18,9 @@
 // Cost: a memory of ROWS x COLUMNS targets, the two lines, 32 bits of the random register.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module photon_generator #(
     parameter int NP = 10,
     parameter int COLUMNS = 8,
@@ -186,3 +189,5 @@ module photon_generator #(
   assign m_axis_tlast_o = (state_q == SEND_SECOND) && (pixel_q == '0);
 
 endmodule
+
+`default_nettype wire

@@ -6,6 +6,10 @@
 // where there is one, CONTROL with START and CONTINUOUS.
 // Schedule: a write takes APB's two clocks and what the slave waits.
 // Cost: five state bits.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module register_writer #(
     parameter int HAS_SCHEDULE = 0,
     parameter int ACQUISITIONS = 1000,
@@ -74,3 +78,5 @@ module register_writer #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -6,6 +6,9 @@
 // Cost: pixel, half a code, two state bits.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module target_command #(
     parameter int NP = 10,
     parameter int PIXELS = 64,
@@ -61,3 +64,5 @@ module target_command #(
   assign unused_bits = ^{pixel_q, code_q};
 
 endmodule
+
+`default_nettype wire

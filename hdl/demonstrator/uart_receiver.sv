@@ -6,6 +6,9 @@
 // Cost: eight bits to shift, two counters, two flip-flops.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module uart_receiver #(
     parameter int CLOCKS_PER_BIT = 12
 ) (
@@ -63,3 +66,5 @@ module uart_receiver #(
   assign data_o = shift_q;
 
 endmodule
+
+`default_nettype wire

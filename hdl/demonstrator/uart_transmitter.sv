@@ -5,6 +5,9 @@
 // Cost: ten bits to shift, two counters.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module uart_transmitter #(
     parameter int CLOCKS_PER_BIT = 12
 ) (
@@ -48,3 +51,5 @@ module uart_transmitter #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -5,6 +5,10 @@
 //
 // Schedule: a word is taken when the one before is sent.
 // Cost: 63 bits to shift, a counter.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module word_sender (
     input  logic        clk_i,
     input  logic        rst_ni,
@@ -49,3 +53,5 @@ module word_sender (
   assign unused_word = ^s_axis_tdata_i[63:61];
 
 endmodule
+
+`default_nettype wire

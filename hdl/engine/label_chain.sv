@@ -14,7 +14,9 @@
 //
 // Schedule: the table of pool2_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
 // Cost: LABELS comparators of positions and of differences.
-`include "pool2_command.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module label_chain #(
     parameter int LABELS = 8,           // of a pixel
@@ -27,13 +29,13 @@ module label_chain #(
 ) (
     input  logic                             clk_i,
     input  logic                             active_i,   // in all of the operation; otherwise nothing moves
-    input  chain_command_t                   command_i,
-    // the pixel prepared, taken with command_i.advance
+    input  logic [dtof_pkg::POOL2_CHAIN_COMMAND_WIDTH-1:0] command_i,  // chain_command_t
+    // the pixel prepared, taken with advance
     input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
     input  logic [LABELS*POSITION_WIDTH-1:0] position_i,
     input  logic [        PENALTY_WIDTH-1:0] penalty_i,
     // messages to this pixel: of the pass in work, complete from the last label on until the next step's first one;
-    // from the other side, taken with command_i.advance
+    // from the other side, taken with advance
     output logic [ LABELS*PENALTY_WIDTH-1:0] message_o,
     input  logic [ LABELS*PENALTY_WIDTH-1:0] other_message_i,
     // the best two beliefs, valid from POOL_CHAIN_BELIEF_CLOCKS after the last label until the next labels pass
@@ -44,6 +46,10 @@ module label_chain #(
     output logic [         BELIEF_WIDTH-1:0] margin_o          // unsigned
 );
 
+  `include "pool2_command.svh"
+  chain_command_t command;
+  assign command = command_i;
+
   localparam logic signed [POSITION_WIDTH:0] FAR = (POSITION_WIDTH + 1)'(REACH);
 
   logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_q, next_evidence_q;
@@ -52,7 +58,7 @@ module label_chain #(
   logic [LABELS*PENALTY_WIDTH-1:0] message_q, other_q;
 
   always_ff @(posedge clk_i) begin
-    if (command_i.advance) begin
+    if (command.advance) begin
       evidence_q <= next_evidence_q;
       position_q <= next_position_q;
       penalty_q <= next_penalty_q;
@@ -118,7 +124,7 @@ module label_chain #(
   assign smallest_complement = (smallest_lower_q < smallest_upper_q) ? smallest_lower_q : smallest_upper_q;
 
   always_ff @(posedge clk_i) begin
-    if (command_i.begin_step) begin
+    if (command.begin_step) begin
       sum_q <= sum;
     end
     if (active_i) begin
@@ -126,7 +132,7 @@ module label_chain #(
       smallest_upper_q <= smallest_upper;
       largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
     end
-    if (command_i.spread) begin
+    if (command.spread) begin
       behind_q <= behind;
     end
   end
@@ -148,7 +154,7 @@ module label_chain #(
     end
   endgenerate
 
-  assign target = LABEL_WIDTH'(command_i.target);
+  assign target = LABEL_WIDTH'(command.target);
 
   logic [LABELS*PENALTY_WIDTH-1:0] reachable;
   generate
@@ -170,9 +176,9 @@ module label_chain #(
       target_q <= next_position_q[target*POSITION_WIDTH+:POSITION_WIDTH];
       near_q <= near;
     end
-    if (command_i.advance && command_i.clear_message) begin
+    if (command.advance && command.clear_message) begin
       message_q <= '0;
-    end else if (command_i.pass_label) begin
+    end else if (command.pass_label) begin
       message_q <= {cheapest, message_q[LABELS*PENALTY_WIDTH-1:PENALTY_WIDTH]};
     end
   end
@@ -191,8 +197,8 @@ module label_chain #(
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
-      passing_q <= command_i.spread ? '0 : passing_q + 1'b1;
-      passed_q <= command_i.pass_label;
+      passing_q <= command.spread ? '0 : passing_q + 1'b1;
+      passed_q <= command.pass_label;
       label_q <= passing_q;
       passed_position_q <= position_q[passing_q*POSITION_WIDTH+:POSITION_WIDTH];
       belief_q <= $signed(sum_q[passing_q*BELIEF_WIDTH+:BELIEF_WIDTH])
@@ -221,3 +227,5 @@ module label_chain #(
   assign margin_o = best_q - second_q;
 
 endmodule
+
+`default_nettype wire

@@ -16,7 +16,9 @@
 // Schedule: the table of pool2_sequencer, with this module's POOL2_DECODER_*_CLOCKS (dtof_pkg).
 // With PRIOR a pair sum is larger by 28 where the last frame used a candidate (Prior from the last frame).
 // Cost at the defaults: 384 flip-flops of ring, 280 of shift registers, per engine.
-`include "pool2_command.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pool2_candidate_decoder #(
     parameter int COUNT_WIDTH = 7,    // bits of a coarse bin
@@ -28,15 +30,19 @@ module pool2_candidate_decoder #(
 ) (
     input  logic                         clk_i,
     input  logic                         active_i,     // in all of decode; otherwise nothing moves
-    input  pool2_decode_command_t        command_i,
+    input  logic [dtof_pkg::POOL2_DECODE_COMMAND_WIDTH-1:0] command_i,  // pool2_decode_command_t
     input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture: an octet of bins, lowest first
-    // with command_i.take_prior: the group's candidates of the last frame, and which of them were used
+    // with take_prior: the group's candidates of the last frame, and which of them were used
     input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
     input  logic [           LABELS-1:0] last_used_i,
-    // the newest candidate is the last cell; both valid from command_i.candidate until the next one
+    // the newest candidate is the last cell; both valid from candidate until the next one
     output logic [LABELS*CELL_WIDTH-1:0] cells_o,
     output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group's bins are counted
 );
+
+  `include "pool2_command.svh"
+  pool2_decode_command_t command;
+  assign command = command_i;
 
   localparam int OWN_WEIGHT = 3;
   localparam int LEAK_SHIFT = 3;
@@ -58,11 +64,11 @@ module pool2_candidate_decoder #(
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
-      above_q <= command_i.capture_above ? line_i : above_q >> COUNT_WIDTH;
-      own_q <= command_i.capture_own ? line_i : own_q >> COUNT_WIDTH;
-      below_q <= command_i.capture_below ? line_i : below_q >> COUNT_WIDTH;
-      left_q <= command_i.capture_left ? line_i : left_q >> COUNT_WIDTH;
-      right_q <= command_i.capture_right ? line_i : right_q >> COUNT_WIDTH;
+      above_q <= command.capture_above ? line_i : above_q >> COUNT_WIDTH;
+      own_q <= command.capture_own ? line_i : own_q >> COUNT_WIDTH;
+      below_q <= command.capture_below ? line_i : below_q >> COUNT_WIDTH;
+      left_q <= command.capture_left ? line_i : left_q >> COUNT_WIDTH;
+      right_q <= command.capture_right ? line_i : right_q >> COUNT_WIDTH;
       above_sum_q <= BIN_SUM_WIDTH'(above_q[COUNT_WIDTH-1:0]);
       own_sum_q <= above_sum_q + BIN_SUM_WIDTH'(OWN_WEIGHT) * BIN_SUM_WIDTH'(own_bin);
       below_sum_q <= own_sum_q + BIN_SUM_WIDTH'(below_q[COUNT_WIDTH-1:0]);
@@ -78,13 +84,13 @@ module pool2_candidate_decoder #(
   logic octet_done_q, first_octet_q;
   logic [OCTET_WIDTH+2:0] five_octets;
 
-  assign octet = ((command_i.own_bin[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin);
+  assign octet = ((command.own_bin[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin);
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
-      octet_done_q <= command_i.count_own && command_i.own_bin[2:0] == 3'd7;
-      first_octet_q <= (command_i.own_bin[4:3] == 2'd0);
-      if (command_i.count_own) begin
+      octet_done_q <= command.count_own && command.own_bin[2:0] == 3'd7;
+      first_octet_q <= (command.own_bin[4:3] == 2'd0);
+      if (command.count_own) begin
         octet_q <= octet;
       end
       if (octet_done_q && (first_octet_q || octet_q < least_octet_q)) begin
@@ -108,9 +114,9 @@ module pool2_candidate_decoder #(
       logic [SUM_WIDTH-1:0] raised_sum_q;
 
       for (k = 0; k < LABELS; k = k + 1) begin : g_label
-        assign here[k] = used_q[k] && (pairs_q[k*5+:5] == command_i.pair);
+        assign here[k] = used_q[k] && (pairs_q[k*5+:5] == command.pair);
         always_ff @(posedge clk_i) begin
-          if (command_i.take_prior) begin
+          if (command.take_prior) begin
             pairs_q[k*5+:5] <= 5'((last_cells_i[k*CELL_WIDTH+:CELL_WIDTH] - CELL_WIDTH'(3)) >> 2);
           end
         end
@@ -118,7 +124,7 @@ module pool2_candidate_decoder #(
 
       always_ff @(posedge clk_i) begin
         if (active_i) begin
-          if (command_i.take_prior) begin
+          if (command.take_prior) begin
             used_q <= last_used_i;
           end
           raised_sum_q <= SUM_WIDTH'(bin_sum_q) + ((here != '0) ? SUM_WIDTH'(PRIOR_WEIGHT) : '0);
@@ -130,7 +136,7 @@ module pool2_candidate_decoder #(
     end else begin : g_no_prior
       assign last_sum = SUM_WIDTH'(last_sum_q);
       logic unused_prior;
-      assign unused_prior = ^{last_cells_i, last_used_i, command_i.take_prior};
+      assign unused_prior = ^{last_cells_i, last_used_i, command.take_prior};
     end
   endgenerate
 
@@ -141,7 +147,7 @@ module pool2_candidate_decoder #(
   assign pair_sum = SUM_WIDTH'(bin_sum_q) + last_sum;
 
   always_ff @(posedge clk_i) begin
-    if (command_i.fill && (command_i.pair == 5'd1 || (command_i.pair != 5'd0 && pair_sum < least_q))) begin
+    if (command.fill && (command.pair == 5'd1 || (command.pair != 5'd0 && pair_sum < least_q))) begin
       least_q <= pair_sum;
     end
   end
@@ -164,27 +170,27 @@ module pool2_candidate_decoder #(
 
   // With pair 0 at the head the peak is new: what is registered is still of the one before. What it takes away was
   // registered a clock after it was found, in time for pair 1, which only an early peak reaches.
-  assign beside = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
-  assign two_away = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd3) : two_away_q;
+  assign beside = new_peak_q ? !command.first_label && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
+  assign two_away = new_peak_q ? !command.first_label && (best_pair_q == 5'd3) : two_away_q;
   assign leak = new_peak_q ? new_leak_q : leak_q;
-  assign from_peak = {1'b0, command_i.pair} + 6'd2 - peak_q;
+  assign from_peak = {1'b0, command.pair} + 6'd2 - peak_q;
   assign taken = next_taken || beside;
   assign left_over = !two_away ? next : (next > leak) ? next - leak : '0;
 
-  assign entry = command_i.fill ? ((command_i.pair == 5'd0) ? {1'b1, {SUM_WIDTH{1'b0}}} : {1'b0, pair_sum})
-      : command_i.search ? {head_taken, head} : '0;
+  assign entry = command.fill ? ((command.pair == 5'd0) ? {1'b1, {SUM_WIDTH{1'b0}}} : {1'b0, pair_sum})
+      : command.search ? {head_taken, head} : '0;
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
       ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:2*ENTRY_WIDTH], taken, left_over};
-      new_peak_q <= (command_i.pair == 5'd31);
+      new_peak_q <= (command.pair == 5'd31);
       if (new_peak_q) begin  // for pair 2
-        beside_q <= !command_i.first_label && (best_pair_q <= 5'd3);
-        two_away_q <= !command_i.first_label && (best_pair_q == 5'd4);
+        beside_q <= !command.first_label && (best_pair_q <= 5'd3);
+        two_away_q <= !command.first_label && (best_pair_q == 5'd4);
       end else begin
         beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
         // While the ring fills, the peak is still of another group.
-        two_away_q <= command_i.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
+        two_away_q <= command.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
       end
       new_leak_q <= new_leak;
     end
@@ -200,14 +206,14 @@ module pool2_candidate_decoder #(
   always_ff @(posedge clk_i) begin
     if (active_i) begin
       last_q <= head;
-      if (command_i.pair == 5'd0) begin
+      if (command.pair == 5'd0) begin
         found_q <= 1'b0;
         next_pending_q <= 1'b0;
       end else begin
         next_pending_q <= better;
         if (better) begin
           found_q <= 1'b1;
-          best_pair_q <= command_i.pair;
+          best_pair_q <= command.pair;
           best_q <= head;
           before_q <= last_q;
           after_q <= '0;  // beyond the last pair
@@ -231,18 +237,18 @@ module pool2_candidate_decoder #(
   assign peak_cell = {best_pair_q, 2'b00} + (tilted ? (upwards_q ? CELL_WIDTH'(1) : '1) : '0);
   assign excess = (best_q > least_q) ? best_q - least_q : '0;
   assign new_leak = excess >> LEAK_SHIFT;
-  assign cells = command_i.candidate ? {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]} : cells_q;
+  assign cells = command.candidate ? {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]} : cells_q;
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
       upwards_q <= upwards;
       tilt_q <= upwards ? after_q - before_q : before_q - after_q;
       lower_q <= upwards ? before_q : after_q;
-      if (command_i.search && new_peak_q) begin
-        peak_q <= command_i.first_label ? NOWHERE : {1'b0, best_pair_q};
+      if (command.search && new_peak_q) begin
+        peak_q <= command.first_label ? NOWHERE : {1'b0, best_pair_q};
         leak_q <= new_leak;
       end
-      if (command_i.candidate) begin
+      if (command.candidate) begin
         cells_q <= cells;
       end
     end
@@ -251,3 +257,5 @@ module pool2_candidate_decoder #(
   assign cells_o = cells;
 
 endmodule
+
+`default_nettype wire

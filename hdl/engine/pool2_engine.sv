@@ -19,7 +19,9 @@
 //
 // Schedule: the table of pool2_sequencer, with this module's POOL2_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
 // Cost: pool2_candidate_decoder, beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
-`include "pool2_command.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pool2_engine #(
     parameter int NP = 10,
@@ -53,10 +55,10 @@ module pool2_engine #(
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic                    smooth_i,       // S1 is on
     input  logic                    has_right_i,    // in choose: the column in work has one to its right
-    input  pool2_engine_command_t   command_i,
+    input  logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_i,  // pool2_engine_command_t
     input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
-    input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of command_i.write_scratch and read_scratch
+    input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of write_scratch and read_scratch
     // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}; held from one take_result
     // to the next
     output logic [RESULT_WIDTH-1:0] result_o
@@ -84,12 +86,18 @@ module pool2_engine #(
   localparam int WINNER_WIDTH = 16;                      // in decide
   localparam int SCRATCH_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH + LEFT_WIDTH, DECIDE_MESSAGE_WIDTH + WINNER_WIDTH);
 
+  `include "pool2_command.svh"
+  pool2_engine_command_t command;
+  beside_command_t beside;
+  assign command = command_i;
+  assign beside = command.beside;
+
   // Where nothing is asked for, nothing moves. The word goes back to 0 behind an operation's last clock.
 
   logic active, was_active_q;
   logic [LINE_WIDTH-1:0] line_q;
 
-  assign active = command_i.decoding || command_i.choosing || command_i.deciding;
+  assign active = command.decoding || command.choosing || command.deciding;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -133,8 +141,8 @@ module pool2_engine #(
       .PRIOR      (PRIOR)
   ) u_candidate_decoder (
       .clk_i       (clk_i),
-      .active_i    (command_i.decoding),
-      .command_i   (command_i.decode),
+      .active_i    (command.decoding),
+      .command_i   (command.decode),
       .line_i      (line_bins),
       .last_cells_i(line_i[LABELS*CELL_WIDTH-1:0]),
       .last_used_i (last_used),
@@ -154,11 +162,11 @@ module pool2_engine #(
   logic [SCRATCH_WIDTH-1:0] scratch;
   logic [CELL_WIDTH-1:0] left_cell;
 
-  assign advance = command_i.choose.advance || command_i.decide.advance;
+  assign advance = command.choose.advance || command.decide.advance;
   // In place of the low bits that are not kept stands the middle of what they can be.
   assign line_background = (BACKGROUND_WIDTH'(line_q[LABELS*CELL_WIDTH+:KEPT_WIDTH]) << (BACKGROUND_WIDTH - KEPT_WIDTH))
       | BACKGROUND_WIDTH'((1 << (BACKGROUND_WIDTH - KEPT_WIDTH)) >> 1);
-  assign line_pixel = command_i.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
+  assign line_pixel = command.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
 
   generate
     if (OFFSET_BITS != 0) begin : g_lead
@@ -169,7 +177,7 @@ module pool2_engine #(
   endgenerate
 
   always_ff @(posedge clk_i) begin
-    if (command_i.take_pixel) begin
+    if (command.take_pixel) begin
       captured_q <= line_pixel;
     end
     if (advance) begin
@@ -186,7 +194,7 @@ module pool2_engine #(
       .SCORE_BITS(SCORE_BITS)
   ) u_beside_evidence (
       .clk_i         (clk_i),
-      .command_i     (command_i.beside),
+      .command_i     (beside),
       .right_scores_i(line_pixel[SCORES_WIDTH-1:0]),
       .has_right_i   (has_right_i),
       .advance_i     (advance),
@@ -209,6 +217,8 @@ module pool2_engine #(
   logic [LABEL_WIDTH-1:0] best_label, second_label;
   logic [CELL_POSITION_WIDTH-1:0] best_cell, second_cell;
   logic [CHOOSE_EVIDENCE_WIDTH+1:0] choose_margin;
+  logic [LEFT_WIDTH-1:0] best_lead;
+  logic [POSITION_WIDTH-1:0] position;  // decide's winner
 
   genvar k;
   generate
@@ -220,8 +230,8 @@ module pool2_engine #(
   assign five_backgrounds = (BACKGROUND_WIDTH + 3)'(background) + ((BACKGROUND_WIDTH + 3)'(background) << 2);
   assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
   assign left_cell = scratch[CELL_WIDTH-1:0];
-  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command_i.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
-  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command_i.back ? position[15:0] : scratch[WINNER_WIDTH-1:0]});
+  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
+  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command.back ? position[15:0] : scratch[WINNER_WIDTH-1:0]});
 
   dtof_sram #(
       .PORTS(1),
@@ -232,12 +242,12 @@ module pool2_engine #(
       .rst_ni      (rst_ni),
       .cfg_i       (sram_cfg_i),
       .cfg_o       (sram_cfg_o),
-      .read_en_i   (command_i.read_scratch),
+      .read_en_i   (command.read_scratch),
       .read_addr_i (scratch_row_i),
       .read_data_o (scratch),
-      .write_en_i  (command_i.write_scratch),
+      .write_en_i  (command.write_scratch),
       .write_addr_i(scratch_row_i),
-      .write_data_i(command_i.deciding ? decide_scratch : choose_scratch)
+      .write_data_i(command.deciding ? decide_scratch : choose_scratch)
   );
 
   label_chain #(
@@ -248,8 +258,8 @@ module pool2_engine #(
       .PENALTY_WIDTH (CHOOSE_PENALTY_WIDTH)
   ) u_choose (
       .clk_i            (clk_i),
-      .active_i         (command_i.choosing),
-      .command_i        (command_i.choose),
+      .active_i         (command.choosing),
+      .command_i        (command.choose),
       .evidence_i       (choose_evidence),
       .position_i       (choose_position),
       .penalty_i        (choose_penalty),
@@ -263,7 +273,7 @@ module pool2_engine #(
   );
 
   logic decided_rival, unused_loser;
-  logic [POSITION_WIDTH-1:0] leader_position, rival_position, position, lost_position;
+  logic [POSITION_WIDTH-1:0] leader_position, rival_position, lost_position;
   logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
 
   generate
@@ -300,8 +310,8 @@ module pool2_engine #(
       .PENALTY_WIDTH (DECIDE_PENALTY_WIDTH)
   ) u_decide (
       .clk_i            (clk_i),
-      .active_i         (command_i.deciding),
-      .command_i        (command_i.decide),
+      .active_i         (command.deciding),
+      .command_i        (command.decide),
       .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
       .position_i       ({rival_position, leader_position}),
       .penalty_i        (DECIDE_PENALTY_WIDTH'(2)),
@@ -316,7 +326,6 @@ module pool2_engine #(
 
   // Choose: the first pointer word. The leader's offset has come along with its pixel.
 
-  logic [LEFT_WIDTH-1:0] best_lead;
   logic [15:0] best_start, second_start, left_lead, left_start, start;
   logic [CONFIDENCE_WIDTH-1:0] start_margin;
   logic [PIXEL_WIDTH-1:0] first_word;
@@ -352,7 +361,7 @@ module pool2_engine #(
       // The rival waits until the leader's pointer has moved towards those of the pixels around.
       logic [RIVAL_WIDTH-1:0] rival_q, next_rival_q;
       always_ff @(posedge clk_i) begin
-        if (command_i.choosing && command_i.take_position) begin
+        if (command.choosing && command.take_position) begin
           next_rival_q <= second_start[15:9];
           rival_q <= next_rival_q;
         end
@@ -364,9 +373,9 @@ module pool2_engine #(
   endgenerate
 
   always_ff @(posedge clk_i) begin
-    if (command_i.take_word && command_i.odd_word) begin
+    if (command.take_word && command.odd_word) begin
       new_pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] <= first_word;
-    end else if (command_i.take_word) begin
+    end else if (command.take_word) begin
       new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
     end
   end
@@ -380,21 +389,21 @@ module pool2_engine #(
     if (PRIOR != 0) begin : g_used
       logic [LABELS-1:0] left_used_q, so_far_q, used_q;
       always_ff @(posedge clk_i) begin
-        if (command_i.take_used) begin
+        if (command.take_used) begin
           left_used_q <= line_q[GROUP_WIDTH+:LABELS];
         end
-        if (command_i.take_choice) begin
-          so_far_q <= (command_i.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);
+        if (command.take_choice) begin
+          so_far_q <= (command.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);
         end
-        if (command_i.next_group) begin
+        if (command.next_group) begin
           used_q <= so_far_q;
         end
       end
-      assign done_word = command_i.giving_used ? HALF_WIDTH'(used_q) << GROUP_WIDTH : HALF_WIDTH'(new_pair_q);
+      assign done_word = command.giving_used ? HALF_WIDTH'(used_q) << GROUP_WIDTH : HALF_WIDTH'(new_pair_q);
     end else begin : g_not_used
       assign done_word = HALF_WIDTH'(new_pair_q);
       logic unused_commands;
-      assign unused_commands = ^{command_i.take_used, command_i.take_choice, command_i.next_group, command_i.giving_used};
+      assign unused_commands = ^{command.take_used, command.take_choice, command.next_group, command.giving_used};
     end
   endgenerate
 
@@ -402,8 +411,8 @@ module pool2_engine #(
   // cleared.
   always_ff @(posedge clk_i) begin
     if (active || was_active_q) begin
-      word_o <= (HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) & {HALF_WIDTH{command_i.decoding}})
-          | (done_word & {HALF_WIDTH{command_i.choosing}});
+      word_o <= (HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) & {HALF_WIDTH{command.decoding}})
+          | (done_word & {HALF_WIDTH{command.choosing}});
     end
   end
 
@@ -417,22 +426,22 @@ module pool2_engine #(
   ) u_smoothing (
       .clk_i           (clk_i),
       .rst_ni          (rst_ni),
-      .starts_i        ((RIVAL_MOVES != 0) && command_i.choosing),
+      .starts_i        ((RIVAL_MOVES != 0) && command.choosing),
       .smooth_i        (smooth_i),
-      .has_left_i      (command_i.beside.has_left),
-      .take_position_i (command_i.take_position),
-      .has_position_i  (command_i.has_position),
-      .position_i      (command_i.deciding ? position[15:0] : best_start),
+      .has_left_i      (beside.has_left),
+      .take_position_i (command.take_position),
+      .has_position_i  (command.has_position),
+      .position_i      (command.deciding ? position[15:0] : best_start),
       .left_i          (scratch[WINNER_WIDTH-1:0]),
-      .left_position_i (command_i.deciding ? left_lead : left_start),
+      .left_position_i (command.deciding ? left_lead : left_start),
       .left_o          (left_lead),
       .lost_position_i (lost_position[15:0]),
-      .margin_i        (command_i.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
+      .margin_i        (command.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
       .bright_i        (last_bright_q),
-      .take_distances_i(command_i.take_distances),
+      .take_distances_i(command.take_distances),
       .start_o         (start),
       .start_margin_o  (start_margin),
-      .take_result_i   (command_i.take_result),
+      .take_result_i   (command.take_result),
       .result_o        (result_o)
   );
 
@@ -442,3 +451,5 @@ module pool2_engine #(
                     left_lead, left_start, start, start_margin, prepared_q, new_background};
 
 endmodule
+
+`default_nettype wire

@@ -7,6 +7,10 @@
 // engine has, and every pair's word takes the same time.
 // Latency: POOL_LINE_CLOCKS from words_i to line_o.
 // Cost: WIDTH flip-flops a segment.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_line #(
     parameter int SEGMENTS = 5,
     parameter int WIDTH = 58
@@ -31,3 +35,5 @@ module pool2_line #(
   end
 
 endmodule
+
+`default_nettype wire

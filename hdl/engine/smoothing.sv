@@ -15,6 +15,10 @@
 // Schedule: take_distances_i a clock after take_position_i or later; two clocks after that start_o is there, until the next
 //   take_position_i, and take_result_i may be given; result_o from a clock after take_result_i until the next one.
 // Cost: five positions, two with margins, six adders, per engine; with SECOND_TARGET = 1 two more positions, an adder.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module smoothing #(
     parameter int NP = 10,
     parameter int CONFIDENCE_WIDTH = 8,
@@ -168,3 +172,5 @@ module smoothing #(
   assign unused = ^{1'b0, centre_valid_q, rounded[1:0]};
 
 endmodule
+
+`default_nettype wire

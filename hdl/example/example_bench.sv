@@ -8,6 +8,9 @@
 `include "dtof_macros.svh"
 `timescale 1ns / 1ps
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module example_bench #(
     parameter int READOUT = dtof_pkg::READOUT_HISPOINTER,
     parameter int ACQUISITIONS = 600
@@ -237,3 +240,5 @@ module example_bench #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -5,6 +5,9 @@
 `include "dtof_macros.svh"
 `timescale 1ns / 1ps
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module timing_bench #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
     parameter int DIAGRAMS = 1,
@@ -187,3 +190,5 @@ module timing_bench #(
   end
 
 endmodule
+
+`default_nettype wire

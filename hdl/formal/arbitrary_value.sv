@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A value that may be different in every clock. A proof turns each bit into an input of its own.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module arbitrary_value #(
     parameter int WIDTH = 1
 ) (
@@ -20,3 +24,5 @@ module arbitrary_bit (
     output logic value_o
 );
 endmodule
+
+`default_nettype wire

@@ -8,6 +8,9 @@
 // counted.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module control_properties #(
     parameter int COARSE_PASSES = 1,
     parameter int THREE_STEPS = 0,
@@ -321,3 +324,5 @@ module control_properties #(
   `GOAL(done && (&acq_num_q))
 
 endmodule
+
+`default_nettype wire

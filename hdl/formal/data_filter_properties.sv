@@ -2,6 +2,9 @@
 // Which timestamps each read-out counts and in which bin: docs/reference/readouts.md's sentences, in 32-bit integers.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module data_filter_properties #(
     parameter int READOUT = 3,
     parameter int NP = 10,
@@ -114,3 +117,5 @@ module data_filter_properties #(
   `GOAL(keep && final_pass)
 
 endmodule
+
+`default_nettype wire

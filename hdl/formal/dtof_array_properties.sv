@@ -3,6 +3,9 @@
 // but the contract of the TDC stream.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module dtof_array_properties #(
     parameter int READOUT = 3,
     parameter int NP = 3,
@@ -96,3 +99,5 @@ module dtof_array_properties #(
   `GOAL(done)
 
 endmodule
+
+`default_nettype wire

@@ -4,6 +4,9 @@
 // Pixels and timestamps are counted here from the handshake alone.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module histogram_builder_properties #(
     parameter int PIXELS = 2,
     parameter int SLOTS = 2,
@@ -205,3 +208,5 @@ module histogram_builder_properties #(
   `GOAL(check_q && count == '1)
 
 endmodule
+
+`default_nettype wire

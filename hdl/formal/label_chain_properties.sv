@@ -2,8 +2,10 @@
 // Two labels, three pixels, driven by pool2_sequencer and with the messages in an SRAM, as in pool2_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
 // of the one that is farther from the pixel in question (docs/reference/poolpointer2.md, Chain: the sender's lambda).
-`include "pool2_command.svh"
 `include "properties.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module label_chain_properties #(
     parameter int EVIDENCE_WIDTH = 3,
@@ -28,6 +30,7 @@ module label_chain_properties #(
   (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
   (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
 
+  `include "pool2_command.svh"
   pool2_engine_command_t command;
   logic [1:0] scratch_row;
   logic unused_done, unused_select, unused_read, unused_write, unused_upper, unused_neighbour, unused_column, unused_send,
@@ -174,3 +177,5 @@ module label_chain_properties #(
   `GOAL(found && results_q == 2'd2 && margin != '0 && best_label)
 
 endmodule
+
+`default_nettype wire

@@ -2,6 +2,9 @@
 // hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW) (docs/reference/poolpointer2.md, Track).
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module label_match_properties #(
     parameter int LABELS = 5,
     parameter int WINDOW = 4
@@ -40,3 +43,5 @@ module label_match_properties #(
   `PROVE(a_hits, hits == expected)
 
 endmodule
+
+`default_nettype wire

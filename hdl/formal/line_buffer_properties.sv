@@ -4,6 +4,9 @@
 // of every fourth acquisition is watched.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module line_buffer_properties #(
     parameter int ACQUISITION_LINES = 2,
     parameter int LINES = 2,
@@ -122,3 +125,5 @@ module line_buffer_properties #(
         && 32'(watched_line) == ACQUISITION_LINES - 1)
 
 endmodule
+
+`default_nettype wire

@@ -2,6 +2,9 @@
 // The smallest value is one of the values, and none of them is smaller.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module minimum_properties #(
     parameter int NUMBER = 8,
     parameter int WIDTH = 5
@@ -30,3 +33,5 @@ module minimum_properties #(
   `PROVE(a_none_is_smaller, &not_smaller)
 
 endmodule
+
+`default_nettype wire

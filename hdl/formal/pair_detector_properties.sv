@@ -3,6 +3,9 @@
 // its neighbours. The counts are arbitrary constants, one arbitrary pair is watched; a scan may be left off for the next.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pair_detector_properties #(
     parameter int BIN_WIDTH = 2,
     parameter int COUNT_WIDTH = 2
@@ -100,3 +103,5 @@ module pair_detector_properties #(
   `GOAL(done_q && peak == (BIN_WIDTH)'(BINS - 1) && behind == (COUNT_WIDTH + 1)'(1))
 
 endmodule
+
+`default_nettype wire

@@ -3,6 +3,9 @@
 // height fits into twice the lean that often. The pair is an arbitrary constant; steps come with pauses.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pair_interpolator_properties #(
     parameter int BIN_WIDTH = 2,
     parameter int COUNT_WIDTH = 2,
@@ -81,3 +84,5 @@ module pair_interpolator_properties #(
   `GOAL(done && lower && offset == (WIDE)'(1) && confidence == '1)
 
 endmodule
+
+`default_nettype wire

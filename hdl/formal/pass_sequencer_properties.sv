@@ -3,6 +3,9 @@
 // acquisitions that ACQ_WIDTH holds.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pass_sequencer_properties #(
     parameter int COARSE_PASSES = 1,
     parameter int THREE_STEPS = 0,
@@ -103,3 +106,5 @@ module pass_sequencer_properties #(
   `GOAL(steady && final_pass && !more && (&acq_num_i))
 
 endmodule
+
+`default_nettype wire

@@ -3,6 +3,9 @@
 // watched: it is not larger than the peak, not as large with a lower index, and the peak itself is a bin that was seen.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module peak_detector_properties #(
     parameter int BIN_WIDTH = 3,
     parameter int COUNT_WIDTH = 3,
@@ -82,3 +85,5 @@ module peak_detector_properties #(
         && watched_count_q == (COUNT_WIDTH)'(1))
 
 endmodule
+
+`default_nettype wire

@@ -2,7 +2,8 @@
 // How far a timestamp is from where a pixel's word points: docs/reference/poolpointer2.md, Track and Point, on integers.
 `include "properties.svh"
 
-`include "pixel_distance.svh"
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pixel_distance_properties #(
     parameter int LABELS = 5,
@@ -31,6 +32,7 @@ module pixel_distance_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
+  `include "pixel_distance.svh"
   pixel_distance_t distance;
 
   label_match #(
@@ -141,3 +143,5 @@ module pixel_distance_properties #(
   `GOAL(point_i && distance.rival_hit && distance.reach)
 
 endmodule
+
+`default_nettype wire

@@ -3,6 +3,9 @@
 // arbitrary pixel is followed. A single move is pointer_update's, which has a proof of its own.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pointer_builder_properties #(
     parameter int PIXELS = 2,
     parameter int SLOTS = 2,
@@ -200,3 +203,5 @@ module pointer_builder_properties #(
   `GOAL(check_s2_q && confidence == '1 && pointer != '0)
 
 endmodule
+
+`default_nettype wire

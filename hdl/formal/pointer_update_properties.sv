@@ -2,6 +2,9 @@
 // One step of a pointer and of its confidence: Eq. 3.12 and docs/reference/readouts.md, in 32-bit integers.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pointer_update_properties #(
     parameter int NP = 10,
     parameter int POINTER_STEP = 1,
@@ -72,3 +75,5 @@ module pointer_update_properties #(
   `PROVE(a_confidence, (CONFIDENCE_WIDTH == 0) || 32'(confidence) == expected_confidence)
 
 endmodule
+
+`default_nettype wire

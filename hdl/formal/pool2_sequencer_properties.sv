@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // pool2_sequencer with pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
 // in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
-`include "pool2_command.svh"
 `include "properties.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pool2_sequencer_properties #(
     parameter int PIXELS = 3,
@@ -32,6 +34,7 @@ module pool2_sequencer_properties #(
     checking <= 1'b1;
   end
 
+  `include "pool2_command.svh"
   pool2_engine_command_t command;
   logic done, read, write, upper, neighbour, send, send_last, waits, busy;
   logic [PAIRS-1:0] select;
@@ -157,3 +160,5 @@ module pool2_sequencer_properties #(
   `GOAL(done && sending_q)
 
 endmodule
+
+`default_nettype wire

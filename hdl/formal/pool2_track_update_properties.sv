@@ -2,6 +2,9 @@
 // A pixel's track word after one timestamp: docs/reference/poolpointer2.md, Track, step by step on integers.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool2_track_update_properties #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
@@ -102,3 +105,5 @@ module pool2_track_update_properties #(
   `GOAL(any_hit && hit_score == FULL && offset_down_i && next_offset == -END)
 
 endmodule
+
+`default_nettype wire

@@ -8,6 +8,9 @@
 // pool2_sequencer end in time.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool_control_properties #(
     parameter int COLUMNS = 2,
     parameter int PIXELS = 3,
@@ -294,3 +297,5 @@ module pool_control_properties #(
   `GOAL(done && acq_num_q == ACQ_WIDTH'(3) && coarse_end_q == ACQ_WIDTH'(1) && track_end_q == ACQ_WIDTH'(2))
 
 endmodule
+
+`default_nettype wire

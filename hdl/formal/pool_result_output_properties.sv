@@ -3,6 +3,9 @@
 // reset at any time. The harness keeps what was given in a queue of three entries and watches one arbitrary engine.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module pool_result_output_properties #(
     parameter int ENGINES = 3,
     parameter int ENGINE_COLUMNS = 2,
@@ -134,3 +137,5 @@ module pool_result_output_properties #(
   `GOAL(running && last_beat && entries_q == 2'd3 && front_last)
 
 endmodule
+
+`default_nettype wire

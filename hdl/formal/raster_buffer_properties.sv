@@ -3,6 +3,9 @@
 // arbitrary pixel is watched, its first result or its second; a frame has one or two results of every pixel.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module raster_buffer_properties #(
     parameter int SRAM_NUM = 2,
     parameter int PIXELS_PER_SRAM = 2,
@@ -130,3 +133,5 @@ module raster_buffer_properties #(
   `GOAL(rst_n && pop && tlast && column == watched_column && row == watched_row)
 
 endmodule
+
+`default_nettype wire

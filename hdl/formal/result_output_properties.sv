@@ -3,6 +3,9 @@
 // whatever the back-pressure and from reset at any time. One arbitrary column is watched.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module result_output_properties #(
     parameter int SRAM_NUM = 3,
     parameter int ROW_WIDTH = 2,
@@ -159,3 +162,5 @@ module result_output_properties #(
   `GOAL(running && done && last_row_q && 32'(watched) == SRAM_NUM - 1)
 
 endmodule
+
+`default_nettype wire

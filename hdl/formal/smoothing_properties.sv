@@ -4,6 +4,9 @@
 // was in the registers before is not.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module smoothing_properties #(
     parameter int NP = 10,
     parameter int CELL_SHIFT = 9,
@@ -98,3 +101,5 @@ module smoothing_properties #(
   `GOAL(t_q == 4'd7 && !starts && smooth && has == 3'b111 && has_left && sum < -2600)
 
 endmodule
+
+`default_nettype wire

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two-port SRAM for proofs: contents are arbitrary until written, and reading an address in the clock in which it is
 // written returns anything.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module sram_1r1w #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -35,3 +39,5 @@ module sram_1r1w #(
   end
 
 endmodule
+
+`default_nettype wire

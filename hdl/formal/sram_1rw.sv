@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single-port SRAM for proofs: contents are arbitrary until written, and so is the read data after a write.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -35,3 +39,5 @@ module sram_1rw #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -2,6 +2,9 @@
 // valid_o tells of one arbitrary address, read in the clock before, whether it was written since the last clear.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module status_bits_properties #(
     parameter int DEPTH = 5,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH)
@@ -52,3 +55,5 @@ module status_bits_properties #(
   `GOAL(read_q && valid)
 
 endmodule
+
+`default_nettype wire

@@ -2,6 +2,9 @@
 // stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module stream_output_properties #(
     parameter int SRAM_NUM = 3,
     parameter int ROW_WIDTH = 2,
@@ -118,3 +121,5 @@ module stream_output_properties #(
   `GOAL(rst_n && pop && tlast && count_q == 2'd2 && tdata[57] && !tuser)
 
 endmodule
+
+`default_nettype wire

@@ -3,6 +3,9 @@
 // and from reset at any time.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module target_words_properties #(
     parameter int PLACE_WIDTH = 3,
     parameter int POSITION_WIDTH = 4,
@@ -75,3 +78,5 @@ module target_words_properties #(
   `GOAL(rst_n && pop && tlast && second && waited_q)
 
 endmodule
+
+`default_nettype wire

@@ -3,6 +3,9 @@
 // at T1; the register of T1 keeps the last one.
 `include "properties.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module timestamp_input_properties #(
     parameter int NP = 10,
     parameter int TIME_GATE = 1,
@@ -58,3 +61,5 @@ module timestamp_input_properties #(
   `GOAL(detected_t1)
 
 endmodule
+
+`default_nettype wire

@@ -3,7 +3,8 @@
 // word to the next word. Distances come from pixel_distance and label_match, so that the three are proved together.
 `include "properties.svh"
 
-`include "pixel_distance.svh"
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module twin_pointer_update_properties #(
     parameter int LABELS = 5,
@@ -27,6 +28,7 @@ module twin_pointer_update_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
+  `include "pixel_distance.svh"
   pixel_distance_t distance;
   logic [POINT_WIDTH-1:0] word;
 
@@ -168,3 +170,5 @@ module twin_pointer_update_properties #(
   `GOAL(update_i && roles_change && distance.reach)
 
 endmodule
+
+`default_nettype wire

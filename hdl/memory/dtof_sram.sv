@@ -8,6 +8,9 @@
 // +sram_report prints size and organisation at the start of a simulation.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module dtof_sram #(
     parameter int PORTS = 2,   // 1: one port that reads or writes, 2: one read and one write port
     parameter int DEPTH = 160,  // words
@@ -71,3 +74,5 @@ module dtof_sram #(
   `DTOF_ASSERT(a_write_in_range, !write_en_i || (32'(write_addr_i) < DEPTH), "SRAM write beyond its depth")
 
 endmodule
+
+`default_nettype wire

@@ -25,6 +25,8 @@
 
 // A property that holds in every clock outside reset: alive in simulation, proved by make formal, absent in
 // synthesis. A violation ends an Icarus simulation; under Verilator --assert it calls the stop hook.
+// DTOF_ASSERT_AS_IF is for the speed of tb_cpp: the C++ of Verilator 5.006 expects an assert to fail, and an if with a $error
+// to be rare.
 `ifdef FORMAL
 `define DTOF_ASSERT(LABEL, CONDITION, SENTENCE) \
   always @(posedge clk_i) begin \
@@ -39,6 +41,13 @@
   always @(posedge clk_i) begin : LABEL \
     if (rst_ni === 1'b1 && (CONDITION) !== 1'b1) begin \
       $fatal(1, "%m: %s", SENTENCE); \
+    end \
+  end
+`elsif DTOF_ASSERT_AS_IF
+`define DTOF_ASSERT(LABEL, CONDITION, SENTENCE) \
+  always @(posedge clk_i) begin \
+    if (rst_ni === 1'b1) begin : LABEL \
+      if (!(CONDITION)) $error("%m: %s", SENTENCE); \
     end \
   end
 `else

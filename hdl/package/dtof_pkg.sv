@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Read-outs (dtof_readouts.svh) and the sizes that follow from a read-out's parameters (docs/reference/readouts.md).
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 package dtof_pkg;
 
   // Values of state_o of dtof_array: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
@@ -106,9 +110,13 @@ package dtof_pkg;
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (pool2_line)
   localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
-  // Bits of pool2_engine_command_t, of which Yosys 0.23 cannot take $bits, nor Icarus 11 of a variable of it. Every lint
-  // finds a wrong number.
-  localparam int POOL2_COMMAND_WIDTH = 63;
+  // Bits of the types in pool2_command.svh and pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
+  // of these types. Every lint finds a wrong number.
+  localparam int POOL2_COMMAND_WIDTH = 63;         // pool2_engine_command_t
+  localparam int POOL2_DECODE_COMMAND_WIDTH = 21;  // pool2_decode_command_t
+  localparam int POOL2_CHAIN_COMMAND_WIDTH = 8;    // chain_command_t
+  localparam int POOL2_BESIDE_COMMAND_WIDTH = 8;   // beside_command_t
+  localparam int POOL2_DISTANCE_WIDTH = 15;        // pixel_distance_t
   localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
@@ -193,3 +201,5 @@ package dtof_pkg;
   endfunction
 
 endpackage
+
+`default_nettype wire

@@ -12,7 +12,6 @@
   localparam int READOUT_HISTOGRAM = 7;
   localparam int READOUT_COARSEHISTOGRAM = 8;
   localparam int READOUT_POOLPOINTER2 = 64;  // of dtof_subsystem alone: pool_pointer2_array
-`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to 8"
 
   function automatic bit is_readout(input int readout);
     is_readout = readout >= 0 && readout < 9;

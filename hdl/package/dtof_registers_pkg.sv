@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by scripts/generate.py from hdl/subsystem/registers.toml.
 // Offsets of the registers, and of each field the lowest bit and the number of bits.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
@@ -272,3 +276,5 @@ package dtof_registers_pkg;
   endfunction
 
 endpackage
+
+`default_nettype wire

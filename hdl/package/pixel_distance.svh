@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What pixel_distance says about a timestamp and a pixel's word. All are 0 without a timestamp.
 //
-// A type of the compilation unit, included at the head of a file: Icarus Verilog 11 takes none of a package.
-`ifndef PIXEL_DISTANCE_SVH
-`define PIXEL_DISTANCE_SVH
+// A module includes this file in its body; pool2_command.svh says why.
 
 typedef struct packed {
   logic       offset_up;
@@ -17,5 +15,3 @@ typedef struct packed {
   logic       rival_up;
   logic       rival_down;
 } pixel_distance_t;
-
-`endif

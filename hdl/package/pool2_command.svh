@@ -3,9 +3,8 @@
 // stands in the table in pool2_sequencer; docs/reference/blocks/pool_control.md shows both, written by
 // scripts/schedule.py from this file and from the table in simulation.
 //
-// Types of the compilation unit, included at the head of a file: Icarus Verilog 11 takes none of a package.
-`ifndef POOL2_COMMAND_SVH
-`define POOL2_COMMAND_SVH
+// A module includes this file in its body, so that the types are the module's own: Icarus Verilog 11 takes no type of a
+// package, Yosys 0.41 to 0.52 none of the compilation unit. Ports are vectors as wide as dtof_pkg says.
 
 // What the columns and the output do for the engines: at most one access of the columns' SRAMs a clock.
 typedef struct packed {
@@ -92,5 +91,3 @@ typedef struct packed {
   logic take_distances; // the position in the middle is compared with those above, below and to the left
   logic take_result;    // the result of the winner in the middle is known
 } pool2_engine_command_t;
-
-`endif

@@ -9,6 +9,9 @@
 // Cost: the settings' flip-flops, SRAM_NUM of them for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module apb_registers #(
     parameter int READOUT = 0,
     parameter int HAS_SCHEDULE = 0,
@@ -434,3 +437,5 @@ module apb_registers #(
   end
 
 endmodule
+
+`default_nettype wire

@@ -7,6 +7,9 @@
 // Cost: address, data and response of a transfer, five state bits.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module axi_lite_to_apb #(
     parameter int ADDR_WIDTH = 12
 ) (
@@ -112,3 +115,5 @@ module axi_lite_to_apb #(
   assign pstrb_o = strobe_q;
 
 endmodule
+
+`default_nettype wire

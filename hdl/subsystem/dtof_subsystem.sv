@@ -18,6 +18,9 @@
 // Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts' (reports/fpga_check.md).
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module dtof_subsystem #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
 `include "subsystem_parameters.svh"
@@ -293,7 +296,7 @@ module dtof_subsystem #(
   // The array. Its clock rests between frames. Behind a reset it runs for as long as what had no reset takes to leave the
   // array's pipelines.
 
-  logic array_clk;
+  logic array_clk, array_busy;
   logic [7:0] settling_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -313,7 +316,6 @@ module dtof_subsystem #(
 
   logic result_tvalid, result_tready, result_tlast;
   logic [RESULT_WIDTH-1:0] result_tdata;
-  logic array_busy;
   logic [dtof_pkg::ERROR_WIDTH-1:0] array_error;
 
   generate
@@ -546,3 +548,5 @@ module dtof_subsystem #(
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule
+
+`default_nettype wire

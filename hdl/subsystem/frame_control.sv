@@ -11,6 +11,9 @@
 // Cost: a cycle counter and the last frame's cycles, a frame counter, two comparators of ACQ_WIDTH bits.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module frame_control #(
     parameter int HAS_SCHEDULE = 0,
     parameter int ACQ_WIDTH = 16,
@@ -97,3 +100,5 @@ module frame_control #(
   assign frame_cycles_o = frame_cycles_q;
 
 endmodule
+
+`default_nettype wire

@@ -11,6 +11,9 @@
 // Cost: an SRAM of LINES x WIDTH bits, two addresses, four counters.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module line_buffer #(
     parameter int ACQUISITION_LINES = 320,  // of an acquisition
     parameter int LINES = 324,              // that the memory holds; one more waits at its output
@@ -149,3 +152,5 @@ module line_buffer #(
   `DTOF_ASSERT(a_flush_between, !flush_i || !inside_q, "the buffer is flushed inside an acquisition")
 
 endmodule
+
+`default_nettype wire

@@ -4,6 +4,10 @@
 // Equation: x' = (column enabled and gate_begin_i <= x < gate_end_i) ? x : "no detection" (all ones).
 // Latency: none; the arrays register the line.
 // Cost: NP gates a column; the time gate adds two comparators of NP bits a column.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module line_filter #(
     parameter int NP = 10,
     parameter int SRAM_NUM = 200,
@@ -34,3 +38,5 @@ module line_filter #(
   endgenerate
 
 endmodule
+
+`default_nettype wire

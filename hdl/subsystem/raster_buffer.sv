@@ -9,6 +9,9 @@
 // Cost: a single-port SRAM of SRAM_NUM * PIXELS_PER_SRAM * TARGETS results of WIDTH bits, an address, a row and a column.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module raster_buffer #(
     parameter int SRAM_NUM = 200,         // columns
     parameter int PIXELS_PER_SRAM = 160,  // rows
@@ -129,3 +132,5 @@ module raster_buffer #(
   assign m_tlast_o = (m_column_o == LAST_COLUMN) && (m_row_o == LAST_ROW) && last_target;
 
 endmodule
+
+`default_nettype wire

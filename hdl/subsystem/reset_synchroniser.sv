@@ -6,6 +6,10 @@
 // rst_ni itself, so that a tester has the reset at a pin; scan_mode_i changes only while rst_ni is low.
 // Latency: two clocks to release.
 // Cost: two flip-flops, a multiplexer.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module reset_synchroniser (
     input  logic clk_i,
     input  logic rst_ni,       // of any clock
@@ -26,3 +30,5 @@ module reset_synchroniser (
   assign rst_no = scan_mode_i ? rst_ni : released_q[1];
 
 endmodule
+
+`default_nettype wire

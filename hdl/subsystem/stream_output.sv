@@ -12,6 +12,9 @@
 // Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
 `include "dtof_macros.svh"
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module stream_output #(
     parameter int SRAM_NUM = 200,
     parameter int ROW_WIDTH = 8,
@@ -149,3 +152,5 @@ module stream_output #(
 `endif
 
 endmodule
+
+`default_nettype wire

@@ -7,6 +7,10 @@
 //
 // Latency: none; a result in a clock, or in two.
 // Cost: a flip-flop and a multiplexer of POSITION_WIDTH bits.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module target_words #(
     parameter int PLACE_WIDTH = 16,       // column and row
     parameter int POSITION_WIDTH = 16,
@@ -51,3 +55,5 @@ module target_words #(
   assign m_tlast_o = s_tlast_i && last_word;
 
 endmodule
+
+`default_nettype wire

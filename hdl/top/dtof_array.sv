@@ -29,6 +29,10 @@
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: see reports/area.md.
 `include "dtof_macros.svh"
+`include "dtof_readout_range.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module dtof_array #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,  // dtof_pkg::READOUT_*
@@ -573,3 +577,5 @@ module dtof_array #(
   );
 
 endmodule
+
+`default_nettype wire

@@ -18,7 +18,9 @@
 // Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS + what docs/reference/poolpointer2.md's
 //   cycle budget says.
 `include "dtof_macros.svh"
-`include "pool2_command.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
 
 module pool_pointer2_array #(
     parameter int NP = 10,                // bits of a timestamp, 8 to 16
@@ -240,6 +242,7 @@ module pool_pointer2_array #(
   logic [STEP_WIDTH-1:0] engine_column, send_column;
   logic [STEP_PAIRS-1:0] engine_select;
   logic engine_read, engine_write, engine_upper, engine_neighbour;
+  `include "pool2_command.svh"
   pool2_engine_command_t command;
   logic [ROW_WIDTH-1:0] scratch_row, send_row;
   logic send, send_last, send_waits, send_busy, prior_q;
@@ -614,3 +617,5 @@ module pool_pointer2_array #(
   );
 
 endmodule
+
+`default_nettype wire

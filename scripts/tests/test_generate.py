@@ -37,7 +37,7 @@ class Descriptions(unittest.TestCase):
     def test_a_new_read_out_is_in_every_list(self):
         table = readouts.parse(TEXT + FIRST_PHOTON)
         self.assertIn("localparam int READOUT_FIRSTPHOTON = 9;", generate.systemverilog(table))
-        self.assertIn("READOUT must be 0 to 9", generate.systemverilog(table))
+        self.assertIn("READOUT must be 0 to 9", generate.readout_range(table))
         self.assertIn("READOUT_HISTOGRAM, READOUT_COARSEHISTOGRAM, READOUT_FIRSTPHOTON: coarse_passes = 0;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: is_word_moved = 1'b1;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: begin : g_first_photon\n          `DTOF_COLUMN(first_photon_column)",

@@ -25,6 +25,17 @@ class MisreadTest(unittest.TestCase):
         self.assertEqual(lint_rtl.check_misread({"hdl/m.sv": text}), [])
 
 
+class NettypeTest(unittest.TestCase):
+    GOOD = "// What it is.\n\n// verilator lint_off TIMESCALEMOD\n`default_nettype none\n\nmodule m;\nendmodule\n\n`default_nettype wire\n"
+
+    def test_what_stands_around_modules(self) -> None:
+        self.assertEqual(lint_rtl.check_nettype({"hdl/m.sv": self.GOOD}), [])
+        for wrong in (self.GOOD.replace("`default_nettype none\n", ""), self.GOOD.replace("`default_nettype wire\n", ""),
+                      self.GOOD.replace("// verilator lint_off TIMESCALEMOD\n", ""), "module first;\nendmodule\n" + self.GOOD,
+                      self.GOOD + "module last;\nendmodule\n", "`timescale 1ns/1ps\n" + self.GOOD):
+            self.assertEqual(len(lint_rtl.check_nettype({"hdl/m.sv": wrong})), 1, wrong)
+
+
 class IcarusTest(unittest.TestCase):
     def test_sorry_lines_are_failures(self) -> None:
         self.assertEqual(len(lint_rtl.sorry("a.sv:3: sorry: constant selects are not supported\nother line")), 1)

@@ -184,7 +184,7 @@ function(dtof_verilate name)
     COMMAND ${CMAKE_COMMAND} -E rm -rf ${directory}
     COMMAND ${CMAKE_COMMAND} -E make_directory ${directory}
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
-            --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET ${waveform} --timescale 1ns/1ps
+            --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET +define+DTOF_ASSERT_AS_IF ${waveform} --timescale 1ns/1ps
             ${DTOF_COVERAGE_FLAGS}
             ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/package ${hdl}/package/dtof_pkg.sv ${hdl}/package/dtof_registers_pkg.sv
             ${modules} ${access}

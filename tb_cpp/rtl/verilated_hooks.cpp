@@ -9,7 +9,6 @@
 #include <string>
 
 #include "rtl/error.hpp"
-#include "rtl/verilated_model.hpp"
 #include "rtl/verilated_printf.h"
 
 namespace {
@@ -47,13 +46,6 @@ void dtof_verilated_printf(const char* format, ...) {
   } else {
     std::fputs(text.c_str(), stdout);
   }
-}
-
-void dtof_assertion_failed(const char* format, const char* name) {
-  constexpr int kTimeBits = 64;
-  constexpr int kTimeUnit = -9;  // ns, of which a time step is the thousandth part
-  VL_WRITEF(format, kTimeBits, VL_TIME_UNITED_Q(1000), kTimeUnit, name, name);
-  stop(__FILE__, __LINE__, name, "a failed assertion");
 }
 
 void vl_stop(const char* filename, int line, const char* hierarchy) {

@@ -12,6 +12,10 @@
 //   S3 of M4  result loaded
 //
 // Cost at the defaults: PIXELS_PER_SRAM x 11 bits, and little more than the registers of word_builder.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module first_photon_column #(
     `include "column_parameters.svh"
 ) (
@@ -88,3 +92,5 @@ module first_photon_column #(
   );
 
 endmodule
+
+`default_nettype wire

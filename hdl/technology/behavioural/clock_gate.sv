@@ -4,6 +4,10 @@
 // A clock with enable_i high ends with a rising edge of clk_o, one with enable_i low without one; scan_mode_i lets all
 // pass. enable_i is taken while clk_i is low, so that it may settle until clk_i rises, and clk_o has no glitch.
 // Cost: one cell.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module clock_gate (
     input  logic clk_i,
     input  logic enable_i,
@@ -22,3 +26,5 @@ module clock_gate (
   assign clk_o = clk_i && enable_q;
 
 endmodule
+
+`default_nettype wire

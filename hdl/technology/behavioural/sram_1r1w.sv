@@ -7,6 +7,10 @@
 // What is undefined is X, so that a user that relies on it fails at once and synthesis is free to infer a bare
 // block RAM. Verilator has no X: there contents are random until written and undefined read data is inverted.
 // Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module sram_1r1w #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -60,3 +64,5 @@ module sram_1r1w #(
 `endif
 
 endmodule
+
+`default_nettype wire

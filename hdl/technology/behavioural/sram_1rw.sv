@@ -7,6 +7,10 @@
 // block RAM. Verilator has no X: there contents are random until written and undefined read data is the inverted
 // write data.
 // Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -59,3 +63,5 @@ module sram_1rw #(
 `endif
 
 endmodule
+
+`default_nettype wire

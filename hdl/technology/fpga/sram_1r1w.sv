@@ -7,6 +7,10 @@
 // Read and write of one address in one clock: the word is written, the read data is undefined. It is X here, so that a tool
 // needs no logic around the block RAM whatever that does then.
 // Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module sram_1r1w #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -41,3 +45,5 @@ module sram_1r1w #(
   end
 
 endmodule
+
+`default_nettype wire

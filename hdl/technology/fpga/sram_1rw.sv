@@ -6,6 +6,10 @@
 // Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards. It is X here, so that a
 // tool needs no logic around the block RAM whatever that does then.
 // Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module sram_1rw #(
     parameter int DEPTH = 16,
     parameter int WIDTH = 8,
@@ -39,3 +43,5 @@ module sram_1rw #(
   end
 
 endmodule
+
+`default_nettype wire
