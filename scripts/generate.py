@@ -65,7 +65,7 @@ def readout_range(table: Table) -> str:
     last = max(readout.number for readout in table.readouts.values() if readout.number is not None)
     return "\n".join([
         "// SPDX-License-Identifier: Apache-2.0",
-        f"// {WRITTEN} What dtof_array says of a READOUT that it does not know.",
+        f"// {WRITTEN} The message of dtof_array for a READOUT out of range.",
         "`ifndef DTOF_READOUT_RANGE",
         f'`define DTOF_READOUT_RANGE "dtof_array: READOUT must be 0 to {last}"',
         "`endif",
