@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Timing constraints of dtof_array and pool_pointer2_array. The flow sets `period` (ns) and reads this file anew for each period.
+# Timing constraints of dtof_array and dtof_pool_pointer2_array. The flow sets `period` (ns) and reads this file anew for each period.
 #
 # Ports: every budget is the share of the clock period that the outside uses. The TDC's timestamps and the
 # result stream come from and go to registers; the handshakes have some logic outside.
@@ -26,7 +26,7 @@ set_output_delay [expr {$tdc_share * $period}] -clock clk [get_ports tdc_ready_o
 set_input_delay [expr {$stream_share * $period}] -clock clk [get_ports result_tready_i]
 set_output_delay [expr {$stream_share * $period}] -clock clk [get_ports {result_tvalid_o result_tdata_o* result_tlast_o}]
 
-# The reset comes from reset_synchroniser: its release is a flip-flop and a multiplexer behind the clock's edge.
+# The reset comes from dtof_reset_synchroniser: its release is a flip-flop and a multiplexer behind the clock's edge.
 set_input_delay [expr {$reset_share * $period}] -clock clk [get_ports rst_ni]
 
 # No edge may be slower.

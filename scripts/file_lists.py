@@ -37,8 +37,8 @@ def without_srams(listing: str) -> str:
     package, _, rest = split(listing)
     return "\n".join([
         "// SPDX-License-Identifier: Apache-2.0",
-        f"// {WRITTEN}: all RTL without the technology folder, for a process's own sram_1rw.sv, sram_1r1w.sv and clock_gate.sv:",
-        "//   verilator --lint-only -f dtof_no_srams.f my_srams/sram_1rw.sv my_srams/sram_1r1w.sv my_srams/clock_gate.sv --top-module dtof_subsystem",
+        f"// {WRITTEN}: all RTL without the technology folder, for a process's own dtof_sram_1rw.sv, dtof_sram_1r1w.sv and dtof_clock_gate.sv:",
+        "//   verilator --lint-only -f dtof_no_srams.f my_srams/dtof_sram_1rw.sv my_srams/dtof_sram_1r1w.sv my_srams/dtof_clock_gate.sv --top-module dtof_subsystem",
         "+incdir+package",
         *package,
         *rest,
@@ -72,7 +72,7 @@ def fusesoc(table: Table, listing: str, includes: list[str]) -> str:
         "CAPI=2:",
         "# SPDX-License-Identifier: Apache-2.0",
         f"# {WRITTEN} and readouts.toml.",
-        f"# --flag={OWN_SRAMS}: without the technology folder, for a core of one's own that has sram_1rw, sram_1r1w and clock_gate.",
+        f"# --flag={OWN_SRAMS}: without the technology folder, for a core of one's own that has dtof_sram_1rw, dtof_sram_1r1w and dtof_clock_gate.",
         f"name: dtof:readout:dtof_array:{VERSION}",
         "description: Read-out of large SPAD arrays, TDC timestamps to depth codes",
         "filesets:",
@@ -136,7 +136,7 @@ def bender(listing: str) -> str:
     package, technology, rest = split(listing)
     return "\n".join([
         "# SPDX-License-Identifier: Apache-2.0",
-        f"# {WRITTEN}. -t {OWN_SRAMS_BENDER}: without the technology folder, for one's own sram_1rw, sram_1r1w and clock_gate.",
+        f"# {WRITTEN}. -t {OWN_SRAMS_BENDER}: without the technology folder, for one's own dtof_sram_1rw, dtof_sram_1r1w and dtof_clock_gate.",
         "package:",
         "  name: dtof_readout",
         "",

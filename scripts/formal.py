@@ -154,7 +154,7 @@ def design_files() -> list[Path]:
     """RTL of the file list. The SRAMs are those for proofs."""
     lines = (HDL / "dtof.f").read_text().splitlines()
     files = [HDL / line for line in lines if line.endswith(".sv") and not line.startswith(("//", "technology/"))]
-    return files + [FORMAL / "sram_1r1w.sv", FORMAL / "sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
+    return files + [FORMAL / "dtof_sram_1r1w.sv", FORMAL / "dtof_sram_1rw.sv", FORMAL / "arbitrary_value.sv"]
 
 
 def needed_files(harness: Path) -> list[Path]:

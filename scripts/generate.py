@@ -23,6 +23,7 @@ FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
 POINTER = "pointer"
 PARAMETERS_BEGIN = "<!-- parameters of {}: written by scripts/generate.py -->\n"
 PARAMETERS_END = "<!-- end of parameters -->\n"
+PREFIX = "dtof_"  # of every module
 COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
 COLUMNS_END = "// end of columns\n"
 INTEGRATION = "docs/user/integration.md"
@@ -148,7 +149,7 @@ def systemverilog(table: Table) -> str:
 
 def top_constant(top: Top) -> str:
     """Name of a top's number in SystemVerilog."""
-    return f"READOUT_{top.name.upper().removesuffix('_ARRAY').replace('_', '')}"
+    return f"READOUT_{top.name.removeprefix(PREFIX).upper().removesuffix('_ARRAY').replace('_', '')}"
 
 
 def subsystem_number(table: Table, readout: Readout) -> int | None:
@@ -214,7 +215,7 @@ def columns(table: Table) -> str:
         "      case (READOUT)",
     ]
     for column, constants in users.items():
-        lines += [f"        {', '.join(constants)}: begin : g_{column.removesuffix('_column')}",
+        lines += [f"        {', '.join(constants)}: begin : g_{column.removeprefix(PREFIX).removesuffix('_column')}",
                   f"          `DTOF_COLUMN({column})",
                   "        end"]  # fmt: skip
     lines += ["        default: begin : g_no_readout", "        end", "      endcase"]
@@ -486,7 +487,7 @@ def main() -> int:
             "hdl/dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),
             "hdl/Bender.yml": file_lists.bender(listing),
             CONFIGURATION: defaults(current[CONFIGURATION], table),
-            "hdl/package/subsystem_parameters.svh": subsystem_parameters(table),
+            "hdl/package/dtof_subsystem_declarations.svh": subsystem_parameters(table),
             **all_connections(table),
             "hdl/package/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),

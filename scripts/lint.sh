@@ -30,6 +30,7 @@ echo "pyflakes: ${#modules[@]} files clean"
 scripts/generate.py --check
 echo "readouts.toml, registers.toml: everything written from them is up to date"
 
+scripts/check_names.py
 scripts/check_language.py
 scripts/maturity.py --check
 echo "docs/reference/maturity.md: the stages are those of the lists of files and proofs"

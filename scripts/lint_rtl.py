@@ -26,7 +26,7 @@ from dtof_synth.errors import FlowError  # noqa: E402
 
 SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
-IN_FRONT = {"axi_lite_to_apb": {"ADDR_WIDTH": 12}, "reset_synchroniser": {}}  # what stands in front of it
+IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in a folder of its own
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
@@ -168,7 +168,7 @@ def check_block_rams() -> list[str]:
     """Every stand-in of some thousand bits becomes block RAM, with little logic around it."""
     failures = []
     for target in BLOCK_RAM:
-        for module in ("sram_1r1w", "sram_1rw"):
+        for module in ("dtof_sram_1r1w", "dtof_sram_1rw"):
             depth, width = 5120, 10
             try:
                 found, cells = block_rams(target, module, depth, width)

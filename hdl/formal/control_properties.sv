@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of dtof_array as a whole: controller, pass_sequencer, pixel_sequencer, scan_sequencer, result_output. The
+// The control of dtof_array as a whole: controller, dtof_pass_sequencer, dtof_pixel_sequencer, dtof_scan_sequencer, dtof_result_output. The
 // columns' data takes no part in it. Free: start, number of acquisitions, pauses of the TDC, back-pressure.
 //
 // Every frame ends if source and sink take what is offered, because the clocks of a stay in a state in which the array
@@ -59,7 +59,7 @@ module control_properties #(
   logic scan_s0, last_s0, clear_s1, scan_s2, first_s2, last_s3;
   logic [TDATA_WIDTH-1:0] tdata;
 
-  controller #(
+  dtof_controller #(
       .COARSE_PASSES(COARSE_PASSES),
       .ACQ_WIDTH    (ACQ_WIDTH)
   ) u_controller (
@@ -91,7 +91,7 @@ module control_properties #(
       .result_done_i  (result_done)
   );
 
-  pass_sequencer #(
+  dtof_pass_sequencer #(
       .COARSE_PASSES(COARSE_PASSES),
       .THREE_STEPS  (THREE_STEPS),
       .ACQ_WIDTH    (ACQ_WIDTH)
@@ -107,7 +107,7 @@ module control_properties #(
       .gear_o     (gear)
   );
 
-  pixel_sequencer #(
+  dtof_pixel_sequencer #(
       .PIXELS_PER_SRAM    (PIXELS),
       .SLOTS              (SLOTS),
       .FETCH_ON_FIRST_SLOT(POINTER)
@@ -133,7 +133,7 @@ module control_properties #(
       .pixel_t5_o     (pixel_t5)
   );
 
-  scan_sequencer #(
+  dtof_scan_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .BIN_WIDTH      (BIN_WIDTH),
       .RESET_BINS     (RESET_BINS),
@@ -167,7 +167,7 @@ module control_properties #(
       .pixel_s3_o   (pixel_s3)
   );
 
-  result_output #(
+  dtof_result_output #(
       .SRAM_NUM    (SRAM_NUM),
       .ROW_WIDTH   (ROW_WIDTH),
       .RESULT_WIDTH(1)

@@ -30,7 +30,7 @@ module data_filter_properties #(
 
   assign final_pass = (32'(pass_i) == COARSE_PASSES);
 
-  data_filter #(
+  dtof_data_filter #(
       .READOUT       (READOUT),
       .NP            (NP),
       .NB            (NB),

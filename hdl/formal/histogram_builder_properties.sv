@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// histogram_builder, driven by pixel_sequencer, is a memory of counters of which a pixel's first full one ends the pixel's
+// dtof_histogram_builder, driven by dtof_pixel_sequencer, is a memory of counters of which a pixel's first full one ends the pixel's
 // counting (FREEZE = 0: which saturate): all bins of one arbitrary pixel are followed through passes, scans and clears.
 // Pixels and timestamps are counted here from the handshake alone.
 `include "properties.svh"
@@ -62,7 +62,7 @@ module histogram_builder_properties #(
     end
   end
 
-  pixel_sequencer #(
+  dtof_pixel_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .SLOTS          (SLOTS)
   ) u_pixel_sequencer (
@@ -87,7 +87,7 @@ module histogram_builder_properties #(
       .pixel_t5_o     (pixel_t5)
   );
 
-  histogram_builder #(
+  dtof_histogram_builder #(
       .PIXELS_PER_SRAM(PIXELS),
       .BIN_WIDTH      (BIN_WIDTH),
       .SLOTS          (SLOTS),

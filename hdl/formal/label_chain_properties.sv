@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two labels, three pixels, driven by pool2_sequencer and with the messages in an SRAM, as in pool2_engine: label and
+// Two labels, three pixels, driven by dtof_pool2_sequencer and with the messages in an SRAM, as in dtof_pool2_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
 // of the one that is farther from the pixel in question (docs/reference/poolpointer2.md, Chain: the sender's lambda).
 `include "properties.svh"
@@ -30,7 +30,7 @@ module label_chain_properties #(
   (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
   (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
 
-  `include "pool2_command.svh"
+  `include "dtof_pool2_command.svh"
   pool2_engine_command_t command;
   logic [1:0] scratch_row;
   logic unused_done, unused_select, unused_read, unused_write, unused_upper, unused_neighbour, unused_column, unused_send,
@@ -38,7 +38,7 @@ module label_chain_properties #(
   logic [1:0] unused_row;
   logic [1:0] unused_address;
 
-  pool2_sequencer #(
+  dtof_pool2_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .GROUP_SIZE     (4),
       .LABELS         (LABELS),
@@ -107,7 +107,7 @@ module label_chain_properties #(
       .write_data_i(message)
   );
 
-  label_chain #(
+  dtof_label_chain #(
       .LABELS        (LABELS),
       .POSITION_WIDTH(POSITION_WIDTH),
       .REACH         (REACH),

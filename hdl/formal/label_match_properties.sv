@@ -20,7 +20,7 @@ module label_match_properties #(
 
   logic [LABELS-1:0] hits, expected;
 
-  label_match #(
+  dtof_label_match #(
       .LABELS(LABELS),
       .WINDOW(WINDOW)
   ) u_dut (

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// line_buffer: an acquisition that has begun is never interrupted, and every line reaches the array in its place or, behind
+// dtof_line_buffer: an acquisition that has begun is never interrupted, and every line reaches the array in its place or, behind
 // an underrun, as no detection, whatever the source's and the array's pace and from reset at any time. One arbitrary line
 // of every fourth acquisition is watched.
 `include "properties.svh"
@@ -35,7 +35,7 @@ module line_buffer_properties #(
   logic underrun, misframed, s_tready, line_valid;
   logic [WIDTH-1:0] line;
 
-  line_buffer #(
+  dtof_line_buffer #(
       .ACQUISITION_LINES(ACQUISITION_LINES),
       .LINES            (LINES),
       .WIDTH            (WIDTH)

@@ -19,7 +19,7 @@ module minimum_properties #(
   logic [WIDTH-1:0] smallest;
   logic [NUMBER-1:0] equal, not_smaller;
 
-  minimum #(.NUMBER(NUMBER), .WIDTH(WIDTH)) u_dut (.values_i(values_i), .smallest_o(smallest));
+  dtof_minimum #(.NUMBER(NUMBER), .WIDTH(WIDTH)) u_dut (.values_i(values_i), .smallest_o(smallest));
 
   genvar k;
   generate

@@ -53,7 +53,7 @@ module pair_detector_properties #(
   logic shows_first;
   logic [COUNT_WIDTH-1:0] last;
 
-  pair_detector #(
+  dtof_pair_detector #(
       .BIN_WIDTH  (BIN_WIDTH),
       .COUNT_WIDTH(COUNT_WIDTH)
   ) u_dut (

@@ -43,7 +43,7 @@ module pair_interpolator_properties #(
   logic [PLACE_BITS-1:0] place;
   logic [COUNT_WIDTH-1:0] confidence;
 
-  pair_interpolator #(
+  dtof_pair_interpolator #(
       .BIN_WIDTH  (BIN_WIDTH),
       .COUNT_WIDTH(COUNT_WIDTH),
       .PLACE_WIDTH(PLACE_WIDTH)
@@ -68,7 +68,7 @@ module pair_interpolator_properties #(
   assign divisor = height + (height << 1);
 
   // The pairs on either side are no higher, a pair is a part of the whole, and the mean of the others is less than the
-  // highest, unless nothing was counted (proved of pair_detector).
+  // highest, unless nothing was counted (proved of dtof_pair_detector).
   `ASSUME(m_highest, before <= count && behind <= count)
   `ASSUME(m_part, SUM_WIDTH'(count) <= sum)
   `ASSUME(m_mean, sum == '0 || rest < WIDE'(count))

@@ -31,7 +31,7 @@ module pass_sequencer_properties #(
   logic [ACQ_WIDTH-1:0] done_q, acq_num_q;
   logic [GEAR_WIDTH-1:0] gear;
 
-  pass_sequencer #(
+  dtof_pass_sequencer #(
       .COARSE_PASSES(COARSE_PASSES),
       .THREE_STEPS  (THREE_STEPS),
       .GEARS        (GEARS),

@@ -26,7 +26,7 @@ module peak_detector_properties #(
   logic [BIN_WIDTH-1:0] peak;
   logic [COUNT_WIDTH-1:0] count, confidence;
 
-  peak_detector #(
+  dtof_peak_detector #(
       .BIN_WIDTH  (BIN_WIDTH),
       .COUNT_WIDTH(COUNT_WIDTH),
       .SHARE_SHIFT(SHARE_SHIFT)

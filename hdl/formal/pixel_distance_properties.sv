@@ -32,10 +32,10 @@ module pixel_distance_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
-  `include "pixel_distance.svh"
+  `include "dtof_pixel_distance.svh"
   pixel_distance_t distance;
 
-  label_match #(
+  dtof_label_match #(
       .LABELS(LABELS)
   ) u_label_match (
       .valid_i (valid_i),
@@ -102,7 +102,7 @@ module pixel_distance_properties #(
     end
   end
 
-  pixel_distance #(
+  dtof_pixel_distance #(
       .LABELS         (LABELS),
       .SCORES_WIDTH   (SCORES_WIDTH),
       .OFFSET_BITS    (OFFSET_BITS),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// pointer_builder, driven by pixel_sequencer, folds each pixel's timestamps one after the other into its word: one
-// arbitrary pixel is followed. A single move is pointer_update's, which has a proof of its own.
+// dtof_pointer_builder, driven by dtof_pixel_sequencer, folds each pixel's timestamps one after the other into its word: one
+// arbitrary pixel is followed. A single move is dtof_pointer_update's, which has a proof of its own.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -77,7 +77,7 @@ module pointer_builder_properties #(
 
   assign keep = may_hit_q && keep_i;
 
-  pixel_sequencer #(
+  dtof_pixel_sequencer #(
       .PIXELS_PER_SRAM    (PIXELS),
       .SLOTS              (SLOTS),
       .FETCH_ON_FIRST_SLOT(1)
@@ -103,7 +103,7 @@ module pointer_builder_properties #(
       .pixel_t5_o     (pixel_t5)
   );
 
-  pointer_builder #(
+  dtof_pointer_builder #(
       .NP              (NP),
       .PIXELS_PER_SRAM (PIXELS),
       .SLOTS           (SLOTS),
@@ -145,7 +145,7 @@ module pointer_builder_properties #(
   logic [CONFIDENCE_WIDTH-1:0] confidence_q, moved_confidence;
   logic [TAG_BITS-1:0] tag_q;
 
-  pointer_update #(
+  dtof_pointer_update #(
       .NP              (NP),
       .POINTER_STEP    (1),
       .FRACTION_BITS   (FRACTION_BITS),

@@ -36,7 +36,7 @@ module pointer_update_properties #(
 
   assign step_in = STEP_WIDTH'(step);
 
-  pointer_update #(
+  dtof_pointer_update #(
       .NP              (NP),
       .POINTER_STEP    (POINTER_STEP),
       .FRACTION_BITS   (FRACTION_BITS),

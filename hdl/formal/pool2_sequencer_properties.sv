@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pool2_sequencer with pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
+// dtof_pool2_sequencer with dtof_pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
 // in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
 `include "properties.svh"
 
@@ -34,7 +34,7 @@ module pool2_sequencer_properties #(
     checking <= 1'b1;
   end
 
-  `include "pool2_command.svh"
+  `include "dtof_pool2_command.svh"
   pool2_engine_command_t command;
   logic done, read, write, upper, neighbour, send, send_last, waits, busy;
   logic [PAIRS-1:0] select;
@@ -44,7 +44,7 @@ module pool2_sequencer_properties #(
   logic tvalid, tlast;
   logic [COLUMN_WIDTH+ROW_WIDTH:0] tdata;
 
-  pool2_sequencer #(
+  dtof_pool2_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (LABELS),
@@ -77,7 +77,7 @@ module pool2_sequencer_properties #(
       .send_busy_i  (busy)
   );
 
-  pool_result_output #(
+  dtof_pool_result_output #(
       .ENGINES       (1),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .SRAM_NUM      (ENGINE_COLUMNS),

@@ -32,7 +32,7 @@ module pool2_track_update_properties #(
   assign full_before = FULL_WIDTH'(word_i);
   assign full_after = FULL_WIDTH'(word);
 
-  pool2_track_update #(
+  dtof_pool2_track_update #(
       .LABELS     (LABELS),
       .SCORE_BITS (SCORE_BITS),
       .OFFSET_BITS(OFFSET_BITS)

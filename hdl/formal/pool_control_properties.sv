@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of pool_pointer2_array with the columns of one SRAM: pool_controller, pair_sequencer, the registers between
-// them and the columns, pool2_quad. The engines are replaced by anything that keeps to what
-// pool2_sequencer_properties proves of pool2_sequencer. That the single-port SRAM has one access a clock, and in
+// The control of dtof_pool_pointer2_array with the columns of one SRAM: dtof_pool_controller, dtof_pair_sequencer, the registers between
+// them and the columns, dtof_pool2_quad. The engines are replaced by anything that keeps to what
+// pool2_sequencer_properties proves of dtof_pool2_sequencer. That the single-port SRAM has one access a clock, and in
 // range, are assertions of dtof_sram.
 //
 // Every frame ends, as in control_properties; clocks in which the engine works are left out here, for the operations of
-// pool2_sequencer end in time.
+// dtof_pool2_sequencer end in time.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -59,7 +59,7 @@ module pool_control_properties #(
   logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address;
 
-  pool_controller #(
+  dtof_pool_controller #(
       .CLEAR_WORDS(PIXEL_WORDS),
       .ADDR_WIDTH (ADDR_WIDTH),
       .ACQ_WIDTH  (ACQ_WIDTH)
@@ -94,7 +94,7 @@ module pool_control_properties #(
   logic [PART_WIDTH-1:0] part;
   logic sweep, make_room, is_sweep_q;  // a frame of 64 acquisitions is too long for the proof
 
-  pair_sequencer #(
+  dtof_pair_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .SLOTS          (SLOTS),
       .GROUP_SIZE     (GROUP_SIZE),
@@ -133,7 +133,7 @@ module pool_control_properties #(
       .group_upper_d_o  (group_upper)
   );
 
-  // As in pool_pointer2_array.
+  // As in dtof_pool_pointer2_array.
   logic coarse_q, point_q, engine_q, read_q, write_q, group_load_q, group_upper_q;
   logic [ADDR_WIDTH-1:0] address_q;
 
@@ -158,7 +158,7 @@ module pool_control_properties #(
 
   logic [2*LINE_WIDTH-1:0] unused_words;
 
-  pool2_quad #(
+  dtof_pool2_quad #(
       .COLUMNS        (COLUMNS),
       .NP             (NP),
       .PIXELS_PER_SRAM(PIXELS),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pool_result_output: AXI4-Stream rules, every engine's result once and in order, whatever the back-pressure and from
+// dtof_pool_result_output: AXI4-Stream rules, every engine's result once and in order, whatever the back-pressure and from
 // reset at any time. The harness keeps what was given in a queue of three entries and watches one arbitrary engine.
 `include "properties.svh"
 
@@ -37,7 +37,7 @@ module pool_result_output_properties #(
   logic waits, busy, tvalid, tlast;
   logic [TDATA_WIDTH-1:0] tdata;
 
-  pool_result_output #(
+  dtof_pool_result_output #(
       .ENGINES       (ENGINES),
       .ENGINE_COLUMNS(ENGINE_COLUMNS),
       .SRAM_NUM      (SRAM_NUM),

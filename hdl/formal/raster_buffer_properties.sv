@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// raster_buffer: every result leaves once, in raster order, under any pace of both sides and from reset at any time. One
+// dtof_raster_buffer: every result leaves once, in raster order, under any pace of both sides and from reset at any time. One
 // arbitrary pixel is watched, its first result or its second; a frame has one or two results of every pixel.
 `include "properties.svh"
 
@@ -38,7 +38,7 @@ module raster_buffer_properties #(
   logic [COLUMN_WIDTH-1:0] column;
   logic [ROW_WIDTH-1:0] row;
 
-  raster_buffer #(
+  dtof_raster_buffer #(
       .SRAM_NUM       (SRAM_NUM),
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .WIDTH          (WIDTH),

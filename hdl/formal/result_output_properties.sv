@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// result_output with the columns' result registers and the ways there and back: AXI4-Stream rules, every column's result once and in order,
+// dtof_result_output with the columns' result registers and the ways there and back: AXI4-Stream rules, every column's result once and in order,
 // whatever the back-pressure and from reset at any time. One arbitrary column is watched.
 `include "properties.svh"
 
@@ -41,7 +41,7 @@ module result_output_properties #(
   logic [SRAM_NUM*RESULT_WIDTH-1:0] column_results;
   logic [RESULT_WIDTH-1:0] head_q;
 
-  broadcast #(
+  dtof_broadcast #(
       .WIDTH (2 + SRAM_NUM * RESULT_WIDTH),
       .STAGES(STAGES)
   ) u_broadcast (
@@ -58,7 +58,7 @@ module result_output_properties #(
   genvar c;
   generate
     for (c = 0; c < SRAM_NUM; c = c + 1) begin : g_column
-      result_register #(.WIDTH(RESULT_WIDTH)) u_result_register (
+      dtof_result_register #(.WIDTH(RESULT_WIDTH)) u_result_register (
           .clk_i        (clk_i),
           .rst_ni       (rst_n),
           .load_i       (column_load),
@@ -70,7 +70,7 @@ module result_output_properties #(
     end
   endgenerate
 
-  result_output #(
+  dtof_result_output #(
       .SRAM_NUM    (SRAM_NUM),
       .ROW_WIDTH   (ROW_WIDTH),
       .RESULT_WIDTH(RESULT_WIDTH),

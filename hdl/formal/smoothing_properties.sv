@@ -40,7 +40,7 @@ module smoothing_properties #(
     t_q <= (t_q == 4'd8) ? t_q : t_q + 4'd1;
   end
 
-  smoothing #(
+  dtof_smoothing #(
       .NP              (NP),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
       .CELL_SHIFT      (CELL_SHIFT),

@@ -23,7 +23,7 @@ module status_bits_properties #(
 
   logic valid;
 
-  status_bits #(.DEPTH(DEPTH)) u_dut (
+  dtof_status_bits #(.DEPTH(DEPTH)) u_dut (
       .clk_i       (clk_i),
       .clear_i     (clear_i),
       .write_i     (write_i),

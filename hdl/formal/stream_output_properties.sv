@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time.
+// dtof_stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -55,7 +55,7 @@ module stream_output_properties #(
   logic result_tready, tvalid, tuser, tlast;
   logic [63:0] tdata;
 
-  stream_output #(
+  dtof_stream_output #(
       .SRAM_NUM         (SRAM_NUM),
       .ROW_WIDTH        (ROW_WIDTH),
       .POSITION_WIDTH   (POSITION_WIDTH),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// target_words: every result leaves once, and its second target behind it where both are asked for, under any back-pressure
+// dtof_target_words: every result leaves once, and its second target behind it where both are asked for, under any back-pressure
 // and from reset at any time.
 `include "properties.svh"
 
@@ -35,7 +35,7 @@ module target_words_properties #(
   logic s_tready, tvalid, tlast, second;
   logic [PLACE_WIDTH+POSITION_WIDTH+CONFIDENCE_WIDTH-1:0] tdata;
 
-  target_words #(
+  dtof_target_words #(
       .PLACE_WIDTH     (PLACE_WIDTH),
       .POSITION_WIDTH  (POSITION_WIDTH),
       .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH)

@@ -21,7 +21,7 @@ module timestamp_input_properties #(
   logic detected_t0, detected_t1;
   logic expected;
 
-  timestamp_input #(
+  dtof_timestamp_input #(
       .NP       (NP),
       .TIME_GATE(TIME_GATE),
       .STAGES   (STAGES)

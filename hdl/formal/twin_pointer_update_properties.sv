@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's pointer word after one timestamp: docs/reference/poolpointer2.md, Point, on integers, from timestamp and
-// word to the next word. Distances come from pixel_distance and label_match, so that the three are proved together.
+// word to the next word. Distances come from dtof_pixel_distance and dtof_label_match, so that the three are proved together.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -28,12 +28,12 @@ module twin_pointer_update_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
-  `include "pixel_distance.svh"
+  `include "dtof_pixel_distance.svh"
   pixel_distance_t distance;
   logic [POINT_WIDTH-1:0] word;
   logic changed;
 
-  label_match #(
+  dtof_label_match #(
       .LABELS(LABELS)
   ) u_label_match (
       .valid_i (valid_i),
@@ -56,7 +56,7 @@ module twin_pointer_update_properties #(
   logic expected_hit, rival, counted, roles_change;
   logic [POINT_WIDTH-1:0] expected;
 
-  pixel_distance #(
+  dtof_pixel_distance #(
       .LABELS         (LABELS),
       .SCORES_WIDTH   (4 * LABELS),
       .OFFSET_BITS    (0),
@@ -73,7 +73,7 @@ module twin_pointer_update_properties #(
       .distance_o   (distance)
   );
 
-  twin_pointer_update #(
+  dtof_twin_pointer_update #(
       .LABELS         (LABELS),
       .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
       .POINTER_SHIFT  (POINTER_SHIFT),

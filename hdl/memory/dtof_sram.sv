@@ -35,7 +35,7 @@ module dtof_sram #(
 
   generate
     if (PORTS == 2) begin : g_two_ports
-      sram_1r1w #(
+      dtof_sram_1r1w #(
           .DEPTH    (DEPTH),
           .WIDTH    (WIDTH),
           .CFG_WIDTH(dtof_pkg::SRAM_CFG_WIDTH)
@@ -51,7 +51,7 @@ module dtof_sram #(
           .wdata_i(write_data_i)
       );
     end else begin : g_one_port
-      sram_1rw #(
+      dtof_sram_1rw #(
           .DEPTH    (DEPTH),
           .WIDTH    (WIDTH),
           .CFG_WIDTH(dtof_pkg::SRAM_CFG_WIDTH)

@@ -16,7 +16,7 @@ package dtof_pkg;
   localparam logic [2:0] STATE_M4 = 3'd6;
   localparam logic [2:0] STATE_M5 = 3'd7;
 
-  // Values of state_o of pool_pointer2_array beside IDLE and RESET.
+  // Values of state_o of dtof_pool_pointer2_array beside IDLE and RESET.
   localparam logic [2:0] POOL_STATE_COARSE = STATE_M0;
   localparam logic [2:0] POOL_STATE_DECODE = STATE_M1;
   localparam logic [2:0] POOL_STATE_TRACK = STATE_M2;
@@ -24,7 +24,7 @@ package dtof_pkg;
   localparam logic [2:0] POOL_STATE_POINT = STATE_M4;
   localparam logic [2:0] POOL_STATE_DECIDE = STATE_M5;
 
-  // Bits of error_o (control/array_errors.sv).
+  // Bits of error_o (control/dtof_array_errors.sv).
   localparam int ERROR_UNDERRUN = 0;
   localparam int ERROR_START_IGNORED = 1;
   localparam int ERROR_ILLEGAL_SCHEDULE = 2;
@@ -38,21 +38,21 @@ package dtof_pkg;
 `endif
 
   // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
-  localparam int HISTOGRAM_WRITE_STAGE = 5;          // histogram_builder: a timestamp of T0 is written at T5
-  localparam int POOL_PAIR_READ_CLOCKS = 2;          // pool2_pair: from read_i to word_o, and to a write with it
-  localparam int POOL_LINE_CLOCKS = 1;               // pool2_line: from the pairs' words to the engine's line_i
-  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // pool2_engine: from line_i to what its commands find on the line, but for decode
-  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // pool2_engine: from read_scratch to the message
-  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // pool2_engine: from take_result to result_o
-  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // pool2_candidate_decoder: from a turn's last pair to its candidate
-  localparam int POOL_CHAIN_SPREAD_CLOCKS = 3;       // label_chain: from begin_step to spread; then the labels pass
-  localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // label_chain: from a label's target to its pass_label
-  localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // label_chain: from the last pass_label to the two best beliefs
+  localparam int HISTOGRAM_WRITE_STAGE = 5;          // dtof_histogram_builder: a timestamp of T0 is written at T5
+  localparam int POOL_PAIR_READ_CLOCKS = 2;          // dtof_pool2_pair: from read_i to word_o, and to a write with it
+  localparam int POOL_LINE_CLOCKS = 1;               // dtof_pool2_line: from the pairs' words to the engine's line_i
+  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // dtof_pool2_engine: from line_i to what its commands find on the line, but for decode
+  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // dtof_pool2_engine: from read_scratch to the message
+  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // dtof_pool2_engine: from take_result to result_o
+  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // dtof_pool2_candidate_decoder: from a turn's last pair to its candidate
+  localparam int POOL_CHAIN_SPREAD_CLOCKS = 3;       // dtof_label_chain: from begin_step to spread; then the labels pass
+  localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // dtof_label_chain: from a label's target to its pass_label
+  localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // dtof_label_chain: from the last pass_label to the two best beliefs
 
-  localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // pool2_candidate_decoder: from capture_above to the first pair sum
-  localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // pool2_candidate_decoder: from capture_above to count_own
-  localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // pool2_engine: from take_position to take_distances
-  localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // pool2_engine: from take_distances to take_word and take_result
+  localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // dtof_pool2_candidate_decoder: from capture_above to the first pair sum
+  localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // dtof_pool2_candidate_decoder: from capture_above to count_own
+  localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // dtof_pool2_engine: from take_position to take_distances
+  localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // dtof_pool2_engine: from take_distances to take_word and take_result
 
   function automatic int max_of(input int a, input int b);
     max_of = (a > b) ? a : b;
@@ -108,9 +108,9 @@ package dtof_pkg;
   localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
-  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (pool2_line)
+  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (dtof_pool2_line)
   localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
-  // Bits of the types in pool2_command.svh and pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
+  // Bits of the types in dtof_pool2_command.svh and dtof_pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
   // of these types. Every lint finds a wrong number.
   localparam int POOL2_COMMAND_WIDTH = 63;         // pool2_engine_command_t
   localparam int POOL2_DECODE_COMMAND_WIDTH = 21;  // pool2_decode_command_t

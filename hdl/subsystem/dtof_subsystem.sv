@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An array of any read-out with everything around it: registers behind APB4, lines of timestamps in and results out as
-// AXI4-Streams of whole bytes, an interrupt (docs/user/integration.md). AXI4-Lite: axi_lite_to_apb in front.
+// AXI4-Streams of whole bytes, an interrupt (docs/user/integration.md). AXI4-Lite: dtof_axi_lite_to_apb in front.
 //
 // 1. Software writes the registers and CONTROL.START. What a frame uses is sampled when it begins.
 // 2. Lines of timestamps come from the source at its own pace, before and during frames. The line buffer offers an
@@ -10,10 +10,10 @@
 //    waits. With SECOND_TARGET = 1 a frame may have a word for each pixel's second target, too; with RAW_HISTOGRAM = 1
 //    it may send histograms of chosen rows instead of results.
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
-// 6. Between frames the array's clock is gated (clock_gate of the technology folder).
+// 6. Between frames the array's clock is gated (dtof_clock_gate of the technology folder).
 //
-// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is pool_pointer2_array. The parameters
-// that follow (package/subsystem_parameters.svh) are the arrays'; each has the default of the read-out.
+// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is dtof_pool_pointer2_array. The parameters
+// that follow (package/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
 // Latency: two clocks from a line to the array, one from the array to a result.
 // Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts' (reports/fpga_check.md).
 `include "dtof_macros.svh"
@@ -23,7 +23,7 @@
 
 module dtof_subsystem #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
-`include "subsystem_parameters.svh"
+`include "dtof_subsystem_declarations.svh"
     // Lines that the line buffer holds: at least two. With those of an acquisition and four the source is never held up.
     parameter int BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
     parameter int RASTER_ORDER = 0,  // 1: a memory of all results brings them into the order of rows and columns
@@ -112,7 +112,7 @@ module dtof_subsystem #(
   logic [LEVEL_WIDTH-1:0] level;
   logic [31:0] frame_count, frame_cycles;
 
-  apb_registers #(
+  dtof_apb_registers #(
       .READOUT         (READOUT),
       .HAS_SCHEDULE    (POOL),
       .TIME_GATE       (TIME_GATE),
@@ -190,7 +190,7 @@ module dtof_subsystem #(
       .irq_o             (irq_o)
   );
 
-  frame_control #(
+  dtof_frame_control #(
       .HAS_SCHEDULE   (POOL),
       .ACQ_WIDTH      (ACQ_WIDTH),
       .MOST_RELEASE   (MOST_RELEASE),
@@ -251,7 +251,7 @@ module dtof_subsystem #(
   logic tdc_valid, tdc_ready;
   logic [SRAM_NUM*NP-1:0] line, timestamps;
 
-  line_buffer #(
+  dtof_line_buffer #(
       .ACQUISITION_LINES(ACQUISITION_LINES),
       .LINES            (BUFFER_LINES),
       .WIDTH            (SRAM_NUM * NP)
@@ -281,7 +281,7 @@ module dtof_subsystem #(
     end
   endgenerate
 
-  line_filter #(
+  dtof_line_filter #(
       .NP       (NP),
       .SRAM_NUM (SRAM_NUM),
       .TIME_GATE(TIME_GATE)
@@ -307,7 +307,7 @@ module dtof_subsystem #(
     end
   end
 
-  clock_gate u_array_clock (
+  dtof_clock_gate u_array_clock (
       .clk_i      (clk_i),
       .enable_i   (begin_frame || array_busy || settling_q[7]),
       .scan_mode_i(scan_mode_i),
@@ -321,8 +321,8 @@ module dtof_subsystem #(
   generate
     if (POOL != 0) begin : g_pool
       assign counter_full = 1'b0;  // its coarse bins make room
-      pool_pointer2_array #(
-`include "pool_pointer2_array_parameters.svh"
+      dtof_pool_pointer2_array #(
+`include "dtof_pool_pointer2_array_parameters.svh"
       ) u_array (
           .clk_i          (array_clk),
           .rst_ni         (rst_ni),
@@ -401,7 +401,7 @@ module dtof_subsystem #(
         end
       end
 
-      target_words #(
+      dtof_target_words #(
           .PLACE_WIDTH     (COLUMN_WIDTH + ROW_WIDTH),
           .POSITION_WIDTH  (POSITION_WIDTH),
           .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
@@ -451,7 +451,7 @@ module dtof_subsystem #(
   logic word_tvalid, word_tready, word_tuser, word_tlast;
   logic [M_TDATA_WIDTH-1:0] word_tdata;
 
-  stream_output #(
+  dtof_stream_output #(
       .SRAM_NUM         (SRAM_NUM),
       .ROW_WIDTH        (ROW_WIDTH),
       .POSITION_WIDTH   (POSITION_WIDTH),
@@ -494,7 +494,7 @@ module dtof_subsystem #(
       logic [ROW_WIDTH-1:0] row;
       logic second_word;
 
-      raster_buffer #(
+      dtof_raster_buffer #(
           .SRAM_NUM       (SRAM_NUM),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
           .WIDTH          (KEPT_WIDTH),

@@ -22,9 +22,9 @@
 // Raw frame (RAW_HISTOGRAM = 1, raw_i with start_i): instead of the results, the histograms that the read-out holds at the
 //   frame's end, of the rows from raw_first_row_i to raw_last_row_i: row by row, bin by bin, column by column. code is
 //   the bin's lowest, limited to 0 .. 2^NP - 1, fraction 0, and confidence the count.
-// Borders: every signal between the shared logic and the columns goes from a register to a register (broadcast.sv); what
+// Borders: every signal between the shared logic and the columns goes from a register to a register (dtof_broadcast.sv); what
 //   comes back are the heads of the result chain and of the chain of full counters. Timestamps go from the port, which
-//   stands for the TDC's register, to those of their column (timestamp_input.sv).
+//   stands for the TDC's register, to those of their column (dtof_timestamp_input.sv).
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: see reports/area.md.
@@ -75,7 +75,7 @@ module dtof_array #(
     output logic                   busy_o,           // from the clock behind start_i to that of done_o
     output logic                   done_o,           // the last result was taken; one clock
     output logic [            2:0] state_o,          // dtof_pkg::STATE_*
-    output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (array_errors)
+    output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o,  // dtof_pkg::ERROR_*, one clock per error (dtof_array_errors)
     output logic                   counter_full_o,   // a histogram's first counter got full; within busy_o
     // TDC stream
     input  logic                   tdc_valid_i,      // high for a whole acquisition
@@ -144,7 +144,7 @@ module dtof_array #(
   logic result_start, result_done, result_busy, result_shift;
   logic [ROW_WIDTH-1:0] row;
 
-  controller #(
+  dtof_controller #(
       .COARSE_PASSES(COARSE_PASSES),
       .ACQ_WIDTH    (ACQ_WIDTH)
   ) u_controller (
@@ -176,7 +176,7 @@ module dtof_array #(
       .result_done_i  (result_done)
   );
 
-  pass_sequencer #(
+  dtof_pass_sequencer #(
       .COARSE_PASSES(COARSE_PASSES),
       .THREE_STEPS  (THREE_STEPS),
       .GEARS        (GEARS),
@@ -195,7 +195,7 @@ module dtof_array #(
 
   logic [NP-1:0] gate_begin, gate_end;
 
-  gate_register #(
+  dtof_gate_register #(
       .NP       (NP),
       .TIME_GATE(TIME_GATE)
   ) u_gate_register (
@@ -241,7 +241,7 @@ module dtof_array #(
 
   logic underrun;
 
-  array_errors u_errors (
+  dtof_array_errors u_errors (
       .clk_i             (clk_i),
       .rst_ni            (rst_ni),
       .start_i           (start_i),
@@ -255,7 +255,7 @@ module dtof_array #(
   logic [ROW_WIDTH-1:0] fetch_pixel, pixel_t2, pixel_t5;
   logic [3:1] same_pixel_t3;
 
-  pixel_sequencer #(
+  dtof_pixel_sequencer #(
       .PIXELS_PER_SRAM    (PIXELS_PER_SRAM),
       .SLOTS              (SLOTS),
       .FETCH_ON_FIRST_SLOT(WORD_MOVED)
@@ -288,7 +288,7 @@ module dtof_array #(
   logic unused_bin_s1;
   assign unused_bin_s1 = ^bin_s1;  // no bit is used past the bins
 
-  scan_sequencer #(
+  dtof_scan_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .BIN_WIDTH      (SCAN_WIDTH),
       .RESET_BINS     ((HISTOGRAM != 0) ? BINS : 1),
@@ -356,7 +356,7 @@ module dtof_array #(
     end
   end
 
-  column_rules #(
+  dtof_column_rules #(
       .COARSE_PASSES(COARSE_PASSES),
       .WORD_MOVED   (WORD_MOVED)
   ) u_column_rules (
@@ -448,7 +448,7 @@ module dtof_array #(
           column_word_read, column_word_read_pixel, column_word_read_done, column_word_set, column_word_set_pixel,
           column_word_write, column_word_write_pixel, column_result_load, column_result_shift} = heard;
 
-  broadcast #(
+  dtof_broadcast #(
       .WIDTH (TOLD_WIDTH),
       .STAGES(BROADCAST_STAGES)
   ) u_broadcast (
@@ -545,7 +545,7 @@ module dtof_array #(
     head_q <= chain[RESULT_WIDTH-1:0];
   end
 
-  full_counter_link u_full_counter_head (
+  dtof_full_counter_link u_full_counter_head (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
       .full_i       (1'b0),
@@ -555,7 +555,7 @@ module dtof_array #(
 
   `DTOF_ASSERT(a_counter_full_in_frame, !counter_full_o || busy_o, "a counter got full outside of a frame")
 
-  result_output #(
+  dtof_result_output #(
       .SRAM_NUM    (SRAM_NUM),
       .ROW_WIDTH   (ROW_WIDTH),
       .RESULT_WIDTH(RESULT_WIDTH),

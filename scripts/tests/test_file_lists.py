@@ -30,7 +30,7 @@ KEYS = {
     "target": {"filesets", "toplevel", "default_tool", "parameters", "tools"},
     "parameter": {"datatype", "description", "paramtype"},
 }
-OWN_SRAMS = ["technology/fpga/sram_1rw.sv", "technology/fpga/sram_1r1w.sv", "technology/fpga/clock_gate.sv"]  # for one's own
+OWN_SRAMS = ["technology/fpga/dtof_sram_1rw.sv", "technology/fpga/dtof_sram_1r1w.sv", "technology/fpga/dtof_clock_gate.sv"]  # for one's own
 
 
 def resolved(names: list[str], flags: set[str]) -> list[str]:
@@ -100,7 +100,7 @@ class FuseSoc(unittest.TestCase):
             target = Target("lint", folder)
             result = target.lint()
             self.assertEqual(result.returncode, 0, result.stdout)
-            text = (HDL / "subsystem/dtof_subsystem.sv").read_text() + (HDL / "package/subsystem_parameters.svh").read_text()
+            text = (HDL / "subsystem/dtof_subsystem.sv").read_text() + (HDL / "package/dtof_subsystem_declarations.svh").read_text()
             declared = re.findall(r"^ +parameter int (\w+) ", text, re.MULTILINE)
             self.assertEqual(sorted(target.target["parameters"]), sorted(declared))
 
@@ -110,7 +110,7 @@ class FuseSoc(unittest.TestCase):
             self.assertFalse([file for file in target.files if file.startswith("technology/")])
             result = target.lint()
             self.assertNotEqual(result.returncode, 0)
-            self.assertIn("Cannot find file containing module: 'sram_1r1w'", result.stdout)
+            self.assertIn("Cannot find file containing module: 'dtof_sram_1r1w'", result.stdout)
             for file in OWN_SRAMS:
                 target.add(file)
                 target.files.append(file)
@@ -131,7 +131,7 @@ class FuseSoc(unittest.TestCase):
     def test_synth_reads_in_yosys(self):
         with tempfile.TemporaryDirectory() as folder:
             target = Target("synth", folder)
-            self.assertIn("technology/fpga/sram_1rw.sv", target.files)
+            self.assertIn("technology/fpga/dtof_sram_1rw.sv", target.files)
             result = target.run("yosys", "-q", "-p", f"read_verilog -sv {' '.join(f'-I{name}' for name in target.includes)} "
                                 f"{' '.join(target.files)}; chparam -set SRAM_NUM 2 -set PIXELS_PER_SRAM 4 dtof_subsystem; "
                                 f"hierarchy -check -top {target.target['toplevel']}; proc; check -assert")  # fmt: skip
@@ -153,8 +153,8 @@ class Lists(unittest.TestCase):
         text = (HDL / "dtof_no_srams.f").read_text(encoding="utf-8")
         command = re.search(r"^// +(verilator .*)$", text, re.MULTILINE).group(1)
         command = command.replace("my_srams/", "technology/fpga/") + " -GSRAM_NUM=2 -GPIXELS_PER_SRAM=4"
-        for name, there in (("sram_1rw.sv", True), ("sram_9.sv", False)):
-            result = subprocess.run(command.replace("sram_1rw.sv", name).split(), cwd=HDL, text=True, stdout=subprocess.PIPE,
+        for name, there in (("dtof_sram_1rw.sv", True), ("sram_9.sv", False)):
+            result = subprocess.run(command.replace("dtof_sram_1rw.sv", name).split(), cwd=HDL, text=True, stdout=subprocess.PIPE,
                                     stderr=subprocess.STDOUT, check=False)  # fmt: skip
             self.assertEqual(result.returncode == 0, there, result.stdout)
 
@@ -192,7 +192,7 @@ proc set_property {name value object} { puts "$name $value $object" }
     def test_a_folder_without_memories_is_refused(self):
         result = self.sourced(f"dtof_read_rtl {ROOT}/docs")
         self.assertNotEqual(result.returncode, 0)
-        self.assertIn("sram_1rw.sv is not there", result.stdout)
+        self.assertIn("dtof_sram_1rw.sv is not there", result.stdout)
 
 
 if __name__ == "__main__":

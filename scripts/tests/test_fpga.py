@@ -36,7 +36,7 @@ class Fpga(unittest.TestCase):
 
     def test_the_sources_are_all_of_the_folder_with_the_memories_of_an_fpga(self):
         sources = fpga.sources()
-        self.assertIn("technology/fpga/sram_1rw.sv", sources)
+        self.assertIn("technology/fpga/dtof_sram_1rw.sv", sources)
         self.assertFalse([file for file in sources if "behavioural" in file or not (ROOT / "hdl" / file).is_file()])
         self.assertEqual(sum(file.startswith("demonstrator/") for file in sources),
                          len(list((ROOT / "hdl/demonstrator").glob("*.sv"))))  # fmt: skip

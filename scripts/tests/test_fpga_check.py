@@ -57,7 +57,7 @@ class FpgaCheck(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             for file in (ROOT / "hdl/technology/fpga").glob("*.sv"):
                 text = file.read_text(encoding="utf-8")
-                if file.stem == "sram_1r1w":
+                if file.stem == "dtof_sram_1r1w":
                     begin = text.index("  always_ff @(posedge clk_i) begin\n    if (re_i)")
                     text = text[:begin] + "  assign rdata_o = memory[raddr_i];\nendmodule\n"
                 (Path(folder) / file.name).write_text(text, encoding="utf-8")

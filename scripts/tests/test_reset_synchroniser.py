@@ -5,13 +5,13 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-MODULE = (ROOT / "hdl/subsystem/reset_synchroniser.sv").read_text(encoding="utf-8")
+MODULE = (ROOT / "hdl/subsystem/dtof_reset_synchroniser.sv").read_text(encoding="utf-8")
 # A clock of 10 units that rises at 5, 15, ...; the reset rises and falls beside its edges.
 BENCH = """
 module bench;
   logic clk = 1'b0, rst_n = 1'b1, scan_mode = 1'b0;
   wire released;
-  reset_synchroniser u_reset (.clk_i(clk), .rst_ni(rst_n), .scan_mode_i(scan_mode), .rst_no(released));
+  dtof_reset_synchroniser u_reset (.clk_i(clk), .rst_ni(rst_n), .scan_mode_i(scan_mode), .rst_no(released));
   always @(released) $display("%0d %b", $time, released);
   initial begin
     #1 rst_n = 1'b0;

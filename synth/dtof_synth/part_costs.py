@@ -20,8 +20,8 @@ from .configuration import Configuration, engine_memories, memories
 from .run import TARGET_MHZ, Technology, efforts, elaborate, map_to_cells
 
 CONFIGURATION = "poolpointer2"
-KEPT_MODULES = ("pool2_column", "timestamp_input", "label_match", "pool2_pixel_update", "pixel_distance", "pool2_track_update",
-                "twin_pointer_update", "pool2_candidate_decoder", "beside_evidence", "label_chain", "smoothing")
+KEPT_MODULES = ("dtof_pool2_column", "dtof_timestamp_input", "dtof_label_match", "dtof_pool2_pixel_update", "dtof_pixel_distance", "dtof_pool2_track_update",
+                "dtof_twin_pointer_update", "dtof_pool2_candidate_decoder", "dtof_beside_evidence", "dtof_label_chain", "dtof_smoothing")
 SRAM = "SRAM"
 
 

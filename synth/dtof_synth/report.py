@@ -190,7 +190,7 @@ def _margin_section(results: list[Result]) -> list[str]:
     return ["## With margins", "",
             "The same netlists with the margins of [constraints/margins.sdc](../constraints/margins.sdc): cells 5 % slower or "
             "faster where that hurts, 0.15 ns of uncertainty, edges at the inputs and loads at the outputs; slow corner, and "
-            "the fast one for hold. Reset: the lesser of recovery and removal behind reset_synchroniser. Met: no slack is "
+            "the fast one for hold. Reset: the lesser of recovery and removal behind dtof_reset_synchroniser. Met: no slack is "
             "negative. Buffers that hold needs are in the netlist and in every total.", "",
             _table(["read-out", "slow: setup", "hold", "reset", "fast: setup", "hold", "reset", "setup met", "hold met",
                     "reset met", "slowest from", "to"], _margin_rows(results))]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files of the SRAM macros: Liberty, LEF abstract, black boxes, and the technology modules that pick them.
 
-`sram_1rw` and `sram_1r1w` are the only technology modules of the RTL. Here their body is a choice among
+`dtof_sram_1rw` and `dtof_sram_1r1w` are the only technology modules of the RTL. Here their body is a choice among
 the sizes of synth/sram_sizes.csv; any other size stops elaboration.
 """
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pool_pointer2_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
+// dtof_pool_pointer2_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
 // netlist only.
 module pool_pointer2_array_bench #(
     parameter int NP = 10,
@@ -42,7 +42,7 @@ module pool_pointer2_array_bench #(
   logic [TDATA_WIDTH+12:0] rtl, netlist;  // as stream_bench has them
 
 `ifndef NETLIST_ALONE
-  pool_pointer2_array #(
+  dtof_pool_pointer2_array #(
       .NP               (NP),
       .PIXELS_PER_SRAM  (PIXELS_PER_SRAM),
       .SRAM_NUM         (SRAM_NUM),

@@ -14,7 +14,7 @@ coverage = importlib.util.module_from_spec(_spec)
 sys.modules["coverage_report"] = coverage
 _spec.loader.exec_module(coverage)
 
-FILE = "hdl/datapath/peak_detector.sv"
+FILE = "hdl/datapath/dtof_peak_detector.sv"
 
 
 def point(count: int, **keys: str) -> str:

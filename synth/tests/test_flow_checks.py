@@ -33,7 +33,7 @@ class FlowChecks(unittest.TestCase):
         tools.write_settings(settings, {
             "scripts": SYNTH / "yosys", "top": "dtof_array", "rtl_files": [self.folder / "design.sv"],
             "rtl_include": self.folder, "kept_modules": [],
-            "technology_files": [self.folder / "sram_1rw.sv", self.folder / "sram_1r1w.sv"],
+            "technology_files": [self.folder / "dtof_sram_1rw.sv", self.folder / "dtof_sram_1r1w.sv"],
             "black_boxes": self.folder / "sram40_blackbox.v", "liberty": self.folder / "slow.lib",
             "parameters": {}, "elaborated_netlist": self.folder / "elaborated.il", "generic_netlist": self.folder / "generic.il"})
         run.to_generic(self.folder, settings, self.folder, "test")
@@ -74,7 +74,7 @@ class FlowChecks(unittest.TestCase):
 
     def test_unlisted_sram_size(self):
         with self.assertRaisesRegex(FlowError, "a size that is not listed"):
-            self.elaborate("sram_1r1w #(.DEPTH(161), .WIDTH(10)) u_macro (.clk_i(clk_i));")
+            self.elaborate("dtof_sram_1r1w #(.DEPTH(161), .WIDTH(10)) u_macro (.clk_i(clk_i));")
 
     def test_missing_module_and_syntax_error(self):
         with self.assertRaisesRegex(FlowError, "nowhere"):

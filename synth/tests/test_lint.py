@@ -44,7 +44,7 @@ class IcarusTest(unittest.TestCase):
 class BlockRamTest(unittest.TestCase):
     def test_a_memory_that_cannot_be_a_block_ram_is_seen(self) -> None:
         """The same count on a register file of two words finds no block RAM."""
-        found, cells = lint_rtl.block_rams("ecp5", "sram_1r1w", 2, 4)
+        found, cells = lint_rtl.block_rams("ecp5", "dtof_sram_1r1w", 2, 4)
         self.assertEqual(found, 0)
         self.assertTrue(cells)
 

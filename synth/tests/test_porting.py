@@ -26,10 +26,10 @@ def simulate(memory: list[Path], folder: Path) -> list[str]:
 
 class Porting(unittest.TestCase):
     def test_results_do_not_depend_on_the_technology_folder(self):
-        two_ports = BEHAVIOURAL / "sram_1r1w.sv"
+        two_ports = BEHAVIOURAL / "dtof_sram_1r1w.sv"
         with tempfile.TemporaryDirectory() as folder:
-            behavioural = simulate([two_ports, BEHAVIOURAL / "sram_1rw.sv"], Path(folder))
-            compiled = simulate([two_ports, PORTING / "sram_1rw.sv", PORTING / "sp_ram_160x14.v"], Path(folder))
+            behavioural = simulate([two_ports, BEHAVIOURAL / "dtof_sram_1rw.sv"], Path(folder))
+            compiled = simulate([two_ports, PORTING / "dtof_sram_1rw.sv", PORTING / "sp_ram_160x14.v"], Path(folder))
         self.assertEqual(behavioural[-1], "results 320")
         self.assertGreater(len(set(behavioural)), 100)
         self.assertNotIn("x", "".join(line.split()[1] for line in behavioural))

@@ -2,7 +2,7 @@
 # Reads the RTL into a Vivado project or a non-project run, with memories that become block RAM:
 #
 #   source synth/vivado/dtof.tcl
-#   dtof_read_rtl                       ;# or: dtof_read_rtl my_srams, for a folder with one's own sram_1rw.sv, sram_1r1w.sv and clock_gate.sv
+#   dtof_read_rtl                       ;# or: dtof_read_rtl my_srams, for a folder with one's own dtof_sram_1rw.sv, dtof_sram_1r1w.sv and dtof_clock_gate.sv
 #   synth_design -top dtof_subsystem -part xc7a35ticsg324-1L -generic READOUT=2 -generic SRAM_NUM=8 -generic PIXELS_PER_SRAM=16
 #
 # The files are those of hdl/dtof_no_srams.f, in its order.
@@ -22,7 +22,7 @@ proc dtof_read_rtl {{technology ""}} {
         }
     }
     close $list
-    foreach module {sram_1rw sram_1r1w clock_gate} {
+    foreach module {dtof_sram_1rw dtof_sram_1r1w dtof_clock_gate} {
         set file [file join $technology $module.sv]
         if {![file exists $file]} {
             error "dtof_read_rtl: $file is not there"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 #
-# Verilated models of dtof_array and pool_pointer2_array.
+# Verilated models of dtof_array and dtof_pool_pointer2_array.
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
@@ -97,7 +97,7 @@ function(dtof_verilate name)
   set(overrides "")
   if(P_SUBSYSTEM)
     set(top subsystem_testbench)
-    set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_pool_pointer2_array} COARSE_SHARE TRACK_SHARE)
+    set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_dtof_pool_pointer2_array} COARSE_SHARE TRACK_SHARE)
     set(overrides -GREADOUT=${DTOF_SUBSYSTEM_NUMBER_${P_READOUT}})
     foreach(parameter BUFFER_LINES RASTER_ORDER AXI_LITE)
       if(DEFINED P_${parameter})

@@ -17,7 +17,7 @@ struct ResultAddress {
   bool begins_row = false;  ///< the first result of a row (in an engine's turn)
 };
 
-/// Parameters of one compiled array: pool_pointer2_array for the pool read-outs, dtof_array for the others.
+/// Parameters of one compiled array: dtof_pool_pointer2_array for the pool read-outs, dtof_array for the others.
 struct RtlConfiguration {
   ReadoutParameters
       parameters;  ///< a pool read-out's shares and S1 are not compiled: the driver writes these registers
@@ -40,7 +40,7 @@ enum class RtlState : int { kIdle = 0, kReset = 1, kM0 = 2, kM1 = 3, kM2 = 4, kM
 
 inline constexpr std::size_t kRtlStateCount = 8;
 
-/// Bits of error_o (hdl/control/array_errors.sv).
+/// Bits of error_o (hdl/control/dtof_array_errors.sv).
 inline constexpr std::uint8_t kRtlUnderrun = 1;
 inline constexpr std::uint8_t kRtlStartIgnored = 2;
 inline constexpr std::uint8_t kRtlIllegalSchedule = 4;

@@ -9,7 +9,7 @@
 namespace dtof {
 namespace {
 
-/// From the first result of a pixel to that of the last column. result_output keeps kPlaces results, and a
+/// From the first result of a pixel to that of the last column. dtof_result_output keeps kPlaces results, and a
 /// place is free for another one kPlaceClocks after it was promised.
 std::int64_t sending_clocks(int columns) {
   constexpr std::int64_t kPlaces = 5;
@@ -36,8 +36,8 @@ std::uint64_t array_clocks(int rows, int simulated, const RtlStatistics& statist
          static_cast<std::uint64_t>(wanted_scanning - scanning + rows * (wanted_sending - sending));
 }
 
-/// Clocks of decide in pool_pointer2_array until the last result is sent, clock by clock: all engines decide
-/// in lockstep (pool2_sequencer), and pool_result_output sends a set of results, one of each engine that has
+/// Clocks of decide in dtof_pool_pointer2_array until the last result is sent, clock by clock: all engines decide
+/// in lockstep (dtof_pool2_sequencer), and dtof_pool_result_output sends a set of results, one of each engine that has
 /// the column, while two more sets wait. A step that gives results begins when there is a place for them.
 class Decide {
  public:
@@ -100,7 +100,7 @@ class Decide {
   int columns_;
   int together_;
   int steps_;
-  int given_ = 0;  // results of the set that pool_result_output is told of
+  int given_ = 0;  // results of the set that dtof_pool_result_output is told of
   int sets_ = 0;   // told of and not sent
   int left_ = 0;   // results of the set that is being sent
   std::deque<int> way_;

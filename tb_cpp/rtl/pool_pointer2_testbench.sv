@@ -2,7 +2,7 @@
 
 `include "dtof_macros.svh"
 
-/// pool_pointer2_array behind the ports of dtof_array_testbench and the schedule's: 16 bits per column of timestamp
+/// dtof_pool_pointer2_array behind the ports of dtof_array_testbench and the schedule's: 16 bits per column of timestamp
 /// on a bus of at least 128 bits, each field of the result on its own 16-bit port.
 module pool_pointer2_testbench #(
     parameter NP = 10,
@@ -77,7 +77,7 @@ module pool_pointer2_testbench #(
     assign timestamp[column*NP+:NP] = tdc_timestamp_i[column*16+:NP];
   end
 
-  pool_pointer2_array #(
+  dtof_pool_pointer2_array #(
       .NP(NP),
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SRAM_NUM(SRAM_NUM),

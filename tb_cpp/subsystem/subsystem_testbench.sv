@@ -7,7 +7,7 @@
 module subsystem_testbench #(
     parameter READOUT = 0,
     parameter AXI_LITE = 0,
-`include "subsystem_parameters.svh"
+`include "dtof_subsystem_declarations.svh"
     parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
     parameter RASTER_ORDER = 0
 ) (
@@ -65,7 +65,7 @@ module subsystem_testbench #(
   logic [3:0] pstrb;
 
   if (AXI_LITE != 0) begin : gen_axi_lite
-    axi_lite_to_apb u_axi_lite_to_apb (
+    dtof_axi_lite_to_apb u_axi_lite_to_apb (
         .clk_i,
         .rst_ni,
         .s_axi_awvalid_i,

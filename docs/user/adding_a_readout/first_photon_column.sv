@@ -11,15 +11,15 @@
 //   T2        written, behind a pixel's last slot
 //   S3 of M4  result loaded
 //
-// Cost at the defaults: PIXELS_PER_SRAM x 11 bits, and little more than the registers of word_builder.
+// Cost at the defaults: PIXELS_PER_SRAM x 11 bits, and little more than the registers of dtof_word_builder.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 module first_photon_column #(
-    `include "column_parameters.svh"
+    `include "dtof_column_parameters.svh"
 ) (
-    `include "column_ports.svh"
+    `include "dtof_column_ports.svh"
 );
 
   localparam int WORD_WIDTH = NP + 1;
@@ -28,7 +28,7 @@ module first_photon_column #(
   logic [WORD_WIDTH-1:0] word_t1, next_t1, word;
   logic found, hit, detected_t0, detected_t1;
 
-  timestamp_input #(
+  dtof_timestamp_input #(
       .NP       (NP),
       .TIME_GATE(TIME_GATE),
       .STAGES   (BROADCAST_STAGES)
@@ -46,7 +46,7 @@ module first_photon_column #(
   assign hit = beat_t1_i && detected_t1 && !found;
   assign next_t1 = hit ? {timestamp_t1, 1'b1} : word_t1;
 
-  word_builder #(
+  dtof_word_builder #(
       .WIDTH          (WORD_WIDTH),
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SLOTS          (SLOTS),
@@ -79,7 +79,7 @@ module first_photon_column #(
   assign unused_next_counter_full = next_counter_full_i;
   assign counter_full_o = 1'b0;
 
-  result_register #(
+  dtof_result_register #(
       .WIDTH(RESULT_WIDTH)
   ) u_result_register (
       .clk_i        (clk_i),

@@ -198,9 +198,9 @@ TEST(VerilatedHooks, AFailedAssertionIsAnException) {
   Verilated::threadContextp(&context);
   EXPECT_THAT(
       [] {
-        VL_PRINTF_MT("[%s] %%Error: pixel_sequencer.sv:107: Assertion failed: a gap inside an acquisition\n",
+        VL_PRINTF_MT("[%s] %%Error: dtof_pixel_sequencer.sv:107: Assertion failed: a gap inside an acquisition\n",
                      "40");
-        VL_STOP_MT("pixel_sequencer.sv", 107, "array");
+        VL_STOP_MT("dtof_pixel_sequencer.sv", 107, "array");
       },
       ThrowsMessage<RtlError>(HasSubstr("a gap inside an acquisition")));
   EXPECT_THAT([] { VL_STOP_MT("a.sv", 7, "array"); }, ThrowsMessage<RtlError>(HasSubstr("a.sv:7")));
@@ -248,7 +248,7 @@ TEST(VerilatedHooks, AssertionsOfTheRtlAreAlive) {
   // When, where and what, as Verilator would print it.
   EXPECT_THAT(run_until_the_gap,
               ThrowsMessage<RtlError>(AllOf(
-                  HasSubstr("[0] %Error: pixel_sequencer.sv:"),
+                  HasSubstr("[0] %Error: dtof_pixel_sequencer.sv:"),
                   HasSubstr("Assertion failed in array.dtof_array_testbench.u_array.u_pixel_sequencer."),
                   HasSubstr("tdc_valid_i fell inside an acquisition"))));
 }

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: what each column has for itself: its timestamps, and which of them counts. What comes of it for a pixel's word
+// is worked out by dtof_pool2_pixel_update, for both columns of a pair one after the other.
+//
+// Equations: docs/reference/poolpointer2.md, Timestamps, Coarse, Track, Point. What needs several pixels at once (decode,
+// choose, decide) is done by an engine that several columns share (dtof_pool2_engine).
+//
+// The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
+// odd ones if there is one. T1 and later count from the pixel's last slot:
+//   clock   coarse                          track and point
+//   T1                                      point: which of two are inside; track, and point without RIVAL_MOVES: the
+//                                           candidates that the first one hits
+//   T2      of two pixels one is chosen     which one counts; track: the candidates that the second one hits, or the only
+//                                           one, and which of the two scores
+// Cost at the defaults: see reports/area.md.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pool2_column #(
+    parameter int NP = 10,
+    parameter int SLOTS = 2,
+    parameter int LABELS = 5,
+    parameter int RIVAL_MOVES = 1,
+    parameter int TIME_GATE = 0,
+    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
+    localparam int CELLS_WIDTH = LABELS * CELL_WIDTH,
+    localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS)
+) (
+    input  logic                    clk_i,
+    input  logic [          NP-1:0] timestamp_i,
+    input  logic [          NP-1:0] gate_begin_i,
+    input  logic [          NP-1:0] gate_end_i,
+    input  logic                    point_i,           // the pointer phase
+    input  logic                    leans_i,           // candidates count in this phase
+    // timestamps
+    input  logic                    beat_t1_i,         // a timestamp, or none detected
+    input  logic                    first_slot_t1_i,
+    input  logic                    last_slot_t1_i,
+    input  logic                    odd_t1_i,          // odd acquisition
+    input  logic                    first_row_t2_i,    // coarse: the pair's first pixel is complete
+    input  logic                    second_row_t2_i,   // coarse: its second one is
+    // the pixel at T2
+    input  logic [ CELLS_WIDTH-1:0] cells_i,           // candidates of the group of the pixel at T1 and T2
+    input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // with compares_t1_o: the pointer's, of the pixel at T1
+    output logic                    compares_t1_o,     // point: two timestamps, of which one may be inside
+    output logic                    detected_t1_o,     // it will have a timestamp at T2
+    output logic                    detected_t2_o,     // it has a timestamp
+    output logic [          NP-1:0] used_t2_o,         // the one that counts
+    output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
+    // coarse bin of the timestamp that counts, registered: of the first pixel, then of the two
+    output logic                    held_valid_o,
+    output logic [COARSE_WIDTH-1:0] held_bin_o,
+    output logic                    upper_t2_o         // coarse: what counts of the two is in the upper half of all bins
+);
+
+  localparam int TRACK_REACH = 4;
+  localparam int POINT_REACH = 8;
+
+  // The first two timestamps, complete at T1.
+
+  logic [NP-1:0] timestamp_t1, first_q, second, second_q;
+  logic [CELL_WIDTH-1:0] first_cell;
+  logic valid_t1, has_first, has_first_q, has_second, has_second_q, unused_detected, detected_t1;
+
+  dtof_timestamp_input #(
+      .NP       (NP),
+      .TIME_GATE(TIME_GATE),
+      .STAGES   (BROADCAST_STAGES)
+  ) u_timestamp_input (
+      .clk_i         (clk_i),
+      .timestamp_i   (timestamp_i),
+      .gate_begin_i  (gate_begin_i),
+      .gate_end_i    (gate_end_i),
+      .detected_t0_o (unused_detected),
+      .detected_t1_o (detected_t1),
+      .timestamp_t1_o(timestamp_t1)
+  );
+
+  assign valid_t1 = beat_t1_i && detected_t1;
+  assign has_first = valid_t1 || (has_first_q && !first_slot_t1_i);
+  assign first_cell = (first_slot_t1_i || !has_first_q) ? timestamp_t1[NP-1-:CELL_WIDTH] : first_q[NP-1-:CELL_WIDTH];
+
+  always_ff @(posedge clk_i) begin
+    has_first_q <= has_first;
+    has_second_q <= has_second;
+    if (valid_t1 && (first_slot_t1_i || !has_first_q)) begin
+      first_q <= timestamp_t1;
+    end
+    if (has_second) begin
+      second_q <= second;
+    end
+  end
+
+  generate
+    if (SLOTS == 2) begin : g_two_slots
+      assign second = timestamp_t1;
+      assign has_second = !first_slot_t1_i && has_first_q && valid_t1;
+    end else begin : g_more_slots
+      assign second = has_second_q ? second_q : timestamp_t1;
+      assign has_second = !first_slot_t1_i && (has_second_q || (has_first_q && valid_t1));
+    end
+  endgenerate
+
+  // Which of them counts, at T2: the preferred one, but in the pointer phase the other one if only that is inside.
+
+  logic first_inside, second_inside, odd_q, use_second_q, take_second;
+  genvar n;
+
+  assign take_second = odd_t1_i ? second_inside || !first_inside : second_inside && !first_inside;
+  logic [LABELS-1:0] hits;
+
+  generate
+    if (RIVAL_MOVES != 0) begin : g_near_pointer
+      // Whether a timestamp's cell is POINT_REACH below to POINT_REACH - 1 above the pointer's. The pointer's comes late, out
+      // of the SRAM, so that what only the timestamp decides is ready before it, and low bits are compared in a tree. Of two
+      // timestamps the first one is registered.
+      logic [2*CELL_WIDTH-1:0] cells;
+      logic [1:0] is_inside;
+      assign cells = {second[NP-1-:CELL_WIDTH], first_q[NP-1-:CELL_WIDTH]};
+      assign {second_inside, first_inside} = is_inside;
+      for (n = 0; n < 2; n = n + 1) begin : g_timestamp
+        logic [CELL_WIDTH:0] top;
+        logic [CELL_WIDTH-4:0] same, one_less, pointer_high;
+        logic [3:0] above, not_below;
+        logic is_above;
+        assign top = {1'b0, cells[n*CELL_WIDTH+:CELL_WIDTH]} + (CELL_WIDTH + 1)'(POINT_REACH);
+        assign same = top[CELL_WIDTH:4];
+        assign one_less = same - 1'b1;
+        assign pointer_high = {1'b0, pointer_cell_t1_i[CELL_WIDTH-1:4]};
+        assign above = pointer_cell_t1_i[3:0] & ~top[3:0];
+        assign not_below = pointer_cell_t1_i[3:0] | ~top[3:0];
+        assign is_above = above[3] || (not_below[3] && above[2])
+            || (not_below[3] && not_below[2] && (above[1] || (not_below[1] && above[0])));
+        assign is_inside[n] = is_above ? (one_less == pointer_high) : (same == pointer_high);
+      end
+    end else begin : g_near_candidates
+      assign first_inside = |hits;
+      assign second_inside = 1'b1;
+      logic unused_cell;
+      assign unused_cell = ^pointer_cell_t1_i;
+    end
+  endgenerate
+
+  assign compares_t1_o = (RIVAL_MOVES != 0) && point_i && has_second;
+  assign used_t2_o = use_second_q ? second_q : first_q;
+
+  always_ff @(posedge clk_i) begin
+    odd_q <= odd_t1_i;
+    // In the other phases the preferred one counts.
+    use_second_q <= has_second && (point_i ? take_second : odd_t1_i);
+  end
+
+  // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one
+  // has no timestamp.
+
+  logic held_valid_q, second_row_counts;
+  logic [COARSE_WIDTH-1:0] held_bin_q, bin;
+
+  assign detected_t1_o = has_first;
+  assign detected_t2_o = has_first_q;
+  assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
+
+  // The second pixel replaces the first where that has no timestamp, or in its turn.
+  assign second_row_counts = has_first_q && (odd_q || !held_valid_q);
+  assign upper_t2_o = second_row_counts ? bin[COARSE_WIDTH-1] : (held_valid_q && held_bin_q[COARSE_WIDTH-1]);
+
+  always_ff @(posedge clk_i) begin
+    if (first_row_t2_i || (second_row_t2_i && second_row_counts)) begin
+      held_valid_q <= has_first_q;
+      held_bin_q <= bin;
+    end
+  end
+
+  assign held_valid_o = held_valid_q;
+  assign held_bin_o = held_bin_q;
+
+  // Track: the candidates that the timestamps hit, the first one's at T1, at T2 those of the second one or of the only
+  // one. They score as the pointer phase chooses; the leader's offset follows the preferred timestamp.
+
+  logic [LABELS-1:0] first_hits_q;
+  logic [CELL_WIDTH-1:0] matched_q;
+  logic track_second, hits_of_second;
+
+  dtof_label_match #(
+      .LABELS(LABELS),
+      .WINDOW(TRACK_REACH)
+  ) u_label_match (
+      .valid_i(has_first_q),
+      .cell_i (matched_q),
+      .cells_i(cells_i),
+      .hits_o (hits)
+  );
+
+  assign track_second = odd_q ? (hits != '0) || (first_hits_q == '0) : (hits != '0) && (first_hits_q == '0);
+  assign hits_of_second = (RIVAL_MOVES == 0 && point_i) ? use_second_q : track_second;
+  assign hits_t2_o = (has_second_q && !hits_of_second) ? first_hits_q : hits;
+
+  always_ff @(posedge clk_i) begin
+    // Nothing behind the register moves in a phase without candidates, or without a timestamp.
+    if (leans_i && (valid_t1 || (SLOTS > 2 && last_slot_t1_i && has_second))) begin
+      matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first_cell;
+    end
+    if (has_second) begin
+      first_hits_q <= hits;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,507 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: one or two columns with their part of an SRAM's word, which they share with the pair beside (dtof_pool2_quad). The
+// part has two halves: those of the two columns, each with two pixels; or two groups; or, in the coarse phase, a part of a
+// group's bins, for both columns count in one histogram.
+//
+// All accesses are common to all pairs, in all phases. In the coarse phase a column chooses a timestamp of each two rows, and
+// both columns' count in each part of the group's bins, if they belong there, two bins in a clock:
+//   clock (T0: last slot of the two rows)   T1            T2          T3                    T4
+//   first part                              read          registered  counted and written
+//   second part                                           read        registered            counted and written
+// At T2 it is known what will be chosen, so that the second part is read only where something counts in it, and in a sweep.
+// With LINE_HALVES = 2 there are four parts, and the accesses of two rows do not suffice. Four rows count together:
+//   clock (T0: last slot of the four rows)  T2            T3          T4                    T5
+//   first part                              read          registered  first two rows count  last two rows count, written
+//   next part                                                         read                  registered
+// In a sweep nothing counts. In the group's first visit each part is looked at in the clock in which it would count; in the
+// second visit, if a bin was full, every bin falls by a quarter of its range, or, if a bin was below that, every part gets
+// its frozen bit, with which nothing counts in the group until the next clear.
+//
+// In the other phases the columns' pixels of a row are worked on one after the other by one dtof_pool2_pixel_update:
+//   clock (T0: last slot of a row)   T2               T3                  T4
+//   first column                     distance         next word
+//   second column                                     distance            next word
+//   second row of the word           read the next    first pixel ahead   written; the next is registered
+// The next word's first pixel has a register of its own, for its turn may come while this word is written.
+//
+// Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
+// of neighbouring pairs are combined by OR from pair to pair (beside_word_i, dtof_pool2_line). The low half
+// is the half that was asked for. Where eight bins need both halves, its high half is the word's. The engine writes one half;
+// the other half, and the part of the pair beside, are written with it:
+//   clock after read_i   1                                               2
+//                        registered, the engine's word for the half      written
+//                        that was asked for (replace_i)
+//
+// Everything that is written stands in the word's register before, but for a row's last pixel and the counts of the last rows.
+// What comes into a bit from elsewhere than the SRAM (counts, a pixel, the engine's word) comes at different times, and is 0
+// at all others, so that an OR will do.
+// Cost at the defaults: see reports/area.md.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pool2_pair #(
+    parameter int COLUMNS = 2,  // 1 for the last one of an odd number
+    parameter int NP = 10,
+    parameter int SLOTS = 2,
+    parameter int COUNT_WIDTH = 7,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
+    parameter int TIME_GATE = 0,
+    parameter int PRIOR = 0,
+    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+                                                           POINTER_SHIFT, RIVAL_MOVES),
+    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
+    localparam int WORD_WIDTH = 2 * HALF_WIDTH,
+    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES)
+) (
+    input  logic                  clk_i,
+    input  logic [COLUMNS*NP-1:0] timestamp_i,
+    input  logic [        NP-1:0] gate_begin_i,     // time gate, the same for a whole frame
+    input  logic [        NP-1:0] gate_end_i,
+    // phase, common to all pairs
+    input  logic                  coarse_i,
+    input  logic                  point_i,
+    // timestamps
+    input  logic                  beat_t1_i,
+    input  logic                  first_slot_t1_i,
+    input  logic                  last_slot_t1_i,
+    input  logic                  odd_t1_i,
+    input  logic                  second_row_t0_i,   // it is a word's second row; registered here
+    input  logic                  first_row_t2_i,    // coarse
+    input  logic                  second_row_t2_i,
+    input  logic [           3:0] acquisition_t2_i,
+    // coarse
+    input  logic                  keep_first_i,      // four parts: what the first two of four rows have chosen is registered
+    input  logic                  keep_last_i,       // four parts: what the last two have chosen is
+    input  logic                  load_i,            // a clock after read_i; a clock later the last two rows count, of four parts the
+                                                     // first two, and then the last two
+    input  logic [PART_WIDTH-1:0] part_i,            // with load_i: of the group's bins
+    input  logic                  sweep_i,           // in the clocks in which parts count: nothing counts, the bins are looked at
+    input  logic                  make_room_i,       // with sweep_i: the group's second visit; low in the other phases
+    // SRAM
+    input  logic                  read_i,
+    input  logic                  engine_load_i,     // an engine has read the SRAM's word, this pair's or the other's; a clock later
+    input  logic [WORD_WIDTH-1:0] read_data_i,       // a clock after read_i
+    output logic                  upper_t2_o,        // coarse, at T2 of a second row: something counts in the second of two parts
+    output logic                  write_o,           // with write_i: there is something to write
+    output logic [WORD_WIDTH-1:0] write_data_o,
+    input  logic                  word_load_d_i,     // the word read in this clock is to be loaded; registered here
+    input  logic                  group_load_i,      // the group read last clock
+    input  logic                  group_upper_i,     // with group_load_i: it is the word's upper half
+    // engine
+    input  logic                  engine_i,          // no timestamps: engine, or clear
+    input  logic                  replace_i,         // a clock after read_i and before write_i: the half is the engine's
+    input  logic                  clear_i,           // a clock before write_i: both halves are 0, as is engine_word_i
+    input  logic                  select_i,          // with read_i: this pair
+    input  logic                  upper_i,           // with read_i: the word's upper half
+    input  logic                  used_i,            // with replace_i: of that half only which candidates are used
+    input  logic [HALF_WIDTH-1:0] engine_word_i,     // 0 while timestamps come
+    input  logic [LINE_WIDTH-1:0] beside_word_i,     // of the pairs to the right, as far as the segment reaches
+    output logic [LINE_WIDTH-1:0] word_o
+);
+
+  localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
+  localparam int HALF_BINS = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES;
+  localparam int PLACE_WIDTH = COARSE_WIDTH - PART_WIDTH;  // of a bin in a word
+  localparam int LAST = COLUMNS - 1;
+  localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
+  localparam int CELLS_WIDTH = LABELS * CELL_WIDTH;
+  localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
+  localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS);
+  localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
+  localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH);
+
+  logic [WORD_WIDTH-1:0] word_q;
+  logic [COLUMNS-1:0] detected_t1, detected_t2, held_valid, upper_t2;
+  logic [COLUMNS*COARSE_WIDTH-1:0] held_bin;
+
+  // Coarse: what the columns have chosen, {bin, valid} of each. Two bins count at a time, which may be the same one. Nothing
+  // is counted in other clocks, so that the word stays as it is.
+
+  localparam int CHOICE_WIDTH = COARSE_WIDTH + 1;
+  logic [2*CHOICE_WIDTH-1:0] chosen;
+  logic count_q, counts_first, counts, counted_before;
+  logic [1:0] counts_here;
+  logic [2*PLACE_WIDTH-1:0] places;
+  logic [PART_WIDTH-1:0] part_q;
+  logic [WORD_WIDTH-1:0] counted_word;
+
+  assign counts = (counts_here != '0);
+
+  always_ff @(posedge clk_i) begin
+    count_q <= load_i;
+    if (load_i) begin
+      part_q <= part_i;
+    end
+  end
+
+  // Sweep. The frozen bit is the first one above the lower half's bins, in every part.
+
+  localparam int FROZEN_BIT = HALF_BINS * COUNT_WIDTH;
+  logic full_q, low_q;  // some bin is full, or below a quarter of its range
+  logic first_part, rests, full_here, low_here, takes_quarter, freezes;
+
+  assign first_part = (part_q == '0);
+  assign rests = sweep_i || word_q[FROZEN_BIT];
+  assign takes_quarter = make_room_i && full_q && !low_q;
+  assign freezes = make_room_i && full_q && low_q;
+
+  always_ff @(posedge clk_i) begin
+    if (count_q && sweep_i && !make_room_i) begin
+      full_q <= (full_here && !word_q[FROZEN_BIT]) || (full_q && !first_part);
+      low_q <= low_here || (low_q && !first_part);
+    end
+  end
+
+  generate
+    if (COLUMNS == 2) begin : g_both_choose
+      assign chosen = {held_bin[COARSE_WIDTH+:COARSE_WIDTH], held_valid[1], held_bin[COARSE_WIDTH-1:0], held_valid[0]};
+    end else begin : g_one_chooses
+      assign chosen = {{CHOICE_WIDTH{1'b0}}, held_bin, held_valid};
+    end
+  endgenerate
+
+  genvar d;
+  generate
+    if (PART_WIDTH == 1) begin : g_two_parts
+      // The choices last until both parts have counted.
+      for (d = 0; d < 2; d = d + 1) begin : g_choice
+        logic valid, part;
+        assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = chosen[d*CHOICE_WIDTH+:CHOICE_WIDTH];
+        assign counts_here[d] = count_q && valid && (part == part_q) && !rests;
+      end
+      assign counts_first = 1'b0;
+      assign counted_before = 1'b0;
+      logic unused_keep;
+      assign unused_keep = ^{keep_first_i, keep_last_i};
+    end else begin : g_four_parts
+      // The next four rows' first choices come before these have counted in all parts.
+      logic [2*CHOICE_WIDTH-1:0] waiting_q, first_q, last_q, counted;
+      logic count_last_q, counted_q;
+      assign counted = count_last_q ? last_q : first_q;
+      assign counts_first = count_q;
+      assign counted_before = counted_q;
+      always_ff @(posedge clk_i) begin
+        count_last_q <= count_q;
+        if (keep_first_i) begin
+          waiting_q <= chosen;
+        end
+        if (keep_last_i) begin
+          first_q <= waiting_q;
+          last_q <= chosen;
+        end
+        if (count_q) begin
+          counted_q <= counts;
+        end
+      end
+      for (d = 0; d < 2; d = d + 1) begin : g_choice
+        logic valid;
+        logic [PART_WIDTH-1:0] part;
+        assign {part, places[d*PLACE_WIDTH+:PLACE_WIDTH], valid} = counted[d*CHOICE_WIDTH+:CHOICE_WIDTH];
+        assign counts_here[d] = (count_q || count_last_q) && valid && (part == part_q) && !rests;
+      end
+    end
+  endgenerate
+
+  logic [2*HALF_BINS-1:0] full_bins, low_bins;
+  assign full_here = (full_bins != '0);
+  assign low_here = (low_bins != '0);
+
+  genvar b, n;
+  generate
+    for (b = 0; b < 2 * HALF_BINS; b = b + 1) begin : g_bin
+      localparam int FIRST = (b / HALF_BINS) * HALF_WIDTH + (b % HALF_BINS) * COUNT_WIDTH;
+      logic first_counts, second_counts, one, two, full_above, first_carry, carry;
+      logic [COUNT_WIDTH-1:0] bin, count;
+      assign bin = word_q[FIRST+:COUNT_WIDTH];
+      assign full_bins[b] = &bin;
+      assign low_bins[b] = (bin[COUNT_WIDTH-1-:2] == 2'd0);
+      assign first_counts = counts_here[0] && (places[PLACE_WIDTH-1:0] == PLACE_WIDTH'(b));
+      assign second_counts = counts_here[1] && (places[PLACE_WIDTH+:PLACE_WIDTH] == PLACE_WIDTH'(b));
+      assign one = first_counts ^ second_counts;
+      assign two = first_counts && second_counts;
+      // Plus one or two, saturating: what a full bin does not take is left out before it is added.
+      assign full_above = &bin[COUNT_WIDTH-1:1];
+      assign count = {bin[COUNT_WIDTH-1] && (bin[COUNT_WIDTH-2] || !takes_quarter), bin[COUNT_WIDTH-2] ^ takes_quarter,
+                      bin[COUNT_WIDTH-3:0]};
+      assign first_carry = one && !full_bins[b];
+      assign carry = (count[0] && first_carry) || (two && !full_above);
+      assign counted_word[FIRST+:2] = {count[1] ^ carry, (count[0] ^ first_carry) || (two && full_above)};
+      for (n = 2; n < COUNT_WIDTH; n = n + 1) begin : g_high
+        assign counted_word[FIRST+n] = count[n] ^ (carry && (&count[n-1:1]));
+      end
+    end
+    // Bits of a half beyond its bins.
+    for (b = 0; b < 2; b = b + 1) begin : g_rest
+      localparam int FIRST = b * HALF_WIDTH + HALF_BINS * COUNT_WIDTH;
+      localparam int WIDTH = HALF_WIDTH - HALF_BINS * COUNT_WIDTH;
+      assign counted_word[FIRST+:WIDTH] = word_q[FIRST+:WIDTH] | WIDTH'(freezes && b == 0);
+    end
+  endgenerate
+
+  // The word in work, and the group of its pixels. A word has four pixels: column c of row r is pixel 2 c + r.
+
+  logic read_selected_q, upper_q, replaced_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
+  logic [CELLS_WIDTH-1:0] cells_q;
+  logic [PIXEL_WIDTH-1:0] moved;
+  logic changes;  // moved is another word than before
+  // Which pixel's distance is found, and which one moved is for. A pixel without a timestamp has no turn, so that nothing
+  // moves for it.
+  logic [3:0] turn_q, move_q;
+  logic [1:0] visit_t1, visit_q;  // whose row is complete
+  logic second_row_t1_q, visit_t2;
+
+  assign word_load = engine_load_i || word_load_q || load_i;
+
+  always_ff @(posedge clk_i) begin
+    ahead_q <= word_load_d_i;
+    word_load_q <= ahead_q;
+    changed_q <= (takes_pixel != '0) || (changed_q && !word_load_q);
+    if (group_load_i) begin
+      cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];
+    end
+    // Timestamps begin when the engine's last read is long done.
+    if (engine_i) begin
+      read_selected_q <= read_i && select_i;
+      upper_q <= upper_i;
+      replaced_q <= clear_i || (replace_i && read_selected_q);
+      drives_lower_q <= read_selected_q && !upper_q;
+      drives_upper_q <= read_selected_q && upper_q;
+    end
+  end
+
+  // The register takes what stands in the SRAM's word, unless something else is due: the choice rests there, for each of its
+  // changes passes all bits. The last pixel of a word goes straight to the SRAM.
+  logic [WORD_WIDTH-1:0] fresh, from_sram, next_word;
+  logic [3:0] gets_pixel, takes_pixel;
+  logic whole_word;
+  integer f;
+
+  assign whole_word = word_load || clear_i || (counts_first && counts);
+  assign gets_pixel = {1'b0, move_q[2:0]};
+  assign takes_pixel = gets_pixel & {4{changes}};
+
+  always_comb begin
+    fresh = {2{engine_word_i}} | (counted_word & {WORD_WIDTH{counts_first}});
+    for (f = 0; f < 3; f = f + 1) begin
+      fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] = fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] | moved;
+    end
+  end
+
+  assign next_word = (read_data_i & from_sram) | (fresh & ~from_sram);
+
+  // Each pixel has an enable of its own.
+  genvar h;
+  generate
+    for (h = 0; h < 4; h = h + 1) begin : g_pixel
+      localparam int FIRST = (h / 2) * HALF_WIDTH + (h % 2) * PIXEL_WIDTH;
+      localparam int WIDTH = (h % 2 == 0) ? PIXEL_WIDTH : HALF_WIDTH - PIXEL_WIDTH;
+      always_ff @(posedge clk_i) begin
+        if (whole_word || takes_pixel[h]) begin
+          word_q[FIRST+:WIDTH] <= next_word[FIRST+:WIDTH];
+        end
+      end
+    end
+  endgenerate
+
+  // Track and point: whose turn it is.
+
+  logic turn_valid, first_column_turn, second_column_turn;
+  logic [3:0] acquisition_q;
+  logic [COLUMNS*NP-1:0] used_t2;
+  logic [COLUMNS*LABELS-1:0] hits_t2;
+  logic [NP-1:0] used_t3_q, turn_timestamp;
+  logic [LABELS-1:0] hits_t3_q, turn_hits;
+  logic [PIXEL_WIDTH-1:0] first_pixel_q, turn_pixel;
+
+  assign visit_t1 = {2{last_slot_t1_i && !coarse_i}} & {second_row_t1_q, !second_row_t1_q};
+  assign visit_t2 = visit_q[0] || visit_q[1];
+  assign turn_valid = (turn_q != '0);
+  assign second_column_turn = turn_q[2] || turn_q[3];
+  assign first_column_turn = turn_q[0] || turn_q[1];
+  // 0 where nobody has a turn, so that nothing behind moves in the coarse phase.
+  assign turn_timestamp = (used_t3_q & {NP{second_column_turn}}) | (used_t2[NP-1:0] & {NP{first_column_turn}});
+  assign turn_hits = (hits_t3_q & {LABELS{second_column_turn}}) | (hits_t2[LABELS-1:0] & {LABELS{first_column_turn}});
+
+  always_ff @(posedge clk_i) begin
+    if (ahead_q) begin
+      first_pixel_q <= read_data_i[PIXEL_WIDTH-1:0];
+    end
+  end
+
+  assign turn_pixel = (first_pixel_q & {PIXEL_WIDTH{turn_q[0]}}) | (word_q[PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[1]}})
+      | (word_q[HALF_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[2]}})
+      | (word_q[HALF_WIDTH+PIXEL_WIDTH+:PIXEL_WIDTH] & {PIXEL_WIDTH{turn_q[3]}});
+
+  // The candidate that a word leans on, looked up a clock before the pixel's turn: while the word may be still to be registered,
+  // and before the next word's group takes the place of its own.
+
+  localparam int LEADER_FIRST = (RIVAL_MOVES == 0) ? POINTER_WIDTH : LABELS * SCORE_BITS;
+  localparam bit HAS_LEADER = (RIVAL_MOVES == 0) || (OFFSET_BITS > 0);
+  logic [3:0] turn_d;
+  logic leans;  // candidates count; to a rival that moves they do not in the pointer phase
+  logic [CELL_WIDTH-1:0] leader_cell_q;
+
+  assign leans = !coarse_i && !(RIVAL_MOVES != 0 && point_i);
+
+  assign turn_d = {visit_q & {2{(COLUMNS > 1) && detected_t2[LAST]}}, visit_t1 & {2{detected_t1[0]}}};
+
+  generate
+    if (HAS_LEADER) begin : g_leader
+      logic [LABEL_WIDTH-1:0] leader;
+      logic [3:0] asks;
+      assign asks = turn_d & {4{leans}};
+      assign leader = (read_data_i[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && ahead_q}})
+          | (first_pixel_q[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && !ahead_q}})
+          | (word_q[PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[1]}})
+          | (read_data_i[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && word_load_q}})
+          | (word_q[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && !word_load_q}})
+          | (word_q[HALF_WIDTH+PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[3]}});
+      always_ff @(posedge clk_i) begin
+        if (asks != '0) begin
+          leader_cell_q <= cells_q[leader*CELL_WIDTH+:CELL_WIDTH];
+        end
+      end
+    end else begin : g_no_leader
+      assign leader_cell_q = '0;
+    end
+  endgenerate
+
+  always_ff @(posedge clk_i) begin
+    second_row_t1_q <= second_row_t0_i;
+    visit_q <= visit_t1;
+    turn_q <= turn_d;
+    move_q <= turn_q;
+    if (visit_t2) begin
+      acquisition_q <= acquisition_t2_i;
+      if (detected_t2[LAST]) begin
+        used_t3_q <= used_t2[LAST*NP+:NP];
+        hits_t3_q <= hits_t2[LAST*LABELS+:LABELS];
+      end
+    end
+  end
+
+  dtof_pool2_pixel_update #(
+      .NP             (NP),
+      .LABELS         (LABELS),
+      .SCORE_BITS     (SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .CELL_SHIFT     (CELL_SHIFT)
+  ) u_pixel_update (
+      .clk_i        (clk_i),
+      .track_i      (!engine_i && !coarse_i && !point_i),
+      .point_i      (!engine_i && point_i),
+      .valid_i      (turn_valid),
+      .timestamp_i  (turn_timestamp),
+      .hits_i       (turn_hits),
+      .leader_cell_i(leader_cell_q),
+      .word_i       (turn_pixel),
+      .acquisition_i(acquisition_q),
+      .changed_o    (changes),
+      .word_o       (moved)
+  );
+
+  assign word_o[HALF_WIDTH-1:0] = beside_word_i[HALF_WIDTH-1:0] | (word_q[HALF_WIDTH-1:0] & {HALF_WIDTH{drives_lower_q}})
+      | (word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_upper_q}});
+
+  generate
+    if (LINE_HALVES == 2) begin : g_whole_word
+      assign word_o[WORD_WIDTH-1:HALF_WIDTH] = beside_word_i[WORD_WIDTH-1:HALF_WIDTH]
+          | (word_q[WORD_WIDTH-1:HALF_WIDTH] & {HALF_WIDTH{drives_lower_q}});
+    end
+  endgenerate
+
+  // Columns.
+
+  genvar c;
+  generate
+    for (c = 0; c < 2; c = c + 1) begin : g_half
+      if (c < COLUMNS) begin : g_column
+        // The pointer's cell of the pixel at T1, which may be still to be registered. 0 where nothing asks for it.
+        localparam int CELL_FIRST = POINTER_WIDTH - CELL_WIDTH;
+        logic [CELL_WIDTH-1:0] pointer_cell, first_row_cell;
+        logic compares, is_read;
+        assign is_read = ahead_q || (c == 1 && word_load_q);
+        assign first_row_cell = (c == 0) ? first_pixel_q[CELL_FIRST+:CELL_WIDTH] : word_q[HALF_WIDTH+CELL_FIRST+:CELL_WIDTH];
+        assign pointer_cell = (read_data_i[c*HALF_WIDTH+CELL_FIRST+:CELL_WIDTH] & {CELL_WIDTH{compares && is_read}})
+            | (word_q[c*HALF_WIDTH+PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH] & {CELL_WIDTH{compares && !is_read && second_row_t1_q}})
+            | (first_row_cell & {CELL_WIDTH{compares && !is_read && !second_row_t1_q}});
+
+        dtof_pool2_column #(
+            .NP              (NP),
+            .SLOTS           (SLOTS),
+            .LABELS          (LABELS),
+            .RIVAL_MOVES     (RIVAL_MOVES),
+            .TIME_GATE       (TIME_GATE),
+            .BROADCAST_STAGES(BROADCAST_STAGES)
+        ) u_column (
+            .clk_i            (clk_i),
+            .timestamp_i      (timestamp_i[c*NP+:NP]),
+            .gate_begin_i     (gate_begin_i),
+            .gate_end_i       (gate_end_i),
+            .point_i          (point_i),
+            .leans_i          (leans),
+            .beat_t1_i        (beat_t1_i),
+            .first_slot_t1_i  (first_slot_t1_i),
+            .last_slot_t1_i   (last_slot_t1_i),
+            .odd_t1_i         (odd_t1_i),
+            .first_row_t2_i   (first_row_t2_i),
+            .second_row_t2_i  (second_row_t2_i),
+            .cells_i          (cells_q),
+            .pointer_cell_t1_i(pointer_cell),
+            .compares_t1_o    (compares),
+            .detected_t1_o    (detected_t1[c]),
+            .detected_t2_o    (detected_t2[c]),
+            .used_t2_o        (used_t2[c*NP+:NP]),
+            .hits_t2_o        (hits_t2[c*LABELS+:LABELS]),
+            .held_valid_o     (held_valid[c]),
+            .held_bin_o       (held_bin[c*COARSE_WIDTH+:COARSE_WIDTH]),
+            .upper_t2_o       (upper_t2[c])
+        );
+      end
+
+      // Which bits are not the SRAM's: the engine's, 0 to clear, counts, a pixel.
+      logic given;
+      logic [HALF_WIDTH-1:0] given_bits, pixel_bits;
+      assign given = replace_i && read_selected_q && upper_q == (c == 1);
+      assign pixel_bits = {{(HALF_WIDTH - PIXEL_WIDTH) {gets_pixel[2*c+1]}}, {PIXEL_WIDTH{gets_pixel[2*c]}}};
+      if (PRIOR != 0) begin : g_prior
+        localparam logic [HALF_WIDTH-1:0] USED_BITS = HALF_WIDTH'((1 << LABELS) - 1) << dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH);
+        assign given_bits = {HALF_WIDTH{given}} & ({HALF_WIDTH{!used_i}} | USED_BITS);
+      end else begin : g_no_prior
+        assign given_bits = {HALF_WIDTH{given}};
+      end
+      assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = ~(given_bits | pixel_bits | {HALF_WIDTH{clear_i || counts_first}});
+
+      // What is written: the word with what is counted. The last pixel is on its way.
+      assign write_data_o[c*HALF_WIDTH+:HALF_WIDTH] = {
+          (c == 1 && move_q[3]) ? (HALF_WIDTH - PIXEL_WIDTH)'(moved) : counted_word[(c+1)*HALF_WIDTH-1:c*HALF_WIDTH+PIXEL_WIDTH],
+          counted_word[c*HALF_WIDTH+:PIXEL_WIDTH]};
+    end
+  endgenerate
+
+  assign upper_t2_o = (upper_t2 != '0);
+
+  // A word in which no pixel changes is not written, nor one in which nothing counts.
+  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (make_room_i && full_q)
+      : changed_q || (move_q[3] && changes);
+
+  logic unused;
+  assign unused = ^{1'b0, used_i, move_q[3], detected_t1};
+
+endmodule
+
+`default_nettype wire

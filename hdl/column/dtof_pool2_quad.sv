@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: up to four columns, in pairs, and the single-port SRAM that they share. A word has a part of each pair
+// (dtof_pool2_pair), and all accesses are common to the pairs, so that one wide macro does the work of two.
+//
+// An engine asks for one pair and replaces a half of its part; the pair beside is read and written with it. So the pairs may
+// belong to two engines, which never ask at once: all engines work on the same one of their pairs.
+// Latency: a word that is read is with its pair a clock later.
+// Cost at the defaults: see reports/area.md.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pool2_quad #(
+    parameter int COLUMNS = 4,  // fewer for the last ones
+    parameter int NP = 10,
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int SLOTS = 2,
+    parameter int COUNT_WIDTH = 7,
+    parameter int GROUP_SIZE = 4,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
+    parameter int TIME_GATE = 0,
+    parameter int PRIOR = 0,
+    parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
+    localparam int PAIRS = (COLUMNS + 1) / 2,
+    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+                                                           POINTER_SHIFT, RIVAL_MOVES),
+    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
+    localparam int WORD_WIDTH = 2 * HALF_WIDTH,
+    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES),
+    localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
+    localparam int DEPTH = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
+    localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH)
+) (
+    input  logic                        clk_i,
+    input  logic                        rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
+    input  logic [      COLUMNS*NP-1:0] timestamp_i,
+    // SRAM
+    input  logic                        read_i,
+    input  logic                        write_i,
+    input  logic [      ADDR_WIDTH-1:0] address_i,
+    // to each pair, as dtof_pool2_pair says
+    input  logic [              NP-1:0] gate_begin_i,
+    input  logic [              NP-1:0] gate_end_i,
+    input  logic                        coarse_i,
+    input  logic                        point_i,
+    input  logic                        beat_t1_i,
+    input  logic                        first_slot_t1_i,
+    input  logic                        last_slot_t1_i,
+    input  logic                        odd_t1_i,
+    input  logic                        second_row_t0_i,
+    input  logic                        first_row_t2_i,
+    input  logic                        second_row_t2_i,
+    input  logic [                 3:0] acquisition_t2_i,
+    input  logic                        keep_first_i,
+    input  logic                        keep_last_i,
+    input  logic                        load_i,
+    input  logic [      PART_WIDTH-1:0] part_i,
+    input  logic                        sweep_i,      // with load_i of the first part: a sweep, and the group's second visit in one
+    input  logic                        make_room_i,
+    input  logic                        word_load_d_i,
+    input  logic                        group_load_i,
+    input  logic                        group_upper_i,
+    input  logic                        engine_i,
+    input  logic                        replace_i,
+    input  logic                        clear_i,
+    input  logic                        upper_i,
+    input  logic                        used_i,
+    // of each pair
+    input  logic [           PAIRS-1:0] select_i,
+    input  logic [PAIRS*HALF_WIDTH-1:0] engine_word_i,
+    // of the first pair and of the second, which may be missing; ports of their own, for they are links of a chain
+    input  logic [      LINE_WIDTH-1:0] first_beside_i,
+    input  logic [      LINE_WIDTH-1:0] second_beside_i,
+    output logic [      LINE_WIDTH-1:0] first_word_o,
+    output logic [      LINE_WIDTH-1:0] second_word_o
+);
+
+  logic [PAIRS*WORD_WIDTH-1:0] read_data, write_data;
+  logic [PAIRS-1:0] pair_writes, upper_t2;
+  logic engine_load_q, nothing_upper, sweep_q, make_room_q;
+
+  dtof_sram #(
+      .PORTS(1),
+      .DEPTH(DEPTH),
+      .WIDTH(PAIRS * WORD_WIDTH)
+  ) u_sram (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
+      .read_en_i   (read_i && (!engine_i || select_i != '0) && !nothing_upper),
+      .read_addr_i (address_i),
+      .read_data_o (read_data),
+      .write_en_i  (write_i && pair_writes != '0),
+      .write_addr_i(address_i),
+      .write_data_i(write_data)
+  );
+
+  // The second of two parts is read at T2 of a second row. Where nothing counts in it, what was read before is loaded once more.
+  // A sweep needs both.
+  assign nothing_upper = (PART_WIDTH == 1) && second_row_t2_i && upper_t2 == '0 && !sweep_i;
+
+  // Timestamps begin when the engine's last read is long done.
+  always_ff @(posedge clk_i) begin
+    sweep_q <= sweep_i;
+    make_room_q <= make_room_i;
+    if (engine_i) begin
+      engine_load_q <= read_i && select_i != '0;
+    end
+  end
+
+  `DTOF_ASSERT(a_one_pair, (select_i & (select_i - 1'b1)) == '0, "engines ask for both pairs of an SRAM at once")
+
+  genvar p;
+  generate
+    for (p = 0; p < PAIRS; p = p + 1) begin : g_pair
+      localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
+      logic [LINE_WIDTH-1:0] word;
+
+      dtof_pool2_pair #(
+          .COLUMNS         (PAIR_COLUMNS),
+          .NP              (NP),
+          .SLOTS           (SLOTS),
+          .COUNT_WIDTH     (COUNT_WIDTH),
+          .LABELS          (LABELS),
+          .SCORE_BITS      (SCORE_BITS),
+          .OFFSET_BITS     (OFFSET_BITS),
+          .ADVANTAGE_WIDTH (ADVANTAGE_WIDTH),
+          .POINTER_SHIFT   (POINTER_SHIFT),
+          .RIVAL_MOVES     (RIVAL_MOVES),
+          .CELL_SHIFT      (CELL_SHIFT),
+          .TIME_GATE       (TIME_GATE),
+          .PRIOR           (PRIOR),
+          .BROADCAST_STAGES(BROADCAST_STAGES)
+      ) u_pair (
+          .clk_i           (clk_i),
+          .timestamp_i     (timestamp_i[2*p*NP+:PAIR_COLUMNS*NP]),
+          .gate_begin_i    (gate_begin_i),
+          .gate_end_i      (gate_end_i),
+          .coarse_i        (coarse_i),
+          .point_i         (point_i),
+          .beat_t1_i       (beat_t1_i),
+          .first_slot_t1_i (first_slot_t1_i),
+          .last_slot_t1_i  (last_slot_t1_i),
+          .odd_t1_i        (odd_t1_i),
+          .second_row_t0_i (second_row_t0_i),
+          .first_row_t2_i  (first_row_t2_i),
+          .second_row_t2_i (second_row_t2_i),
+          .acquisition_t2_i(acquisition_t2_i),
+          .keep_first_i    (keep_first_i),
+          .keep_last_i     (keep_last_i),
+          .load_i          (load_i),
+          .part_i          (part_i),
+          .sweep_i         (sweep_q),
+          .make_room_i     (make_room_q),
+          .read_i          (read_i),
+          .engine_load_i   (engine_load_q),
+          .read_data_i     (read_data[p*WORD_WIDTH+:WORD_WIDTH]),
+          .upper_t2_o      (upper_t2[p]),
+          .write_o         (pair_writes[p]),
+          .write_data_o    (write_data[p*WORD_WIDTH+:WORD_WIDTH]),
+          .word_load_d_i   (word_load_d_i),
+          .group_load_i    (group_load_i),
+          .group_upper_i   (group_upper_i),
+          .engine_i        (engine_i),
+          .replace_i       (replace_i),
+          .clear_i         (clear_i),
+          .select_i        (select_i[p]),
+          .upper_i         (upper_i),
+          .used_i          (used_i),
+          .engine_word_i   (engine_word_i[p*HALF_WIDTH+:HALF_WIDTH]),
+          .beside_word_i   ((p == 0) ? first_beside_i : second_beside_i),
+          .word_o          (word)
+      );
+    end
+
+    if (PAIRS == 2) begin : g_both
+      assign second_word_o = g_pair[1].word;
+    end else begin : g_first_alone
+      assign second_word_o = second_beside_i;
+    end
+  endgenerate
+
+  assign first_word_o = g_pair[0].word;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Errors of a master that breaks the array's contract, once per array. Each bit is high for one clock per error, a clock
+// behind the error; a user who wants to keep the bit needs a register.
+//
+//   ERROR_UNDERRUN          tdc_valid_i was low in a clock inside an acquisition: the pixel counts as not detected
+//   ERROR_START_IGNORED     start_i while busy_o: nothing happens
+//   ERROR_ILLEGAL_SCHEDULE  a frame began with a schedule whose ends are not in order, or a raw one with rows that are not: its
+//                           results mean nothing
+//
+// Latency: one clock. Cost: three flip-flops.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_array_errors (
+    input  logic                              clk_i,
+    input  logic                              rst_ni,
+    input  logic                              start_i,
+    input  logic                              busy_i,
+    input  logic                              underrun_i,
+    input  logic                              illegal_schedule_i,
+    output logic [dtof_pkg::ERROR_WIDTH-1:0] error_o
+);
+
+  logic [dtof_pkg::ERROR_WIDTH-1:0] error_d, error_q;
+
+  always_comb begin
+    error_d = '0;
+    error_d[dtof_pkg::ERROR_UNDERRUN] = underrun_i;
+    error_d[dtof_pkg::ERROR_START_IGNORED] = start_i && busy_i;
+    error_d[dtof_pkg::ERROR_ILLEGAL_SCHEDULE] = illegal_schedule_i;
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      error_q <= '0;
+    end else begin
+      error_q <= error_d;
+    end
+  end
+
+  assign error_o = error_q;
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: counts the timestamps of an acquisition, handshakes with the TDC stream and schedules the columns'
+// single-port SRAMs, two pixels a word, once per array.
+//
+// Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
+// before. Where the number of rows is no multiple of four (LINE_HALVES = 2: eight), SLOTS clocks pass for each row that is
+// missing.
+//
+// Schedule (T0: the clock of a pixel's last slot at the port):
+//   prime   before the first acquisition of a phase: group 0's word, if the phase needs groups, and pair 0's are read
+//   second pixel of a pair   T1: read the next pair's group word, where it is another one and the phase needs groups
+//                            T2: read the next pair; the group's word is registered
+//                            T3: the next pair's first pixel is registered
+//                            T4: write the pair; the next is registered
+//   coarse phase, second pixel of a pair, for part k of the two of a group's bins:
+//                            T1 + k: read, T2 + k: registered, T3 + k: counted and written
+//   with LINE_HALVES = 2 second pixel of a second pair, for part k of the four:
+//                            T2 + 2 k: read, T3 + 2 k: registered, T4 + 2 k: counted, T5 + 2 k: counted and written
+// The last one of 2^POOL_SWEEP_WIDTH acquisitions of the coarse phase is a sweep: all parts are read, and nothing counts. In
+// the group's first visit (pair of rows, LINE_HALVES = 2: four rows) the columns look for full bins, in its second one they
+// make room.
+// SRAM commands and loads are given one clock early (_d) for the array to register and spread.
+// Cost: counters and the stage copies of the pixel number, per array.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pair_sequencer #(
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int SLOTS = 2,
+    parameter int GROUP_SIZE = 8,
+    parameter int LINE_HALVES = 1,  // halves of a word that eight bins take, 1 or 2
+    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES),
+    localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
+    localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
+    localparam int GROUP_WORDS = (GROUPS + 1) / 2,  // of two groups each
+    localparam int ADDR_WIDTH = dtof_pkg::index_width(PIXEL_WORDS + GROUP_WORDS)
+) (
+    input  logic                  clk_i,
+    input  logic                  rst_ni,
+    input  logic                  stream_i,          // a phase is under way
+    input  logic                  coarse_i,          // it is the coarse phase
+    input  logic                  groups_i,          // the phase needs the groups' words; low in the coarse phase
+    input  logic                  more_i,            // another acquisition belongs to it
+    input  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_i,  // low bits of the number of the timestamp's at T1
+    input  logic                  tdc_valid_i,
+    output logic                  tdc_ready_o,
+    output logic                  acq_done_o,        // last timestamp of an acquisition in this clock
+    output logic                  idle_o,            // nothing in the pipeline and nothing to come
+    output logic                  underrun_o,       // tdc_valid_i is low inside an acquisition
+    // to the columns
+    output logic                  beat_t1_o,
+    output logic                  first_slot_t1_o,
+    output logic                  last_slot_t1_o,
+    output logic                  odd_t1_o,
+    output logic                  second_row_t0_o,   // the timestamp at the port is of a pair's second pixel
+    output logic                  first_row_t2_o,    // coarse: a pair's first pixel is complete
+    output logic                  second_row_t2_o,   // coarse: its second one is
+    output logic [           3:0] acquisition_t2_o,
+    // coarse
+    output logic                  keep_first_o,      // four parts, T3 of a first pair: what it has chosen is registered
+    output logic                  keep_last_o,       // four parts, T3 of a second pair: what it has chosen is
+    output logic                  load_o,            // a clock after a part's read
+    output logic [PART_WIDTH-1:0] part_o,            // with load_o
+    output logic                  sweep_o,           // from the first part's load_o to the next one's: a sweep
+    output logic                  make_room_o,       // with sweep_o: the group's second visit; low in the other phases
+    // SRAM, a clock early
+    output logic                  read_d_o,
+    output logic                  write_d_o,
+    output logic [ADDR_WIDTH-1:0] address_d_o,
+    output logic                  word_load_d_o,
+    output logic                  group_load_d_o,
+    output logic                  group_upper_d_o    // with group_load_d_o: the group is the word's upper one
+);
+
+  localparam int VISIT_PAIRS = LINE_HALVES;  // that count together
+  // With those that are missing. A group has at least two visits.
+  localparam int PAIRS = 2 * VISIT_PAIRS * ((PIXELS_PER_SRAM + 4 * VISIT_PAIRS - 1) / (4 * VISIT_PAIRS));
+  localparam int STEPS = 2 * SLOTS;
+  localparam int STEP_WIDTH = $clog2(STEPS);
+  localparam int PAIR_WIDTH = dtof_pkg::index_width(PAIRS);
+  localparam int SLOT_WIDTH = dtof_pkg::index_width(SLOTS);
+  localparam int GROUP_PAIRS = GROUP_SIZE / 2;
+  localparam int GROUP_SHIFT = $clog2(GROUP_PAIRS);
+  localparam int PARTS = 1 << PART_WIDTH;
+  localparam int PART_CLOCKS = PARTS / 2;  // from a part to the next
+  localparam logic [PAIR_WIDTH-1:0] LAST_PAIR = PAIR_WIDTH'(PAIRS - 1);
+  localparam logic [STEP_WIDTH-1:0] LAST_STEP = STEP_WIDTH'(STEPS - 1);
+  localparam logic [SLOT_WIDTH-1:0] LAST_SLOT = SLOT_WIDTH'(SLOTS - 1);
+  localparam int FIRST_STAGE = (PARTS == 2) ? 0 : 1;    // the read of the first part is given at this T
+  localparam int LAST_STAGE = FIRST_STAGE + 1 + PART_CLOCKS * PARTS;  // the write of the last one
+  // A phase ends when its last count was commanded: a clock after drain_q = 0 stream_i falls.
+  localparam int DRAIN_WIDTH = $clog2(LAST_STAGE);
+  localparam logic [DRAIN_WIDTH-1:0] DRAIN_CLOCKS = DRAIN_WIDTH'(LAST_STAGE - 1);
+  localparam logic [2:0] PRIMED = 3'd6;
+
+  // T0
+
+  logic active_q;
+  logic [2:0] prime_q;
+  logic [DRAIN_WIDTH-1:0] drain_q;
+  logic [SLOT_WIDTH-1:0] raster_q;
+  logic [STEP_WIDTH-1:0] step_q;
+  logic [PAIR_WIDTH-1:0] pair_q;
+  logic at_start, busy, missing, second_pixel, last_pair;
+
+  assign at_start = stream_i && (prime_q == PRIMED) && (raster_q == '0) && !active_q && more_i;
+  assign busy = active_q || (at_start && tdc_valid_i);
+  assign second_pixel = (step_q >= STEP_WIDTH'(SLOTS));
+  assign last_pair = (pair_q == LAST_PAIR);
+  assign missing = (32'(pair_q) * 2 + 32'(second_pixel)) >= PIXELS_PER_SRAM;
+  assign tdc_ready_o = (active_q && !missing) || at_start;
+  assign acq_done_o = busy && last_pair && (step_q == LAST_STEP);
+  assign idle_o = (drain_q == '0);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      active_q <= 1'b0;
+      prime_q <= '0;
+      drain_q <= DRAIN_CLOCKS;
+      raster_q <= '0;
+      step_q <= '0;
+      pair_q <= '0;
+    end else begin
+      if (!stream_i) begin
+        prime_q <= '0;
+        raster_q <= '0;
+        drain_q <= DRAIN_CLOCKS;
+      end else begin
+        raster_q <= (raster_q == LAST_SLOT) ? '0 : raster_q + 1'b1;
+        if (prime_q != PRIMED) begin
+          prime_q <= prime_q + 1'b1;
+        end
+        if (more_i || busy) begin
+          drain_q <= DRAIN_CLOCKS;
+        end else if (drain_q != '0) begin
+          drain_q <= drain_q - 1'b1;
+        end
+      end
+      if (busy) begin
+        active_q <= !acq_done_o;
+        step_q <= (step_q == LAST_STEP) ? '0 : step_q + 1'b1;
+        if (step_q == LAST_STEP) begin
+          pair_q <= last_pair ? '0 : pair_q + 1'b1;
+        end
+      end
+    end
+  end
+
+  // A clock without a valid timestamp inside an acquisition counts as "no detection".
+  assign underrun_o = active_q && !missing && !tdc_valid_i;
+  `DTOF_ASSERT(a_contiguous_acquisition, !underrun_o,
+               "tdc_valid_i fell inside an acquisition")
+
+  // T1
+
+  logic busy_t1_q, beat_t1_q, first_slot_t1_q, second_pixel_t1_q;
+  logic [STEP_WIDTH-1:0] step_t1_q;
+  logic [PAIR_WIDTH-1:0] pair_t1_q, next_pair_t1;
+  logic first_slot, next_group_t1, last_step_t1, second_row_t1;
+
+  assign first_slot = (step_q == '0) || (step_q == STEP_WIDTH'(SLOTS));
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      busy_t1_q <= 1'b0;
+      beat_t1_q <= 1'b0;
+      first_slot_t1_q <= 1'b0;
+    end else begin
+      busy_t1_q <= busy;
+      beat_t1_q <= busy && !missing && tdc_valid_i;
+      first_slot_t1_q <= busy && first_slot;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    step_t1_q <= step_q;
+    pair_t1_q <= pair_q;
+    second_pixel_t1_q <= second_pixel;
+  end
+
+  assign next_pair_t1 = (pair_t1_q == LAST_PAIR) ? '0 : pair_t1_q + 1'b1;
+  assign next_group_t1 = (GROUPS > 1) && ((32'(next_pair_t1) % GROUP_PAIRS) == 0);
+  // The last step of a pixel; a missing pixel has one, too.
+  assign last_step_t1 = busy_t1_q && (step_t1_q == STEP_WIDTH'(SLOTS - 1) || step_t1_q == LAST_STEP);
+  assign second_row_t1 = coarse_i && last_step_t1 && second_pixel_t1_q;
+
+  // Parts of a group's bins, from FIRST_STAGE on.
+
+  logic [LAST_STAGE:FIRST_STAGE] fetch_tn;
+  logic [LAST_STAGE:FIRST_STAGE+1] fetch_tn_q;
+  logic [(LAST_STAGE+1)*PAIR_WIDTH-1:0] pair_tn;  // of T0 .. LAST_STAGE, T0 lowest
+  logic [(LAST_STAGE-1)*PAIR_WIDTH-1:0] pair_tn_q;  // of T2 .. LAST_STAGE
+  logic [PAIR_WIDTH-1:0] pair_t3;
+  logic second_visit_t2_q, second_visit_t3_q, second_row_t2_q, second_row_t3_q, second_pair_t2_q, second_pair_t3_q;
+  logic [3:0] acquisition_t2_q;
+  logic sweep_t1, sweep_t2_q, sweep_then, second_visit_then;
+  logic [PAIR_WIDTH-1:0] pair_then;  // of the clock before the first part's load_o
+  logic read_part, load_part, write_part;
+  integer n;
+
+  assign fetch_tn = {fetch_tn_q, (PARTS == 2) ? coarse_i && busy && step_q == LAST_STEP : second_row_t1 && pair_t1_q[0]};
+  assign pair_tn = {pair_tn_q, pair_t1_q, pair_q};
+
+  always_comb begin
+    read_part = 1'b0;
+    load_part = 1'b0;
+    write_part = 1'b0;
+    for (n = 0; n < PARTS; n = n + 1) begin
+      read_part = read_part || fetch_tn[FIRST_STAGE+n*PART_CLOCKS];
+      load_part = load_part || fetch_tn[FIRST_STAGE+1+n*PART_CLOCKS];
+      write_part = write_part || fetch_tn[FIRST_STAGE+1+(n+1)*PART_CLOCKS];
+    end
+  end
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      fetch_tn_q <= '0;
+      load_o <= 1'b0;
+      second_visit_t2_q <= 1'b0;
+      second_visit_t3_q <= 1'b0;
+      second_row_t2_q <= 1'b0;
+      second_row_t3_q <= 1'b0;
+    end else begin
+      fetch_tn_q <= fetch_tn[LAST_STAGE-1:FIRST_STAGE];
+      load_o <= load_part;
+      second_visit_t2_q <= last_step_t1 && second_pixel_t1_q && !coarse_i;
+      second_visit_t3_q <= second_visit_t2_q;
+      second_row_t2_q <= second_row_t1;
+      second_row_t3_q <= second_row_t2_q;
+    end
+  end
+
+  assign sweep_t1 = (acquisition_t1_i == {dtof_pkg::POOL_SWEEP_WIDTH{1'b1}});
+  assign sweep_then = (PARTS == 2) ? sweep_t1 : sweep_t2_q;
+  assign pair_then = pair_tn[(FIRST_STAGE+1)*PAIR_WIDTH+:PAIR_WIDTH];
+  assign second_visit_then = ((32'(pair_then) % GROUP_PAIRS) / VISIT_PAIRS == 1);
+
+  always_ff @(posedge clk_i) begin
+    pair_tn_q <= pair_tn[PAIR_WIDTH+:(LAST_STAGE-1)*PAIR_WIDTH];
+    acquisition_t2_q <= acquisition_t1_i[3:0];
+    sweep_t2_q <= sweep_t1;
+    first_row_t2_o <= coarse_i && last_step_t1 && !second_pixel_t1_q;
+    second_pair_t2_q <= pair_t1_q[0];
+    second_pair_t3_q <= second_pair_t2_q;
+    if (load_part) begin
+      part_o <= fetch_tn[FIRST_STAGE+1] ? '0 : part_o + 1'b1;
+    end
+    if (fetch_tn[FIRST_STAGE+1]) begin
+      sweep_o <= sweep_then;
+    end
+    make_room_o <= coarse_i && (fetch_tn[FIRST_STAGE+1] ? sweep_then && second_visit_then : make_room_o);
+  end
+
+  `DTOF_ASSERT(a_phase_complete, stream_i || (!busy_t1_q && !second_visit_t2_q && !second_visit_t3_q && fetch_tn_q == '0),
+               "a phase ended with timestamps in the pipeline")
+
+  assign beat_t1_o = beat_t1_q;
+  assign first_slot_t1_o = first_slot_t1_q;
+  assign last_slot_t1_o = last_step_t1;
+  assign odd_t1_o = acquisition_t1_i[0];
+  assign second_row_t0_o = second_pixel;
+  assign acquisition_t2_o = acquisition_t2_q;
+  assign second_row_t2_o = second_row_t2_q;
+  assign keep_first_o = second_row_t3_q && PARTS == 4 && !second_pair_t3_q;
+  assign keep_last_o = second_row_t3_q && PARTS == 4 && second_pair_t3_q;
+  assign pair_t3 = pair_tn[3*PAIR_WIDTH+:PAIR_WIDTH];
+
+  logic prime_group, prime_word, read_group, read_word, write_word;
+  assign prime_group = stream_i && groups_i && (prime_q == 3'd1);
+  assign prime_word = stream_i && !coarse_i && (prime_q == 3'd2);
+  assign read_group = busy_t1_q && groups_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 2));
+  assign read_word = busy_t1_q && !coarse_i && (step_t1_q == LAST_STEP);
+  assign write_word = second_visit_t3_q;
+
+  assign read_d_o = prime_group || prime_word || read_group || read_word || read_part;
+  assign write_d_o = write_word || write_part;
+  assign group_load_d_o = groups_i && (prime_word || (busy_t1_q && next_group_t1 && step_t1_q == LAST_STEP));
+  assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || second_visit_t2_q;
+
+  assign group_upper_d_o = !prime_word && 1'(32'(next_pair_t1) >> GROUP_SHIFT);
+
+  // The part of a group's bins that is read or written next. None is read while one is written.
+  function automatic logic [ADDR_WIDTH-1:0] word_of(input logic [PAIR_WIDTH-1:0] pair,
+                                                           input logic [ADDR_WIDTH-1:0] part);
+    word_of = ADDR_WIDTH'((32'(pair) >> GROUP_SHIFT) << GROUP_SHIFT) | part;
+  endfunction
+
+  logic [ADDR_WIDTH-1:0] part_address;
+  integer m;
+  always_comb begin
+    part_address = '0;
+    for (m = 0; m < PARTS; m = m + 1) begin
+      if (fetch_tn[FIRST_STAGE+m*PART_CLOCKS]) begin
+        part_address = word_of(pair_tn[(FIRST_STAGE+m*PART_CLOCKS)*PAIR_WIDTH+:PAIR_WIDTH], ADDR_WIDTH'(m));
+      end
+      if (fetch_tn[FIRST_STAGE+1+(m+1)*PART_CLOCKS]) begin
+        part_address = word_of(pair_tn[(FIRST_STAGE+1+(m+1)*PART_CLOCKS)*PAIR_WIDTH+:PAIR_WIDTH], ADDR_WIDTH'(m));
+      end
+    end
+  end
+
+  always_comb begin
+    address_d_o = '0;
+    if (read_group) begin
+      address_d_o = ADDR_WIDTH'(PIXEL_WORDS + (32'(next_pair_t1) >> (GROUP_SHIFT + 1)));
+    end else if (prime_group) begin
+      address_d_o = ADDR_WIDTH'(PIXEL_WORDS);
+    end else if (read_word) begin
+      address_d_o = ADDR_WIDTH'(next_pair_t1);
+    end else if (write_word) begin
+      address_d_o = ADDR_WIDTH'(pair_t3);
+    end else if (coarse_i) begin
+      address_d_o = part_address;
+    end
+  end
+
+endmodule
+
+`default_nettype wire

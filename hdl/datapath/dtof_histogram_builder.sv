@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// The histograms of a column in one two-port SRAM, which counts one timestamp a clock (thesis 4.4, Fig. 4.9 to 4.11).
+//
+// 1. Counting. A timestamp's address {pixel, bin} is read, one is added, and the count is written back. That takes five
+//    clocks, and a new timestamp starts in every one of them.
+// 2. Timestamps up to three clocks apart may meet in one address before it is written. Then the pending count is
+//    forwarded at T4 instead of what the SRAM returned. Only distances at which two timestamps can be of one pixel have
+//    a comparator.
+// 3. Freezing. A bin at 2^COUNT_WIDTH - 1 is full. With FREEZE the write that fills the first bin of a pixel freezes the
+//    pixel: the writes of all its later timestamps are dropped until clear_all_i, so that no other bin catches up with
+//    the full one, and no counter wraps. A flip-flop a pixel says so, which is read and set at T5. What was forwarded from
+//    a dropped write is dropped, too, for it is of the same pixel and later. Without FREEZE a full bin stays full, and the
+//    others count on.
+// 4. Scanning. The control reads the addresses one after the other; count_s2_o shows each count, and the address is
+//    cleared behind the read. With SIGNALLED_CLEAR a status bit an address says whether it was written since the last
+//    clear_all_i, and nothing is cleared by writing.
+//
+//   clock    counting                              scanning
+//   T1       bin and hit arrive
+//   T2 / S0  SRAM read                             SRAM read
+//   T3 / S1  data registered, bins compared        data registered, the address cleared
+//   T4 / S2  + 1                                   the count is at count_s2_o
+//   T5       SRAM write, unless frozen
+//
+// The registers need no reset: beat_t5_i masks every write. They rest where there is no hit and no scan.
+// Cost at the defaults: 47 flip-flops and with FREEZE one a pixel, an incrementer, one bin comparator; block RAM on an FPGA.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_histogram_builder #(
+    parameter int PIXELS_PER_SRAM = 160,  // histograms
+    parameter int BIN_WIDTH = 5,         // log2 of the bins of each
+    parameter int SLOTS = 2,             // timestamps of a pixel one after the other
+    parameter int COUNT_WIDTH = 10,      // bits of a count
+    parameter int FREEZE = 1,            // 1: a pixel's first full bin ends its counting; 0: counters saturate
+    parameter int SIGNALLED_CLEAR = 0,   // 1: a status bit an address instead of clearing
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
+) (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,          // of the assertions alone
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
+    // timestamp at T1
+    input  logic                   hit_t1_i,        // it counts
+    input  logic [  BIN_WIDTH-1:0] bin_t1_i,
+    // schedule, common to all columns; neither scan nor clear with a timestamp in the pipeline
+    input  logic [          3:1]   same_pixel_t3_i,  // [d]: the timestamp d clocks ahead is of the same pixel
+    input  logic                   beat_t5_i,       // a timestamp is at T5
+    input  logic                   scan_s0_i,       // read for the scan instead of T2
+    input  logic [  BIN_WIDTH-1:0] scan_bin_s0_i,
+    input  logic [  ROW_WIDTH-1:0] read_pixel_i,    // pixel of T2 or S0
+    input  logic                   clear_s1_i,      // clear instead of T5
+    input  logic [  BIN_WIDTH-1:0] clear_bin_s1_i,
+    input  logic [  ROW_WIDTH-1:0] write_pixel_i,   // pixel of T5 or S1
+    input  logic                   clear_all_i,     // of what is frozen, and signalled clear
+    output logic [COUNT_WIDTH-1:0] count_s2_o,      // of the address of S0
+    output logic                   full_t5_o        // a bin gets full, or with FREEZE = 0 was full already
+);
+
+  localparam int BINS = 1 << BIN_WIDTH;
+  localparam int DEPTH = PIXELS_PER_SRAM * BINS;
+  localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH);
+  // Shortest distance from a pixel's last slot to its first slot of the next acquisition.
+  localparam int NEXT_VISIT = (PIXELS_PER_SRAM - 1) * SLOTS + 1;
+  localparam int FORWARD_DEPTH = (NEXT_VISIT <= 3) ? 3 : ((SLOTS - 1 < 3) ? SLOTS - 1 : 3);
+
+  logic hit_t2_q, hit_t3_q, hit_t4_q, hit_t5_q, read_done_q;
+  logic [BIN_WIDTH-1:0] bin_t2_q, bin_t3_q, bin_t4_q, bin_t5_q;
+  logic [COUNT_WIDTH-1:0] sram_data, valid_data, count_q, operand, incremented, written_q;
+  logic [ADDR_WIDTH-1:0] read_addr, write_addr;
+  logic read_en, build_write, frozen, write_en;
+
+  assign read_en = scan_s0_i || hit_t2_q;
+  assign read_addr = ADDR_WIDTH'({read_pixel_i, scan_s0_i ? scan_bin_s0_i : bin_t2_q});
+  assign build_write = beat_t5_i && hit_t5_q && !frozen;
+  assign full_t5_o = build_write && (&written_q);
+  assign write_addr = ADDR_WIDTH'({write_pixel_i, clear_s1_i ? clear_bin_s1_i : bin_t5_q});
+
+  dtof_sram #(
+      .PORTS(2),
+      .DEPTH(DEPTH),
+      .WIDTH(COUNT_WIDTH)
+  ) u_histogram_sram (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
+      .read_en_i   (read_en),
+      .read_addr_i (read_addr),
+      .read_data_o (sram_data),
+      .write_en_i  (write_en),
+      .write_addr_i(write_addr),
+      .write_data_i(clear_s1_i ? '0 : written_q)
+  );
+
+  generate
+    if (SIGNALLED_CLEAR != 0) begin : g_signalled_clear
+      logic valid;
+      dtof_status_bits #(
+          .DEPTH(DEPTH)
+      ) u_status_bits (
+          .clk_i       (clk_i),
+          .clear_i     (clear_all_i),
+          .write_i     (build_write),
+          .write_addr_i(write_addr),
+          .read_i      (read_en),
+          .read_addr_i (read_addr),
+          .valid_o     (valid)
+      );
+      assign valid_data = valid ? sram_data : '0;
+      assign write_en = build_write;
+    end else begin : g_clear
+      logic unused_clear_all;
+      assign unused_clear_all = clear_all_i;
+      assign valid_data = sram_data;
+      assign write_en = build_write || clear_s1_i;
+    end
+  endgenerate
+
+  always_ff @(posedge clk_i) begin
+    hit_t2_q <= hit_t1_i;
+    hit_t3_q <= hit_t2_q;
+    hit_t4_q <= hit_t3_q;
+    hit_t5_q <= hit_t4_q;
+    read_done_q <= read_en;
+    if (hit_t1_i) begin
+      bin_t2_q <= bin_t1_i;
+    end
+    if (hit_t2_q) begin
+      bin_t3_q <= bin_t2_q;
+    end
+    if (hit_t3_q) begin
+      bin_t4_q <= bin_t3_q;
+    end
+    if (hit_t4_q) begin
+      bin_t5_q <= bin_t4_q;
+      written_q <= incremented;
+    end
+    if (read_done_q) begin
+      count_q <= valid_data;
+    end
+  end
+
+  assign count_s2_o = count_q;
+
+  generate
+    if (FREEZE != 0) begin : g_freeze
+      logic [PIXELS_PER_SRAM-1:0] frozen_q;
+      always_ff @(posedge clk_i) begin
+        if (clear_all_i) begin
+          frozen_q <= '0;
+        end else if (full_t5_o) begin
+          frozen_q[write_pixel_i] <= 1'b1;
+        end
+      end
+      assign frozen = frozen_q[write_pixel_i];
+      // A full bin's pixel is frozen: what its counter would wrap to is never written.
+      assign incremented = operand + 1'b1;
+    end else begin : g_saturate
+      // All ones plus one overflows to zero: the overflow bit puts the ones back, beside the adder.
+      logic [COUNT_WIDTH:0] plus_one;
+      assign plus_one = {1'b0, operand} + 1'b1;
+      assign frozen = 1'b0;
+      assign incremented = plus_one[COUNT_WIDTH-1:0] | {COUNT_WIDTH{plus_one[COUNT_WIDTH]}};
+    end
+  endgenerate
+
+  // A pending count is forwarded if pixel and bin are the same; decided at T3, one clock before the addition.
+  generate
+    if (FORWARD_DEPTH == 0) begin : g_no_forward
+      logic unused_forward;
+      assign unused_forward = ^same_pixel_t3_i;
+      assign operand = count_q;
+    end else if (FORWARD_DEPTH == 1) begin : g_forward_one
+      logic unused_forward;
+      assign unused_forward = ^same_pixel_t3_i[3:2];
+      logic forward_t4_q;
+      always_ff @(posedge clk_i) begin
+        forward_t4_q <= same_pixel_t3_i[1] && hit_t4_q && (bin_t4_q == bin_t3_q);
+      end
+      assign operand = forward_t4_q ? written_q : count_q;
+    end else begin : g_forward
+      // Stages behind the write: T6 and T7.
+      logic hit_t6_q;
+      logic [BIN_WIDTH-1:0] bin_t6_q;
+      logic [COUNT_WIDTH-1:0] written_t6_q, written_t7_q;
+      logic [3:1] forward_t4_q;
+      always_ff @(posedge clk_i) begin
+        hit_t6_q <= hit_t5_q;
+        bin_t6_q <= bin_t5_q;
+        written_t6_q <= written_q;
+        written_t7_q <= written_t6_q;
+        forward_t4_q[1] <= same_pixel_t3_i[1] && hit_t4_q && (bin_t4_q == bin_t3_q);
+        forward_t4_q[2] <= same_pixel_t3_i[2] && hit_t5_q && (bin_t5_q == bin_t3_q);
+        forward_t4_q[3] <= same_pixel_t3_i[3] && hit_t6_q && (bin_t6_q == bin_t3_q);
+      end
+      assign operand = forward_t4_q[1] ? written_q
+          : forward_t4_q[2] ? written_t6_q
+          : forward_t4_q[3] ? written_t7_q : count_q;
+    end
+  endgenerate
+
+  `DTOF_ASSERT(a_no_scan_while_building, !(scan_s0_i && hit_t2_q),
+               "histogram scanned while a timestamp is being counted")
+  `DTOF_ASSERT(a_no_clear_while_building, !(clear_s1_i && build_write),
+               "histogram cleared while a count is being written")
+
+endmodule
+
+`default_nettype wire

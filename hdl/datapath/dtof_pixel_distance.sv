@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The distance from a timestamp to the place where a pixel's word points, as the word's update needs it. Combinational.
+//
+// Equations (docs/reference/poolpointer2.md, Track and Point), distances floored to cells of 512 positions, those to a settled
+// pointer (n >= 16, or 12 of 15) to cells of 2^CELL_SHIFT:
+//   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
+//   point  d = (X - leader's position) >> 9 (or CELL_SHIFT): in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
+//          rival's hit if -RIVAL_REACH <= (X >> 9) - rival < RIVAL_REACH (RIVAL_MOVES = 1) or candidate b is hit (0);
+//          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
+// Cost: a row of carries and an adder of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pixel_distance #(
+    parameter int LABELS = 5,
+    parameter int SCORES_WIDTH = 24,
+    parameter int OFFSET_BITS = 5,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
+    parameter int PIXEL_WIDTH = 32,
+    parameter int RIVAL_REACH = 6,                      // cells to either side of the rival
+    parameter logic [23:0] WEIGHTS = 24'o12344431       // of the distances 0 to 7, one octal digit each, 0 lowest
+) (
+    input  logic                                        valid_i,         // there is a timestamp
+    input  logic [                                15:0] position_i,      // X
+    input  logic [                     PIXEL_WIDTH-1:0] word_i,
+    input  logic [       dtof_pkg::POOL_CELL_WIDTH-1:0] leader_cell_i,   // of the candidate that the word leans on
+    input  logic [                          LABELS-1:0] hits_i,
+    output logic [  dtof_pkg::POOL2_DISTANCE_WIDTH-1:0] distance_o       // pixel_distance_t; 0 without a timestamp
+);
+
+  `include "dtof_pixel_distance.svh"
+  pixel_distance_t found;
+  assign distance_o = found;
+
+  localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);
+  localparam int OFFSET_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 1);
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
+  localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
+  localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES);
+  localparam int DISTANCE_WIDTH = 16 - POINTER_SHIFT + 2;
+  // From the pointer's units to cells: until the pointer has settled, afterwards, and the finer of both.
+  localparam int START_SHIFT = 9 - POINTER_SHIFT;
+  localparam int SETTLED_SHIFT = CELL_SHIFT - POINTER_SHIFT;
+  localparam int CELLS_WIDTH = DISTANCE_WIDTH - ((CELL_SHIFT < 9) ? SETTLED_SHIFT : START_SHIFT);
+  localparam logic [CELLS_WIDTH-1:0] REACH = CELLS_WIDTH'(8);
+  localparam logic [ADVANTAGE_WIDTH-1:0] SETTLED_FROM = ADVANTAGE_WIDTH'((ADVANTAGE_WIDTH == 7) ? 16 : 12);
+  localparam logic [2:0] NEAR = 3'd4;  // cells to the leader, 0 the one in which it is
+  localparam logic [2:0] RIVAL_NEAR = 3'(RIVAL_REACH - 1);
+
+  logic [LABEL_WIDTH-1:0] resting_rival;
+  logic [OFFSET_WIDTH-1:0] offset;
+  // In units of 64; the leader's position is within the range, since the offset follows timestamps.
+  logic [10:0] track_position, minus_leader, minus_offset, track_sum, track_carry, track_distance;
+  logic [7:0] track_cells, rival_cells;
+  logic [POINTER_WIDTH-1:0] pointer;
+  logic [DISTANCE_WIDTH-1:0] position, minus_cell, minus_pointer, point_sum, point_carry, distance;
+  logic settled, below, reach, hit, rival_below;
+  logic [CELLS_WIDTH-1:0] point_cells;
+  logic [2:0] cells_away, rival_away;
+  logic [6:0] advantage;
+
+  assign position = {2'b00, position_i[15:POINTER_SHIFT]};
+
+  // Under valid_i alone, so that a simulator works on timestamps; the defaults say that nothing is kept.
+  always_comb begin
+    found = '0;
+    resting_rival = '0;
+    offset = '0;
+    track_position = '0;
+    minus_leader = '0;
+    minus_offset = '0;
+    track_sum = '0;
+    track_carry = '0;
+    track_distance = '0;
+    track_cells = '0;
+    rival_cells = '0;
+    pointer = '0;
+    minus_cell = '0;
+    minus_pointer = '0;
+    point_sum = '0;
+    point_carry = '0;
+    distance = '0;
+    point_cells = '0;
+    cells_away = '0;
+    settled = 1'b0;
+    below = 1'b0;
+    reach = 1'b0;
+    hit = 1'b0;
+    rival_below = 1'b0;
+    rival_away = '0;
+    advantage = '0;
+    if (valid_i) begin
+      // Track: offset.
+      offset = OFFSET_WIDTH'(word_i >> (SCORES_WIDTH + LABEL_WIDTH));
+      // Both are taken away in one addition: sums and carries of the three, and 1 for each complement.
+      track_position = 11'(position_i >> 6);
+      minus_leader = ~{1'b0, leader_cell_i, 3'b000};
+      minus_offset = ~{{(11 - OFFSET_WIDTH) {1'(offset >> (OFFSET_WIDTH - 1))}}, offset};
+      track_sum = track_position ^ minus_leader ^ minus_offset;
+      track_carry = (track_position & minus_leader) | (track_position & minus_offset) | (minus_leader & minus_offset);
+      track_distance = track_sum + ((track_carry << 1) | 11'd1) + 11'd1;
+      track_cells = 8'(track_distance >> 3);
+      found.offset_up = (OFFSET_BITS > 0) && (track_cells != 8'd0) && (track_cells < 8'd8);
+      found.offset_down = (OFFSET_BITS > 0) && (track_cells >= -8'd8) && (track_cells != -8'd1);
+
+      // Point: leader, in the pointer's units; of a pointer beside a candidate both are taken away in one addition, too.
+      pointer = POINTER_WIDTH'(word_i);
+      if (RIVAL_MOVES != 0) begin
+        distance = position - DISTANCE_WIDTH'(pointer);
+      end else begin
+        minus_cell = ~(DISTANCE_WIDTH'({leader_cell_i, {START_SHIFT{1'b0}}}));
+        minus_pointer = ~{{(DISTANCE_WIDTH - POINTER_WIDTH) {1'(pointer >> (POINTER_WIDTH - 1))}}, pointer};
+        point_sum = position ^ minus_cell ^ minus_pointer;
+        point_carry = (position & minus_cell) | (position & minus_pointer) | (minus_cell & minus_pointer);
+        distance = point_sum + ((point_carry << 1) | DISTANCE_WIDTH'(1)) + DISTANCE_WIDTH'(1);
+      end
+      if (CELL_SHIFT == 9) begin
+        point_cells = CELLS_WIDTH'(distance >> START_SHIFT);
+      end else begin
+        settled = ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH)) >= SETTLED_FROM;
+        point_cells = settled ? CELLS_WIDTH'($signed(distance) >>> SETTLED_SHIFT)
+            : CELLS_WIDTH'($signed(distance) >>> START_SHIFT);
+      end
+      below = 1'(point_cells >> (CELLS_WIDTH - 1));
+      cells_away = 3'(point_cells) ^ {3{below}};
+      reach = (point_cells < REACH) || (point_cells >= -REACH);
+      hit = reach && (cells_away <= NEAR);
+      found.reach = reach;
+      found.hit = hit;
+      found.up = !below;
+      found.weight = WEIGHTS[3*cells_away+:3];
+
+      advantage = 7'(ADVANTAGE_WIDTH'(word_i >> (POINT_WIDTH - ADVANTAGE_WIDTH)));
+      if (ADVANTAGE_WIDTH == 7) begin
+        if (advantage >= 7'd124) found.gear = 4'd0;
+        else if (advantage >= 7'd116) found.gear = 4'd1;
+        else if (advantage >= 7'd100) found.gear = 4'd2;
+        else if (advantage >= 7'd80) found.gear = 4'd3;
+        else if (advantage >= 7'd64) found.gear = 4'd4;
+        else if (advantage >= 7'd32) found.gear = 4'd5;
+        else if (advantage >= 7'd16) found.gear = 4'd6;
+        else if (advantage >= 7'd8) found.gear = 4'd7;
+        else found.gear = 4'd8;
+      end else begin
+        if (advantage == 7'd15) found.gear = 4'(4 - POINTER_SHIFT);
+        else if (advantage == 7'd14) found.gear = 4'(5 - POINTER_SHIFT);
+        else if (advantage >= 7'd12) found.gear = 4'(6 - POINTER_SHIFT);
+        else if (advantage >= 7'd8) found.gear = 4'(7 - POINTER_SHIFT);
+        else if (advantage >= 7'd4) found.gear = 4'(8 - POINTER_SHIFT);
+        else found.gear = 4'(9 - POINTER_SHIFT);
+      end
+
+      // Point: rival.
+      rival_cells = 8'(position_i >> 9) - 8'(RIVAL_WIDTH'(word_i >> POINTER_WIDTH));
+      rival_below = 1'(rival_cells >> 7);
+      rival_away = 3'(rival_cells) ^ {3{rival_below}};
+      resting_rival = LABEL_WIDTH'(word_i >> (POINTER_WIDTH + LABEL_WIDTH));
+      if (RIVAL_MOVES != 0) begin
+        found.rival_hit = !hit && (rival_cells < 8'd8 || rival_cells >= -8'd8) && (rival_away <= RIVAL_NEAR);
+        found.rival_up = !rival_below && (rival_cells != 8'd0);
+        found.rival_down = rival_below;
+      end else begin
+        found.rival_hit = !hit && hits_i[resting_rival];
+      end
+    end
+  end
+
+  logic unused;
+  assign unused = ^{1'b0, settled, position_i, word_i, leader_cell_i, hits_i};
+
+endmodule
+
+`default_nettype wire

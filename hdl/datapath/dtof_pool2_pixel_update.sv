@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: the next word of a pixel after one timestamp, for the columns of a pair one after the other.
+//
+// Equations: docs/reference/poolpointer2.md, Track, Point.
+//   clock   of a pixel
+//   0       where the timestamp is (dtof_pixel_distance), whose scores are compared; registered
+//   1       the next word, combinational
+// A clock without a timestamp leaves all registers as they are, so that nothing behind them moves.
+// Throughput: a pixel a clock. Cost at the defaults: see reports/area.md.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pool2_pixel_update #(
+    parameter int NP = 10,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
+    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
+    localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
+    localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS)
+) (
+    input  logic                   clk_i,
+    input  logic                   track_i,        // the track phase
+    input  logic                   point_i,        // the pointer phase
+    // clock 0
+    input  logic                   valid_i,        // the pixel has a timestamp
+    input  logic [         NP-1:0] timestamp_i,    // the one that counts
+    input  logic [     LABELS-1:0] hits_i,         // candidates that it hits
+    input  logic [ CELL_WIDTH-1:0] leader_cell_i,  // of the candidate that the word leans on
+    input  logic [PIXEL_WIDTH-1:0] word_i,
+    // clock 1
+    input  logic [            3:0] acquisition_i,  // mod 16
+    output logic                   changed_o,      // the last pixel with a timestamp gets another word; low in neither phase
+    output logic [PIXEL_WIDTH-1:0] word_o          // of the last pixel with a timestamp; 0 in neither phase
+);
+
+  logic [15:0] position;
+
+  generate
+    if (NP == 16) begin : g_position
+      assign position = timestamp_i;
+    end else begin : g_middle_of_bin
+      // The middle of a timestamp's bin; zeros follow.
+      assign position = {timestamp_i, 1'b1, {(15 - NP) {1'b0}}};
+    end
+  endgenerate
+
+  `include "dtof_pixel_distance.svh"
+  pixel_distance_t distance, distance_q;
+  logic [LABELS-1:0] hits_q;
+  logic [SCORE_BITS-1:0] leader_score, leader_score_q;
+  logic [PIXEL_WIDTH-1:0] word_q;
+
+  dtof_pixel_distance #(
+      .LABELS         (LABELS),
+      .SCORES_WIDTH   (LABELS * SCORE_BITS),
+      .OFFSET_BITS    (OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES),
+      .CELL_SHIFT     (CELL_SHIFT),
+      .PIXEL_WIDTH    (PIXEL_WIDTH)
+  ) u_pixel_distance (
+      .valid_i      (valid_i),
+      .position_i   (position),
+      .word_i       (word_i),
+      .leader_cell_i(leader_cell_i),
+      .hits_i       (hits_i),
+      .distance_o   (distance)
+  );
+
+  generate
+    if (OFFSET_BITS == 0) begin : g_no_leader
+      assign leader_score = '0;
+    end else begin : g_leader
+      logic [LABEL_WIDTH-1:0] leader;
+      integer k;
+      assign leader = word_i[LABELS*SCORE_BITS+:LABEL_WIDTH];
+      always_comb begin
+        leader_score = '0;
+        for (k = 0; k < LABELS; k = k + 1) begin
+          leader_score = leader_score | (SCORE_BITS'(word_i >> (k * SCORE_BITS)) & {SCORE_BITS{leader == LABEL_WIDTH'(k)}});
+        end
+      end
+    end
+  endgenerate
+
+  always_ff @(posedge clk_i) begin
+    if (valid_i) begin
+      distance_q <= distance;
+      leader_score_q <= leader_score;
+      hits_q <= hits_i;
+      word_q <= word_i;
+    end
+  end
+
+  // The next word.
+
+  logic [TRACK_WIDTH-1:0] tracked;
+  logic [POINT_WIDTH-1:0] pointed;
+  logic track_changes, point_changes;
+
+  dtof_pool2_track_update #(
+      .LABELS     (LABELS),
+      .SCORE_BITS (SCORE_BITS),
+      .OFFSET_BITS(OFFSET_BITS)
+  ) u_track_update (
+      .word_i        (word_q[TRACK_WIDTH-1:0]),
+      .leader_score_i(leader_score_q),
+      .hits_i        (hits_q),
+      .offset_up_i   (distance_q.offset_up),
+      .offset_down_i (distance_q.offset_down),
+      .changed_o     (track_changes),
+      .word_o        (tracked)
+  );
+
+  dtof_twin_pointer_update #(
+      .LABELS         (LABELS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT  (POINTER_SHIFT),
+      .RIVAL_MOVES    (RIVAL_MOVES)
+  ) u_pointer_update (
+      .update_i     (point_i),
+      .word_i       (word_q[POINT_WIDTH-1:0]),
+      .reach_i      (distance_q.reach),
+      .up_i         (distance_q.up),
+      .weight_i     (distance_q.weight),
+      .gear_i       (distance_q.gear),
+      .hit_i        (distance_q.hit),
+      .rival_hit_i  (distance_q.rival_hit),
+      .rival_up_i   (distance_q.rival_up),
+      .rival_down_i (distance_q.rival_down),
+      .acquisition_i(acquisition_i),
+      .changed_o    (point_changes),
+      .word_o       (pointed)
+  );
+
+  assign changed_o = (track_i && track_changes) || (point_i && point_changes);
+
+  assign word_o = (PIXEL_WIDTH'(tracked) & {PIXEL_WIDTH{track_i}}) | (PIXEL_WIDTH'(pointed) & {PIXEL_WIDTH{point_i}});
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pixel's track word after one timestamp: scores of the candidates, leader, its offset. Combinational.
+//
+// Equation (docs/reference/poolpointer2.md, Track): the lowest candidate hit gains a point, or the others lose one if its
+// score is full; it leads if it is now ahead of the leader. The leader's offset follows the timestamp by 4, 2 or 1, as
+// the leader's score grows, and starts anew with a new leader.
+// Cost: an incrementer or decrementer per score, an adder of the offset; about 20 gate delays.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pool2_track_update #(
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,  // 0: neither offset nor leader
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS)
+) (
+    input  logic [TRACK_WIDTH-1:0] word_i,         // {offset, leader, scores}
+    input  logic [ SCORE_BITS-1:0] leader_score_i,
+    input  logic [     LABELS-1:0] hits_i,         // none without a timestamp
+    input  logic                   offset_up_i,
+    input  logic                   offset_down_i,
+    output logic                   changed_o,      // low: the word stays as it is
+    output logic [TRACK_WIDTH-1:0] word_o
+);
+
+  localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
+
+  // Scores.
+
+  logic [LABELS-1:0] winner, gain, loss;
+  logic [SCORE_BITS-1:0] winner_score;
+  logic [SCORES_WIDTH-1:0] score, step, next_score;
+  logic hit, full;
+
+  assign winner = hits_i & (~hits_i + 1'b1);
+  assign hit = |hits_i;
+  assign full = (winner_score == '1);
+  assign score = word_i[SCORES_WIDTH-1:0];
+
+  integer j;
+  always_comb begin
+    winner_score = '0;
+    for (j = 0; j < LABELS; j = j + 1) begin
+      winner_score = winner_score | (score[j*SCORE_BITS+:SCORE_BITS] & {SCORE_BITS{winner[j]}});
+    end
+    for (j = 0; j < LABELS; j = j + 1) begin
+      gain[j] = winner[j] && !full;
+      loss[j] = hit && full && !winner[j] && (score[j*SCORE_BITS+:SCORE_BITS] != '0);
+      step[j*SCORE_BITS+:SCORE_BITS] = {SCORE_BITS{loss[j]}} | SCORE_BITS'(gain[j]);  // 1, 0, -1
+      next_score[j*SCORE_BITS+:SCORE_BITS] = score[j*SCORE_BITS+:SCORE_BITS] + step[j*SCORE_BITS+:SCORE_BITS];
+    end
+  end
+
+  generate
+    if (OFFSET_BITS == 0) begin : g_scores_alone
+      assign word_o = next_score;
+      assign changed_o = (hit && !full) || (loss != '0);
+      logic unused;
+      assign unused = ^{leader_score_i, offset_up_i, offset_down_i};
+    end else begin : g_leader
+      localparam int SUM_WIDTH = dtof_pkg::max_of(OFFSET_BITS, 4) + 1;
+      localparam logic signed [SUM_WIDTH-1:0] HIGHEST = SUM_WIDTH'((1 << (OFFSET_BITS - 1)) - 1);
+      // Leader's scores from which its offset moves by 2 and by 1.
+      localparam int SLOWER_FROM = 3;
+      localparam int SLOWEST_FROM = 8;
+
+      logic [LABEL_WIDTH-1:0] leader, winner_label;
+      logic change;
+      integer i;
+
+      assign leader = word_i[SCORES_WIDTH+:LABEL_WIDTH];
+
+      always_comb begin
+        winner_label = '0;
+        for (i = 0; i < LABELS; i = i + 1) begin
+          winner_label = winner_label | (LABEL_WIDTH'(i) & {LABEL_WIDTH{winner[i]}});
+        end
+      end
+
+      // Offset. The limits are exact: a sum beyond them is one less or more than the numbers that OFFSET_BITS hold.
+
+      logic signed [SUM_WIDTH-1:0] offset, move, sum, limited;
+
+      assign offset = $signed({{(SUM_WIDTH - OFFSET_BITS) {word_i[TRACK_WIDTH-1]}}, word_i[TRACK_WIDTH-1-:OFFSET_BITS]});
+      assign move = (32'(leader_score_i) < SLOWER_FROM) ? SUM_WIDTH'(4)
+          : (32'(leader_score_i) < SLOWEST_FROM) ? SUM_WIDTH'(2) : SUM_WIDTH'(1);
+      assign sum = offset_up_i ? offset + move : offset_down_i ? offset - move : offset;
+      assign limited = (sum > HIGHEST) ? HIGHEST : (sum < ~HIGHEST) ? ~HIGHEST : sum;
+
+      // A full winner passes whoever led: the others lose a point.
+      assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score_i);
+
+      assign changed_o = (hit && !full) || (loss != '0) || change || offset_up_i || offset_down_i;
+      assign word_o = {change ? OFFSET_BITS'(0) : limited[OFFSET_BITS-1:0], change ? winner_label : leader, next_score};
+
+      logic unused;
+      assign unused = ^limited;
+    end
+  endgenerate
+
+endmodule
+
+`default_nettype wire

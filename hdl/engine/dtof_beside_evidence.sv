@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: what speaks for each candidate of a pixel: its score, and what the columns beside say.
+//
+// Equations (docs/reference/poolpointer2.md, Choose): E(k) = score[k] - (k >= 2 ? B >> 3 : 0) - from_left - from_right.
+// A candidate more than four cells from the one chosen in the column to the left pays 2 + (3 B >> 4). One more than four
+// cells from the best candidate of the pixel to the right pays 1 + (3 B >> 4), but no more than the best one of that
+// pixel is ahead of its second one if it is near the second one.
+//
+// 1. The word of the pixel to the right is taken, then its group's cells; its candidates are ranked, one a clock.
+// 2. The pixel itself is taken with advance_i.
+// 3. Its candidates pass, one a clock, are compared with the three cells, and leave their evidence in the next clock.
+//
+// Schedule: the table of dtof_pool2_sequencer; evidence_o and cells_o hold from the clock after the last comparison until
+//   advance_i, which may come in that clock.
+// Cost: three comparators of cells, some 150 flip-flops at the defaults, per engine.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_beside_evidence #(
+    parameter int LABELS = 5,      // candidates of a group
+    parameter int SCORE_BITS = 4,  // of each
+    localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
+    localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
+    localparam int GROUP_WIDTH = LABELS * CELL_WIDTH + BACKGROUND_WIDTH,  // candidates and the whole background
+    localparam int EVIDENCE_WIDTH = dtof_pkg::POOL2_EVIDENCE_WIDTH
+) (
+    input  logic                             clk_i,
+    input  logic [dtof_pkg::POOL2_BESIDE_COMMAND_WIDTH-1:0] command_i,  // beside_command_t
+    // the pixel to the right: its scores with take_right_pixel, its group's word with first_rank
+    input  logic [    LABELS*SCORE_BITS-1:0] right_scores_i,
+    input  logic                             has_right_i,     // there is a column to the right
+    // the pixel prepared, taken with advance_i, and its group's word
+    input  logic                             advance_i,
+    input  logic [    LABELS*SCORE_BITS-1:0] scores_i,
+    input  logic [          GROUP_WIDTH-1:0] group_i,         // {B, cells}; also that of the pixel to the right
+    input  logic [           CELL_WIDTH-1:0] left_cell_i,     // with compare: chosen in the column to the left
+    output logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_o,      // signed
+    output logic [    LABELS*CELL_WIDTH-1:0] cells_o,
+    output logic [     BACKGROUND_WIDTH-1:0] background_o
+);
+
+  `include "dtof_pool2_command.svh"
+  beside_command_t command;
+  assign command = command_i;
+
+  localparam int COST_WIDTH = 4;  // 2 + (3 * 39 >> 4) at most
+  localparam int LATENESS_SHIFT = 3;
+  localparam int LATENESS_WIDTH = BACKGROUND_WIDTH - LATENESS_SHIFT;
+
+  localparam logic signed [CELL_WIDTH:0] REACH = (CELL_WIDTH + 1)'(4);
+
+  function automatic logic far(input logic [CELL_WIDTH-1:0] cell_a, input logic [CELL_WIDTH-1:0] cell_b);
+    logic signed [CELL_WIDTH:0] distance;
+    distance = $signed({1'b0, cell_a}) - $signed({1'b0, cell_b});
+    far = (distance > REACH) || (distance < -REACH);
+  endfunction
+
+  // The pixel to the right: its best two candidates, the lower one on a tie.
+
+  logic [LABELS*SCORE_BITS-1:0] right_scores_q;
+  logic [LABELS*CELL_WIDTH-1:0] right_cells, right_cells_q;
+  logic [LATENESS_WIDTH-1:0] right_lateness_q;
+  logic signed [EVIDENCE_WIDTH-1:0] right_score, lateness, right_evidence, best_q, second_q;
+  logic signed [EVIDENCE_WIDTH:0] to_best, to_second;
+  logic [CELL_WIDTH-1:0] best_cell_q, second_cell_q;
+  logic second_rank_q;
+
+  assign right_cells = command.first_rank ? group_i[LABELS*CELL_WIDTH-1:0] : right_cells_q;
+  assign right_evidence = right_score - lateness;
+  assign right_score = $signed(EVIDENCE_WIDTH'(right_scores_q[SCORE_BITS-1:0]));
+  assign lateness = command.late_rank ? $signed(EVIDENCE_WIDTH'(right_lateness_q)) : '0;
+
+  // Compared with one addition instead of a subtraction and then a comparison.
+  assign to_best = (EVIDENCE_WIDTH + 1)'(best_q) + (EVIDENCE_WIDTH + 1)'(lateness) - (EVIDENCE_WIDTH + 1)'(right_score);
+  assign to_second = (EVIDENCE_WIDTH + 1)'(second_q) + (EVIDENCE_WIDTH + 1)'(lateness)
+      - (EVIDENCE_WIDTH + 1)'(right_score);
+
+  always_ff @(posedge clk_i) begin
+    if (command.take_right_pixel) begin
+      right_scores_q <= right_scores_i;
+    end else if (command.rank) begin
+      right_scores_q <= right_scores_q >> SCORE_BITS;
+    end
+    if (command.rank) begin
+      right_cells_q <= right_cells >> CELL_WIDTH;
+      second_rank_q <= command.first_rank;
+      if (command.first_rank) begin
+        right_lateness_q <= group_i[GROUP_WIDTH-1-:LATENESS_WIDTH];
+      end
+      if (command.first_rank || to_best < 0) begin
+        best_q <= right_evidence;
+        best_cell_q <= right_cells[CELL_WIDTH-1:0];
+        second_q <= best_q;
+        second_cell_q <= best_cell_q;
+      end else if (second_rank_q || to_second < 0) begin
+        second_q <= right_evidence;
+        second_cell_q <= right_cells[CELL_WIDTH-1:0];
+      end
+    end
+  end
+
+  // What the columns beside can say at most.
+
+  logic [BACKGROUND_WIDTH-1:0] background_q;
+  logic [BACKGROUND_WIDTH+1:0] three_backgrounds;
+  logic [COST_WIDTH-1:0] left_cost, right_limit, left_cost_q, right_limit_q, right_margin_q;
+  logic [EVIDENCE_WIDTH-1:0] ahead;
+  logic [CELL_WIDTH-1:0] right_best_cell_q, right_second_cell_q;
+
+  assign three_backgrounds = (BACKGROUND_WIDTH + 2)'(background_q) + ((BACKGROUND_WIDTH + 2)'(background_q) << 1);
+  assign left_cost = COST_WIDTH'(three_backgrounds >> 4) + COST_WIDTH'(2);
+  assign right_limit = COST_WIDTH'(three_backgrounds >> 4) + COST_WIDTH'(1);
+  assign ahead = EVIDENCE_WIDTH'(best_q - second_q);
+
+  always_ff @(posedge clk_i) begin
+    if (command.take_ranks) begin
+      right_best_cell_q <= best_cell_q;
+      right_second_cell_q <= second_cell_q;
+      left_cost_q <= left_cost;
+      right_limit_q <= right_limit;
+      right_margin_q <= (ahead < EVIDENCE_WIDTH'(right_limit)) ? ahead[COST_WIDTH-1:0] : right_limit;
+    end
+  end
+
+  // The pixel prepared.
+
+  logic [LABELS*SCORE_BITS-1:0] scores_q;
+  logic [LABELS*CELL_WIDTH-1:0] cells_q;
+  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_q;
+  logic [CELL_WIDTH-1:0] own_cell;
+  logic [COST_WIDTH-1:0] from_left, from_right;
+  logic signed [EVIDENCE_WIDTH-1:0] evidence, own_q, costs;
+  logic [LABELS*EVIDENCE_WIDTH-1:0] evidences;
+  logic compared_q, far_left_q, far_best_q, far_second_q;
+
+  assign own_cell = cells_q[CELL_WIDTH-1:0];
+  assign from_left = far_left_q ? left_cost_q : '0;
+  assign from_right = !far_best_q ? '0 : far_second_q ? right_limit_q : right_margin_q;
+  assign costs = $signed(EVIDENCE_WIDTH'(from_left)) + $signed(EVIDENCE_WIDTH'(from_right));
+  assign evidence = own_q - costs;
+  assign evidences = compared_q ? {evidence, evidence_q[LABELS*EVIDENCE_WIDTH-1:EVIDENCE_WIDTH]} : evidence_q;
+
+  always_ff @(posedge clk_i) begin
+    if (advance_i) begin
+      scores_q <= scores_i;
+      cells_q <= group_i[LABELS*CELL_WIDTH-1:0];
+      background_q <= group_i[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH];
+    end else if (command.compare) begin
+      scores_q <= scores_q >> SCORE_BITS;
+      cells_q <= {own_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
+    end
+    compared_q <= command.compare;
+    if (command.compare) begin
+      far_left_q <= command.has_left && far(own_cell, left_cell_i);
+      far_best_q <= has_right_i && far(own_cell, right_best_cell_q);
+      far_second_q <= far(own_cell, right_second_cell_q);
+      own_q <= $signed(EVIDENCE_WIDTH'(scores_q[SCORE_BITS-1:0]))
+          - (command.late_compare ? $signed(EVIDENCE_WIDTH'(background_q >> LATENESS_SHIFT)) : '0);
+    end
+    if (compared_q) begin
+      evidence_q <= evidences;
+    end
+  end
+
+  assign evidence_o = evidences;
+  assign cells_o = cells_q;
+  assign background_o = background_q;
+
+endmodule
+
+`default_nettype wire

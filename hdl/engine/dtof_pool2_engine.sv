@@ -1,0 +1,455 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: what needs several pixels at once, shared by ENGINE_COLUMNS columns.
+//
+// Decode makes the groups' words of the coarse histograms, choose the first pointer words of the track words, decide the
+// results of the pointer words (docs/reference/poolpointer2.md). The scratch memory has a word for each row: the messages
+// of a chain's first pass, and the column to the left's best label: in choose its cell and offset, in decide its position.
+//
+// 1. The line is what a pair of columns has read. Decode hands it to the candidate decoder, whose group word
+//    is written back.
+// 2. Choose and decide take from it first a pixel's word and then its group's: the pixel is prepared. In choose what the
+//    columns beside say becomes part of its evidence before the chain takes it.
+// 3. The chain of the operation in work steps on, and its messages of the first pass wait in the scratch memory.
+// 4. Of the best two labels choose makes the pixel's first pointer word, and two of these a word to write. Where pointers
+//    start (but for those beside a resting rival's candidate) and decide's winners pass the smoothing of a column's positions;
+//    decide's result leaves.
+// 5. With PRIOR choose also collects which candidates of a group are used, for the next frame's decode.
+//
+// An engine has no counters of rows, columns or clocks: in each clock it does what the command says, and nothing else.
+//
+// Schedule: the table of dtof_pool2_sequencer, with this module's POOL2_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
+// Cost: dtof_pool2_candidate_decoder, dtof_beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pool2_engine #(
+    parameter int NP = 10,
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int COUNT_WIDTH = 7,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int RIVAL_MOVES = 1,
+    parameter int CELL_SHIFT = 9,
+    parameter int SECOND_TARGET = 0,
+    parameter int PRIOR = 0,
+    localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS),
+    localparam int TRACK_WIDTH = dtof_pkg::pool_track_width(LABELS, SCORE_BITS, OFFSET_BITS),
+    localparam int POINT_WIDTH = dtof_pkg::pool_point_width(LABELS, ADVANTAGE_WIDTH, POINTER_SHIFT, RIVAL_MOVES),
+    localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
+    localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH),
+    localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),
+    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
+    localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
+    localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET)
+) (
+    input  logic                    clk_i,
+    input  logic                    rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
+    input  logic                    smooth_i,       // S1 is on
+    input  logic                    has_right_i,    // in choose: the column in work has one to its right
+    input  logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_i,  // pool2_engine_command_t
+    input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
+    output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
+    input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of write_scratch and read_scratch
+    // {code, fraction, confidence}, with SECOND_TARGET = 1 {second code, second fraction, code, ...}; held from one take_result
+    // to the next
+    output logic [RESULT_WIDTH-1:0] result_o
+);
+
+  localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
+  localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH;
+  localparam int KEPT_WIDTH = dtof_pkg::pool_background_width(LABELS, PIXEL_WIDTH);  // of it in a group's word
+  localparam int SCORES_WIDTH = LABELS * SCORE_BITS;
+  localparam int LEAD_WIDTH = LABEL_WIDTH + OFFSET_BITS;  // {offset, leader}
+  localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
+  localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
+  localparam int SMOOTH_BRIGHT_FROM = 6;
+  localparam int HALF_BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES * COUNT_WIDTH;
+  localparam int BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH;
+  localparam int CHOOSE_PENALTY_WIDTH = 4;  // 2 + (5 * 39 >> 4) at most
+  localparam int DECIDE_PENALTY_WIDTH = 2;
+  localparam int CHOOSE_EVIDENCE_WIDTH = dtof_pkg::POOL2_EVIDENCE_WIDTH;
+  localparam int DECIDE_EVIDENCE_WIDTH = ADVANTAGE_WIDTH + 1;
+  localparam int CELL_POSITION_WIDTH = CELL_WIDTH + 1;
+  localparam int POSITION_WIDTH = 17;
+  localparam int CHOOSE_MESSAGE_WIDTH = LABELS * CHOOSE_PENALTY_WIDTH;
+  localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
+  localparam int LEFT_WIDTH = CELL_WIDTH + OFFSET_BITS;  // of a column's best label in choose
+  localparam int WINNER_WIDTH = 16;                      // in decide
+  localparam int SCRATCH_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH + LEFT_WIDTH, DECIDE_MESSAGE_WIDTH + WINNER_WIDTH);
+
+  `include "dtof_pool2_command.svh"
+  pool2_engine_command_t command;
+  beside_command_t beside;
+  assign command = command_i;
+  assign beside = command.beside;
+
+  // Where nothing is asked for, nothing moves. The word goes back to 0 behind an operation's last clock.
+
+  logic active, was_active_q;
+  logic [LINE_WIDTH-1:0] line_q;
+
+  assign active = command.decoding || command.choosing || command.deciding;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      was_active_q <= 1'b1;
+    end else begin
+      was_active_q <= active;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (active) begin
+      line_q <= line_i;
+    end
+  end
+
+  // Decode.
+
+  logic [BINS_WIDTH-1:0] line_bins;
+  genvar h;
+  generate
+    for (h = 0; h < LINE_HALVES; h = h + 1) begin : g_half
+      assign line_bins[h*HALF_BINS_WIDTH+:HALF_BINS_WIDTH] = line_i[h*HALF_WIDTH+:HALF_BINS_WIDTH];
+    end
+  endgenerate
+
+  logic [LABELS*CELL_WIDTH-1:0] new_cells;
+  logic [BACKGROUND_WIDTH-1:0] new_background;
+
+  logic [LABELS-1:0] last_used;  // candidates of the group whose word is at line_i
+  generate
+    if (PRIOR != 0) begin : g_last_used
+      assign last_used = line_i[GROUP_WIDTH+:LABELS];
+    end else begin : g_no_last_used
+      assign last_used = '0;
+    end
+  endgenerate
+
+  dtof_pool2_candidate_decoder #(
+      .COUNT_WIDTH(COUNT_WIDTH),
+      .LABELS     (LABELS),
+      .PRIOR      (PRIOR)
+  ) u_candidate_decoder (
+      .clk_i       (clk_i),
+      .active_i    (command.decoding),
+      .command_i   (command.decode),
+      .line_i      (line_bins),
+      .last_cells_i(line_i[LABELS*CELL_WIDTH-1:0]),
+      .last_used_i (last_used),
+      .cells_o     (new_cells),
+      .background_o(new_background)
+  );
+
+  // A pixel is prepared: its word was captured, its group's is on the line. It passes on with each step of the chain.
+
+  logic advance;
+  logic [PIXEL_WIDTH-1:0] line_pixel, captured_q, prepared_q;
+  logic [LABELS*CHOOSE_EVIDENCE_WIDTH-1:0] choose_evidence;
+  logic [LABELS*CELL_WIDTH-1:0] cells;
+  logic [BACKGROUND_WIDTH-1:0] line_background, background;
+  logic [LEAD_WIDTH-1:0] prepared_lead, next_lead_q, lead_q, last_lead_q;
+  logic prepared_bright_q, next_bright_q, bright_q, last_bright_q;
+  logic [SCRATCH_WIDTH-1:0] scratch;
+  logic [CELL_WIDTH-1:0] left_cell;
+
+  assign advance = command.choose.advance || command.decide.advance;
+  // In place of the low bits that are not kept stands the middle of what they can be.
+  assign line_background = (BACKGROUND_WIDTH'(line_q[LABELS*CELL_WIDTH+:KEPT_WIDTH]) << (BACKGROUND_WIDTH - KEPT_WIDTH))
+      | BACKGROUND_WIDTH'((1 << (BACKGROUND_WIDTH - KEPT_WIDTH)) >> 1);
+  assign line_pixel = command.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
+
+  generate
+    if (OFFSET_BITS != 0) begin : g_lead
+      assign prepared_lead = prepared_q[SCORES_WIDTH+:LEAD_WIDTH];
+    end else begin : g_no_lead
+      assign prepared_lead = '0;
+    end
+  endgenerate
+
+  always_ff @(posedge clk_i) begin
+    if (command.take_pixel) begin
+      captured_q <= line_pixel;
+    end
+    if (advance) begin
+      prepared_q <= captured_q;
+      prepared_bright_q <= (line_background >= BACKGROUND_WIDTH'(SMOOTH_BRIGHT_FROM));
+      {next_lead_q, next_bright_q} <= {prepared_lead, prepared_bright_q};
+      {lead_q, bright_q} <= {next_lead_q, next_bright_q};
+      {last_lead_q, last_bright_q} <= {lead_q, bright_q};
+    end
+  end
+
+  dtof_beside_evidence #(
+      .LABELS    (LABELS),
+      .SCORE_BITS(SCORE_BITS)
+  ) u_beside_evidence (
+      .clk_i         (clk_i),
+      .command_i     (beside),
+      .right_scores_i(line_pixel[SCORES_WIDTH-1:0]),
+      .has_right_i   (has_right_i),
+      .advance_i     (advance),
+      .scores_i      (captured_q[SCORES_WIDTH-1:0]),
+      .group_i       ({line_background, line_q[LABELS*CELL_WIDTH-1:0]}),
+      .left_cell_i   (left_cell),
+      .evidence_o    (choose_evidence),
+      .cells_o       (cells),
+      .background_o  (background)
+  );
+
+  // Chains and their scratch memory: {messages, best label to the left}, which is the column's own when its second pass is over.
+
+  logic [LABELS*CELL_POSITION_WIDTH-1:0] choose_position;
+  logic [BACKGROUND_WIDTH+2:0] five_backgrounds;
+  logic [CHOOSE_PENALTY_WIDTH-1:0] choose_penalty;
+  logic [CHOOSE_MESSAGE_WIDTH-1:0] choose_message;
+  logic [DECIDE_MESSAGE_WIDTH-1:0] decide_message;
+  logic [SCRATCH_WIDTH-1:0] choose_scratch, decide_scratch;
+  logic [LABEL_WIDTH-1:0] best_label, second_label;
+  logic [CELL_POSITION_WIDTH-1:0] best_cell, second_cell;
+  logic [CHOOSE_EVIDENCE_WIDTH+1:0] choose_margin;
+  logic [LEFT_WIDTH-1:0] best_lead;
+  logic [POSITION_WIDTH-1:0] position;  // decide's winner
+
+  genvar k;
+  generate
+    for (k = 0; k < LABELS; k = k + 1) begin : g_label
+      assign choose_position[k*CELL_POSITION_WIDTH+:CELL_POSITION_WIDTH] = {1'b0, cells[k*CELL_WIDTH+:CELL_WIDTH]};
+    end
+  endgenerate
+
+  assign five_backgrounds = (BACKGROUND_WIDTH + 3)'(background) + ((BACKGROUND_WIDTH + 3)'(background) << 2);
+  assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
+  assign left_cell = scratch[CELL_WIDTH-1:0];
+  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
+  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command.back ? position[15:0] : scratch[WINNER_WIDTH-1:0]});
+
+  dtof_sram #(
+      .PORTS(1),
+      .DEPTH(PIXELS_PER_SRAM),
+      .WIDTH(SCRATCH_WIDTH)
+  ) u_scratch_sram (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
+      .read_en_i   (command.read_scratch),
+      .read_addr_i (scratch_row_i),
+      .read_data_o (scratch),
+      .write_en_i  (command.write_scratch),
+      .write_addr_i(scratch_row_i),
+      .write_data_i(command.deciding ? decide_scratch : choose_scratch)
+  );
+
+  dtof_label_chain #(
+      .LABELS        (LABELS),
+      .POSITION_WIDTH(CELL_POSITION_WIDTH),
+      .REACH         (4),
+      .EVIDENCE_WIDTH(CHOOSE_EVIDENCE_WIDTH),
+      .PENALTY_WIDTH (CHOOSE_PENALTY_WIDTH)
+  ) u_choose (
+      .clk_i            (clk_i),
+      .active_i         (command.choosing),
+      .command_i        (command.choose),
+      .evidence_i       (choose_evidence),
+      .position_i       (choose_position),
+      .penalty_i        (choose_penalty),
+      .message_o        (choose_message),
+      .other_message_i  (scratch[LEFT_WIDTH+:CHOOSE_MESSAGE_WIDTH]),
+      .best_label_o     (best_label),
+      .second_label_o   (second_label),
+      .best_position_o  (best_cell),
+      .second_position_o(second_cell),
+      .margin_o         (choose_margin)
+  );
+
+  logic decided_rival, unused_loser;
+  logic [POSITION_WIDTH-1:0] leader_position, rival_position, lost_position;
+  logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
+
+  generate
+    if (RIVAL_MOVES != 0) begin : g_absolute
+      assign leader_position = POSITION_WIDTH'(prepared_q[POINTER_WIDTH-1:0]) << POINTER_SHIFT;
+      assign rival_position = POSITION_WIDTH'({prepared_q[POINTER_WIDTH+:RIVAL_WIDTH], 9'h100});
+    end else begin : g_relative
+      // Both are candidates of the group, whose word is on the line while the pixel is prepared.
+      logic [LABEL_WIDTH-1:0] leader_label, rival_label;
+      logic [CELL_WIDTH-1:0] leader_cell_q, rival_cell_q;
+      logic signed [17:0] moved;
+      assign leader_label = captured_q[POINTER_WIDTH+:LABEL_WIDTH];
+      assign rival_label = captured_q[POINTER_WIDTH+LABEL_WIDTH+:LABEL_WIDTH];
+      always_ff @(posedge clk_i) begin
+        if (advance) begin
+          leader_cell_q <= line_q[leader_label*CELL_WIDTH+:CELL_WIDTH];
+          rival_cell_q <= line_q[rival_label*CELL_WIDTH+:CELL_WIDTH];
+        end
+      end
+      assign moved = $signed({2'b00, leader_cell_q, 9'd0})
+          + $signed({{(18 - POINTER_WIDTH - POINTER_SHIFT) {prepared_q[POINTER_WIDTH-1]}}, prepared_q[POINTER_WIDTH-1:0],
+                     {POINTER_SHIFT{1'b0}}});
+      // Beyond the range a pointer stands for its end.
+      assign leader_position = moved[17] ? '0 : moved[16] ? POSITION_WIDTH'(17'h0ffff) : POSITION_WIDTH'(moved[15:0]);
+      assign rival_position = POSITION_WIDTH'({rival_cell_q, 9'd0});
+    end
+  endgenerate
+
+  dtof_label_chain #(
+      .LABELS        (2),
+      .POSITION_WIDTH(POSITION_WIDTH),
+      .REACH         (2048),
+      .EVIDENCE_WIDTH(DECIDE_EVIDENCE_WIDTH),
+      .PENALTY_WIDTH (DECIDE_PENALTY_WIDTH)
+  ) u_decide (
+      .clk_i            (clk_i),
+      .active_i         (command.deciding),
+      .command_i        (command.decide),
+      .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
+      .position_i       ({rival_position, leader_position}),
+      .penalty_i        (DECIDE_PENALTY_WIDTH'(2)),
+      .message_o        (decide_message),
+      .other_message_i  (scratch[WINNER_WIDTH+:DECIDE_MESSAGE_WIDTH]),
+      .best_label_o     (decided_rival),
+      .second_label_o   (unused_loser),
+      .best_position_o  (position),
+      .second_position_o(lost_position),
+      .margin_o         (decide_margin)
+  );
+
+  // Choose: the first pointer word. The leader's offset has come along with its pixel.
+
+  logic [15:0] best_start, second_start, left_lead, left_start, start;
+  logic [CONFIDENCE_WIDTH-1:0] start_margin;
+  logic [PIXEL_WIDTH-1:0] first_word;
+  logic [ADVANTAGE_WIDTH-1:0] start_advantage;
+  logic [2*PIXEL_WIDTH-1:0] new_pair_q;
+
+  generate
+    if (OFFSET_BITS != 0) begin : g_offset
+      function automatic logic [15:0] start_of(input logic [LEFT_WIDTH-1:0] lead);
+        start_of = {lead[CELL_WIDTH-1:0], 9'd0}
+            + {{(10 - OFFSET_BITS) {lead[LEFT_WIDTH-1]}}, lead[CELL_WIDTH+:OFFSET_BITS], 6'd0};
+      endfunction
+      logic [LABEL_WIDTH-1:0] leader;
+      logic [OFFSET_BITS-1:0] offset;
+      assign {offset, leader} = last_lead_q;
+      assign best_lead = {offset & {OFFSET_BITS{leader == best_label}}, best_cell[CELL_WIDTH-1:0]};
+      assign best_start = start_of(best_lead);
+      assign second_start = start_of({offset & {OFFSET_BITS{leader == second_label}}, second_cell[CELL_WIDTH-1:0]});
+      assign left_start = start_of(left_lead[LEFT_WIDTH-1:0]);
+    end else begin : g_no_offset
+      assign best_lead = best_cell[CELL_WIDTH-1:0];
+      assign best_start = {best_cell[CELL_WIDTH-1:0], 9'd0};
+      assign second_start = {second_cell[CELL_WIDTH-1:0], 9'd0};
+      assign left_start = {left_lead[CELL_WIDTH-1:0], 9'd0};
+    end
+  endgenerate
+
+  localparam int HALF_ADVANTAGE = 1 << (ADVANTAGE_WIDTH - 1);
+  assign start_advantage = (32'(choose_margin) >= HALF_ADVANTAGE) ? ADVANTAGE_WIDTH'(HALF_ADVANTAGE - 1)
+      : ADVANTAGE_WIDTH'(choose_margin);
+  generate
+    if (RIVAL_MOVES != 0) begin : g_absolute_word
+      // The rival waits until the leader's pointer has moved towards those of the pixels around.
+      logic [RIVAL_WIDTH-1:0] rival_q, next_rival_q;
+      always_ff @(posedge clk_i) begin
+        if (command.choosing && command.take_position) begin
+          next_rival_q <= second_start[15:9];
+          rival_q <= next_rival_q;
+        end
+      end
+      assign first_word = PIXEL_WIDTH'({start_margin[ADVANTAGE_WIDTH-1:0], rival_q, start[15:POINTER_SHIFT]});
+    end else begin : g_relative_word
+      assign first_word = PIXEL_WIDTH'({start_advantage, second_label, best_label, {POINTER_WIDTH{1'b0}}});
+    end
+  endgenerate
+
+  always_ff @(posedge clk_i) begin
+    if (command.take_word && command.odd_word) begin
+      new_pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] <= first_word;
+    end else if (command.take_word) begin
+      new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
+    end
+  end
+
+  // Candidates of a group that some pixel takes: those that the column to the left in the pair has used, and its own. The
+  // pixel of the next group comes before they are written.
+
+  logic [HALF_WIDTH-1:0] done_word;
+
+  generate
+    if (PRIOR != 0) begin : g_used
+      logic [LABELS-1:0] left_used_q, so_far_q, used_q;
+      always_ff @(posedge clk_i) begin
+        if (command.take_used) begin
+          left_used_q <= line_q[GROUP_WIDTH+:LABELS];
+        end
+        if (command.take_choice) begin
+          so_far_q <= (command.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);
+        end
+        if (command.next_group) begin
+          used_q <= so_far_q;
+        end
+      end
+      assign done_word = command.giving_used ? HALF_WIDTH'(used_q) << GROUP_WIDTH : HALF_WIDTH'(new_pair_q);
+    end else begin : g_not_used
+      assign done_word = HALF_WIDTH'(new_pair_q);
+      logic unused_commands;
+      assign unused_commands = ^{command.take_used, command.take_choice, command.next_group, command.giving_used};
+    end
+  endgenerate
+
+  // Registered here, for the way to the pairs is long. A pair takes it a clock before it writes it, and it is 0 while words are
+  // cleared.
+  always_ff @(posedge clk_i) begin
+    if (active || was_active_q) begin
+      word_o <= (HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) & {HALF_WIDTH{command.decoding}})
+          | (done_word & {HALF_WIDTH{command.choosing}});
+    end
+  end
+
+  // Both: positions move closer together. Decide: the result.
+
+  dtof_smoothing #(
+      .NP              (NP),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .CELL_SHIFT      (CELL_SHIFT),
+      .SECOND_TARGET   (SECOND_TARGET)
+  ) u_smoothing (
+      .clk_i           (clk_i),
+      .rst_ni          (rst_ni),
+      .starts_i        ((RIVAL_MOVES != 0) && command.choosing),
+      .smooth_i        (smooth_i),
+      .has_left_i      (beside.has_left),
+      .take_position_i (command.take_position),
+      .has_position_i  (command.has_position),
+      .position_i      (command.deciding ? position[15:0] : best_start),
+      .left_i          (scratch[WINNER_WIDTH-1:0]),
+      .left_position_i (command.deciding ? left_lead : left_start),
+      .left_o          (left_lead),
+      .lost_position_i (lost_position[15:0]),
+      .margin_i        (command.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
+      .bright_i        (last_bright_q),
+      .take_distances_i(command.take_distances),
+      .start_o         (start),
+      .start_margin_o  (start_margin),
+      .take_result_i   (command.take_result),
+      .result_o        (result_o)
+  );
+
+  logic unused;
+  assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],
+                    second_cell[CELL_WIDTH], second_start, best_label, second_label, last_lead_q, line_q, scratch, best_start,
+                    left_lead, left_start, start, start_margin, prepared_q, new_background};
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: brings the word that an engine reads from its pairs of columns to the engine.
+//
+// At most one pair of an engine drives a word, all others give 0, so that an OR combines the words. Up to
+// dtof_pkg::POOL_LINE_PAIRS neighbouring pairs are a segment: their OR runs from pair to pair (dtof_pool2_pair) and ends in a register
+// of this module. The OR of these registers is the line. So no path has more pairs than a segment, however many columns an
+// engine has, and every pair's word takes the same time.
+// Latency: POOL_LINE_CLOCKS from words_i to line_o.
+// Cost: WIDTH flip-flops a segment.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_pool2_line #(
+    parameter int SEGMENTS = 5,
+    parameter int WIDTH = 58
+) (
+    input  logic                      clk_i,
+    input  logic [SEGMENTS*WIDTH-1:0] words_i,  // of each segment
+    output logic [         WIDTH-1:0] line_o
+);
+
+  logic [SEGMENTS*WIDTH-1:0] words_q;
+  integer i;
+
+  always_ff @(posedge clk_i) begin
+    words_q <= words_i;
+  end
+
+  always_comb begin
+    line_o = '0;
+    for (i = 0; i < SEGMENTS; i = i + 1) begin
+      line_o = line_o | words_q[i*WIDTH+:WIDTH];
+    end
+  end
+
+endmodule
+
+`default_nettype wire

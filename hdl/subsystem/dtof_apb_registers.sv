@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: Apache-2.0
+// The registers of dtof_subsystem behind an APB4 port (hdl/subsystem/registers.toml; table in docs/user/integration.md).
+//
+// A transfer takes the two clocks of APB, without wait states. pslverr_o answers an offset without a register, and a
+// write to a register of which nothing can be written; neither does anything. pstrb_i chooses bytes, pprot is not looked at.
+// Settings are what was written; when a frame samples them is the subsystem's matter. An event that comes in the clock
+// in which its bit is cleared stays visible.
+// Latency: a command is a pulse in the clock behind its write.
+// Cost: the settings' flip-flops, SRAM_NUM of them for the columns, and the read multiplexer.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_apb_registers #(
+    parameter int READOUT = 0,
+    parameter int HAS_SCHEDULE = 0,
+    parameter int TIME_GATE = 0,
+    parameter int RASTER_ORDER = 0,
+    parameter int SECOND_TARGET = 0,
+    parameter int PRIOR = 0,
+    parameter int RAW_HISTOGRAM = 0,
+    parameter int RAW_BINS = 0,
+    parameter int NP = 10,
+    parameter int SRAM_NUM = 200,
+    parameter int PIXELS_PER_SRAM = 160,
+    parameter int SLOTS = 2,
+    parameter int FRACTION_WIDTH = 0,
+    parameter int CONFIDENCE_WIDTH = 4,
+    parameter int ACQ_WIDTH = 16,
+    // constants that software reads; those from GROUP_SIZE on read as 0 without HAS_SCHEDULE
+    parameter int COUNT_WIDTH = 10,
+    parameter int NB = 5,
+    parameter int WINDOW_CENTRED = 0,
+    parameter int POINTER_STEP = 1,
+    parameter int GUARD = 0,
+    parameter int GROUP_SIZE = 4,
+    parameter int LABELS = 5,
+    parameter int SCORE_BITS = 4,
+    parameter int OFFSET_BITS = 6,
+    parameter int ADVANTAGE_WIDTH = 7,
+    parameter int POINTER_SHIFT = 1,
+    parameter int CELL_SHIFT = 9,
+    parameter int RIVAL_MOVES = 1,
+    parameter int ENGINE_COLUMNS = 34,
+    parameter int COARSE_SHARE = 14,
+    parameter int TRACK_SHARE = 20,
+    parameter int BUFFER_LINES = 324,
+    parameter int MOST_RELEASE = 320
+) (
+    input  logic                 clk_i,
+    input  logic                 rst_ni,
+    // APB4
+    input  logic                 psel_i,
+    input  logic                 penable_i,
+    input  logic                 pwrite_i,
+    input  logic [         11:0] paddr_i,
+    input  logic [         31:0] pwdata_i,
+    input  logic [          3:0] pstrb_i,
+    output logic                 pready_o,
+    output logic [         31:0] prdata_o,
+    output logic                 pslverr_o,
+    // commands and settings
+    output logic                 start_o,
+    output logic                 flush_o,
+    output logic                 continuous_o,
+    output logic                 second_o,       // 0 without SECOND_TARGET
+    output logic                 raw_o,          // these three are 0 without RAW_HISTOGRAM
+    output logic [         11:0] raw_first_o,
+    output logic [         11:0] raw_last_o,
+    output logic [ACQ_WIDTH-1:0] acquisitions_o,
+    output logic [ACQ_WIDTH-1:0] coarse_end_o,   // these three are 0 without HAS_SCHEDULE
+    output logic [ACQ_WIDTH-1:0] track_end_o,
+    output logic                 smooth_o,
+    output logic                 prior_o,        // 0 without PRIOR
+    output logic [       NP-1:0] gate_begin_o,   // these two are 0 without TIME_GATE
+    output logic [       NP-1:0] gate_end_o,
+    output logic [         15:0] release_o,
+    output logic [         15:0] weak_below_o,
+    output logic [ SRAM_NUM-1:0] enable_o,
+    // status
+    input  logic                 busy_i,
+    input  logic [          2:0] state_i,
+    input  logic [         15:0] level_i,
+    input  logic [         31:0] frame_count_i,
+    input  logic [         31:0] frame_cycles_i,
+    // events
+    input  logic                 frame_i,
+    input  logic                 underrun_i,
+    input  logic                 start_ignored_i,
+    input  logic                 illegal_schedule_i,
+    input  logic                 overrun_i,
+    input  logic                 misframed_i,
+    input  logic                 counter_full_i,
+    output logic                 irq_o
+);
+
+  localparam int ERRORS = 5;
+  localparam int CAUSES = 2;  // of an interrupt
+  localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
+
+  // One write a transfer, in its second clock.
+
+  logic access, known, writable, write;
+  logic [11:0] offset;
+  logic [31:0] mask;  // bits to write
+
+  assign offset = {paddr_i[11:2], 2'b00};
+  assign access = psel_i && penable_i;
+  assign known = dtof_registers_pkg::is_register(offset);
+  assign writable = dtof_registers_pkg::is_writable(offset);
+  assign write = access && pwrite_i && writable;
+  assign mask = {{8{pstrb_i[3]}}, {8{pstrb_i[2]}}, {8{pstrb_i[1]}}, {8{pstrb_i[0]}}};
+  assign pready_o = 1'b1;
+  assign pslverr_o = access && (pwrite_i ? !writable : !known);
+
+  logic unused_address;
+  assign unused_address = ^paddr_i[1:0];
+
+  // Commands, settings, and what events leave behind.
+
+  logic start_q, flush_q, continuous_q, counter_full_q, counter_full_cleared;
+  logic [ERRORS-1:0] error_q, error_event, error_cleared;
+  logic [CAUSES-1:0] cause_q, cause_event, cause_cleared, cause_enable_q;
+  logic [ACQ_WIDTH-1:0] acquisitions_q;
+  logic [15:0] release_q;
+  logic [WEAK_WIDTH-1:0] weak_below_q;
+  logic [SRAM_NUM-1:0] enable_q;
+  logic [31:0] written;  // bits that are written as 1
+
+  assign written = pwdata_i & mask;
+
+  always_comb begin
+    error_event = '0;
+    error_event[dtof_registers_pkg::ERROR_UNDERRUN_LSB] = underrun_i;
+    error_event[dtof_registers_pkg::ERROR_START_IGNORED_LSB] = start_ignored_i;
+    error_event[dtof_registers_pkg::ERROR_ILLEGAL_SCHEDULE_LSB] = illegal_schedule_i;
+    error_event[dtof_registers_pkg::ERROR_OVERRUN_LSB] = overrun_i;
+    error_event[dtof_registers_pkg::ERROR_MISFRAMED_LSB] = misframed_i;
+    cause_event = '0;
+    cause_event[dtof_registers_pkg::IRQ_STATUS_FRAME_LSB] = frame_i;
+    cause_event[dtof_registers_pkg::IRQ_STATUS_ERROR_LSB] = |error_event;
+  end
+
+  assign error_cleared = (write && offset == dtof_registers_pkg::ERROR) ? written[ERRORS-1:0] : '0;
+  assign cause_cleared = (write && offset == dtof_registers_pkg::IRQ_STATUS) ? written[CAUSES-1:0] : '0;
+
+  assign counter_full_cleared = write && (offset == dtof_registers_pkg::WARNING)
+      && written[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB];
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      start_q <= 1'b0;
+      flush_q <= 1'b0;
+      continuous_q <= 1'b0;
+      error_q <= '0;
+      cause_q <= '0;
+      counter_full_q <= 1'b0;
+      cause_enable_q <= '0;
+      acquisitions_q <= '0;
+      release_q <= 16'(MOST_RELEASE);
+      weak_below_q <= '0;
+    end else begin
+      start_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_START_LSB];
+      flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
+      error_q <= (error_q & ~error_cleared) | error_event;
+      cause_q <= (cause_q & ~cause_cleared) | cause_event;
+      counter_full_q <= (counter_full_q && !counter_full_cleared) || counter_full_i;
+      if (illegal_schedule_i) begin
+        continuous_q <= 1'b0;
+      end
+      if (write) begin
+        case (offset)
+          dtof_registers_pkg::CONTROL:
+          if (mask[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB]) begin
+            continuous_q <= written[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB];
+          end
+          dtof_registers_pkg::IRQ_ENABLE:
+          cause_enable_q <= (cause_enable_q & ~mask[CAUSES-1:0]) | written[CAUSES-1:0];
+          dtof_registers_pkg::ACQUISITIONS:
+          acquisitions_q <= (acquisitions_q & ~mask[ACQ_WIDTH-1:0]) | written[ACQ_WIDTH-1:0];
+          dtof_registers_pkg::RELEASE:
+          release_q <= (release_q & ~mask[15:0]) | written[15:0];
+          dtof_registers_pkg::WEAK_BELOW:
+          weak_below_q <= (weak_below_q & ~mask[WEAK_WIDTH-1:0]) | written[WEAK_WIDTH-1:0];
+          default: begin
+          end
+        endcase
+      end
+    end
+  end
+
+  assign start_o = start_q;
+  assign flush_o = flush_q;
+  assign continuous_o = continuous_q;
+  assign acquisitions_o = acquisitions_q;
+  assign release_o = release_q;
+  assign weak_below_o = 16'(weak_below_q);
+  assign enable_o = enable_q;
+  assign irq_o = |(cause_q & cause_enable_q);
+
+  generate
+    if (HAS_SCHEDULE != 0) begin : g_schedule
+      logic [ACQ_WIDTH-1:0] coarse_end_q, track_end_q;
+      logic smooth_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          coarse_end_q <= '0;
+          track_end_q <= '0;
+          smooth_q <= 1'b1;
+        end else if (write) begin
+          case (offset)
+            dtof_registers_pkg::COARSE_END:
+            coarse_end_q <= (coarse_end_q & ~mask[ACQ_WIDTH-1:0]) | written[ACQ_WIDTH-1:0];
+            dtof_registers_pkg::TRACK_END:
+            track_end_q <= (track_end_q & ~mask[ACQ_WIDTH-1:0]) | written[ACQ_WIDTH-1:0];
+            dtof_registers_pkg::OUTPUT:
+            if (mask[dtof_registers_pkg::OUTPUT_SMOOTH_LSB]) begin
+              smooth_q <= written[dtof_registers_pkg::OUTPUT_SMOOTH_LSB];
+            end
+            default: begin
+            end
+          endcase
+        end
+      end
+      assign coarse_end_o = coarse_end_q;
+      assign track_end_o = track_end_q;
+      assign smooth_o = smooth_q;
+    end else begin : g_no_schedule
+      assign coarse_end_o = '0;
+      assign track_end_o = '0;
+      assign smooth_o = 1'b0;
+    end
+
+    if (TIME_GATE != 0) begin : g_gate
+      localparam int BEGIN_LSB = dtof_registers_pkg::GATE_BEGIN_LSB;
+      localparam int END_LSB = dtof_registers_pkg::GATE_END_LSB;
+      logic [NP-1:0] gate_begin_q, gate_end_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          gate_begin_q <= '0;
+          gate_end_q <= {NP{1'b1}};
+        end else if (write && offset == dtof_registers_pkg::GATE) begin
+          gate_begin_q <= (gate_begin_q & ~mask[BEGIN_LSB+:NP]) | written[BEGIN_LSB+:NP];
+          gate_end_q <= (gate_end_q & ~mask[END_LSB+:NP]) | written[END_LSB+:NP];
+        end
+      end
+      assign gate_begin_o = gate_begin_q;
+      assign gate_end_o = gate_end_q;
+    end else begin : g_no_gate
+      assign gate_begin_o = '0;
+      assign gate_end_o = '0;
+    end
+
+    if (SECOND_TARGET != 0) begin : g_second_target
+      logic second_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          second_q <= 1'b0;
+        end else if (write && offset == dtof_registers_pkg::OUTPUT
+                     && mask[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB]) begin
+          second_q <= written[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB];
+        end
+      end
+      assign second_o = second_q;
+    end else begin : g_one_target
+      assign second_o = 1'b0;
+    end
+
+    if (PRIOR != 0) begin : g_prior
+      logic prior_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          prior_q <= 1'b0;
+        end else if (write && offset == dtof_registers_pkg::OUTPUT && mask[dtof_registers_pkg::OUTPUT_PRIOR_LSB]) begin
+          prior_q <= written[dtof_registers_pkg::OUTPUT_PRIOR_LSB];
+        end
+      end
+      assign prior_o = prior_q;
+    end else begin : g_no_prior
+      assign prior_o = 1'b0;
+    end
+
+    if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
+      localparam int FIRST_LSB = dtof_registers_pkg::RAW_ROWS_FIRST_LSB;
+      localparam int LAST_LSB = dtof_registers_pkg::RAW_ROWS_LAST_LSB;
+      logic raw_q;
+      logic [11:0] raw_first_q, raw_last_q;
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          raw_q <= 1'b0;
+          raw_first_q <= '0;
+          raw_last_q <= '0;
+        end else if (write && offset == dtof_registers_pkg::OUTPUT && mask[dtof_registers_pkg::OUTPUT_RAW_LSB]) begin
+          raw_q <= written[dtof_registers_pkg::OUTPUT_RAW_LSB];
+        end else if (write && offset == dtof_registers_pkg::RAW_ROWS) begin
+          raw_first_q <= (raw_first_q & ~mask[FIRST_LSB+:12]) | written[FIRST_LSB+:12];
+          raw_last_q <= (raw_last_q & ~mask[LAST_LSB+:12]) | written[LAST_LSB+:12];
+        end
+      end
+      assign raw_o = raw_q;
+      assign raw_first_o = raw_first_q;
+      assign raw_last_o = raw_last_q;
+    end else begin : g_no_raw_histogram
+      assign raw_o = 1'b0;
+      assign raw_first_o = '0;
+      assign raw_last_o = '0;
+    end
+  endgenerate
+
+  // The columns: COLUMN_ENABLE + 4 k has those from 32 k on.
+
+  localparam int ENABLE_WORDS = (SRAM_NUM + 31) / 32;
+  logic [32*ENABLE_WORDS-1:0] enable_words;
+  assign enable_words = (32 * ENABLE_WORDS)'(enable_q);
+
+  genvar w;
+  generate
+    for (w = 0; w < ENABLE_WORDS; w = w + 1) begin : g_enable
+      localparam int FIRST = 32 * w;
+      localparam int BITS = dtof_pkg::min_of(32, SRAM_NUM - FIRST);
+      localparam logic [11:0] OFFSET = dtof_registers_pkg::COLUMN_ENABLE + 12'(4 * w);
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          enable_q[FIRST+:BITS] <= {BITS{1'b1}};
+        end else if (write && offset == OFFSET) begin
+          enable_q[FIRST+:BITS] <= (enable_q[FIRST+:BITS] & ~mask[BITS-1:0]) | written[BITS-1:0];
+        end
+      end
+    end
+  endgenerate
+
+  // Reading.
+
+  localparam int ENABLE_INDEX_WIDTH = dtof_pkg::index_width(ENABLE_WORDS);
+  logic [9:0] enable_index;
+  logic [31:0] enable_word;
+  assign enable_index = offset[11:2] - 10'(dtof_registers_pkg::COLUMN_ENABLE >> 2);
+  assign enable_word = (32'(enable_index) < ENABLE_WORDS)
+      ? enable_words[32*enable_index[ENABLE_INDEX_WIDTH-1:0]+:32] : '0;
+
+  always_comb begin
+    prdata_o = '0;
+    case (offset)
+      dtof_registers_pkg::ID: prdata_o = dtof_registers_pkg::ID_VALUE;
+      dtof_registers_pkg::VERSION: prdata_o = dtof_registers_pkg::VERSION_VALUE;
+      dtof_registers_pkg::READOUT: begin
+        prdata_o[dtof_registers_pkg::READOUT_NUMBER_LSB+:8] = 8'(READOUT);
+        prdata_o[dtof_registers_pkg::READOUT_SCHEDULE_LSB] = (HAS_SCHEDULE != 0);
+        prdata_o[dtof_registers_pkg::READOUT_TIME_GATE_LSB] = (TIME_GATE != 0);
+        prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
+        prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
+        prdata_o[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
+        prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
+      end
+      dtof_registers_pkg::SIZE: begin
+        prdata_o[dtof_registers_pkg::SIZE_COLUMNS_LSB+:16] = 16'(SRAM_NUM);
+        prdata_o[dtof_registers_pkg::SIZE_ROWS_LSB+:16] = 16'(PIXELS_PER_SRAM);
+      end
+      dtof_registers_pkg::WIDTHS: begin
+        prdata_o[dtof_registers_pkg::WIDTHS_TIMESTAMP_LSB+:8] = 8'(NP);
+        prdata_o[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:8] = 8'(FRACTION_WIDTH);
+        prdata_o[dtof_registers_pkg::WIDTHS_CONFIDENCE_LSB+:8] = 8'(CONFIDENCE_WIDTH);
+        prdata_o[dtof_registers_pkg::WIDTHS_ACQUISITIONS_LSB+:8] = 8'(ACQ_WIDTH);
+      end
+      dtof_registers_pkg::LINES: begin
+        prdata_o[dtof_registers_pkg::LINES_ACQUISITION_LSB+:16] = 16'(PIXELS_PER_SRAM * SLOTS);
+        prdata_o[dtof_registers_pkg::LINES_BUFFER_LSB+:16] = 16'(BUFFER_LINES);
+      end
+      dtof_registers_pkg::SLOTS: prdata_o[dtof_registers_pkg::SLOTS_VALUE_LSB+:8] = 8'(SLOTS);
+      dtof_registers_pkg::RAW_BINS: prdata_o[dtof_registers_pkg::RAW_BINS_VALUE_LSB+:17] = 17'(RAW_BINS);
+      dtof_registers_pkg::HISTOGRAM: begin
+        prdata_o[dtof_registers_pkg::HISTOGRAM_COUNT_WIDTH_LSB+:8] = 8'(COUNT_WIDTH);
+        prdata_o[dtof_registers_pkg::HISTOGRAM_NB_LSB+:8] = 8'(NB);
+        prdata_o[dtof_registers_pkg::HISTOGRAM_WINDOW_CENTRED_LSB] = (WINDOW_CENTRED != 0);
+      end
+      dtof_registers_pkg::POINTER: begin
+        prdata_o[dtof_registers_pkg::POINTER_STEP_LSB+:15] = 15'(POINTER_STEP);
+        prdata_o[dtof_registers_pkg::POINTER_GUARD_LSB+:17] = 17'(GUARD);
+      end
+      dtof_registers_pkg::POOL:
+      if (HAS_SCHEDULE != 0) begin
+        prdata_o[dtof_registers_pkg::POOL_GROUP_SIZE_LSB+:8] = 8'(GROUP_SIZE);
+        prdata_o[dtof_registers_pkg::POOL_LABELS_LSB+:4] = 4'(LABELS);
+        prdata_o[dtof_registers_pkg::POOL_SCORE_BITS_LSB+:4] = 4'(SCORE_BITS);
+        prdata_o[dtof_registers_pkg::POOL_OFFSET_BITS_LSB+:4] = 4'(OFFSET_BITS);
+        prdata_o[dtof_registers_pkg::POOL_ADVANTAGE_WIDTH_LSB+:4] = 4'(ADVANTAGE_WIDTH);
+        prdata_o[dtof_registers_pkg::POOL_POINTER_SHIFT_LSB+:4] = 4'(POINTER_SHIFT);
+        prdata_o[dtof_registers_pkg::POOL_CELL_SHIFT_LSB+:4] = 4'(CELL_SHIFT);
+      end
+      dtof_registers_pkg::ENGINES:
+      if (HAS_SCHEDULE != 0) begin
+        prdata_o[dtof_registers_pkg::ENGINES_COLUMNS_LSB+:16] = 16'(ENGINE_COLUMNS);
+        prdata_o[dtof_registers_pkg::ENGINES_RIVAL_MOVES_LSB] = (RIVAL_MOVES != 0);
+      end
+      dtof_registers_pkg::SHARES:
+      if (HAS_SCHEDULE != 0) begin
+        prdata_o[dtof_registers_pkg::SHARES_COARSE_LSB+:8] = 8'(COARSE_SHARE);
+        prdata_o[dtof_registers_pkg::SHARES_TRACK_LSB+:8] = 8'(TRACK_SHARE);
+      end
+      dtof_registers_pkg::CONTROL: prdata_o[dtof_registers_pkg::CONTROL_CONTINUOUS_LSB] = continuous_q;
+      dtof_registers_pkg::STATUS: begin
+        prdata_o[dtof_registers_pkg::STATUS_BUSY_LSB] = busy_i;
+        prdata_o[dtof_registers_pkg::STATUS_STATE_LSB+:3] = state_i;
+        prdata_o[dtof_registers_pkg::STATUS_LEVEL_LSB+:16] = level_i;
+      end
+      dtof_registers_pkg::ERROR: prdata_o = 32'(error_q);
+      dtof_registers_pkg::IRQ_ENABLE: prdata_o = 32'(cause_enable_q);
+      dtof_registers_pkg::IRQ_STATUS: prdata_o = 32'(cause_q);
+      dtof_registers_pkg::FRAME_COUNT: prdata_o = frame_count_i;
+      dtof_registers_pkg::FRAME_CYCLES: prdata_o = frame_cycles_i;
+      dtof_registers_pkg::WARNING: prdata_o[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB] = counter_full_q;
+      dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
+      dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end_o);
+      dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end_o);
+      dtof_registers_pkg::GATE: begin
+        prdata_o[dtof_registers_pkg::GATE_BEGIN_LSB+:16] = 16'(gate_begin_o);
+        prdata_o[dtof_registers_pkg::GATE_END_LSB+:16] = 16'(gate_end_o);
+      end
+      dtof_registers_pkg::RELEASE: prdata_o = 32'(release_q);
+      dtof_registers_pkg::WEAK_BELOW: prdata_o = 32'(weak_below_q);
+      dtof_registers_pkg::OUTPUT: begin
+        prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second_o;
+        prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw_o;
+        prdata_o[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth_o;
+        prdata_o[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior_o;
+      end
+      dtof_registers_pkg::RAW_ROWS: begin
+        prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first_o;
+        prdata_o[dtof_registers_pkg::RAW_ROWS_LAST_LSB+:12] = raw_last_o;
+      end
+      default:
+      if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
+        prdata_o = enable_word;
+      end
+    endcase
+  end
+
+endmodule
+
+`default_nettype wire

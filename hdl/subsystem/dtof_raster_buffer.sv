@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// A frame's results in raster order, whatever the order in which the array decides them: row by row, column by column. With
+// TARGETS = 2 either each pixel of a frame has one result or each has two, the second behind the first.
+//
+// 1. Results are written as they come, each at its pixel's address. The last of a frame ends that.
+// 2. The memory is read from the first address to the last, and the results leave. The next frame's wait meanwhile.
+//
+// Latency: the frame. A result a clock goes in, then a result a clock goes out.
+// Cost: a single-port SRAM of SRAM_NUM * PIXELS_PER_SRAM * TARGETS results of WIDTH bits, an address, a row and a column.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_raster_buffer #(
+    parameter int SRAM_NUM = 200,         // columns
+    parameter int PIXELS_PER_SRAM = 160,  // rows
+    parameter int WIDTH = 27,             // bits of a result beside its place
+    parameter int TARGETS = 1,            // results of a pixel, at most: 1 or 2
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
+) (
+    input  logic                    clk_i,
+    input  logic                    rst_ni,
+    // side band of the SRAM macros, which the technology folder gives a meaning
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
+    // each pixel of a frame once, or each once and once more with s_second_i
+    input  logic                    s_tvalid_i,
+    output logic                    s_tready_o,
+    input  logic [       WIDTH-1:0] s_result_i,
+    input  logic [COLUMN_WIDTH-1:0] s_column_i,
+    input  logic [   ROW_WIDTH-1:0] s_row_i,
+    input  logic                    s_second_i,  // 0 if TARGETS = 1
+    input  logic                    s_tlast_i,   // the frame's last
+    // the same in order
+    output logic                    m_tvalid_o,
+    input  logic                    m_tready_i,
+    output logic [       WIDTH-1:0] m_result_o,
+    output logic [COLUMN_WIDTH-1:0] m_column_o,
+    output logic [   ROW_WIDTH-1:0] m_row_o,
+    output logic                    m_second_o,
+    output logic                    m_tlast_o
+);
+
+  localparam int RESULTS = SRAM_NUM * PIXELS_PER_SRAM * TARGETS;
+  localparam int ADDR_WIDTH = dtof_pkg::index_width(RESULTS);
+  localparam logic [COLUMN_WIDTH-1:0] LAST_COLUMN = COLUMN_WIDTH'(SRAM_NUM - 1);
+  localparam logic [ROW_WIDTH-1:0] LAST_ROW = ROW_WIDTH'(PIXELS_PER_SRAM - 1);
+
+  // In: the address is a product, so that it has a register of its own.
+
+  logic reading_q, unread_q, write_q, ends_q, head_q, both_q, both;
+  logic [WIDTH-1:0] written_q;
+  logic [ADDR_WIDTH-1:0] write_address_q, read_address_q;
+  logic accepted, read, taken, last_address, last_target;
+
+  assign s_tready_o = !reading_q && !ends_q;
+  assign accepted = s_tvalid_i && s_tready_o;
+
+  always_ff @(posedge clk_i) begin
+    if (accepted) begin
+      written_q <= s_result_i;
+      write_address_q <= ADDR_WIDTH'((32'(s_row_i) * SRAM_NUM + 32'(s_column_i)) * TARGETS + 32'(s_second_i));
+      both_q <= s_second_i;  // the frame's last result tells
+    end
+  end
+
+  // Out: the result at the memory's output (head_q) stays there until the next is read.
+
+  assign read = reading_q && unread_q && (!head_q || m_tready_i);
+  assign taken = head_q && m_tready_i;
+  assign both = (TARGETS > 1) && both_q;
+  assign last_address = (read_address_q == ADDR_WIDTH'(both ? RESULTS - 1 : RESULTS - TARGETS));
+  assign last_target = m_second_o || !both;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      write_q <= 1'b0;
+      ends_q <= 1'b0;
+      reading_q <= 1'b0;
+      unread_q <= 1'b0;
+      head_q <= 1'b0;
+      read_address_q <= '0;
+      m_column_o <= '0;
+      m_row_o <= '0;
+      m_second_o <= 1'b0;
+    end else begin
+      write_q <= accepted;
+      ends_q <= accepted && s_tlast_i;
+      if (ends_q) begin
+        reading_q <= 1'b1;
+        unread_q <= 1'b1;
+      end else if (taken && m_tlast_o) begin
+        reading_q <= 1'b0;
+      end
+      if (read) begin
+        unread_q <= !last_address;
+        read_address_q <= last_address ? '0 : read_address_q + ADDR_WIDTH'(both ? 1 : TARGETS);
+      end
+      head_q <= read || (head_q && !m_tready_i);
+      if (taken) begin
+        m_second_o <= !last_target;
+      end
+      if (taken && last_target) begin
+        m_column_o <= (m_column_o == LAST_COLUMN) ? '0 : m_column_o + 1'b1;
+        if (m_column_o == LAST_COLUMN) begin
+          m_row_o <= (m_row_o == LAST_ROW) ? '0 : m_row_o + 1'b1;
+        end
+      end
+    end
+  end
+
+  dtof_sram #(
+      .PORTS(1),
+      .DEPTH(RESULTS),
+      .WIDTH(WIDTH)
+  ) u_results (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .cfg_i       (sram_cfg_i),
+      .cfg_o       (sram_cfg_o),
+      .read_en_i   (read),
+      .read_addr_i (read_address_q),
+      .read_data_o (m_result_o),
+      .write_en_i  (write_q),
+      .write_addr_i(write_address_q),
+      .write_data_i(written_q)
+  );
+
+  assign m_tvalid_o = head_q;
+  assign m_tlast_o = (m_column_o == LAST_COLUMN) && (m_row_o == LAST_ROW) && last_target;
+
+endmodule
+
+`default_nettype wire

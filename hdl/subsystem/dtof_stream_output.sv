@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Results of an array as words of 64 bits, the same for every array, with a status for each pixel. Two words wait here,
+// so that no path leads from the sink's ready to the array.
+//
+// Word: {status, column, row, confidence, position}, at the places of dtof_registers_pkg. `second` is what comes with the
+// result: a pixel's second target. Of a result's status, `weak` is
+// confidence < weak_below_i; `empty` is confidence = 0, where the read-out has one; `masked` says that the column is not
+// enabled; `valid` that none of the three holds. `saturated` says that a counter of COUNTER_WIDTH bits (of a raw frame:
+// RAW_COUNTER_WIDTH) reads its largest value. Counts of a raw frame are neither weak nor empty.
+// tuser: a frame's first word. tlast: its last.
+// Latency: one clock. A word a clock while tready stays high. tvalid never falls before tready.
+// Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_stream_output #(
+    parameter int SRAM_NUM = 200,
+    parameter int ROW_WIDTH = 8,
+    parameter int POSITION_WIDTH = 10,    // code and fraction, at most 16
+    parameter int CONFIDENCE_WIDTH = 4,   // at most 16; 0: none
+    parameter int HAS_CONFIDENCE = (CONFIDENCE_WIDTH > 0) ? 1 : 0,  // 0: it is a count of raw frames alone
+    parameter int COUNTER_WIDTH = CONFIDENCE_WIDTH,      // bits of the counter that the confidence is; 0: it is none
+    parameter int RAW_COUNTER_WIDTH = CONFIDENCE_WIDTH,  // bits of a bin of a raw frame
+    localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
+    localparam int TDATA_WIDTH = COLUMN_WIDTH + ROW_WIDTH + POSITION_WIDTH + CONFIDENCE_WIDTH,
+    localparam int WORD_WIDTH = dtof_registers_pkg::RESULT_WIDTH
+) (
+    input  logic                   clk_i,
+    input  logic                   rst_ni,
+    input  logic [           15:0] weak_below_i,   // these three do not change during a frame
+    input  logic [   SRAM_NUM-1:0] enable_i,
+    input  logic                   raw_i,          // the frame's results are counts
+    // from the array
+    input  logic                   result_tvalid_i,
+    output logic                   result_tready_o,
+    input  logic [TDATA_WIDTH-1:0] result_tdata_i,  // {column, row, code, fraction, confidence}
+    input  logic                   result_second_i, // a pixel's second target
+    input  logic                   result_tlast_i,  // the frame's last
+    // AXI4-Stream
+    output logic                   m_axis_tvalid_o,
+    input  logic                   m_axis_tready_i,
+    output logic [ WORD_WIDTH-1:0] m_axis_tdata_o,
+    output logic                   m_axis_tuser_o,  // the frame's first
+    output logic                   m_axis_tlast_o
+);
+
+  logic [COLUMN_WIDTH-1:0] column;
+  logic [ROW_WIDTH-1:0] row;
+  logic [POSITION_WIDTH-1:0] position;
+  logic [15:0] confidence;
+  logic low, empty, masked, saturated;
+
+  assign column = result_tdata_i[TDATA_WIDTH-1-:COLUMN_WIDTH];
+  assign row = result_tdata_i[POSITION_WIDTH+CONFIDENCE_WIDTH+:ROW_WIDTH];
+  assign position = result_tdata_i[CONFIDENCE_WIDTH+:POSITION_WIDTH];
+
+  generate
+    if (CONFIDENCE_WIDTH > 0) begin : g_confidence
+      assign confidence = 16'(result_tdata_i[CONFIDENCE_WIDTH-1:0]);
+      assign low = (HAS_CONFIDENCE != 0) && !raw_i && (confidence < weak_below_i);
+      assign empty = (HAS_CONFIDENCE != 0) && !raw_i && (confidence == '0);
+      assign saturated = raw_i ? (confidence == 16'((32'd1 << RAW_COUNTER_WIDTH) - 1))
+          : ((COUNTER_WIDTH != 0) && (confidence == 16'((32'd1 << COUNTER_WIDTH) - 1)));
+    end else begin : g_no_confidence
+      logic unused_weak_below;
+      assign unused_weak_below = ^weak_below_i;
+      assign confidence = '0;
+      assign low = 1'b0;
+      assign empty = 1'b0;
+      assign saturated = 1'b0;
+    end
+  endgenerate
+
+  assign masked = !enable_i[column];
+
+  logic [WORD_WIDTH-1:0] word;
+
+  always_comb begin
+    word = '0;
+    word[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
+    word[dtof_registers_pkg::RESULT_CONFIDENCE_LSB+:16] = confidence;
+    word[dtof_registers_pkg::RESULT_ROW_LSB+:ROW_WIDTH] = row;
+    word[dtof_registers_pkg::RESULT_COLUMN_LSB+:COLUMN_WIDTH] = column;
+    word[dtof_registers_pkg::RESULT_VALID_LSB] = !low && !empty && !masked;
+    word[dtof_registers_pkg::RESULT_WEAK_LSB] = low;
+    word[dtof_registers_pkg::RESULT_EMPTY_LSB] = empty;
+    word[dtof_registers_pkg::RESULT_MASKED_LSB] = masked;
+    word[dtof_registers_pkg::RESULT_SATURATED_LSB] = saturated;
+    word[dtof_registers_pkg::RESULT_SECOND_LSB] = result_second_i;
+    word[dtof_registers_pkg::RESULT_RAW_LSB] = raw_i;
+  end
+
+  // The word at the port, and one behind it for the clock in which the array learns that the sink waits.
+
+  logic valid_q, last_q, first_q, behind_q, behind_last_q, behind_first_q, begins_q;
+  logic [WORD_WIDTH-1:0] word_q, behind_word_q;
+  logic accepted, moves;
+
+  assign accepted = result_tvalid_i && !behind_q;
+  assign moves = !valid_q || m_axis_tready_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      valid_q <= 1'b0;
+      behind_q <= 1'b0;
+      begins_q <= 1'b1;
+    end else begin
+      if (accepted) begin
+        begins_q <= result_tlast_i;
+      end
+      if (moves) begin
+        valid_q <= behind_q || accepted;
+        behind_q <= 1'b0;
+      end else if (accepted) begin
+        behind_q <= 1'b1;
+      end
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (accepted) begin
+      behind_word_q <= word;
+      behind_last_q <= result_tlast_i;
+      behind_first_q <= begins_q;
+    end
+    if (moves) begin
+      word_q <= behind_q ? behind_word_q : word;
+      last_q <= behind_q ? behind_last_q : result_tlast_i;
+      first_q <= behind_q ? behind_first_q : begins_q;
+    end
+  end
+
+  assign result_tready_o = !behind_q;
+  assign m_axis_tvalid_o = valid_q;
+  assign m_axis_tdata_o = word_q;
+  assign m_axis_tuser_o = first_q;
+  assign m_axis_tlast_o = last_q;
+
+`ifndef SYNTHESIS
+  dtof_stream_rules #(
+      .WIDTH(WORD_WIDTH + 1)
+  ) u_stream_rules (
+      .clk_i   (clk_i),
+      .rst_ni  (rst_ni),
+      .tvalid_i(m_axis_tvalid_o),
+      .tready_i(m_axis_tready_i),
+      .tdata_i ({m_axis_tuser_o, m_axis_tdata_o}),
+      .tlast_i (m_axis_tlast_o)
+  );
+`endif
+
+endmodule
+
+`default_nettype wire

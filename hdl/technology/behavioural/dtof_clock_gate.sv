@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stand-in for an integrated clock-gating cell. Swap for silicon.
+//
+// A clock with enable_i high ends with a rising edge of clk_o, one with enable_i low without one; scan_mode_i lets all
+// pass. enable_i is taken while clk_i is low, so that it may settle until clk_i rises, and clk_o has no glitch.
+// Cost: one cell.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_clock_gate (
+    input  logic clk_i,
+    input  logic enable_i,
+    input  logic scan_mode_i,
+    output logic clk_o
+);
+
+  logic enable_q;
+
+  always_latch begin
+    if (!clk_i) begin
+      enable_q = enable_i || scan_mode_i;
+    end
+  end
+
+  assign clk_o = clk_i && enable_q;
+
+endmodule
+
+`default_nettype wire

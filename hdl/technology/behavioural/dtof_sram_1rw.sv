@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stand-in for a single-port SRAM macro: one port that reads or writes, one clock. Swap for silicon.
+//
+// Read:   with en_i and not we_i, rdata_o shows the word one clock later and keeps it until the next access.
+// Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards.
+// What is undefined is X, so that a user that relies on it fails at once and synthesis is free to infer a bare
+// block RAM. Verilator has no X: there contents are random until written and undefined read data is the inverted
+// write data.
+// Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_sram_1rw #(
+    parameter int DEPTH = 16,
+    parameter int WIDTH = 8,
+    parameter int CFG_WIDTH = 1,
+    localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
+) (
+    input  logic                  clk_i,
+    input  logic [ CFG_WIDTH-1:0] cfg_i,
+    output logic [ CFG_WIDTH-1:0] cfg_o,
+    input  logic                  en_i,
+    input  logic                  we_i,
+    input  logic [ADDR_WIDTH-1:0] addr_i,
+    input  logic [     WIDTH-1:0] wdata_i,
+    output logic [     WIDTH-1:0] rdata_o
+);
+
+  assign cfg_o = cfg_i;
+
+  logic [WIDTH-1:0] memory[DEPTH];
+
+  always_ff @(posedge clk_i) begin
+    if (en_i && we_i) begin
+      memory[addr_i] <= wdata_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (en_i) begin
+`ifdef VERILATOR
+      rdata_o <= we_i ? ~wdata_i : memory[addr_i];
+`else
+      rdata_o <= we_i ? {WIDTH{1'bx}} : memory[addr_i];
+`endif
+    end
+  end
+
+`ifndef SYNTHESIS
+  initial begin
+`ifdef VERILATOR
+    for (int address = 0; address < DEPTH; address = address + 1) begin
+      for (int filled = 0; filled < WIDTH; filled = filled + 32) begin
+        memory[address] = WIDTH'({memory[address], $urandom});
+      end
+    end
+`endif
+    if ($test$plusargs("sram_report") != 0) begin
+      $display("%m: single-port SRAM, %0d words x %0d bits", DEPTH, WIDTH);
+    end
+  end
+`endif
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The RTL's names, and the RTL beside a user's modules of the names that it had without its prefix."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import check_names  # noqa: E402
+
+HDL = ROOT / "hdl"
+
+
+def everyday_names() -> list[str]:
+    """Module and package names without the prefix."""
+    found = [name for path in check_names.sources(ROOT) for _, name in check_names.names(path.read_text(encoding="utf-8"))]
+    return [name.removeprefix(check_names.PREFIX) for name in found if name.startswith(check_names.PREFIX)]
+
+
+class Names(unittest.TestCase):
+    def test_all_names_have_the_prefix(self) -> None:
+        self.assertEqual(check_names.problems(ROOT), [])
+        self.assertGreater(len(everyday_names()), 50)
+
+    def test_each_kind_of_name_is_found(self) -> None:
+        for text, name in (("module controller #(\n", "controller"), ("package pkg;\n", "pkg"), ("  `define ASSERT(x) x\n", "ASSERT"),
+                           ("interface bus;\n", "bus"),):
+            self.assertEqual([found for _, found in check_names.names(text)], [name])
+        for text, name in (("typedef struct packed {\n  logic a;\n} command_t;\n", "command_t"), ("typedef logic [3:0] nibble_t;\n", "nibble_t")):
+            self.assertEqual(check_names.names(text + "module a;\n  typedef logic b;\nendmodule\n")[0][1], name)
+        self.assertEqual(check_names.names("// module controller\nmodule a ();\n  typedef logic b;\nendmodule\n"), [(2, "a")])
+
+    def test_a_name_and_a_file_without_the_prefix_are_errors(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            (root / "hdl" / "package").mkdir(parents=True)
+            (root / "hdl" / "dtof.f").write_text("// own\n+incdir+package\ncontroller.sv\n")
+            (root / "hdl" / "controller.sv").write_text("\nmodule controller;\nendmodule\n")
+            (root / "hdl" / "package" / "dtof_a.svh").write_text("`define DTOF_A\n`define B\n")
+            self.assertEqual(check_names.problems(root), ["hdl/controller.sv: the file's name lacks the prefix dtof_",
+                                                          "hdl/controller.sv:2: 'controller' lacks the prefix dtof_",
+                                                          "hdl/package/dtof_a.svh:2: 'B' lacks the prefix dtof_"])  # fmt: skip
+
+
+class BesideAUser(unittest.TestCase):
+    """A user's modules come first and last in the list of files."""
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.user = Path(folder.name) / "user.sv"
+        modules = "".join(f"module {name} (input wire clk, output reg q);\n  always @(posedge clk) q <= !q;\nendmodule\n"
+                          for name in everyday_names())
+        tops = "module soc (input wire clk, output wire q);\n  line_buffer u (.clk(clk), .q(q));\nendmodule\n"
+        cls.user.write_text(modules + tops)
+
+    def read(self, *command: str) -> None:
+        done = subprocess.run(command, cwd=HDL, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_verilator(self) -> None:
+        options = ["verilator", "--lint-only", "-Wno-fatal", "-Wno-WIDTH"]
+        self.read(*options, str(self.user), "-f", "dtof.f", "--top-module", "dtof_subsystem")
+        self.read(*options, "-f", "dtof.f", str(self.user), "--top-module", "soc")
+
+    def test_icarus(self) -> None:
+        self.read("iverilog", "-g2012", "-t", "null", str(self.user), "-f", "dtof.f", "-s", "dtof_subsystem", "-s", "soc")
+
+
+if __name__ == "__main__":
+    unittest.main()
