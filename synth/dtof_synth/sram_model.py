@@ -72,12 +72,12 @@ class PortKind:
 
 # Least squares of log(value) over the 20 CACTI points of each kind (test_sram_model.py refits them).
 KINDS = {
-    1: PortKind("sram_1rw", 29.0, 22.5, 0.242, 0.30,
+    1: PortKind("dtof_sram_1rw", 29.0, 22.5, 0.242, 0.30,
                 access=PowerLaw(0.16173, 0.18204, 0.16401),
                 read_energy=LinearInBits(7.7239e-4, 0.66146, 3.6932),
                 write_energy=PowerLaw(4.0184e-3, 0.43953, 1.06473),
                 leakage=PowerLaw(5.1345e-6, 0.96475, 0.93028)),
-    2: PortKind("sram_1r1w", 55.6, 35.7, 0.472, 0.356,
+    2: PortKind("dtof_sram_1r1w", 55.6, 35.7, 0.472, 0.356,
                 access=PowerLaw(0.17081, 0.17758, 0.16504),
                 read_energy=LinearInBits(1.28916e-3, 0.62510, 4.6459),
                 write_energy=PowerLaw(4.1414e-3, 0.45769, 1.05031),
@@ -95,7 +95,7 @@ class Size:
 
     @property
     def name(self) -> str:
-        return f"{KINDS[self.ports].module}_{self.words}x{self.bits}"
+        return f"{KINDS[self.ports].module.removeprefix('dtof_')}_{self.words}x{self.bits}"
 
     @property
     def address_bits(self) -> int:
