@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One link of the chain that tells of full counters: what happens in this column or any behind it moves one column on in
-// a clock. Nothing stops the chain, and two columns whose counters get full in clocks that meet in a link give one event.
+// One link of the chain of full counters: an event of this column, or of a column behind it, moves one column on in a clock.
+// Nothing stops the chain. Two events that meet in a link become one event.
+// Latency: 1 clock a column. Cost: a flip-flop with reset and an OR gate.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 module dtof_full_counter_link (
     input  logic clk_i,
     input  logic rst_ni,         // an event that never happened must not leave the array behind power-up
@@ -22,3 +27,5 @@ module dtof_full_counter_link (
   assign full_o = full_q;
 
 endmodule
+
+`default_nettype wire
