@@ -230,13 +230,13 @@ module example_bench #(
              cycles, ACQUISITIONS * ROWS * SLOTS);
     if (failures != 0) $display("FAIL: %0d errors", failures);
     else $display("PASS");
-    $finish;
+    $finish(0);
   end
 
   initial begin : watchdog
     #(3.0 * ACQUISITIONS * ROWS * SLOTS * 4 + 3e4);
     $display("FAIL: the frame does not end");
-    $finish;
+    $finish(0);
   end
 
 endmodule

@@ -180,13 +180,13 @@ module timing_bench #(
     clocks(1);
     if (DIAGRAMS != 0) diagrams;
     else frame;
-    $finish;
+    $finish(0);
   end
 
   initial begin : watchdog
     #3e7;
     $display("FAIL: the frame does not end");
-    $finish;
+    $finish(0);
   end
 
 endmodule

@@ -107,7 +107,7 @@ class ClockGating(unittest.TestCase):
     if (^q !== 1'bx) loaded <= loaded + 1;
     if ((^q !== 1'bx && n !== q) || (^q_own !== 1'bx && n_own !== q_own)) $display("differs at %0t", $time);
   end
-  initial begin #1 rst = 0; #20000 $display("compared %0d", loaded); $finish; end
+  initial begin #1 rst = 0; #20000 $display("compared %0d", loaded); $finish(0); end
 endmodule
 """, encoding="utf-8")
         program = self.folder / "bench.vvp"
