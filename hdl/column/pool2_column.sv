@@ -29,6 +29,7 @@ module pool2_column #(
     input  logic [          NP-1:0] gate_begin_i,
     input  logic [          NP-1:0] gate_end_i,
     input  logic                    point_i,           // the pointer phase
+    input  logic                    leans_i,           // candidates count in this phase
     // timestamps
     input  logic                    beat_t1_i,         // a timestamp, or none detected
     input  logic                    first_slot_t1_i,
@@ -38,7 +39,8 @@ module pool2_column #(
     input  logic                    second_row_t2_i,   // coarse: its second one is
     // the pixel at T2
     input  logic [ CELLS_WIDTH-1:0] cells_i,           // candidates of the group of the pixel at T1 and T2
-    input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // point: the pointer's, of the pixel at T1
+    input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // with compares_t1_o: the pointer's, of the pixel at T1
+    output logic                    compares_t1_o,     // point: two timestamps, of which one may be inside
     output logic                    detected_t1_o,     // it will have a timestamp at T2
     output logic                    detected_t2_o,     // it has a timestamp
     output logic [          NP-1:0] used_t2_o,         // the one that counts
@@ -137,6 +139,7 @@ module pool2_column #(
     end
   endgenerate
 
+  assign compares_t1_o = (RIVAL_MOVES != 0) && point_i && has_second;
   assign used_t2_o = use_second_q ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
@@ -191,8 +194,8 @@ module pool2_column #(
   assign hits_t2_o = (has_second_q && !hits_of_second) ? first_hits_q : hits;
 
   always_ff @(posedge clk_i) begin
-    // A rival that moves has no use for candidates, so that nothing behind the register moves in the pointer phase.
-    if ((valid_t1 || last_slot_t1_i) && !(RIVAL_MOVES != 0 && point_i)) begin
+    // Nothing behind the register moves in a phase without candidates, or without a timestamp.
+    if (leans_i && (valid_t1 || (SLOTS > 2 && last_slot_t1_i && has_second))) begin
       matched_q <= (last_slot_t1_i && has_second) ? second[NP-1-:CELL_WIDTH] : first_cell;
     end
     if (has_second) begin

@@ -251,6 +251,7 @@ module pool2_pair #(
   logic read_selected_q, upper_q, replaced_q, drives_lower_q, drives_upper_q, ahead_q, word_load_q, word_load, changed_q;
   logic [CELLS_WIDTH-1:0] cells_q;
   logic [PIXEL_WIDTH-1:0] moved;
+  logic changes;  // moved is another word than before
   // Which pixel's distance is found, and which one moved is for. A pixel without a timestamp has no turn, so that nothing
   // moves for it.
   logic [3:0] turn_q, move_q;
@@ -262,7 +263,7 @@ module pool2_pair #(
   always_ff @(posedge clk_i) begin
     ahead_q <= word_load_d_i;
     word_load_q <= ahead_q;
-    changed_q <= (visit_t2 && (detected_t2 != '0)) || (changed_q && !word_load_q);
+    changed_q <= (takes_pixel != '0) || (changed_q && !word_load_q);
     if (group_load_i) begin
       cells_q <= group_upper_i ? read_data_i[HALF_WIDTH+:CELLS_WIDTH] : read_data_i[CELLS_WIDTH-1:0];
     end
@@ -276,34 +277,43 @@ module pool2_pair #(
     end
   end
 
-  // What is not from the SRAM.
+  // The register takes what stands in the SRAM's word, unless something else is due: the choice rests there, for each of its
+  // changes passes all bits. The last pixel of a word goes straight to the SRAM.
   logic [WORD_WIDTH-1:0] fresh, from_sram, next_word;
+  logic [3:0] gets_pixel, takes_pixel;
+  logic whole_word;
   integer f;
+
+  assign whole_word = word_load || clear_i || (counts_first && counts);
+  assign gets_pixel = {1'b0, move_q[2:0]};
+  assign takes_pixel = gets_pixel & {4{changes}};
+
   always_comb begin
     fresh = {2{engine_word_i}} | (counted_word & {WORD_WIDTH{counts_first}});
-    for (f = 0; f < 4; f = f + 1) begin
+    for (f = 0; f < 3; f = f + 1) begin
       fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] = fresh[(f/2)*HALF_WIDTH+(f%2)*PIXEL_WIDTH+:PIXEL_WIDTH] | moved;
     end
   end
 
   assign next_word = (read_data_i & from_sram) | (fresh & ~from_sram);
 
-  // Each pixel has an enable of its own. The last pixel of a word goes straight to the SRAM.
-  integer i;
-  always_ff @(posedge clk_i) begin
-    for (i = 0; i < 3; i = i + 1) begin
-      if (move_q[i]) begin
-        word_q[(i/2)*HALF_WIDTH+(i%2)*PIXEL_WIDTH+:PIXEL_WIDTH] <= next_word[(i/2)*HALF_WIDTH+(i%2)*PIXEL_WIDTH+:PIXEL_WIDTH];
+  // Each pixel has an enable of its own.
+  genvar h;
+  generate
+    for (h = 0; h < 4; h = h + 1) begin : g_pixel
+      localparam int FIRST = (h / 2) * HALF_WIDTH + (h % 2) * PIXEL_WIDTH;
+      localparam int WIDTH = (h % 2 == 0) ? PIXEL_WIDTH : HALF_WIDTH - PIXEL_WIDTH;
+      always_ff @(posedge clk_i) begin
+        if (whole_word || takes_pixel[h]) begin
+          word_q[FIRST+:WIDTH] <= next_word[FIRST+:WIDTH];
+        end
       end
     end
-    if (word_load || clear_i || (counts_first && counts)) begin
-      word_q <= next_word;
-    end
-  end
+  endgenerate
 
   // Track and point: whose turn it is.
 
-  logic turn_valid, second_column_turn;
+  logic turn_valid, first_column_turn, second_column_turn;
   logic [3:0] acquisition_q;
   logic [COLUMNS*NP-1:0] used_t2;
   logic [COLUMNS*LABELS-1:0] hits_t2;
@@ -315,8 +325,10 @@ module pool2_pair #(
   assign visit_t2 = visit_q[0] || visit_q[1];
   assign turn_valid = (turn_q != '0);
   assign second_column_turn = turn_q[2] || turn_q[3];
-  assign turn_timestamp = second_column_turn ? used_t3_q : used_t2[NP-1:0];
-  assign turn_hits = second_column_turn ? hits_t3_q : hits_t2[LABELS-1:0];
+  assign first_column_turn = turn_q[0] || turn_q[1];
+  // 0 where nobody has a turn, so that nothing behind moves in the coarse phase.
+  assign turn_timestamp = (used_t3_q & {NP{second_column_turn}}) | (used_t2[NP-1:0] & {NP{first_column_turn}});
+  assign turn_hits = (hits_t3_q & {LABELS{second_column_turn}}) | (hits_t2[LABELS-1:0] & {LABELS{first_column_turn}});
 
   always_ff @(posedge clk_i) begin
     if (ahead_q) begin
@@ -334,23 +346,26 @@ module pool2_pair #(
   localparam int LEADER_FIRST = (RIVAL_MOVES == 0) ? POINTER_WIDTH : LABELS * SCORE_BITS;
   localparam bit HAS_LEADER = (RIVAL_MOVES == 0) || (OFFSET_BITS > 0);
   logic [3:0] turn_d;
+  logic leans;  // candidates count; to a rival that moves they do not in the pointer phase
   logic [CELL_WIDTH-1:0] leader_cell_q;
+
+  assign leans = !coarse_i && !(RIVAL_MOVES != 0 && point_i);
 
   assign turn_d = {visit_q & {2{(COLUMNS > 1) && detected_t2[LAST]}}, visit_t1 & {2{detected_t1[0]}}};
 
   generate
     if (HAS_LEADER) begin : g_leader
-      logic [4*LABEL_WIDTH-1:0] leaders;
       logic [LABEL_WIDTH-1:0] leader;
-      assign leaders = {word_q[HALF_WIDTH+PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH],
-                        word_load_q ? read_data_i[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] : word_q[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH],
-                        word_q[PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH],
-                        ahead_q ? read_data_i[LEADER_FIRST+:LABEL_WIDTH] : first_pixel_q[LEADER_FIRST+:LABEL_WIDTH]};
-      assign leader = (leaders[LABEL_WIDTH-1:0] & {LABEL_WIDTH{turn_d[0]}}) | (leaders[LABEL_WIDTH+:LABEL_WIDTH] & {LABEL_WIDTH{turn_d[1]}})
-          | (leaders[2*LABEL_WIDTH+:LABEL_WIDTH] & {LABEL_WIDTH{turn_d[2]}}) | (leaders[3*LABEL_WIDTH+:LABEL_WIDTH] & {LABEL_WIDTH{turn_d[3]}});
+      logic [3:0] asks;
+      assign asks = turn_d & {4{leans}};
+      assign leader = (read_data_i[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && ahead_q}})
+          | (first_pixel_q[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && !ahead_q}})
+          | (word_q[PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[1]}})
+          | (read_data_i[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && word_load_q}})
+          | (word_q[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && !word_load_q}})
+          | (word_q[HALF_WIDTH+PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[3]}});
       always_ff @(posedge clk_i) begin
-        // A rival that moves has no use for candidates in the pointer phase.
-        if (turn_d != '0 && !(RIVAL_MOVES != 0 && point_i)) begin
+        if (asks != '0) begin
           leader_cell_q <= cells_q[leader*CELL_WIDTH+:CELL_WIDTH];
         end
       end
@@ -392,6 +407,7 @@ module pool2_pair #(
       .leader_cell_i(leader_cell_q),
       .word_i       (turn_pixel),
       .acquisition_i(acquisition_q),
+      .changed_o    (changes),
       .word_o       (moved)
   );
 
@@ -411,12 +427,15 @@ module pool2_pair #(
   generate
     for (c = 0; c < 2; c = c + 1) begin : g_half
       if (c < COLUMNS) begin : g_column
-        // The pointer's cell of the pixel at T1, which may be still to be registered.
+        // The pointer's cell of the pixel at T1, which may be still to be registered. 0 where nothing asks for it.
         localparam int CELL_FIRST = POINTER_WIDTH - CELL_WIDTH;
-        logic [CELL_WIDTH-1:0] pointer_cell;
-        assign pointer_cell = (ahead_q || (c == 1 && word_load_q)) ? read_data_i[c*HALF_WIDTH+CELL_FIRST+:CELL_WIDTH]
-            : second_row_t1_q ? word_q[c*HALF_WIDTH+PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH]
-            : (c == 0) ? first_pixel_q[CELL_FIRST+:CELL_WIDTH] : word_q[HALF_WIDTH+CELL_FIRST+:CELL_WIDTH];
+        logic [CELL_WIDTH-1:0] pointer_cell, first_row_cell;
+        logic compares, is_read;
+        assign is_read = ahead_q || (c == 1 && word_load_q);
+        assign first_row_cell = (c == 0) ? first_pixel_q[CELL_FIRST+:CELL_WIDTH] : word_q[HALF_WIDTH+CELL_FIRST+:CELL_WIDTH];
+        assign pointer_cell = (read_data_i[c*HALF_WIDTH+CELL_FIRST+:CELL_WIDTH] & {CELL_WIDTH{compares && is_read}})
+            | (word_q[c*HALF_WIDTH+PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH] & {CELL_WIDTH{compares && !is_read && second_row_t1_q}})
+            | (first_row_cell & {CELL_WIDTH{compares && !is_read && !second_row_t1_q}});
 
         pool2_column #(
             .NP              (NP),
@@ -431,6 +450,7 @@ module pool2_pair #(
             .gate_begin_i     (gate_begin_i),
             .gate_end_i       (gate_end_i),
             .point_i          (point_i),
+            .leans_i          (leans),
             .beat_t1_i        (beat_t1_i),
             .first_slot_t1_i  (first_slot_t1_i),
             .last_slot_t1_i   (last_slot_t1_i),
@@ -439,6 +459,7 @@ module pool2_pair #(
             .second_row_t2_i  (second_row_t2_i),
             .cells_i          (cells_q),
             .pointer_cell_t1_i(pointer_cell),
+            .compares_t1_o    (compares),
             .detected_t1_o    (detected_t1[c]),
             .detected_t2_o    (detected_t2[c]),
             .used_t2_o        (used_t2[c*NP+:NP]),
@@ -449,16 +470,18 @@ module pool2_pair #(
         );
       end
 
-      // Which bits come from the SRAM when a word is loaded. The rest is the engine's, or 0 to clear.
+      // Which bits are not the SRAM's: the engine's, 0 to clear, counts, a pixel.
       logic given;
+      logic [HALF_WIDTH-1:0] given_bits, pixel_bits;
       assign given = replace_i && read_selected_q && upper_q == (c == 1);
+      assign pixel_bits = {{(HALF_WIDTH - PIXEL_WIDTH) {gets_pixel[2*c+1]}}, {PIXEL_WIDTH{gets_pixel[2*c]}}};
       if (PRIOR != 0) begin : g_prior
         localparam logic [HALF_WIDTH-1:0] USED_BITS = HALF_WIDTH'((1 << LABELS) - 1) << dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH);
-        assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = {HALF_WIDTH{word_load}}
-            & ~({HALF_WIDTH{given}} & ({HALF_WIDTH{!used_i}} | USED_BITS));
+        assign given_bits = {HALF_WIDTH{given}} & ({HALF_WIDTH{!used_i}} | USED_BITS);
       end else begin : g_no_prior
-        assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = {HALF_WIDTH{word_load && !given}};
+        assign given_bits = {HALF_WIDTH{given}};
       end
+      assign from_sram[c*HALF_WIDTH+:HALF_WIDTH] = ~(given_bits | pixel_bits | {HALF_WIDTH{clear_i || counts_first}});
 
       // What is written: the word with what is counted. The last pixel is on its way.
       assign write_data_o[c*HALF_WIDTH+:HALF_WIDTH] = {
@@ -469,8 +492,9 @@ module pool2_pair #(
 
   assign upper_t2_o = (upper_t2 != '0);
 
-  // Pixels without a timestamp stay what they are, and a word of them alone is not written, nor one in which nothing counts.
-  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (make_room_i && full_q) : changed_q;
+  // A word in which no pixel changes is not written, nor one in which nothing counts.
+  assign write_o = engine_i ? replaced_q : coarse_i ? counted_before || counts || (make_room_i && full_q)
+      : changed_q || (move_q[3] && changes);
 
   logic unused;
   assign unused = ^{1'b0, used_i, move_q[3], detected_t1};

@@ -7,8 +7,8 @@
 // missing.
 //
 // Schedule (T0: the clock of a pixel's last slot at the port):
-//   prime   before the first acquisition of a phase: group 0's word and pair 0's are read
-//   second pixel of a pair   T1: read the next pair's group word, where it is another one
+//   prime   before the first acquisition of a phase: group 0's word, if the phase needs groups, and pair 0's are read
+//   second pixel of a pair   T1: read the next pair's group word, where it is another one and the phase needs groups
 //                            T2: read the next pair; the group's word is registered
 //                            T3: the next pair's first pixel is registered
 //                            T4: write the pair; the next is registered
@@ -38,6 +38,7 @@ module pair_sequencer #(
     input  logic                  rst_ni,
     input  logic                  stream_i,          // a phase is under way
     input  logic                  coarse_i,          // it is the coarse phase
+    input  logic                  groups_i,          // the phase needs the groups' words; low in the coarse phase
     input  logic                  more_i,            // another acquisition belongs to it
     input  logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1_i,  // low bits of the number of the timestamp's at T1
     input  logic                  tdc_valid_i,
@@ -264,15 +265,15 @@ module pair_sequencer #(
   assign pair_t3 = pair_tn[3*PAIR_WIDTH+:PAIR_WIDTH];
 
   logic prime_group, prime_word, read_group, read_word, write_word;
-  assign prime_group = stream_i && !coarse_i && (prime_q == 3'd1);
+  assign prime_group = stream_i && groups_i && (prime_q == 3'd1);
   assign prime_word = stream_i && !coarse_i && (prime_q == 3'd2);
-  assign read_group = busy_t1_q && !coarse_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 2));
+  assign read_group = busy_t1_q && groups_i && next_group_t1 && (step_t1_q == STEP_WIDTH'(STEPS - 2));
   assign read_word = busy_t1_q && !coarse_i && (step_t1_q == LAST_STEP);
   assign write_word = second_visit_t3_q;
 
   assign read_d_o = prime_group || prime_word || read_group || read_word || read_part;
   assign write_d_o = write_word || write_part;
-  assign group_load_d_o = prime_word || (busy_t1_q && !coarse_i && next_group_t1 && step_t1_q == LAST_STEP);
+  assign group_load_d_o = groups_i && (prime_word || (busy_t1_q && next_group_t1 && step_t1_q == LAST_STEP));
   assign word_load_d_o = (stream_i && !coarse_i && prime_q == 3'd3) || second_visit_t2_q;
 
   assign group_upper_d_o = !prime_word && 1'(32'(next_pair_t1) >> GROUP_SHIFT);

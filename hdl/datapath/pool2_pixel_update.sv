@@ -35,6 +35,7 @@ module pool2_pixel_update #(
     input  logic [PIXEL_WIDTH-1:0] word_i,
     // clock 1
     input  logic [            3:0] acquisition_i,  // mod 16
+    output logic                   changed_o,      // the last pixel with a timestamp gets another word; low in neither phase
     output logic [PIXEL_WIDTH-1:0] word_o          // of the last pixel with a timestamp; 0 in neither phase
 );
 
@@ -101,6 +102,7 @@ module pool2_pixel_update #(
 
   logic [TRACK_WIDTH-1:0] tracked;
   logic [POINT_WIDTH-1:0] pointed;
+  logic track_changes, point_changes;
 
   pool2_track_update #(
       .LABELS     (LABELS),
@@ -112,6 +114,7 @@ module pool2_pixel_update #(
       .hits_i        (hits_q),
       .offset_up_i   (distance_q.offset_up),
       .offset_down_i (distance_q.offset_down),
+      .changed_o     (track_changes),
       .word_o        (tracked)
   );
 
@@ -132,8 +135,11 @@ module pool2_pixel_update #(
       .rival_up_i   (distance_q.rival_up),
       .rival_down_i (distance_q.rival_down),
       .acquisition_i(acquisition_i),
+      .changed_o    (point_changes),
       .word_o       (pointed)
   );
+
+  assign changed_o = (track_i && track_changes) || (point_i && point_changes);
 
   assign word_o = (PIXEL_WIDTH'(tracked) & {PIXEL_WIDTH{track_i}}) | (PIXEL_WIDTH'(pointed) & {PIXEL_WIDTH{point_i}});
 

@@ -17,6 +17,7 @@ module pool2_track_update #(
     input  logic [     LABELS-1:0] hits_i,         // none without a timestamp
     input  logic                   offset_up_i,
     input  logic                   offset_down_i,
+    output logic                   changed_o,      // low: the word stays as it is
     output logic [TRACK_WIDTH-1:0] word_o
 );
 
@@ -51,6 +52,7 @@ module pool2_track_update #(
   generate
     if (OFFSET_BITS == 0) begin : g_scores_alone
       assign word_o = next_score;
+      assign changed_o = (hit && !full) || (loss != '0);
       logic unused;
       assign unused = ^{leader_score_i, offset_up_i, offset_down_i};
     end else begin : g_leader
@@ -86,6 +88,7 @@ module pool2_track_update #(
       // A full winner passes whoever led: the others lose a point.
       assign change = hit && (winner_label != leader) && (full || winner_score >= leader_score_i);
 
+      assign changed_o = (hit && !full) || (loss != '0) || change || offset_up_i || offset_down_i;
       assign word_o = {change ? OFFSET_BITS'(0) : limited[OFFSET_BITS-1:0], change ? winner_label : leader, next_score};
 
       logic unused;

@@ -6,6 +6,7 @@
 // (a >> 2) mod u. Hits raise the advantage n, the rival's hits lower it and at n = 0 change roles.
 // RIVAL_MOVES = 1: both pointers are absolute and the rival follows its hits in cells, quarters of a coarse bin.
 // RIVAL_MOVES = 0: the pointer is relative to candidate a, the rival is candidate b.
+// The pointer moves if 2^gear weight and the dither make a unit, up or down; changed_o also counts a move that saturates.
 // Cost: an adder of the pointer's width, a shifter; about 25 gate delays.
 module twin_pointer_update #(
     parameter int LABELS = 5,
@@ -26,6 +27,7 @@ module twin_pointer_update #(
     input  logic                   rival_up_i,
     input  logic                   rival_down_i,
     input  logic [            3:0] acquisition_i,  // mod 16
+    output logic                   changed_o,      // low: the word stays as it is; without update_i, too
     output logic [POINT_WIDTH-1:0] word_o          // 0 without update_i
 );
 
@@ -55,7 +57,8 @@ module twin_pointer_update #(
   logic [ADVANTAGE_WIDTH-1:0] advantage, next_advantage;
   logic [POINTER_WIDTH-1:0] pointer, moved, swapped, limited, next_pointer;
   logic [PRODUCT_WIDTH-1:0] product;
-  logic counted, swap, gain, loss;
+  logic counted, swap, gain, loss, rival_moves;
+  logic [PRODUCT_WIDTH:0] units;
   logic [RIVAL_WIDTH-1:0] rival, rival_step, next_rival;
   logic [POINTER_WIDTH+DITHER_WIDTH:0] absolute_sum;
   logic [LABEL_WIDTH-1:0] leader_label, rival_label;
@@ -69,6 +72,9 @@ module twin_pointer_update #(
   // Under update_i alone, so that a simulator works on words that are updated; the defaults say that nothing is kept.
   always_comb begin
     word_o = '0;
+    changed_o = 1'b0;
+    rival_moves = 1'b0;
+    units = '0;
     advantage = '0;
     next_advantage = '0;
     pointer = '0;
@@ -105,6 +111,9 @@ module twin_pointer_update #(
       // 1, 0, -1: a swap comes with n = 0, after which it is 1. There is no hit of both.
       gain = (hit_i && counted && (advantage != '1)) || swap;
       loss = rival_hit_i && counted && !swap;
+      rival_moves = (RIVAL_MOVES != 0) && rival_hit_i && (rival_up_i || rival_down_i);
+      units = ({1'b0, product} + (PRODUCT_WIDTH + 1)'(dither)) >> DITHER_WIDTH;
+      changed_o = gain || loss || rival_moves || (reach_i && units != '0);
       next_advantage = advantage + {{(ADVANTAGE_WIDTH - 1) {loss}}, gain || loss};
 
       if (RIVAL_MOVES != 0) begin
@@ -117,8 +126,7 @@ module twin_pointer_update #(
             : POINTER_WIDTH'(absolute_sum >> DITHER_WIDTH);
         swapped = POINTER_WIDTH'({rival, 1'b1}) << (POINTER_WIDTH - 1 - RIVAL_WIDTH);
         next_pointer = swap ? swapped : (reach_i ? moved : pointer);
-        rival_step = {{(RIVAL_WIDTH - 1) {rival_hit_i && rival_down_i}},
-                      rival_hit_i && (rival_up_i || rival_down_i)};  // 1, 0, -1
+        rival_step = {{(RIVAL_WIDTH - 1) {rival_hit_i && rival_down_i}}, rival_moves};  // 1, 0, -1
         next_rival = swap ? RIVAL_WIDTH'(pointer >> (POINTER_WIDTH - RIVAL_WIDTH)) : rival + rival_step;
         word_o = POINT_WIDTH'({next_advantage, next_rival, next_pointer});
       end else begin

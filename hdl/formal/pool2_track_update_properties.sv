@@ -23,6 +23,7 @@ module pool2_track_update_properties #(
   assign checking = 1'b1;
 
   logic [TRACK_WIDTH-1:0] word;
+  logic changed;
   logic [FULL_WIDTH-1:0] full_before, full_after;
 
   assign full_before = FULL_WIDTH'(word_i);
@@ -38,6 +39,7 @@ module pool2_track_update_properties #(
       .hits_i        (hits_i),
       .offset_up_i   (offset_up_i),
       .offset_down_i (offset_down_i),
+      .changed_o     (changed),
       .word_o        (word)
   );
 
@@ -98,6 +100,8 @@ module pool2_track_update_properties #(
   `ASSUME(m_one_way, !(offset_up_i && offset_down_i))
   `PROVE(a_scores, word[SCORES_WIDTH-1:0] == next_scores)
   `PROVE(a_leader, OFFSET_BITS == 0 || 32'(full_after[SCORES_WIDTH+:LABEL_WIDTH]) == next_leader)
+  `PROVE(a_stays, changed || word == word_i)
+  `PROVE(a_changes, !changed || word != word_i || offset_up_i || offset_down_i)
   `PROVE(a_offset, OFFSET_BITS == 0 || full_after[FULL_WIDTH-1-:OFFSET_WIDTH] == OFFSET_WIDTH'(next_offset))
   `GOAL(any_hit && hit_score == FULL && offset_down_i && next_offset == -END)
 

@@ -101,6 +101,7 @@ module pool_control_properties #(
       .rst_ni           (checking),
       .stream_i         (stream),
       .coarse_i         (coarse),
+      .groups_i         (!coarse && !point),
       .more_i           (more),
       .acquisition_t1_i (acquisition | {dtof_pkg::POOL_SWEEP_WIDTH{is_sweep_q}}),
       .tdc_valid_i      (tdc_valid_i),

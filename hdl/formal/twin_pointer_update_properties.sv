@@ -29,6 +29,7 @@ module twin_pointer_update_properties #(
   logic [LABELS-1:0] hits;
   pixel_distance_t distance;
   logic [POINT_WIDTH-1:0] word;
+  logic changed;
 
   label_match #(
       .LABELS(LABELS)
@@ -87,6 +88,7 @@ module twin_pointer_update_properties #(
       .rival_up_i   (distance.rival_up),
       .rival_down_i (distance.rival_down),
       .acquisition_i(acquisition_i),
+      .changed_o    (changed),
       .word_o       (word)
   );
 
@@ -165,6 +167,8 @@ module twin_pointer_update_properties #(
 
   `ASSUME(m_candidates_in_use, a < LABELS && b < LABELS)
   `PROVE(a_word, word == (update_i ? expected : '0))
+  `PROVE(a_stays, changed || !update_i || word == word_i)
+  `PROVE(a_changes, !changed || (update_i && (word != word_i || next_pa == lowest || next_pa == highest)))
   `GOAL(update_i && roles_change && distance.reach)
 
 endmodule

@@ -171,7 +171,10 @@ module pool_pointer2_array #(
   logic keep_first, keep_last, load, stream_read, stream_write, stream_word_load, group_load, group_upper;
   logic [3:0] acquisition_t2;
   logic [PART_WIDTH-1:0] part;
-  logic sweep, make_room;
+  logic sweep, make_room, groups;
+
+  // A rival that moves has no use for candidates in the pointer phase.
+  assign groups = !coarse && !(RIVAL_MOVES != 0 && point);
 
   logic [NP-1:0] gate_begin, gate_end;
 
@@ -208,6 +211,7 @@ module pool_pointer2_array #(
       .rst_ni           (rst_ni),
       .stream_i         (stream),
       .coarse_i         (coarse),
+      .groups_i         (groups),
       .more_i           (more),
       .acquisition_t1_i (acquisition_t1),
       .tdc_valid_i      (tdc_valid_i),
