@@ -8,7 +8,7 @@
 // The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
 // odd ones if there is one. T1 and later count from the pixel's last slot:
 //   clock   coarse                          track and point
-//   T1                                      point: which are inside; track, and point without RIVAL_MOVES: the
+//   T1                                      point: which of two are inside; track, and point without RIVAL_MOVES: the
 //                                           candidates that the first one hits
 //   T2      of two pixels one is chosen     which one counts; track: the candidates that the second one hits, or the only
 //                                           one, and which of the two scores
