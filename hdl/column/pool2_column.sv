@@ -40,7 +40,7 @@ module pool2_column #(
     // the pixel at T2
     input  logic [ CELLS_WIDTH-1:0] cells_i,           // candidates of the group of the pixel at T1 and T2
     input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // with compares_t1_o: the pointer's, of the pixel at T1
-    output logic                    compares_t1_o,     // point: two timestamps, of which one may be inside
+    output logic                    compares_t1_o,     // whenever there are two timestamps, of which one may be inside
     output logic                    detected_t1_o,     // it will have a timestamp at T2
     output logic                    detected_t2_o,     // it has a timestamp
     output logic [          NP-1:0] used_t2_o,         // the one that counts
@@ -139,7 +139,8 @@ module pool2_column #(
     end
   endgenerate
 
-  assign compares_t1_o = (RIVAL_MOVES != 0) && point_i && has_second;
+  // Of the column's registers alone, for the pointer's cell waits for it: it is high in other clocks, too.
+  assign compares_t1_o = (RIVAL_MOVES != 0) && ((has_first_q && detected_t1) || (SLOTS > 2 && has_second_q));
   assign used_t2_o = use_second_q ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
