@@ -42,6 +42,7 @@ module pool2_column #(
     input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // with compares_t1_o: the pointer's, of the pixel at T1
     output logic                    compares_t1_o,     // whenever there are two timestamps, of which one may be inside
     output logic                    detected_t1_o,     // it will have a timestamp at T2
+    output logic                    may_have_t1_o,     // whenever detected_t1_o is high, and in other clocks; early
     output logic                    detected_t2_o,     // it has a timestamp
     output logic [          NP-1:0] used_t2_o,         // the one that counts
     output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
@@ -156,6 +157,7 @@ module pool2_column #(
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
   assign detected_t1_o = has_first;
+  assign may_have_t1_o = detected_t1 || has_first_q;
   assign detected_t2_o = has_first_q;
   assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
 
