@@ -44,8 +44,9 @@ module dtof_pool2_column #(
     // the pixel at T2
     input  logic [ CELLS_WIDTH-1:0] cells_i,           // candidates of the group of the pixel at T1 and T2
     input  logic [  CELL_WIDTH-1:0] pointer_cell_t1_i, // with compares_t1_o: the pointer's, of the pixel at T1
-    output logic                    compares_t1_o,     // point: two timestamps, of which one may be inside
+    output logic                    compares_t1_o,     // whenever there are two timestamps, of which one may be inside
     output logic                    detected_t1_o,     // it will have a timestamp at T2
+    output logic                    may_have_t1_o,     // whenever detected_t1_o is high, and in other clocks; early
     output logic                    detected_t2_o,     // it has a timestamp
     output logic [          NP-1:0] used_t2_o,         // the one that counts
     output logic [      LABELS-1:0] hits_t2_o,         // candidates that it hits; none without a timestamp
@@ -143,7 +144,8 @@ module dtof_pool2_column #(
     end
   endgenerate
 
-  assign compares_t1_o = (RIVAL_MOVES != 0) && point_i && has_second;
+  // From the column's registers alone, so that the pointer's cell is early; the signal is high in other clocks, too.
+  assign compares_t1_o = (RIVAL_MOVES != 0) && ((has_first_q && detected_t1) || (SLOTS > 2 && has_second_q));
   assign used_t2_o = use_second_q ? second_q : first_q;
 
   always_ff @(posedge clk_i) begin
@@ -159,6 +161,7 @@ module dtof_pool2_column #(
   logic [COARSE_WIDTH-1:0] held_bin_q, bin;
 
   assign detected_t1_o = has_first;
+  assign may_have_t1_o = detected_t1 || has_first_q;
   assign detected_t2_o = has_first_q;
   assign bin = used_t2_o[NP-1-:COARSE_WIDTH];
 

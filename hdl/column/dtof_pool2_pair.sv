@@ -122,7 +122,7 @@ module dtof_pool2_pair #(
   localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH);
 
   logic [WORD_WIDTH-1:0] word_q;
-  logic [COLUMNS-1:0] detected_t1, detected_t2, held_valid, upper_t2;
+  logic [COLUMNS-1:0] detected_t1, may_have_t1, detected_t2, held_valid, upper_t2;
   logic [COLUMNS*COARSE_WIDTH-1:0] held_bin;
 
   // Coarse: what the columns have chosen, {bin, valid} of each. Two bins count at a time, which may be the same one. Nothing
@@ -359,8 +359,12 @@ module dtof_pool2_pair #(
   generate
     if (HAS_LEADER) begin : g_leader
       logic [LABEL_WIDTH-1:0] leader;
+      // As turn_d, but early: T1 of a first column is never T2 of a second one. In clocks without a turn nothing takes what comes.
       logic [3:0] asks;
-      assign asks = turn_d & {4{leans}};
+      logic first_asks, second_asks;
+      assign first_asks = leans && !visit_t2 && may_have_t1[0];
+      assign second_asks = leans && COLUMNS > 1 && detected_t2[LAST];
+      assign asks = {visit_q & {2{second_asks}}, {second_row_t1_q, !second_row_t1_q} & {2{first_asks}}};
       assign leader = (read_data_i[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && ahead_q}})
           | (first_pixel_q[LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[0] && !ahead_q}})
           | (word_q[PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[1]}})
@@ -368,7 +372,7 @@ module dtof_pool2_pair #(
           | (word_q[HALF_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[2] && !word_load_q}})
           | (word_q[HALF_WIDTH+PIXEL_WIDTH+LEADER_FIRST+:LABEL_WIDTH] & {LABEL_WIDTH{asks[3]}});
       always_ff @(posedge clk_i) begin
-        if (asks != '0) begin
+        if (leans && turn_d != '0) begin
           leader_cell_q <= cells_q[leader*CELL_WIDTH+:CELL_WIDTH];
         end
       end
@@ -464,6 +468,7 @@ module dtof_pool2_pair #(
             .pointer_cell_t1_i(pointer_cell),
             .compares_t1_o    (compares),
             .detected_t1_o    (detected_t1[c]),
+            .may_have_t1_o    (may_have_t1[c]),
             .detected_t2_o    (detected_t2[c]),
             .used_t2_o        (used_t2[c*NP+:NP]),
             .hits_t2_o        (hits_t2[c*LABELS+:LABELS]),
@@ -500,7 +505,7 @@ module dtof_pool2_pair #(
       : changed_q || (move_q[3] && changes);
 
   logic unused;
-  assign unused = ^{1'b0, used_i, move_q[3], detected_t1};
+  assign unused = ^{1'b0, used_i, move_q[3], detected_t1, may_have_t1};
 
 endmodule
 
