@@ -71,12 +71,13 @@ module dtof_histogram_builder #(
   logic [BIN_WIDTH-1:0] bin_t2_q, bin_t3_q, bin_t4_q, bin_t5_q;
   logic [COUNT_WIDTH-1:0] sram_data, valid_data, count_q, operand, incremented, written_q;
   logic [ADDR_WIDTH-1:0] read_addr, write_addr;
-  logic read_en, build_write, frozen, write_en;
+  logic read_en, build_write, fills_t5, frozen, write_en;
 
   assign read_en = scan_s0_i || hit_t2_q;
   assign read_addr = ADDR_WIDTH'({read_pixel_i, scan_s0_i ? scan_bin_s0_i : bin_t2_q});
   assign build_write = beat_t5_i && hit_t5_q && !frozen;
-  assign full_t5_o = build_write && (&written_q);
+  assign fills_t5 = beat_t5_i && hit_t5_q && (&written_q);
+  assign full_t5_o = fills_t5 && !frozen;
   assign write_addr = ADDR_WIDTH'({write_pixel_i, clear_s1_i ? clear_bin_s1_i : bin_t5_q});
 
   dtof_sram #(
@@ -148,15 +149,30 @@ module dtof_histogram_builder #(
 
   generate
     if (FREEZE != 0) begin : g_freeze
+      // The pixel of T5, one-hot: rows and columns of a square are smaller than a decoder of all pixels.
+      localparam int LOW_WIDTH = dtof_pkg::min_of(ROW_WIDTH, 4);
+      localparam int LOWS = 1 << LOW_WIDTH;
+      localparam int HIGHS = (PIXELS_PER_SRAM + LOWS - 1) / LOWS;
+      logic [LOWS-1:0] low;
+      logic [HIGHS-1:0] high;
+      logic [HIGHS*LOWS-1:0] selected;
       logic [PIXELS_PER_SRAM-1:0] frozen_q;
+      logic unused_selected;
+      assign low = LOWS'(1) << write_pixel_i[LOW_WIDTH-1:0];
+      assign high = HIGHS'(1) << (32'(write_pixel_i) >> LOW_WIDTH);
+      genvar h;
+      for (h = 0; h < HIGHS; h = h + 1) begin : g_high
+        assign selected[h*LOWS+:LOWS] = {LOWS{high[h]}} & low;
+      end
+      assign unused_selected = ^selected;
+      // One enable for all flags, so that their clocks rest. The enable does not depend on `frozen`, which is late: where a write is
+      // dropped, the pixel is frozen already.
       always_ff @(posedge clk_i) begin
-        if (clear_all_i) begin
-          frozen_q <= '0;
-        end else if (full_t5_o) begin
-          frozen_q[write_pixel_i] <= 1'b1;
+        if (clear_all_i || fills_t5) begin
+          frozen_q <= clear_all_i ? '0 : frozen_q | selected[PIXELS_PER_SRAM-1:0];
         end
       end
-      assign frozen = frozen_q[write_pixel_i];
+      assign frozen = |(frozen_q & selected[PIXELS_PER_SRAM-1:0]);
       // A full bin's pixel is frozen: what its counter would wrap to is never written.
       assign incremented = operand + 1'b1;
     end else begin : g_saturate
