@@ -549,7 +549,7 @@ module dtof_array #(
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
       .full_i       (1'b0),
-      .next_column_i(full_chain[0]),
+      .next_column_i(HISTOGRAM != 0 && full_chain[0]),  // without histograms synthesis leaves the register out
       .full_o       (counter_full_o)
   );
 
