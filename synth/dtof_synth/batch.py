@@ -66,15 +66,14 @@ def run_all(jobs: Iterable[Job], technology: Technology, build: Path, workers: i
     waiting.sort(key=lambda job: not job.configuration.is_pool)
     done = len(results)
     # A run builds large trees without cycles, which the collector would walk again and again.
-    with ProcessPoolExecutor(workers, initializer=gc.disable) as pool:
+    pool = ProcessPoolExecutor(workers, initializer=gc.disable)
+    try:
         futures = {pool.submit(_work, job, technology, build / job.name, _key(job, digest)): job for job in waiting}
-        try:
-            for future in as_completed(futures):
-                name = futures[future].name
-                results[name] = future.result()
-                done += 1
-                progress(f"[{done}/{len(jobs)}] {name}")
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+        for future in as_completed(futures):
+            name = futures[future].name
+            results[name] = future.result()
+            done += 1
+            progress(f"[{done}/{len(jobs)}] {name}")
+    finally:
+        pool.shutdown(wait=True, cancel_futures=True)  # after a failure no further run begins
     return {job.name: results[job.name] for job in jobs}
