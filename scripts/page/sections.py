@@ -200,10 +200,11 @@ def as_committed(report: Report, text: str) -> str:
 
 
 def copy_table(source: Path, target: Path) -> None:
-    """As it is, or compressed, always to the same bytes."""
+    """As it is, or compressed unless it is so already, always to the same bytes."""
     target.parent.mkdir(parents=True, exist_ok=True)
     content = source.read_bytes()
-    target.write_bytes(gzip.compress(content, mtime=0) if target.suffix == COMPRESSED else content)
+    compress = target.suffix == COMPRESSED and source.suffix != COMPRESSED
+    target.write_bytes(gzip.compress(content, mtime=0) if compress else content)
 
 
 def chosen(report: Report, root: Path) -> Path | None:

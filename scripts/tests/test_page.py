@@ -142,6 +142,11 @@ class Sources(Folder):
         self.assertEqual((self.root / "one.csv.gz").read_bytes(), (self.root / "other.csv.gz").read_bytes())
         self.assertEqual(gzip.decompress((self.root / "one.csv.gz").read_bytes()), source.read_bytes())
 
+    def test_a_table_that_is_compressed_is_not_compressed_again(self) -> None:
+        sections.copy_table(self.write("build/a.csv", "a,b\n"), self.root / "build/a.csv.gz")
+        sections.copy_table(self.root / "build/a.csv.gz", self.root / "reports/a.csv.gz")
+        self.assertEqual(gzip.decompress((self.root / "reports/a.csv.gz").read_bytes()), b"a,b\n")
+
     def test_the_newer_one_is_shown_but_pictures_where_the_texts_agree(self) -> None:
         self.assertIsNone(sections.chosen(self.REPORT, self.root))
         committed = self.stamp(self.write("reports/walk_error.md", "else\n"), 2000)
