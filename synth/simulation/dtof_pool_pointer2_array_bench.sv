@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // dtof_pool_pointer2_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
 // netlist only.
-module pool_pointer2_array_bench #(
+module dtof_pool_pointer2_array_bench #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 12,
     parameter int SRAM_NUM = 4,
