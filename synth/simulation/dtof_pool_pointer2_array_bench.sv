@@ -91,7 +91,7 @@ module dtof_pool_pointer2_array_bench #(
 `endif
 
 `ifdef NETLIST
-  pool_pointer2_array_netlist u_netlist (
+  dtof_pool_pointer2_array_netlist u_netlist (
       .clk_i          (clk),
       .rst_ni         (rst_n),
       .sram_cfg_i     (start),
