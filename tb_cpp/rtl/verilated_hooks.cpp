@@ -49,7 +49,8 @@ void dtof_verilated_printf(const char* format, ...) {
 }
 
 void vl_stop(const char* filename, int line, const char* hierarchy) {
-  // A $error of the RTL is a failed assertion, which a context may have switched off (VerilatedContext::assertOn).
+  // A $error of the RTL is a failed assertion, which a context may have switched off
+  // (VerilatedContext::assertOn).
   if (!last_error.empty() && !Verilated::threadContextp()->assertOn()) {
     last_error.clear();
     return;
