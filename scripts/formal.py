@@ -134,9 +134,10 @@ def load_proofs() -> list[Proof]:
     proofs = []
     for entry in entries:
         bugs = [Bug(**bug) for bug in entry.pop("bug", [])]
-        harness = entry.pop("harness", f"{entry['module']}_properties")
+        plain = entry["module"].removeprefix("dtof_")
+        harness = entry.pop("harness", f"{plain}_properties")
         proof = Proof(
-            harness=harness, parameters=entry.pop("parameters", [{}]), name=entry.pop("name", entry["module"]),
+            harness=harness, parameters=entry.pop("parameters", [{}]), name=entry.pop("name", plain),
             bugs=bugs, **entry,
         )
         if not bugs:

@@ -6,7 +6,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_array_properties #(
+module array_properties #(
     parameter int READOUT = 3,
     parameter int NP = 3,
     parameter int NB = 2,
