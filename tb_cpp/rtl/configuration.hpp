@@ -17,7 +17,8 @@ struct ResultAddress {
   bool begins_row = false;  ///< the first result of a row (in an engine's turn)
 };
 
-/// Parameters of one compiled array: dtof_pool_pointer2_array for the pool read-outs, dtof_array for the others.
+/// Parameters of one compiled array: dtof_pool_pointer2_array for the pool read-outs, dtof_array for the
+/// others.
 struct RtlConfiguration {
   ReadoutParameters
       parameters;  ///< a pool read-out's shares and S1 are not compiled: the driver writes these registers

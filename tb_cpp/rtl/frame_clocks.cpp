@@ -9,8 +9,8 @@
 namespace dtof {
 namespace {
 
-/// From the first result of a pixel to that of the last column. dtof_result_output keeps kPlaces results, and a
-/// place is free for another one kPlaceClocks after it was promised.
+/// From the first result of a pixel to that of the last column. dtof_result_output keeps kPlaces results, and
+/// a place is free for another one kPlaceClocks after it was promised.
 std::int64_t sending_clocks(int columns) {
   constexpr std::int64_t kPlaces = 5;
   constexpr std::int64_t kPlaceClocks = 7;
@@ -36,9 +36,10 @@ std::uint64_t array_clocks(int rows, int simulated, const RtlStatistics& statist
          static_cast<std::uint64_t>(wanted_scanning - scanning + rows * (wanted_sending - sending));
 }
 
-/// Clocks of decide in dtof_pool_pointer2_array until the last result is sent, clock by clock: all engines decide
-/// in lockstep (dtof_pool2_sequencer), and dtof_pool_result_output sends a set of results, one of each engine that has
-/// the column, while two more sets wait. A step that gives results begins when there is a place for them.
+/// Clocks of decide in dtof_pool_pointer2_array until the last result is sent, clock by clock: all engines
+/// decide in lockstep (dtof_pool2_sequencer), and dtof_pool_result_output sends a set of results, one of each
+/// engine that has the column, while two more sets wait. A step that gives results begins when there is a
+/// place for them.
 class Decide {
  public:
   Decide(int rows, int columns, int together)

@@ -198,8 +198,9 @@ TEST(VerilatedHooks, AFailedAssertionIsAnException) {
   Verilated::threadContextp(&context);
   EXPECT_THAT(
       [] {
-        VL_PRINTF_MT("[%s] %%Error: dtof_pixel_sequencer.sv:107: Assertion failed: a gap inside an acquisition\n",
-                     "40");
+        VL_PRINTF_MT(
+            "[%s] %%Error: dtof_pixel_sequencer.sv:107: Assertion failed: a gap inside an acquisition\n",
+            "40");
         VL_STOP_MT("dtof_pixel_sequencer.sv", 107, "array");
       },
       ThrowsMessage<RtlError>(HasSubstr("a gap inside an acquisition")));
