@@ -25,6 +25,8 @@ from .errors import FlowError
 SMALLEST = "ezpointer_bare_one_port"  # its column and shared logic are in every estimate
 TABLE_BIT_UM2 = 0.08  # of a read-only memory: a third of the SRAM model's cell with six transistors
 MOST_MACROS = 16  # side by side
+# Read-outs whose histograms freeze with their first full bin: a flip-flop a pixel (docs/reference/readouts.md, Full counters).
+FREEZING = ("hispointer", "sifh", "fifh", "threesteps", "histogram", "coarsehistogram")
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,12 @@ def bit_um2() -> float:
     """Logic of one bit of a word that timestamps change."""
     flip_flop = standard_cells.sequential_pitches("DFF") * standard_cells.PITCH_AREA_UM2
     return 2 * flip_flop + _cell_um2("FA_X1") + _cell_um2("MUX2_X1")
+
+
+def flag_um2() -> float:
+    """A pixel's flag: a flip-flop, the choice of the pixel, and its part of the OR of all chosen flags."""
+    flip_flop = standard_cells.sequential_pitches("DFF") * standard_cells.PITCH_AREA_UM2
+    return flip_flop + 2 * _cell_um2("AND2_X1") + _cell_um2("OR2_X1")
 
 
 def sram_um2(rows: int, hardware: Hardware) -> float:
@@ -97,7 +105,7 @@ class Beside:
 
 
 def beside_synthesis(area: Path, configurations: Path) -> list[Beside]:
-    """The thesis's read-outs: their SRAMs, and the estimate's logic for one word of each."""
+    """The thesis's read-outs: their SRAMs, the estimate's logic for one word of each, and a flag a pixel where histograms freeze."""
     base = Base.read(area)
     known = load(configurations)
     found = []
@@ -108,6 +116,8 @@ def beside_synthesis(area: Path, configurations: Path) -> list[Beside]:
                 continue
             sizes = memories(configuration).values()
             logic = logic_um2(base, Hardware(1, sum(size.bits for size in sizes)))
+            if configuration.name in FREEZING:
+                logic += configuration["PIXELS_PER_SRAM"] * flag_um2()
             sram = sum(sram_model.macro(size).area for size in sizes)
             estimated = (int(row["columns"]) * (sram + logic) + base.shared_um2) * 1e-6
             found.append(Beside(configuration.title, estimated, float(row["total_mm2"])))
