@@ -15,6 +15,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = "docs/reference/maturity.md"
 TECHNOLOGY = "technology"  # its modules are stand-ins, which silicon replaces
+CHECKS_ALONE = "synthesis leaves it out"  # in the head of a module that has assertions and no circuit
 WITHOUT_NETLIST = ("subsystem",)  # folders of hdl/ that make synth does not read
 
 HEAD = """# Maturity of the blocks
@@ -23,8 +24,8 @@ Written by `scripts/maturity.py` from the list of RTL files, the list of proofs 
 
 | stage | a block of this stage | command |
 |---:|---|---|
-| 1 | is simulated beside its C++ model or a reference, and in four states in Icarus Verilog | `make test`, `make sim-icarus` |
-| 2 | is stage 1, and its netlist is timed with margins in three corners and simulated beside the RTL | `make synth`, `make sim-netlist` |
+| 1 | is simulated beside its C++ model or a reference in Verilator | `make test` |
+| 2 | is stage 1, is simulated in four states in Icarus Verilog, and its netlist is timed with margins and simulated beside the RTL | `make sim-icarus`, `make synth`, `make sim-netlist` |
 | 3 | is stage 2, and it has a proof that planted bugs break | `make formal` |
 | 4 | is stage 3, and it was measured in silicon | none yet |
 
@@ -68,12 +69,14 @@ def pages(root: Path) -> dict[str, str]:
 
 
 def blocks(root: Path) -> list[Block]:
-    """Modules of the file list in its order; packages and stand-ins are no blocks."""
+    """Modules of the file list in its order; packages, stand-ins and assertions are no blocks."""
     proved, described, found = proofs(root), pages(root), []
     for line in (root / "hdl/dtof.f").read_text(encoding="utf-8").splitlines():
         if not line.endswith(".sv") or line.startswith(("//", TECHNOLOGY)):
             continue
         text = (root / "hdl" / line).read_text(encoding="utf-8")
+        if CHECKS_ALONE in text:
+            continue
         for name in re.findall(r"^module (\w+)", text, re.MULTILINE):
             found.append(Block(name, line.split("/")[0], described.get(name, ""), *proved.get(name, (0, 0))))
     unknown = proved.keys() - {block.name for block in found}

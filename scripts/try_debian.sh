@@ -40,7 +40,7 @@ for program in debootstrap unshare chroot git; do
 done
 mkdir -p "$folder"
 folder=$(realpath "$folder")
-project=/root/dtof-readout
+project=/srv/dtof-readout
 tree=$folder$project
 
 if [ ! -e "$folder/.complete" ]; then

@@ -37,6 +37,10 @@ class Stages(unittest.TestCase):
         self.assertIn("| [`a`](blocks/control.md#a) | control | 3 |", maturity.text(list(found.values())))
         self.assertIn("3 blocks: 1 of stage 3, 1 of stage 2, 1 of stage 1.", maturity.text(list(found.values())))
 
+    def test_a_module_of_assertions_is_no_block(self) -> None:
+        (self.root / "hdl/control/b.sv").write_text("// Rules; synthesis leaves it out.\nmodule b (\n);\nendmodule\n")
+        self.assertEqual([block.name for block in maturity.blocks(self.root)], ["a", "c"])
+
     def test_a_proof_of_a_module_that_is_gone_is_an_error(self) -> None:
         self.prove("a, gone")
         with self.assertRaisesRegex(SystemExit, "proves 'gone', which hdl/dtof.f does not have"):
