@@ -115,9 +115,10 @@ def _hash(lines: list[str]) -> str:
 
 
 def inputs(report: Report, tree: SourceTree) -> Inputs:
+    """The digests are of contents: a file that moves changes none of them."""
     files = {name: tree.digest(name) for name in sorted(input_files(report, tree))}
     by_folder: dict[str, list[str]] = defaultdict(list)
     for name, digest in files.items():
-        by_folder[folder(name)].append(f"{name} {digest}")
-    return Inputs(_hash([f"{name} {digest}" for name, digest in files.items()])[:16],
-                  {place: _hash(lines)[:8] for place, lines in sorted(by_folder.items())}, files)
+        by_folder[folder(name)].append(digest)
+    return Inputs(_hash(sorted(files.values()))[:16],
+                  {place: _hash(sorted(digests))[:8] for place, digests in sorted(by_folder.items())}, files)

@@ -30,7 +30,7 @@ class Measured:
 @dataclass(frozen=True)
 class Stale:
     report: Report
-    places: tuple[str, ...]  # folders and files that changed, came or went; none: nothing is known of the inputs
+    places: tuple[str, ...]  # folders and files that changed or came, else those that went; none: nothing is known of the inputs
 
     @property
     def line(self) -> str:
@@ -114,8 +114,9 @@ def compared(report: Report, known: Measured | None, now: Inputs) -> Stale | Non
         return Stale(report, ())
     if known.digest == now.digest:
         return None
-    return Stale(report, tuple(sorted(place for place in known.folders.keys() | now.folders.keys()
-                                      if known.folders.get(place) != now.folders.get(place))))
+    changed = {place for place, digest in now.folders.items() if digest not in known.folders.values()}
+    gone = {place for place, digest in known.folders.items() if digest not in now.folders.values()} - now.folders.keys()
+    return Stale(report, tuple(sorted(changed or gone)))
 
 
 def stale(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str, Stale]:
@@ -138,7 +139,8 @@ def changed_files(root: Path, one: Stale, tree: SourceTree) -> list[str]:
     except (subprocess.CalledProcessError, FileNotFoundError):
         return []
     now = inputs(one.report, tree).files
-    return sorted(name for name in before.keys() | now.keys() if before.get(name) != now.get(name))
+    return sorted({name for name, digest in before.items() ^ now.items()
+                   if digest not in before.values() or digest not in now.values()})
 
 
 # ---- Pages -----------------------------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A file without its comments and blank lines: what a digest is taken of. No comment makes a report stale."""
+"""A file without its comments, blank lines and the places of what it includes: what a digest is taken of. Neither a comment nor a
+file that moves makes a report stale."""
 
 import ast
 import io
@@ -12,6 +13,8 @@ HASH = (".tcl", ".sdc", ".toml", ".sh")
 # Strings and character literals pass; a comment becomes a blank. 1'000 of C++ and 8'h0 of SystemVerilog have no closing mark.
 C_TOKEN = re.compile(r'R"(?P<mark>[^\s()\\"]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.[^\']*|[^\'\\\n])\''
                      r"|(?P<comment>//[^\n]*|/\*.*?\*/)", re.DOTALL)
+# The files that these lines name are inputs themselves.
+OWN_INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+"[^"\n]*"', re.MULTILINE)
 # These comments change what a tool does.
 DIRECTIVE = re.compile(r"^(//|/\*)\s*(verilator|synopsys|synthesis|pragma|yosys)\b")
 
@@ -20,7 +23,7 @@ def c_like(text: str) -> str:
     def kept(match: re.Match[str]) -> str:
         comment = match["comment"]
         return match[0] if comment is None or DIRECTIVE.match(comment) else " "
-    return C_TOKEN.sub(kept, text)
+    return C_TOKEN.sub(kept, OWN_INCLUDE.sub("", text))
 
 
 def hash_comments(text: str) -> str:

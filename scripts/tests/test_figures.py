@@ -103,6 +103,19 @@ class Staleness(Project):
         self.write("tb_cpp/core/b_part.cpp", '#include "core/b.hpp"\n// new\nint b() { return /* one */ 1; }\n')
         self.assertEqual(self.stale(), {})
 
+    def test_a_file_that_moves_makes_nothing_stale_unless_it_changes(self) -> None:
+        self.measure()
+        (self.root / "tb_cpp/core/b_part.cpp").unlink()
+        self.write("hdl/z.sv", FILES["hdl/a.sv"])
+        (self.root / "hdl/a.sv").unlink()
+        self.write("tb_cpp/low/b.hpp", FILES["tb_cpp/core/b.hpp"])
+        (self.root / "tb_cpp/core/b.hpp").unlink()
+        self.write("tb_cpp/low/b.cpp", '#include "low/b.hpp"\nint b() { return 1; }\n')
+        self.write("tb_cpp/core/a.cpp", FILES["tb_cpp/core/a.cpp"].replace("core/b.hpp", "low/b.hpp"))
+        self.assertEqual(self.stale(), {})
+        self.write("tb_cpp/low/b.hpp", "long b();\n")
+        self.assertIn("tb_cpp/low", self.stale()["pareto"])
+
     def test_a_change_of_an_input_does_and_names_the_place(self) -> None:
         for name, text, expected in (
                 ("hdl/a.sv", "module a; wire w; endmodule\n", {"area": ("hdl",)}),
