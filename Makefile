@@ -35,8 +35,8 @@ OUT := $(if $(SMALL),build/small/)build
 REPORTS := $(if $(SMALL),build/small/)reports
 SEED ?= 1
 SHARED_DATA ?= ../shared/data
-DTOF := $(BUILD)/app/dtof
-DTOF_STUDY := $(BUILD)/study_app/dtof-study
+DTOF := $(BUILD)/bin/dtof
+DTOF_STUDY := $(BUILD)/bin/dtof-study
 
 .DEFAULT_GOAL := all
 .PHONY: all help packages configure build study study-program sim report publish test try-targets lint lint-slang bench clean
@@ -48,7 +48,7 @@ packages:
 	@scripts/install_packages.sh
 
 configure: packages | build_folder
-	@cmake -S tb_cpp --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@cmake -S . --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 
 build: configure
 	@ninja -C $(BUILD) dtof
@@ -94,8 +94,8 @@ lint-slang: | build_folder
 
 bench: configure
 	@ninja -C $(BUILD) rtl_bench photon_bench
-	@$(BUILD)/bench/rtl_bench $(if $(SMALL),--small)
-	@$(BUILD)/bench/photon_bench $(if $(SMALL),--small)
+	@$(BUILD)/bin/rtl_bench $(if $(SMALL),--small)
+	@$(BUILD)/bin/photon_bench $(if $(SMALL),--small)
 
 clean:
 	rm -rf build

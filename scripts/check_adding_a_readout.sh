@@ -13,13 +13,13 @@ rm -rf "$tree"
 git clone --quiet --local . "$tree"
 cd "$tree"
 cat "$files/readouts.toml" >> readouts.toml
-cp "$files/first_photon.cpp" tb_cpp/readout/
-cp "$files/first_photon_column.sv" hdl/column/
+cp "$files/first_photon.cpp" models/dtof/readout/
+cp "$files/first_photon_column.sv" hdl/thesis/
 /usr/bin/python3 scripts/generate.py
 
-cmake -S tb_cpp --preset release > build.log
+cmake -S . --preset release > build.log
 ninja -C build/cpp -j "$jobs" dtof core_test readout_test report_test rtl_readouts_test > build.log || { cat build.log; exit 1; }
-build/cpp/app/dtof frame --readout firstphoton --engine rtl --verify --columns 0-9 --rows 0-19 --out build/firstphoton
+build/cpp/bin/dtof frame --readout firstphoton --engine rtl --verify --columns 0-9 --rows 0-19 --out build/firstphoton
 # A test of CTest is a program; of the suites that take read-outs, the new one's.
 ctest --test-dir build/cpp --output-on-failure -R '^(core|readout|report)$'
 build/cpp/tests/rtl/rtl_readouts_test --gtest_brief=1 --gtest_filter='*firstphoton*'

@@ -18,8 +18,8 @@ ROOT = Path(__file__).resolve().parent.parent
 INDEX = "docs/README.md"
 BLOCKS = "docs/reference/blocks/"
 FORMATS = "docs/reference/formats.md"
-# Folders of hdl/ whose modules are blocks; the others hold package, proofs, lint waivers and SRAM stand-ins.
-BLOCK_FOLDERS = ("subsystem", "demonstrator", "top", "column", "control", "datapath", "engine", "memory")
+# Folders whose modules are blocks; the others hold proofs, lint waivers and SRAM stand-ins.
+BLOCK_FOLDERS = ("hdl/common/", "hdl/thesis/", "hdl/pool/", "hdl/subsystem/", "fpga/")
 MODULE = re.compile(r"^module +(\w+)", re.MULTILINE)
 SECTION = re.compile(r"^## `(\w+)`$", re.MULTILINE)
 OF_A_MODULE = re.compile(r"`([A-Z][A-Z_]+|[a-z]\w*_(?:i|o|ni))`")  # a parameter or a port
@@ -76,8 +76,7 @@ def missing_pages(root: Path, files: set[str]) -> list[str]:
 def blocks(root: Path, files: set[str]) -> list[str]:
     modules, sections = {}, {}
     for file in sorted(files):
-        parts = Path(file).parts
-        if parts[0] == "hdl" and file.endswith(".sv") and parts[1] in BLOCK_FOLDERS:
+        if file.endswith(".sv") and file.startswith(BLOCK_FOLDERS):
             modules |= dict.fromkeys(MODULE.findall(read(root / file)), file)
         elif file.startswith(BLOCKS) and file.endswith(".md"):
             parts = SECTION.split(read(root / file))

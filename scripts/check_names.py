@@ -3,7 +3,7 @@
 """Everything that the RTL defines outside of modules has the prefix dtof_ (macros: DTOF_), so that a user's module, package, include file
 or macro of the same name is impossible.
 
-Looks at the files of hdl/dtof.f and at the include files in hdl/package. Prints a line for each name without the prefix.
+Looks at the files of hdl/dtof.f and at the include files in hdl/common. Prints a line for each name without the prefix.
 """
 
 import re
@@ -32,7 +32,7 @@ def names(text: str) -> list[tuple[int, str]]:
 def sources(root: Path) -> list[Path]:
     hdl = root / "hdl"
     listed = [line for line in (hdl / "dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and line[0] not in "/+"]
-    return [*(hdl / line for line in listed), *sorted((hdl / "package").glob("*.svh"))]
+    return [*(hdl / line for line in listed), *sorted((hdl / "common").glob("*.svh"))]
 
 
 def problems(root: Path) -> list[str]:

@@ -8,7 +8,7 @@ build=$folder/cpp
 counts=$folder/counts
 
 mkdir -p "$folder"
-cmake -S tb_cpp --preset coverage > "$folder/cmake.log" 2>&1 || { cat "$folder/cmake.log"; exit 1; }
+cmake -S . --preset coverage > "$folder/cmake.log" 2>&1 || { cat "$folder/cmake.log"; exit 1; }
 ninja -C "$build"
 find "$build" -name '*.gcda' -delete
 rm -rf "$counts" "$folder/hdl" "$folder/html"
@@ -27,6 +27,6 @@ find "$counts" -name '*.dat' -print0 | xargs -0 -P "$(nproc)" -n 20 sed -i \
 verilator_coverage --write "$folder/rtl.dat" "$counts"/*.dat > "$folder/merge.log"
 verilator_coverage --annotate "$folder/hdl" --annotate-min 1 "$folder/rtl.dat" > "$folder/annotate.log"
 
-gcovr --root . --object-directory "$build" --filter 'tb_cpp/' --exclude-throw-branches --exclude-unreachable-branches \
+gcovr --root . --object-directory "$build" --filter '(models|tb_cpp|app|studies)/' --exclude-throw-branches --exclude-unreachable-branches \
   --json-summary "$folder/cpp.json" --html-details "$folder/html/index.html" -j "$(nproc)" 2> "$folder/gcovr.log"
 /usr/bin/python3 scripts/coverage.py "$folder/rtl.dat" "$folder/cpp.json" "${SMALL:+build/small/}reports/coverage.md"

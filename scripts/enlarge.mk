@@ -2,7 +2,7 @@
 # make enlarge         small arrays that share the laser, their maps enlarged to those of the large array, beside it: four
 #                      seeds, five scenes and two photographed ones (seven minutes): reports/enlarge.md
 # make train-enlarger  the learned enlarger's weights, trained by dlib on random shapes (ten minutes): build/weights.txt. The
-#                      project's are those, as tb_cpp/enlarge/weights.txt, and every build has them: only this needs dlib.
+#                      project's are those, as studies/small_arrays/models/weights.txt, and every build has them: only this needs dlib.
 .PHONY: enlarge train-enlarger
 # Laundry is for training (scripts/study.mk), thus not for tests.
 SMALL_ENLARGE := $(if $(SMALL),--klux 14 --scene room --array 50x40 --picture-array 50x40 --seeds 2)
@@ -22,6 +22,6 @@ enlarge: study-program
 
 train-enlarger: configure
 	@scripts/install_packages.sh learning
-	@cmake -S tb_cpp --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@cmake -S . --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 	@ninja -C $(BUILD) train-enlarger
-	@$(BUILD)/train_enlarger/train-enlarger --out $(OUT)/weights.txt
+	@$(BUILD)/bin/train-enlarger --out $(OUT)/weights.txt

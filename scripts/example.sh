@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# `example.sh READOUT [BENCH]`: runs a frame of dtof_subsystem in hdl/example/example_bench.sv, or another bench, with Icarus
+# `example.sh READOUT [BENCH]`: runs a frame of dtof_subsystem in examples/example_bench.sv, or another bench, with Icarus
 # Verilog. Exits non-zero unless every result is right.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 readout=$1
-bench=$(realpath "${2:-hdl/example/example_bench.sv}")
-number=$(sed -n "s/^set(DTOF_SUBSYSTEM_NUMBER_$readout \([0-9]*\))$/\1/p" tb_cpp/cmake/readouts.cmake)
+bench=$(realpath "${2:-examples/example_bench.sv}")
+number=$(sed -n "s/^set(DTOF_SUBSYSTEM_NUMBER_$readout \([0-9]*\))$/\1/p" cmake/readouts.cmake)
 if [ -z "$number" ]; then
   echo "error: no read-out with RTL is called '$readout'" >&2
   exit 1

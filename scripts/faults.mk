@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# make coverage   lines and toggles of hdl/, lines and branches of tb_cpp/ that the tests reach (a build of its own)
+# make coverage   lines and toggles of hdl/, lines and branches of the C++ that the tests reach (a build of its own)
 # make faults     what flipped bits, stuck columns, hot and dead pixels and resets do to a frame
 .PHONY: coverage faults
 FLIPS ?= $(if $(SMALL),3,300)
@@ -13,5 +13,5 @@ coverage: | build_folder
 faults: configure
 	@ninja -C $(BUILD) dtof-faults
 	@scripts/reports.py begin faults
-	@$(BUILD)/faults/dtof-faults --flips $(FLIPS) --seed $(SEED) --out $(OUT)/faults
+	@$(BUILD)/bin/dtof-faults --flips $(FLIPS) --seed $(SEED) --out $(OUT)/faults
 	@scripts/publish.py faults

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What other tools than the project's own read the RTL by: hdl/dtof.core (FuseSoC), hdl/Bender.yml and hdl/dtof_no_srams.f,
+"""What other tools than the project's own read the RTL by: dtof.core (FuseSoC), Bender.yml and hdl/dtof_no_srams.f,
 written from hdl/dtof.f and readouts.toml by scripts/generate.py."""
 
 import json
@@ -26,8 +26,8 @@ def split(text: str) -> tuple[list[str], list[str], list[str]]:
     """The files of hdl/dtof.f in three parts: package, technology, the rest."""
     files = [line for line in text.splitlines() if re.fullmatch(r"[a-z_/0-9]+\.sv", line)]
     part = lambda folder: [name for name in files if name.startswith(folder)]  # noqa: E731
-    package, technology = part("package/"), part("technology/behavioural/")
-    rest = [name for name in files if not name.startswith(("package/", "technology/"))]
+    package, technology = [name for name in files if name.endswith("_pkg.sv")], part("technology/behavioural/")
+    rest = [name for name in files if name not in package and not name.startswith("technology/")]
     if not package or not technology or not rest:
         raise FlowError("hdl/dtof.f has no package, no technology or nothing else")
     return package, technology, rest
@@ -39,7 +39,7 @@ def without_srams(listing: str) -> str:
         "// SPDX-License-Identifier: Apache-2.0",
         f"// {WRITTEN}: all RTL without the technology folder, for a process's own dtof_sram_1rw.sv, dtof_sram_1r1w.sv and dtof_clock_gate.sv:",
         "//   verilator --lint-only -f dtof_no_srams.f my_srams/dtof_sram_1rw.sv my_srams/dtof_sram_1r1w.sv my_srams/dtof_clock_gate.sv --top-module dtof_subsystem",
-        "+incdir+package",
+        "+incdir+common",
         *package,
         *rest,
         "",
@@ -47,7 +47,8 @@ def without_srams(listing: str) -> str:
 
 
 def entries(names: list[str], indent: int) -> list[str]:
-    return [f"{' ' * indent}- {name}" for name in names]
+    """Files of hdl/, from the root on."""
+    return [f"{' ' * indent}- hdl/{name}" for name in names]
 
 
 def parameters(table: Table) -> dict[str, str]:
@@ -78,7 +79,7 @@ def fusesoc(table: Table, listing: str, includes: list[str]) -> str:
         "filesets:",
         "  rtl:",
         "    files:",
-        *entries([f"{name}: {{is_include_file: true, include_path: package}}" for name in includes], 6),
+        *entries([f"{name}: {{is_include_file: true, include_path: hdl/common}}" for name in includes], 6),
         *entries([*package, *rest], 6),
         "    file_type: systemVerilogSource",
         "  srams:",
@@ -91,11 +92,11 @@ def fusesoc(table: Table, listing: str, includes: list[str]) -> str:
         "    file_type: systemVerilogSource",
         "  bench:",
         "    files:",
-        "      - example/example_bench.sv",
+        "      - examples/example_bench.sv",
         "    file_type: systemVerilogSource",
         "  waivers:",
         "    files:",
-        "      - lint/verilator.vlt: {file_type: vlt}",
+        "      - hdl/lint/verilator.vlt: {file_type: vlt}",
         "targets:",
         "  default: &default",
         f'    filesets: [rtl, "!{OWN_SRAMS}? (srams)"]',
@@ -141,16 +142,16 @@ def bender(listing: str) -> str:
         "  name: dtof_readout",
         "",
         "export_include_dirs:",
-        "  - package",
+        "  - hdl/common",
         "",
         "sources:",
-        "  - include_dirs: [package]",
+        "  - include_dirs: [hdl/common]",
         "    files:",
         *entries(package, 6),
         f"  - target: not({OWN_SRAMS_BENDER})",
         "    files:",
         *entries(technology, 6),
-        "  - include_dirs: [package]",
+        "  - include_dirs: [hdl/common]",
         "    files:",
         *entries(rest, 6),
         "",
@@ -159,4 +160,4 @@ def bender(listing: str) -> str:
 
 def included(hdl: Path) -> list[str]:
     """The files that the RTL includes."""
-    return sorted(str(file.relative_to(hdl)) for file in hdl.glob("package/*.svh"))
+    return sorted(str(file.relative_to(hdl)) for file in hdl.glob("common/*.svh"))

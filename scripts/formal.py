@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Proves the properties listed in hdl/formal/proofs.toml with Yosys and ABC (docs/reference/formal.md).
+"""Proves the properties listed in formal/proofs.toml with Yosys and ABC (docs/reference/formal.md).
 
 Every proof is run for each of its parameter sets, then with each of its planted bugs, which must make it fail, and,
 where its harness has a goal, once more to reach that. Writes reports/formal.md unless only some proofs are run.
@@ -23,7 +23,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
-FORMAL = HDL / "formal"
+FORMAL = ROOT / "formal"
 BUILD = ROOT / "build" / "formal"
 REPORT = ROOT / "reports" / "formal.md"
 ROUND_SECONDS = (1, 2, 5, 10, 20, 30, 60, 90, 120, 180, 240, 300)  # times in the report, rounded up
@@ -36,7 +36,7 @@ USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::|^\s*`DTOF_COLUMN\((\
 INCLUDED = re.compile(r'^\s*`include "(\w+\.svh)"', re.MULTILINE)
 
 YOSYS_SCRIPT = """
-read_verilog -formal -sv {defines} -I{hdl}/package -I{hdl}/formal -defer {sources}
+read_verilog -formal -sv {defines} -I{hdl}/common -I{formal} -defer {sources}
 {parameters}
 hierarchy -check -top {harness}
 prep -flatten -top {harness}
@@ -165,8 +165,8 @@ def needed_files(harness: Path) -> list[Path]:
     found = {harness}
     while found:
         texts = [file.read_text() for file in found]
-        texts += [(HDL / "package" / name).read_text() for text in texts for name in INCLUDED.findall(text)
-                  if (HDL / "package" / name).exists()]
+        texts += [(HDL / "common" / name).read_text() for text in texts for name in INCLUDED.findall(text)
+                  if (HDL / "common" / name).exists()]
         names = {name for text in texts for match in USED_NAME.findall(text) for name in match}
         found = {file for file in design if file.stem in names} - needed
         needed |= found
@@ -233,7 +233,7 @@ def solve(job: Job) -> Outcome:
     if job.bug is not None:
         files = with_bug(files, job.bug, folder)
     script = YOSYS_SCRIPT.format(
-        defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, sources=" ".join(map(str, files)),
+        defines="-DFIND_GOAL" if job.kind == "goal" else "", hdl=HDL, formal=FORMAL, sources=" ".join(map(str, files)),
         harness=proof.harness,
         parameters="".join(f"chparam -set {name} {value} {proof.harness}; " for name, value in job.parameters.items()),
     )
@@ -243,7 +243,7 @@ def solve(job: Job) -> Outcome:
     swept = job.kind == "prove"
     engine = f"{'scorr; ' if swept else ''}{'pdr' if unbounded else f'bmc3 -F {frames}'}"
 
-    headers = (*HDL.glob("package/*.svh"), *FORMAL.glob("*.svh"))
+    headers = (*HDL.glob("common/*.svh"), *FORMAL.glob("*.svh"))
     texts = [script, engine, *(without_comments(file.read_text()) for file in (*files, *headers))]
     key = hashlib.sha256("\0".join(texts).encode()).hexdigest()
     kept = folder / "outcome.json"

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""The demonstrator of hdl/demonstrator for an iCE40 HX8K, with either read-out: Yosys, nextpnr, icepack. Writes bitstreams and
+"""The demonstrator of fpga/ for an iCE40 HX8K, with either read-out: Yosys, nextpnr, icepack. Writes bitstreams and
 netlists, which tests simulate, to build/fpga/ and, with --report, reports/fpga.md.
 
 Fails if a memory did not become block RAM, if it does not fit, or if it is slower than the board's clock. What icetime, which
@@ -24,7 +24,7 @@ HDL = ROOT / "hdl"
 BUILD = ROOT / "build" / "fpga"
 REPORT = written_root(ROOT) / "reports" / "fpga.md"
 TOP = "demonstrator"
-FOLDER = HDL / "demonstrator"
+FOLDER = ROOT / "fpga"
 BOARD_MHZ = 12
 SEED = 1  # of the placement: the same result in every run
 
@@ -78,7 +78,7 @@ def sources() -> list[str]:
     """For Yosys, from hdl/: the list of all RTL with the FPGA's memories, and the demonstrator."""
     files = [str(Path(file).relative_to(HDL)) if Path(file).is_absolute() else file
              for file in fpga_check.source_files(HDL / "technology/fpga")]  # fmt: skip
-    return [*files, *sorted(str(file.relative_to(HDL)) for file in FOLDER.glob("*.sv"))]
+    return [*files, *sorted(f"../{file.relative_to(ROOT)}" for file in FOLDER.glob("*.sv"))]
 
 
 def parameters() -> dict[str, int]:
@@ -100,7 +100,7 @@ def run(command: list[str], log: str, folder: Path = BUILD) -> str:
 def synthesise(design: Design) -> dict[str, int]:
     """Cells by type. Writes the netlist for nextpnr and for simulation, and the cells' models beside it."""
     settings = " ".join(f"-set {name} {value}" for name, value in design.settings.items())
-    script = (f"read_verilog -sv -DSYNTHESIS -Ipackage {' '.join(sources())}; chparam {settings} {TOP}; synth_ice40 -top {TOP} "
+    script = (f"read_verilog -sv -DSYNTHESIS -Icommon {' '.join(sources())}; chparam {settings} {TOP}; synth_ice40 -top {TOP} "
               f"-json {design.file('.json')}; rename -top {TOP}; write_verilog -noattr {design.file('_netlist.v')}; tee -o /dev/stdout stat")  # fmt: skip
     text = run(["yosys", "-Q", "-T", "-p", script], f"{design.name}_yosys.log", HDL)
     share = Path(shutil.which("yosys") or "").resolve().parents[1] / "share/yosys"
@@ -113,8 +113,8 @@ def memories(design: Design) -> int:
     """Memories of the top, as the behavioural ones say of themselves at the start of a simulation."""
     program = design.file(".vvp")
     settings = [f"-P{TOP}.{name}={value}" for name, value in design.settings.items()]
-    files = [file.replace("/fpga/", "/behavioural/") for file in sources()]
-    run(["iverilog", "-g2012", "-s", TOP, "-o", str(program), *settings, "-Ipackage", *files],
+    files = [file.replace("technology/fpga/", "technology/behavioural/") for file in sources()]
+    run(["iverilog", "-g2012", "-s", TOP, "-o", str(program), *settings, "-Icommon", *files],
         f"{design.name}_iverilog.log", HDL)
     text = run(["vvp", "-n", str(program), "+sram_report"], f"{design.name}_memories.log")
     return len(re.findall(r"\d+ words x \d+ bits", text))
@@ -163,7 +163,7 @@ def report(outcomes: list[Outcome]) -> str:
     return "\n".join([
         "# FPGA demonstrator",
         "",
-        f"From `make fpga`: [hdl/demonstrator](../hdl/demonstrator/{TOP}.sv), photons made on the chip, a serial line, on an iCE40",
+        f"From `make fpga`: [fpga/](../fpga/{TOP}.sv), photons made on the chip, a serial line, on an iCE40",
         "HX8K; mapped by Yosys, placed and routed by nextpnr-ice40, packed by icepack.",
         "",
         row("", [design.readout for design in designs]),

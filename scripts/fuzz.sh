@@ -7,12 +7,12 @@ set -euo pipefail
 seconds=${FUZZ_SECONDS:-600}
 folder=build/fuzz
 mkdir -p "$folder/findings"
-cmake -S tb_cpp -B "$folder/cpp" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DDTOF_FUZZ=ON > "$folder/cmake.log" 2>&1 \
+cmake -S . -B "$folder/cpp" -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DDTOF_FUZZ=ON > "$folder/cmake.log" 2>&1 \
   || { cat "$folder/cmake.log"; exit 1; }
 
 targets=("$@")
 if [ ${#targets[@]} -eq 0 ]; then
-  for seeds in tb_cpp/fuzz/corpus/*/; do targets+=("$(basename "$seeds")"); done
+  for seeds in tests/fuzz/corpus/*/; do targets+=("$(basename "$seeds")"); done
 fi
 ninja -C "$folder/cpp" "${targets[@]/#/fuzz_}"
 
@@ -23,7 +23,7 @@ for target in "${targets[@]}"; do
   log=$folder/$target.log
   if ! "$folder/cpp/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=4096 \
       -close_fd_mask=1 -artifact_prefix="$folder/findings/$target-" -print_final_stats=1 \
-      "$folder/corpus/$target" "tb_cpp/fuzz/corpus/$target" > "$log" 2>&1; then
+      "$folder/corpus/$target" "tests/fuzz/corpus/$target" > "$log" 2>&1; then
     tail -40 "$log"
     echo "fuzz: $target has a finding, see $log and $folder/findings" >&2
     exit 1

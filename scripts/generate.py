@@ -196,10 +196,10 @@ def connections(module: str, place: str, names: list[str]) -> str:
 
 def all_connections(table: Table) -> dict[str, str]:
     """The arrays in dtof_subsystem, which has a time gate of its own for all of them, and dtof_subsystem in its benches."""
-    lists = {f"hdl/package/{top.name}_parameters.svh":
+    lists = {f"hdl/common/{top.name}_parameters.svh":
              connections(top.name, "dtof_subsystem", [name for name in top.parameters if name != "TIME_GATE"])
              for top in table.tops.values()}  # fmt: skip
-    lists["hdl/package/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", subsystem_names(table))
+    lists["hdl/common/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", subsystem_names(table))
     return lists
 
 
@@ -301,7 +301,7 @@ def cpp_source(table: Table) -> str:
     return f"""// SPDX-License-Identifier: Apache-2.0
 // {WRITTEN}
 // clang-format off
-#include "core/readout.hpp"
+#include "dtof/core/readout.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -362,8 +362,8 @@ def model_table(table: Table) -> str:
     return f"""// SPDX-License-Identifier: Apache-2.0
 // {WRITTEN}
 // clang-format off
-#include "core/error.hpp"
-#include "readout/pixelwise_model.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/readout/pixelwise_model.hpp"
 
 namespace dtof {{
 
@@ -412,7 +412,7 @@ def cmake(table: Table) -> str:
 
 def column_files(text: str, table: Table) -> str:
     """hdl/dtof.f with the columns of dtof_array between their marks."""
-    columns = dict.fromkeys(f"column/{readout.column}.sv" for readout in table.readouts.values() if readout.column)
+    columns = dict.fromkeys(f"thesis/{readout.column}.sv" for readout in table.readouts.values() if readout.column)
     if text.count(COLUMNS_BEGIN) != 1 or text.count(COLUMNS_END) != 1:
         raise FlowError("hdl/dtof.f has no place for the columns of dtof_array")
     head, rest = text.split(COLUMNS_BEGIN)
@@ -442,6 +442,12 @@ def defaults(text: str, table: Table) -> str:
     return text
 
 
+def rtl_of(module: str) -> str:
+    """The file of a module of hdl/."""
+    (path,) = (ROOT / "hdl").glob(f"*/{module}.sv")
+    return str(path.relative_to(ROOT))
+
+
 def check_top(name: str, text: str, table: Table) -> list[str]:
     """What differs between a top module's own parameters and the table's: the module is a contract of its own, written by
     hand."""
@@ -451,7 +457,7 @@ def check_top(name: str, text: str, table: Table) -> list[str]:
     described = {parameter: str(evaluate(table.parameters[parameter].default, {"NP": np}))
                  for parameter in table.tops[name].parameters}  # fmt: skip
     failures = [f"{parameter} is only in {place}" for place, here, there in
-                ((f"hdl/top/{name}.sv", own, described), ("readouts.toml", described, own))
+                ((rtl_of(name), own, described), ("readouts.toml", described, own))
                 for parameter in here if parameter not in there]  # fmt: skip
     # A default may be that of one of the top's read-outs.
     for parameter in own.keys() & described.keys():
@@ -459,7 +465,7 @@ def check_top(name: str, text: str, table: Table) -> list[str]:
             str(table.default(readout.name, parameter, np)) for readout in table.readouts.values() if readout.top == name
         }
         if own[parameter] not in legal:
-            failures.append(f"{parameter} is {own[parameter]} in hdl/top/{name}.sv, {described[parameter]} in readouts.toml")
+            failures.append(f"{parameter} is {own[parameter]} in {rtl_of(name)}, {described[parameter]} in readouts.toml")
     return failures
 
 
@@ -476,25 +482,25 @@ def main() -> int:
         listing = column_files(current["hdl/dtof.f"], table)
         files = {
             "hdl/dtof.f": listing,
-            "hdl/package/dtof_readouts.svh": systemverilog(table),
-            "hdl/package/dtof_readout_range.svh": readout_range(table),
-            "hdl/package/dtof_columns.svh": columns(table),
-            "tb_cpp/core/readout.hpp": cpp_header(table),
-            "tb_cpp/core/readout.cpp": cpp_source(table),
-            "tb_cpp/readout/model_table.cpp": model_table(table),
-            "tb_cpp/cmake/readouts.cmake": cmake(table),
+            "hdl/common/dtof_readouts.svh": systemverilog(table),
+            "hdl/common/dtof_readout_range.svh": readout_range(table),
+            "hdl/common/dtof_columns.svh": columns(table),
+            "models/dtof/core/readout.hpp": cpp_header(table),
+            "models/dtof/core/readout.cpp": cpp_source(table),
+            "models/dtof/readout/model_table.cpp": model_table(table),
+            "cmake/readouts.cmake": cmake(table),
             "hdl/dtof_no_srams.f": file_lists.without_srams(listing),
-            "hdl/dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),
-            "hdl/Bender.yml": file_lists.bender(listing),
+            "dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),
+            "Bender.yml": file_lists.bender(listing),
             CONFIGURATION: defaults(current[CONFIGURATION], table),
-            "hdl/package/dtof_subsystem_declarations.svh": subsystem_parameters(table),
+            "hdl/common/dtof_subsystem_declarations.svh": subsystem_parameters(table),
             **all_connections(table),
-            "hdl/package/dtof_registers_pkg.sv": registers.systemverilog(whole),
+            "hdl/common/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),
             INTEGRATION: registers.page(current[INTEGRATION], whole),
         }
         differences = [difference for top in table.tops
-                       for difference in check_top(top, (ROOT / f"hdl/top/{top}.sv").read_text(encoding="utf-8"), table)]
+                       for difference in check_top(top, (ROOT / rtl_of(top)).read_text(encoding="utf-8"), table)]
     except (FlowError, OSError) as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -27,7 +27,7 @@ from dtof_synth.errors import FlowError  # noqa: E402
 SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
 IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {}}  # what stands in front of it
-DEMONSTRATOR = "demonstrator"  # an FPGA around it, in a folder of its own
+DEMONSTRATOR = "demonstrator"  # an FPGA around it, in fpga/
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
@@ -57,7 +57,7 @@ def yosys(top: str, parameters: dict[str, int]) -> list[str]:
     numbers = {name: value if value >= 0 else f"32'h{value & 0xFFFFFFFF:x}" for name, value in parameters.items()}
     settings = " ".join(f"-set {name} {number}" for name, number in numbers.items())
     script = (
-        f"read_verilog -sv -Ipackage {' '.join(source_files())}; chparam {settings} {top}; "
+        f"read_verilog -sv -Icommon {' '.join(source_files())}; chparam {settings} {top}; "
         f"hierarchy -check -top {top}; proc; check -assert"
     )
     return ["yosys", "-q", "-p", script]
@@ -92,13 +92,13 @@ def check_configuration(configuration: Configuration) -> list[str]:
 def check_demonstrator() -> list[str]:
     """The very top of the FPGA, with the FPGA's memories."""
     listed = [file.replace("/behavioural/", "/fpga/") for file in source_files()]
-    files = [*listed, *sorted(str(file.relative_to(HDL)) for file in (HDL / DEMONSTRATOR).glob("*.sv"))]
+    files = [*listed, *sorted(f"../{file.relative_to(ROOT)}" for file in (ROOT / "fpga").glob("*.sv"))]
     commands = {
-        "Verilator": ["verilator", "--lint-only", "-Wall", "-f", "dtof_lint.f", "+incdir+package", *files,
+        "Verilator": ["verilator", "--lint-only", "-Wall", "-f", "dtof_lint.f", "+incdir+common", *files,
                       "--top-module", DEMONSTRATOR],
-        "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Ipackage {' '.join(files)}; hierarchy -check -top {DEMONSTRATOR}; "
+        "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Icommon {' '.join(files)}; hierarchy -check -top {DEMONSTRATOR}; "
                   "proc; check -assert"],
-        "Icarus Verilog": ["iverilog", "-g2012", "-t", "null", "-Ipackage", "-s", DEMONSTRATOR, *files],
+        "Icarus Verilog": ["iverilog", "-g2012", "-t", "null", "-Icommon", "-s", DEMONSTRATOR, *files],
     }  # fmt: skip
     failures = []
     for tool, command in commands.items():
@@ -136,7 +136,7 @@ def check_nettype(sources: dict[str, str]) -> list[str]:
         if head is None or first is None or head.end() != first.end() or not text.endswith(TAIL):
             failures.append(f"{name}: in front of the first module stand '// verilator lint_off TIMESCALEMOD' and '`default_nettype "
                             "none', a blank line behind them, and at the file's end, behind a blank line, '`default_nettype wire'")
-        if "`timescale" in text and not name.startswith("hdl/example/"):
+        if "`timescale" in text and not name.startswith("examples/"):
             failures.append(f"{name}: a `timescale, which every file behind this one would have")
     return failures
 
@@ -211,8 +211,8 @@ def check_sentences(limits: list[tuple[str, dict[str, int], str]]) -> list[str]:
     """Every requirement of the tops is in the table of limits."""
     failures = []
     for top in SIZE:
-        folder = "subsystem" if top == SUBSYSTEM else "top"
-        required = set(re.findall(rf'"{top}: ([^"]+)"', (HDL / folder / f"{top}.sv").read_text()))
+        (source,) = HDL.glob(f"*/{top}.sv")
+        required = set(re.findall(rf'"{top}: ([^"]+)"', source.read_text()))
         tried = {sentence for name, _, sentence in limits if name == top}
         failures += [f"{PARAMETER_LIMITS.name} has no settings against '{text}' of {top}" for text in required - tried]
     return failures

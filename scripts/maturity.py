@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes docs/reference/maturity.md: each module of hdl/dtof.f with its stage and what earned it; --check only compares.
 
-A stage is a consequence of the lists that commands read: hdl/formal/proofs.toml (`make formal`), and the folders whose modules are in the
+A stage is a consequence of the lists that commands read: formal/proofs.toml (`make formal`), and the folders whose modules are in the
 netlists of `make synth` and `make sim-netlist`.
 """
 
@@ -55,7 +55,7 @@ class Block:
 def proofs(root: Path) -> dict[str, tuple[int, int]]:
     """By module: proofs and planted bugs."""
     found: dict[str, tuple[int, int]] = {}
-    for proof in tomllib.loads((root / "hdl/formal/proofs.toml").read_text(encoding="utf-8"))["proof"]:
+    for proof in tomllib.loads((root / "formal/proofs.toml").read_text(encoding="utf-8"))["proof"]:
         for module in proof["module"].split(", "):
             number, bugs = found.get(module, (0, 0))
             found[module] = (number + 1, bugs + len(proof.get("bug", [])))
@@ -81,7 +81,7 @@ def blocks(root: Path) -> list[Block]:
             found.append(Block(name, line.split("/")[0], described.get(name, ""), *proved.get(name, (0, 0))))
     unknown = proved.keys() - {block.name for block in found}
     if unknown:
-        raise SystemExit(f"error: hdl/formal/proofs.toml proves '{min(unknown)}', which hdl/dtof.f does not have")
+        raise SystemExit(f"error: formal/proofs.toml proves '{min(unknown)}', which hdl/dtof.f does not have")
     return found
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The photon model as a vectorised NumPy script: the side-by-side baseline of the C++ one.
 
-Same work as the exact model of tb_cpp/photon: a pixel's signal (Gaussian) and background (flat) events of a
+Same work as the exact model of models/dtof/photon: a pixel's signal (Gaussian) and background (flat) events of a
 frame, Poisson numbers, sorted in time, at most SLOTS kept per acquisition, TDC codes. Preset "thesis", a plane
 from 0.8 to 5 m, 14 klux. Two scripts: "by acquisition" draws Poisson numbers for every acquisition, as the
 model is defined; "by frame" knows that a frame's number is Poisson too and spreads its events over the

@@ -12,7 +12,7 @@ photon-report: study-program
 photon-bench: configure
 	@ninja -C $(BUILD) photon_bench
 	@scripts/reports.py begin photon_speed
-	@$(BUILD)/bench/photon_bench $(if $(SMALL),--small) --benchmark_filter='plane/(threads|hispointer)' --benchmark_out=build/photon_bench.json \
+	@$(BUILD)/bin/photon_bench $(if $(SMALL),--small) --benchmark_filter='plane/(threads|hispointer)' --benchmark_out=build/photon_bench.json \
 	  --benchmark_out_format=json
 	@scripts/photon_baseline.py build/photon_bench.json $(REPORTS)/photon_speed.md $(if $(SMALL),--pixels 50) --seed $(SEED)
 	@scripts/reports.py record photon_speed

@@ -18,7 +18,7 @@ import plot_style
 from figures.small import is_small, written_root
 
 ROOT = Path(__file__).resolve().parent.parent
-PRESET = ROOT / "tb_cpp" / "sensor" / "presets" / "thesis.toml"
+PRESET = ROOT / "models" / "dtof" / "sensor" / "presets" / "thesis.toml"
 FOLDER = written_root(ROOT) / "build" / "pulse_widths"
 FWHM_BINS = (8, 45) if is_small() else (8, 12, 20, 45, 90)
 POOLED = ("poolpointer2", "poolpointer2-lean")

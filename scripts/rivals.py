@@ -257,7 +257,7 @@ def sensor_section(sensors: dict[str, dict[str, list[Point]]]) -> str:
     ranking = sorted(chosen.items(), key=lambda entry: -entry[1])
     return ("## Which read-out for which sensor\n\nOf everything within an area (that of the thesis's array, 32,000 pixels, "
             "whatever the sensor's own number), the one with the fewest pixels above 3 %, in per cent with half of the interval, "
-            "all scenes but the flats. \"pooled\": by the host. Sensors: `scripts/rivals/`, the "
+            "all scenes but the flats. \"pooled\": by the host. Sensors: `studies/rivals/`, the "
             "presets; scenes scaled to their ranges.\n\n" + table(("sensor", "light", *limits), rows)
             + f"\nOf {sum(chosen.values())} cells: "
             + ", ".join(f"{title} has {count}" for title, count in ranking) + ".\n")

@@ -11,7 +11,7 @@ threaded_tests='core photon readout analytic run study rtl_pool'
 build_and_run() { # name, CMake preset, tests (empty: all)
   local build=$folder/$1 tests=$3
   mkdir -p "$folder"
-  cmake -S tb_cpp --preset "$2" > "$folder/$1_cmake.log" 2>&1 \
+  cmake -S . --preset "$2" > "$folder/$1_cmake.log" 2>&1 \
     || { cat "$folder/$1_cmake.log"; exit 1; }
   if [ -z "$tests" ]; then
     ninja -C "$build"

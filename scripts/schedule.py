@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the engine's schedule into docs/reference/blocks/pool_control.md: in which clocks of a step each command is
 given, found by simulating both products' arrays in Icarus Verilog, and what the command means, taken from
-hdl/package/dtof_pool2_command.svh. --check only says whether the page is stale."""
+hdl/common/dtof_pool2_command.svh. --check only says whether the page is stale."""
 
 import re
 import subprocess
@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT / "synth"))
 
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 
-COMMANDS = HDL / "package" / "dtof_pool2_command.svh"
+COMMANDS = HDL / "common" / "dtof_pool2_command.svh"
 PAGE = ROOT / "docs" / "reference" / "blocks" / "pool_control.md"
 BEGIN = "<!-- schedule: written by scripts/schedule.py -->\n"
 END = "<!-- end of schedule -->\n"

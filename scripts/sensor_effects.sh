@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The sensor files of scripts/sensor_effects/ against the preset thesis: reports/sensor_effects.md. poolPointer 2 takes hours:
+# The sensor files of studies/sensor_effects/ against the preset thesis: reports/sensor_effects.md. poolPointer 2 takes hours:
 # an independent pixel of it takes a whole column (`dtof-study sensor-effects FILE -r poolpointer2`).
 # Data that a sensor file names is looked for beside it, so both are linked into one folder.
 set -euo pipefail
@@ -18,7 +18,7 @@ mkdir -p "$folder"
 sensors=()
 complete=yes
 for name in tdc_shared tdc_per_pixel pulse_measured pulse_stretched dead_time hot_pixels; do
-  cp "scripts/sensor_effects/$name.toml" "$folder/"
+  cp "studies/sensor_effects/$name.toml" "$folder/"
   file=$(sed -n 's/^[a-z_]*_file = "\(.*\)"$/\1/p' "$folder/$name.toml")
   if [ -n "$file" ]; then
     if [ ! -f "$data/$file" ]; then

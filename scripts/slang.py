@@ -57,7 +57,7 @@ def source_files(hdl: Path) -> list[str]:
 def read(top: str, parameters: dict[str, int], hdl: Path = HDL) -> list[str]:
     """slang's errors and warnings about a top."""
     settings = " ".join(f"-G{name}={value}" for name, value in parameters.items())
-    command = f"read_slang --threads 1 -DSYNTHESIS -Ipackage {settings} --top {top} {' '.join(source_files(hdl))}"
+    command = f"read_slang --threads 1 -DSYNTHESIS -Icommon {settings} --top {top} {' '.join(source_files(hdl))}"
     result = subprocess.run([str(NODE), str(READER), str(YOSYS), str(hdl), command], text=True, check=False,
                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)  # fmt: skip
     text = COLOUR.sub("", result.stdout)

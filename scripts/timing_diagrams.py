@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the timing diagrams of docs/user/integration.md from a simulation of dtof_subsystem (hdl/example/timing_bench.sv, Icarus
+"""Draws the timing diagrams of docs/user/integration.md from a simulation of dtof_subsystem (examples/timing_bench.sv, Icarus
 Verilog), and counts the clocks of a frame of every read-out for its table.
 
 Each diagram is written twice to docs/user/timing/: as WaveDrom's JSON, which other tools read, and as the SVG that the page
@@ -77,7 +77,7 @@ def simulated(folder: str, parameters: dict[str, int]) -> str:
     program = f"{folder}/bench.vvp"
     settings = [f"-P{BENCH}.{name}={value}" for name, value in parameters.items()]
     try:
-        subprocess.run(["iverilog", "-g2012", "-s", BENCH, *settings, "-o", program, "-f", "dtof.f", f"example/{BENCH}.sv"],
+        subprocess.run(["iverilog", "-g2012", "-s", BENCH, *settings, "-o", program, "-f", "dtof.f", f"../examples/{BENCH}.sv"],
                        cwd=HDL, check=True)  # fmt: skip
         text = subprocess.run(["vvp", "-n", program], cwd=folder, check=True, capture_output=True, text=True).stdout
     except subprocess.CalledProcessError as error:

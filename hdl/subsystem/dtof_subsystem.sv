@@ -13,7 +13,7 @@
 // 6. Between frames the array's clock is gated (dtof_clock_gate of the technology folder).
 //
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is dtof_pool_pointer2_array. The parameters
-// that follow (package/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
+// that follow (common/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
 // Latency: two clocks from a line to the array, one from the array to a result.
 // Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts' (reports/fpga_check.md).
 `include "dtof_macros.svh"

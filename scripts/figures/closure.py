@@ -8,12 +8,13 @@ from pathlib import PurePosixPath
 
 from .source_tree import SourceTree
 
-CPP_ROOT = "tb_cpp"
+CPP_ROOTS = ("models", "tb_cpp", "app", "studies", "tests")
 PYTHON_ROOTS = ("scripts", "synth")
 MEASURES_NOTHING = "scripts/figures/"  # only notes what was measured
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 # A command's file includes the list of all commands first and belongs to none of the headers; the list says nothing of it.
 COMMAND = re.compile(r"(_command|main|program)\.cpp$")
+TEST = re.compile(r"_test\.cpp$")
 COMMANDS = "commands.hpp"
 
 
@@ -22,7 +23,7 @@ def _includes(tree: SourceTree, name: str) -> list[str]:
     folder = PurePosixPath(name).parent
     found = []
     for address in INCLUDE.findall(tree.text(name)):
-        for candidate in (f"{CPP_ROOT}/{address}", str(folder / address), f"{address}"):
+        for candidate in (*(f"{root}/{address}" for root in CPP_ROOTS), str(folder / address), f"{address}"):
             if candidate in tree.files:
                 if PurePosixPath(candidate).name != COMMANDS:
                     found.append(candidate)
@@ -38,7 +39,7 @@ def _sources(tree: SourceTree) -> dict[str, list[str]]:
     folders: dict[PurePosixPath, list[str]] = {}
     alone = []
     for name in sorted(tree.files):
-        if not (name.startswith(f"{CPP_ROOT}/") and name.endswith(".cpp")) or COMMAND.search(name):
+        if name.partition("/")[0] not in CPP_ROOTS or not name.endswith(".cpp") or COMMAND.search(name) or TEST.search(name):
             continue
         folders.setdefault(PurePosixPath(name).parent, []).append(name)
         own = name.removesuffix(".cpp") + ".hpp"

@@ -105,9 +105,9 @@ def input_files(report: Report, tree: SourceTree) -> set[str]:
 
 
 def folder(name: str) -> str:
-    """The place that a page names for a file: two levels of folders, or a file of reports/ or of the root itself."""
+    """The place that a page names for a file: two levels of folders, in models/dtof/ three, or a file of reports/ or of the root itself."""
     parents = PurePosixPath(name).parts[:-1]
-    return name if not parents or parents[0] == "reports" else "/".join(parents[:2])
+    return name if not parents or parents[0] == "reports" else "/".join(parents[:3 if parents[0] == "models" else 2])
 
 
 def _hash(lines: list[str]) -> str:

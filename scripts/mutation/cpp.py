@@ -20,7 +20,9 @@ from mutation.verdict import MutationError, Verdict
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-TREE = ["tb_cpp", "hdl", "driver", "scripts", "synth", "configurations.toml", "readouts.toml"]  # what CMake reads
+MODELS = Path("models/dtof")
+TREE = ["CMakeLists.txt", "CITATION.cff", "cmake", "models", "tb_cpp", "app", "studies", "tests", "examples", "driver", "hdl", "fpga", "scripts",
+        "synth", "configurations.toml", "readouts.toml"]  # what CMake reads
 READOUT_SHARE = 0.6
 # Other libraries on whose figures the models rest; of io, the readers and what writes results.
 OTHERS = [
@@ -55,10 +57,10 @@ def select(tree: Path, count: int, seed: int) -> Selection:
     readout = round(READOUT_SHARE * count)
     for patterns, share in ((["readout/*"], readout), (OTHERS, count - readout)):
         found: list[Mutant] = []
-        for path in sources(tree / "tb_cpp", patterns):
+        for path in sources(tree / MODELS, patterns):
             found += cpp_operators.mutants(str(path.relative_to(tree)), path.read_text())
         groups.append((found, share))
-    return Selection(groups, seed, remembered.load(tree, "tb_cpp"))
+    return Selection(groups, seed, remembered.load(tree, str(MODELS)))
 
 
 def stable_number(mutant: Mutant) -> int:
@@ -84,7 +86,7 @@ class Build:
                 shutil.copy(source, self.original / name)
         shutil.copytree(self.original, self.tree)
         flags = f"-O1 -include {HERE / 'live_mutant.hpp'} -w -Wno-error -Wno-narrowing"
-        command = ["cmake", "-S", self.tree / "tb_cpp", "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+        command = ["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
                    f"-DCMAKE_CXX_FLAGS={flags}"]  # fmt: skip
         self._run(command, "CMake refuses the copy with mutants")
 
@@ -141,7 +143,7 @@ class Build:
         return named[True] or named[False]
 
     def test_program(self, library: str) -> Path:
-        return self.binary / "tests" / library / f"{library}_test"
+        return self.binary / "bin" / f"{library}_test"
 
 
 def _limit_memory() -> None:
@@ -184,7 +186,7 @@ def unharmed(build: Build, library: str) -> float:
 
 def judge(build: Build, mutant: Mutant, number: int, seconds: Mapping[str, float]) -> Verdict:
     """`seconds`: what each program takes without a mutant."""
-    for library in PROGRAMS[mutant.file.split("/")[1]]:
+    for library in PROGRAMS[Path(mutant.file).parent.name]:
         by = killer(build, library, number, TIMEOUT_FACTOR * seconds[library] + 10)
         if by is not None:
             return Verdict(mutant, "killed", by)
@@ -197,7 +199,7 @@ def same_object(build: Build, mutant: Mutant) -> bool:
         return False
     text = (build.original / mutant.file).read_text()
     changed = text[: mutant.begin] + mutant.mutated + text[mutant.end :]
-    includes = build.original / "tb_cpp"
+    includes = build.original / "models"
     objects = []
     with tempfile.TemporaryDirectory() as scratch:
         for variant in (text, changed):

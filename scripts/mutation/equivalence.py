@@ -16,13 +16,13 @@ TIMEOUT_S = 60
 Parameters = frozenset[tuple[str, int]]
 
 _SCRIPT = """
-read_verilog -sv -DSYNTHESIS -I{tree}/hdl/package {original}
+read_verilog -sv -DSYNTHESIS -I{tree}/hdl/common {original}
 {parameters}
 hierarchy -check -top {module}
 proc; flatten; opt_clean
 rename -top gold
 design -stash gold
-read_verilog -sv -DSYNTHESIS -I{tree}/hdl/package {mutated}
+read_verilog -sv -DSYNTHESIS -I{tree}/hdl/common {mutated}
 {parameters}
 hierarchy -check -top {module}
 proc; flatten; opt_clean

@@ -23,7 +23,7 @@ from dtof_synth import simulation  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
-PATTERNS = ("control", "datapath", "column", "engine", "top", "memory")
+PATTERNS = ("common", "thesis", "pool")
 BENCHES = "synth/simulation"
 # Icarus Verilog 11 waits for more signals than needed.
 HARMLESS = "sorry: constant selects in always_* processes are not currently supported (all bits will be included)."
@@ -127,7 +127,7 @@ def prepare(case: simulation.Case, tree: Path, folder: Path) -> Bench:
     bench = f"{case.configuration.top}_bench"
     overrides = [f"-P{bench}.{name}={value}" for name, value in simulation.bench_parameters(case, folder).items()]
     files = [str(path.relative_to(tree)) for path in simulation.bench_files(case, tree)]
-    return measured(Bench(case, folder, ("iverilog", "-g2012", "-Ihdl/package", "-s", bench, *overrides, *files)), tree)
+    return measured(Bench(case, folder, ("iverilog", "-g2012", "-Ihdl/common", "-s", bench, *overrides, *files)), tree)
 
 
 def measured(bench: Bench, tree: Path) -> Bench:

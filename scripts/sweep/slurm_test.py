@@ -21,10 +21,10 @@ from single_node_slurm import CannotStart, SingleNodeSlurm  # noqa: E402
 ROOT = HERE.parent.parent
 SWEEP = """\
 name = "slurm_test"
-command = "build/cpp/app/dtof frame --readout {{readout}} --scene room --klux {{klux}} --seed {{seed}} --columns 0-3 \
+command = "build/cpp/bin/dtof frame --readout {{readout}} --scene room --klux {{klux}} --seed {{seed}} --columns 0-3 \
 --table none --engine model --threads 1 --out {{out}}"
 table = "summary.csv"
-inputs = ["build/cpp/app/dtof", "{note}"]
+inputs = ["build/cpp/bin/dtof", "{note}"]
 batch = 2
 seed_of = ["klux", "repetition"]
 

@@ -37,13 +37,13 @@ class Names(unittest.TestCase):
     def test_a_name_and_a_file_without_the_prefix_are_errors(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             root = Path(folder)
-            (root / "hdl" / "package").mkdir(parents=True)
+            (root / "hdl" / "common").mkdir(parents=True)
             (root / "hdl" / "dtof.f").write_text("// own\n+incdir+package\ncontroller.sv\n")
             (root / "hdl" / "controller.sv").write_text("\nmodule controller;\nendmodule\n")
-            (root / "hdl" / "package" / "dtof_a.svh").write_text("`define DTOF_A\n`define B\n")
+            (root / "hdl" / "common" / "dtof_a.svh").write_text("`define DTOF_A\n`define B\n")
             self.assertEqual(check_names.problems(root), ["hdl/controller.sv: the file's name lacks the prefix dtof_",
                                                           "hdl/controller.sv:2: 'controller' lacks the prefix dtof_",
-                                                          "hdl/package/dtof_a.svh:2: 'B' lacks the prefix dtof_"])  # fmt: skip
+                                                          "hdl/common/dtof_a.svh:2: 'B' lacks the prefix dtof_"])  # fmt: skip
 
 
 class BesideAUser(unittest.TestCase):

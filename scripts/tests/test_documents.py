@@ -19,9 +19,9 @@ class Documents(unittest.TestCase):
         self.files: set[str] = set()
         self.write("README.md", "# Read\n\n[index](docs/README.md), [a](docs/a.md#two-words)\n")
         self.write("docs/README.md", "# Index\n\n[a](a.md), [up](../README.md#read), [out](https://example.org/#x)\n")
-        self.write("docs/a.md", "# A\n\n## Two words\n\n[here](#two-words), [code](../hdl/top), "
+        self.write("docs/a.md", "# A\n\n## Two words\n\n[here](#two-words), [code](../hdl/thesis), "
                                 "![p](../reports/p.svg)\n")
-        self.write("hdl/top/array.sv", "module array (\n);\nendmodule\n")
+        self.write("hdl/thesis/array.sv", "module array (\n);\nendmodule\n")
         self.write("reports/p.svg", "picture")
 
     def write(self, name: str, text: str) -> None:
@@ -47,7 +47,7 @@ class Documents(unittest.TestCase):
         self.block("top", "array")
         (self.root / "built.md").write_text("# Not kept by git\n", encoding="utf-8")
         for address, sentence in {"docs/b.md": "does not exist", "docs/a.md#three": "has no such anchor",
-                                  "#write": "has no such anchor", "hdl/top/array.sv#L3": "has no such anchor",
+                                  "#write": "has no such anchor", "hdl/thesis/array.sv#L3": "has no such anchor",
                                   "built.md": "does not exist", "../other/README.md": "leads out of the tree",
                                   "/etc/passwd": "leads out of the tree", "docs/none": "does not exist"}.items():
             for link in (f"[x]({address})", f"![x]({address})", f"| a |\n|---|\n| [x]({address}) |"):
@@ -77,19 +77,19 @@ class Documents(unittest.TestCase):
 
     def test_a_page_that_a_comment_names(self) -> None:
         self.block("top", "array")
-        self.write("hdl/top/array.sv", "// See docs/a.md.\nmodule array (\n);\nendmodule\n")
+        self.write("hdl/thesis/array.sv", "// See docs/a.md.\nmodule array (\n);\nendmodule\n")
         self.assertEqual(self.found(), [])
         gone = "docs/" + "gone.md"
         for named in (f"{gone}, Section.", f"Equation ({gone}, Section): a", f"`{gone}`"):
-            self.write("hdl/top/array.sv", f"// See\n// {named}\nmodule array (\n);\nendmodule\n")
-            self.assertEqual(self.found(), [f"hdl/top/array.sv:2: {gone} does not exist"])
+            self.write("hdl/thesis/array.sv", f"// See\n// {named}\nmodule array (\n);\nendmodule\n")
+            self.assertEqual(self.found(), [f"hdl/thesis/array.sv:2: {gone} does not exist"])
 
     def test_every_module_has_one_section(self) -> None:
         self.block("top", "array")
-        self.write("hdl/engine/new.sv", "module new_part #(\n    parameter int A = 1\n) (\n);\nendmodule\n")
-        self.write("hdl/formal/proof.sv", "module proof (\n);\nendmodule\n")
+        self.write("hdl/pool/new.sv", "module new_part #(\n    parameter int A = 1\n) (\n);\nendmodule\n")
+        self.write("formal/proof.sv", "module proof (\n);\nendmodule\n")
         found, = self.found()
-        self.assertIn("hdl/engine/new.sv: no page of", found)
+        self.assertIn("hdl/pool/new.sv: no page of", found)
         self.block("engine", "new_part")
         self.assertEqual(self.found(), [])
         self.block("again", "array")
@@ -98,20 +98,20 @@ class Documents(unittest.TestCase):
         self.files.remove(f"{check_documents.BLOCKS}again.md")
         self.write("docs/README.md", "[a](a.md) [t](reference/blocks/top.md) [e](reference/blocks/engine.md)\n")
         self.write("README.md", "# Read\n")
-        self.write("hdl/engine/new.sv", "module renamed (\n);\nendmodule\n")
+        self.write("hdl/pool/new.sv", "module renamed (\n);\nendmodule\n")
         self.assertEqual(len(self.found()), 2)
         self.assertIn("new_part is no module of hdl/", self.found()[1])
 
     def test_a_section_names_what_the_module_has(self) -> None:
         self.block("top", "array")
-        self.write("hdl/top/array.sv", "module array #(\n    parameter int WIDTH = 1\n) (\n    input start_i\n);\n"
+        self.write("hdl/thesis/array.sv", "module array #(\n    parameter int WIDTH = 1\n) (\n    input start_i\n);\n"
                                        "endmodule\n")
         page = self.root / f"{check_documents.BLOCKS}top.md"
         text = page.read_text(encoding="utf-8")
         page.write_text(f"{text}`WIDTH`, `start_i`, `X`, IDLE, `hdl/x_i.sv`\n", encoding="utf-8")
         self.assertEqual(self.found(), [])
         page.write_text(f"{text}`DEPTH`, `stop_i`\n", encoding="utf-8")
-        self.assertEqual(self.found(), [f"{check_documents.BLOCKS}top.md: {part} of array is not in hdl/top/array.sv"
+        self.assertEqual(self.found(), [f"{check_documents.BLOCKS}top.md: {part} of array is not in hdl/thesis/array.sv"
                                         for part in ("DEPTH", "stop_i")])
 
     def test_this_tree(self) -> None:

@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-BENCH = (ROOT / "hdl/example/example_bench.sv").read_text(encoding="utf-8")
+BENCH = (ROOT / "examples/example_bench.sv").read_text(encoding="utf-8")
 
 
 def run(*arguments: str) -> subprocess.CompletedProcess:

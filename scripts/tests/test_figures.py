@@ -32,7 +32,7 @@ inputs = ["@rtl", "python:synth/flow.py"]
 command = "make pareto"
 minutes = 0.1
 pages = ["pareto.md"]
-inputs = ["reports/area.csv", "cpp:tb_cpp/app/main.cpp"]
+inputs = ["reports/area.csv", "cpp:app/commands/main.cpp"]
 """
 FILES = {
     "reports/reports.toml": LIST,
@@ -45,12 +45,12 @@ FILES = {
     "synth/parts/__init__.py": "",
     "synth/parts/adder.py": "ADDED = 2\n",
     "synth/unrelated.py": "VALUE = 3\n",
-    "tb_cpp/app/main.cpp": '#include "core/a.hpp"\n',
-    "tb_cpp/core/a.hpp": "int a();\n",
-    "tb_cpp/core/a.cpp": '#include "core/a.hpp"\n#include "core/b.hpp"\nint a() { return b(); }\n',
-    "tb_cpp/core/b.hpp": "int b();\n",
-    "tb_cpp/core/b_part.cpp": '#include "core/b.hpp"\nint b() { return 1; }\n',
-    "tb_cpp/core/c.hpp": "int c();\n",
+    "app/commands/main.cpp": '#include "dtof/core/a.hpp"\n',
+    "models/dtof/core/a.hpp": "int a();\n",
+    "models/dtof/core/a.cpp": '#include "dtof/core/a.hpp"\n#include "dtof/core/b.hpp"\nint a() { return b(); }\n',
+    "models/dtof/core/b.hpp": "int b();\n",
+    "models/dtof/core/b_part.cpp": '#include "dtof/core/b.hpp"\nint b() { return 1; }\n',
+    "models/dtof/core/c.hpp": "int c();\n",
 }
 
 
@@ -100,18 +100,18 @@ class Staleness(Project):
         self.measure()
         self.write("hdl/a.sv", "// a comment\n/* and\n another */ module a;\n\nendmodule // end\n")
         self.write("synth/helper.py", '"""Helps others.\n\nMore."""\n# here\nVALUE = 1  # there\n')
-        self.write("tb_cpp/core/b_part.cpp", '#include "core/b.hpp"\n// new\nint b() { return /* one */ 1; }\n')
+        self.write("models/dtof/core/b_part.cpp", '#include "dtof/core/b.hpp"\n// new\nint b() { return /* one */ 1; }\n')
         self.assertEqual(self.stale(), {})
 
     def test_a_file_that_moves_makes_nothing_stale_unless_it_changes(self) -> None:
         self.measure()
-        (self.root / "tb_cpp/core/b_part.cpp").unlink()
+        (self.root / "models/dtof/core/b_part.cpp").unlink()
         self.write("hdl/z.sv", FILES["hdl/a.sv"])
         (self.root / "hdl/a.sv").unlink()
-        self.write("tb_cpp/low/b.hpp", FILES["tb_cpp/core/b.hpp"])
-        (self.root / "tb_cpp/core/b.hpp").unlink()
+        self.write("tb_cpp/low/b.hpp", FILES["models/dtof/core/b.hpp"])
+        (self.root / "models/dtof/core/b.hpp").unlink()
         self.write("tb_cpp/low/b.cpp", '#include "low/b.hpp"\nint b() { return 1; }\n')
-        self.write("tb_cpp/core/a.cpp", FILES["tb_cpp/core/a.cpp"].replace("core/b.hpp", "low/b.hpp"))
+        self.write("models/dtof/core/a.cpp", FILES["models/dtof/core/a.cpp"].replace("dtof/core/b.hpp", "low/b.hpp"))
         self.assertEqual(self.stale(), {})
         self.write("tb_cpp/low/b.hpp", "long b();\n")
         self.assertIn("tb_cpp/low", self.stale()["pareto"])
@@ -121,7 +121,7 @@ class Staleness(Project):
                 ("hdl/a.sv", "module a; wire w; endmodule\n", {"area": ("hdl",)}),
                 ("hdl/b.sv", "module b; endmodule\n", {"area": ("hdl",)}),
                 ("synth/parts/adder.py", "ADDED = 3\n", {"area": ("synth/parts",)}),
-                ("tb_cpp/core/b_part.cpp", '#include "core/b.hpp"\nint b() { return 2; }\n', {"pareto": ("tb_cpp/core",)}),
+                ("models/dtof/core/b_part.cpp", '#include "dtof/core/b.hpp"\nint b() { return 2; }\n', {"pareto": ("models/dtof/core",)}),
                 ("reports/area.csv", "mm2\n1.2\n", {"pareto": ("reports/area.csv",)})):
             with self.subTest(name=name):
                 self.measure()
@@ -131,7 +131,7 @@ class Staleness(Project):
     def test_what_no_report_depends_on_does_not(self) -> None:
         self.measure()
         self.write("synth/unrelated.py", "VALUE = 4\n")
-        self.write("tb_cpp/core/c.hpp", "int c(int);\n")
+        self.write("models/dtof/core/c.hpp", "int c(int);\n")
         self.write("README.md", "text\n")
         self.assertEqual(self.stale(), {})
 
@@ -216,9 +216,9 @@ class List(Project):
 
     def test_sources_of_this_project(self) -> None:
         tree = SourceTree(ROOT)
-        found = closure.cpp(tree, "tb_cpp/study_app/scenes_command.cpp")
-        models = {name for name in tree.files if name.startswith("tb_cpp/readout/") and name.endswith(".cpp")}
-        self.assertLessEqual({"tb_cpp/study/scene_study.cpp", *models}, found)
+        found = closure.cpp(tree, "studies/scenes/scenes_command.cpp")
+        models = {name for name in tree.files if name.startswith("models/dtof/readout/") and name.endswith(".cpp")}
+        self.assertLessEqual({"studies/scenes/scene_study.cpp", *models}, found)
         self.assertFalse({name for name in found if "/tests/" in name or name.endswith("claims_command.cpp")})
         self.assertIn("synth/dtof_synth/netlist.py", closure.python(tree, "synth/dtof_synth/batch.py"))
         self.assertNotIn("synth/dtof_synth/orfs.py", closure.python(tree, "synth/dtof_synth/batch.py"))
@@ -295,7 +295,7 @@ class Commands(Project):
 
     def test_what_the_first_pages_show_and_what_takes_seconds_must_be_fresh(self) -> None:
         self.assertEqual(self.run_command(command.stale_check), (0, ""))
-        self.write("tb_cpp/core/a.hpp", "int a(int);\n")
+        self.write("models/dtof/core/a.hpp", "int a(int);\n")
         self.assertIn("pareto is stale, and renewing it takes less than two minutes", self.run_command(command.stale_check)[1])
         self.write("hdl/a.sv", "module a; wire w; endmodule\n")
         status, said = self.run_command(command.stale_check)

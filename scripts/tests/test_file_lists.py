@@ -19,8 +19,8 @@ sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
 import file_lists  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 
-CORE = yaml.safe_load((HDL / "dtof.core").read_text(encoding="utf-8").removeprefix("CAPI=2:\n"))
-BENDER = yaml.safe_load((HDL / "Bender.yml").read_text(encoding="utf-8"))
+CORE = yaml.safe_load((ROOT / "dtof.core").read_text(encoding="utf-8").removeprefix("CAPI=2:\n"))
+BENDER = yaml.safe_load((ROOT / "Bender.yml").read_text(encoding="utf-8"))
 CONDITIONAL = re.compile(r"(!?)(\w+)\? \((.+)\)")
 # The keys that CAPI2 has at these places, as far as they are used.
 KEYS = {
@@ -30,7 +30,7 @@ KEYS = {
     "target": {"filesets", "toplevel", "default_tool", "parameters", "tools"},
     "parameter": {"datatype", "description", "paramtype"},
 }
-OWN_SRAMS = ["technology/fpga/dtof_sram_1rw.sv", "technology/fpga/dtof_sram_1r1w.sv", "technology/fpga/dtof_clock_gate.sv"]  # for one's own
+OWN_SRAMS = ["hdl/technology/fpga/dtof_sram_1rw.sv", "hdl/technology/fpga/dtof_sram_1r1w.sv", "hdl/technology/fpga/dtof_clock_gate.sv"]  # for one's own
 
 
 def resolved(names: list[str], flags: set[str]) -> list[str]:
@@ -63,7 +63,7 @@ class Target:
 
     def add(self, file: str):
         (Path(self.folder) / file).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(HDL / file, Path(self.folder) / file)
+        shutil.copy(ROOT / file, Path(self.folder) / file)
 
     def run(self, *command: str) -> subprocess.CompletedProcess:
         return subprocess.run(command, cwd=self.folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
@@ -100,14 +100,14 @@ class FuseSoc(unittest.TestCase):
             target = Target("lint", folder)
             result = target.lint()
             self.assertEqual(result.returncode, 0, result.stdout)
-            text = (HDL / "subsystem/dtof_subsystem.sv").read_text() + (HDL / "package/dtof_subsystem_declarations.svh").read_text()
+            text = (HDL / "subsystem/dtof_subsystem.sv").read_text() + (HDL / "common/dtof_subsystem_declarations.svh").read_text()
             declared = re.findall(r"^ +parameter int (\w+) ", text, re.MULTILINE)
             self.assertEqual(sorted(target.target["parameters"]), sorted(declared))
 
     def test_own_srams_take_the_place_of_the_stand_ins(self):
         with tempfile.TemporaryDirectory() as folder:
             target = Target("lint", folder, {file_lists.OWN_SRAMS})
-            self.assertFalse([file for file in target.files if file.startswith("technology/")])
+            self.assertFalse([file for file in target.files if file.startswith("hdl/technology/")])
             result = target.lint()
             self.assertNotEqual(result.returncode, 0)
             self.assertIn("Cannot find file containing module: 'dtof_sram_1r1w'", result.stdout)
@@ -131,7 +131,7 @@ class FuseSoc(unittest.TestCase):
     def test_synth_reads_in_yosys(self):
         with tempfile.TemporaryDirectory() as folder:
             target = Target("synth", folder)
-            self.assertIn("technology/fpga/dtof_sram_1rw.sv", target.files)
+            self.assertIn("hdl/technology/fpga/dtof_sram_1rw.sv", target.files)
             result = target.run("yosys", "-q", "-p", f"read_verilog -sv {' '.join(f'-I{name}' for name in target.includes)} "
                                 f"{' '.join(target.files)}; chparam -set SRAM_NUM 2 -set PIXELS_PER_SRAM 4 dtof_subsystem; "
                                 f"hierarchy -check -top {target.target['toplevel']}; proc; check -assert")  # fmt: skip
@@ -141,9 +141,10 @@ class FuseSoc(unittest.TestCase):
 class Bender(unittest.TestCase):
     def test_its_files_are_those_of_the_list(self):
         package, technology, rest = file_lists.split((HDL / "dtof.f").read_text(encoding="utf-8"))
-        self.assertEqual([file for source in BENDER["sources"] for file in source["files"]], package + technology + rest)
-        self.assertEqual([source["files"] for source in BENDER["sources"] if "target" in source], [technology])
-        self.assertEqual(BENDER["export_include_dirs"], ["package"])
+        self.assertEqual([file for source in BENDER["sources"] for file in source["files"]], [f"hdl/{file}" for file in package + technology + rest])
+        self.assertEqual([source["files"] for source in BENDER["sources"] if "target" in source],
+                         [[f"hdl/{file}" for file in technology]])
+        self.assertEqual(BENDER["export_include_dirs"], ["hdl/common"])
         for source in BENDER["sources"]:
             self.assertLessEqual(source.keys(), {"include_dirs", "target", "files"})
 
@@ -160,7 +161,7 @@ class Lists(unittest.TestCase):
 
     def test_a_list_without_technology_is_refused(self):
         with self.assertRaisesRegex(FlowError, "no technology"):
-            file_lists.split("package/dtof_pkg.sv\ntop/dtof_array.sv\n")
+            file_lists.split("common/dtof_pkg.sv\ntop/dtof_array.sv\n")
 
 
 class Vivado(unittest.TestCase):

@@ -38,12 +38,12 @@ class Fpga(unittest.TestCase):
         sources = fpga.sources()
         self.assertIn("technology/fpga/dtof_sram_1rw.sv", sources)
         self.assertFalse([file for file in sources if "behavioural" in file or not (ROOT / "hdl" / file).is_file()])
-        self.assertEqual(sum(file.startswith("demonstrator/") for file in sources),
-                         len(list((ROOT / "hdl/demonstrator").glob("*.sv"))))  # fmt: skip
+        self.assertEqual(sum(file.startswith("../fpga/") for file in sources),
+                         len(list((ROOT / "fpga").glob("*.sv"))))  # fmt: skip
 
     def test_the_pins_are_the_tops_ports(self):
-        top = (ROOT / "hdl/demonstrator/demonstrator.sv").read_text(encoding="utf-8")
-        pins = (ROOT / "hdl/demonstrator/ice40_hx8k.pcf").read_text(encoding="utf-8")
+        top = (ROOT / "fpga/demonstrator.sv").read_text(encoding="utf-8")
+        pins = (ROOT / "fpga/ice40_hx8k.pcf").read_text(encoding="utf-8")
         ports = re.findall(r"^    (?:input|output) +logic (\w+)", top, re.MULTILINE)
         self.assertEqual(sorted(ports), sorted(re.findall(r"^set_io (\w+) ", pins, re.MULTILINE)))
 
@@ -73,7 +73,7 @@ class Fpga(unittest.TestCase):
 
     def test_the_netlists_tests_expect_what_the_designs_are(self):
         expected = (ROOT / "tb_cpp/tests/demonstrator/CMakeLists.txt").read_text(encoding="utf-8")
-        package = (ROOT / "hdl/package/dtof_readouts.svh").read_text(encoding="utf-8")
+        package = (ROOT / "hdl/common/dtof_readouts.svh").read_text(encoding="utf-8")
         for design in fpga.DESIGNS:
             name = design.readout.replace(" ", "")
             arguments = [f"k{name[0].upper()}{name[1:]}", str(design.parameters["COLUMNS"]),

@@ -42,7 +42,7 @@ class Descriptions(unittest.TestCase):
         self.assertIn("READOUT_FIRSTPHOTON: is_word_moved = 1'b1;", generate.systemverilog(table))
         self.assertIn("READOUT_FIRSTPHOTON: begin : g_first_photon\n          `DTOF_COLUMN(first_photon_column)",
                       generate.columns(table))
-        self.assertIn("column/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
+        self.assertIn("thesis/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
                       generate.model_table(table))
         self.assertIn("partitioned_histogram coarse_histogram pool_pointer2 first_photon)", generate.cmake(table))
@@ -88,15 +88,15 @@ class Descriptions(unittest.TestCase):
 
     def test_parameters_of_the_tops_are_compared(self):
         table = readouts.load()
-        text = (ROOT / "hdl/top/dtof_array.sv").read_text()
+        text = (ROOT / "hdl/thesis/dtof_array.sv").read_text()
         self.assertEqual(generate.check_top("dtof_array", text, table), [])
         self.assertEqual(
             generate.check_top("dtof_array", text.replace("COUNT_WIDTH = 10,", "COUNT_WIDTH = 11,"), table),
-            ["COUNT_WIDTH is 11 in hdl/top/dtof_array.sv, 10 in readouts.toml"],
+            ["COUNT_WIDTH is 11 in hdl/thesis/dtof_array.sv, 10 in readouts.toml"],
         )
         self.assertEqual(
             generate.check_top("dtof_array", text.replace("parameter int SLOTS", "parameter int SLOT"), table),
-            ["SLOT is only in hdl/top/dtof_array.sv", "SLOTS is only in readouts.toml"],
+            ["SLOT is only in hdl/thesis/dtof_array.sv", "SLOTS is only in readouts.toml"],
         )
 
 

@@ -17,7 +17,7 @@ class Stages(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name)
-        for name in ("hdl/formal", "hdl/technology", "hdl/control", "hdl/subsystem", "docs/reference/blocks"):
+        for name in ("formal", "hdl/technology", "hdl/control", "hdl/subsystem", "docs/reference/blocks"):
             (self.root / name).mkdir(parents=True)
         files = {"technology/sram.sv": "sram", "control/a.sv": "a", "control/b.sv": "b", "subsystem/c.sv": "c"}
         for file, module in files.items():
@@ -27,7 +27,7 @@ class Stages(unittest.TestCase):
         self.prove("a, c")
 
     def prove(self, modules: str) -> None:
-        (self.root / "hdl/formal/proofs.toml").write_text(f'[[proof]]\nmodule = "{modules}"\n[[proof.bug]]\n[[proof.bug]]\n')
+        (self.root / "formal/proofs.toml").write_text(f'[[proof]]\nmodule = "{modules}"\n[[proof.bug]]\n[[proof.bug]]\n')
 
     def test_a_stage_needs_proof_and_netlist(self) -> None:
         found = {block.name: block for block in maturity.blocks(self.root)}

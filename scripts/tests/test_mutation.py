@@ -132,7 +132,7 @@ class ReportOfCpp(unittest.TestCase):
     """A test program that checks one function and not the other: the report must say so."""
 
     def test_survivor_is_reported_as_survivor(self):
-        mutants = cpp_operators.mutants("tb_cpp/core/tested.cpp", TESTED)
+        mutants = cpp_operators.mutants("models/dtof/core/tested.cpp", TESTED)
         chosen = [self.find(mutants, change) for change in ("2 -> 2 + 1", "value * kStep -> value / kStep",
                                                             "value + 1 -> value - 1")]  # fmt: skip
         with tempfile.TemporaryDirectory() as name:
@@ -150,7 +150,7 @@ class ReportOfCpp(unittest.TestCase):
             report.write_table({"C++": verdicts}, {"C++": 1}, table)
             parts, seeds = report.read_table(table)
             text = report.markdown(parts, seeds)
-            self.assertIn("- tb_cpp/core/tested.cpp:4 `value + 1 -> value - 1`: NOT EXPLAINED", text)
+            self.assertIn("- models/dtof/core/tested.cpp:4 `value + 1 -> value - 1`: NOT EXPLAINED", text)
             self.assertIn("| **C++** | 3 | 2 | 0 | 0 | 1 | 66.7 % |", text)
             self.assertEqual([verdict.state for verdict in parts["C++"]], ["killed", "killed", "survived"])
             self.assertEqual(len(mutate.failures(parts)), 2)
@@ -246,7 +246,7 @@ class ReportOfRtl(unittest.TestCase):
 
 class Remembered(unittest.TestCase):
     def test_every_one_is_still_in_its_source(self):
-        for folder in ("tb_cpp", "hdl"):
+        for folder in ("models", "hdl"):
             self.assertTrue(remembered.load(mutate.ROOT, folder), folder)
 
 

@@ -33,7 +33,7 @@ class Slang(unittest.TestCase):
         self.assertTrue(any("dtof_subsystem.sv" in line and "'array_busy'" in line for line in failures), failures)
 
     def test_a_macro_of_another_files_include(self):
-        failures = self.refused("top/dtof_array.sv", ('`include "dtof_readout_range.svh"\n', ""))
+        failures = self.refused("thesis/dtof_array.sv", ('`include "dtof_readout_range.svh"\n', ""))
         self.assertTrue(any("dtof_array.sv" in line and "DTOF_READOUT_RANGE" in line for line in failures), failures)
 
 

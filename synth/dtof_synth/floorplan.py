@@ -5,7 +5,7 @@ Columns stand side by side in order, the shared logic under their middle, an eng
 columns, and the ports of a column's timestamps above it. Only the distance along the row counts: a column is 0.02 mm
 wide and the row 5 mm.
 
-Between the shared logic and the columns a signal goes from a register to a register (hdl/control/dtof_broadcast.sv). The last
+Between the shared logic and the columns a signal goes from a register to a register (hdl/common/dtof_broadcast.sv). The last
 one is copied, so that each copy serves the columns near it through few buffers. Longer ways get a repeater every
 REPEATER_UM. All of it is in the netlist, so that it is counted, timed (spef.py) and simulated like any other cell.
 """
@@ -31,7 +31,7 @@ TIMESTAMP_PORT = "tdc_timestamp_i"
 # Ports whose way is shorter than an engine is wide, and has gates on it: the words of an engine's pairs are combined by OR from
 # pair to pair on the way to it (docs/reference/poolpointer2.md).
 GATED_PORTS = {"line_i", "first_beside_i", "second_beside_i"}
-# Registers that stand where their inputs come from: those of the segments of an engine's line (hdl/engine/dtof_pool2_line.sv).
+# Registers that stand where their inputs come from: those of the segments of an engine's line (hdl/pool/dtof_pool2_line.sv).
 BESIDE_COLUMNS = re.compile(r"\bu_line\.words_q\b")
 UNTIMED_PORTS = {"clk_i", "rst_ni", "sram_cfg_i"}
 

@@ -92,7 +92,7 @@ def config(item: Configuration, sizes: list[sram_model.Size], root: Path) -> str
         "FOLDER := $(abspath $(dir $(DESIGN_CONFIG)))\nPROJECT := $(abspath $(FOLDER)/../../..)\n",
         f"export PLATFORM = {PLATFORM}\nexport DESIGN_NAME = {item.top}\nexport DESIGN_NICKNAME = dtof_{item.name}\n",
         _list("VERILOG_FILES", [*technology, *sources]),
-        "export VERILOG_INCLUDE_DIRS = $(PROJECT)/hdl/package\nexport VERILOG_DEFINES = -DSYNTHESIS\n",
+        "export VERILOG_INCLUDE_DIRS = $(PROJECT)/hdl/common\nexport VERILOG_DEFINES = -DSYNTHESIS\n",
         f"export VERILOG_TOP_PARAMS = {parameters}\n", "export SDC_FILE = $(FOLDER)/constraint.sdc\n",
         _list("ADDITIONAL_LEFS", [f"$(FOLDER)/{size.name}.lef" for size in sizes]),
         "export ADDITIONAL_LIBS = $(FOLDER)/sram40_typical.lib\n",

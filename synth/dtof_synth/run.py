@@ -8,7 +8,7 @@ import json
 import math
 import re
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass, field, replace
+from dataclasses import astuple, dataclass, field
 from pathlib import Path
 
 from . import (clock_gating, endpoints, floorplan, loads, netlist, power, report_inputs, same_logic, spef, sram_kit, sram_model, stand_in,
@@ -165,7 +165,7 @@ def elaborate(configuration: Configuration, technology: Technology, folder: Path
         folder, [*memories(configuration).values(), *engine_memories(configuration).values()])
     tools.write_settings(settings, {
         "scripts": scripts, "top": configuration.top,
-        "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "package",
+        "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "common",
         "technology_files": technology_files, "black_boxes": black_boxes, "liberty": technology.slow.path,
         "parameters": configuration.rtl_parameters(), "kept_modules": [f"*{name}*" for name in kept_modules],
         "elaborated_netlist": folder / "elaborated.il", "generic_netlist": folder / "generic.il"})

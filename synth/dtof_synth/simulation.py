@@ -19,7 +19,7 @@ from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError
 from .run import Technology, efforts, elaborate, map_to_cells, rtl_files
 
-VECTORS = Path("build/cpp/vectors/dtof-vectors")
+VECTORS = Path("build/cpp/bin/dtof-vectors")
 BENCHES = Path("synth/simulation")
 BEHAVIOURAL = Path("hdl/technology/behavioural")
 SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
@@ -192,7 +192,7 @@ def compile_bench(case: Case, root: Path, folder: Path, netlist_files: Sequence[
     bench = f"{case.configuration.top}_bench"
     overrides = [f"-P{bench}.{name}={value}" for name, value in bench_parameters(case, folder).items()]
     tops = [word for top in (bench, *other_tops) for word in ("-s", top)]
-    said = _run(["iverilog", "-g2012", f"-I{root / 'hdl' / 'package'}", *tops, *overrides,
+    said = _run(["iverilog", "-g2012", f"-I{root / 'hdl' / 'common'}", *tops, *overrides,
                  *(["-DNETLIST"] if netlist_files else []), "-o", "bench.vvp",
                  *map(str, bench_files(case, root)), *map(str, netlist_files)], folder, case.name)
     if said.strip():
@@ -238,7 +238,7 @@ def simulate_full(case: Case, technology: Technology, folder: Path) -> Outcome:
     # to every combinational output, which looks like loops (UNOPTFLAT); Verilator evaluates them until they settle.
     _run(["verilator", "--cc", "--exe", "--build", "--timing", "--hierarchical", "-Wno-lint", "-Wno-style",
           "-Wno-UNOPTFLAT", "-MAKEFLAGS", "OPT_FAST=-O0 OPT_SLOW=-O0 OPT_GLOBAL=-O0", "-DNETLIST",
-          "-DNETLIST_ALONE", f"-I{root / 'hdl' / 'package'}", "--top-module", "full_bench", "-o", "bench",
+          "-DNETLIST_ALONE", f"-I{root / 'hdl' / 'common'}", "--top-module", "full_bench", "-o", "bench",
           *map(str, [*bench_files(case, root), written, *models, folder / "full_bench.sv",
                      root / BENCHES / "full_bench_main.cpp"])], folder, case.name)
     output = _run([str(folder / "obj_dir" / "bench")], folder, case.name)

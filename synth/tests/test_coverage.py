@@ -14,7 +14,7 @@ coverage = importlib.util.module_from_spec(_spec)
 sys.modules["coverage_report"] = coverage
 _spec.loader.exec_module(coverage)
 
-FILE = "hdl/datapath/dtof_peak_detector.sv"
+FILE = "hdl/thesis/dtof_peak_detector.sv"
 
 
 def point(count: int, **keys: str) -> str:
@@ -40,7 +40,7 @@ class CoverageTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         (self.folder / "cpp.json").write_text(
-            '{"files": [{"filename": "tb_cpp/core/random.cpp", "line_covered": 3, "line_total": 4,'
+            '{"files": [{"filename": "models/dtof/core/random.cpp", "line_covered": 3, "line_total": 4,'
             ' "branch_covered": 1, "branch_total": 2}]}')
 
     def run_report(self, text: str, plan: str) -> tuple[int, str]:
@@ -64,7 +64,7 @@ class CoverageTest(unittest.TestCase):
         status, report = self.run_report(counts(1), "")
         self.assertEqual(status, 0)
         self.assertIn("100.0 % of the RTL's lines ran; the goal of 98 % is met", report)
-        self.assertIn("| `tb_cpp/core` | 3 of 4 (75.0 %) | 1 of 2 (50.0 %) |", report)
+        self.assertIn("| `models/dtof/core` | 3 of 4 (75.0 %) | 1 of 2 (50.0 %) |", report)
 
     def test_a_line_that_did_not_run_misses_the_goal(self) -> None:
         status, report = self.run_report(counts(0), "")

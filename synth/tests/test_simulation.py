@@ -40,25 +40,25 @@ def short(case: simulation.Case, *frames: int) -> simulation.Case:
 
 # File, text, what replaces it, and what the bench must say. Of ezPointer's array.
 RTL_FAULTS = (
-    ("datapath/dtof_pointer_update.sv", "left ? down : up", "left ? up : down", "the model: "),
-    ("control/dtof_result_output.sv", "= valid_q && tready_i;", "= valid_q;", "changed before tready"),
-    ("control/dtof_result_output.sv", "      valid_q <= 1'b0;\n      arrives_q", "      arrives_q", "control output is X"),
-    ("datapath/dtof_result_register.sv", "if (load_i)", "if (load_i && 1'b0)", "valid result is X"),
-    ("control/dtof_result_output.sv", "last_row_i && last_column;", "last_column;", "tlast 1; the model: .* tlast 0"),
-    ("control/dtof_result_output.sv", "tdata_o = {column_q, row_i, result}", "tdata_o = {column_q, ~row_i, result}",
+    ("thesis/dtof_pointer_update.sv", "left ? down : up", "left ? up : down", "the model: "),
+    ("thesis/dtof_result_output.sv", "= valid_q && tready_i;", "= valid_q;", "changed before tready"),
+    ("thesis/dtof_result_output.sv", "      valid_q <= 1'b0;\n      arrives_q", "      arrives_q", "control output is X"),
+    ("thesis/dtof_result_register.sv", "if (load_i)", "if (load_i && 1'b0)", "valid result is X"),
+    ("thesis/dtof_result_output.sv", "last_row_i && last_column;", "last_column;", "tlast 1; the model: .* tlast 0"),
+    ("thesis/dtof_result_output.sv", "tdata_o = {column_q, row_i, result}", "tdata_o = {column_q, ~row_i, result}",
      "the model: "),
-    ("control/dtof_pixel_sequencer.sv", "tdc_ready_o = active_q || at_start", "tdc_ready_o = at_start",
+    ("thesis/dtof_pixel_sequencer.sv", "tdc_ready_o = active_q || at_start", "tdc_ready_o = at_start",
      "fell inside an acquisition"),
-    ("control/dtof_pixel_sequencer.sv", "!active_q && more_i;", "!active_q;", "an acquisition too many"),
-    ("control/dtof_controller.sv", "(state_q == dtof_pkg::STATE_M5) && (state_d", "(state_d", "done_o after 0 acq"),
-    ("control/dtof_controller.sv", "busy_o = start_q || ", "busy_o = ", "busy_o fell"),
-    ("control/dtof_controller.sv", "dtof_pkg::STATE_IDLE : dtof_pkg::STATE_M4", "dtof_pkg::STATE_M4 : dtof_pkg::STATE_M4",
+    ("thesis/dtof_pixel_sequencer.sv", "!active_q && more_i;", "!active_q;", "an acquisition too many"),
+    ("thesis/dtof_controller.sv", "(state_q == dtof_pkg::STATE_M5) && (state_d", "(state_d", "done_o after 0 acq"),
+    ("thesis/dtof_controller.sv", "busy_o = start_q || ", "busy_o = ", "busy_o fell"),
+    ("thesis/dtof_controller.sv", "dtof_pkg::STATE_IDLE : dtof_pkg::STATE_M4", "dtof_pkg::STATE_M4 : dtof_pkg::STATE_M4",
      "a result too many"),
-    ("control/dtof_controller.sv", "accept = start_i && !busy_o;", "accept = start_i;", "an acquisition too many"),
-    ("control/dtof_controller.sv", "accept = start_i && !busy_o;", "accept = start_i && (!busy_o || done_q);",
+    ("thesis/dtof_controller.sv", "accept = start_i && !busy_o;", "accept = start_i;", "an acquisition too many"),
+    ("thesis/dtof_controller.sv", "accept = start_i && !busy_o;", "accept = start_i && (!busy_o || done_q);",
      "between frames"),
-    ("control/dtof_pixel_sequencer.sv", "idle_o = (drain_q == '0)", "idle_o = 1'b0", "nothing taken or sent"),
-    ("control/dtof_result_output.sv", "always_ff @(posedge clk_i or negedge rst_ni)", "always_ff @(posedge clk_i)",
+    ("thesis/dtof_pixel_sequencer.sv", "idle_o = (drain_q == '0)", "idle_o = 1'b0", "nothing taken or sent"),
+    ("thesis/dtof_result_output.sv", "always_ff @(posedge clk_i or negedge rst_ni)", "always_ff @(posedge clk_i)",
      "control output is X"),
 )
 
@@ -76,7 +76,7 @@ class RtlBench(unittest.TestCase):
         with tempfile.TemporaryDirectory() as temporary:
             root = copy_project(Path(temporary) / "project")
             # The bench alone must see them, not the assertions of the RTL.
-            macros = root / "hdl" / "package" / "dtof_macros.svh"
+            macros = root / "hdl" / "common" / "dtof_macros.svh"
             macros.write_text("`define SYNTHESIS\n" + macros.read_text(encoding="utf-8"), encoding="utf-8")
             case = short(simulation.rtl_case(NAMED["ezpointer"], SEED))
             for name, old, new, message in RTL_FAULTS:
@@ -90,7 +90,7 @@ class RtlBench(unittest.TestCase):
     def test_assertions_of_the_rtl_are_failures(self) -> None:
         with tempfile.TemporaryDirectory() as temporary:
             root = copy_project(Path(temporary) / "project")
-            edit(root / "hdl" / "control" / "dtof_stream_rules.sv", "!waits_q || tvalid_i,", "!waits_q || !tvalid_i,")
+            edit(root / "hdl" / "common" / "dtof_stream_rules.sv", "!waits_q || tvalid_i,", "!waits_q || !tvalid_i,")
             with self.assertRaisesRegex(FlowError, "tvalid fell before tready"):
                 simulation.simulate(short(simulation.rtl_case(NAMED["ezpointer"], SEED)), root,
                                     Path(temporary) / "run")
@@ -98,7 +98,7 @@ class RtlBench(unittest.TestCase):
     def test_warnings_of_icarus_are_failures(self) -> None:
         with tempfile.TemporaryDirectory() as temporary:
             root = copy_project(Path(temporary) / "project")
-            edit(root / "hdl" / "control" / "dtof_result_output.sv", "assign shift_o = shift_q;",
+            edit(root / "hdl" / "thesis" / "dtof_result_output.sv", "assign shift_o = shift_q;",
                  "assign shift_o = shift_q;\n  logic o;\n  always_comb o = tdata_o[0];")
             with self.assertRaisesRegex(FlowError, "sorry"):
                 simulation.simulate(short(simulation.rtl_case(NAMED["ezpointer"], SEED)), root,
@@ -171,7 +171,7 @@ class NetlistBench(unittest.TestCase):
         """Yosys 0.23 reads a typed localparam set to '1 as 1: the netlist scans two bins only, the RTL all."""
         with tempfile.TemporaryDirectory() as temporary:
             root = copy_project(Path(temporary) / "project")
-            source = root / "hdl" / "control" / "dtof_scan_sequencer.sv"
+            source = root / "hdl" / "thesis" / "dtof_scan_sequencer.sv"
             edit(source, "LAST_BIN_ALL = {BIN_WIDTH{1'b1}};", "LAST_BIN_ALL = '1;")
             self.assertRegex(source.read_text(encoding="utf-8"), r"localparam logic \[BIN_WIDTH-1:0\] LAST_BIN_ALL")
             case = short(simulation.netlist_cases(NAMED["fifh"], SEED)[0], 2)

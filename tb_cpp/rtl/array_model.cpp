@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "core/error.hpp"
+#include "dtof/core/error.hpp"
 
 namespace dtof {
 

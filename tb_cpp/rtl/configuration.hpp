@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/parameters.hpp"
+#include "dtof/core/parameters.hpp"
 
 namespace dtof {
 
@@ -41,7 +41,7 @@ enum class RtlState : int { kIdle = 0, kReset = 1, kM0 = 2, kM1 = 3, kM2 = 4, kM
 
 inline constexpr std::size_t kRtlStateCount = 8;
 
-/// Bits of error_o (hdl/control/dtof_array_errors.sv).
+/// Bits of error_o (hdl/common/dtof_array_errors.sv).
 inline constexpr std::uint8_t kRtlUnderrun = 1;
 inline constexpr std::uint8_t kRtlStartIgnored = 2;
 inline constexpr std::uint8_t kRtlIllegalSchedule = 4;

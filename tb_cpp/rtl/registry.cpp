@@ -11,7 +11,7 @@
 #include <tuple>
 #include <utility>
 
-#include "core/error.hpp"
+#include "dtof/core/error.hpp"
 
 namespace dtof {
 namespace {

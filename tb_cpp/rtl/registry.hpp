@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/parameters.hpp"
+#include "dtof/core/parameters.hpp"
 #include "rtl/array_model.hpp"
 #include "rtl/configuration.hpp"
 

@@ -8,9 +8,9 @@
 #include <chrono>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/progress.hpp"
-#include "core/random.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
+#include "dtof/core/random.hpp"
 #include "rtl/array_model.hpp"
 #include "rtl/error.hpp"
 #include "rtl/registry.hpp"

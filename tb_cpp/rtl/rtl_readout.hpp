@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/result.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/result.hpp"
 #include "rtl/configuration.hpp"
 #include "rtl/sram.hpp"
 

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <mutex>
 
-#include "core/error.hpp"
-#include "core/parallel.hpp"
-#include "core/select_columns.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/parallel.hpp"
+#include "dtof/core/select_columns.hpp"
 #include "rtl/frame_clocks.hpp"
 #include "rtl/registry.hpp"
 

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/parameters.hpp"
-#include "core/progress.hpp"
-#include "core/result.hpp"
-#include "core/select_columns.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/parameters.hpp"
+#include "dtof/core/progress.hpp"
+#include "dtof/core/result.hpp"
+#include "dtof/core/select_columns.hpp"
 #include "rtl/rtl_readout.hpp"
 
 namespace dtof {

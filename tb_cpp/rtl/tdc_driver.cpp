@@ -9,7 +9,7 @@
 #include <cstring>
 #include <limits>
 
-#include "core/error.hpp"
+#include "dtof/core/error.hpp"
 #include "rtl/error.hpp"
 
 namespace dtof {

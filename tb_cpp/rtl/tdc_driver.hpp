@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/random.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/random.hpp"
 #include "rtl/array_model.hpp"
 #include "rtl/configuration.hpp"
 

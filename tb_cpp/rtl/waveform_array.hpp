@@ -8,7 +8,7 @@
 #include <fstream>
 #include <memory>
 
-#include "core/error.hpp"
+#include "dtof/core/error.hpp"
 #include "rtl/verilated_array.hpp"
 
 namespace dtof {

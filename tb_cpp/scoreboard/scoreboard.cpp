@@ -11,9 +11,9 @@
 #include <memory>
 #include <numeric>
 
-#include "core/error.hpp"
-#include "readout/model.hpp"
-#include "readout/run_frame.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/readout/model.hpp"
+#include "dtof/readout/run_frame.hpp"
 #include "rtl/run_frame.hpp"
 
 namespace dtof {

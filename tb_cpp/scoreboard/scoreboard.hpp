@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/parameters.hpp"
-#include "core/result.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/parameters.hpp"
+#include "dtof/core/result.hpp"
 #include "rtl/rtl_readout.hpp"
 #include "rtl/run_frame.hpp"
 

@@ -6,8 +6,8 @@
 #include <deque>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/random.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/random.hpp"
 #include "rtl/configuration.hpp"
 #include "subsystem/subsystem_model.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/random.hpp"
+#include "dtof/core/random.hpp"
 #include "subsystem/subsystem_model.hpp"
 
 namespace dtof {

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "core/error.hpp"
-#include "core/select_columns.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/select_columns.hpp"
 
 namespace dtof {
 namespace {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/random.hpp"
+#include "dtof/core/random.hpp"
 #include "subsystem/axi_stream.hpp"
 #include "subsystem/register_bus.hpp"
 #include "subsystem/registry.hpp"

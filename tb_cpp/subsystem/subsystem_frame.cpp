@@ -9,9 +9,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/progress.hpp"
-#include "core/random.hpp"
-#include "core/select_columns.hpp"
+#include "dtof/core/progress.hpp"
+#include "dtof/core/random.hpp"
+#include "dtof/core/select_columns.hpp"
 #include "dtof.h"
 #include "rtl/error.hpp"
 #include "rtl/tdc_driver.hpp"

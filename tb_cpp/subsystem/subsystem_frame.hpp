@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "core/detection.hpp"
-#include "core/parameters.hpp"
-#include "core/progress.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/parameters.hpp"
+#include "dtof/core/progress.hpp"
 #include "rtl/run_frame.hpp"
 
 namespace dtof {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/error.hpp"
+#include "dtof/core/error.hpp"
 #include "vectors/rtl_parameters.hpp"
 #include "vectors/stimulus.hpp"
 

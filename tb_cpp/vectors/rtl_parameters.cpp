@@ -8,7 +8,7 @@
 #include <map>
 #include <string_view>
 
-#include "core/error.hpp"
+#include "dtof/core/error.hpp"
 
 namespace dtof {
 namespace {

@@ -11,13 +11,13 @@
 #include <system_error>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/error.hpp"
-#include "core/random.hpp"
-#include "photon/photon_source.hpp"
-#include "readout/model.hpp"
-#include "readout/pool_pointer2.hpp"
-#include "sensor/preset.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/random.hpp"
+#include "dtof/photon/photon_source.hpp"
+#include "dtof/readout/model.hpp"
+#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/sensor/preset.hpp"
 #include "tests/readout/test_streams.hpp"
 
 namespace dtof {

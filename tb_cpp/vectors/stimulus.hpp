@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <span>
 
-#include "scene/scene.hpp"
+#include "dtof/scene/scene.hpp"
 #include "vectors/rtl_parameters.hpp"
 
 namespace dtof {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "readout/pixelwise_model.hpp"
+#include "dtof/readout/pixelwise_model.hpp"
 
 namespace dtof {
 namespace {

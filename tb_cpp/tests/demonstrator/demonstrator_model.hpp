@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/readout.hpp"
+#include "dtof/core/readout.hpp"
 
 class VerilatedContext;
 

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "dtof.h"
-#include "readout/model.hpp"
+#include "dtof/readout/model.hpp"
 #include "rtl/write_coverage.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/demonstrator/demonstrator_model.hpp"

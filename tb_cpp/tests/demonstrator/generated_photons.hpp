@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/detection.hpp"
+#include "dtof/core/detection.hpp"
 
 namespace dtof {
 

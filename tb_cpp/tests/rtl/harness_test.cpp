@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
-#include "core/error.hpp"
-#include "readout/run_frame.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/readout/run_frame.hpp"
 #include "rtl/error.hpp"
 #include "rtl/run_frame.hpp"
 #include "tests/rtl/rtl_test_support.hpp"

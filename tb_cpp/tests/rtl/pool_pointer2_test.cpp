@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer 2's RTL against its model where pixels belong together: surfaces, light, phases, schedules,
 // engines' borders. What every read-out must stand is in every_configuration_test and disturbance_test.
-#include "readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer2.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -13,16 +13,16 @@
 #include <set>
 #include <vector>
 
-#include "core/error.hpp"
-#include "core/progress.hpp"
-#include "photon/photon_source.hpp"
-#include "photon/sensor_model.hpp"
-#include "readout/model.hpp"
-#include "readout/run_frame.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
+#include "dtof/photon/photon_source.hpp"
+#include "dtof/photon/sensor_model.hpp"
+#include "dtof/readout/model.hpp"
+#include "dtof/readout/run_frame.hpp"
 #include "rtl/run_frame.hpp"
-#include "scene/scene.hpp"
+#include "dtof/scene/scene.hpp"
 #include "scoreboard/scoreboard.hpp"
-#include "sensor/preset.hpp"
+#include "dtof/sensor/preset.hpp"
 #include "tests/rtl/pool_surfaces.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/parameters.hpp"
-#include "core/random.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/parameters.hpp"
+#include "dtof/core/random.hpp"
 #include "rtl/registry.hpp"
 #include "tests/readout/test_streams.hpp"
 

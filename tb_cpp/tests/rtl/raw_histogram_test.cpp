@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "core/error.hpp"
-#include "readout/model.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/readout/model.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 
 namespace dtof {

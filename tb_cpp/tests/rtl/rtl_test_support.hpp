@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/detection.hpp"
-#include "core/random.hpp"
+#include "dtof/core/detection.hpp"
+#include "dtof/core/random.hpp"
 #include "rtl/registry.hpp"
 #include "rtl/rtl_readout.hpp"
 #include "scoreboard/scoreboard.hpp"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/error.hpp"
+#include "dtof/core/error.hpp"
 
 namespace dtof {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "dtof.h"
-#include "metrics/depth.hpp"
-#include "photon/photon_source.hpp"
+#include "dtof/metrics/depth.hpp"
+#include "dtof/photon/photon_source.hpp"
 #include "tests/subsystem/subsystem_test_support.hpp"
 
 // What the example leaves to its user, and what it gives.

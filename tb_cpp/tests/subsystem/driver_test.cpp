@@ -6,8 +6,8 @@
 #include <map>
 
 #include "dtof.h"
-#include "metrics/depth.hpp"
-#include "metrics/lookup_table.hpp"
+#include "dtof/metrics/depth.hpp"
+#include "dtof/metrics/lookup_table.hpp"
 #include "tests/subsystem/subsystem_test_support.hpp"
 
 namespace dtof {

@@ -11,10 +11,10 @@
 #include <tuple>
 #include <vector>
 
-#include "core/random.hpp"
+#include "dtof/core/random.hpp"
 #include "dtof_registers.h"
-#include "readout/model.hpp"
-#include "readout/pool_pointer2.hpp"
+#include "dtof/readout/model.hpp"
+#include "dtof/readout/pool_pointer2.hpp"
 #include "subsystem/subsystem_bench.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/readout/test_streams.hpp"

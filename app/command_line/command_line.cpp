@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line/command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string_view>
+#include <vector>
+
+#include "command_line/option_checks.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/progress.hpp"
+#include "dtof/core/suggestion.hpp"
+#include "rtl/error.hpp"
+
+namespace dtof {
+namespace {
+
+std::vector<const CLI::App*> subcommands(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : subcommands(app)) {
+    names.push_back(command->get_name());
+  }
+  return names;
+}
+
+void add_options(const CLI::App& app, std::vector<const CLI::Option*>& options) {
+  const auto own = app.get_options();
+  options.insert(options.end(), own.begin(), own.end());
+  for (const CLI::App* group : subcommands(app)) {
+    if (group->get_name().empty()) {
+      add_options(*group, options);
+    }
+  }
+}
+
+/// All options of a command and of its option groups.
+std::vector<const CLI::Option*> all_options(const CLI::App& command) {
+  std::vector<const CLI::Option*> options;
+  add_options(command, options);
+  return options;
+}
+
+void check_command_name(const CLI::App& app, std::string_view name) {
+  const std::vector<std::string> names = command_names(app);
+  if (!name.starts_with('-') && std::ranges::find(names, name) == names.end()) {
+    throw InputError(
+        unknown_name("command", name, std::vector<std::string_view>(names.begin(), names.end())));
+  }
+}
+
+/// What the parser could not place, to be followed by where to look; empty if there is nothing.
+std::string unknown_option_error(const CLI::App& command) {
+  const std::vector<std::string> rest = command.remaining();
+  if (rest.empty()) {
+    return "";
+  }
+  const auto found =
+      std::ranges::find_if(rest, [](const std::string& text) { return text.starts_with('-'); });
+  if (found == rest.end()) {
+    return fmt::format("unexpected argument '{}';", rest.front());
+  }
+  const std::string option = found->substr(0, found->find('='));
+  std::vector<std::string> names;
+  for (const CLI::Option* known : all_options(command)) {
+    for (const std::string& name : known->get_lnames()) {
+      names.push_back("--" + name);
+    }
+  }
+  const std::string_view nearest =
+      nearest_name(option, std::vector<std::string_view>(names.begin(), names.end()));
+  return fmt::format("unknown option '{}'{}", option,
+                     nearest.empty() ? ";" : fmt::format("; did you mean '{}'?", nearest));
+}
+
+/// The first value that is no number where one belongs; empty if there is none.
+std::string bad_number_error(const CLI::App& command) {
+  for (const CLI::Option* option : all_options(command)) {
+    for (const std::string& value : option->results()) {
+      if (const std::string error = number_error(value, option->get_type_name()); !error.empty()) {
+        return fmt::format("{}: {}", option->get_name(), error);
+      }
+    }
+  }
+  return "";
+}
+
+/// The parser's complaint, in the program's own words where it knows more.
+std::string sentence(const CLI::App& app, const CLI::ParseError& error) {
+  const auto parsed = app.get_subcommands();
+  const CLI::App& command = parsed.empty() ? app : *parsed.front();
+  const std::string context = parsed.empty() ? "" : command.get_name() + ": ";
+  if (const std::string unknown = unknown_option_error(command); !unknown.empty()) {
+    return fmt::format("{}{} `{} {}--help` lists the options", context, unknown, app.get_name(),
+                       parsed.empty() ? "" : command.get_name() + " ");
+  }
+  if (parsed.empty()) {
+    return fmt::format("no command is given; known are {}; `{} --help` explains them",
+                       fmt::join(command_names(app), ", "), app.get_name());
+  }
+  if (const std::string number = bad_number_error(command); !number.empty()) {
+    return context + number;
+  }
+  if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) {
+    const std::string message = error.what();
+    constexpr std::string_view kTag = "Could not convert: ";
+    return fmt::format("{}{} is beyond what the option can hold", context,
+                       message.starts_with(kTag) ? message.substr(kTag.size()) : message);
+  }
+  return context + error.what();
+}
+
+constexpr int kExitInputError = 1;
+constexpr int kExitRtlError = 3;
+constexpr int kExitFailure = 4;
+constexpr int kExitInterrupted = 130;
+
+/// A file's name, or what stands in the file, may hold line ends and terminal codes.
+std::string in_one_line(std::string text) {
+  std::ranges::replace_if(
+      text, [](unsigned char letter) { return letter < ' ' || letter == 0x7F; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+std::unique_ptr<CLI::App> make_command_line(const Program& program, const std::string& command_line) {
+  auto app = std::make_unique<CLI::App>(program.description, program.name);
+  app->require_subcommand(1);
+  app->set_version_flag("--version", program.name + " " DTOF_VERSION);
+  app->footer(program.examples +
+              "Exit codes: 0 done, 1 bad input, 3 RTL misbehaved or differs from its model, 4 failure, 130 "
+              "interrupted.");
+  program.add_commands(*app, command_line);
+  check_numbers(*app);
+  return app;
+}
+
+void run_command_line(CLI::App& app, int count, const char* const* arguments) {
+  // CLI11 passes over an empty argument, or never returns from one that follows an unknown option; behind
+  // "--option=" it takes the next one.
+  for (int i = 1; i < count; ++i) {
+    const std::string_view text = arguments[i];
+    const std::string_view before = i > 1 ? arguments[i - 1] : "";
+    if (text.empty() && before.starts_with('-')) {
+      throw InputError(fmt::format("the value of {} is empty", before));
+    }
+    if (text.empty()) {
+      throw InputError(fmt::format("argument {} is empty", i));
+    }
+    if (text.starts_with("--") && text.ends_with('=')) {
+      throw InputError(fmt::format("the value of {} is empty", text.substr(0, text.size() - 1)));
+    }
+  }
+  if (count > 1) {
+    check_command_name(app, arguments[1]);
+  }
+  try {
+    app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) {
+      throw InputError(sentence(app, error));
+    }
+    app.exit(error);
+  }
+}
+
+int run_program(const Program& program, int count, const char* const* arguments) {
+  install_interruption_handler();
+  const auto fail = [&](int code, const std::string& reason) {
+    fmt::print(stderr, "{}: error: {}\n", program.name, reason);
+    return code;
+  };
+  try {
+    std::string command_line = program.name;
+    for (int i = 1; i < count; ++i) {
+      command_line += fmt::format(" {}", arguments[i]);
+    }
+    run_command_line(*make_command_line(program, command_line), count, arguments);
+    return 0;
+  } catch (const InputError& error) {
+    return fail(kExitInputError, in_one_line(error.what()));
+  } catch (const RtlError& error) {
+    return fail(kExitRtlError, error.what());
+  } catch (const Interrupted& error) {
+    return fail(kExitInterrupted, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(kExitFailure, "the memory of this machine is not enough");
+  } catch (const std::exception& error) {
+    return fail(kExitFailure, error.what());
+  }
+}
+
+}  // namespace dtof

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line/options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "command_line/option_checks.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/frame/frame_truth.hpp"
+#include "dtof/sensor/default_parameters.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr double kNanosecondsPerSecond = 1e9;
+
+template <typename T>
+void override_with(const std::optional<T>& value, T& parameter) {
+  if (value) {
+    parameter = *value;
+  }
+}
+
+}  // namespace
+
+void ReadoutOptions::add_to(CLI::App& command) {
+  auto* group = command.add_option_group("read-out");
+  group
+      ->add_option(
+          "-r,--readout", readouts,
+          "read-outs to run: all, thesis (its eight), or names from `dtof list`, separated by commas")
+      ->take_last()
+      ->capture_default_str();
+  group->add_option("--np", np, "NP, bits of a timestamp (default: the sensor's, 10 for a recording)");
+  group->add_option("--nb", nb, "NB, bits of the coarse index (default: the read-out's own)");
+  group->add_option("--slots", slots, "SLOTS, timestamps per pixel and acquisition (default: the sensor's)");
+  group->add_option("--count-width", count_width, "COUNT_WIDTH, bits of a histogram bin");
+  group->add_option("--pointer-step", pointer_step, "POINTER_STEP, bins");
+  group->add_option("--fraction-bits", fraction_bits, "FRACTION_BITS of the pointer read-outs");
+  group->add_option("--confidence-width", confidence_width, "CONFIDENCE_WIDTH of the pointer read-outs");
+  group->add_option("--guard", guard, "GUARD of hisPointer's window, bins (default: the pulse's FWHM)");
+  group->add_option("--cell-shift", cell_shift,
+                    "CELL_SHIFT of the pool read-outs, 8 to 10 (default: what the pulse asks for)");
+  group->add_flag("--window-centred", window_centred, "WINDOW_CENTRED: SiFH's window as in Fig. 3.8");
+  group
+      ->add_option("--code-gate", code_gate,
+                   "TIME_GATE of the read-out: codes BEGIN <= x < END count (--gate is the sensor's own)")
+      ->expected(2);
+}
+
+std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readout> all,
+                                                          const SensorModel& sensor) const {
+  SensorModel asked = sensor;
+  override_with(np, asked.np);
+  std::vector<Readout> chosen;
+  for (const std::string& name : CLI::detail::split(readouts, ',')) {
+    if (name == "all") {
+      chosen.insert(chosen.end(), all.begin(), all.end());
+    } else if (name == "thesis") {
+      chosen.insert(chosen.end(), kThesisReadouts.begin(), kThesisReadouts.end());
+    } else {
+      chosen.push_back(parse_readout(name));
+    }
+  }
+  struct Override {
+    std::string_view option;
+    std::string_view parameter;
+    std::optional<int> value;
+    int ReadoutParameters::*member;
+  };
+  const std::array<Override, 6> overrides = {{
+      {"--nb", "NB", nb, &ReadoutParameters::nb},
+      {"--count-width", "COUNT_WIDTH", count_width, &ReadoutParameters::count_width},
+      {"--pointer-step", "POINTER_STEP", pointer_step, &ReadoutParameters::pointer_step},
+      {"--fraction-bits", "FRACTION_BITS", fraction_bits, &ReadoutParameters::fraction_bits},
+      {"--confidence-width", "CONFIDENCE_WIDTH", confidence_width, &ReadoutParameters::confidence_width},
+      {"--guard", "GUARD", guard, &ReadoutParameters::guard},
+  }};
+  const auto require_owner = [&](std::string_view option, std::string_view parameter) {
+    if (std::ranges::none_of(chosen, [&](Readout readout) { return has_parameter(readout, parameter); })) {
+      throw InputError(fmt::format("{} has no effect: {} has no {}", option, readouts, parameter));
+    }
+  };
+  for (const Override& change : overrides) {
+    if (change.value) {
+      require_owner(change.option, change.parameter);
+    }
+  }
+  if (cell_shift) {
+    require_owner("--cell-shift", "CELL_SHIFT");
+  }
+  if (window_centred) {
+    require_owner("--window-centred", "WINDOW_CENTRED");
+  }
+  std::vector<ReadoutParameters> sets;
+  for (const Readout readout : chosen) {
+    ReadoutParameters parameters = default_parameters(readout, asked);
+    for (const Override& change : overrides) {
+      if (change.value && has_parameter(readout, change.parameter)) {
+        parameters.*change.member = *change.value;
+      }
+    }
+    override_with(slots, parameters.slots);
+    if (has_parameter(readout, "CELL_SHIFT")) {
+      override_with(cell_shift, parameters.pool.cell_shift);
+    }
+    parameters.window_centred = window_centred && has_parameter(readout, "WINDOW_CENTRED");
+    if (!code_gate.empty()) {
+      parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};
+    }
+    parameters.validate();
+    if (std::find(sets.begin(), sets.end(), parameters) == sets.end()) {
+      sets.push_back(parameters);
+    }
+  }
+  return sets;
+}
+
+void add_sensor_option(CLI::App& command, std::string& sensor) {
+  command
+      .add_option("--sensor,-p,--preset", sensor,
+                  "a preset of `dtof list`, or a sensor file (TOML, docs/user/sensor_file.md)")
+      ->capture_default_str();
+}
+
+void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out) {
+  command.add_option("-s,--seed", seed, "seed of everything random")->capture_default_str();
+  command.add_option("-j,--threads", threads, "threads, 0 = all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command.add_option("-o,--out", out, "output folder")->capture_default_str();
+}
+
+void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsystem) {
+  auto* group = command.add_option_group("run");
+  std::vector<std::string> engines = {"model", "rtl"};
+  if (with_subsystem) {
+    engines.emplace_back("subsystem");
+  }
+  group
+      ->add_option("-e,--engine", settings.engine,
+                   with_subsystem
+                       ? "model (C++), rtl (the Verilated hardware) or subsystem (the hardware with\n"
+                         "registers and streams, run by its C driver; in dtof-full)"
+                       : "model (C++) or rtl (the Verilated hardware)")
+      ->check(CLI::IsMember(engines))
+      ->capture_default_str();
+  group->add_flag("--verify", settings.verify,
+                  "with an engine that is hardware: compare every pixel with the model");
+  group
+      ->add_option("--trace", settings.trace,
+                   "with --engine rtl and one read-out, in dtof-wave: waveform file (FST)")
+      ->take_last();
+  group->add_option("-s,--seed", settings.seed, "seed of everything random")->capture_default_str();
+  group->add_option("-j,--threads", settings.threads, "threads, 0 = all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  group
+      ->add_option("--columns", settings.columns,
+                   "columns to read out: all, or e.g. 0-9,20; others cost nothing")
+      ->take_last()
+      ->capture_default_str();
+  group
+      ->add_option(
+          "--rows", settings.rows,
+          "rows to read out: all, or one range, e.g. 40-79: with --columns a region of interest; others\n"
+          "are off and cost nothing. poolPointer 2's array always has at least 160 rows; those that are "
+          "off,\n"
+          "and those beyond the sensor's, are dark neighbours")
+      ->take_last()
+      ->capture_default_str();
+}
+
+void check_run_options(const RunSettings& settings) {
+  if ((!settings.hardware() && settings.verify) || (!settings.rtl() && !settings.trace.empty())) {
+    throw InputError("--verify and --trace need --engine rtl");
+  }
+}
+
+void SensorOptions::add_to(CLI::App& command) {
+  command.add_option("-k,--klux", klux, "background light in klux")
+      ->check(sensible_klux())
+      ->capture_default_str();
+  add_sensor_to(command);
+}
+
+void SensorOptions::add_sensor_to(CLI::App& command) {
+  auto* group = command.add_option_group("sensor");
+  add_sensor_option(*group, sensor);
+  group->add_option("-a,--acquisitions", acquisitions, "laser pulses per frame (default: the sensor's)")
+      ->check(sensible_acquisitions());
+  group->add_option("--dead-time", dead_time_ns, "dead time of a pixel in ns");
+  group->add_option("--binning", binning, "B: blocks of B x B pixels share one stream")
+      ->capture_default_str();
+  group->add_option("--gate", time_gate_ns, "time gate, BEGIN END in ns")->expected(2);
+  group->add_option("--coincidence", coincidence_ns, "coincidence window in ns");
+  group
+      ->add_option(
+          "--fidelity", fidelity,
+          "photon model: exact (event by event), fast (times from tables), analytic (expected\n"
+          "detections, no noise; frame only), auto (the cheapest with noise that keeps --tolerance;\n"
+          "streams for the RTL, poolPointer 2, accuracy and recordings are always drawn exactly)")
+      ->check(CLI::IsMember({"exact", "fast", "analytic", "auto"}))
+      ->capture_default_str();
+  group
+      ->add_option("--tolerance", tolerance,
+                   "auto: how far the figures may be from those of the exact model in the mean over frames:\n"
+                   "rmse and bias of the relative error, shares above 3 % and 10 % (reports/fidelity.md)")
+      ->capture_default_str();
+}
+
+SensorModel SensorOptions::described() const { return find_sensor(sensor); }
+
+SensorModel SensorOptions::model(int np, int slots) const {
+  SensorModel model = described();
+  model.np = np;
+  model.slots = slots;
+  override_with(acquisitions, model.acquisitions);
+  if (dead_time_ns) {
+    model.dead_time_s = *dead_time_ns / kNanosecondsPerSecond;
+  }
+  model.binning = binning;
+  if (!time_gate_ns.empty()) {
+    model.time_gate =
+        TimeGate{time_gate_ns[0] / kNanosecondsPerSecond, time_gate_ns[1] / kNanosecondsPerSecond};
+  }
+  if (coincidence_ns) {
+    model.coincidence_window_s = *coincidence_ns / kNanosecondsPerSecond;
+  }
+  model.validate();
+  return model;
+}
+
+void SensorOptions::refuse_options_without_effect(const CLI::App& command) const {
+  if (fidelity != "auto") {
+    refuse_without_effect(command, "--tolerance", "only --fidelity auto has one");
+  }
+}
+
+void SensorOptions::require_in_range(const SensorModel& sensor, double metres, const std::string& option) {
+  if (metres >= sensor_range_m(sensor)) {
+    throw InputError(fmt::format("{}: {} m is beyond {}", option, metres, range_phrase(sensor)));
+  }
+}
+
+Fidelity SensorOptions::photon_model(const PhotonSource& exact, PhotonUse use,
+                                     std::span<const Readout> readouts) const {
+  return parse_fidelity(fidelity, exact, {.tolerance = tolerance, .use = use, .readouts = readouts});
+}
+
+}  // namespace dtof

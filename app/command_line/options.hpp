@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dtof/analytic/fidelity.hpp"
+#include "dtof/core/parameters.hpp"
+#include "dtof/photon/sensor_model.hpp"
+#include "run/run_settings.hpp"
+
+namespace dtof {
+
+/// --readout and the overrides of its parameters.
+struct ReadoutOptions {
+  std::string readouts = "all";  ///< names separated by commas
+  std::optional<int> np;
+  std::optional<int> nb;
+  std::optional<int> slots;
+  std::optional<int> count_width;
+  std::optional<int> pointer_step;
+  std::optional<int> fraction_bits;
+  std::optional<int> confidence_width;
+  std::optional<int> guard;
+  std::optional<int> cell_shift;
+  bool window_centred = false;
+  std::vector<int> code_gate;
+
+  void add_to(CLI::App& command);
+  /// Whether "all" is all that is asked for.
+  [[nodiscard]] bool all() const { return readouts == "all"; }
+  /// One set of parameters for each read-out asked for; "all" stands for those of `all`, "thesis" for
+  /// kThesisReadouts. Throws InputError,
+  /// also for an override that none of the read-outs has. What no option says is that of default_parameters
+  /// (sensor/default_parameters.hpp).
+  [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all,
+                                                          const SensorModel& sensor = {}) const;
+};
+
+/// --sensor with its synonyms: a preset's name or a sensor file.
+void add_sensor_option(CLI::App& command, std::string& sensor);
+/// --seed of everything random, --threads and --out: what every study has.
+void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out);
+
+/// --engine, --verify, --trace, --seed, --threads, --columns and --rows.
+void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsystem = false);
+/// Throws InputError for contradictory options.
+void check_run_options(const RunSettings& settings);
+
+/// Light, sensor and the improvement methods of thesis section 2.2.4.
+struct SensorOptions {
+  std::string sensor = "thesis";  ///< a preset or a sensor file
+  double klux = 14.0;
+  std::optional<std::uint32_t> acquisitions;
+  std::optional<double> dead_time_ns;
+  int binning = 1;
+  std::vector<double> time_gate_ns;
+  std::optional<double> coincidence_ns;
+  std::string fidelity = "exact";
+  double tolerance = 0.01;
+
+  void add_to(CLI::App& command);
+  /// Without --klux, for commands that take several light levels.
+  void add_sensor_to(CLI::App& command);
+  /// The sensor as its file describes it. Throws InputError.
+  [[nodiscard]] SensorModel described() const;
+  /// The same with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
+  [[nodiscard]] SensorModel model(int np, int slots) const;
+  /// Throws InputError for an option of `command` that changes nothing.
+  void refuse_options_without_effect(const CLI::App& command) const;
+  /// Throws InputError unless a target at `metres`, which `option` named, is within the sensor's range.
+  static void require_in_range(const SensorModel& sensor, double metres, const std::string& option);
+  /// The photon model that --fidelity and --tolerance ask for (analytic/fidelity.hpp). Throws InputError.
+  [[nodiscard]] Fidelity photon_model(const PhotonSource& exact, PhotonUse use,
+                                      std::span<const Readout> readouts) const;
+};
+
+}  // namespace dtof

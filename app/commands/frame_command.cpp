@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dtof/analytic/fidelity.hpp"
+#include "commands/commands.hpp"
+#include "commands/optional_output.hpp"
+#include "command_line/option_checks.hpp"
+#include "command_line/options.hpp"
+#include "command_line/own_map.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/kept_streams.hpp"
+#include "dtof/core/pixel_sampler.hpp"
+#include "dtof/frame/flat_calibration.hpp"
+#include "dtof/frame/frame_maps.hpp"
+#include "dtof/frame/frame_truth.hpp"
+#include "dtof/host/range_converter.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/io/depth_image.hpp"
+#include "dtof/io/output_folder.hpp"
+#include "dtof/io/result_csv.hpp"
+#include "dtof/metrics/confidence_interval.hpp"
+#include "dtof/photon/photon_source.hpp"
+#include "dtof/recording/stream_csv.hpp"
+#include "dtof/report/colour_png.hpp"
+#include "dtof/report/ply.hpp"
+#include "dtof/report/table.hpp"
+#include "run/readout_run.hpp"
+#include "run/region.hpp"
+#include "dtof/scene/scene.hpp"
+
+namespace dtof {
+namespace {
+
+struct FrameOptions {
+  ReadoutOptions readout;
+  RunSettings run;
+  SensorOptions sensor;
+  std::string scene = "room";
+  MapFiles maps;
+  MapScales map_scales;
+  SceneParameters scene_parameters;
+  std::optional<int> array_columns;
+  std::optional<int> array_rows;
+  std::optional<double> reflectivity;
+  std::string table = "flat";
+  std::optional<double> precision_percent;
+  int most_frames = 1000;
+  std::string out = "build/my_frame";  // build/frame is that of the main job
+  std::string record;
+  std::string command_line;
+};
+
+/// What one read-out made of the frame, over the region read. With --precision of several frames: the maps
+/// are those of the first.
+struct MeasuredFrame {
+  ReadoutParameters parameters;
+  ReadoutRun run;
+  DepthImage depth;
+  DepthImage error;
+  FrameFigures figures;  ///< of all frames
+  double mean_square = 0.0;
+  int frames = 1;
+  bool precision_reached = true;
+};
+
+/// "flat, staircase, ..."
+std::string scene_names() {
+  std::vector<std::string_view> names;
+  for (const Scene scene : kAllScenes) {
+    names.push_back(scene_name(scene));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+OwnMap make_targets(const FrameOptions& options, const SensorModel& sensor) {
+  SceneParameters parameters = options.scene_parameters;
+  parameters.columns = options.array_columns.value_or(sensor.columns);
+  parameters.rows = options.array_rows.value_or(sensor.rows);
+  parameters.reflectivity = options.reflectivity.value_or(sensor.default_reflectivity);
+  if (!options.maps.depth.empty()) {
+    return read_own_map(options.maps, options.map_scales, parameters.columns, parameters.rows,
+                        parameters.reflectivity);
+  }
+  OwnMap scene{make_scene(parse_scene(options.scene), parameters), {}};
+  if (!options.maps.reflectivity.empty()) {
+    scene.description = apply_reflectivity_map(scene.targets, options.maps.reflectivity, options.map_scales);
+  }
+  return scene;
+}
+
+void validate_maps(const FrameOptions& options) {
+  if (options.maps.depth.empty() && options.map_scales.metres_per_unit) {
+    throw InputError("--depth-scale needs --depth");
+  }
+  if (options.maps.reflectivity.empty() && options.map_scales.reflectivity_per_unit) {
+    throw InputError("--reflectivity-scale needs --reflectivity-map");
+  }
+  if (!options.maps.reflectivity.empty() && options.reflectivity) {
+    throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
+  }
+}
+
+/// What the scene's own options need, as far as it does not depend on the sensor.
+void check_scene_options(const CLI::App& command, const FrameOptions& options) {
+  if (!options.maps.depth.empty()) {
+    refuse_without_effect(command, "--scene", "--depth takes its place");
+  }
+  const bool own = options.maps.depth.empty();
+  const bool slope = own && (options.scene == "staircase" || options.scene == "plane");
+  if (!own || options.scene != "flat") {
+    refuse_without_effect(command, "--distance", "only --scene flat has one distance");
+  }
+  if (!slope) {
+    refuse_without_effect(command, "--near", "only --scene staircase and plane have a near and a far end");
+    refuse_without_effect(command, "--far", "only --scene staircase and plane have a near and a far end");
+  }
+  if (!own || options.scene != "staircase") {
+    refuse_without_effect(command, "--steps", "only --scene staircase has steps");
+  }
+  if (!options.precision_percent) {
+    refuse_without_effect(command, "--max-frames", "it ends what --precision asks for");
+  }
+  options.sensor.refuse_options_without_effect(command);
+}
+
+/// The scene's distances are ones that the sensor can measure.
+void check_distances(const FrameOptions& options, const SensorModel& sensor) {
+  if (!options.maps.depth.empty()) {
+    return;
+  }
+  const SceneParameters& parameters = options.scene_parameters;
+  if (options.scene == "flat") {
+    SensorOptions::require_in_range(sensor, parameters.distance_m, "--distance");
+  } else if (options.scene == "staircase" || options.scene == "plane") {
+    SensorOptions::require_in_range(sensor, parameters.near_m, "--near");
+    SensorOptions::require_in_range(sensor, parameters.far_m, "--far");
+  }
+}
+
+/// A column's detections are held while it is read out.
+void check_memory(const SensorModel& sensor, int rows) {
+  constexpr double kMostDetections = 160.0 * 2.0 * kMostAcquisitions;
+  const double detections = static_cast<double>(rows) * sensor.slots * sensor.acquisitions;
+  if (detections > kMostDetections) {
+    throw InputError(fmt::format(
+        "{} acquisitions of {} rows and {} slots: a column could have {:.2g} detections, more than the "
+        "{:.2g} (2.7 GB) that are held",
+        sensor.acquisitions, rows, sensor.slots, detections, kMostDetections));
+  }
+}
+
+/// A read-out and the look-up table that `--table` gives it.
+struct TabledReadout {
+  ReadoutParameters parameters;
+  std::optional<RangeConverter> table;
+};
+
+std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& readouts, TableRule rule,
+                                       const PhotonSource& scene, Fidelity fidelity, const RunSettings& run) {
+  std::vector<TabledReadout> tabled;
+  tabled.reserve(readouts.size());
+  for (const ReadoutParameters& parameters : readouts) {
+    tabled.push_back({parameters, std::nullopt});
+  }
+  if (rule == TableRule::kFlat) {
+    const FlatCalibration calibration(scene.model());
+    std::vector<RangeConverter> tables = calibration.fit(
+        [&](const TargetMap& targets) {
+          return make_source(fidelity, PhotonSource(scene.model(), targets, scene.klux(), run.seed,
+                                                    FlatCalibration::kFrame));
+        },
+        readouts, run.seed, run.threads);
+    for (std::size_t r = 0; r < tabled.size(); ++r) {
+      tabled[r].table = std::move(tables[r]);
+    }
+  }
+  return tabled;
+}
+
+MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor,
+                           const TabledReadout& readout, const FrameOptions& options, const Region& region,
+                           const DepthImage& truth) {
+  MeasuredFrame frame;
+  const ReadoutParameters& parameters = readout.parameters;
+  frame.parameters = parameters;
+  frame.run = run_readout(source, parameters, options.run, region, options.command_line);
+  FrameMaps maps = frame_maps(frame.run.results, parameters, sensor, readout.table, truth.metres);
+  frame.figures = maps.figures;
+  frame.mean_square = maps.mean_square;
+  frame.depth = {truth.width, truth.height, std::move(maps.depth)};
+  frame.error = {truth.width, truth.height, std::move(maps.error)};
+  return frame;
+}
+
+/// The first frame's photons. Streams are drawn once and kept if they are read more than once.
+class FirstFrame {
+ public:
+  FirstFrame(Fidelity fidelity, const PhotonSource& scene, const RunSettings& run, std::size_t readouts)
+      : source_(make_source(fidelity, scene)),
+        streams_(*source_, readouts > 1 || run.verify ? KeptStreams::kMostBytes : 0),
+        run_(run) {}
+
+  [[nodiscard]] const StreamSource& source(Readout readout) const {
+    const bool sampled = dynamic_cast<const SampledSource*>(source_.get()) != nullptr;
+    if (sampled && reads_samples(readout, run_)) {
+      return *source_;
+    }
+    return streams_;
+  }
+
+ private:
+  std::unique_ptr<StreamSource> source_;
+  KeptStreams streams_;
+  const RunSettings& run_;
+};
+
+/// With --precision, frames until the rmse's interval is narrow enough. Pixels of a frame differ in distance,
+/// frames are equals: the interval comes from the spread of the frames' mean squares.
+MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstFrame& first,
+                      const TabledReadout& readout, const FrameOptions& options, const Region& region,
+                      const DepthImage& truth) {
+  MeasuredFrame frame =
+      measure_once(first.source(readout.parameters.readout), scene.model(), readout, options, region, truth);
+  std::vector<double> mean_squares = {frame.mean_square};
+  if (!options.precision_percent) {
+    return frame;
+  }
+  constexpr int kFewestFrames = 4;
+  const auto reached = [&] {
+    // A root's relative error is half its square's.
+    return frame.frames >= kFewestFrames &&
+           0.5 * estimate_mean(mean_squares).relative_half_width() <= *options.precision_percent / 100.0;
+  };
+  while (!(frame.precision_reached = reached()) && frame.frames < options.most_frames) {
+    const auto next =
+        make_source(fidelity, scene.at_frame(scene_frame(static_cast<std::uint32_t>(frame.frames))));
+    const MeasuredFrame other = measure_once(*next, scene.model(), readout, options, region, truth);
+    frame.run.seconds += other.run.seconds;
+    frame.figures.merge(other.figures);
+    mean_squares.push_back(other.mean_square);
+    ++frame.frames;
+  }
+  return frame;
+}
+
+/// End of the error maps' scale in m, the same for every read-out.
+constexpr double kLargestError = 0.25;
+
+/// What the pictures' titles say beside the read-out.
+std::string scene_sentence(const SensorModel& sensor, const FrameOptions& options) {
+  return fmt::format("{}, {} klux, sensor {}, engine {}",
+                     options.maps.depth.empty() ? options.scene : options.maps.depth, options.sensor.klux,
+                     sensor.name, options.run.engine);
+}
+
+void write_readout_files(const MeasuredFrame& frame, const Region& region, const ColourRange& depth_range,
+                         const SensorModel& sensor, const FrameOptions& options) {
+  const std::filesystem::path folder(options.out);
+  const std::string name(readout_name(frame.parameters.readout));
+  write_result_csv(folder / (name + ".csv"), result_records(frame.run.results, region));
+  const std::filesystem::path millimetres = folder / (name + "_depth_mm.png");
+  write_optional(millimetres, depth_png_obstacle(frame.depth),
+                 [&] { write_depth_png(millimetres, frame.depth); });
+  const std::filesystem::path cloud = folder / (name + ".ply");
+  const double degrees = sensor.degrees_per_pixel();
+  write_optional(cloud, ply_obstacle(frame.depth.width, frame.depth.height, degrees),
+                 [&] { write_ply(cloud, frame.depth, depth_range, degrees); });
+  const std::string title(readout_title(frame.parameters.readout));
+  const std::string scene = scene_sentence(sensor, options);
+  write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{frame.depth, "", MapKind::kDepth}},
+                    {.title = fmt::format("{}, depth in m: {}", title, scene), .depth_range = depth_range});
+  write_map_picture(
+      folder / (name + "_error.png"), std::vector<MapPanel>{{frame.error, "", MapKind::kError}},
+      {.title = fmt::format("{}, error in m: {}", title, scene), .largest_error = kLargestError});
+}
+
+Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
+  const bool tables = options.table != table_rule_name(TableRule::kNone);
+  std::vector<std::string> head = figure_names(tables);
+  head.insert(head.begin(), "read-out");
+  head.emplace_back("cycles");
+  if (options.precision_percent) {
+    head.emplace_back("frames");
+  }
+  Table table(head);
+  for (const MeasuredFrame& frame : frames) {
+    std::vector<std::string> row = figure_values(frame.figures, tables);
+    row.insert(row.begin(), std::string(readout_title(frame.parameters.readout)));
+    row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
+    if (options.precision_percent) {
+      row.push_back(fmt::format("{}{}", frame.frames, frame.precision_reached ? "" : "+"));
+    }
+    table.add(row);
+  }
+  return table;
+}
+
+/// What array the cycles are of; empty for the model. Arrays may differ with the read-out.
+std::string cycles_sentence(const std::vector<MeasuredFrame>& frames) {
+  std::vector<std::string> arrays;
+  for (const MeasuredFrame& frame : frames) {
+    if (!frame.run.array.empty() && std::ranges::find(arrays, frame.run.array) == arrays.end()) {
+      arrays.push_back(frame.run.array);
+    }
+  }
+  if (arrays.empty()) {
+    return "";
+  }
+  const bool one = arrays.size() == 1;
+  return fmt::format("Cycles: clocks of a frame in an array of {}{}.\n\n", fmt::join(arrays, ", or "),
+                     one ? "" : ", as it is simulated");
+}
+
+/// What --precision came to; empty without it.
+std::string precision_sentence(const std::vector<MeasuredFrame>& frames, const FrameOptions& options) {
+  if (!options.precision_percent) {
+    return "";
+  }
+  const auto reached = std::ranges::count(frames, true, &MeasuredFrame::precision_reached);
+  const int most = std::ranges::max(frames, {}, &MeasuredFrame::frames).frames;
+  return fmt::format(
+      "Rmse within {:g} % (95 % interval) for {} of {} read-outs, with up to {} frames; maps and files show "
+      "the first frame.\n\n",
+      *options.precision_percent, reached, frames.size(), most);
+}
+
+/// The photon model; with --precision one that has noise.
+Fidelity photon_model(const FrameOptions& options, std::span<const ReadoutParameters> readouts,
+                      const PhotonSource& scene) {
+  std::vector<Readout> sampled;
+  for (const ReadoutParameters& parameters : readouts) {
+    if (reads_samples(parameters.readout, options.run)) {
+      sampled.push_back(parameters.readout);
+    }
+  }
+  const PhotonUse use = sampled.empty() ? PhotonUse::kStream : PhotonUse::kSampler;
+  const Fidelity fidelity = options.sensor.photon_model(scene, use, sampled);
+  if (options.precision_percent && fidelity == Fidelity::kAnalytic) {
+    throw InputError(
+        "frame: the analytic photon model has no noise, so --precision has nothing to do; choose exact, fast "
+        "or auto");
+  }
+  return fidelity;
+}
+
+void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& truth,
+                    const ColourRange& depth_range, const SensorModel& sensor, const FrameOptions& options) {
+  std::vector<MapPanel> depths = {{truth, "true depth", MapKind::kDepth}};
+  std::vector<MapPanel> errors;
+  for (const MeasuredFrame& frame : frames) {
+    const std::string title(readout_title(frame.parameters.readout));
+    depths.push_back({frame.depth, title, MapKind::kDepth});
+    errors.push_back({frame.error, title, MapKind::kError});
+  }
+  const std::filesystem::path folder(options.out);
+  const std::string title = scene_sentence(sensor, options);
+  const int pixel_size = truth.width >= 100 ? 1 : 0;
+  write_map_picture(folder / "overview.png", depths,
+                    {.title = "Depth in m: " + title,
+                     .caption = options.command_line,
+                     .panels_per_row = 4,
+                     .pixel_size = pixel_size,
+                     .depth_range = depth_range});
+  write_map_picture(folder / "errors.png", errors,
+                    {.title = "Error in m: " + title,
+                     .caption = options.command_line,
+                     .panels_per_row = 4,
+                     .pixel_size = pixel_size,
+                     .largest_error = kLargestError});
+}
+
+void run_frame_command(const FrameOptions& options) {
+  check_run_options(options.run);
+  std::vector<ReadoutParameters> readouts =
+      options.readout.parameters(options.run.readouts(), options.sensor.described());
+  if (!options.run.trace.empty() && readouts.size() != 1) {
+    throw InputError("--trace needs exactly one read-out");
+  }
+  if (!options.run.trace.empty() && options.precision_percent) {
+    throw InputError("--trace shows one frame, --precision takes many: choose one");
+  }
+  const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
+  validate_maps(options);
+  check_distances(options, sensor);
+  check_memory(sensor, options.array_rows.value_or(sensor.rows));
+  OwnMap made = make_targets(options, sensor);
+  const bool own = !options.maps.depth.empty();
+  require_reachable(made.targets, sensor, own ? options.maps.depth : "--scene " + options.scene, own);
+  const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
+  const Fidelity fidelity = photon_model(options, readouts, scene);
+  const Region region{.columns = parse_columns(options.run.columns, scene.columns()),
+                      .rows = parse_rows(options.run.rows, scene.rows())};
+  const FrameTruth judged = frame_truth(scene.targets(), sensor, region.columns, region.rows);
+  if (options.precision_percent && !judged.any_judged()) {
+    throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
+  }
+  const DepthImage truth{static_cast<int>(region.columns.size()), region.rows.count, judged.metres};
+  if (options.readout.all()) {
+    readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
+  }
+  check_engine(scene, readouts, options.run, region);
+  const TableRule rule = parse_table_rule(options.table);
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<TabledReadout> tabled = with_tables(readouts, rule, scene, fidelity, options.run);
+  const double table_seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  create_output_folder(options.out);
+  const ColourRange range = depth_range(std::vector<MapPanel>{{truth, "", MapKind::kDepth}});
+  if (!options.record.empty()) {
+    write_stream_csv(options.record, *make_source(fidelity, scene));
+  }
+  const FirstFrame first(fidelity, scene, options.run, readouts.size());
+  std::vector<MeasuredFrame> frames;
+  for (const TabledReadout& readout : tabled) {
+    frames.push_back(measure(scene, fidelity, first, readout, options, region, truth));
+    write_readout_files(frames.back(), region, range, sensor, options);
+  }
+  write_overview(frames, truth, range, sensor, options);
+  double seconds = 0.0;
+  for (const MeasuredFrame& frame : frames) {
+    seconds += frame.run.seconds;
+  }
+  const Table table = summarise(frames, options);
+  const std::string precision = precision_sentence(frames, options);
+  const std::string heading = fmt::format(
+      "Scene {}: {} x {} pixels, {} klux, sensor {}, {} acquisitions, {} photons, engine {}{}, seed "
+      "{}.{}{}{}\n",
+      options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
+      options.sensor.klux, sensor.name, sensor.acquisitions, fidelity_name(fidelity), options.run.engine,
+      options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
+  const std::string body =
+      fmt::format("{}\n{}\n{}{}\n\n{}", heading, table.markdown(), cycles_sentence(frames),
+                  table_sentence(rule, sensor, options.run.seed), precision);
+  write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
+  write_file(std::filesystem::path(options.out) / "summary.md",
+             fmt::format("{}Command: `{}`\n", body, options.command_line));
+  // Times change from run to run and stay out of the files.
+  const std::string times =
+      rule == TableRule::kNone
+          ? fmt::format("Read out in {:.1f} s", seconds)
+          : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, seconds);
+  fmt::print("{}{}. Depth maps, error maps, point clouds and CSV are in {}\n", body, times, options.out);
+}
+
+}  // namespace
+
+void add_frame_command(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<FrameOptions>();
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand(
+      "frame", "One frame of a scene: photons, TDC stream, read-out, depth map with errors");
+  auto* scene = command->add_option_group("scene");
+  scene->add_option("--scene", options->scene, scene_names())->capture_default_str();
+  scene->add_option(
+      "--depth", options->maps.depth,
+      "depth map instead of a scene: PNG of 8 or 16 bits, PFM or NPY (rows, columns), resampled\n"
+      "to the array by nearest neighbour");
+  scene->add_option("--reflectivity-map", options->maps.reflectivity,
+                    "reflectivity of each pixel, for a scene or a depth map: PNG, PFM or NPY of any size");
+  options->map_scales.add_to(*scene);
+  scene->add_option("--array-columns", options->array_columns, "columns of the array (default: the sensor's)")
+      ->check(CLI::Range(1, 4096));
+  scene
+      ->add_option("--array-rows", options->array_rows,
+                   "rows of the array, pixels per column (default: the sensor's)")
+      ->check(CLI::Range(1, 4096));
+  scene->add_option("--distance", options->scene_parameters.distance_m, "flat: distance in m")
+      ->capture_default_str();
+  scene->add_option("--near", options->scene_parameters.near_m, "staircase, plane: near end in m")
+      ->capture_default_str();
+  scene->add_option("--far", options->scene_parameters.far_m, "staircase, plane: far end in m")
+      ->capture_default_str();
+  scene->add_option("--steps", options->scene_parameters.steps, "staircase: steps")->capture_default_str();
+  scene->add_option("--reflectivity", options->reflectivity, "of every surface (default: the sensor's)")
+      ->check(sensible_reflectivity());
+  command
+      ->add_option("--table", options->table,
+                   "host look-up table: flat (each read-out's own, fitted on flat targets of the sensor's\n"
+                   "reflectivity from other photons, as `dtof-study scenes` does) or none (Eq. 3.11 alone)")
+      ->check(CLI::IsMember({"none", "flat"}))
+      ->capture_default_str();
+  command
+      ->add_option("--precision", options->precision_percent,
+                   "more frames of the scene, until the 95 % interval of the rmse is within this many per "
+                   "cent of its value")
+      ->check(above_zero());
+  command->add_option("--max-frames", options->most_frames, "where --precision gives up")
+      ->check(CLI::Range(4, 1'000'000))
+      ->capture_default_str();
+  options->sensor.add_to(*command);
+  options->readout.add_to(*command);
+  add_run_options(*command, options->run, true);
+  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  command->add_option("--record", options->record,
+                      "also write the TDC stream of the whole array as CSV, for `dtof replay`");
+  command->callback([options, command] {
+    check_scene_options(*command, *options);
+    // A recording must give the same results when it is replayed.
+    options->run.streams_only = !options->record.empty();
+    run_frame_command(*options);
+  });
+}
+
+}  // namespace dtof

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/commands.hpp"
+
+namespace dtof {
+
+Program dtof_program() {
+  return {
+      .name = "dtof",
+      .description =
+          "dtof: read-outs for large SPAD arrays, from photons to depth.\n"
+          "Runs the hardware (Verilated RTL) or its bit-exact model on modelled or recorded TDC streams.",
+      .examples =
+          "Try:\n"
+          "  dtof frame --scene room --readout all --out build/room      model every read-out on one scene\n"
+          "  dtof frame --readout sifh --engine rtl --verify --columns 0-7 --out build/sifh\n"
+          "  dtof replay recording.csv --readout hispointer --engine rtl --out build/replay\n"
+          "  dtof video --scene room --motion pan --frames 8 --out build/pan\n"
+          "  dtof sensor thesis                                          a sensor file to start from\n"
+          "  dtof list\n"
+          "Studies of accuracy and of the photon models: dtof-study --help\n",
+      .add_commands = [](CLI::App& app, const std::string& command_line) {
+        add_frame_command(app, command_line);
+        add_replay_command(app, command_line);
+        add_video_command(app, command_line);
+        add_sensor_command(app);
+        add_list_command(app);
+      }};
+}
+
+}  // namespace dtof

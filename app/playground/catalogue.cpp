@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "playground/catalogue.hpp"
+
+#include <fmt/format.h>
+
+#include "dtof/core/parameters.hpp"
+#include "dtof/core/physical_constants.hpp"
+#include "dtof/frame/frame_maps.hpp"
+#include "dtof/scene/scene.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+
+std::string playground_catalogue() {
+  std::string text;
+  for (const Readout readout : kAllReadouts) {
+    text += fmt::format("readout\t{}\t{}\t{}\n", readout_name(readout), readout_title(readout),
+                        readout_summary(readout));
+  }
+  for (const Scene scene : kAllScenes) {
+    text += fmt::format("scene\t{}\t{}\n", scene_name(scene), scene_summary(scene));
+  }
+  for (const std::string_view name : preset_names()) {
+    const SensorModel sensor = parse_preset(name);
+    text += fmt::format("sensor\t{}\t{}\t{}\t{}\t{}\t{:.2f}\n", name, sensor.columns, sensor.rows,
+                        sensor.default_reflectivity, sensor.acquisitions,
+                        0.5 * kSpeedOfLight * sensor.integration_time_s);
+  }
+  for (const std::string& name : figure_names(true)) {
+    text += fmt::format("figure\t{}\n", name);
+  }
+  return text;
+}
+
+}  // namespace dtof

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+"use strict";
+
+const LARGEST_ERROR_M = 0.25;  // of the colours, as in the pictures of `dtof frame`
+const SIZES = [1, 2, 4];  // parts of the sensor's columns and rows
+
+const byId = (id) => document.getElementById(id);
+const form = byId("controls");
+const cost = JSON.parse(byId("cost").textContent);
+const catalogue = { readout: [], scene: [], sensor: [], figure: [] };
+
+let worker = null;
+let asking = false;  // the worker was asked; each works for one run
+let scene = null;  // what it said of its scene
+let frames = [];
+let begun = 0;
+
+/** An element with a text and children. */
+function make(tag, text = "", children = [], attributes = {}) {
+  const element = document.createElement(tag);
+  element.textContent = text;
+  element.append(...children);
+  for (const [name, value] of Object.entries(attributes)) {
+    element.setAttribute(name, value);
+  }
+  return element;
+}
+
+// ---- Colours: those of the pictures that C++ draws ----------------------------------------------------------------
+
+function viridis(position) {
+  const coefficients = [
+    [0.2777273272234177, 0.005407344544966578, 0.3340998053353061],
+    [0.1050930431085774, 1.404613529898575, 1.384590162594685],
+    [-0.3308618287255563, 0.214847559468213, 0.09509516302823659],
+    [-4.634230498983486, -5.799100973351585, -19.33244095627987],
+    [6.228269936347081, 14.17993336680509, 56.69055260068105],
+    [4.776384997670288, -13.74514537774601, -65.35303263337234],
+    [-5.435455855934631, 4.645852612178535, 26.3124352495832]];
+  const t = Math.min(Math.max(position, 0), 1);
+  return [0, 1, 2].map((channel) => 255 * coefficients.reduceRight((sum, c) => sum * t + c[channel], 0));
+}
+
+function blueWhiteRed(position) {
+  const nodes = [[5, 48, 97], [67, 147, 195], [247, 247, 247], [214, 96, 77], [103, 0, 31]];
+  const scaled = Math.min(Math.max(position, 0), 1) * 4;
+  const node = Math.min(Math.floor(scaled), 3);
+  return nodes[node].map((from, channel) => from + (nodes[node + 1][channel] - from) * (scaled - node));
+}
+
+const grey = (position) => Array(3).fill(255 * position);
+const UNKNOWN = [128, 128, 128];
+
+function paint(canvas, values, colour) {
+  const context = canvas.getContext("2d");
+  const image = context.createImageData(canvas.width, canvas.height);
+  values.forEach((value, i) => {
+    const [red, green, blue] = Number.isNaN(value) ? UNKNOWN : colour(value);
+    image.data.set([red, green, blue, 255], 4 * i);
+  });
+  context.putImageData(image, 0, 0);
+}
+
+const ramp = Array.from({ length: 256 }, (_, i) => i / 255);
+const errorColour = (error) => blueWhiteRed(0.5 + 0.5 * error / LARGEST_ERROR_M);
+const depthColour = (depth) => viridis((depth - scene.near) / (scene.far - scene.near));
+
+// ---- Controls -------------------------------------------------------------------------------------------
+
+function fillControls() {
+  for (const [name, summary] of catalogue.scene) {
+    form.scene.append(make("option", name, [], { value: name, title: summary }));
+  }
+  for (const [name] of catalogue.sensor) {
+    form.sensor.append(make("option", name, [], { value: name }));
+  }
+  for (const [name, title, summary] of catalogue.readout) {
+    const box = make("input", "", [], { type: "checkbox", name: "readout", value: name });
+    box.checked = true;
+    byId("readouts").append(make("label", "", [box, make("span", title)], { title: summary }));
+  }
+  form.scene.value = "room";
+  takeSensor();
+}
+
+const sensor = () => catalogue.sensor.find(([name]) => name === form.sensor.value);
+
+/** What a sensor has of its own. */
+function takeSensor() {
+  const [, columns, rows, reflectivity, acquisitions, range] = sensor();
+  form.reflectivity.value = reflectivity;
+  form.acquisitions.value = acquisitions;
+  for (const name of ["distance", "near", "far"]) {
+    form[name].max = Number(range) - 0.01;
+  }
+  form.size.replaceChildren(...SIZES.map((part) => {
+    const [width, height] = [columns / part, rows / part];
+    return make("option", `${width} x ${height}${part === 1 ? "" : ", quicker"}`, [], { value: `${width} ${height}` });
+  }));
+  showControls();
+}
+
+/** Texts and fields that follow from other fields. */
+function showControls() {
+  byId("scene-summary").textContent = catalogue.scene.find(([name]) => name === form.scene.value)[1];
+  byId("klux-text").value = form.klux.value;
+  byId("reflectivity-text").value = form.reflectivity.value;
+  for (const label of form.querySelectorAll("[data-scenes]")) {
+    label.hidden = !label.dataset.scenes.split(" ").includes(form.scene.value);
+    label.querySelector("input").disabled = label.hidden;
+  }
+}
+
+/** Options of `dtof frame`, and what the worker is asked for. */
+function request() {
+  const readouts = [...form.querySelectorAll("[name=readout]:checked")].map((box) => box.value);
+  const [columns, rows] = form.size.value.split(" ");
+  const said = { scene: form.scene.value, sensor: form.sensor.value, columns, rows, klux: form.klux.value,
+    reflectivity: form.reflectivity.value, acquisitions: form.acquisitions.value, seed: form.seed.value };
+  for (const name of ["distance", "near", "far", "steps"]) {
+    if (!form[name].disabled) {
+      said[name] = form[name].value;
+    }
+  }
+  const option = { columns: "array-columns", rows: "array-rows" };
+  const command = Object.entries(said).map(([name, value]) => `--${option[name] ?? name} ${value}`);
+  const every = readouts.length === catalogue.readout.length;
+  return {
+    readouts,
+    text: [...Object.entries(said), ...readouts.map((name) => ["readout", name])].map((line) => line.join(" ")).join("\n"),
+    command: [`build/cpp/bin/dtof frame ${command.slice(0, 4).join(" ")}`, command.slice(4).join(" "),
+      `--readout ${every ? "all" : readouts.join(",")}`].join(" \\\n    "),
+  };
+}
+
+// ---- A run ----------------------------------------------------------------------------------------------
+
+function say(text) {
+  byId("status").textContent = text;
+  byId("status").classList.remove("failed");
+}
+
+function fail(sentence) {
+  say(sentence);
+  byId("status").classList.add("failed");
+  byId("progress").value = 0;
+  document.body.dataset.state = "failed";
+}
+
+function startWorker() {
+  const text = byId("worker-text").textContent;
+  const url = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
+  worker = new Worker(url);
+  worker.onmessage = (event) => hear[event.data.what](event.data);
+  worker.onerror = (event) => {
+    console.error(event.message);
+    fail(`The models stopped: ${event.message}`);
+  };
+}
+
+/** Begins a run; one that is under way is given up. */
+function run() {
+  if (!form.reportValidity()) {
+    fail("One of the settings is outside its limits.");
+    return;
+  }
+  const asked = request();
+  if (asked.readouts.length === 0) {
+    fail("Choose at least one read-out.");
+    return;
+  }
+  if (asking) {
+    worker.terminate();
+    startWorker();
+    hear.ready = () => worker.postMessage(asked);
+  } else {
+    worker.postMessage(asked);
+  }
+  asking = true;
+  document.body.dataset.state = "running";
+  begun = performance.now();
+  frames = [];
+  byId("command").textContent = asked.command;
+  byId("shown").classList.add("stale");
+  byId("progress").removeAttribute("value");
+  say("Calibrating the read-outs on flat targets ...");
+}
+
+const hear = {
+  ready(message) {
+    for (const line of message.catalogue.trim().split("\n")) {
+      const [kind, ...fields] = line.split("\t");
+      catalogue[kind].push(fields);
+    }
+    fillControls();
+    run();
+  },
+  scene(message) {
+    scene = message;
+    const known = message.truth.filter((metres) => !Number.isNaN(metres));
+    scene.near = known.reduce((least, metres) => Math.min(least, metres), Infinity);
+    scene.far = known.reduce((most, metres) => Math.max(most, metres), 0);
+    if (scene.far - scene.near < 0.2) {  // a flat scene: room for what is measured around it
+      scene.near = Math.max(0, scene.near - 0.5);
+      scene.far += 0.5;
+    }
+  },
+  progress(message) {
+    byId("progress").value = message.done / message.of;
+    say(`Reading out: column ${message.done} of ${message.of} ...`);
+  },
+  frame(message) {
+    frames.push(message);
+  },
+  done() {
+    byId("progress").value = 1;
+    const pixels = scene.columns * scene.rows;
+    const seconds = (performance.now() - begun) / 1000;
+    say(`${frames.length} read-outs of ${pixels.toLocaleString("en")} pixels in ${seconds.toFixed(1)} s.`);
+    show();
+    document.body.dataset.state = "done";
+  },
+  failed(message) {
+    fail(message.sentence);
+  },
+};
+
+// ---- Results --------------------------------------------------------------------------------------------
+
+/** A map with the values of the pixel that is pointed at. */
+function map(values, colour, label, describe) {
+  const canvas = make("canvas", "", [], { width: scene.columns, height: scene.rows, role: "img", "aria-label": label });
+  paint(canvas, values, colour);
+  canvas.onpointermove = canvas.onpointerdown = (event) => {
+    const box = canvas.getBoundingClientRect();
+    const column = Math.floor((event.clientX - box.left) / box.width * scene.columns);
+    const row = Math.floor((event.clientY - box.top) / box.height * scene.rows);
+    if (column >= 0 && row >= 0 && column < scene.columns && row < scene.rows) {
+      byId("pixel").textContent = `Column ${column}, row ${row}: ${describe(row * scene.columns + column)}`;
+    }
+  };
+  return make("figure", "", [canvas, make("figcaption", label)]);
+}
+
+const metres = (value) => Number.isNaN(value) ? "unknown" : `${value.toFixed(3)} m`;
+
+function describePixel(frame, title) {
+  return (i) => {
+    const [code, , confidence] = frame.results.subarray(4 * i, 4 * i + 4);
+    const truth = scene.truth[i];
+    const off = Number.isNaN(frame.error[i]) ? "" : `, off by ${(100 * frame.error[i] / truth).toFixed(1)} %`;
+    return `${title} measured ${metres(frame.depth[i])}, true ${metres(truth)}${off}; code ${code}, confidence ${confidence}`;
+  };
+}
+
+/** Figures of a read-out: those of the frame, and what the silicon costs. */
+function figuresOf(frame) {
+  const [rmse, bias, , above3, above10] = frame.figures;
+  const silicon = cost.readouts[frame.readout];
+  return [["off by > 3 %", above3], ["off by > 10 %", above10], ["rmse", `${rmse} mm`], ["bias", `${bias} mm`],
+    ["area", silicon ? `${silicon.mm2} mm\u00b2${silicon.note ? " *" : ""}` : "-"], ["power", silicon ? `${silicon.mw} mW` : "-"]];
+}
+
+function show() {
+  const depthMap = (values, describe) => map(values, depthColour, "depth", describe);
+  const brightest = scene.reflectivity.reduce((most, value) => Math.max(most, value), 0);
+  const describeTruth = (i) => `true ${metres(scene.truth[i])}, reflectivity ${scene.reflectivity[i].toFixed(2)}`;
+  const distances = Float32Array.from(scene.truth).filter((value) => !Number.isNaN(value)).sort();
+  const cards = [make("article", "", [
+    make("h3", "The scene"),
+    make("p", catalogue.scene.find(([name]) => name === form.scene.value)[1], [], { class: "hint" }),
+    make("div", "", [
+      map(scene.truth, depthColour, "depth", describeTruth),
+      map(scene.reflectivity, (value) => grey(value / brightest), `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
+    ], { class: "maps" }),
+    make("dl", "", [["nearest", metres(distances[0])], ["middle", metres(distances[distances.length >> 1])],
+      ["farthest", metres(distances[distances.length - 1])]].map(([name, value]) =>
+      make("div", "", [make("dt", name), make("dd", value)]))),
+  ])];
+  const rows = [];
+  for (const frame of frames) {
+    const [, title, summary] = catalogue.readout.find(([name]) => name === frame.readout);
+    const describe = describePixel(frame, title);
+    const figures = figuresOf(frame);
+    cards.push(make("article", "", [
+      make("h3", title),
+      make("p", summary, [], { class: "hint" }),
+      make("div", "", [depthMap(frame.depth, describe), map(frame.error, errorColour, "error", describe)], { class: "maps" }),
+      make("dl", "", figures.map(([name, value]) => make("div", "", [make("dt", name), make("dd", value)]))),
+    ], { "data-readout": frame.readout, style: `border-top: 0.3rem solid ${cost.readouts[frame.readout]?.colour ?? "var(--line)"}` }));
+    const bits = cost.readouts[frame.readout]?.bits ?? "-";
+    rows.push(make("tr", "", [make("th", title, [], { scope: "row" }),
+      ...[...figures.map(([, value]) => value), bits].map((value) => make("td", value))]));
+  }
+  byId("cards").replaceChildren(...cards);
+  const heads = ["read-out", ...figuresOf(frames[0]).map(([name]) => name), "bits a pixel"];
+  byId("table").tHead.replaceChildren(make("tr", "", heads.map((name) => make("th", name, [], { scope: "col" }))));
+  byId("table").tBodies[0].replaceChildren(...rows);
+  byId("notes").textContent = cost.note;
+  byId("depth-ends").replaceChildren(...[scene.near, (scene.near + scene.far) / 2, scene.far].map((m) => make("span", `${m.toFixed(2)} m`)));
+  paint(byId("depth-legend"), ramp, viridis);
+  paint(byId("error-legend"), ramp, blueWhiteRed);
+  byId("shown").hidden = false;
+  byId("shown").classList.remove("stale");
+}
+
+form.onsubmit = (event) => {
+  event.preventDefault();
+  run();
+};
+form.oninput = (event) => {
+  if (event.target.name === "sensor") {
+    takeSensor();
+  }
+  showControls();
+};
+form.onchange = run;
+for (const [id, checked] of [["all", true], ["none", false]]) {
+  byId(id).onclick = () => {
+    form.querySelectorAll("[name=readout]").forEach((box) => { box.checked = checked; });
+  };
+}
+startWorker();

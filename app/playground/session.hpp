@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dtof/core/detection.hpp"
+#include "dtof/core/parameters.hpp"
+#include "dtof/core/result.hpp"
+#include "dtof/host/range_converter.hpp"
+#include "dtof/photon/photon_source.hpp"
+
+namespace dtof {
+
+/// What the page's controls say: a frame as `dtof frame` with these options makes it.
+struct PlaygroundRequest {
+  std::string sensor = "thesis";
+  std::string scene = "room";
+  std::optional<int> columns;  ///< of the array; else the sensor's
+  std::optional<int> rows;
+  double distance_m = 1.0;  ///< flat
+  double near_m = 0.8;      ///< staircase and plane
+  double far_m = 5.0;
+  int steps = 8;  ///< staircase
+  std::optional<double> reflectivity;
+  double klux = 14.0;
+  std::optional<std::uint32_t> acquisitions;
+  std::uint64_t seed = 1;
+  std::vector<std::string> readouts;  ///< names
+};
+
+/// A frame of one read-out, row-major.
+struct PlaygroundFrame {
+  std::vector<PixelResult> results;
+  std::vector<float> depth_m;
+  std::vector<float> error_m;        ///< NaN where the truth is unknown
+  std::vector<std::string> figures;  ///< as `summary.csv` has them (figure_names)
+};
+
+/// A scene that several read-outs see at once: its photons are drawn once, column by column, so that a page
+/// can show how far it is.
+class PlaygroundSession {
+ public:
+  /// Throws InputError.
+  explicit PlaygroundSession(const PlaygroundRequest& request);
+
+  [[nodiscard]] int columns() const { return scene_.columns(); }
+  [[nodiscard]] int rows() const { return scene_.rows(); }
+  [[nodiscard]] const std::vector<float>& truth_m() const { return truth_; }
+  [[nodiscard]] const std::vector<float>& reflectivity() const { return reflectivity_; }
+
+  /// Fits the look-up tables.
+  void calibrate();
+  /// Reads a column out; all of them are to be read, from left to right. Columns that hear each other wait
+  /// for the last of them.
+  void read_column(int column);
+  /// What a read-out of the request (by its place there) made of the columns, after all were read.
+  [[nodiscard]] PlaygroundFrame frame(std::size_t readout) const;
+
+ private:
+  PhotonSource scene_;
+  std::uint64_t seed_;
+  std::vector<float> truth_;
+  std::vector<float> reflectivity_;
+  std::vector<ReadoutParameters> readouts_;
+  std::vector<RangeConverter> tables_;
+  std::vector<std::vector<ColumnStream>> waiting_;  // of each read-out, the last columns, not yet read
+  std::vector<std::vector<PixelResult>> results_;   // of each read-out, row-major
+};
+
+}  // namespace dtof

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "dtof/core/detection.hpp"
+#include "dtof/core/result.hpp"
+#include "dtof/io/result_csv.hpp"
+
+namespace dtof {
+
+/// Pixels of the sensor that are read out: these rows of these columns. Frames of a region are row-major:
+/// index = (row - rows.first) * columns.size() + i for the i-th column.
+struct Region {
+  std::vector<int> columns;  ///< ascending, each once
+  RowRange rows;
+
+  /// Every pixel of a sensor of so many columns and rows.
+  static Region whole(int columns, int rows);
+};
+
+/// Column list of the command line: "all", or numbers and ranges such as "0-9,20,30-32"; ascending.
+/// Throws InputError for anything else, a column named twice, or one that is not below `columns`.
+std::vector<int> parse_columns(std::string_view text, int columns);
+
+/// Rows of the command line: "all", one number, or one range such as "40-79".
+/// Throws InputError for anything else, or a row that is not below `rows`.
+RowRange parse_rows(std::string_view text, int rows);
+
+/// A region's frame with the sensor's pixel numbers.
+std::vector<ResultRecord> result_records(std::span<const PixelResult> results, const Region& region);
+
+}  // namespace dtof

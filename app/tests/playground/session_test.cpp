@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "playground/session.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "dtof/core/error.hpp"
+#include "dtof/frame/array_rows.hpp"
+#include "dtof/readout/run_frame.hpp"
+#include "dtof/scene/scene.hpp"
+#include "dtof/sensor/default_parameters.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+PlaygroundRequest small_plane() {
+  PlaygroundRequest request;
+  request.scene = "plane";
+  request.columns = 6;
+  request.rows = 8;
+  request.acquisitions = 800;
+  request.seed = 3;
+  request.readouts = {"poolpointer2", "sifh"};
+  return request;
+}
+
+/// Column by column gives what whole frames do, for pool read-outs in an array of more rows than the sensor.
+TEST(PlaygroundSession, ReadsWhatAFrameReads) {
+  const PlaygroundRequest request = small_plane();
+  PlaygroundSession session(request);
+  session.calibrate();
+  for (int column = 0; column < session.columns(); ++column) {
+    session.read_column(column);
+  }
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 800;
+  const PhotonSource scene(sensor, make_scene(Scene::kPlane, {.columns = 6, .rows = 8}), 14.0, 3);
+  for (std::size_t r = 0; r < request.readouts.size(); ++r) {
+    SCOPED_TRACE(request.readouts[r]);
+    const Readout readout = parse_readout(request.readouts[r]);
+    const ArrayRows array = array_rows(scene, {.first = 0, .count = 8}, readout);
+    const PlaygroundFrame frame = session.frame(r);
+    EXPECT_EQ(frame.results, array.read(run_frame(*array.source, default_parameters(readout, sensor))));
+    ASSERT_EQ(frame.error_m.size(), 48U);
+    EXPECT_FLOAT_EQ(frame.depth_m[5] - frame.error_m[5], session.truth_m()[5]);
+    EXPECT_FLOAT_EQ(session.truth_m()[5], 5.0F);
+    EXPECT_EQ(frame.figures.size(), 6U);
+  }
+}
+
+TEST(PlaygroundSession, RefusesWhatCannotBe) {
+  const auto with = [](auto change) {
+    PlaygroundRequest request = small_plane();
+    change(request);
+    return [request] { PlaygroundSession{request}; };
+  };
+  EXPECT_THAT(with([](PlaygroundRequest& r) { r.far_m = 7.0; }),
+              ThrowsMessage<InputError>(HasSubstr("beyond the sensor's range, 6.75 m")));
+  EXPECT_THAT(with([](PlaygroundRequest& r) { r.readouts = {"sihf"}; }),
+              ThrowsMessage<InputError>(HasSubstr("sihf")));
+  EXPECT_THAT(with([](PlaygroundRequest& r) { r.scene = "roof"; }),
+              ThrowsMessage<InputError>(HasSubstr("roof")));
+}
+
+}  // namespace
+}  // namespace dtof

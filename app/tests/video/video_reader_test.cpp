@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "video/video_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "dtof/frame/flat_calibration.hpp"
+#include "dtof/metrics/depth.hpp"
+#include "dtof/photon/photon_source.hpp"
+#include "dtof/readout/run_frame.hpp"
+#include "dtof/sensor/default_parameters.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+SensorModel short_sensor() {
+  SensorModel sensor = find_sensor("thesis");
+  sensor.acquisitions = 600;
+  return sensor;
+}
+
+std::vector<ReadoutParameters> readouts(const SensorModel& sensor) {
+  return {default_parameters(Readout::kHisPointer, sensor),
+          default_parameters(Readout::kPoolPointer2, sensor)};
+}
+
+Sequence sequence(Motion motion) {
+  Sequence made;
+  made.motion = motion;
+  made.frames = 4;
+  made.klux = 30.0;
+  made.parameters.columns = 36;
+  made.parameters.rows = 32;
+  return made;
+}
+
+TEST(VideoReader, OnlyThePriorRemembersTheLastFrame) {
+  const SensorModel sensor = short_sensor();
+  const VideoReader reader(sensor, readouts(sensor), 30.0, 1, 2);
+  ASSERT_EQ(reader.estimators().size(), 3U);
+  EXPECT_EQ(reader.estimators().back(), "poolPointer 2, prior");
+  const auto still = reader.read(sequence(Motion::kStill));
+  const auto cut = reader.read(sequence(Motion::kCut));
+  ASSERT_EQ(still.size(), 4U);
+  const auto same = [](const ErrorShares& a, const ErrorShares& b) {
+    return a.pixels == b.pixels && a.above_3_percent == b.above_3_percent && a.rmse == b.rmse;
+  };
+  EXPECT_TRUE(same(still[0][1], still[0][2])) << "there is no frame before the first";
+  EXPECT_FALSE(same(still[1][1], still[1][2])) << "the prior is heard in the second";
+  for (std::size_t e = 0; e < 3; ++e) {
+    EXPECT_EQ(still[0][e].pixels, 36U * 32U);
+    EXPECT_TRUE(same(still[1][e], cut[1][e])) << "until the cut both videos are one";
+    EXPECT_FALSE(same(still[0][e], still[1][e])) << "each frame has photons of its own";
+  }
+}
+
+TEST(VideoReader, EachFrameIsTheModelsOwn) {
+  const SensorModel sensor = short_sensor();
+  const std::vector<ReadoutParameters> both = readouts(sensor);
+  const VideoReader reader(sensor, both, 30.0, 1, 2);
+  const Sequence video = sequence(Motion::kStill);
+  const auto shares = reader.read(video);
+  // Another way to the third frame's share, without the study's table: both read-outs are far above 3 % here.
+  const SequenceFrame third = sequence_frame(video, 2);
+  const PhotonSource source(sensor, third.targets, third.klux, 1, scene_frame(2));
+  const DepthScale scale(sensor.integration_time_s, sensor.np, sensor.pulse_fwhm_s);
+  for (std::size_t r = 0; r < both.size(); ++r) {
+    const std::vector<PixelResult> results = run_frame(source, both[r], 1);
+    double outliers = 0.0;
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const double truth = third.targets.at(static_cast<int>(i % 36), static_cast<int>(i / 36)).depth_m;
+      const double depth = scale.depth(to_measurement(results[i], both[r].fraction_bits).position);
+      outliers += std::abs(depth - truth) > 0.1 * truth ? 1.0 : 0.0;
+    }
+    EXPECT_NEAR(shares[2][r].above_10_percent, outliers / static_cast<double>(results.size()), 0.02);
+  }
+}
+
+TEST(VideoReader, ReadOutsThatHearOtherColumnsReadWholeEngines) {
+  const SensorModel sensor = short_sensor();
+  const std::vector<ReadoutParameters> all = {default_parameters(Readout::kPoolPointer2, sensor),
+                                              default_parameters(Readout::kPoolPointer2Lean, sensor)};
+  Sequence video = sequence(Motion::kStill);
+  video.frames = 2;
+  video.parameters.columns = 60;  // engines of 34 and 26 columns, lean: of 50 and 10
+  const VideoReader together(sensor, all, 30.0, 1, 2);
+  const VideoReader alone(sensor, std::span(all).last(1), 30.0, 1, 1);
+  std::vector<std::vector<double>> seen;
+  const auto keep = [&](int /*frame*/, const VideoFrame& frame) { seen.push_back(frame.distance_m[1]); };
+  const auto shares = together.read(video, nullptr, keep);
+  EXPECT_FALSE(alone.without_prior().has_value()) << "lean has no prior";
+  EXPECT_EQ(shares[1][1].rmse, alone.read(video)[1][0].rmse);
+  // Another way to lean's distances: the frame's model, with the look-up table left out.
+  const SequenceFrame second = sequence_frame(video, 1);
+  const PhotonSource source(sensor, second.targets, second.klux, 1, scene_frame(1));
+  const DepthScale scale(sensor.integration_time_s, sensor.np, sensor.pulse_fwhm_s);
+  const std::vector<PixelResult> results = run_frame(source, all[1], 1);
+  ASSERT_EQ(results.size(), seen[1].size());
+  double far_off = 0.0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const double depth = scale.depth(to_measurement(results[i], all[1].fraction_bits).position);
+    far_off += std::abs(depth - seen[1][i]) > 0.2 ? 1.0 : 0.0;
+  }
+  EXPECT_EQ(far_off, 0.0);
+}
+
+TEST(VideoReader, ShowsEachFrameOnce) {
+  const SensorModel sensor = short_sensor();
+  const std::vector<ReadoutParameters> one = {default_parameters(Readout::kHisPointer, sensor)};
+  const VideoReader reader(sensor, one, 30.0, 1, 2);
+  std::vector<int> frames;
+  const auto shares = reader.read(sequence(Motion::kPan), nullptr, [&](int frame, const VideoFrame& seen) {
+    frames.push_back(frame);
+    EXPECT_EQ(seen.distance_m.size(), 1U);
+    EXPECT_EQ(seen.distance_m[0].size(), 36U * 32U);
+  });
+  EXPECT_EQ(frames, (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(shares.size(), 4U);
+  EXPECT_EQ(reader.estimators().size(), 1U);
+}
+
+}  // namespace
+}  // namespace dtof

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+# `cmake --install <build> --component models --prefix <folder>`: the bit-exact models with the photon model, scenes, metrics
+# and calibration, for other CMake projects:
+#
+#   find_package(dtof REQUIRED)
+#   target_link_libraries(mine PRIVATE dtof::readout)
+#
+# Headers are included as in this project, for instance "dtof/readout/model.hpp".
+include(CMakePackageConfigHelpers)
+include(GNUInstallDirs)
+
+set(DTOF_MODEL_LIBRARIES core io photon sensor scene readout metrics host)
+foreach(library ${DTOF_MODEL_LIBRARIES})
+  set_target_properties(dtof_${library} PROPERTIES EXPORT_NAME ${library})
+  install(TARGETS dtof_${library} EXPORT dtof-models COMPONENT models ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/dtof/${library} COMPONENT models DESTINATION include/dtof
+    FILES_MATCHING PATTERN "*.hpp")
+endforeach()
+set(package ${CMAKE_INSTALL_LIBDIR}/cmake/dtof)
+install(EXPORT dtof-models COMPONENT models NAMESPACE dtof:: DESTINATION ${package})
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/dtof-config.cmake.in ${PROJECT_BINARY_DIR}/dtof-config.cmake
+  INSTALL_DESTINATION ${package})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/dtof-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/dtof-config.cmake ${PROJECT_BINARY_DIR}/dtof-config-version.cmake COMPONENT models
+  DESTINATION ${package})

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Read-outs (dtof_readouts.svh) and the sizes that follow from a read-out's parameters (docs/reference/readouts.md).
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+package dtof_pkg;
+
+  // Values of state_o of dtof_array: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
+  localparam logic [2:0] STATE_IDLE = 3'd0;
+  localparam logic [2:0] STATE_RESET = 3'd1;
+  localparam logic [2:0] STATE_M0 = 3'd2;
+  localparam logic [2:0] STATE_M1 = 3'd3;
+  localparam logic [2:0] STATE_M2 = 3'd4;
+  localparam logic [2:0] STATE_M3 = 3'd5;
+  localparam logic [2:0] STATE_M4 = 3'd6;
+  localparam logic [2:0] STATE_M5 = 3'd7;
+
+  // Values of state_o of dtof_pool_pointer2_array beside IDLE and RESET.
+  localparam logic [2:0] POOL_STATE_COARSE = STATE_M0;
+  localparam logic [2:0] POOL_STATE_DECODE = STATE_M1;
+  localparam logic [2:0] POOL_STATE_TRACK = STATE_M2;
+  localparam logic [2:0] POOL_STATE_CHOOSE = STATE_M3;
+  localparam logic [2:0] POOL_STATE_POINT = STATE_M4;
+  localparam logic [2:0] POOL_STATE_DECIDE = STATE_M5;
+
+  // Bits of error_o (common/dtof_array_errors.sv).
+  localparam int ERROR_UNDERRUN = 0;
+  localparam int ERROR_START_IGNORED = 1;
+  localparam int ERROR_ILLEGAL_SCHEDULE = 2;
+  localparam int ERROR_WIDTH = 3;
+
+  // Width of the side band from the top to every SRAM macro and back: what a process's macros want, by a macro of the tool.
+`ifdef DTOF_SRAM_CFG_WIDTH
+  localparam int SRAM_CFG_WIDTH = `DTOF_SRAM_CFG_WIDTH;
+`else
+  localparam int SRAM_CFG_WIDTH = 1;
+`endif
+
+  // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
+  localparam int HISTOGRAM_WRITE_STAGE = 5;          // dtof_histogram_builder: a timestamp of T0 is written at T5
+  localparam int POOL_PAIR_READ_CLOCKS = 2;          // dtof_pool2_pair: from read_i to word_o, and to a write with it
+  localparam int POOL_LINE_CLOCKS = 1;               // dtof_pool2_line: from the pairs' words to the engine's line_i
+  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // dtof_pool2_engine: from line_i to what its commands find on the line, but for decode
+  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // dtof_pool2_engine: from read_scratch to the message
+  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // dtof_pool2_engine: from take_result to result_o
+  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // dtof_pool2_candidate_decoder: from a turn's last pair to its candidate
+  localparam int POOL_CHAIN_SPREAD_CLOCKS = 3;       // dtof_label_chain: from begin_step to spread; then the labels pass
+  localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // dtof_label_chain: from a label's target to its pass_label
+  localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // dtof_label_chain: from the last pass_label to the two best beliefs
+
+  localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // dtof_pool2_candidate_decoder: from capture_above to the first pair sum
+  localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // dtof_pool2_candidate_decoder: from capture_above to count_own
+  localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // dtof_pool2_engine: from take_position to take_distances
+  localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // dtof_pool2_engine: from take_distances to take_word and take_result
+
+  function automatic int max_of(input int a, input int b);
+    max_of = (a > b) ? a : b;
+  endfunction
+
+  function automatic int min_of(input int a, input int b);
+    min_of = (a < b) ? a : b;
+  endfunction
+
+  // Bits that index `count` things, at least one.
+  function automatic int index_width(input int count);
+    index_width = (count <= 2) ? 1 : $clog2(count);
+  endfunction
+
+  `include "dtof_readouts.svh"
+
+  // Low bits that step k (0 to 2) of three steps leaves undecided; k = -1: all of them.
+  function automatic int step_shift(input int np, input int k);
+    step_shift = max_of(np - 3 * (k + 1), 0);
+  endfunction
+
+  // Bits of the coarse peak that measurement 2 needs.
+  function automatic int peak_width(input int readout, input int np, input int nb);
+    peak_width = (readout == READOUT_THREESTEPS) ? np - step_shift(np, 2) : nb;
+  endfunction
+
+  // Addresses of a pixel's scan in M4: its bins, and the clocks that the result takes behind them.
+  function automatic int final_addresses(input int readout, input int np, input int nb, input int fraction_bits);
+    final_addresses = (1 << scan_width(readout, np, nb)) + decode_clocks(readout, np, nb, fraction_bits);
+  endfunction
+
+  // Bits of a scan's address.
+  function automatic int scan_address_width(input int readout, input int np, input int nb, input int fraction_bits);
+    scan_address_width = max_of(bin_width(readout, np, nb), index_width(final_addresses(readout, np, nb, fraction_bits)));
+  endfunction
+
+  // Bits of a pointer's full step in units of 2^-FRACTION_BITS bin.
+  function automatic int step_width(input int pointer_step, input int fraction_bits);
+    step_width = $clog2(pointer_step + 1) + fraction_bits;
+  endfunction
+
+  // Bits of {code, fraction, confidence}.
+  function automatic int result_width(input int readout, input int np, input int count_width,
+                                      input int fraction_bits, input int pointer_confidence_width);
+    result_width = np + fraction_width(readout, fraction_bits)
+        + confidence_width(readout, count_width, pointer_confidence_width);
+  endfunction
+
+  // poolPointer 2 (docs/reference/poolpointer2.md). Positions have 16 bits for the whole range; a cell is 512 of them.
+  localparam int POOL_COARSE_BINS = 32;
+  localparam int POOL_CELL_WIDTH = 7;
+  localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
+  localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
+  localparam int POOL_RIVAL_WIDTH = 7;  // a cell
+  localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
+  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (dtof_pool2_line)
+  localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
+  // Bits of the types in dtof_pool2_command.svh and dtof_pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
+  // of these types. Every lint finds a wrong number.
+  localparam int POOL2_COMMAND_WIDTH = 63;         // pool2_engine_command_t
+  localparam int POOL2_DECODE_COMMAND_WIDTH = 21;  // pool2_decode_command_t
+  localparam int POOL2_CHAIN_COMMAND_WIDTH = 8;    // chain_command_t
+  localparam int POOL2_BESIDE_COMMAND_WIDTH = 8;   // beside_command_t
+  localparam int POOL2_DISTANCE_WIDTH = 15;        // pixel_distance_t
+  localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
+
+  // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
+  function automatic int pool_pointer_width(input int pointer_shift, input int rival_moves);
+    pool_pointer_width = ((rival_moves != 0) ? 16 : 12) - pointer_shift;
+  endfunction
+
+  // Bits of a pixel's word in the track phase: scores, leader, offset.
+  function automatic int pool_track_width(input int labels, input int score_bits, input int offset_bits);
+    pool_track_width = labels * score_bits + ((offset_bits > 0) ? offset_bits + index_width(labels) : 0);
+  endfunction
+
+  // Bits of a pixel's word in the pointer phase: advantage, rival, pointer.
+  function automatic int pool_point_width(input int labels, input int advantage_width, input int pointer_shift,
+                                          input int rival_moves);
+    pool_point_width = advantage_width + pool_pointer_width(pointer_shift, rival_moves)
+        + ((rival_moves != 0) ? POOL_RIVAL_WIDTH : 2 * index_width(labels));
+  endfunction
+
+  // Bits of a pixel's word.
+  function automatic int pool2_pixel_width(input int labels, input int score_bits, input int offset_bits,
+                                           input int advantage_width, input int pointer_shift, input int rival_moves);
+    pool2_pixel_width = max_of(pool_track_width(labels, score_bits, offset_bits),
+                               pool_point_width(labels, advantage_width, pointer_shift, rival_moves));
+  endfunction
+
+  // Highest bits of a group's background that its word keeps: as many as two pixels' words leave beside the candidates.
+  function automatic int pool_background_width(input int labels, input int pixel_width);
+    pool_background_width = 2 * pixel_width - POOL_CELL_WIDTH * labels;
+    if (pool_background_width < POOL_FEWEST_BACKGROUND_BITS) pool_background_width = POOL_FEWEST_BACKGROUND_BITS;
+    if (pool_background_width > POOL_BACKGROUND_WIDTH) pool_background_width = POOL_BACKGROUND_WIDTH;
+  endfunction
+
+  // Bits of a group's word: candidates and background.
+  function automatic int pool_group_width(input int labels, input int pixel_width);
+    pool_group_width = POOL_CELL_WIDTH * labels + pool_background_width(labels, pixel_width);
+  endfunction
+
+  // Bits of half an SRAM word of a pair of columns: two pixels of a column, or a group.
+  function automatic int pool2_half_width(input int labels, input int score_bits, input int offset_bits,
+                                          input int advantage_width, input int pointer_shift, input int rival_moves);
+    pool2_half_width = pool2_pixel_width(labels, score_bits, offset_bits, advantage_width, pointer_shift, rival_moves);
+    pool2_half_width = max_of(2 * pool2_half_width, pool_group_width(labels, pool2_half_width));
+  endfunction
+
+  // Halves of such a word that POOL2_BINS_PER_LINE coarse bins and one bit more need, 1 or 2.
+  function automatic int pool2_line_halves(input int half_width, input int count_width);
+    pool2_line_halves = (POOL2_BINS_PER_LINE * count_width < half_width) ? 1 : 2;
+  endfunction
+
+  // log2 of the parts in which a group's coarse bins are counted, a word each.
+  function automatic int pool2_part_width(input int line_halves);
+    pool2_part_width = (line_halves == 1) ? 1 : 2;
+  endfunction
+
+  // Bits of a result's confidence: the advantage and both neighbours' penalties.
+  function automatic int pool_confidence_width(input int advantage_width);
+    pool_confidence_width = $clog2((1 << advantage_width) + 16);
+  endfunction
+
+  // Whether a raw histogram can be had: none where scans alone keep a word, the best of several histograms.
+  function automatic bit has_whole_histogram(input int readout, input int np, input int nb);
+    has_whole_histogram = has_histogram(readout)
+        && (!has_word(readout) || is_word_read_ahead(readout) || coarse_passes(readout, np, nb) == 0);
+  endfunction
+
+  // Bins of a raw histogram: of the final pass, or of a pass before it where timestamps move a word there.
+  function automatic int raw_bins(input int readout, input int np, input int nb);
+    raw_bins = 1 << (is_word_moved(readout) ? bin_width(readout, np, nb) : scan_width(readout, np, nb));
+  endfunction
+
+  // Bits of a pointer read-out's confidence in a result, which is a count in a raw histogram.
+  function automatic int kept_confidence_width(input int pointer_confidence_width, input int count_width,
+                                               input int raw_histogram);
+    kept_confidence_width = (raw_histogram != 0) ? max_of(pointer_confidence_width, count_width)
+        : pointer_confidence_width;
+  endfunction
+
+  // Bits of a result: one position or two, and the confidence.
+  function automatic int pool_result_width(input int advantage_width, input int second_target);
+    pool_result_width = ((second_target != 0) ? 32 : 16) + pool_confidence_width(advantage_width);
+  endfunction
+
+endpackage
+
+`default_nettype wire

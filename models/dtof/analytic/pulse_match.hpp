@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dtof/metrics/cramer_rao.hpp"
+#include "dtof/photon/event_sampler.hpp"
+#include "dtof/photon/sensor_model.hpp"
+#include "dtof/readout/matched_filter.hpp"
+
+namespace dtof {
+
+/// What a pixel of these rates sees: the sensor's pulse (measured or Gaussian, jitter included), its slots
+/// (more than 16 count as 16) and acquisitions. Dead time, afterpulsing and unequal codes are left out.
+PulseObservation pulse_observation(const SensorModel& sensor, const PixelRates& rates);
+
+/// The matched filter's parameters for that pixel; `rates` above 0.
+MatchedFilterParameters matched_to(const SensorModel& sensor, const PixelRates& rates);
+
+}  // namespace dtof

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/core/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <vector>
+
+#include "dtof/core/error.hpp"
+#include "dtof/core/suggestion.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr int kFewestBits = 3;  // of a timestamp
+constexpr int kMostBits = 16;
+constexpr int kPoolCoarseBits = 5;
+constexpr int kPoolPositionBits = 16;
+constexpr int kPoolRivalBits = 7;
+constexpr int kPoolCellBits = 7;
+constexpr int kFewestPoolBackgroundBits = 4;
+
+// Sentences are word for word those with which the RTL stops elaboration (hdl/lint/parameter_limits.csv).
+void require(bool legal, std::string_view sentence, int value) {
+  if (!legal) {
+    throw InputError(fmt::format("{}, not {}", sentence, value));
+  }
+}
+
+void require_range(std::string_view name, int value, int lowest, int highest) {
+  require(value >= lowest && value <= highest, fmt::format("{} must be {} to {}", name, lowest, highest),
+          value);
+}
+
+}  // namespace
+
+Readout parse_readout(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const Readout readout : kAllReadouts) {
+    if (readout_name(readout) == name) {
+      return readout;
+    }
+    known.push_back(readout_name(readout));
+  }
+  throw InputError(unknown_name("read-out", name, known));
+}
+
+PoolPointerParameters PoolPointerParameters::defaults(Readout readout) {
+  constexpr int kAnyBits = 10;  // none of these depends on NP
+  const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, kAnyBits); };
+  return {.group_size = value("GROUP_SIZE"),
+          .labels = value("LABELS"),
+          .score_bits = value("SCORE_BITS"),
+          .offset_bits = value("OFFSET_BITS"),
+          .count_bits = value("ADVANTAGE_WIDTH"),
+          .pointer_shift = value("POINTER_SHIFT"),
+          .rival_moves = value("RIVAL_MOVES") != 0,
+          .cell_shift = value("CELL_SHIFT"),
+          .second_target = value("SECOND_TARGET") != 0,
+          .prior = value("PRIOR") != 0,
+          .coarse_share = value("COARSE_SHARE"),
+          .track_share = value("TRACK_SHARE"),
+          .engine_columns = value("ENGINE_COLUMNS")};
+}
+
+void PoolPointerParameters::validate(int count_width) const {
+  require(group_size >= 4 && group_size <= 32 && std::has_single_bit(static_cast<unsigned>(group_size)),
+          "GROUP_SIZE must be a power of two from 4 to 32", group_size);
+  require_range("LABELS", labels, 2, 8);
+  require_range("SCORE_BITS", score_bits, 1, 4);
+  require(offset_bits == 0 || (offset_bits >= 2 && offset_bits <= 6), "OFFSET_BITS must be 0 or 2 to 6",
+          offset_bits);
+  require(count_bits == 4 || count_bits == 7, "ADVANTAGE_WIDTH must be 4 or 7", count_bits);
+  require(pointer_shift >= 0 && pointer_shift <= (count_bits == 4 ? 4 : 2),
+          "POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4", pointer_shift);
+  require(rival_moves || offset_bits == 0, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0", offset_bits);
+  require_range("CELL_SHIFT", cell_shift, 8, 10);
+  require_range("COARSE_SHARE", coarse_share, 1, 62);
+  require_range("TRACK_SHARE", track_share, 1, 63 - coarse_share);
+  const int group_bits = kPoolCellBits * labels + background_bits();
+  const int half_bits = std::max(2 * word_bits(), group_bits);
+  require(!prior || group_bits + labels <= half_bits,
+          "a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1", labels);
+  const int line_halves = 8 * count_width < half_bits ? 1 : 2;  // halves of a word that eight bins take
+  require(8 * count_width < line_halves * half_bits && group_size >= 4 * line_halves,
+          "32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows", count_width);
+  require(engine_columns >= 2 && engine_columns % 2 == 0,
+          "ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM", engine_columns);
+}
+
+int PoolPointerParameters::word_bits() const {
+  const auto label_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(labels - 1)));
+  const int track_word = labels * score_bits + (offset_bits > 0 ? label_bits + offset_bits : 0);
+  const int pointer_word = count_bits + (rival_moves ? kPoolPositionBits - pointer_shift + kPoolRivalBits
+                                                     : 12 - pointer_shift + 2 * label_bits);
+  return std::max(track_word, pointer_word);
+}
+
+int PoolPointerParameters::background_bits() const {
+  return std::clamp(2 * word_bits() - kPoolCellBits * labels, kFewestPoolBackgroundBits, kPoolBackgroundBits);
+}
+
+PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {
+  const auto share = [&](int share_64ths) {
+    return static_cast<std::uint32_t>(
+        (std::uint64_t{acquisitions} * static_cast<std::uint64_t>(share_64ths)) >> 6U);
+  };
+  coarse_end = share(parameters.coarse_share);
+  track_end = share(parameters.coarse_share + parameters.track_share);
+}
+
+ReadoutParameters ReadoutParameters::defaults(Readout readout, int np) {
+  require_range("NP", np, kFewestBits, kMostBits);
+  ReadoutParameters parameters;
+  parameters.readout = readout;
+  parameters.np = np;
+  const auto value = [&](std::string_view parameter) { return default_value(readout, parameter, np); };
+  parameters.nb = value("NB");
+  parameters.slots = value("SLOTS");
+  parameters.count_width = value("COUNT_WIDTH");
+  parameters.pointer_step = value("POINTER_STEP");
+  parameters.fraction_bits = value("FRACTION_BITS");
+  parameters.confidence_width = value("CONFIDENCE_WIDTH");
+  parameters.guard = value("GUARD");
+  parameters.window_centred = value("WINDOW_CENTRED") != 0;
+  parameters.pool = PoolPointerParameters::defaults(readout);
+  return parameters;
+}
+
+void ReadoutParameters::validate() const {
+  if (is_pool_readout(readout)) {
+    require_range("NP", np, 8, kPoolPositionBits);
+    require(nb == kPoolCoarseBits, "NB must be 5", nb);
+    require_range("SLOTS", slots, 2, 4);
+    require_range("COUNT_WIDTH", count_width, 4, 8);
+    require(fraction_bits == kPoolPositionBits - np, "FRACTION_BITS must be 16 - NP", fraction_bits);
+    pool.validate(count_width);
+  } else {
+    require_range("NP", np, kFewestBits, kMostBits);
+    require(nb >= 1 && nb <= np, "NB must be 1 to NP", nb);
+    require_range("SLOTS", slots, 1, 16);
+    require_range("COUNT_WIDTH", count_width, 1, 16);
+    require(pointer_step >= 1 && pointer_step < 1 << (np - 1), "POINTER_STEP must be 1 to 2^(NP-1) - 1",
+            pointer_step);
+    require(fraction_bits >= 0 && fraction_bits <= 8 && np + fraction_bits <= 16,
+            "FRACTION_BITS must be 0 to 8 and NP + FRACTION_BITS at most 16", fraction_bits);
+    require_range("CONFIDENCE_WIDTH", confidence_width, 0, 8);
+    require(readout != Readout::kHisPointer || (guard >= 0 && guard <= 1 << np), "GUARD must be 0 to 2^NP",
+            guard);
+  }
+  if (time_gate) {
+    require_range("gate begin", time_gate->begin, 0, no_detection());
+    require_range("gate end", time_gate->end, 0, no_detection());
+  }
+}
+
+int ReadoutParameters::raw_bins() const {
+  constexpr int kFineBinsOfThreeSteps = 16;
+  switch (readout) {
+    case Readout::kHisPointer1:
+    case Readout::kHisPointer:
+    case Readout::kSifh:
+    case Readout::kCoarseHistogram:
+      return 1 << nb;
+    case Readout::kFifh:
+      return 1 << (np - nb);
+    case Readout::kThreeSteps:
+      return kFineBinsOfThreeSteps;
+    case Readout::kPifh:
+      return nb == np ? code_count() : 0;
+    case Readout::kHistogram:
+      return code_count();
+    default:
+      return 0;
+  }
+}
+
+std::string ReadoutParameters::to_string() const {
+  std::string out = fmt::format("{} NP={} SLOTS={}", readout_name(readout), np, slots);
+  if (time_gate) {
+    out += fmt::format(" TIME_GATE=1 GATE={}-{}", time_gate->begin, time_gate->end);
+  }
+  if (is_pool_readout(readout)) {
+    return out + fmt::format(
+                     " COUNT_WIDTH={} G={} LABELS={}x{} OFFSET={} COUNT={} SHIFT={} RIVAL={} CELL_SHIFT={} "
+                     "ENGINE_COLUMNS={} SHARES={},{} S1={}{}{}",
+                     count_width, pool.group_size, pool.labels, pool.score_bits, pool.offset_bits,
+                     pool.count_bits, pool.pointer_shift, pool.rival_moves ? "moves" : "stays",
+                     pool.cell_shift, pool.engine_columns, pool.coarse_share, pool.track_share,
+                     pool.smooth ? 1 : 0, pool.second_target ? " SECOND_TARGET=1" : "",
+                     pool.prior ? " PRIOR=1" : "");
+  }
+  if (has_parameter(readout, "NB")) {
+    out += fmt::format(" NB={}", nb);
+  }
+  if (has_parameter(readout, "COUNT_WIDTH")) {
+    out += fmt::format(" COUNT_WIDTH={}", count_width);
+  }
+  if (is_pointer_readout(readout)) {
+    out += fmt::format(" POINTER_STEP={} FRACTION_BITS={} CONFIDENCE_WIDTH={}", pointer_step, fraction_bits,
+                       confidence_width);
+  }
+  if (readout == Readout::kCoarseHistogram) {
+    out += fmt::format(" FRACTION_BITS={}", fraction_bits);
+  }
+  if (has_parameter(readout, "GUARD")) {
+    out += fmt::format(" GUARD={}", guard);
+  }
+  if (has_parameter(readout, "WINDOW_CENTRED")) {
+    out += fmt::format(" WINDOW_CENTRED={}", window_centred ? 1 : 0);
+  }
+  return out;
+}
+
+}  // namespace dtof

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <system_error>
+#include <utility>
+
+#include "dtof/core/error.hpp"
+
+namespace dtof {
+namespace {
+
+constexpr std::size_t kBufferSize = std::size_t{1} << 20U;
+
+std::string errno_text() { return std::generic_category().message(errno); }
+
+/// mkstemp makes files private; the target gets the permissions a plain open would have given it.
+mode_t default_mode() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return static_cast<mode_t>(S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP | S_IROTH | S_IWOTH) & ~mask;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)), final_(target_) {
+  std::error_code error;
+  const auto status = std::filesystem::status(target_, error);
+  if (std::filesystem::is_directory(status)) {
+    fail("it is a directory");
+  }
+  if (std::filesystem::exists(status)) {
+    if (!std::filesystem::is_regular_file(status)) {
+      descriptor_ = ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
+      if (descriptor_ < 0) {
+        fail(errno_text());
+      }
+      return;
+    }
+    if (::access(target_.c_str(), W_OK) != 0) {
+      fail(errno_text());
+    }
+    final_ = std::filesystem::canonical(target_);
+  }
+  std::string name = (final_.parent_path() / fmt::format(".{}.XXXXXX", final_.filename().string())).string();
+  descriptor_ = ::mkstemp(name.data());
+  if (descriptor_ < 0) {
+    fail(errno_text());
+  }
+  temporary_ = name;
+}
+
+AtomicFile::~AtomicFile() { close_and_remove(); }
+
+void AtomicFile::append(std::string_view bytes) {
+  buffer_.append(bytes);
+  if (buffer_.size() >= kBufferSize) {
+    flush();
+  }
+}
+
+void AtomicFile::commit() {
+  flush();
+  if (!temporary_.empty() && ::fchmod(descriptor_, default_mode()) != 0) {
+    fail(errno_text());
+  }
+  if (::close(std::exchange(descriptor_, -1)) != 0) {
+    fail(errno_text());
+  }
+  if (!temporary_.empty()) {
+    if (::rename(temporary_.c_str(), final_.c_str()) != 0) {
+      fail(errno_text());
+    }
+    temporary_.clear();
+  }
+}
+
+void AtomicFile::fail(const std::string& reason) const {
+  throw InputError(fmt::format("{}: cannot write: {}", target_.string(), reason));
+}
+
+void AtomicFile::flush() {
+  std::string_view rest = buffer_;
+  while (!rest.empty()) {
+    const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
+    if (written < 0) {
+      if (errno == EINTR) {
+        continue;
+      }
+      fail(errno_text());
+    }
+    rest.remove_prefix(static_cast<std::size_t>(written));
+  }
+  buffer_.clear();
+}
+
+void AtomicFile::close_and_remove() noexcept {
+  if (descriptor_ >= 0) {
+    ::close(descriptor_);
+  }
+  if (!temporary_.empty()) {
+    ::unlink(temporary_.c_str());
+  }
+}
+
+void write_file(const std::filesystem::path& target, std::string_view contents) {
+  AtomicFile file(target);
+  file.append(contents);
+  file.commit();
+}
+
+void write_gzip_file(const std::filesystem::path& target, std::string_view contents) {
+  constexpr int kGzip = 15 + 16;  // the largest window, and zlib's flag for gzip's header
+  constexpr int kMemory = 8;      // zlib's default
+  z_stream stream = {};
+  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, kGzip, kMemory, Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw InputError(fmt::format("{}: cannot compress", target.string()));
+  }
+  std::string compressed(deflateBound(&stream, static_cast<uLong>(contents.size())), '\0');
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast,cppcoreguidelines-pro-type-reinterpret-cast): zlib's
+  // types
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(contents.data()));
+  stream.avail_in = static_cast<uInt>(contents.size());
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): zlib's type
+  stream.next_out = reinterpret_cast<Bytef*>(compressed.data());
+  stream.avail_out = static_cast<uInt>(compressed.size());
+  const int outcome = deflate(&stream, Z_FINISH);
+  compressed.resize(stream.total_out);
+  deflateEnd(&stream);
+  if (outcome != Z_STREAM_END) {
+    throw InputError(fmt::format("{}: cannot compress", target.string()));
+  }
+  write_file(target, compressed);
+}
+
+}  // namespace dtof

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "dtof/core/pulse_response.hpp"
+#include "dtof/core/random.hpp"
+#include "dtof/photon/sensor_model.hpp"
+
+namespace dtof {
+
+/// Mean events of one pixel, before anything is lost.
+struct PixelRates {
+  double background = 0.0;   ///< per T_int, flat
+  double signal = 0.0;       ///< per pulse
+  double centre_bins = 0.0;  ///< mean arrival time of the signal in units of T_res
+};
+
+/// Draws the events of one pixel over a frame, in time order, and keeps its buffers from pixel to pixel.
+///
+/// An event is a position on the frame's concatenated time axis in units of T_res: acquisition * 2^NP + t,
+/// 0 <= t < 2^NP, so that floor(position) holds acquisition and TDC code. Time gate and dead time have been
+/// applied, and afterpulses follow the counted events. Both Poisson processes are walked by exponential gaps:
+/// acquisitions without events cost nothing, and the distribution is exact. Positions are rounded to 2^-52 of
+/// the frame.
+class EventSampler {
+ public:
+  static constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+
+  /// `keep`: only the first `keep` events of an acquisition are wanted (kAll: every one).
+  EventSampler(const SensorModel& model, std::size_t keep);
+
+  /// Valid until the next call.
+  std::span<const double> sample(const PixelRates& rates, CounterRandom random);
+
+ private:
+  void walk_background(double events_per_acquisition, CounterRandom& random);
+  template <typename PositionAt>
+  void walk_flat(double end, CounterRandom& random, const PositionAt& position_at);
+  void walk_signal(const PixelRates& rates, CounterRandom& random);
+  void merge();
+  void walk_in_time_order(const PixelRates& rates, double background, CounterRandom& random);
+  void drop_in_dead_time();
+  void follow_with_afterpulses(CounterRandom& random);
+
+  double code_count_;
+  std::uint32_t acquisitions_;
+  double frame_end_;
+  double gate_begin_;
+  double gate_end_;
+  double sigma_;
+  double dead_time_;
+  std::shared_ptr<const PulseResponse> response_;  // in units of T_res; none: a Gaussian of sigma_
+  double afterpulse_probability_;
+  double afterpulse_time_constant_;
+  std::size_t keep_;
+
+  // Each process's events between two sentinels.
+  std::vector<double> background_;
+  std::vector<double> signal_;
+  std::size_t background_end_ = 0;
+  std::size_t signal_end_ = 0;
+  std::vector<double> events_;
+  std::vector<double> counted_;
+  std::vector<double> afterpulses_;  // still to come in this acquisition
+  std::size_t event_count_ = 0;
+};
+
+}  // namespace dtof

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "dtof/io/npy.hpp"
+#include "dtof/recording/resampling.hpp"
+
+namespace dtof {
+
+/// Measured photon counts of an array of pixels.
+struct HistogramCube {
+  int columns = 0;
+  int rows = 0;
+  int bins = 0;
+  double bin_width = 0.0;                  ///< s
+  double offset = 0.0;                     ///< s, time of the left edge of bin 0
+  std::vector<double> counts = {};         ///< [row][column][bin], rows * columns * bins numbers >= 0
+  std::vector<double> true_distance = {};  ///< m, [row][column], NaN = unknown; empty: none known
+
+  [[nodiscard]] std::span<const double> pixel(int column, int row) const {
+    const auto index =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+    return std::span(counts).subspan(index * static_cast<std::size_t>(bins), static_cast<std::size_t>(bins));
+  }
+  /// Throws InputError when sizes disagree, or a count is negative, not finite or above 2^53.
+  void validate() const;
+};
+
+/// A histogram cube as the stream of one frame (io/resampling.hpp). A photon's time is uniform in its bin.
+///
+/// With a photon budget the photons of a frame are drawn with replacement from the pixel's normalised
+/// histogram, Poisson or fixed in number: many frames can be made from one capture. A pixel without any count
+/// has no photons. Without a budget each count is one photon, and counts must be integers.
+class HistogramStream : public ResampledStream {
+ public:
+  /// Throws InputError for an invalid cube or resampling.
+  HistogramStream(HistogramCube cube, const Resampling& resampling);
+
+  [[nodiscard]] const HistogramCube& cube() const { return cube_; }
+
+ private:
+  void draw_times(int column, int row, CounterRandom& random, std::vector<double>& times) const override;
+
+  HistogramCube cube_;
+};
+
+/// Cube from an array whose last axis is the bins: [bins], [columns, bins] or [..., rows, columns, bins]
+/// (leading axes are stacked as rows). Widths in s. Throws InputError for a scalar or counts that no cube can
+/// hold.
+HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset = 0.0);
+
+}  // namespace dtof

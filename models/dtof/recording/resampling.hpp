@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "dtof/core/detection.hpp"
+#include "dtof/core/random.hpp"
+
+namespace dtof {
+
+/// How the number of photons of a pixel and frame follows from the wanted budget.
+enum class PhotonNumber {
+  kPoisson,  ///< Poisson with the budget as mean: as a sensor would count
+  kFixed,    ///< the budget rounded to an integer, every time
+};
+
+/// Most photons, and most background events, of a pixel and frame; each takes 16 bytes while the pixel's
+/// stream is made. A TDC keeps acquisitions * SLOTS of them, for 3333 acquisitions 6666.
+inline constexpr double kLargestPhotonNumber = 1e7;
+
+/// How measured photons become the TDC stream of a frame.
+struct Resampling {
+  int np = 10;                        ///< bits of a timestamp, 1..16
+  double integration_time = 45e-9;    ///< T_int, s; T_res = T_int / 2^np
+  double time_shift = 0.0;            ///< s, added to every measured time; outside [0, T_int) is lost
+  std::uint32_t acquisitions = 3333;  ///< per frame
+  int slots = 2;                      ///< events kept per pixel and acquisition, earliest first
+  std::optional<double> photon_budget =
+      std::nullopt;  ///< photons per pixel and frame; none: all measured ones
+  PhotonNumber photon_number = PhotonNumber::kPoisson;
+  double background = 0.0;  ///< added mean events per acquisition, flat over T_int
+  std::uint64_t seed = 1;
+  std::uint32_t frame = 0;  ///< another frame of the same measurement
+
+  /// Throws InputError with one sentence when a field is outside its range.
+  void validate() const;
+};
+
+/// Measured photons of a frame.
+struct PhotonCount {
+  std::uint64_t all = 0;
+  std::uint64_t outside = 0;  ///< of T_int, and therefore lost
+};
+
+/// A measurement replayed as a TDC stream: every photon goes to a uniformly random acquisition; within one
+/// the first `slots` events in time are kept (pile-up, thesis 2.2.2). A pixel's numbers depend on seed, frame
+/// and the pixel's address alone.
+class ResampledStream : public StreamSource {
+ public:
+  [[nodiscard]] int columns() const override { return columns_; }
+  [[nodiscard]] int rows() const override { return rows_; }
+  [[nodiscard]] std::uint32_t acquisitions() const override { return resampling_.acquisitions; }
+  [[nodiscard]] ColumnStream column(int index) const override { return column_rows(index, {0, rows_}); }
+  [[nodiscard]] ColumnStream column_rows(int index, RowRange range) const override;
+  /// Those of these rows of some columns, background left out.
+  [[nodiscard]] PhotonCount count_photons(std::span<const int> columns, RowRange rows) const;
+
+ protected:
+  ResampledStream(int columns, int rows, const Resampling& resampling);
+  [[nodiscard]] const Resampling& resampling() const { return resampling_; }
+  /// Number of photons of this frame when the budget is `budget`.
+  [[nodiscard]] std::uint64_t draw_photon_number(double budget, CounterRandom& random) const;
+
+ private:
+  /// Appends the measured arrival times (s, before `time_shift`) of one pixel in this frame.
+  virtual void draw_times(int column, int row, CounterRandom& random, std::vector<double>& times) const = 0;
+
+  /// Random numbers of a pixel in this frame.
+  [[nodiscard]] CounterRandom random(int column, int row) const;
+
+  int columns_;
+  int rows_;
+  Resampling resampling_;
+};
+
+/// Detections from arrival times in s, `time_shift` included: T_int quantised to 2^np codes, random
+/// acquisitions, `slots` events each. Sorted as a ColumnStream row.
+std::vector<Detection> assign_to_acquisitions(std::span<const double> times, const Resampling& resampling,
+                                              CounterRandom& random);
+
+}  // namespace dtof

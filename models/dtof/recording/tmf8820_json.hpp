@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "dtof/recording/histogram_stream.hpp"
+
+namespace dtof {
+
+inline constexpr std::size_t kTmf8820Zones = 9;  ///< 3 x 3
+inline constexpr std::size_t kTmf8820Bins = 128;
+/// s; 13.9 mm per bin, the slope of the published captures against their ground truth.
+inline constexpr double kTmf8820BinWidth = 92.7e-12;
+
+/// One capture of an ams TMF8820 in front of a plane (C. Sifferman, SPAD-ICCP-Summer-School, part 2).
+struct Tmf8820Capture {
+  double distance = 0.0;  ///< m, ground truth (`dist_to_plane`)
+  std::array<std::array<std::uint32_t, kTmf8820Bins>, kTmf8820Zones> histograms{};
+  std::array<std::uint32_t, kTmf8820Bins> reference{};  ///< the emitted pulse
+};
+
+/// Reads a list of captures. Throws InputError naming file, capture and member that is wrong.
+std::vector<Tmf8820Capture> read_tmf8820_json(const std::filesystem::path& path);
+
+/// Captures side by side: one column a capture, one row a zone, truth in `true_distance`.
+HistogramCube tmf8820_cube(std::span<const Tmf8820Capture> captures, double bin_width = kTmf8820BinWidth,
+                           double offset = 0.0);
+
+}  // namespace dtof

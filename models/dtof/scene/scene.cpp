@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "dtof/core/error.hpp"
+#include "dtof/core/suggestion.hpp"
+#include "dtof/scene/outdoor.hpp"
+#include "dtof/scene/room.hpp"
+
+namespace dtof {
+namespace {
+
+void require_distance(double metres, std::string_view what) {
+  if (!std::isfinite(metres) || metres <= 0.0) {
+    throw InputError(
+        fmt::format("scene: the {} must be a finite number of metres above 0, not {}", what, metres));
+  }
+}
+
+void require_reflectivity(double reflectivity) {
+  if (!std::isfinite(reflectivity) || reflectivity < 0.0) {
+    throw InputError(
+        fmt::format("scene: the reflectivity must be a finite number of at least 0, not {}", reflectivity));
+  }
+}
+
+/// A map whose columns are uniform.
+template <typename DepthOfColumn>
+TargetMap map_of_columns(const SceneParameters& parameters, DepthOfColumn depth_of_column) {
+  TargetMap map(parameters.columns, parameters.rows);
+  for (int column = 0; column < parameters.columns; ++column) {
+    for (int row = 0; row < parameters.rows; ++row) {
+      map.at(column, row) = {.depth_m = depth_of_column(column), .reflectivity = parameters.reflectivity};
+    }
+  }
+  return map;
+}
+
+/// `index` of `count` equidistant values from near to far.
+double between(const SceneParameters& parameters, int index, int count) {
+  const double share = count > 1 ? static_cast<double>(index) / (count - 1) : 0.0;
+  return std::lerp(parameters.near_m, parameters.far_m, share);
+}
+
+/// The source pixel whose area holds the middle of the array's pixel.
+int nearest(int index, int count, int source_count) {
+  return static_cast<int>((2 * std::int64_t{index} + 1) * source_count / (2 * std::int64_t{count}));
+}
+
+}  // namespace
+
+std::string_view scene_name(Scene scene) {
+  switch (scene) {
+    case Scene::kFlat:
+      return "flat";
+    case Scene::kStaircase:
+      return "staircase";
+    case Scene::kPlane:
+      return "plane";
+    case Scene::kRoom:
+      return "room";
+    case Scene::kPlanes:
+      return "planes";
+    case Scene::kClutter:
+      return "clutter";
+    case Scene::kPoles:
+      return "poles";
+    case Scene::kIsolated:
+      return "isolated";
+  }
+  throw InputError("scene: no such scene");
+}
+
+std::string_view scene_summary(Scene scene) {
+  switch (scene) {
+    case Scene::kFlat:
+      return "One distance everywhere.";
+    case Scene::kStaircase:
+      return "Equal steps in depth from the near left to the far right.";
+    case Scene::kPlane:
+      return "A slanted plane, near on the left and far on the right.";
+    case Scene::kRoom:
+      return "A sphere and boxes of different reflectivity in a room, 0.8 to 5 m.";
+    case Scene::kPlanes:
+      return "28 slanted planes side by side, 0.5 to 5 m, reflectivity 0.1 to 0.9.";
+    case Scene::kClutter:
+      return "Branches and leaves before a slanted ground, 1 to 4.5 m.";
+    case Scene::kPoles:
+      return "Poles and wires of 1 to 3 pixels before a wall, 0.8 to 4 m.";
+    case Scene::kIsolated:
+      return "Single pixels at 3 m before a wall at 4 m.";
+  }
+  throw InputError("scene: no such scene");
+}
+
+Scene parse_scene(std::string_view name) {
+  std::vector<std::string_view> known;
+  for (const Scene scene : kAllScenes) {
+    if (scene_name(scene) == name) {
+      return scene;
+    }
+    known.push_back(scene_name(scene));
+  }
+  throw InputError(unknown_name("scene", name, known));
+}
+
+TargetMap make_scene(Scene scene, const SceneParameters& parameters) {
+  require_reflectivity(parameters.reflectivity);
+  if (scene == Scene::kStaircase || scene == Scene::kPlane) {
+    require_distance(parameters.near_m, "near distance");
+    require_distance(parameters.far_m, "far distance");
+  }
+  switch (scene) {
+    case Scene::kFlat:
+      require_distance(parameters.distance_m, "distance");
+      return map_of_columns(parameters, [&](int) { return parameters.distance_m; });
+    case Scene::kStaircase:
+      if (parameters.steps < 1) {
+        throw InputError(fmt::format("scene: a staircase has at least 1 step, not {}", parameters.steps));
+      }
+      return map_of_columns(parameters, [&](int column) {
+        const auto step = std::int64_t{column} * parameters.steps / parameters.columns;
+        return between(parameters, static_cast<int>(step), parameters.steps);
+      });
+    case Scene::kPlane:
+      return map_of_columns(parameters,
+                            [&](int column) { return between(parameters, column, parameters.columns); });
+    case Scene::kRoom:
+      return make_room(parameters.columns, parameters.rows, parameters.reflectivity);
+    case Scene::kPlanes:
+      return make_planes(parameters.columns, parameters.rows, parameters.reflectivity, parameters.seed);
+    case Scene::kClutter:
+      return make_clutter(parameters.columns, parameters.rows, parameters.reflectivity, parameters.seed);
+    case Scene::kPoles:
+      return make_poles(parameters.columns, parameters.rows, parameters.reflectivity, parameters.seed);
+    case Scene::kIsolated:
+      return make_isolated(parameters.columns, parameters.rows, parameters.reflectivity);
+  }
+  throw InputError("scene: no such scene");
+}
+
+TargetMap scene_from_depth_image(int width, int height, std::span<const float> metres, int columns, int rows,
+                                 double reflectivity) {
+  require_reflectivity(reflectivity);
+  if (width < 1 || height < 1 ||
+      metres.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    throw InputError(fmt::format("scene: a depth image of {} x {} pixels cannot have {} values", width,
+                                 height, metres.size()));
+  }
+  TargetMap map(columns, rows);
+  for (int column = 0; column < columns; ++column) {
+    for (int row = 0; row < rows; ++row) {
+      const int x = nearest(column, columns, width);
+      const int y = nearest(row, rows, height);
+      const double depth_m =
+          metres[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
+      if (depth_m < 0.0) {
+        throw InputError(
+            fmt::format("scene: depth image, pixel (column {}, row {}): negative depth {} m", x, y, depth_m));
+      }
+      map.at(column, row) = {.depth_m = std::isfinite(depth_m) ? depth_m : 0.0, .reflectivity = reflectivity};
+    }
+  }
+  return map;
+}
+
+void set_reflectivity(TargetMap& targets, int width, int height, std::span<const float> values) {
+  if (width < 1 || height < 1 ||
+      values.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    throw InputError(fmt::format("scene: a reflectivity map of {} x {} pixels cannot have {} values", width,
+                                 height, values.size()));
+  }
+  for (int column = 0; column < targets.columns(); ++column) {
+    for (int row = 0; row < targets.rows(); ++row) {
+      const auto x = static_cast<std::size_t>(nearest(column, targets.columns(), width));
+      const auto y = static_cast<std::size_t>(nearest(row, targets.rows(), height));
+      const double reflectivity = values[y * static_cast<std::size_t>(width) + x];
+      require_reflectivity(reflectivity);
+      targets.at(column, row).reflectivity = reflectivity;
+    }
+  }
+}
+
+}  // namespace dtof

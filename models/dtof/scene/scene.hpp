@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "dtof/photon/target_map.hpp"
+
+namespace dtof {
+
+/// Scenes that need no file. Depth is the range along a pixel's ray.
+enum class Scene {
+  kFlat,       ///< one distance everywhere
+  kStaircase,  ///< steps from near (column 0) to far (last column), equally wide and equally high
+  kPlane,      ///< slanted: range grows linearly from near (column 0) to far (last column)
+  kRoom,       ///< sphere and boxes before the walls of a room, 0.8 to 5 m, reflectivity 0.2 to 1
+  kPlanes,     ///< 28 slanted planes side by side, 0.5 to 5 m, reflectivity 0.1 to 0.9
+  kClutter,    ///< branches and leaves before a slanted ground, 1 to 4.5 m
+  kPoles,      ///< poles and wires of 1 to 3 pixels before a wall, 0.8 to 4 m
+  kIsolated,   ///< single pixels at 3 m before a wall at 4 m
+};
+
+inline constexpr std::array<Scene, 8> kAllScenes = {Scene::kFlat,  Scene::kStaircase, Scene::kPlane,
+                                                    Scene::kRoom,  Scene::kPlanes,    Scene::kClutter,
+                                                    Scene::kPoles, Scene::kIsolated};
+
+/// Command-line name: flat, staircase, plane, room, planes, clutter, poles, isolated.
+std::string_view scene_name(Scene scene);
+/// One sentence on what the scene shows.
+std::string_view scene_summary(Scene scene);
+/// Throws InputError naming the legal names.
+Scene parse_scene(std::string_view name);
+
+struct SceneParameters {
+  int columns = 200;
+  int rows = 160;
+  double distance_m = 1.0;    ///< flat
+  double near_m = 0.8;        ///< staircase and plane
+  double far_m = 5.0;         ///< staircase and plane; may be below near_m
+  int steps = 8;              ///< staircase; >= 1
+  double reflectivity = 1.0;  ///< of every surface; in the room of the brightest, to which the others relate
+  std::uint64_t seed = 1;     ///< of the shapes of planes, clutter and poles
+};
+
+/// Throws InputError if a parameter that the scene uses is out of range (distances finite and > 0,
+/// reflectivity finite and >= 0).
+TargetMap make_scene(Scene scene, const SceneParameters& parameters);
+
+/// A depth image of width x height (`metres` row by row, row 0 on top; 0, NaN, infinite: unknown, thus no
+/// target), resampled to the array by nearest neighbour over the whole image.
+/// Throws InputError for a wrong number of values or a negative depth.
+TargetMap scene_from_depth_image(int width, int height, std::span<const float> metres, int columns, int rows,
+                                 double reflectivity = 1.0);
+
+/// Gives every target its reflectivity from a map of width x height (`values` row by row, row 0 on top),
+/// resampled to the array by nearest neighbour over the whole map. Throws InputError for a wrong number of
+/// values or one that is not finite and at least 0.
+void set_reflectivity(TargetMap& targets, int width, int height, std::span<const float> values);
+
+}  // namespace dtof

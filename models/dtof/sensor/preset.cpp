@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/sensor/preset.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "dtof/core/error.hpp"
+#include "dtof/core/suggestion.hpp"
+#include "dtof/sensor/preset_texts.hpp"
+#include "dtof/sensor/sensor_file.hpp"
+
+namespace dtof {
+namespace {
+
+bool is_preset(std::string_view name) {
+  return std::ranges::count(preset_texts(), name, &PresetText::name) > 0;
+}
+
+}  // namespace
+
+std::vector<std::string_view> preset_names() {
+  std::vector<std::string_view> names;
+  for (const PresetText& preset : preset_texts()) {
+    names.push_back(preset.name);
+  }
+  return names;
+}
+
+std::string_view preset_text(std::string_view name) {
+  const auto found = std::ranges::find(preset_texts(), name, &PresetText::name);
+  if (found == preset_texts().end()) {
+    throw InputError(unknown_name("preset", name, preset_names()));
+  }
+  return found->toml;
+}
+
+SensorModel parse_preset(std::string_view name) {
+  return parse_sensor(preset_text(name), fmt::format("preset {}.toml", name));
+}
+
+SensorModel find_sensor(std::string_view name_or_file) {
+  if (is_preset(name_or_file)) {
+    return parse_preset(name_or_file);
+  }
+  const std::filesystem::path path(name_or_file);
+  if (!path.has_extension() && !std::filesystem::exists(path)) {
+    throw InputError(
+        fmt::format("{}, and there is no such file", unknown_name("preset", name_or_file, preset_names())));
+  }
+  return read_sensor_file(path);
+}
+
+}  // namespace dtof

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/io/npy.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "tests/io/io_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+using ::testing::DoubleEq;
+using ::testing::ElementsAre;
+using ::testing::IsEmpty;
+
+template <typename T>
+std::string bytes(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+std::string npy(const std::string& dictionary, const std::string& data, char version = 1) {
+  std::string file = "\x93NUMPY";
+  file += version;
+  file += '\0';
+  const auto length = static_cast<std::uint32_t>(dictionary.size());
+  file.append(reinterpret_cast<const char*>(&length), version == 1 ? 2 : 4);
+  return file + dictionary + data;
+}
+
+std::string header(const std::string& descr, const std::string& shape, bool fortran = false) {
+  return "{'descr': '" + descr + "', 'fortran_order': " + (fortran ? "True" : "False") +
+         ", 'shape': " + shape + ", }\n";
+}
+
+class NpyTest : public test::IoTest {
+ protected:
+  NpyArray read(const std::string& file) { return read_npy(write("a.npy", file)); }
+  void refused(const std::string& file, const std::string& reason) {
+    test::expect_input_error([&] { (void)read(file); }, path("a.npy").string() + ": " + reason);
+  }
+};
+
+TEST_F(NpyTest, ReadsEveryDtype) {
+  const auto check = [&](const std::string& descr, const std::string& data, double first, double second) {
+    SCOPED_TRACE(descr);
+    const NpyArray array = read(npy(header(descr, "(2,)"), data));
+    EXPECT_THAT(array.shape, ElementsAre(2U));
+    EXPECT_THAT(array.values, ElementsAre(DoubleEq(first), DoubleEq(second)));
+  };
+  check("|u1", bytes<std::uint8_t>({1, 255}), 1, 255);
+  check("<u2", bytes<std::uint16_t>({1, 65535}), 1, 65535);
+  check("<u4", bytes<std::uint32_t>({1, 4294967295}), 1, 4294967295);
+  check("<i4", bytes<std::int32_t>({-1, 2147483647}), -1, 2147483647);
+  check("<i8", bytes<std::int64_t>({-5, 1LL << 52}), -5, 4503599627370496.0);
+  check("<f4", bytes<float>({-0.5F, 1e30F}), -0.5, double{1e30F});
+  check("<f8", bytes<double>({-0.5, 1e300}), -0.5, 1e300);
+}
+
+TEST_F(NpyTest, ReadsFortranOrderVersion2AndScalars) {
+  const NpyArray fortran =
+      read(npy(header("<u2", "(2, 3)", true), bytes<std::uint16_t>({0, 10, 1, 11, 2, 12})));
+  EXPECT_THAT(fortran.shape, ElementsAre(2U, 3U));
+  EXPECT_THAT(fortran.values, ElementsAre(0, 1, 2, 10, 11, 12));
+  EXPECT_THAT(read(npy(header("|u1", "(1, 2)"), bytes<std::uint8_t>({3, 4}), 2)).values, ElementsAre(3, 4));
+  const NpyArray scalar = read(npy(header("|u1", "()"), bytes<std::uint8_t>({3})));
+  EXPECT_THAT(scalar.shape, IsEmpty());
+  EXPECT_THAT(scalar.values, ElementsAre(3));
+}
+
+TEST_F(NpyTest, RoundTrip) {
+  const std::vector<std::size_t> shape = {2, 1, 3};
+  const std::vector<double> values = {0, 1, 2.5, -3, 1e-300, 5};
+  write_npy(path("w.npy"), shape, values);
+  EXPECT_EQ((contents(path("w.npy")).size() - values.size() * 8) % 64, 0U);
+  const NpyArray back = read_npy(path("w.npy"));
+  EXPECT_EQ(back.shape, shape);
+  EXPECT_EQ(back.values, values);
+  EXPECT_THROW(write_npy(path("x.npy"), shape, std::vector<double>(5)), std::logic_error);
+}
+
+TEST_F(NpyTest, Refusals) {
+  const std::string two = bytes<double>({1, 2});
+  refused("PK\x03\x04", "not an NPY file");
+  refused("\x93NUMPY", "the NPY header ends early");
+  refused(npy(header("<f8", "(2,)"), two, 3), "NPY format 3.0 is not 1.0 or 2.0");
+  refused(npy(header("<f8", "(2,)"), "").substr(0, 40), "the NPY header ends early");
+  refused(npy(header(">f8", "(2,)"), two),
+          "dtype '>f8' is not one of little-endian u1, u2, u4, i4, i8, f4, f8");
+  refused(npy(header("<c16", "(1,)"), two),
+          "dtype '<c16' is not one of little-endian u1, u2, u4, i4, i8, f4, f8");
+  refused(npy("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (2,), }", two),
+          "the NPY header has no readable 'descr'");
+  refused(npy("{'descr': '<f8', 'shape': (2,), }", two), "the NPY header has no readable 'fortran_order'");
+  refused(npy("{'descr': '<f8', 'fortran_order': Maybe, 'shape': (2,), }", two),
+          "the NPY header has no readable 'fortran_order'");
+  refused(npy(header("<f8", "(-2,)"), two), "the NPY header has no readable 'shape'");
+  refused(npy(header("<f8", "(3,)"), two),
+          "shape (3) of f8 needs more than the file's 2 elements: truncated");
+  refused(npy(header("<f8", "(2,)"), two.substr(0, 15)),
+          "shape (2) of f8 needs more than the file's 1 elements: truncated");
+  refused(npy(header("<f8", "(1,)"), two), "shape (1) of f8 needs 8 bytes, the file has 16");
+  refused(npy(header("<f8", "(4294967296, 4294967296)"), two),
+          "shape (4294967296, 4294967296) of f8 needs more than the file's 2 elements: truncated");
+  refused(npy(header("<f8", "(99999999999999999999,)"), two),
+          "the NPY shape (99999999999999999999,) is too large");
+  refused(npy(header("<f8", "(0, 3)"), ""), "shape (0, 3) holds nothing");
+}
+
+TEST_F(NpyTest, ReadsTheMeasuredImpulseResponse) {
+  const auto file = test::shared_data("wisc2019_hydraharp_irf_8ps.npy");
+  DTOF_SKIP_IF_ABSENT(file);
+  const NpyArray array = read_npy(file);
+  EXPECT_THAT(array.shape, ElementsAre(1250U));
+  EXPECT_NEAR(*std::max_element(array.values.begin(), array.values.end()), 27.170, 0.001);
+}
+
+}  // namespace
+}  // namespace dtof

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/readout/pool_parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace dtof {
+namespace {
+
+CoarseHistogram filled(std::uint16_t count) {
+  CoarseHistogram histogram;
+  histogram.fill(count);
+  return histogram;
+}
+
+TEST(CountPeriod, AddsAndSaturates) {
+  CoarseHistogram histogram = filled(100);
+  CoarseHistogram counts{};
+  counts[3] = 26;
+  counts[4] = 28;
+  EXPECT_TRUE(count_period(histogram, counts, false, 7));
+  EXPECT_EQ(histogram[2], 100);
+  EXPECT_EQ(histogram[3], 126);
+  EXPECT_EQ(histogram[4], 127);
+}
+
+TEST(CountPeriod, ASweepWithoutAFullBinChangesNothing) {
+  CoarseHistogram histogram = filled(126);
+  EXPECT_TRUE(count_period(histogram, CoarseHistogram{}, true, 7));
+  EXPECT_EQ(histogram, filled(126));
+}
+
+TEST(CountPeriod, ASweepTakesAQuarterOfTheRangeFromEveryBin) {
+  CoarseHistogram histogram = filled(32);
+  histogram[9] = 126;
+  CoarseHistogram counts{};
+  counts[9] = 1;
+  EXPECT_TRUE(count_period(histogram, counts, true, 7));
+  CoarseHistogram expected = filled(0);
+  expected[9] = 95;
+  EXPECT_EQ(histogram, expected);
+}
+
+TEST(CountPeriod, ASweepFreezesAHistogramWithASmallBin) {
+  CoarseHistogram histogram = filled(127);
+  histogram[31] = 31;
+  const CoarseHistogram before = histogram;
+  EXPECT_FALSE(count_period(histogram, CoarseHistogram{}, true, 7));
+  EXPECT_EQ(histogram, before);
+}
+
+TEST(CountPeriod, TheQuarterFollowsTheWidth) {
+  CoarseHistogram histogram = filled(15);
+  EXPECT_TRUE(count_period(histogram, CoarseHistogram{}, true, 4));
+  EXPECT_EQ(histogram, filled(11));
+}
+
+TEST(ChainBeliefs, NeighboursCarryAWeakPixelAndAStrongOneStays) {
+  const auto node = [](int near_evidence, int far_evidence) {
+    return ChainNode{2, 4, {1000, 20000}, {near_evidence, far_evidence}};
+  };
+  const std::vector<ChainNode> weak = {node(9, 0), node(0, 5), node(9, 0)};
+  EXPECT_GT(chain_beliefs(weak)[1][0], chain_beliefs(weak)[1][1]);
+  const std::vector<ChainNode> strong = {node(9, 0), node(0, 9), node(9, 0)};
+  EXPECT_LT(chain_beliefs(strong)[1][0], chain_beliefs(strong)[1][1]);
+}
+
+}  // namespace
+}  // namespace dtof

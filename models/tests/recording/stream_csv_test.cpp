@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/recording/stream_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "dtof/core/random.hpp"
+#include "tests/io/io_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr std::string_view kHeader = "acquisition,column,row,timestamp\n";
+
+class StreamCsvTest : public test::IoTest {
+ protected:
+  RecordedStream read(const std::string& lines, const StreamCsvOptions& options = {}) {
+    return read_stream_csv(write("stream.csv", std::string(kHeader) + lines), options);
+  }
+  void refused(const std::string& lines, const std::string& reason, const StreamCsvOptions& options = {}) {
+    SCOPED_TRACE(lines);
+    test::expect_input_error([&] { (void)read(lines, options); }, path("stream.csv").string() + ":" + reason);
+  }
+};
+
+TEST_F(StreamCsvTest, SortsByPixelAndAcquisitionAndKeepsSlotOrder) {
+  const RecordedStream stream = read("5,1,0,30\n2,0,1,7\n5,1,0,20\n0,1,0,1023\n2,0,1,6\n");
+  EXPECT_EQ(stream.columns(), 2);
+  EXPECT_EQ(stream.rows(), 2);
+  EXPECT_EQ(stream.acquisitions(), 6U);
+  EXPECT_EQ(stream.detection_count(), 5U);
+  EXPECT_THAT(stream.column(0).row(0), IsEmpty());
+  EXPECT_THAT(stream.column(0).row(1), ElementsAre(Detection{2, 7}, Detection{2, 6}));
+  EXPECT_THAT(stream.column(1).row(0), ElementsAre(Detection{0, 1023}, Detection{5, 30}, Detection{5, 20}));
+  EXPECT_THAT(stream.column(1).row(1), IsEmpty());
+}
+
+TEST_F(StreamCsvTest, AcceptsGivenSizesCrLfAndAMissingLastNewline) {
+  const StreamCsvOptions options{.columns = 3, .rows = 4, .acquisitions = 10};
+  const RecordedStream stream = read("1,0,0,5\r\n2,0,0,6", options);
+  EXPECT_EQ(stream.columns(), 3);
+  EXPECT_EQ(stream.rows(), 4);
+  EXPECT_EQ(stream.acquisitions(), 10U);
+  EXPECT_THAT(stream.column(0).row(0), ElementsAre(Detection{1, 5}, Detection{2, 6}));
+  EXPECT_EQ(stream.column(2).rows(), 4);
+  EXPECT_EQ(read("", options).detection_count(), 0U);
+}
+
+TEST_F(StreamCsvTest, RefusesMalformedLines) {
+  refused("1,0,0,5\n1,0,0\n", "3: 3 fields instead of 4 (acquisition,column,row,timestamp)");
+  refused("1,0,0,5,6\n", "2: 5 fields instead of 4 (acquisition,column,row,timestamp)");
+  refused("1,0,0,5,\n", "2: 5 fields instead of 4 (acquisition,column,row,timestamp)");
+  refused("1,0,0,\n", "2: timestamp \"\" is not a decimal integer");
+  refused("1,0,0x1,5\n", "2: row \"0x1\" is not a decimal integer");
+  refused("1,-1,0,5\n", "2: column \"-1\" is not a decimal integer");
+  refused("1,0,0,+5\n", "2: timestamp \"+5\" is not a decimal integer");
+  refused("1,0, 0,5\n", "2: row \" 0\" is not a decimal integer");
+  refused("1,0,0,5.0\n", "2: timestamp \"5.0\" is not a decimal integer");
+  refused("1,0,0,nan\n", "2: timestamp \"nan\" is not a decimal integer");
+  refused("1,0,0,5\n\n1,0,0,6\n", "3: empty line");
+  refused("99999999999999999999999,0,0,5\n", "2: acquisition \"99999999999999999999999\" is too large");
+  refused("1,0,0,5\n1,0,", "3: 3 fields instead of 4 (acquisition,column,row,timestamp)");
+}
+
+TEST_F(StreamCsvTest, RefusesValuesOutsideTheirRange) {
+  refused("1,0,0,1024\n", "2: timestamp 1024 is outside 0..1023 (NP = 10)");
+  refused("1,0,0,16\n", "2: timestamp 16 is outside 0..15 (NP = 4)", {.np = 4});
+  const StreamCsvOptions given{.columns = 2, .rows = 3, .acquisitions = 4};
+  refused("3,1,2,0\n4,0,0,0\n", "3: acquisition 4 is outside 0..3 (acquisitions: 4)", given);
+  refused("0,2,0,0\n", "2: column 2 is outside 0..1 (columns: 2)", given);
+  refused("0,0,3,0\n", "2: row 3 is outside 0..2 (rows: 3)", given);
+  refused("0,65536,0,0\n", "2: column 65536 is outside 0..65535 (largest array: 65536)");
+  refused("4294967295,0,0,0\n",
+          "2: acquisition 4294967295 is outside 0..4294967294 (largest frame: 4294967295)");
+  refused("0,65535,65535,0\n", " 65536 x 65536 pixels are more than 16777216");
+  refused("0,0,0,0\n", "2: acquisition 0 is outside acquisitions: 0", {.acquisitions = 0});
+}
+
+TEST_F(StreamCsvTest, RefusesTooManySlotsAtTheFirstLineTooMany) {
+  refused("7,1,0,5\n3,0,1,1\n3,0,1,2\n7,1,0,6\n3,0,1,3\n7,1,0,7\n",
+          "6: more than 2 timestamps for acquisition 3, column 0, row 1 (SLOTS = 2)");
+  // Acquisitions of one pixel out of order: acquisition 9 is full first, and comes again later.
+  refused("9,0,0,1\n9,0,0,2\n3,0,0,1\n3,0,0,2\n9,0,0,2\n",
+          "3: more than 1 timestamps for acquisition 9, column 0, row 0 (SLOTS = 1)", {.slots = 1});
+  EXPECT_EQ(read("3,0,1,1\n3,0,1,2\n3,0,1,3\n", {.slots = 3}).detection_count(), 3U);
+}
+
+TEST_F(StreamCsvTest, RefusesFilesThatAreNoStream) {
+  test::expect_input_error([&] { (void)read_stream_csv(path("none.csv"), {}); },
+                           path("none.csv").string() + ": cannot read: No such file or directory");
+  test::expect_input_error([&] { (void)read_stream_csv(write("e.csv", ""), {}); },
+                           EndsWith("the file is empty"));
+  const std::string reason = ":1: the header must be \"acquisition,column,row,timestamp\"";
+  test::expect_input_error([&] { (void)read_stream_csv(write("h.csv", "1,0,0,5\n"), {}); }, EndsWith(reason));
+  test::expect_input_error([&] { (void)read_stream_csv(write("h.csv", "\n"), {}); }, EndsWith(reason));
+  test::expect_input_error(
+      [&] { (void)read_stream_csv(write("h.csv", "acquisition,column,row\n1,0,0\n"), {}); },
+      EndsWith(reason));
+  test::expect_input_error([&] { (void)read(""); },
+                           HasSubstr("no detections: columns, rows and acquisitions cannot be found and must "
+                                     "be given"));
+  test::expect_input_error([&] { (void)read("0,0,0,0\n", {.columns = 0}); },
+                           "recorded stream: columns is 0, must be 1..65536");
+  test::expect_input_error([&] { (void)read("0,0,0,0\n", {.np = 17}); },
+                           "recorded stream: NP is 17, must be 1..16");
+}
+
+TEST_F(StreamCsvTest, RandomStreamSurvivesTheRoundTripAndShufflingOfPixels) {
+  const std::uint64_t seed = test::test_seed();
+  SCOPED_TRACE(fmt::format("DTOF_TEST_SEED={}", seed));
+  CounterRandom random(seed, static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0, 0);
+  constexpr int kColumns = 5;
+  constexpr int kRows = 7;
+  constexpr std::uint32_t kAcquisitions = 40;
+  std::vector<ColumnStream> columns(kColumns);
+  for (ColumnStream& column : columns) {
+    for (int row = 0; row < kRows; ++row) {
+      for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+        for (std::uint32_t slot = random() % 4; slot > 0; --slot) {
+          column.append({acquisition, static_cast<Timestamp>(random() % 4096)});
+        }
+      }
+      column.finish_row();
+    }
+  }
+  const StreamCsvOptions options{
+      .np = 12, .slots = 3, .columns = kColumns, .rows = kRows, .acquisitions = kAcquisitions};
+  const RecordedStream original(columns, kRows, kAcquisitions);
+  write_stream_csv(path("a.csv"), original);
+  const RecordedStream back = read_stream_csv(path("a.csv"), options);
+  ASSERT_EQ(back.columns(), kColumns);
+  for (int column = 0; column < kColumns; ++column) {
+    EXPECT_EQ(back.column(column), original.column(column));
+  }
+
+  // Whatever way the lines of different (acquisition, pixel) groups are mixed, the stream is the same.
+  std::string text = contents(path("a.csv")).substr(kHeader.size());
+  std::vector<std::pair<std::uint32_t, std::string>> lines;
+  std::string previous_group;
+  std::uint32_t key = 0;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n') + 1;
+    const std::string line = text.substr(0, end);
+    const std::string group = line.substr(0, line.rfind(','));
+    key = group == previous_group ? key : random();
+    previous_group = group;
+    lines.emplace_back(key, line);
+    text.erase(0, end);
+  }
+  std::ranges::stable_sort(lines, {}, &std::pair<std::uint32_t, std::string>::first);
+  std::string shuffled;
+  for (const auto& [ignored, line] : lines) {
+    shuffled += line;
+  }
+  const RecordedStream mixed = read(shuffled, options);
+  for (int column = 0; column < kColumns; ++column) {
+    EXPECT_EQ(mixed.column(column), original.column(column));
+  }
+}
+
+TEST_F(StreamCsvTest, UnwritableOutputLeavesNothing) {
+  const RecordedStream stream = read("0,0,0,1\n");
+  test::expect_input_error([&] { write_stream_csv(path("none/a.csv"), stream); },
+                           EndsWith("cannot write: No such file or directory"));
+  EXPECT_EQ(file_count(), 1U);
+}
+
+}  // namespace
+}  // namespace dtof

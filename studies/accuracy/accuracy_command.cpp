@@ -1,0 +1,439 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "dtof/analytic/fidelity.hpp"
+#include "command_line/option_checks.hpp"
+#include "command_line/options.hpp"
+#include "command_line/own_map.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/frame/flat_calibration.hpp"
+#include "dtof/frame/frame_truth.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/io/output_folder.hpp"
+#include "dtof/photon/photon_source.hpp"
+#include "dtof/report/plot.hpp"
+#include "dtof/report/table.hpp"
+#include "accuracy/accuracy_study.hpp"
+#include "accuracy/accuracy_tables.hpp"
+#include "common/map_accuracy.hpp"
+#include "common/commands.hpp"
+
+namespace dtof {
+namespace {
+
+struct AccuracyOptions {
+  ReadoutOptions readout;
+  RunSettings run;
+  SensorOptions sensor;
+  std::vector<double> klux = {14.0};
+  std::vector<double> distances_m = {0.2, 0.5, 0.8, 1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0};
+  int frames = 1000;
+  std::optional<double> precision_percent;
+  double rare_outliers_percent = 0.1;
+  std::uint64_t calibration_seed = 1;
+  int calibration_frames = 200;
+  int most_frames = 100'000;
+  std::optional<double> reject_percent;
+  std::optional<double> reflectivity;
+  MapFiles maps;
+  MapScales map_scales;
+  std::string out = "build/accuracy";
+  std::string command_line;
+};
+
+/// What the reports call the photon model: auto always takes the exact one for streams.
+std::string photon_model_title(const SensorOptions& options) {
+  return options.fidelity == "auto" ? "auto, which draws streams exactly" : options.fidelity;
+}
+
+/// The photon model for a source's scene, whose streams all read-outs share; one with noise.
+Fidelity noisy_model(const SensorOptions& options, const PhotonSource& exact) {
+  const Fidelity fidelity = options.photon_model(exact, PhotonUse::kStream, {});
+  if (fidelity == Fidelity::kAnalytic) {
+    throw InputError(
+        "accuracy: the analytic photon model has no noise to measure; choose exact, fast or auto");
+  }
+  return fidelity;
+}
+
+SourceFactory source_factory(const SensorOptions& options) {
+  return [options](const SensorModel& sensor, const TargetMap& targets, double klux, std::uint64_t seed,
+                   std::uint32_t frame) {
+    const PhotonSource exact(sensor, targets, klux, seed, frame);
+    return make_source(noisy_model(options, exact), exact);
+  };
+}
+
+StudySettings settings_of(const AccuracyOptions& options) {
+  StudySettings settings;
+  settings.readouts = options.readout.parameters(kAllReadouts, options.sensor.described());
+  settings.sensor = options.sensor.model(settings.readouts.front().np, settings.readouts.front().slots);
+  settings.reflectivity = options.reflectivity.value_or(settings.sensor.default_reflectivity);
+  settings.distances_m = options.distances_m;
+  for (const double distance_m : settings.distances_m) {
+    SensorOptions::require_in_range(settings.sensor, distance_m, "--distances");
+  }
+  settings.frames = options.frames;
+  if (options.precision_percent) {
+    settings.precision = *options.precision_percent / 100.0;
+  }
+  settings.rare_outliers = options.rare_outliers_percent / 100.0;
+  settings.calibration_seed = options.calibration_seed;
+  settings.calibration_frames = options.calibration_frames;
+  settings.most_frames = std::max(options.most_frames, options.frames);
+  if (options.reject_percent) {
+    settings.rejection = *options.reject_percent / 100.0;
+  }
+  settings.make_source = source_factory(options.sensor);
+  settings.run = options.run;
+  settings.command = options.command_line;
+  return settings;
+}
+
+std::string heading(const AccuracyOptions& options, const StudySettings& settings) {
+  return fmt::format(
+      "Sensor {}, reflectivity {:g}, {} acquisitions per frame, engine {}, photon model {}, seed {}. {} "
+      "frames "
+      "per distance{}.\n"
+      "The look-up table is that of calibration run {}: {} frames at every {:g} m, at the same light. It "
+      "does "
+      "not depend on\n"
+      "the seed; all figures after the table are those of this one table.\n",
+      settings.sensor.name, settings.reflectivity, settings.sensor.acquisitions, options.run.engine,
+      photon_model_title(options.sensor), options.run.seed, settings.frames,
+      settings.precision
+          ? fmt::format(
+                " or more, up to {}, until the intervals of relative precision and rmse are within {:g} % "
+                "and "
+                "outliers are either ten or more, or none in so many frames that they are rarer than {:g} %",
+                settings.most_frames, *settings.precision * 100.0, settings.rare_outliers * 100.0)
+          : "",
+      settings.calibration_seed, settings.calibration_frames, settings.calibration_step_m);
+}
+
+constexpr const char* kLegend =
+    "In brackets: 95 % confidence intervals, closed forms (Student's t for the bias, Wilson's score for "
+    "shares, the\n"
+    "fourth moment and the delta method for relative precision and rmse); `make coverage-study` checks "
+    "them.\n"
+    "* fewer than ten outliers were seen. A share's interval is then the exact one (Clopper and Pearson). "
+    "For the\n"
+    "other figures the brackets take outliers to be like those seen, and the second interval holds whatever "
+    "those too\n"
+    "rare to be seen are, up to the sensor's range. An outlier is here a result farther than six robust\n"
+    "deviations (quartile range / 1.349) from the median.\n"
+    "Relative precision (Eq. 3.14), bias and slope are those of Eq. 3.11, before the look-up table; rmse, "
+    "shares\n"
+    "of errors and efficiency (Cramer-Rao bound / rmse) are those after it. Slope: change of measured over "
+    "change\n"
+    "of true distance between the neighbouring distances. The matched filter has the full histogram and "
+    "knows\n"
+    "both rates.\n"
+    "An efficiency above 1 is no error: at close range pile-up shifts the pulse the more, the brighter it "
+    "is, and all\n"
+    "targets here have one reflectivity, so that brightness tells the distance too; the bound knows arrival "
+    "times "
+    "only.\n";
+
+struct Picture {
+  const char* name;
+  const char* y_label;
+  double (*value)(const AccuracyPoint&);
+  std::vector<double> limits;
+  bool logarithmic;
+};
+
+const std::vector<Picture>& pictures() {
+  static const std::vector<Picture> all = {
+      {"relative_precision",
+       "relative precision, %",
+       [](const AccuracyPoint& p) { return p.relative_precision.value * 100.0; },
+       {3.0},
+       true},
+      {"rmse",
+       "rmse after the look-up table, % of distance",
+       [](const AccuracyPoint& p) { return p.rmse_m.value / p.distance_m * 100.0; },
+       {3.0},
+       true},
+      {"outliers",
+       "errors above 10 %, %",
+       [](const AccuracyPoint& p) { return p.outlier_rate.value * 100.0; },
+       {},
+       false},
+      {"mean_distance",
+       "mean measured distance before the look-up table, m",
+       [](const AccuracyPoint& p) { return p.distance_m + p.bias_m.value; },
+       {},
+       false},
+      {"efficiency",
+       "Cramer-Rao bound / rmse",
+       [](const AccuracyPoint& p) { return p.efficiency.value; },
+       {1.0},
+       false}};
+  return all;
+}
+
+void run_accuracy_command(const AccuracyOptions& options) {
+  StudySettings settings = settings_of(options);
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  std::vector<AccuracyPoint> all;
+  std::string report = fmt::format("# Accuracy\n\n{}\n{}", heading(options, settings), kLegend);
+  for (const double klux : options.klux) {
+    settings.klux = klux;
+    const AccuracyStudy study = run_accuracy_study(settings);
+    all.insert(all.end(), study.points.begin(), study.points.end());
+    const std::string overview = fmt::format(
+        "Relative precision, %:\n\n{}\nRmse after the look-up table, % of distance:\n\n{}\nErrors above 10 "
+        "%, "
+        "%:\n\n{}\n",
+        accuracy_matrix(
+            study.points,
+            [](const auto& p) { return fmt::format("{:.2f}", p.relative_precision.value * 100.0); })
+            .markdown(),
+        accuracy_matrix(
+            study.points,
+            [](const auto& p) { return fmt::format("{:.2f}", p.rmse_m.value / p.distance_m * 100.0); })
+            .markdown(),
+        accuracy_matrix(study.points, [](const auto& p) {
+          return fmt::format("{:.1f}", p.outlier_rate.value * 100.0);
+        }).markdown());
+    report += fmt::format("\n## {:g} klux\n\n{}", klux, overview);
+    fmt::print("{:g} klux, photon model {}\n\n{}", klux, photon_model_title(options.sensor), overview);
+    if (!study.without_rejection.empty()) {
+      const std::string sentence =
+          fmt::format("No confidence leaves as few outliers as wanted, so nothing is rejected: {}.\n",
+                      fmt::join(study.without_rejection, ", "));
+      report += sentence;
+      fmt::print("{}", sentence);
+    }
+    if (settings.precision) {
+      const auto short_of = std::ranges::count(study.points, false, &AccuracyPoint::precision_reached);
+      const auto most = std::ranges::max(study.points, {}, &AccuracyPoint::frames).frames;
+      const std::string sentence =
+          fmt::format("Precision reached at {} of {} points, with up to {} frames.\n",
+                      study.points.size() - static_cast<std::size_t>(short_of), study.points.size(), most);
+      report += sentence;
+      fmt::print("{}\nFrames:\n\n{}\n", sentence, accuracy_matrix(study.points, [](const auto& p) {
+                                                    return fmt::format("{}{}", p.frames,
+                                                                       p.precision_reached ? "" : "+");
+                                                  }).markdown());
+    }
+    for_each_estimator(study.points, [&](std::span<const AccuracyPoint> points) {
+      report += fmt::format("\n### {}, {:g} klux\n\n{}", points.front().title, klux,
+                            accuracy_table(points).markdown());
+    });
+    for (const Picture& picture : pictures()) {
+      write_plot(folder / fmt::format("{}_{:g}klux.svg", picture.name, klux),
+                 accuracy_series(study.points, picture.value),
+                 {.title = fmt::format("{}: flat target, {:g} klux, sensor {}", picture.y_label, klux,
+                                       settings.sensor.name),
+                  .x_label = "distance, m",
+                  .y_label = picture.y_label,
+                  .logarithmic_y = picture.logarithmic,
+                  .y_limits = picture.limits});
+    }
+  }
+  report += fmt::format("\nCommand: `{}`\n", options.command_line);
+  write_file(folder / "accuracy.csv", accuracy_csv(all).csv());
+  write_file(folder / "accuracy.md", report);
+  fmt::print("Seed {}. Tables with confidence intervals and plots are in {}\n", options.run.seed,
+             options.out);
+}
+
+/// Bands down, read-outs across; the last row is the whole range.
+Table band_matrix(const std::vector<BandAccuracy>& rows,
+                  const std::function<std::string(const BandAccuracy&)>& cell) {
+  std::vector<std::string> header = {"distance m", "pixels"};
+  std::vector<std::vector<std::string>> lines;
+  std::size_t line = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const BandAccuracy& row = rows[i];
+    if (i == 0 || row.readout != rows[i - 1].readout) {
+      header.push_back(row.title);
+      line = 0;
+    }
+    if (line == lines.size()) {
+      lines.push_back({fmt::format("{:.2f} to {:.2f}", row.from_m, row.to_m), fmt::format("{}", row.pixels)});
+    }
+    lines[line].push_back(cell(row));
+    ++line;
+  }
+  Table table(std::move(header));
+  for (std::vector<std::string>& cells : lines) {
+    table.add(std::move(cells));
+  }
+  return table;
+}
+
+Table band_csv(const std::vector<BandAccuracy>& rows) {
+  std::vector<std::string> header = {"klux", "readout", "from_m", "to_m", "pixels", "frames"};
+  for (const char* name : {"bias_m", "rmse_m", "above_3_percent", "above_10_percent"}) {
+    header.insert(header.end(), {name, fmt::format("{}_low", name), fmt::format("{}_high", name)});
+  }
+  Table table(std::move(header));
+  for (const BandAccuracy& row : rows) {
+    std::vector<std::string> cells = {fmt::format("{:g}", row.klux),     row.readout,
+                                      fmt::format("{:.4f}", row.from_m), fmt::format("{:.4f}", row.to_m),
+                                      fmt::format("{}", row.pixels),     fmt::format("{}", row.frames)};
+    for (const Estimate& e : {row.bias_m, row.rmse_m, row.above_3_percent, row.above_10_percent}) {
+      for (const double value : {e.value, e.interval.low, e.interval.high}) {
+        cells.push_back(fmt::format("{:.6g}", value));
+      }
+    }
+    table.add(std::move(cells));
+  }
+  return table;
+}
+
+/// With --depth: errors by distance band over the user's map. `command` tells which options were given.
+void run_over_map(const AccuracyOptions& options, const CLI::App& command) {
+  for (const char* option : {"--precision", "--rare-outliers", "--max-frames", "--reject",
+                             "--calibration-seed", "--calibration-frames"}) {
+    if (command.count(option) > 0) {
+      throw InputError(fmt::format("accuracy: {} does not apply to a map (--depth)", option));
+    }
+  }
+  if (!options.maps.reflectivity.empty() && options.reflectivity) {
+    throw InputError("--reflectivity and --reflectivity-map contradict each other: choose one");
+  }
+  AccuracyOptions without_distances = options;
+  without_distances.distances_m.clear();  // the map has its own
+  const StudySettings sweep = settings_of(without_distances);
+  OwnMap map = read_own_map(options.maps, options.map_scales, sweep.sensor.columns, sweep.sensor.rows,
+                            sweep.reflectivity);
+  require_reachable(map.targets, sweep.sensor, options.maps.depth, true);
+  MapAccuracySettings settings;
+  settings.sensor = sweep.sensor;
+  settings.targets = std::move(map.targets);
+  settings.readouts = sweep.readouts;
+  settings.band_edges_m =
+      command.count("--distances") > 0 ? options.distances_m : equal_bands(settings.targets);
+  if (command.count("--frames") > 0) {
+    settings.frames = options.frames;
+  }
+  settings.make_source = sweep.make_source;
+  settings.run = options.run;
+  settings.run.streams_only = true;  // the photon model was chosen for streams
+  settings.command = options.command_line;
+  std::vector<BandAccuracy> all;
+  std::string report;
+  for (const double klux : options.klux) {
+    settings.klux = klux;
+    const std::vector<BandAccuracy> rows = run_map_accuracy(settings);
+    all.insert(all.end(), rows.begin(), rows.end());
+    const auto part = [&](const char* title, const std::function<std::string(const BandAccuracy&)>& cell) {
+      return fmt::format("{}\n\n{}\n", title, band_matrix(rows, cell).markdown());
+    };
+    report += fmt::format("\n## {:g} klux\n\n", klux);
+    report += part("Rmse, mm:", [](const auto& row) { return format_estimate(row.rmse_m, 1e3, 0); });
+    report += part("Bias, mm:", [](const auto& row) { return format_estimate(row.bias_m, 1e3, 1); });
+    report += part("Errors above 3 %, % of pixels:",
+                   [](const auto& row) { return format_estimate(row.above_3_percent, 100.0, 2); });
+    report += part("Errors above 10 %, % of pixels:",
+                   [](const auto& row) { return format_estimate(row.above_10_percent, 100.0, 2); });
+  }
+  const std::string heading = fmt::format(
+      "{}\nSensor {}, {} acquisitions a frame, {} frames, engine {}, photon model {}, seed {}.\n{}\nErrors "
+      "are "
+      "against each pixel's own distance, by bands of it; the last line is the whole range. In brackets: 95 "
+      "% "
+      "confidence intervals over the frames.\n",
+      map.description, settings.sensor.name, settings.sensor.acquisitions, settings.frames,
+      options.run.engine, photon_model_title(options.sensor), options.run.seed,
+      table_sentence(TableRule::kFlat, settings.sensor, options.run.seed));
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  write_file(folder / "accuracy.csv", band_csv(all).csv());
+  write_file(folder / "accuracy.md", fmt::format("# Accuracy over a map\n\n{}{}\nCommand: `{}`\n", heading,
+                                                 report, options.command_line));
+  fmt::print("{}{}Tables are in {}\n", heading, report, options.out);
+}
+
+}  // namespace
+
+void add_accuracy_command(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<AccuracyOptions>();
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand(
+      "accuracy", "Distance sweep: precision, bias, slope, outliers and efficiency of every read-out");
+  command->add_option("-k,--klux", options->klux, "background light in klux, one or more")
+      ->check(sensible_klux())
+      ->capture_default_str();
+  command
+      ->add_option("-d,--distances", options->distances_m,
+                   "distances in m; with --depth the edges of the bands (default: ten equal ones)")
+      ->capture_default_str();
+  command
+      ->add_option("-n,--frames", options->frames,
+                   "frames per distance (with --precision: at least), or of a map (default: 8)")
+      ->check(CLI::Range(4, 10'000'000))
+      ->capture_default_str();
+  command
+      ->add_option("--precision", options->precision_percent,
+                   "more frames until the 95 % intervals of relative precision and rmse are within this many "
+                   "per cent of their value")
+      ->check(above_zero());
+  command
+      ->add_option("--rare-outliers", options->rare_outliers_percent,
+                   "--precision does not wait for outliers rarer than this many per cent")
+      ->check(CLI::Range(1e-4, 50.0))
+      ->capture_default_str();
+  command
+      ->add_option("--calibration-seed", options->calibration_seed,
+                   "names the calibration run that the look-up table comes from; --seed does not change it")
+      ->capture_default_str();
+  command->add_option("--calibration-frames", options->calibration_frames, "its frames per distance")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+  command->add_option("--max-frames", options->most_frames, "where --precision gives up")
+      ->check(CLI::Range(4, 10'000'000))
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--reject", options->reject_percent,
+          "reject measurements of low confidence, so that of the calibration's accepted ones at most "
+          "this many per cent are more than 10 % off")
+      ->check(CLI::Range(0.0, 100.0));
+  command->add_option("--reflectivity", options->reflectivity, "of the target (default: the sensor's)")
+      ->check(sensible_reflectivity());
+  auto* map = command->add_option_group("map");
+  map->add_option(
+      "--depth", options->maps.depth,
+      "instead of a sweep: errors by distance band over your own depth map (PNG of 8 or 16 bits,\n"
+      "PFM or NPY), resampled to the sensor's pixels by nearest neighbour");
+  map->add_option("--reflectivity-map", options->maps.reflectivity, "its reflectivity: PNG, PFM or NPY");
+  options->map_scales.add_to(*map);
+  options->sensor.add_sensor_to(*command);
+  options->readout.add_to(*command);
+  add_run_options(*command, options->run);
+  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  command->callback([options, command] {
+    if (!options->precision_percent) {
+      refuse_without_effect(*command, "--max-frames", "it ends what --precision asks for");
+      refuse_without_effect(*command, "--rare-outliers", "it limits what --precision waits for");
+    }
+    options->sensor.refuse_options_without_effect(*command);
+    check_run_options(options->run);
+    if (options->run.columns != "all" || options->run.rows != "all" || !options->run.trace.empty()) {
+      throw InputError("accuracy: --columns, --rows and --trace do not apply, every frame is read out");
+    }
+    if (!options->maps.depth.empty()) {
+      run_over_map(*options, *command);
+    } else if (!options->maps.reflectivity.empty() || options->map_scales.metres_per_unit ||
+               options->map_scales.reflectivity_per_unit) {
+      throw InputError("accuracy: --reflectivity-map, --depth-scale and --reflectivity-scale need --depth");
+    } else {
+      run_accuracy_command(*options);
+    }
+  });
+}
+
+}  // namespace dtof

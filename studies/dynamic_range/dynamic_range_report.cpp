@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dynamic_range/dynamic_range_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace dtof {
+namespace {
+
+/// A page stays short; the data has every cell.
+constexpr std::size_t kMostListed = 20;
+constexpr std::array kShown = {Readout::kPoolPointer2, Readout::kPoolPointer2Lean, Readout::kCoarseHistogram,
+                               Readout::kHisPointer, Readout::kEzPointer};
+
+std::string title_of(const std::string& name) { return std::string(readout_title(parse_readout(name))); }
+
+std::string per_cent(double share) {
+  const double value = 100.0 * share;
+  return value == 0.0 ? "0" : value < 9.95 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
+}
+
+std::string with_interval(const Estimate& share) {
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", 100.0 * share.value, 100.0 * share.interval.low,
+                     100.0 * share.interval.high);
+}
+
+std::size_t count_of(const std::vector<RangeFinding>& findings, std::string_view readout) {
+  return static_cast<std::size_t>(std::ranges::count(findings, readout, &RangeFinding::readout));
+}
+
+std::size_t of_pool(const std::vector<RangeFinding>& findings) {
+  return static_cast<std::size_t>(std::ranges::count_if(findings, about_pool_readout));
+}
+
+std::string cells(std::size_t count) { return fmt::format("{} {}", count, count == 1 ? "entry" : "entries"); }
+
+/// The findings about pool read-outs, the largest differences first.
+std::string list(const std::vector<RangeFinding>& findings, std::string (*better)(const RangeFinding&)) {
+  std::vector<RangeFinding> pool;
+  std::ranges::copy_if(findings, std::back_inserter(pool), about_pool_readout);
+  if (pool.empty()) {
+    return "No entry.\n";
+  }
+  std::ranges::stable_sort(pool, std::greater<>(), [](const RangeFinding& finding) {
+    return finding.share.value - finding.better_share.value;
+  });
+  Table table(
+      {"read-out", "errors above", "signal", "klux", "acquisitions", "pixels, %", "better", "pixels, %"});
+  for (std::size_t i = 0; i < std::min(pool.size(), kMostListed); ++i) {
+    const RangeFinding& finding = pool[i];
+    table.add({title_of(finding.readout), fmt::format("{} %", finding.limit_percent),
+               fmt::format("x {:g}", finding.cell.signal), fmt::format("{:g}", finding.cell.klux),
+               fmt::format("{}", finding.cell.acquisitions), with_interval(finding.share), better(finding),
+               with_interval(finding.better_share)});
+  }
+  std::string text = table.markdown();
+  if (pool.size() > kMostListed) {
+    text += fmt::format("\n{} more are in the data.\n", pool.size() - kMostListed);
+  }
+  return text;
+}
+
+std::string counts_table(const RangeSettings& settings, const DynamicRange& study) {
+  Table table({"read-out", "more acquisitions, > 3 %", "> 10 %", "more signal, > 3 %", "> 10 %"});
+  for (const ReadoutParameters& readout : settings.readouts) {
+    std::vector<std::string> row = {std::string(readout_title(readout.readout))};
+    for (const auto* const findings : {&study.more_acquisitions, &study.more_signal}) {
+      for (const int percent : {3, 10}) {
+        row.push_back(fmt::format("{}", std::ranges::count_if(*findings, [&](const RangeFinding& finding) {
+                                    return finding.readout == readout_name(readout.readout) &&
+                                           finding.limit_percent == percent;
+                                  })));
+      }
+    }
+    table.add(std::move(row));
+  }
+  return table.markdown();
+}
+
+std::string signal_table(const RangeSettings& settings, const DynamicRange& study, double signal) {
+  std::vector<std::string> header = {"read-out", "klux"};
+  for (const std::uint32_t acquisitions : settings.acquisitions) {
+    header.push_back(fmt::format("{}", acquisitions));
+  }
+  Table table(std::move(header));
+  for (const Readout readout : kShown) {
+    const std::string name(readout_name(readout));
+    for (const double klux : settings.klux) {
+      std::vector<std::string> row = {std::string(readout_title(readout)), fmt::format("{:g}", klux)};
+      for (const std::uint32_t acquisitions : settings.acquisitions) {
+        const RangeReadouts& readouts = study.grid.at({signal, klux, acquisitions});
+        const auto found = readouts.find(name);
+        row.push_back(
+            found == readouts.end()
+                ? "-"
+                : fmt::format("{} / {}",
+                              per_cent(range_share(found->second, &RangeCounts::above_3_percent).value),
+                              per_cent(range_share(found->second, &RangeCounts::above_10_percent).value)));
+      }
+      if (study.grid.begin()->second.contains(name)) {
+        table.add(std::move(row));
+      }
+    }
+  }
+  return table.markdown();
+}
+
+RangeCounts sum_of(const std::vector<RangeCounts>& seeds) {
+  RangeCounts sum;
+  for (const RangeCounts& counts : seeds) {
+    sum.pixels += counts.pixels;
+    sum.full += counts.full;
+    sum.full_above_3_percent += counts.full_above_3_percent;
+    sum.above_3_percent += counts.above_3_percent;
+    sum.above_10_percent += counts.above_10_percent;
+    sum.changed += counts.changed;
+    sum.wide_above_3_percent += counts.wide_above_3_percent;
+    sum.wide_above_10_percent += counts.wide_above_10_percent;
+  }
+  return sum;
+}
+
+std::string share_or_dash(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? "-" : per_cent(static_cast<double>(part) / static_cast<double>(whole));
+}
+
+/// Whether full counters cost the read-out more than the intervals of both explain.
+bool harmed(const std::vector<RangeCounts>& seeds) {
+  return range_share(seeds, &RangeCounts::above_10_percent).interval.low >
+         range_share(seeds, &RangeCounts::wide_above_10_percent).interval.high;
+}
+
+std::string full_section(const RangeSettings& settings, const DynamicRange& study) {
+  Table table({"read-out", "signal", "acquisitions", "klux", "full", "> 3 % of these", "of the others",
+               "moved", "> 3 / 10 %", "with 16 bits"});
+  std::vector<std::string> wrong;
+  for (const ReadoutParameters& readout : settings.readouts) {
+    const std::string name(readout_name(readout.readout));
+    std::vector<std::string> where;
+    for (const auto& [cell, readouts] : study.full) {
+      const auto found = readouts.find(name);
+      if (found == readouts.end()) {
+        continue;
+      }
+      const RangeCounts sum = sum_of(found->second);
+      if (harmed(found->second)) {
+        where.push_back(fmt::format("{:g} klux x {:g}", cell.klux, cell.signal));
+      }
+      if (sum.changed == 0) {
+        continue;
+      }
+      table.add({std::string(readout_title(readout.readout)), fmt::format("x {:g}", cell.signal),
+                 fmt::format("{}", cell.acquisitions), fmt::format("{:g}", cell.klux),
+                 share_or_dash(sum.full, sum.pixels), share_or_dash(sum.full_above_3_percent, sum.full),
+                 share_or_dash(sum.above_3_percent - sum.full_above_3_percent, sum.pixels - sum.full),
+                 share_or_dash(sum.changed, sum.pixels),
+                 fmt::format("{} / {}", share_or_dash(sum.above_3_percent, sum.pixels),
+                             share_or_dash(sum.above_10_percent, sum.pixels)),
+                 fmt::format("{} / {}", share_or_dash(sum.wide_above_3_percent, sum.pixels),
+                             share_or_dash(sum.wide_above_10_percent, sum.pixels))});
+    }
+    if (!where.empty()) {
+      wrong.push_back(fmt::format("{} ({})", readout_title(readout.readout), fmt::join(where, ", ")));
+    }
+  }
+  return fmt::format(
+      "The frames are the longest two, the shorter with the signal of the sensor and the longer with the "
+      "strongest "
+      "signal. Full: share of the pixels whose confidence is all ones; for the pointer read-outs this is the "
+      "normal "
+      "state of a sure result. Moved: share of the pixels that have another result with counters of 16 bits, "
+      "on the "
+      "same photons; the last column shows the errors with such counters. All figures in %. Cells in which "
+      "full "
+      "counters moved no result are left out.\n\n"
+      "Full counters give more errors above 10 %, beyond both intervals, in: {}.\n\n{}",
+      wrong.empty() ? "no cell" : fmt::format("{}", fmt::join(wrong, "; ")), table.markdown());
+}
+
+std::string better_acquisitions(const RangeFinding& finding) {
+  return fmt::format("{} acquisitions", finding.better_cell.acquisitions);
+}
+std::string better_signal(const RangeFinding& finding) {
+  return fmt::format("signal x {:g}", finding.better_cell.signal);
+}
+std::string better_readout(const RangeFinding& finding) { return title_of(finding.better_readout); }
+
+/// "poolPointer 2 3, lean 0".
+std::string of_each(const RangeSettings& settings, const std::vector<RangeFinding>& findings) {
+  std::vector<std::string> texts;
+  for (const ReadoutParameters& readout : settings.readouts) {
+    if (is_pool_readout(readout.readout)) {
+      texts.push_back(fmt::format("{}: {}", readout_title(readout.readout),
+                                  cells(count_of(findings, readout_name(readout.readout)))));
+    }
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string scene_names(const RangeSettings& settings) {
+  std::vector<std::string_view> names;
+  for (const Scene scene : settings.scenes) {
+    names.push_back(scene_name(scene));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::size_t pool_findings(const DynamicRange& study) {
+  return of_pool(study.more_acquisitions) + of_pool(study.more_signal) + of_pool(study.behind);
+}
+
+double pictured_klux(const RangeSettings& settings) {
+  std::vector<double> klux = settings.klux;
+  std::ranges::sort(klux);
+  return klux[klux.size() / 2];
+}
+
+std::vector<PlotSeries> dynamic_range_curves(const RangeSettings& settings, const DynamicRange& study) {
+  const double signal =
+      std::ranges::min(settings.signals, {}, [](double value) { return std::abs(std::log(value)); });
+  std::vector<PlotSeries> series;
+  for (const ReadoutParameters& readout : settings.readouts) {
+    PlotSeries line{std::string(readout_title(readout.readout)), {}, {}};
+    for (const std::uint32_t acquisitions : settings.acquisitions) {
+      const RangeReadouts& readouts = study.grid.at({signal, pictured_klux(settings), acquisitions});
+      const Estimate share =
+          range_share(readouts.at(std::string(readout_name(readout.readout))), &RangeCounts::above_3_percent);
+      line.x.push_back(acquisitions);
+      line.y.push_back(100.0 * share.value);
+    }
+    series.push_back(std::move(line));
+  }
+  return series;
+}
+
+Table dynamic_range_csv(const DynamicRange& study) {
+  Table table({"readout", "part", "signal", "klux", "acquisitions", "pixels", "above_3_percent",
+               "above_3_low", "above_3_high", "above_10_percent", "above_10_low", "above_10_high", "full",
+               "full_above_3_percent", "changed_by_full", "wide_above_3_percent", "wide_above_10_percent"});
+  const auto add = [&](const char* part, const RangeResults& results) {
+    for (const auto& [cell, readouts] : results) {
+      for (const auto& [readout, seeds] : readouts) {
+        const RangeCounts sum = sum_of(seeds);
+        const Estimate three = range_share(seeds, &RangeCounts::above_3_percent);
+        const Estimate ten = range_share(seeds, &RangeCounts::above_10_percent);
+        std::vector<std::string> row = {readout,
+                                        part,
+                                        fmt::format("{:g}", cell.signal),
+                                        fmt::format("{:g}", cell.klux),
+                                        fmt::format("{}", cell.acquisitions),
+                                        fmt::format("{}", sum.pixels)};
+        for (const Estimate& share : {three, ten}) {
+          for (const double value : {share.value, share.interval.low, share.interval.high}) {
+            row.push_back(fmt::format("{:.6g}", value));
+          }
+        }
+        for (const std::uint64_t count : {sum.full, sum.full_above_3_percent, sum.changed,
+                                          sum.wide_above_3_percent, sum.wide_above_10_percent}) {
+          row.push_back(fmt::format("{}", count));
+        }
+        table.add(std::move(row));
+      }
+    }
+  };
+  add("grid", study.grid);
+  add("full_counters", study.full);
+  return table;
+}
+
+std::string dynamic_range_report(const RangeSettings& settings, const DynamicRange& study,
+                                 const std::string& command_line) {
+  const std::size_t places = study.grid.size();
+  std::string report = fmt::format(
+      "# Dynamic range\n\n"
+      "Does a read-out get worse with more laser pulses, or with more signal? {} read-outs, {} to {} "
+      "acquisitions, {:g} to "
+      "{:g} klux, signal x {:g} to x {:g} of the sensor `{}`: {} cells.\n\n"
+      "* More acquisitions made a pool read-out worse: {}.\n"
+      "* More signal made a pool read-out worse: {}.\n"
+      "* The coarse histogram is better than a pool read-out at {} acquisitions or more: {}.\n\n"
+      "An entry is a cell and a limit (errors above 3 %, above 10 %). Worse means that the two 95 % "
+      "intervals do not "
+      "overlap. A cell is compared with the best cell of fewer acquisitions, or of less signal, that is "
+      "otherwise equal. "
+      "By chance alone about one comparison in 350 of equal cells would be an entry; entries about pool "
+      "read-outs were "
+      "therefore measured again with other photons, and {} that did not show again {} left out.\n\n",
+      settings.readouts.size(), std::ranges::min(settings.acquisitions),
+      std::ranges::max(settings.acquisitions), std::ranges::min(settings.klux),
+      std::ranges::max(settings.klux), std::ranges::min(settings.signals), std::ranges::max(settings.signals),
+      settings.sensor.name, places, of_each(settings, study.more_acquisitions),
+      of_each(settings, study.more_signal), kManyAcquisitions, of_each(settings, study.behind),
+      study.unconfirmed, study.unconfirmed == 1 ? "is" : "are");
+  report += "## More acquisitions made it worse\n\n" + list(study.more_acquisitions, better_acquisitions) +
+            "\n## More signal made it worse\n\n" + list(study.more_signal, better_signal) +
+            "\n## The coarse histogram is better\n\n" + list(study.behind, better_readout) +
+            "\n## Entries of every read-out\n\n" + counts_table(settings, study);
+  report += fmt::format("\n![Share of pixels above 3 % over acquisitions](dynamic_range.svg)\n");
+  for (const double signal : settings.signals) {
+    report +=
+        fmt::format("\n## Signal x {:g}\n\nPixels above 3 % / above 10 %, in %, over acquisitions:\n\n{}",
+                    signal, signal_table(settings, study, signal));
+  }
+  if (!study.full.empty()) {
+    report += "\n## Full counters\n\n" + full_section(settings, study);
+  }
+  report += fmt::format(
+      "\n## How it was measured\n\n"
+      "Models, exact photons. Scenes {}: the {} columns and {} rows around the centre of the sensor's {} x "
+      "{} pixels; {} "
+      "columns, an engine of poolPointer 2, are judged. {} seeds from {} on; {} pixels a cell. Each read-out "
+      "has a look-up "
+      "table of its own for each cell (`frame/flat_calibration.hpp`, 32 pixels a distance). Intervals come "
+      "from the "
+      "spread of the seeds, and are at least Wilson's for independent pixels: pixels of a pool read-out hang "
+      "together, "
+      "seeds do not.\n\n"
+      "Every cell of every read-out, with intervals: "
+      "[data/dynamic_range.csv.gz](data/dynamic_range.csv.gz).\n\n"
+      "Command: `{}`\n",
+      scene_names(settings), ReadoutParameters::defaults(Readout::kPoolPointer2Lean).columns_together(),
+      settings.rows, settings.sensor.columns, settings.sensor.rows, judged_range_columns(), settings.seeds,
+      settings.seed, sum_of(study.grid.begin()->second.begin()->second).pixels, command_line);
+  return report;
+}
+
+}  // namespace dtof

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "dtof/report/table.hpp"
+#include "intervals/coverage_study.hpp"
+
+namespace dtof {
+
+/// The study in Markdown. Every sentence that states a result is computed from `study`.
+std::string coverage_report(const CoverageSettings& settings, const CoverageStudy& study,
+                            const std::string& command_line);
+
+/// Every cell of the study.
+Table coverage_csv(const CoverageStudy& study);
+
+/// Cells and stopping rules that fail.
+std::size_t coverage_failures(const CoverageStudy& study);
+
+}  // namespace dtof

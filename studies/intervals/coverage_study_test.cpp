@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "intervals/coverage_study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "dtof/core/error.hpp"
+#include "dtof/sensor/preset.hpp"
+#include "intervals/coverage_report.hpp"
+#include "tests/core/test_seed.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using testing::ThrowsMessage;
+
+CoverageSettings small_study() {
+  CoverageSettings settings;
+  settings.study.sensor = parse_preset("thesis");
+  settings.study.readouts = {ReadoutParameters::defaults(Readout::kEzPointer),
+                             ReadoutParameters::defaults(Readout::kHisPointer)};
+  settings.study.matched_filter = false;
+  settings.study.calibration_frames = 60;
+  settings.study.run.seed = test_seed();
+  settings.study.distances_m = {1.0};
+  settings.klux = {14.0};
+  settings.distances_m = {1.0};
+  settings.frames = {100, 1000};
+  settings.precisions = {0.1};
+  settings.other_calibrations = 2;
+  return settings;
+}
+
+const CoverageCell& cell_of(const CoverageStudy& study, const std::string& estimator, Figure figure,
+                            bool after_table, int frames) {
+  return *std::ranges::find_if(study.cells, [&](const CoverageCell& cell) {
+    return cell.estimator == estimator && cell.figure == figure && cell.after_table == after_table &&
+           cell.frames == frames;
+  });
+}
+
+TEST(CoverageStudy, IntervalsHoldWithTheNamedTable) {
+  SCOPED_TRACE(test_seed_message());
+  const CoverageSettings settings = small_study();
+  const CoverageStudy study = run_coverage_study(settings);
+  EXPECT_EQ(study.cells.size(), 2U * 2U * 2U * 5U);  // read-outs, frame counts, states, figures
+  for (const CoverageCell& cell : study.cells) {
+    EXPECT_NE(cell.verdict, CoverageVerdict::kFails)
+        << cell.title << ", " << figure_name(cell.figure) << ", " << cell.frames << " frames: ratio "
+        << cell.seen.spread_ratio() << ", " << cell.seen.covered << " of " << cell.seen.runs;
+    EXPECT_EQ(cell.seen.runs, cell.frames == 100 ? 400U : 40U);
+  }
+  for (const StoppingCell& cell : study.stopping) {
+    EXPECT_TRUE(cell.holds()) << cell.title;
+  }
+  EXPECT_EQ(coverage_failures(study), 0U);
+}
+
+// The fault that the study is there to find: a table for each seed, and intervals that do not know of it.
+TEST(CoverageStudy, ATableForEachSeedFails) {
+  SCOPED_TRACE(test_seed_message());
+  CoverageSettings settings = small_study();
+  settings.calibrate_each_seed = true;
+  const CoverageStudy study = run_coverage_study(settings);
+  for (const char* estimator : {"ezpointer", "hispointer"}) {
+    EXPECT_GT(cell_of(study, estimator, Figure::kRmse, true, 1000).seen.spread_ratio(), kMostSpreadRatio);
+    EXPECT_GT(cell_of(study, estimator, Figure::kAbove3Percent, true, 1000).seen.spread_ratio(),
+              kMostSpreadRatio);
+    EXPECT_LT(cell_of(study, estimator, Figure::kBias, false, 100).seen.spread_ratio(), kMostSpreadRatio);
+  }
+  EXPECT_GT(coverage_failures(study), 0U);
+}
+
+TEST(CoverageStudy, Refusals) {
+  CoverageSettings settings = small_study();
+  settings.frames = {300, 1000};
+  EXPECT_THAT([&] { (void)run_coverage_study(settings); },
+              ThrowsMessage<InputError>(HasSubstr("a divisor of 1000")));
+  settings = small_study();
+  settings.seeds = 1;
+  EXPECT_THAT([&] { (void)run_coverage_study(settings); }, ThrowsMessage<InputError>(HasSubstr("two seeds")));
+}
+
+TEST(CoversEnough, OnlyWhereFewerAreRefuted) {
+  EXPECT_TRUE(covers_enough(40, 40));
+  EXPECT_TRUE(covers_enough(35, 40));
+  EXPECT_FALSE(covers_enough(34, 40));
+  EXPECT_FALSE(covers_enough(3740, 4000));
+}
+
+CoverageCell cell_with(double spread, std::uint64_t covered, bool by_spread, CoverageVerdict verdict) {
+  CoverageCell cell;
+  cell.estimator = "ezpointer";
+  cell.title = "ezPointer";
+  cell.klux = 14.0;
+  cell.distance_m = 1.0;
+  cell.frames = 1000;
+  cell.seen = {.runs = 40, .covered = covered, .with_few = 0, .spread = spread, .mean_standard_error = 1.0};
+  cell.by_spread = by_spread;
+  cell.verdict = verdict;
+  return cell;
+}
+
+TEST(CoverageReport, SentencesFollowTheFigures) {
+  CoverageSettings settings = small_study();
+  settings.frames = {1000};
+  CoverageStudy study;
+  for (const bool after : {false, true}) {
+    for (const Figure figure : kFigures) {
+      CoverageCell cell = cell_with(1.01, 38, true, CoverageVerdict::kHolds);
+      cell.figure = figure;
+      cell.after_table = after;
+      study.cells.push_back(cell);
+    }
+  }
+  StoppingCell stopping;
+  stopping.title = "ezPointer";
+  stopping.precision = 0.1;
+  stopping.seeds = stopping.reached = stopping.precision_right = stopping.rmse_right = 40;
+  study.stopping = {stopping};
+  const std::string good = coverage_report(settings, study, "dtof-study coverage");
+  EXPECT_THAT(good, HasSubstr("**10 of 10 cells hold.**"));
+  EXPECT_THAT(good, HasSubstr("10 of these lie from 0.8 to 1.25 at once"));
+  EXPECT_THAT(good, HasSubstr("No cell lies outside."));
+  EXPECT_THAT(good, HasSubstr("0 of 1 fail."));
+
+  study.cells[3].seen.spread = 2.5;
+  study.cells[3].verdict = CoverageVerdict::kFails;
+  study.cells[4].by_spread = false;
+  study.stopping[0].rmse_right = 20;
+  const std::string bad = coverage_report(settings, study, "dtof-study coverage");
+  EXPECT_THAT(bad, HasSubstr("**9 of 10 cells hold.**"));
+  EXPECT_THAT(bad, HasSubstr("8 of these lie from 0.8 to 1.25 at once"));
+  EXPECT_THAT(bad, HasSubstr("1 are judged by the share of intervals"));
+  EXPECT_THAT(bad, Not(HasSubstr("No cell lies outside.")));
+  EXPECT_THAT(bad, HasSubstr("above 3 % before the table"));
+  EXPECT_THAT(bad, HasSubstr("1 of 1 fail:"));
+  EXPECT_EQ(coverage_failures(study), 2U);
+}
+
+}  // namespace
+}  // namespace dtof

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "photon_models/fidelity_study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dtof/core/error.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+FidelitySettings small_settings() {
+  FidelitySettings settings;
+  settings.sensor = parse_preset("thesis");
+  settings.scenes = {{"wall", TargetMap(10, 20, {2.0, 1.0})}, {"far", TargetMap(10, 20, {4.0, 1.0})}};
+  settings.klux = {14.0};
+  settings.readouts = {Readout::kEzPointer, Readout::kHisPointer};
+  settings.frames = 2;
+  return settings;
+}
+
+TEST(FidelityStudy, DifferencesOfFiguresWithTheirStandardErrors) {
+  const std::vector<ColumnFigures> exact = {{0.1, 0.04, 0.2, 0.1}, {0.3, 0.14, 0.4, 0.1}};
+  std::vector<ColumnFigures> other = exact;
+  for (ColumnFigures& column : other) {
+    column.bias += 0.02;
+    column.mean_square += 0.07;
+  }
+  other[1].above_3_percent += 0.2;
+  const ModelDifference difference = compare_models(exact, other);
+  EXPECT_DOUBLE_EQ(difference.rmse, 0.3);
+  EXPECT_NEAR(difference.figures[0].value, 0.4 - 0.3, 1e-12);
+  EXPECT_NEAR(difference.figures[0].standard_error, 0.0, 1e-12);
+  EXPECT_NEAR(difference.figures[1].value, 0.02, 1e-12);
+  EXPECT_NEAR(difference.figures[2].value, 0.1, 1e-12);
+  EXPECT_NEAR(difference.figures[2].standard_error, 0.1, 1e-12);  // 0 and 0.2: deviation 0.1414 over root 2
+  EXPECT_EQ(difference.figures[3].value, 0.0);
+  EXPECT_NEAR(difference.upper_limit(), 0.1 + 1.96 * 0.1, 1e-4);
+  EXPECT_THROW(compare_models(exact, std::span(other).first(1)), InputError);
+  EXPECT_THROW(compare_models(std::span(exact).first(1), std::span(other).first(1)), InputError);
+}
+
+TEST(FidelityStudy, PromisesAreKeptOpenOrBroken) {
+  ModelDifference difference;
+  difference.figures[1] = {.value = -0.01, .standard_error = 0.001};
+  EXPECT_EQ(difference.promise(0.012), Promise::kKept);
+  EXPECT_EQ(difference.promise(0.011), Promise::kOpen);
+  EXPECT_EQ(difference.promise(0.0071), Promise::kOpen);
+  EXPECT_EQ(difference.promise(0.0069), Promise::kBroken);
+}
+
+// The limits that auto relies on, measured again with few frames: six standard errors leave chance no room.
+TEST(FidelityStudy, TheFastSamplerIsWithinTheLimitsThatAutoUses) {
+  FidelitySettings settings = small_settings();
+  settings.readouts.assign(kThesisReadouts.begin(), kThesisReadouts.end());
+  const FidelityStudy study = run_fidelity_study(settings);
+  ASSERT_EQ(study.cells.size(), settings.scenes.size() * settings.readouts.size());
+  for (const FidelityCell& cell : study.cells) {
+    for (const FigureDifference& figure : cell.difference.figures) {
+      EXPECT_LE(std::abs(figure.value), fast_sampler_difference(cell.readout) + 6.0 * figure.standard_error)
+          << cell.scene << ", " << readout_name(cell.readout);
+    }
+  }
+}
+
+TEST(FidelityStudy, FiguresAreTheSameWhateverTheThreads) {
+  FidelitySettings settings = small_settings();
+  settings.threads = 1;
+  const FidelityStudy one = run_fidelity_study(settings);
+  settings.threads = 3;
+  const FidelityStudy three = run_fidelity_study(settings);
+  for (std::size_t i = 0; i < one.cells.size(); ++i) {
+    for (std::size_t f = 0; f < kFigureNames.size(); ++f) {
+      EXPECT_EQ(one.cells[i].difference.figures[f].value, three.cells[i].difference.figures[f].value);
+    }
+  }
+}
+
+// A study made up, so that the report's statements can be checked against it.
+FidelityStudy made_up(const FidelitySettings& settings, double difference, double exact_stream_ms) {
+  FidelityStudy study;
+  for (const double klux : settings.klux) {
+    for (const auto& [name, targets] : settings.scenes) {
+      for (const Readout readout : settings.readouts) {
+        FidelityCell cell{.scene = name, .klux = klux, .readout = readout, .difference = {}};
+        cell.difference.figures[2] = {.value = difference, .standard_error = difference / 100.0};
+        cell.exact_ms = 100.0;
+        cell.fast_ms = 40.0;
+        cell.taken.fill(Fidelity::kFast);
+        cell.taken.back() = Fidelity::kExact;
+        study.cells.push_back(cell);
+      }
+    }
+  }
+  study.streams = {.exact_ms = exact_stream_ms, .fast_ms = 100.0};
+  return study;
+}
+
+TEST(FidelityReport, StatementsFollowTheFigures) {
+  const FidelitySettings settings = small_settings();
+  const std::string good = fidelity_report(made_up(settings, 1e-6, 90.0), settings, "command");
+  EXPECT_THAT(good, HasSubstr("hold for 2 of 2 read-outs"));
+  EXPECT_THAT(good, HasSubstr("cheaper than the exact streams for 2 of 2"));
+  EXPECT_THAT(good, HasSubstr("for streams the exact model is the cheaper one"));
+  EXPECT_THAT(good, HasSubstr("No promise was broken."));
+  const std::string bad = fidelity_report(made_up(settings, 0.5, 150.0), settings, "command");
+  EXPECT_THAT(bad, HasSubstr("hold for 0 of 2 read-outs"));
+  EXPECT_THAT(bad, HasSubstr("for streams the fast model is the cheaper one"));
+  EXPECT_THAT(bad, HasSubstr("cost 50 % more than"));
+  EXPECT_THAT(bad, Not(HasSubstr("No promise was broken.")));
+  EXPECT_THAT(bad, HasSubstr("promises were broken.**"));
+}
+
+TEST(FidelityReport, CsvHasEveryToleranceOfEveryCell) {
+  const FidelitySettings settings = small_settings();
+  const FidelityStudy study = made_up(settings, 1e-6, 90.0);
+  const std::string csv = fidelity_csv(study);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(csv, '\n')),
+            1 + study.cells.size() * kTolerances.size());
+}
+
+TEST(FidelityStudy, Refusals) {
+  FidelitySettings settings = small_settings();
+  settings.readouts = {Readout::kPoolPointer2};
+  EXPECT_THAT([&] { run_fidelity_study(settings); },
+              testing::ThrowsMessage<InputError>(HasSubstr("poolpointer2 reads streams")));
+  settings = small_settings();
+  settings.frames = 0;
+  EXPECT_THROW(run_fidelity_study(settings), InputError);
+}
+
+}  // namespace
+}  // namespace dtof

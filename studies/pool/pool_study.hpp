@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dtof/frame/flat_calibration.hpp"
+#include "dtof/host/range_converter.hpp"
+#include "dtof/metrics/depth.hpp"
+#include "dtof/photon/sensor_model.hpp"
+#include "dtof/readout/pool_pointer2.hpp"
+#include "scenes/scene_study.hpp"
+
+namespace dtof {
+
+/// poolPointer 2 with some numbers changed, written NAME=NUMBER,...: "LEAK_SHIFT=2,SMOOTH_DARK=768"; nothing
+/// changed if `text` is empty. Throws InputError for an unknown name or an illegal value.
+PoolPointer2Parameters parse_pool_design(const std::string& text);
+/// The names that parse_pool_design knows.
+std::vector<std::string> pool_design_names();
+/// A number of a design by its name, and the design with another number; not validated.
+int pool_design_number(const PoolPointer2Parameters& design, const std::string& name);
+PoolPointer2Parameters with_pool_design_number(PoolPointer2Parameters design, const std::string& name,
+                                               int number);
+
+/// Events of a whole map's columns, engine by engine, from left to right.
+struct PoolFrame {
+  std::uint32_t acquisitions = 0;
+  std::vector<std::vector<PoolColumn>> engines;
+};
+PoolFrame draw_pool_frame(const SensorModel& sensor, const TargetMap& targets, double klux,
+                          std::uint64_t seed, std::uint32_t frame, int engine_columns, int threads);
+
+/// Reads whole maps out with designs of poolPointer 2, each with and without S1, and with the matched filters
+/// of SceneStudy, the single pixel's also with S1. All see the same photons.
+class PoolStudy {
+ public:
+  /// All designs have the same engine_columns. `references`: also those that are no design.
+  PoolStudy(SensorModel sensor, double klux, std::span<const std::string> designs, bool references,
+            std::uint64_t seed, int threads, TableRule table);
+
+  /// The matched filters, then each design without and with S1.
+  [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
+  /// One measurement an estimator; the scene's map is read whole. Throws InputError if the scene wants less.
+  [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene) const;
+
+ private:
+  using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
+  [[nodiscard]] Positions read(const TargetMap& targets, std::uint32_t frame, int engine_columns) const;
+
+  SensorModel sensor_;
+  double klux_;
+  std::vector<PoolPointer2Parameters> designs_;
+  bool references_;
+  std::vector<std::string> titles_;
+  std::uint64_t seed_;
+  int threads_;
+  DepthScale scale_;
+  std::vector<RangeConverter> converters_;  // of each estimator; empty without look-up tables
+};
+
+}  // namespace dtof

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "dtof/core/parameters.hpp"
+#include "dtof/frame/flat_calibration.hpp"
+#include "dtof/host/range_converter.hpp"
+#include "dtof/metrics/depth.hpp"
+#include "dtof/metrics/error_shares.hpp"
+#include "dtof/photon/sensor_model.hpp"
+#include "dtof/photon/target_map.hpp"
+
+namespace dtof {
+
+/// A scene of the study and how much of it is read out.
+struct StudyScene {
+  std::string name;
+  TargetMap targets;
+  int columns;  ///< read out, evenly spread over the map
+  std::vector<bool> guessed =
+      {};  ///< [row][column]: distance that the map did not know, not judged; empty: none
+};
+
+/// Column of the map that is the `index`-th read.
+int picked_column(const StudyScene& scene, int index);
+
+/// What one estimator made of a scene.
+struct SceneMeasurement {
+  std::vector<double> distance_m;  ///< index = row * columns + column read
+  std::vector<double> confidence;
+};
+
+struct SceneScore {
+  ErrorShares all;
+  ErrorShares edges;  ///< pixels with a neighbour whose distance differs by more than 10 %
+  ErrorShares rest;
+  ErrorShares dims;     ///< pixels of at most a quarter of the scene's largest reflectivity
+  ErrorShares singles;  ///< pixels whose distance differs by more than 10 % from that of all neighbours
+  std::vector<double> removed;  ///< share of the outliers (above 10 %) among the pixels dropped; see kDropped
+};
+
+/// Shares of pixels, of lowest confidence, dropped for the confidence curve.
+inline constexpr std::array kDropped = {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5};
+
+/// Truth of the pixels read, in the order of SceneMeasurement.
+struct SceneTruth {
+  int columns = 0;
+  int rows = 0;
+  std::vector<double> distance_m;  ///< 0: no target, not judged
+  std::vector<bool> edge;          ///< differs by more than 10 % from a neighbour (left, right, above, below)
+  std::vector<bool> single;        ///< from every one of them
+  std::vector<bool> dim = {};      ///< at most a quarter of the scene's largest reflectivity; empty: unknown
+};
+SceneTruth scene_truth(const StudyScene& scene);
+
+SceneScore score_scene(const SceneTruth& truth, const SceneMeasurement& measurement);
+
+/// Precision beside the bound of a single pixel: the median of |error| / bound over a normal variable's, so 1
+/// for an unbiased read-out that reaches each pixel's bound, and deaf to outliers. `relative_bound`: of each
+/// pixel, relative to its distance; pixels without a finite one above 0 are left out. NaN if none is left, or
+/// there are no bounds.
+double median_error_over_bound(const SceneTruth& truth, std::span<const double> relative_bound,
+                               const SceneMeasurement& measurement);
+
+/// Reads scenes out with the models of several read-outs and, unless `references` is false, hisPointer with
+/// paired coarse bins and two references on full histograms that know each pixel's signal and background: the
+/// matched filter of the single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the
+/// same photons; poolPointer 2 also those of the other columns of its engines. With TableRule::kFlat each has
+/// a look-up table by FlatCalibration, else distances are those of Eq. 3.11.
+class SceneStudy {
+ public:
+  SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutParameters> readouts, std::uint64_t seed,
+             int threads, TableRule table = TableRule::kFlat, bool references = true);
+
+  [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
+  /// One measurement an estimator. `n`: the n-th frame of the scene, with photons of its own.
+  [[nodiscard]] std::vector<SceneMeasurement> measure(const StudyScene& scene, std::uint32_t n = 0) const;
+  /// Cramer-Rao bound of each pixel on its own over its distance, in the order of SceneMeasurement; 0 where
+  /// there is no target.
+  [[nodiscard]] std::vector<double> relative_bounds(const StudyScene& scene) const;
+
+ private:
+  using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
+  [[nodiscard]] bool hears_other_columns(std::size_t estimator) const;
+  /// All but the read-outs whose columns hear each other.
+  [[nodiscard]] Positions read(const StudyScene& scene, std::uint32_t frame) const;
+  /// Those, which read whole engines of the scene, however few columns are asked for.
+  void read_engines(const StudyScene& scene, std::uint32_t frame, Positions& positions) const;
+  [[nodiscard]] double distance(std::size_t estimator, double position) const;
+
+  SensorModel sensor_;
+  double klux_;
+  std::vector<ReadoutParameters> readouts_;
+  std::vector<std::string> titles_;
+  std::uint64_t seed_;
+  int threads_;
+  bool references_;
+  DepthScale scale_;
+  std::vector<RangeConverter> converters_;  // of each estimator; empty without look-up tables
+};
+
+}  // namespace dtof

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command_line/option_checks.hpp"
+#include "command_line/own_map.hpp"
+#include "dtof/core/error.hpp"
+#include "small_arrays/models/learned_enlarger.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/io/depth_image.hpp"
+#include "dtof/io/input_file.hpp"
+#include "dtof/io/output_folder.hpp"
+#include "dtof/report/colour_png.hpp"
+#include "dtof/scene/scene.hpp"
+#include "dtof/sensor/preset.hpp"
+#include "small_arrays/enlarge_study.hpp"
+#include "common/commands.hpp"
+#include "common/scene_list.hpp"
+
+namespace dtof {
+namespace {
+
+struct EnlargeOptions : SceneChoice {
+  std::string sensor = "thesis";
+  std::vector<double> klux = {14.0, 50.0};
+  std::vector<std::string> arrays = {"100x80", "80x64", "50x40"};
+  std::vector<std::string> readouts = {"hispointer", "histogram32", "poolpointer2"};
+  std::string weights;
+  std::string pictured_scene;
+  std::string pictured_array = "100x80";
+  int seeds = 4;
+  int threads = 0;
+  std::string out = "build/enlarge";
+  std::string command_line;
+};
+
+constexpr std::size_t kLongestWeights = 16'000'000;
+
+std::vector<EnlargeScene> all_scenes(const EnlargeOptions& options, const SensorModel& sensor) {
+  std::vector<EnlargeScene> scenes;
+  for (StudyScene& scene : make_scenes(options, sensor).scenes) {
+    scenes.push_back({scene.name, std::move(scene.targets), std::move(scene.guessed)});
+  }
+  if (scenes.empty()) {
+    throw InputError("enlarge: no map is named");
+  }
+  return scenes;
+}
+
+/// Truth, large array and each enlarger's map; below them what each is off.
+void write_picture(const std::filesystem::path& file, const std::vector<LabelledMap>& maps,
+                   const SensorModel& sensor, const std::string& title, const std::string& caption) {
+  constexpr double kLargestError = 0.3;
+  const auto image_of = [&](const std::vector<double>& values) {
+    return DepthImage{sensor.columns, sensor.rows, {values.begin(), values.end()}};
+  };
+  std::vector<MapPanel> panels;
+  for (const LabelledMap& map : maps) {
+    panels.push_back({image_of(map.distance_m), map.label, MapKind::kDepth});
+  }
+  const std::vector<double>& truth = maps.front().distance_m;
+  for (const LabelledMap& map : maps) {
+    std::vector<double> error;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      error.push_back(truth[i] > 0.0 ? map.distance_m[i] - truth[i] : std::nan(""));
+    }
+    panels.push_back({image_of(error), map.label + ", error", MapKind::kError});
+  }
+  write_map_picture(file, panels,
+                    {.title = title,
+                     .caption = caption,
+                     .panels_per_row = static_cast<int>(maps.size()),
+                     .pixel_size = 2,
+                     .depth_range = depth_range(std::span(panels).first(1)),
+                     .largest_error = kLargestError});
+}
+
+void run_enlarge_command(EnlargeOptions options) {
+  const SensorModel sensor = find_sensor(options.sensor);
+  options.columns = sensor.columns;
+  EnlargeSettings settings;
+  settings.sensor = sensor;
+  settings.readouts = options.readouts;
+  settings.seed = options.seed;
+  settings.seeds = options.seeds;
+  settings.threads = options.threads;
+  settings.weights =
+      options.weights.empty()
+          ? trained_weights()
+          : parse_enlarger_weights(read_file(options.weights, kLongestWeights), options.weights);
+  for (const std::string& text : options.arrays) {
+    settings.arrays.push_back(parse_array_size(text));
+  }
+  check_enlarge_settings(settings);
+  settings.pictured_array = parse_array_size(options.pictured_array);
+  if (std::ranges::find(settings.arrays, settings.pictured_array) == settings.arrays.end() ||
+      std::ranges::find(settings.readouts, settings.large_readout) == settings.readouts.end()) {
+    throw InputError(
+        "--picture-array: the picture needs this array among --array and poolpointer2 among --readout");
+  }
+  const std::vector<EnlargeScene> scenes = all_scenes(options, sensor);
+  settings.pictured_scene = options.pictured_scene.empty() ? scenes.back().name : options.pictured_scene;
+  if (std::ranges::find(scenes, settings.pictured_scene, &EnlargeScene::name) == scenes.end()) {
+    throw InputError(fmt::format("--picture-scene: no map has the name '{}'", settings.pictured_scene));
+  }
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+
+  std::vector<EnlargeLight> lights;
+  for (const double klux : options.klux) {
+    settings.klux = klux;
+    lights.push_back({klux, run_enlarge_study(settings, scenes)});
+  }
+  std::vector<std::string> names;
+  for (const EnlargeScene& scene : scenes) {
+    names.push_back(scene.name);
+  }
+  const std::string answer = enlarge_answer(lights);
+  std::string report = fmt::format(
+      "# Small arrays, enlarged\n\n"
+      "The thesis's last question: fewer pixels that share the laser have more signal each; can their maps "
+      "be enlarged to those of the large array?\n\n"
+      "## Answer\n\n"
+      "{}\n"
+      "## What is compared\n\n"
+      "* Large array: {} x {} pixels, poolPointer 2, sensor {}. Small arrays: the same laser power, so that "
+      "each of n times fewer pixels has n times the signal. They cover the same field: each looks at the "
+      "spot of one pixel of the large array, in the middle of its share, and the laser lights these spots "
+      "alone. Hence a pixel's background is that of the large array. A lens that gave each small pixel its "
+      "whole share of the field would multiply background as well as signal.\n"
+      "* Photons: the fast model (bright pixels are slow with the exact one). Each array and read-out has a "
+      "look-up table of its own for its light (flat targets, seed {}). poolPointer 2 keeps its parameters, "
+      "which were chosen for the large array. \"{}\": the true distances of the spots, so that only the "
+      "enlarger errs.\n"
+      "* Enlargers: nearest spot; bilinear; joint bilateral (Kopf et al., SIGGRAPH 2007); a network that "
+      "weighs the 3 x 3 spots around a pixel (studies/small_arrays/models). The last two are guided by an intensity "
+      "image of the large array's pixels: a Poisson number of each pixel's background events over the "
+      "frame. Both were trained by `make train-enlarger` on random shapes that no report reads. The large "
+      "array's map is taken as it is, without the image.\n"
+      "* Maps: {}. Photographed ones are Middlebury's disparity maps with the nearest point at {:g} m; the "
+      "reflectivity is the photograph's luminance, at least {:g}. Pixels without a disparity are filled "
+      "with the farther neighbour of their row and not judged.\n"
+      "* Seeds {} to {} (photons, intensity image). +- is half of the 95 % interval from the spread of the "
+      "seeds; the maps' choice is not in it. Rmse is of the relative error. Edges: pixels with a neighbour "
+      "that differs by more than 10 %. The best small array is chosen by the figure it is compared by, "
+      "which favours it.\n\n",
+      answer, sensor.columns, sensor.rows, options.sensor, options.seed, kNoError, fmt::join(names, ", "),
+      options.nearest_m, kDarkestPhotographed, options.seed,
+      options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
+  const std::string picture = fmt::format("enlarge_{:g}klux.png", lights.back().klux);
+  const std::string title =
+      fmt::format("{}, {:g} klux, sensor {}, poolPointer 2: large array, and a small one enlarged",
+                  settings.pictured_scene, lights.back().klux, options.sensor);
+  report += fmt::format("![{}]({})\n\n{}Command: `{}`\n", title, picture, enlarge_tables(lights),
+                        options.command_line);
+  write_picture(folder / picture, lights.back().study.maps, sensor, title, options.command_line);
+  write_file(folder / "enlarge.csv", enlarge_csv(lights));
+  write_file(folder / "enlarge.md", report);
+  fmt::print("{}\nThe report is {}\n", answer, (folder / "enlarge.md").string());
+}
+
+}  // namespace
+
+void add_enlarge_command(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<EnlargeOptions>();
+  options->command_line = command_line;
+  options->scenes = {"room", "staircase", "planes", "clutter", "poles"};
+  CLI::App* command = app.add_subcommand(
+      "enlarge", "Small arrays that share the laser, enlarged to the large array's size, beside it");
+  command->add_option("--sensor,-p,--preset", options->sensor, "a preset of `dtof list` or a sensor file")
+      ->capture_default_str();
+  command->add_option("-k,--klux", options->klux, "background light in klux, one or more; the last is drawn")
+      ->check(sensible_klux())
+      ->capture_default_str();
+  add_scene_options(*command, *options);
+  command->add_option("--array", options->arrays, "small arrays, COLUMNSxROWS, one or more")
+      ->capture_default_str();
+  command->add_option("-r,--readout", options->readouts, "read-outs of the small arrays, and rivals")
+      ->capture_default_str();
+  command->add_option(
+      "--weights", options->weights,
+      "weights of the enlargers, as `make train-enlarger` writes them (default: those of the\n"
+      "project)");
+  command->add_option("--picture-scene", options->pictured_scene,
+                      "map that is drawn (default: the last one)");
+  command->add_option("--picture-array", options->pictured_array, "small array that is drawn")
+      ->capture_default_str();
+  command->add_option("-s,--seed", options->seed, "first seed of photons, and of random shapes")
+      ->capture_default_str();
+  command->add_option("--seeds", options->seeds, "seeds, from the first one up")
+      ->check(CLI::Range(2, 1000))
+      ->capture_default_str();
+  command->add_option("-j,--threads", options->threads, "threads, 0 = all processors")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  command->callback([options, command] {
+    check_scene_options(*command, *options);
+    run_enlarge_command(*options);
+  });
+}
+
+}  // namespace dtof

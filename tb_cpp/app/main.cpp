@@ -1,4 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-#include "app/commands.hpp"
-
-int main(int argc, char** argv) { return dtof::run_program(dtof::dtof_program(), argc, argv); }

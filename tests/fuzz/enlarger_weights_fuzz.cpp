@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weights of the learned enlarger.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "dtof/core/error.hpp"
+#include "small_arrays/models/learned_enlarger.hpp"
+
+namespace {
+
+void read(const std::uint8_t* data, std::size_t size) {
+  (void)dtof::parse_enlarger_weights(std::string_view(reinterpret_cast<const char*>(data), size), "weights");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    read(data, size);
+  } catch (const dtof::InputError&) {  // any other exception ends the fuzzer
+  }
+  return 0;
+}
