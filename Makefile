@@ -39,7 +39,7 @@ DTOF := $(BUILD)/bin/dtof
 DTOF_STUDY := $(BUILD)/bin/dtof-study
 
 .DEFAULT_GOAL := all
-.PHONY: all help packages configure build study study-program sim report publish test try-targets lint lint-slang bench clean
+.PHONY: all help packages configure build study study-program sim report publish test quick try-targets lint lint-slang bench clean
 
 all: packages sim
 	@$(MAKE) --no-print-directory report
@@ -81,6 +81,11 @@ test: configure
 	@scripts/lint.sh
 	@scripts/run_tests.sh $(BUILD)
 
+# What takes seconds: format, generated files, documents, stale figures.
+quick: configure
+	@scripts/lint.sh --quick
+	@scripts/reports.py stale-check
+
 # TARGETS="sim claims": some; OPTIONS=--quick, --again: scripts/try_targets.py --help
 try-targets:
 	@scripts/try_targets.py $(OPTIONS) $(TARGETS)
@@ -100,22 +105,22 @@ bench: configure
 clean:
 	rm -rf build
 
--include synth/synth.mk
--include synth/layout.mk
--include scripts/reproduce.mk
--include scripts/coverage_study.mk
--include scripts/photon_report.mk
--include scripts/study.mk
--include scripts/enlarge.mk
--include scripts/formal.mk
--include scripts/faults.mk
--include scripts/sensor_effects.mk
--include scripts/mutate.mk
--include scripts/hostile.mk
--include scripts/adding.mk
--include scripts/playground.mk
--include scripts/wave.mk
--include scripts/example.mk
--include scripts/fpga.mk
--include scripts/sweep.mk
--include scripts/reports.mk
+include synth/synth.mk
+include synth/layout.mk
+include scripts/reproduce.mk
+include scripts/coverage_study.mk
+include scripts/photon_report.mk
+include scripts/study.mk
+include scripts/enlarge.mk
+include scripts/formal.mk
+include scripts/faults.mk
+include scripts/sensor_effects.mk
+include scripts/mutate.mk
+include scripts/hostile.mk
+include scripts/adding.mk
+include scripts/playground.mk
+include scripts/wave.mk
+include scripts/example.mk
+include scripts/fpga.mk
+include scripts/sweep.mk
+include scripts/reports.mk

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Joins the C++ files that Verilator wrote into DIRECTORY, and REGISTRATION, into one translation unit. What runs
+# Joins the C++ files that Verilator wrote into DIRECTORY, and MAKER, which makes an object of the model, into one translation unit. What runs
 # once (construction) or on demand (waveform) is not worth the optimiser's time: it would take longer than the rest. It
 # stands last, so that no header is read without the optimiser.
 # model.d has the files that Verilator read, for the build.
@@ -18,7 +18,7 @@ string(APPEND text "#pragma GCC push_options\n#pragma GCC optimize(\"O0\")\n")
 foreach(source ${rare})
   string(APPEND text "#include \"${source}\"\n")
 endforeach()
-string(APPEND text "#pragma GCC pop_options\n#undef trace_init\n#include \"${REGISTRATION}\"\n")
+string(APPEND text "#pragma GCC pop_options\n#undef trace_init\n#include \"${MAKER}\"\n")
 file(WRITE ${DIRECTORY}/model.cpp "${text}")
 
 file(GLOB read ${DIRECTORY}/V*__ver.d)

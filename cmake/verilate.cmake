@@ -70,12 +70,17 @@ target_link_libraries(verilated_waveform PUBLIC verilated_runtime ZLIB::ZLIB)
 include(${CMAKE_CURRENT_LIST_DIR}/readouts.cmake)
 set(DTOF_VERILATE_DIR ${CMAKE_CURRENT_LIST_DIR})
 
+# What names parameters is compiled apart (<library>_registrations), so that an edit of models/dtof/core compiles no RTL.
 function(dtof_rtl_models library)
   cmake_parse_arguments(P "" "BATCH" "OPTIONS" ${ARGN})
   add_library(${library} OBJECT)
   target_include_directories(${library} PRIVATE ${PROJECT_SOURCE_DIR}/tb_cpp ${PROJECT_SOURCE_DIR}/models)
   target_compile_options(${library} PRIVATE ${P_OPTIONS} -w)
   target_link_libraries(${library} PUBLIC dtof_rtl)
+  add_library(${library}_registrations OBJECT)
+  target_link_libraries(${library}_registrations PRIVATE dtof_rtl dtof_subsystem)
+  set_target_properties(${library}_registrations PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  target_sources(${library} INTERFACE $<TARGET_OBJECTS:${library}_registrations>)
   if(P_BATCH)
     set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${P_BATCH})
   endif()
@@ -171,6 +176,8 @@ function(dtof_verilate name)
   endif()
   set(P_CLASS V${name})
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name})
+  set(maker ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_maker.cpp)
+  configure_file(${PROJECT_SOURCE_DIR}/tb_cpp/rtl/maker.cpp.in ${maker} @ONLY)
   set(registration ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name}_registration.cpp)
   configure_file(${PROJECT_SOURCE_DIR}/tb_cpp/rtl/registration.cpp.in ${registration} @ONLY)
   set(wrapper ${PROJECT_SOURCE_DIR}/tb_cpp/${folder}/${top}.sv)
@@ -189,13 +196,14 @@ function(dtof_verilate name)
             ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/common ${hdl}/common/dtof_pkg.sv ${hdl}/common/dtof_registers_pkg.sv
             ${modules} ${access}
             ${relative_wrapper}
-    COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D REGISTRATION=${registration}
+    COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D MAKER=${maker}
             -P ${DTOF_VERILATE_DIR}/unity.cmake
-    DEPENDS ${registration} ${DTOF_VERILATE_DIR}/unity.cmake
+    DEPENDS ${maker} ${DTOF_VERILATE_DIR}/unity.cmake
     DEPFILE ${directory}/model.d
     COMMENT "Verilating ${name}"
     VERBATIM)
   target_sources(${P_TARGET} PRIVATE ${directory}/model.cpp)
+  target_sources(${P_TARGET}_registrations PRIVATE ${registration})
 endfunction()
 
 function(dtof_verilate_named kind top library)

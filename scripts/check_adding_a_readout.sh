@@ -22,7 +22,7 @@ ninja -C build/cpp -j "$jobs" dtof core_test readout_test report_test rtl_readou
 build/cpp/bin/dtof frame --readout firstphoton --engine rtl --verify --columns 0-9 --rows 0-19 --out build/firstphoton
 # A test of CTest is a program; of the suites that take read-outs, the new one's.
 ctest --test-dir build/cpp --output-on-failure -R '^(core|readout|report)$'
-build/cpp/tests/rtl/rtl_readouts_test --gtest_brief=1 --gtest_filter='*firstphoton*'
+build/cpp/bin/rtl_readouts_test --gtest_brief=1 --gtest_filter='*firstphoton*'
 (cd scripts && /usr/bin/python3 -m unittest -q tests.test_generate tests.test_plot_style)
 make --no-print-directory synth-sizes
 make --no-print-directory synth CONFIGURATIONS=firstphoton

@@ -90,7 +90,8 @@ def read_cpp(path: Path) -> dict[str, tuple[Counter, Counter]]:
     """Lines and branches of each library."""
     libraries: dict[str, tuple[Counter, Counter]] = defaultdict(lambda: (Counter(), Counter()))
     for file in json.loads(path.read_text())["files"]:
-        library = file["filename"].split("/")[1]
+        parts = file["filename"].split("/")
+        library = "/".join(parts[:3 if parts[0] == "models" else 2])
         lines, branches = libraries[library]
         lines.add(Counter(file["line_covered"], file["line_total"]))
         branches.add(Counter(file["branch_covered"], file["branch_total"]))
@@ -133,7 +134,7 @@ def main() -> int:
     for library, counters in cpp.items():
         for total, counter in zip(cpp_sums, counters):
             total.add(counter)
-        cpp_rows.append([f"`tb_cpp/{library}`"] + [counter.text() for counter in counters])
+        cpp_rows.append([f"`{library}`"] + [counter.text() for counter in counters])
     cpp_rows.append(["all"] + [counter.text() for counter in cpp_sums])
 
     explained = explanations()

@@ -15,5 +15,5 @@ fpga: configure
 	@scripts/reports.py begin fpga
 	@scripts/fpga.py
 	@ninja -C $(BUILD) demonstrator_netlist_test demonstrator_pool_netlist_test
-	@scripts/fpga.py --report $(BUILD)/tests/demonstrator
+	@scripts/fpga.py --report $(BUILD)/bin
 	@scripts/reports.py record fpga

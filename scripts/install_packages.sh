@@ -13,7 +13,7 @@ packages=(
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta
   # scripts, plots, checks
-  python3 python3-numpy python3-markdown python3-yaml python3-pyflakes gnuplot-nox clang-format clang-tidy gcovr
+  python3 python3-numpy python3-markdown python3-yaml python3-pyflakes mypy gnuplot-nox clang-format clang-tidy gcovr
 )
 
 optional=()  # taken where the release has them

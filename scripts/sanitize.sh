@@ -15,10 +15,10 @@ build_and_run() { # name, CMake preset, tests (empty: all)
     || { cat "$folder/$1_cmake.log"; exit 1; }
   if [ -z "$tests" ]; then
     ninja -C "$build"
-    ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
+    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" -LE python
   else
     ninja -C "$build" $(printf '%s_test ' $tests)
-    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" -R "^($(tr ' ' '|' <<< "$tests"))\$"
+    ctest --test-dir "$build" --output-on-failure -j "$(nproc)" -R "^($(tr ' ' '|' <<< "$tests"))(_[0-9]+)?\$"
   fi
 }
 

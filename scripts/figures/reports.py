@@ -4,7 +4,7 @@
 import hashlib
 import tomllib
 from collections import defaultdict
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath
 
 from . import closure
@@ -84,7 +84,7 @@ def load(root: Path) -> dict[str, Report]:
         after = tuple(dict.fromkeys(writers[pattern] for pattern in report.inputs if pattern in writers))
         for other in after:
             add(other, (*above, name))
-        ordered.setdefault(name, Report(**{**vars(report), "after": after}))
+        ordered.setdefault(name, replace(report, after=after))
 
     for name in found:
         add(name, ())

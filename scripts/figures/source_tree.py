@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The files of the project as they lie here, or as they were in a commit."""
 
-import functools
 import hashlib
 import re
 import subprocess
@@ -25,6 +24,7 @@ class SourceTree:
 
     def __init__(self, root: Path) -> None:
         self.root = root
+        self.known: dict[str, str] = {}
         self.files = self._listed()
 
     def _listed(self) -> frozenset[str]:
@@ -42,9 +42,10 @@ class SourceTree:
     def text(self, name: str) -> str:
         return self.read(name).decode("utf-8", errors="replace")
 
-    @functools.cache
     def digest(self, name: str) -> str:
-        return hashlib.sha256(strip.stripped(name, self.read(name))).hexdigest()[:16]
+        if name not in self.known:
+            self.known[name] = hashlib.sha256(strip.stripped(name, self.read(name))).hexdigest()[:16]
+        return self.known[name]
 
     def matching(self, pattern: str) -> list[str]:
         """`**` stands for any folders, `*` for a part of one name."""

@@ -40,8 +40,9 @@ def load(root: Path) -> dict[str, Figure]:
     if not path.is_file():
         return {}
     table = json.loads(path.read_text(encoding="utf-8"))
-    return {name: Figure(**{**entry, "interval": tuple(entry["interval"]) if "interval" in entry else None})
-            for name, entry in table.items()}
+    for entry in table.values():
+        entry["interval"] = tuple(entry["interval"]) if "interval" in entry else None
+    return {name: Figure(**entry) for name, entry in table.items()}
 
 
 def record(root: Path, report: str, command: str, inputs: str, figures: dict[str, Figure]) -> None:

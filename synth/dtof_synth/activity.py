@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
 from . import netlist, sram_model
-from .errors import FlowError
+from .errors import FlowError, found_in
 from .library import Library
 from .liberty import Group
 
@@ -271,7 +271,7 @@ def energy(scope: Scope, phase: str, design: dict, library: Library, internal: d
                     load[bit] = load.get(bit, 0.0) + pin_ff + library.wire_ff_per_sink
     result.nets = sum(0.5 * ff * library.voltage**2 * transitions.get(bit, 0) for bit, ff in load.items())
     for (instance, kind), number in scope.accesses.get(phase, {}).items():
-        ports, words, bits = re.fullmatch(r"sram_(1rw|1r1w)_(\d+)x(\d+)", module["cells"][instance]["type"]).groups()
+        ports, words, bits = found_in("Yosys", r"^sram_(1rw|1r1w)_(\d+)x(\d+)$", module["cells"][instance]["type"]).groups()
         macro = sram_model.macro(sram_model.Size(1 if ports == "1rw" else 2, int(words), int(bits)))
         fj = number * 1000 * (macro.read_energy if kind == "read" else macro.write_energy)
         result.sram += fj

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from .errors import given
 from . import batch, ihp130, technology
 from .configuration import Configuration, engine_memories, memories
 from .run import Result
@@ -72,7 +73,7 @@ def _open_process(root: Path, pdk: Path, chosen: list[Configuration], everything
     for item in fitting:
         result = results[item.name]
         logic = _logic_mm2(result)
-        copies = [(number, size, *ihp130.choose(size, macros)) for number, size in sizes(item)]
+        copies = [(number, size, *given(ihp130.choose(size, macros), item.name)) for number, size in sizes(item)]
         sram = sum(number * count * macro.area for number, _, count, macro in copies) / 1e6
         used = ", ".join(f"{size.words}x{size.bits}: {count} of {macro.size.words}x{macro.size.bits}"
                          for _, size, count, macro in copies)

@@ -8,6 +8,7 @@ import functools
 import os
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from . import batch, budgets, check, configuration, corner_ratios, gates, goals, growth, namings, part_costs, report, report_inputs, \
@@ -23,6 +24,7 @@ PDK = ROOT.parent / "shared" / "pdk"
 SIMULATION = ROOT / "build" / "simulation"
 FLAT = ("ezpointer", "poolpointer2", "poolpointer2_lean")
 FLAT_TOLERANCE_NS = 0.005
+Action = Callable[[argparse.Namespace, dict[str, Configuration]], int]
 
 
 def _say(text: str) -> None:
@@ -334,11 +336,11 @@ def _parser() -> argparse.ArgumentParser:
     several = commands.add_parser("namings", help="area and slack over several namings of the same logic")
     several.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all but variants, with a report")
     several.set_defaults(action=_namings)
-    for name, action, text in (("sizes", _sizes, "write the list of SRAM sizes"),
-                               ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
-                               ("budgets", _budgets, "propose new budgets from the current state"),
-                               ("check", _check, "compare the generated library with others")):
-        commands.add_parser(name, help=text).set_defaults(action=action)
+    others: tuple[tuple[str, Action, str], ...] = (
+        ("sizes", _sizes, "write the list of SRAM sizes"), ("growth", _growth, "cost over NP, NB, pixels per SRAM and SRAM_NUM"),
+        ("budgets", _budgets, "propose new budgets from the current state"), ("check", _check, "compare the generated library with others"))
+    for name, other, text in others:
+        commands.add_parser(name, help=text).set_defaults(action=other)
     return parser
 
 

@@ -14,7 +14,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from .library import Library
+from .errors import given
+from .library import ClockGate, Library
 from .netlist import CLOCK_GATE_PREFIX, TREE_LOAD_SHARE
 
 FEWEST_BITS = 4  # below, a gate takes as much as it saves
@@ -52,8 +53,7 @@ def _registers(lines: list[str], begin: int, end: int) -> Iterable[_Register]:
         index += 1
 
 
-def _gate(number: int, clock: str, enable: str, library: Library) -> list[str]:
-    gate = library.clock_gate
+def _gate(number: int, clock: str, enable: str, gate: ClockGate) -> list[str]:
     name = f"\\{CLOCK_GATE_PREFIX}{number}"
     return [f"  cell \\{gate.name} {name}", f"    connect \\{gate.clock_pin} {clock}",
             f"    connect \\{gate.enable_pin} {enable}", f"    connect \\{gate.output_pin} {name}_clk", "  end"]
@@ -73,7 +73,7 @@ def _clusters(registers: list[_Register], most: int) -> list[list[_Register]]:
 def gated(text: str, library: Library) -> tuple[str, int]:
     """The netlist (RTLIL) with gates, and how many they are."""
     lines = text.splitlines()
-    gate = library.clock_gate
+    gate = given(library.clock_gate, "the library has no clock gate")
     register_ff = max(library.clock_pin_ff[kind] for kind in library.sequential) + library.wire_ff_per_sink
     most = max(FEWEST_BITS, int(gate.max_load_ff * TREE_LOAD_SHARE / register_ff))
     replaced: dict[int, list[str]] = {}  # lines that others take the place of
@@ -100,7 +100,7 @@ def gated(text: str, library: Library) -> tuple[str, int]:
                 enable = f"$clock_gate_not${number}"
             for cluster in _clusters(registers, most):
                 wires.append(f"  wire \\{CLOCK_GATE_PREFIX}{number}_clk")
-                added += _gate(number, clock, enable, library)
+                added += _gate(number, clock, enable, gate)
                 for register in cluster:
                     body = lines[register.first:register.last + 1]
                     for offset, line in enumerate(body):

@@ -75,7 +75,10 @@ class Configuration:
 
 def bin_width(configuration: Configuration) -> int:
     """log2 of the bins the histogram SRAM holds for a pixel; only for read-outs that have one."""
-    return readouts.evaluate(configuration.described.bin_width, configuration.parameters)
+    width = configuration.described.bin_width
+    if width is None:
+        raise FlowError(f"{configuration.name}: the read-out has no histogram")
+    return readouts.evaluate(width, configuration.parameters)
 
 
 def memories(configuration: Configuration) -> dict[str, Size]:

@@ -17,7 +17,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from . import netlist
-from .errors import FlowError
+from .errors import FlowError, found_in
 from .library import Library
 from .netlist import Module
 
@@ -56,7 +56,7 @@ class _Constants:
         """A pin or port named as OpenSTA does."""
         array = netlist.top(self.design)
         if "/" not in name:
-            port, index = re.fullmatch(r"(\w+)(?:\[(\d+)\])?", name).groups()
+            port, index = found_in("OpenSTA", r"^(\w+)(?:\[(\d+)\])?$", name).groups()
             description = array["ports"][port]
             return self._net("", "", description["bits"][int(index or 0) - description.get("offset", 0)])
         *block, _, _ = name.split("/")

@@ -37,9 +37,9 @@ def engine_columns(configuration: Configuration) -> int:
     raise FlowError(f"{configuration.name}: no engine has time for even one column")
 
 
-def candidates(base: Configuration) -> list[tuple[str, str, Configuration]]:
+def candidates(base: Configuration) -> list[tuple[str, int | str, Configuration]]:
     """(parameter, value, configuration) for each number and width of candidates; the base is one of them."""
-    points = []
+    points: list[tuple[str, int | str, Configuration]] = []
     for labels, bits in CANDIDATES:
         if (labels, bits) == (base["LABELS"], base["SCORE_BITS"]):
             item = base
@@ -61,7 +61,7 @@ def point(base: Configuration, parameter: str, value: int) -> Configuration:
 
 def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int | str, Configuration]]:
     """(parameter, value, configuration) of every point; the base itself is a point of every sweep."""
-    points = []
+    points: list[tuple[str, int | str, Configuration]] = []
     for readout in READOUTS:
         base = configurations[readout]
         for parameter, values in SWEEPS.items():

@@ -101,7 +101,7 @@ def choose(size: Size, macros: list[Compiled]) -> tuple[int, Compiled] | None:
     """(copies side by side, macro) of the least area, or None where every macro has too few words."""
     fitting = [(-(-size.bits // macro.size.bits), macro) for macro in macros
                if macro.size.ports == size.ports and macro.size.words >= size.words]
-    return min(fitting, key=lambda choice: choice[0] * choice[1].area, default=None)
+    return min(fitting, key=lambda choice: choice[0] * choice[1].area) if fitting else None
 
 
 def macro(size: Size, macros: list[Compiled]) -> Macro:

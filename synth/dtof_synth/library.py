@@ -133,11 +133,11 @@ def _clock_gate(cell: Group, unit: float) -> ClockGate | None:
     """The cell as a clock gate; None unless it serves rising-edge registers and has no pin for scan mode."""
     if cell.get("clock_gating_integrated_cell").strip('"') != "latch_posedge":
         return None
-    pins = [next((pin for pin in cell.children("pin") if pin.get(f"clock_gate_{role}_pin").strip('"') == "true"), None)
-            for role in ("clock", "enable", "out")]
-    if None in pins:
+    clock, enable, output = (next((pin for pin in cell.children("pin") if pin.get(f"clock_gate_{role}_pin").strip('"') == "true"), None)
+                             for role in ("clock", "enable", "out"))
+    if clock is None or enable is None or output is None:
         return None
-    return ClockGate(cell.name, *(pin.name for pin in pins), cell.number("area"), pins[2].number("max_capacitance") * unit)
+    return ClockGate(cell.name, clock.name, enable.name, output.name, cell.number("area"), output.number("max_capacitance") * unit)
 
 
 def read(path: Path) -> Library:
@@ -171,10 +171,10 @@ def read(path: Path) -> Library:
             continue
         if cell.children("ff"):
             result.sequential.add(name)
-            clock = next((pin for pin in inputs if pin.get("clock") == "true"), None)
-            if clock is not None:
-                result.clock_pin_ff[name] = clock.number("capacitance") * unit
-                result.clock_energy_fj[name] = _internal_clock_energy(clock) * unit
+            edge = next((pin for pin in inputs if pin.get("clock") == "true"), None)
+            if edge is not None:
+                result.clock_pin_ff[name] = edge.number("capacitance") * unit
+                result.clock_energy_fj[name] = _internal_clock_energy(edge) * unit
         elif cell.children("latch"):
             result.latches.add(name)
         elif len(outputs) == 1:

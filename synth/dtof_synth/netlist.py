@@ -223,11 +223,11 @@ class TreeBuilder:
         buffer = _smallest(self.buffers, load_of(cluster) + wire_ff)
         output = self._rewire(cluster)
         name = f"{TREE_PREFIX}{net}_{output}"
-        cell = {"hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
-                "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"},
-                "connections": {buffer.input_pin: [net], buffer.output_pin: [output]}}
-        self.module["cells"][name] = cell
-        return Sink(name, cell["connections"][buffer.input_pin], 0, buffer.input_ff + self.wire)
+        connections = {buffer.input_pin: [net], buffer.output_pin: [output]}
+        self.module["cells"][name] = {
+            "hide_name": 0, "type": buffer.name, "parameters": {}, "attributes": {},
+            "port_directions": {buffer.input_pin: "input", buffer.output_pin: "output"}, "connections": connections}
+        return Sink(name, connections[buffer.input_pin], 0, buffer.input_ff + self.wire)
 
     def copy_register(self, net: int, cluster: list[Sink]) -> tuple[str, int]:
         """Gives a cluster its own copy of the register that drives the net; returns its name and the net that it drives."""

@@ -7,9 +7,9 @@ flip-flops' clock pins and an estimated clock tree. Activities are stated, not s
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
+from .errors import found_in
 from . import sram_model
 from .configuration import Configuration, engine_memories, memories
 from .library import Library
@@ -66,7 +66,7 @@ class _Sums:
 def _sums(output: str, label: str, group: str) -> _Sums:
     """What synth/sta/cell_power.tcl printed. OpenSTA of 2019 adds rise and fall energy for every transition, so its internal
     power is twice the power and is halved here; test_flow_checks.py pins that behaviour."""
-    found = re.search(rf"^DTOF_POWER {label} {group} (\S+) (\S+) (\S+)$", output, re.MULTILINE)
+    found = found_in("OpenSTA", rf"^DTOF_POWER {label} {group} (\S+) (\S+) (\S+)$", output)
     internal, switching, leakage = (float(number) for number in found.groups())
     return _Sums(internal / 2, switching, leakage)
 

@@ -7,6 +7,7 @@ import csv
 from collections.abc import Iterable
 from pathlib import Path
 
+from .errors import given
 from . import area_parts, floorplan, gates, goals, loads, sram_model, wide_words
 from .configuration import memories
 from .run import TARGET_MHZ, Result
@@ -291,5 +292,5 @@ def summary(results: dict[str, Result]) -> str:
         thesis = f"{result.configuration.thesis_mm2:.2f}" if result.configuration.thesis_mm2 else ""
         lines.append(f"{name:<26}{result.column.area:>8.0f}{result.shared.area:>8.0f}{result.sram_area:>8.0f}"
                      f"{result.total_mm2:>9.3f}{thesis:>8}{slow.slack:>+8.3f}{slow.fmax_mhz:>6.0f}"
-                     f"{typical.fmax_mhz:>6.0f}{result.power.total:>8.1f}")
+                     f"{typical.fmax_mhz:>6.0f}{given(result.power, name).total:>8.1f}")
     return "\n".join(lines)

@@ -15,7 +15,7 @@ from . import (clock_gating, endpoints, floorplan, loads, netlist, power, report
                standard_cells, timing, tools, verilog)
 from .canonical import canonical
 from .configuration import Configuration, bits_per_pixel, engine_memories, memories
-from .errors import FlowError
+from .errors import FlowError, given
 from .library import Library
 from .netlist import Counts
 from .power import ClockTree, Power
@@ -79,7 +79,7 @@ class Technology:
     fast: Library | None = None
 
     def library(self, corner: str) -> Library:
-        return {"typical": self.typical, "slow": self.slow, "fast": self.fast}[corner]
+        return given({"typical": self.typical, "slow": self.slow, "fast": self.fast}[corner], f"no library for the {corner} corner")
 
 
 def _area(used: dict[str, sram_model.Size]) -> float:
@@ -312,7 +312,8 @@ class _Netlist:
         self._write(self._first_columns())
         kinds = self._kinds()
         pin_load = floorplan.pin_load(library, sram_kit.PIN_FF)
-        shrinkable, dispensable = [], []
+        shrinkable: list[tuple[str, str]] = []
+        dispensable: list[netlist.Dispensable] = []
         if not again:
             dispensable, carried = netlist.dispensable_buffers(self.design, library, kinds, pin_load)
             for kind, nets in loads.between_blocks(self.design, self.plan, library, pin_load).items():
@@ -413,10 +414,9 @@ class _Attempt:
 def _timed(timed: _Netlist, effort: int) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, effort, timed.time("slow", "nominal").slack, None)
-    report, early = None, None
     for number in range(RESIZE_ROUNDS):
         changed = timed.resize(again=number > 0)
-        if report is not None and not changed:
+        if number > 0 and not changed:
             break
         early = timed.time("fast", "margins", "early")
         report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
@@ -465,7 +465,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
     timed = best.netlist
     margins: dict[str, Margin] = {}
     if "typical" in corners and best.margin is not None:
-        fast = timed.fix_hold(best.early, best.spare)
+        fast = timed.fix_hold(given(best.early, "the fast corner was not timed"), best.spare)
         slow = timed.time("slow", "nominal", "closing", "margins")
         for _ in range(CLOSING_ROUNDS):
             if slow.margin().slack >= 0 or not timed.resize(again=True):
@@ -497,7 +497,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
 
 
 def retimed(result: Result, technology: Technology, folder: Path, cells: Path, srams: Path, log: str, steps: tuple[str, ...], how: str,
-            netlist_file: str = "timing.v", **settings: tools.Setting) -> timing.Report:
+            netlist_file: str = "timing.v", settings: dict[str, tools.Setting] | None = None) -> timing.Report:
     """The netlist that `run` left in `folder`, in the slow corner with other libraries. `how`: in messages."""
     effort = folder / f"effort{result.effort}"
     files = timing.Netlist(f"{result.configuration.name}, slow corner, {how}", effort / netlist_file, effort / "wires_slow.spef",
@@ -548,7 +548,7 @@ def with_wires(result: Result, technology: Technology, folder: Path, um_per_sink
 
     def time(log: str, steps: tuple[str, ...], **settings: tools.Setting) -> timing.Report:
         return retimed(result, technology, folder, liberty, technology.kit / "sram40_slow.lib", log, steps,
-                       f"{um_per_sink:.2f} um of wire per sink", **settings)
+                       f"{um_per_sink:.2f} um of wire per sink", settings=settings)
 
     report = time("sta_slow_wires.log", ("nominal", "margins"))
     resized = time("sta_resize_wires.log", ("resize",), **_resize_settings(effort, technology.slow))

@@ -18,6 +18,7 @@ from .library import Library
 from .netlist import COPY_SUFFIX, Module
 
 Source = tuple[str, ...]
+Bit = int | str  # a net, or a constant as Yosys writes it
 Logic = dict[str, dict[str, tuple]]  # of each module: what its cells and outputs are, by name
 
 
@@ -37,8 +38,8 @@ class _Reader:
 
     def read(self) -> dict[str, tuple]:
         buffers = {buffer.name for buffer in self.library.buffers}
-        passed: dict[int, object] = {}  # what a buffer's output repeats
-        source: dict[int, Source] = {}
+        passed: dict[Bit, Bit] = {}  # what a buffer's output repeats
+        source: dict[Bit, Source] = {}
         for port, description in self.module["ports"].items():
             if description["direction"] == "input":
                 source.update((bit, ("port", port, str(index))) for index, bit in enumerate(description["bits"]))
@@ -52,7 +53,7 @@ class _Reader:
             for pin in outputs:
                 source.update((bit, (self._original(cell), pin, str(index))) for index, bit in enumerate(pins[pin]))
 
-        def root(bit: object) -> Source:
+        def root(bit: Bit) -> Source:
             while bit in passed:
                 bit = passed[bit]
             return source.get(bit, (str(bit) if isinstance(bit, str) else "nothing",))
@@ -74,6 +75,10 @@ class _Reader:
         return found
 
 
+def _called(names: Mapping[str, str]) -> Callable[[str], str]:
+    return lambda cell: names.get(cell, cell)
+
+
 def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] | None = None) -> Logic:
     """`called`: what the cells of each module were called when they were mapped, if they have other names now. FlowError if a
     register's copy is none."""
@@ -82,8 +87,7 @@ def of(design: dict, library: Library, called: Mapping[str, Mapping[str, str]] |
     logic: Logic = {}
     for name, module in netlist.modules(design).items():
         if module["cells"]:
-            names = (called or {}).get(name, {})
-            logic[name] = _Reader(module, library, lambda cell, names=names: names.get(cell, cell), family, column).read()
+            logic[name] = _Reader(module, library, _called((called or {}).get(name, {})), family, column).read()
     return logic
 
 

@@ -24,7 +24,7 @@ from . import activity, floorplan, liberty, netlist, simulation, sram_kit, sram_
 from . import power as power_model
 from .activity import OTHER, STREAMING, Activity
 from .configuration import Configuration, engine_memories, memories
-from .errors import FlowError
+from .errors import FlowError, given
 from .library import Library
 from .run import FINISHED_COLUMN, TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
 
@@ -146,7 +146,8 @@ def count_activity(design: dict, case: simulation.Case, technology: Technology, 
     said: list[str] = []
     process = subprocess.Popen(["vvp", "-n", "bench.vvp"], cwd=folder, stdout=subprocess.PIPE,
                                stderr=subprocess.STDOUT, text=True)
-    reader = threading.Thread(target=lambda: said.append(process.stdout.read()))
+    output = given(process.stdout, "vvp has no output")
+    reader = threading.Thread(target=lambda: said.append(output.read()))
     reader.start()
     counted: Activity | None = None
     try:
@@ -252,7 +253,7 @@ def report(found: list[ScenePower], results: dict[str, Result], digest: str, see
              "|---|---|" + "---:|" * 10]
     for one in found:
         part = one.streaming
-        assumed = results[one.configuration.name].power
+        assumed = given(results[one.configuration.name].power, f"{one.configuration.name} has no power")
         lines.append(f"| {one.configuration.title} | {one.light} | {one.column_rate:.2f} | {part.columns:.1f} | "
                      f"{one.uniform_mw:.1f} | {part.engines:.1f} | {part.control:.1f} | {part.sram:.1f} | {part.clock:.1f} | "
                      f"{part.leakage:.1f} | {part.total:.1f} | {assumed.total:.1f} |")

@@ -175,7 +175,8 @@ def outcome(output: str, case: Case, seconds: float) -> Outcome:
     """FlowError with what the bench or an assertion of the RTL reported, unless all frames passed."""
     passed = re.search(r"^DTOF_PASS frames (\d+) results (\d+) clocks (\d+)$", output, re.MULTILINE)
     if passed and "ERROR" not in output and int(passed.group(1)) == len(case.frames):
-        return Outcome(*map(int, passed.groups()), seconds)
+        frames, results, clocks = map(int, passed.groups())
+        return Outcome(frames, results, clocks, seconds)
     lines = [line for line in output.splitlines() if line.strip()]
     first = next((index for index, line in enumerate(lines) if line.startswith("ERROR")), 0)
     raise FlowError(f"{case.title}: {'; '.join(lines[first:first + 4]) or 'the simulation printed nothing'}")

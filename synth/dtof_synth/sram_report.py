@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from statistics import mean
 
@@ -39,7 +40,7 @@ def _range(ratios: list[float]) -> str:
     return f"{min(ratios):.2f} to {max(ratios):.2f}"
 
 
-def fit(rows: list[tuple[float, ...]], values: list[float]) -> list[float]:
+def fit(rows: Sequence[tuple[float, ...]], values: list[float]) -> list[float]:
     """Least squares of values = rows times the result, by the normal equations."""
     size = len(rows[0])
     matrix = [[sum(row[i] * row[j] for row in rows) for j in range(size)]
@@ -83,7 +84,7 @@ def _extrapolated(rows: list[dict[str, str]], most_bits: int) -> tuple[float, fl
     points = [(int(row["words"]), int(row["bits"]), float(row["read_pJ"])) for row in rows]
     known = [point for point in points if point[1] <= most_bits]
     words, bits, energy = max(points, key=lambda point: point[1])
-    return tuple(law(known)(words, bits) / energy for law in (fit_linear_in_bits, fit_power_law))
+    return fit_linear_in_bits(known)(words, bits) / energy, fit_power_law(known)(words, bits) / energy
 
 
 def _cacti_lines(pdk: Path) -> list[str]:

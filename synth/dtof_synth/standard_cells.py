@@ -151,7 +151,7 @@ def _nand_family(drive: int) -> list[Gate]:
 
 
 # Complex gates: function, and (effort, parasitic) of every pin, transistor by transistor with P = 2 N.
-_COMPLEX = {
+_COMPLEX: dict[str, tuple[str, float, dict[str, float]]] = {
     "AOI21": ("!((A1 * A2) + B)", 7 / 3, {"A1": 2, "A2": 2, "B": 5 / 3}),
     "OAI21": ("!((A1 + A2) * B)", 8 / 3, {"A1": 2, "A2": 2, "B": 4 / 3}),
     "AOI22": ("!((A1 * A2) + (B1 * B2))", 4, {"A1": 2, "A2": 2, "B1": 2, "B2": 2}),
@@ -275,7 +275,7 @@ def _delay_tables(delay, corner: Corner, drive: float) -> list[Group]:
 
 def _energy(pin: str, femtojoules: float) -> Group:
     """Internal energy of one edge, both edges alike."""
-    attributes = [("related_pin", f'"{pin}"')] if pin else []
+    attributes: list[tuple[str, str | list[str]]] = [("related_pin", f'"{pin}"')] if pin else []
     value = [("values", [quoted([femtojoules])])]
     return Group("internal_power", [], attributes,
                  [Group("rise_power", ["scalar"], list(value)), Group("fall_power", ["scalar"], list(value))])
@@ -310,13 +310,13 @@ def gate_cell(gate: Gate, corner: Corner) -> Group:
         cell.add(_input_pin(pin, load))
     for name, output in gate.outputs.items():
         drive = next(iter(output.paths.values()))[-1].drive
-        pin = cell.add(_output_pin(name, drive, output.function))
+        output_pin = cell.add(_output_pin(name, drive, output.function))
         for source, path in output.paths.items():
             sense = output.sense[source] or "non_unate"
-            timing = pin.add(Group("timing", [], [("related_pin", f'"{source}"'), ("timing_sense", sense)]))
+            timing = output_pin.add(Group("timing", [], [("related_pin", f'"{source}"'), ("timing_sense", sense)]))
             timing.groups = _delay_tables(
                 lambda slew, load, path=path: path_delay(path, slew, load, _tau(corner)), corner, drive)
-            pin.add(_energy(source, _path_energy(path, corner.voltage)))
+            output_pin.add(_energy(source, _path_energy(path, corner.voltage)))
     return cell
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import power, tools
-from .errors import FlowError
+from .errors import FlowError, found_in, given
 from .standard_cells import CINV_FF, FO4_NS
 
 FAST_MHZ = 500.0
@@ -71,6 +71,10 @@ def _readable(name: str, called: dict[str, str]) -> str:
     name = re.sub(r"\\+\w+$", "", name)
     name = re.sub(r"^\S*u_(column|pair)/(g_column\[\d+\]\.u_column\.)?", "column ", name)
     return re.sub(r"(\.(g_\w+|genblk\d+|u_macro))+$", "", name)
+
+
+def _slack_of(text: str) -> float:
+    return float(given(_SLACK.search(text), "OpenSTA: a path without slack")[1])
 
 
 @dataclass(frozen=True)
@@ -153,17 +157,16 @@ class Report:
         return self.output.split(f"{name}\n", 1)[1].split("\nDTOF_", 1)[0]
 
     def _number(self, label: str, index: int = 0) -> float:
-        found = re.search(rf"^{label} (.*)$", self.output, re.MULTILINE)
-        return float(found.group(1).split()[index])
+        return float(found_in("OpenSTA", rf"^{label} (.*)$", self.output)[1].split()[index])
 
     def _slowest_path(self, section: str) -> tuple[str, str, int]:
         """(start, end, cells between them) of the one with the least slack; OpenSTA reports one per path group, resets first."""
         reports = [report for report in self._section(section).split("Startpoint: ")[1:] if _SLACK.search(report)]
         if not reports:
             raise FlowError("OpenSTA reported no timing path")
-        report = min(reports, key=lambda text: float(_SLACK.search(text).group(1)))
+        report = min(reports, key=_slack_of)
         start = report.split(maxsplit=1)[0]
-        end = re.search(r"Endpoint: (\S+)", report).group(1)
+        end = found_in("OpenSTA", r"Endpoint: (\S+)", report)[1]
         data = report.split("data arrival time")[0]
         pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
         gates = [pin for pin in pins if not pin.startswith((start, end))]
@@ -177,7 +180,7 @@ class Report:
             data, times = report.split("data arrival time", 1)
             pins = re.findall(r"[v^] (\S+) \(\S+\)$", data, re.MULTILINE)
             if "/" in pins[-1]:
-                found.append(TimedPath(pins[:0:-2][::-1], float(_SLACK.search(times).group(1))))
+                found.append(TimedPath(pins[:0:-2][::-1], _slack_of(times)))
         return found
 
 

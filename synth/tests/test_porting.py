@@ -15,7 +15,7 @@ BEHAVIOURAL = ROOT / "hdl" / "technology" / "behavioural"
 
 def simulate(memory: list[Path], folder: Path) -> list[str]:
     program = folder / "array.vvp"
-    command = ["iverilog", "-g2012", f"-I{ROOT / 'hdl' / 'package'}", "-s", "porting_tb", "-o", str(program),
+    command = ["iverilog", "-g2012", f"-I{ROOT / 'hdl' / 'common'}", "-s", "porting_tb", "-o", str(program),
                *map(str, memory), *map(str, rtl_files(ROOT)), str(PORTING / "porting_tb.sv")]
     built = subprocess.run(command, check=False, capture_output=True, text=True)
     if built.returncode != 0:

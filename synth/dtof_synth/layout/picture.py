@@ -73,7 +73,8 @@ def script(drawn: list[Drawn], sizes: dict[str, tuple[float, float]], output: Pa
         for net, (x, y) in one.layout.pins.items():
             if net not in SUPPLIES:
                 pins[SRAM_PIN if net in one.sram_ports else OTHER_PIN].append(f"{offset + x} {y}")
-    blocks, plots = [], []
+    blocks: list[str] = []
+    plots: list[str] = []
 
     def series(data: list[str], how: str) -> None:
         if data:

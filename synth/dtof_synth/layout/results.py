@@ -110,7 +110,8 @@ def read_def(text: str) -> Layout:
         raise FlowError("the DEF has no units, no die or no cells")
     scale = float(units.group(1))
     pins = re.findall(r"^- \S+ \+ NET (\S+)\n(?:.*\n)  \+ PLACED \( (\S+) (\S+) \)", _section(text, "PINS"), re.MULTILINE)
-    layout = Layout(tuple(float(edge) / scale for edge in die.groups()),
+    left, bottom, right, top = (float(edge) / scale for edge in die.groups())
+    layout = Layout((left, bottom, right, top),
                     {name: (kind, float(x) / scale, float(y) / scale) for name, kind, x, y in components},
                     {net: (float(x) / scale, float(y) / scale) for net, x, y in pins})
     for net, body in re.findall(r"^- (\S+)\s*$(.*?);\s*$", _section(text, "NETS"), re.DOTALL | re.MULTILINE):

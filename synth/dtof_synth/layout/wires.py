@@ -32,8 +32,8 @@ def layer_ff_per_um(lef: str) -> dict[str, float]:
     for name, body in re.findall(r"^LAYER (\S+)(.*?)^END \1", lef, re.DOTALL | re.MULTILINE):
         values = [re.search(rf"^\s*{key}\s+([\d.eE+-]+)", body, re.MULTILINE)
                   for key in ("WIDTH", r"CAPACITANCE\s+CPERSQDIST", "EDGECAPACITANCE")]
-        if all(values):
-            width, area, edge = (float(value.group(1)) for value in values)
+        if None not in values:
+            width, area, edge = (float(value.group(1)) for value in values if value)
             found[name] = (width * area + 2 * edge) * 1000
     if not found:
         raise FlowError("the LEF has no routing layer with a width and capacitances")
