@@ -31,7 +31,6 @@
 #
 # BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers.
 
-find_package(Python3 REQUIRED COMPONENTS Interpreter)
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT
                 OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)

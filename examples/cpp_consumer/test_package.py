@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""The C++ package of the models as other projects meet it: installed and moved, in a program, a shared library and a test for it by
+name, and the source tree as a subfolder. CTest gives the build folder (DTOF_BUILD), the flags that the models were built with (DTOF_FLAGS)
+and the compiler (CXX)."""
+
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+BUILD = Path(os.environ.get("DTOF_BUILD", ROOT / "build" / "cpp"))
+FLAGS = os.environ.get("DTOF_FLAGS", "")
+
+FIND = "cmake_minimum_required(VERSION 3.25)\nproject(consumer LANGUAGES CXX)\nfind_package(dtof 0.2 {how})\n"
+PLUGIN = """\
+#include "dtof/readout/model.hpp"
+#include "dtof/sensor/default_parameters.hpp"
+#include "dtof/sensor/preset.hpp"
+bool has_model() {
+  return dtof::make_readout_model(dtof::default_parameters(dtof::Readout::kHisPointer, dtof::parse_preset("thesis"))) != nullptr;
+}
+"""
+SUBFOLDER = f"""\
+cmake_minimum_required(VERSION 3.25)
+project(parent LANGUAGES CXX)
+add_subdirectory({ROOT} dtof)
+add_executable(own own.cpp)
+target_link_libraries(own PRIVATE dtof::core)
+"""
+
+
+def run(*command: str | Path, **environment: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
+                          env={**os.environ, **environment})
+
+
+class Package(unittest.TestCase):
+    folder: Path
+    prefix: Path
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        done = run("cmake", "--install", BUILD, "--component", "models", "--prefix", cls.folder / "first")
+        if done.returncode != 0:
+            raise AssertionError(done.stdout)
+        cls.prefix = cls.folder / "moved"  # a package does not depend on where it was installed first
+        (cls.folder / "first").rename(cls.prefix)
+
+    def configure(self, source: Path, *options: str, **environment: str) -> tuple[Path, subprocess.CompletedProcess[str]]:
+        binary = source / "build"
+        done = run("cmake", "-S", source, "-B", binary, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+                   *([f"-DCMAKE_CXX_FLAGS={FLAGS}"] if FLAGS else []), *options, **environment)
+        return binary, done
+
+    def build(self, source: Path, *options: str, target: str = "all") -> Path:
+        binary, done = self.configure(source, *options)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        done = run("cmake", "--build", binary, "--target", target)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        return binary
+
+    def project(self, name: str, text: str, **files: str) -> Path:
+        source = self.folder / name
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(text, encoding="utf-8")
+        for file, content in files.items():
+            (source / f"{file}.cpp").write_text(content, encoding="utf-8")
+        return source
+
+    def test_the_example_finds_its_wall(self) -> None:
+        """It asks for no C++ standard: the package does."""
+        shutil.copytree(HERE / "project", self.folder / "example")
+        self.assertNotIn("STANDARD", (self.folder / "example" / "CMakeLists.txt").read_text(encoding="utf-8"))
+        done = run(self.build(self.folder / "example") / "consumer")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("wall at 2 m", done.stdout)
+
+    def test_a_shared_library_takes_the_models_in(self) -> None:
+        self.build(self.project("plugin", FIND.format(how="REQUIRED") + "add_library(plugin SHARED plugin.cpp)\n"
+                                "target_link_libraries(plugin PRIVATE dtof::readout dtof::sensor)\n", plugin=PLUGIN))
+
+    def test_every_installed_header_compiles_alone_with_a_newer_standard(self) -> None:
+        headers = sorted(str(path.relative_to(self.prefix / "include")) for path in (self.prefix / "include").rglob("*.hpp"))
+        self.assertGreater(len(headers), 50)
+        self.assertTrue(all(name.startswith("dtof/") for name in headers), headers)
+        for internal in ("dtof/core/philox.hpp", "dtof/readout/pixelwise_model.hpp"):
+            self.assertNotIn(internal, headers)
+        compiler = os.environ.get("CXX", "c++")
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            done = list(pool.map(lambda name: run(compiler, "-std=c++23", "-fsyntax-only", f"-I{self.prefix / 'include'}", "-include", name,
+                                                  "-x", "c++", "/dev/null"), headers))
+        for name, one in zip(headers, done):
+            self.assertEqual(one.returncode, 0, f"{name}: {one.stdout}")
+
+    def test_a_package_that_is_not_there_is_told_and_is_no_error_where_it_is_optional(self) -> None:
+        source = self.project("quiet", FIND.format(how="QUIET") + 'message(STATUS "found: ${dtof_FOUND}")\n')
+        _, done = self.configure(source, PKG_CONFIG_LIBDIR="/nonexistent", PKG_CONFIG_PATH="")
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn("found: 0", done.stdout)
+        source = self.project("required", FIND.format(how="REQUIRED"))
+        _, done = self.configure(source, PKG_CONFIG_LIBDIR="/nonexistent", PKG_CONFIG_PATH="")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("libtomlplusplus-dev", done.stdout)
+
+    def test_a_parent_project_keeps_its_flags_its_launcher_and_its_tests(self) -> None:
+        source = self.project("parent", SUBFOLDER, own='#include "dtof/core/random.hpp"\nint main() {}\n')
+        binary = self.build(source, "-DCMAKE_CXX_FLAGS_DEBUG=-O0 -DOWN", "-DCMAKE_BUILD_TYPE=Debug", "-DCMAKE_CXX_COMPILER_LAUNCHER=env",
+                            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", target="own")
+        commands = [one["command"] for one in json.loads((binary / "compile_commands.json").read_text(encoding="utf-8"))]
+        self.assertGreater(len(commands), 5)
+        rules = (binary / "CMakeFiles" / "rules.ninja").read_text(encoding="utf-8")
+        self.assertTrue(any("env" in line and "ccache" not in line for line in rules.splitlines() if "$FLAGS" in line), "no launcher")
+        for command in commands:
+            self.assertIn("-DOWN", command)
+            self.assertNotIn("-Werror", command)
+            self.assertNotIn("-O2", command)
+        self.assertFalse(list(binary.rglob("*_test*")), "a parent's build has none of the project's tests and programs")
+
+    @unittest.skipIf(shutil.which("clang++") is None, "clang++ is not here")
+    def test_clang_builds_the_core(self) -> None:
+        source = self.project("clang", SUBFOLDER, own='#include "dtof/core/random.hpp"\nint main() {}\n')
+        self.build(source, "-DCMAKE_CXX_COMPILER=clang++", "-DDTOF_WERROR=ON", target="own")
+
+
+if __name__ == "__main__":
+    unittest.main()
