@@ -31,7 +31,8 @@ def names(text: str) -> list[tuple[int, str]]:
 
 def sources(root: Path) -> list[Path]:
     hdl = root / "hdl"
-    listed = [line for line in (hdl / "dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and line[0] not in "/+"]
+    lists = [hdl / name for name in ("dtof.f", "dtof_assertions.f") if (hdl / name).is_file()]
+    listed = [line for name in lists for line in name.read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and line[0] not in "/+"]
     return [*(hdl / line for line in listed), *sorted((hdl / "common").glob("*.svh"))]
 
 

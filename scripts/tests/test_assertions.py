@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The concurrent assertions and covers of hdl/assertions in the example's bench: a good frame meets the covers, planted faults of a source, a
+master and an array are reported with the side that is at fault."""
+
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+HDL = ROOT / "hdl"
+BENCH = "examples/example_bench.sv"
+SUBSYSTEM = "hdl/subsystem/dtof_subsystem.sv"
+# What the bench does while its frame runs, so that a cover that stays at 0 is a mistake of the cover.
+MET = {"c_write", "c_read", "c_frame", "c_acquisition", "c_at_once", "c_held_up", "c_in_a_row", "c_pause", "c_last"}
+
+
+def planted(text: str, find: str, replacement: str) -> str:
+    found, count = re.subn(find, replacement, text)
+    if count < 1:
+        raise AssertionError(f"'{find}' is no more in the source")
+    return found
+
+
+class Assertions(unittest.TestCase):
+    folder: Path
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        """One simulation, whose faults are switched on by arguments."""
+        scratch = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(scratch.cleanup)
+        cls.folder = Path(scratch.name)
+        bench = (ROOT / BENCH).read_text(encoding="utf-8")
+        bench = planted(bench, r"while \(!line_ready\) @\(negedge clk\);",
+                        'while (!line_ready) begin @(negedge clk); if ($test$plusargs("fault_data")) line = ~line; end')
+        bench = planted(bench, r"#0\.1 penable = 1'b1;", '#0.1 penable = !$test$plusargs("fault_setup");')
+        (cls.folder / "bench.sv").write_text(bench, encoding="utf-8")
+        subsystem = planted((ROOT / SUBSYSTEM).read_text(encoding="utf-8"), r"(\.tdc_valid_i\s*)\(([^)]*)\)",
+                            r'\1(\2 && !($test$plusargs("fault_gap") && $time > 5000 && ($time / 3) % 101 == 0))')
+        (cls.folder / "subsystem.sv").write_text(subsystem, encoding="utf-8")
+        files = [str(cls.folder / "subsystem.sv") if line.endswith("/dtof_subsystem.sv") else line
+                 for line in (HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and not line.startswith("//")]
+        built = subprocess.run(
+            ["verilator", "--cc", "--exe", "--build", "--timing", "--assert", "--coverage-user", "-Wno-fatal", "-CFLAGS", "-O0",
+             "--Mdir", cls.folder / "build", "-f", "dtof_lint.f", "+incdir+common", *files, "-f", "dtof_assertions.f", cls.folder / "bench.sv",
+             ROOT / "examples/assertions_main.cpp", "--top-module", "example_bench"],
+            cwd=HDL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        if built.returncode != 0:
+            raise AssertionError(built.stdout[-3000:])
+
+    def simulate(self, *arguments: str) -> tuple[str, dict[str, int]]:
+        """What the simulation says, and how often each cover was met, by its name and whose it is."""
+        coverage = self.folder / "coverage.dat"
+        coverage.unlink(missing_ok=True)
+        done = subprocess.run([self.folder / "build" / "Vexample_bench", *arguments, coverage], cwd=self.folder, stdout=subprocess.PIPE,
+                              stderr=subprocess.STDOUT, text=True, check=False)
+        text = coverage.read_text(encoding="utf-8", errors="replace") if coverage.exists() else ""
+        found = re.findall(r"\x01o\x02(c_\w+)\x01h\x02\S*?\.(\w+)\.c_\w+' (\d+)", text)
+        return done.stdout, {f"{whose}.{name}": int(count) for name, whose, count in found}
+
+    def test_a_good_frame_meets_the_covers(self) -> None:
+        said, covers = self.simulate()
+        self.assertIn("PASS", said)
+        self.assertNotIn("Error", said)
+        self.assertEqual({name.split(".")[0] for name in covers},
+                         {"u_register_protocol", "u_array_protocol", "u_result_protocol", "u_line_protocol"})
+        missed = {name for name, count in covers.items() if count == 0 and name.split(".")[1] in MET} - {"u_register_protocol.c_in_a_row"}
+        self.assertEqual(missed, set())
+
+    def test_planted_faults_are_reported_with_the_side_that_is_at_fault(self) -> None:
+        for fault, says in (("fault_data", "the source of lines changed tdata or tlast before tready"),
+                            ("fault_setup", "the master's setup has no access behind it"),
+                            ("fault_gap", "the source left a gap inside an acquisition")):
+            with self.subTest(fault=fault):
+                said, _ = self.simulate(f"+{fault}")
+                self.assertIn(says, said)
+                self.assertNotIn("PASS", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
