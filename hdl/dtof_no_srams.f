@@ -3,7 +3,7 @@
 //   verilator --lint-only -f dtof_no_srams.f my_srams/dtof_sram_1rw.sv my_srams/dtof_sram_1r1w.sv my_srams/dtof_clock_gate.sv --top-module dtof_subsystem
 +incdir+common
 common/dtof_pkg.sv
-common/dtof_registers_pkg.sv
+subsystem/dtof_registers_pkg.sv
 common/dtof_sram.sv
 common/dtof_array_errors.sv
 common/dtof_gate_register.sv

@@ -495,7 +495,7 @@ def main() -> int:
             CONFIGURATION: defaults(current[CONFIGURATION], table),
             "hdl/common/dtof_subsystem_declarations.svh": subsystem_parameters(table),
             **all_connections(table),
-            "hdl/common/dtof_registers_pkg.sv": registers.systemverilog(whole),
+            "hdl/subsystem/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),
             INTEGRATION: registers.page(current[INTEGRATION], whole),
         }

@@ -32,7 +32,7 @@ def assertions() -> set[str]:
 
 
 def flags() -> set[str]:
-    return set(re.findall(r"\bERROR_(\w+)_LSB\b", (ROOT / "hdl/common/dtof_registers_pkg.sv").read_text(encoding="utf-8")))
+    return set(re.findall(r"\bERROR_(\w+)_LSB\b", (ROOT / "hdl/subsystem/dtof_registers_pkg.sv").read_text(encoding="utf-8")))
 
 
 class Obligations(unittest.TestCase):
