@@ -32,6 +32,7 @@ echo "readouts.toml, registers.toml: everything written from them is up to date"
 
 scripts/check_names.py
 scripts/check_language.py
+scripts/check_house.py
 scripts/maturity.py --check
 echo "docs/reference/maturity.md: the stages are those of the lists of files and proofs"
 
