@@ -4,16 +4,15 @@
 # make test       every test and the lint
 # make sim        the main job without the installation step
 # make report     build/report/index.html, all results on a page, and the main job's tables; make publish: reports/ has them
-# make reproduce  the thesis's accuracy statements, measured (minutes); make coverage-study: their intervals checked
 # make study      one study, by NAME=scenes; make study-program: the program that most of them run
 # make synth      area, timing and power of every configuration; make sim-netlist, sim-icarus: simulated beside the RTL
-# make enlarge    small arrays' maps, enlarged, beside the large array's; make train-enlarger: the weights (scripts/enlarge.mk)
 # make power      power from the activity of netlists on a scene
 # make layout     columns placed and routed in OSU 0.18 um, checked, with GDS; make orfs: files for OpenROAD (synth/layout.mk)
+# make quick      what takes seconds: format, types, generated files, documents, stale figures
 # make try-targets  every target on little work, in a copy of the last commit: what is broken (scripts/try_targets.py)
 # make lint       RTL in three tools, C++ format and static analysis; make lint-slang: RTL in slang, a strict front end from npm
 # make formal     proofs of the RTL (ten minutes)
-# make coverage   what the tests reach; make faults: what a fault does to a frame (scripts/faults.mk)
+# make coverage   what the tests reach (scripts/faults.mk)
 # make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer 2 (scripts/wave.mk)
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
 # make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)

@@ -1,6 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# make coverage-study  whether the confidence intervals hold over 40 seeds: reports/coverage_study.md (minutes), with runs
-#                      of 10,000 frames coverage_study_long.md, of poolPointer 2 coverage_study_pool.md
 # It fails where an interval does not hold, after all three reports are written.
 .PHONY: coverage-study
 coverage-study: study-program

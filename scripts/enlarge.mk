@@ -1,6 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# make enlarge         small arrays that share the laser, their maps enlarged to those of the large array, beside it: four
-#                      seeds, five scenes and two photographed ones (seven minutes): reports/enlarge.md
 # make train-enlarger  the learned enlarger's weights, trained by dlib on random shapes (ten minutes): build/weights.txt. The
 #                      project's are those, as studies/small_arrays/models/weights.txt, and every build has them: only this needs dlib.
 .PHONY: enlarge train-enlarger

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 # make coverage   lines and toggles of hdl/, lines and branches of the C++ that the tests reach (a build of its own)
-# make faults     what flipped bits, stuck columns, hot and dead pixels and resets do to a frame
 .PHONY: coverage faults
 FLIPS ?= $(if $(SMALL),3,300)
 

@@ -50,7 +50,10 @@ def load(root: Path) -> list[Group]:
     groups, seen = [], set()
     for entry in tomllib.loads((root / LIST).read_text(encoding="utf-8"))["group"]:
         minutes = {}
-        for target, given in entry["targets"].items():
+        is_study = entry.get("studies", False)
+        listed = {name: "" if "inputs" in study else study["minutes"] for name, study in reports.studies(root).items()} if is_study \
+            else entry["targets"]
+        for target, given in listed.items():
             if target not in known:
                 raise HelpError(f"{LIST}: no makefile has the target '{target}'")
             if target not in described:
@@ -61,7 +64,7 @@ def load(root: Path) -> list[Group]:
                 raise HelpError(f"{LIST}: '{target}' needs minutes " + ('"", for its report has them' if given != "" else "here, for no report has them"))
             seen.add(target)
             minutes[target] = measured[target] if given == "" else float(given)
-        groups.append(Group(entry["title"], minutes, entry.get("name") == "study"))
+        groups.append(Group(entry["title"], minutes, is_study))
     return groups
 
 

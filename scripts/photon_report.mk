@@ -1,6 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# make photon-report  speed against error of the photon models, what auto may take (reports/)
-# make photon-bench   speed of the photon models beside NumPy (reports/photon_speed.md)
 .PHONY: photon-report photon-bench
 
 photon-report: study-program

@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# make reproduce  the thesis's accuracy statements against the models: reports/reproduction.md
 .PHONY: reproduce
 reproduce: study-program
 	@scripts/reports.py begin reproduction

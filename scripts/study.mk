@@ -1,23 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# make scenes     read-outs on scenes, those held out from every choice of parameters included (ten minutes)
-# make pool       poolPointer 2 with and without S1 beside the matched filters, with and without look-up tables, four
-#                 seeds (an hour)
-# make pool-search  poolPointer 2's numbers, searched on scenes that no report uses (half an hour): build/pool_search
-# make rivals     the project's read-outs beside those that others have proposed, four seeds (half an hour); RIVAL_COLUMNS
-#                 is how many columns of each map are judged
-# make claims     what the rivals' papers claim, tested on photons as those papers have them (one minute)
-# make pareto     area against accuracy, and the goals: from the reports of make synth and make scenes
-# make trade      poolPointer 2's goals that collide, as curves (areas: make synth-growth; two minutes)
-# make real-data  read-outs on measured data
-# make video      read-outs on videos, with and without what poolPointer 2 can take from the last frame (ten minutes)
-# make pool-parts    area and power of each part of poolPointer 2, and the errors without it (20 minutes)
-# make pulse-widths  read-outs beside the matched filter for pulses of 8 to 90 bins (three minutes)
-# make dynamic-range  read-outs over acquisitions, sunlight and signal: does more light make one worse? (about 20 minutes; goes
-#                 on where it was interrupted; SMALL=1: a few cells, build/dynamic_range_small alone)
-# make frames     the room scene through every read-out, with the sensors thesis, thesis_1mhz and thesis_full beside each
-#                 other, four frames, and an engine of poolPointer 2 in RTL with each (five minutes; SMALL=1: two
-#                 frames of thesis and three read-outs, build/frames_small alone)
-# make walk-error bias over reflectivity, and what the host corrects by confidence (one minute)
 .PHONY: claims dynamic-range frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
 SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)

@@ -1,6 +1,4 @@
 # SPDX-License-Identifier: Apache-2.0
-# make sweep         SWEEP=scripts/sweep/readouts.toml: all its points, on this machine (SLURM=1: as jobs of Slurm), and their
-#                    table in build/sweep/ (docs/user/scaling.md)
 # make sweep-test    a small sweep through a real Slurm of one node, with killed jobs and a killed workflow (a minute)
 # make sweep-cost    what 10^3 to 10^6 points cost beside their own computing: reports/scaling.md (ten minutes)
 SWEEP ?= scripts/sweep/$(if $(SMALL),small,readouts).toml

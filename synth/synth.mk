@@ -8,7 +8,6 @@
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-flat      the slack with every column real beside that with stand-ins; CONFIGURATIONS= as above
-# make synth-namings   area and slack over eight namings of the same logic (long): reports/namings.md; CONFIGURATIONS= as above
 # make synth-corners   the slack if gates and SRAMs are slowed by one ratio; CONFIGURATIONS= as above
 # make synth-test      the flow's own tests, and the porting example simulated
 # make sim-icarus      RTL of every configuration, small, in Icarus Verilog against the model
@@ -16,7 +15,6 @@
 #                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make power           power from the activity of netlists on a scene: reports/power.md (minutes)
-# make synth-growth    how cost grows with the parameters
 .PHONY: synth power synth-growth synth-flat synth-corners synth-namings synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:

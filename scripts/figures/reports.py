@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The list of reports (reports/reports.toml) and the digest of what each depends on."""
+"""The lists of reports (studies.toml, reports/reports.toml) and the digest of what each depends on."""
 
 import hashlib
 import tomllib
@@ -11,6 +11,7 @@ from . import closure
 from .source_tree import SourceTree
 
 LIST = "reports/reports.toml"
+STUDIES = "studies.toml"
 
 
 class ReportsError(Exception):
@@ -61,19 +62,41 @@ def group(root: Path, name: str, tree: SourceTree) -> Inputs:
     return inputs(Report(name, "", 0, (), _expanded([f"@{name}"], groups, name)), tree)
 
 
+def studies(root: Path) -> dict[str, dict]:
+    """studies.toml, by the name of the target of make; none where a tree has no such file."""
+    path = root / STUDIES
+    if not path.is_file():
+        return {}
+    found = tomllib.loads(path.read_text(encoding="utf-8"))["study"]
+    for name, study in found.items():
+        if missing := {"does", "minutes"} - study.keys():
+            raise ReportsError(f"{STUDIES}: {name}: the key '{min(missing)}' is missing")
+    return found
+
+
+def _report(name: str, entry: dict, groups: dict[str, list[str]], where: str) -> Report:
+    known = {"command", "minutes", "pages", "files", "inputs", "data", "first"}
+    if wrong := entry.keys() - known:
+        raise ReportsError(f"{where}: unknown key '{min(wrong)}'")
+    if missing := {"command", "minutes", "pages", "inputs"} - entry.keys():
+        raise ReportsError(f"{where}: the key '{min(missing)}' is missing")
+    return Report(name, entry["command"], entry["minutes"], tuple(entry["pages"]), _expanded(entry["inputs"], groups, name),
+                  tuple(entry.get("files", ())), tuple(entry.get("data", ())), entry.get("first", False))
+
+
 def load(root: Path) -> dict[str, Report]:
     """By name, each behind those whose files it reads."""
     table = tomllib.loads((root / LIST).read_text(encoding="utf-8"))
+    groups = table.get("inputs", {})
     found = {}
-    known = {"command", "minutes", "pages", "files", "inputs", "data", "first"}
+    for name, study in studies(root).items():
+        if "inputs" in study:
+            pages = [page["file"] for page in study.get("page", [])]
+            report = study.get("report", name.replace("-", "_"))
+            entry = {key: study[key] for key in study.keys() - {"page", "report", "does"}}
+            found[report] = _report(report, entry | {"command": f"make {name}", "pages": pages}, groups, f"{STUDIES}: {name}")
     for name, entry in table["report"].items():
-        if wrong := entry.keys() - known:
-            raise ReportsError(f"{LIST}: {name}: unknown key '{min(wrong)}'")
-        if missing := {"command", "minutes", "pages", "inputs"} - entry.keys():
-            raise ReportsError(f"{LIST}: {name}: the key '{min(missing)}' is missing")
-        found[name] = Report(name, entry["command"], entry["minutes"], tuple(entry["pages"]),
-                             _expanded(entry["inputs"], table.get("inputs", {}), name), tuple(entry.get("files", ())),
-                             tuple(entry.get("data", ())), entry.get("first", False))
+        found[name] = _report(name, entry, groups, f"{LIST}: {name}")
     writers = {file: report.name for report in found.values() for file in report.written}
     ordered: dict[str, Report] = {}
 

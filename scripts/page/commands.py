@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The make targets and what they do, from the comments at the head of the makefiles."""
+"""The make targets and what they do, from the comments at the head of the makefiles and from studies.toml."""
 
 import re
 from dataclasses import dataclass
 from pathlib import Path
+
+from figures import reports
 
 MAKEFILES = ("Makefile", "scripts/*.mk", "synth/*.mk")
 # `# make NAME[, NAME ...]  what it does`; what follows more deeply indented belongs to it, but for variables.
@@ -36,6 +38,7 @@ def targets(root: Path) -> dict[str, str]:
 def commands(root: Path) -> dict[str, Command]:
     """By target, those that a comment describes. A makefile of its own says more than the first one's list."""
     found: dict[str, Command] = {}
+    studies = {name: [study["does"]] for name, study in reports.studies(root).items()}
     for makefile in makefiles(root):
         text = makefile.read_text(encoding="utf-8")
         says: dict[str, list[str]] = {}
@@ -51,6 +54,9 @@ def commands(root: Path) -> dict[str, Command]:
             else:
                 for name in current:
                     says[name].append(line[1:].strip())
+        if twice := says.keys() & studies.keys():
+            raise reports.ReportsError(f"{makefile.relative_to(root)}: {reports.STUDIES} says what '{min(twice)}' does: no comment here")
+        says |= studies
         for target in targets_of(text) & says.keys():
             found[target] = Command(target, " ".join(says[target]), str(makefile.relative_to(root)))
     return found

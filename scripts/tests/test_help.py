@@ -12,25 +12,36 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
 import help as targets_help  # noqa: E402
+from figures import reports  # noqa: E402
 from page.commands import commands, targets  # noqa: E402
 
-MAKEFILE = """# make frames     the room through every read-out (five minutes): reports/frames.md
-# make sim        the main job
-.PHONY: frames sim inner
+MAKEFILE = """# make sim        the main job
+# make synth      area of every configuration
+.PHONY: frames search sim synth inner
 """
-REPORTS = """[report.frames]
-command = "make frames"
+STUDIES = """[study.frames]
+does = "the room through every read-out; all of them"
 minutes = 5
-pages = ["frames.md"]
+inputs = ["Makefile"]
+[[study.frames.page]]
+file = "frames.md"
+title = "Frames"
+[study.search]
+does = "a search that no page shows"
+minutes = 30
+"""
+REPORTS = """[report.area]
+command = "make synth"
+minutes = 40
+pages = ["area.md"]
 inputs = ["Makefile"]
 """
 LIST = """[[group]]
 title = "Every day"
-targets = { sim = 0.5 }
+targets = { sim = 0.5, synth = "" }
 [[group]]
 title = "Studies"
-name = "study"
-targets = { frames = "" }
+studies = true
 """
 
 
@@ -44,6 +55,7 @@ class SmallProject(unittest.TestCase):
         self.write(LIST)
         (self.root / "reports" / "reports.toml").write_text(REPORTS)
         (self.root / "Makefile").write_text(MAKEFILE)
+        (self.root / "studies.toml").write_text(STUDIES)
 
     def write(self, text: str) -> None:
         (self.root / targets_help.LIST).write_text(text)
@@ -57,17 +69,29 @@ class SmallProject(unittest.TestCase):
         text = targets_help.text(self.root, everything=False)
         self.assertRegex(text, r"\n  frames +5 min  the room through every read-out\n")
         self.assertRegex(text, r"\n  sim +seconds  the main job\n")
+        self.assertRegex(text, r"\n  search +30 min  a search that no page shows\n")
 
     def test_the_list_is_checked(self) -> None:
         self.refused(LIST.replace("sim", "simulate"), "no makefile has the target 'simulate'")
         self.refused(LIST.replace("sim", "inner"), "Makefile: no comment says what the target 'inner' does")
         self.refused(LIST.replace("sim = 0.5", 'sim = ""'), "'sim' needs minutes here, for no report has them")
-        self.refused(LIST.replace('frames = ""', "frames = 5"), "'frames' needs minutes \"\", for its report has them")
+        self.refused(LIST.replace('synth = ""', "synth = 5"), "'synth' needs minutes \"\", for its report has them")
         self.refused(LIST.replace("sim = 0.5", 'sim = 0.5, frames = ""'), "'frames' stands there twice")
+
+    def test_studies_are_those_of_their_list(self) -> None:
+        self.assertEqual(commands(self.root)["search"].says, "a search that no page shows")
+        (self.root / "Makefile").write_text(MAKEFILE.replace("frames search", "frames"))
+        self.refused(LIST, "no makefile has the target 'search'")
+        (self.root / "Makefile").write_text("# make search  says it again\n" + MAKEFILE)
+        with self.assertRaisesRegex(reports.ReportsError, "studies.toml says what 'search' does"):
+            targets_help.load(self.root)
+        (self.root / "studies.toml").write_text(STUDIES.replace("minutes = 30\n", ""))
+        with self.assertRaisesRegex(reports.ReportsError, "studies.toml: search: the key 'minutes' is missing"):
+            targets_help.load(self.root)
 
     def test_another_name_than_a_study_is_refused(self) -> None:
         self.assertEqual(targets_help.study(self.root, "frames"), "frames")
-        for name, sentence in (("sim", "there is no study 'sim'; studies are frames"), ("", "make study needs NAME=")):
+        for name, sentence in (("sim", "there is no study 'sim'; studies are frames, search"), ("", "make study needs NAME=")):
             with self.assertRaisesRegex(targets_help.HelpError, sentence):
                 targets_help.study(self.root, name)
 

@@ -31,7 +31,7 @@ class Folder(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.root = Path(folder.name) / "tree"
-        for name in ("configurations.toml", "Makefile"):
+        for name in ("configurations.toml", "Makefile", "studies.toml"):
             self.write(name, (ROOT / name).read_text(encoding="utf-8"))
         for makefile in [*ROOT.glob("scripts/*.mk"), *ROOT.glob("synth/*.mk")]:
             self.write(str(makefile.relative_to(ROOT)), makefile.read_text(encoding="utf-8"))
@@ -192,6 +192,7 @@ class Pages(Folder):
         self.assertTrue((out / "files/build/frame/sifh_error.png").is_file())
 
     def test_a_stale_report_says_so_on_every_page_that_shows_it(self) -> None:
+        self.write("studies.toml", "[study]\n")
         self.write("reports/reports.toml", '[report.area]\ncommand = "make synth"\nminutes = 40\npages = ["area.md"]\n'
                                            'inputs = ["hdl/*.sv"]\n[report.sram]\ncommand = "make sram"\nminutes = 1\npages = '
                                            '["sram.md"]\ninputs = ["hdl/*.sv"]\n')
