@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs example_bench with the concurrent assertions of hdl/assertions and writes how often each cover was met (scripts/tests/test_assertions.py
-// has the command). Usage: example_bench COVERAGE_FILE
+// Runs example_bench with the concurrent assertions of hdl/assertions and writes how often each cover was met
+// (scripts/tests/test_assertions.py has the command). Usage: example_bench COVERAGE_FILE
 #include <verilated.h>
 #include <verilated_cov.h>
 

@@ -14,12 +14,12 @@
 #include <span>
 #include <vector>
 
-#include "dtof/analytic/fidelity.hpp"
-#include "commands/commands.hpp"
-#include "commands/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
+#include "commands/commands.hpp"
+#include "commands/optional_output.hpp"
+#include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/kept_streams.hpp"
 #include "dtof/core/pixel_sampler.hpp"
@@ -37,9 +37,9 @@
 #include "dtof/report/colour_png.hpp"
 #include "dtof/report/ply.hpp"
 #include "dtof/report/table.hpp"
+#include "dtof/scene/scene.hpp"
 #include "run/readout_run.hpp"
 #include "run/region.hpp"
-#include "dtof/scene/scene.hpp"
 
 namespace dtof {
 namespace {

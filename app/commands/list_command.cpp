@@ -7,9 +7,9 @@
 #include "commands/commands.hpp"
 #include "dtof/core/parameters.hpp"
 #include "dtof/photon/sensor_model.hpp"
-#include "rtl/registry.hpp"
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "rtl/registry.hpp"
 #include "subsystem/registry.hpp"
 
 namespace dtof {

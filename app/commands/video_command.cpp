@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "commands/commands.hpp"
-#include "commands/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "commands/commands.hpp"
+#include "commands/optional_output.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/frame/frame_truth.hpp"
 #include "dtof/io/atomic_file.hpp"

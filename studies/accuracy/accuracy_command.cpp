@@ -8,10 +8,14 @@
 #include <functional>
 #include <memory>
 
-#include "dtof/analytic/fidelity.hpp"
+#include "accuracy/accuracy_study.hpp"
+#include "accuracy/accuracy_tables.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
+#include "common/commands.hpp"
+#include "common/map_accuracy.hpp"
+#include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/frame/frame_truth.hpp"
@@ -20,10 +24,6 @@
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
-#include "accuracy/accuracy_study.hpp"
-#include "accuracy/accuracy_tables.hpp"
-#include "common/map_accuracy.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dtof/metrics/confidence_interval.hpp"
 #include "accuracy/accuracy_bench.hpp"
+#include "dtof/metrics/confidence_interval.hpp"
 
 namespace dtof {
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include "common/array_size.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/sensor/preset.hpp"
-#include "common/array_size.hpp"
 #include "tests/core/test_seed.hpp"
 
 namespace dtof {

@@ -6,10 +6,10 @@
 #include <span>
 #include <string>
 
+#include "accuracy/accuracy_study.hpp"
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
-#include "accuracy/accuracy_study.hpp"
 
 namespace dtof {
 

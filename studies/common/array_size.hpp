@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "dtof/photon/sensor_model.hpp"
 #include "accuracy/accuracy_study.hpp"
+#include "dtof/photon/sensor_model.hpp"
 
 namespace dtof {
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/accuracy_study.hpp"
 #include "dtof/core/parameters.hpp"
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
 #include "run/run_settings.hpp"
-#include "accuracy/accuracy_study.hpp"
 
 namespace dtof {
 

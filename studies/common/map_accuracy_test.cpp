@@ -13,8 +13,8 @@
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/metrics/depth.hpp"
 #include "dtof/metrics/error_statistics.hpp"
-#include "run/readout_run.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "run/readout_run.hpp"
 
 namespace dtof {
 namespace {

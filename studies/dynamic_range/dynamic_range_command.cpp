@@ -11,6 +11,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/output_folder.hpp"
@@ -18,7 +19,6 @@
 #include "dtof/sensor/preset.hpp"
 #include "dynamic_range/dynamic_range.hpp"
 #include "dynamic_range/dynamic_range_report.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

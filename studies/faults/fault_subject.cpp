@@ -10,11 +10,11 @@
 #include "dtof/core/error.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/readout/model.hpp"
+#include "dtof/scene/scene.hpp"
+#include "dtof/sensor/preset.hpp"
 #include "rtl/error.hpp"
 #include "rtl/registry.hpp"
 #include "rtl/rtl_readout.hpp"
-#include "dtof/scene/scene.hpp"
-#include "dtof/sensor/preset.hpp"
 
 namespace dtof {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
-#include "faults/fault_report.hpp"
-#include "faults/fault_study.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
+#include "faults/fault_report.hpp"
+#include "faults/fault_study.hpp"
 #include "rtl/error.hpp"
 
 namespace {

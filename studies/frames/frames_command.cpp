@@ -9,11 +9,11 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "frames/standard_frames.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -15,9 +15,9 @@
 #include "dtof/core/progress.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/photon/photon_source.hpp"
+#include "dtof/sensor/default_parameters.hpp"
 #include "run/readout_run.hpp"
 #include "run/region.hpp"
-#include "dtof/sensor/default_parameters.hpp"
 #include "scenes/scene_study.hpp"
 
 namespace dtof {

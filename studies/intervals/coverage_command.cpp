@@ -8,12 +8,12 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "intervals/coverage_report.hpp"
 #include "intervals/coverage_study.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -9,12 +9,12 @@
 #include <span>
 #include <utility>
 
+#include "accuracy/accuracy_study.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/random.hpp"
 #include "dtof/metrics/error_statistics.hpp"
-#include "accuracy/accuracy_study.hpp"
 
 namespace dtof {
 namespace {

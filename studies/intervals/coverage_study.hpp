@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dtof/metrics/error_estimates.hpp"
 #include "accuracy/accuracy_bench.hpp"
+#include "dtof/metrics/error_estimates.hpp"
 
 namespace dtof {
 

@@ -16,6 +16,8 @@
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/truth_map.hpp"
+#include "common/commands.hpp"
+#include "common/readout_variant.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/host/range_converter.hpp"
 #include "dtof/io/atomic_file.hpp"
@@ -25,12 +27,10 @@
 #include "dtof/metrics/error_statistics.hpp"
 #include "dtof/report/colour_png.hpp"
 #include "dtof/report/table.hpp"
+#include "measured_data/measured_scene.hpp"
 #include "rtl/run_frame.hpp"
 #include "run/readout_run.hpp"
-#include "measured_data/measured_scene.hpp"
-#include "common/readout_variant.hpp"
 #include "scenes/scene_study.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -7,12 +7,12 @@
 #include <string>
 
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "photon_models/fidelity_study.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -15,9 +15,10 @@
 #include <string>
 #include <vector>
 
+#include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/analytic/code_distribution.hpp"
 #include "dtof/analytic/fidelity.hpp"
-#include "command_line/options.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
@@ -33,7 +34,6 @@
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "photon_models/speed_error_curves.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "command_line/option_checks.hpp"
+#include "common/commands.hpp"
+#include "common/scene_list.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/io/atomic_file.hpp"
@@ -22,8 +24,6 @@
 #include "dtof/report/table.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "pool/pool_study.hpp"
-#include "common/commands.hpp"
-#include "common/scene_list.hpp"
 
 namespace dtof {
 namespace {

@@ -12,14 +12,14 @@
 #include <vector>
 
 #include "command_line/option_checks.hpp"
+#include "common/commands.hpp"
+#include "common/scene_list.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/table.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "pool/pool_search.hpp"
-#include "common/commands.hpp"
-#include "common/scene_list.hpp"
 
 namespace dtof {
 namespace {

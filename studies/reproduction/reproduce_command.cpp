@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <memory>
 
+#include "common/commands.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/plot.hpp"
 #include "reproduction/reproduction.hpp"
 #include "reproduction/reproduction_report.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

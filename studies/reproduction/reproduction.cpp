@@ -8,8 +8,8 @@
 #include <cmath>
 #include <span>
 
-#include "dtof/sensor/preset.hpp"
 #include "accuracy/accuracy_tables.hpp"
+#include "dtof/sensor/preset.hpp"
 
 namespace dtof {
 namespace {

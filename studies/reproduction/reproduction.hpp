@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "dtof/photon/sensor_model.hpp"
 #include "accuracy/accuracy_study.hpp"
 #include "common/array_size.hpp"
+#include "dtof/photon/sensor_model.hpp"
 #include "reproduction/thesis_figures.hpp"
 #include "reproduction/thesis_statements.hpp"
 

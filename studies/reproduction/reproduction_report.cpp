@@ -12,8 +12,8 @@
 #include <span>
 #include <utility>
 
-#include "dtof/report/table.hpp"
 #include "accuracy/accuracy_tables.hpp"
+#include "dtof/report/table.hpp"
 
 namespace dtof {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "dtof/photon/sensor_model.hpp"
 #include "accuracy/accuracy_study.hpp"
+#include "dtof/photon/sensor_model.hpp"
 #include "reproduction/thesis_statements.hpp"
 
 namespace dtof {

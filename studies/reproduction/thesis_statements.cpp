@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "dtof/metrics/error_statistics.hpp"
 #include "accuracy/accuracy_tables.hpp"
+#include "dtof/metrics/error_statistics.hpp"
 
 namespace dtof {
 namespace {

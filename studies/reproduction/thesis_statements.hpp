@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dtof/metrics/confidence_interval.hpp"
 #include "accuracy/accuracy_study.hpp"
+#include "dtof/metrics/confidence_interval.hpp"
 
 namespace dtof {
 

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
 #include "rivals/paper_claims.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {
@@ -88,7 +88,8 @@ void run_claims_command(const ClaimsOptions& options) {
   const PaperClaims found = judge_paper_claims(options.settings);
   std::string report = fmt::format(
       "# What the rivals' papers claim\n\n"
-      "Each rival's model ([the list](rivals.md), `studies/rivals/models`) is held against what its paper claims, on "
+      "Each rival's model ([the list](rivals.md), `studies/rivals/models`) is held against what its paper "
+      "claims, on "
       "photons as "
       "those papers have them: independent detections of a Gaussian pulse and of flat background, no "
       "pile-up, "

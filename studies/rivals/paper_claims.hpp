@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "dtof/metrics/confidence_interval.hpp"
 #include "common/independent_photons.hpp"
+#include "dtof/metrics/confidence_interval.hpp"
 
 namespace dtof {
 

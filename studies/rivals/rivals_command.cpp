@@ -15,17 +15,17 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
+#include "common/scene_list.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/table.hpp"
-#include "rivals/models/rival.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "rivals/models/rival.hpp"
 #include "rivals/rival_report.hpp"
 #include "rivals/rival_study.hpp"
-#include "common/commands.hpp"
-#include "common/scene_list.hpp"
 
 namespace dtof {
 namespace {

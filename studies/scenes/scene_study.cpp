@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/readout_variant.hpp"
 #include "dtof/analytic/pulse_match.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/metrics/cramer_rao.hpp"
@@ -25,7 +26,6 @@
 #include "dtof/readout/pooled_matched_filter.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/sensor/default_parameters.hpp"
-#include "common/readout_variant.hpp"
 
 namespace dtof {
 namespace {

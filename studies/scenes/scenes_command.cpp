@@ -16,6 +16,9 @@
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
+#include "common/commands.hpp"
+#include "common/readout_variant.hpp"
+#include "common/scene_list.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/random.hpp"
@@ -29,10 +32,7 @@
 #include "dtof/report/table.hpp"
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/preset.hpp"
-#include "common/readout_variant.hpp"
 #include "scenes/scene_study.hpp"
-#include "common/commands.hpp"
-#include "common/scene_list.hpp"
 
 namespace dtof {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/accuracy_study.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/report/table.hpp"
-#include "accuracy/accuracy_study.hpp"
 
 namespace dtof {
 

@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/accuracy_study.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/sensor/preset.hpp"
-#include "accuracy/accuracy_study.hpp"
 #include "sensor_effects/sensor_effects.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -16,8 +16,9 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/own_map.hpp"
+#include "common/commands.hpp"
+#include "common/scene_list.hpp"
 #include "dtof/core/error.hpp"
-#include "small_arrays/models/learned_enlarger.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/depth_image.hpp"
 #include "dtof/io/input_file.hpp"
@@ -26,8 +27,7 @@
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "small_arrays/enlarge_study.hpp"
-#include "common/commands.hpp"
-#include "common/scene_list.hpp"
+#include "small_arrays/models/learned_enlarger.hpp"
 
 namespace dtof {
 namespace {
@@ -145,7 +145,8 @@ void run_enlarge_command(EnlargeOptions options) {
       "which were chosen for the large array. \"{}\": the true distances of the spots, so that only the "
       "enlarger errs.\n"
       "* Enlargers: nearest spot; bilinear; joint bilateral (Kopf et al., SIGGRAPH 2007); a network that "
-      "weighs the 3 x 3 spots around a pixel (studies/small_arrays/models). The last two are guided by an intensity "
+      "weighs the 3 x 3 spots around a pixel (studies/small_arrays/models). The last two are guided by an "
+      "intensity "
       "image of the large array's pixels: a Poisson number of each pixel's background events over the "
       "frame. Both were trained by `make train-enlarger` on random shapes that no report reads. The large "
       "array's map is taken as it is, without the image.\n"

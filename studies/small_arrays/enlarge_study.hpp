@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "small_arrays/models/learned_enlarger.hpp"
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
 #include "scenes/scene_study.hpp"
+#include "small_arrays/models/learned_enlarger.hpp"
 
 namespace dtof {
 

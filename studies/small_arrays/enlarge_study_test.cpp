@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
-#include "small_arrays/models/enlarger.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "small_arrays/models/enlarger.hpp"
 
 namespace dtof {
 namespace {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/array_size.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/kept_streams.hpp"
 #include "dtof/core/parallel.hpp"
@@ -15,7 +16,6 @@
 #include "dtof/photon/fast_photon_source.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/sensor/default_parameters.hpp"
-#include "common/array_size.hpp"
 
 namespace dtof {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "dtof/core/parameters.hpp"
-#include "small_arrays/models/enlarger.hpp"
 #include "dtof/host/range_converter.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
 #include "rivals/models/rival.hpp"
+#include "small_arrays/models/enlarger.hpp"
 
 namespace dtof {
 

@@ -13,13 +13,13 @@
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
+#include "common/commands.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/report/plot.hpp"
 #include "dtof/report/table.hpp"
 #include "walk_error/walk_study.hpp"
-#include "common/commands.hpp"
 
 namespace dtof {
 namespace {

@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
+#include "dtof.h"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/random.hpp"
 #include "dtof/core/select_columns.hpp"
-#include "dtof.h"
 #include "rtl/error.hpp"
 #include "rtl/tdc_driver.hpp"
 #include "rtl/write_coverage.hpp"

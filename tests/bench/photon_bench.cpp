@@ -12,9 +12,9 @@
 #include <memory>
 #include <string>
 
+#include "bench/small_option.hpp"
 #include "dtof/analytic/code_distribution.hpp"
 #include "dtof/analytic/fidelity.hpp"
-#include "bench/small_option.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/readout/run_frame.hpp"

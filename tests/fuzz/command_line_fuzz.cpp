@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "commands/commands.hpp"
 #include "command_line/command_line.hpp"
-#include "dtof/core/error.hpp"
+#include "commands/commands.hpp"
 #include "common/commands.hpp"
+#include "dtof/core/error.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "dtof/core/error.hpp"
-#include "fuzz/input_file.hpp"
 #include "dtof/io/depth_image.hpp"
+#include "fuzz/input_file.hpp"
 
 namespace {
 

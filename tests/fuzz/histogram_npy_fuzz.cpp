@@ -4,9 +4,9 @@
 #include <cstdint>
 
 #include "dtof/core/error.hpp"
-#include "fuzz/input_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/recording/histogram_stream.hpp"
+#include "fuzz/input_file.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "command_line/options.hpp"
-#include "dtof/core/error.hpp"
-#include "run/region.hpp"
-#include "dtof/scene/scene.hpp"
 #include "common/readout_variant.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/scene/scene.hpp"
+#include "run/region.hpp"
 
 namespace {
 

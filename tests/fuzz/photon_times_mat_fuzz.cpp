@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "dtof/core/error.hpp"
-#include "fuzz/input_file.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
+#include "fuzz/input_file.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "dtof/core/error.hpp"
-#include "fuzz/input_file.hpp"
 #include "dtof/recording/stream_csv.hpp"
+#include "fuzz/input_file.hpp"
 
 namespace {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 
 #include "dtof/core/error.hpp"
-#include "fuzz/input_file.hpp"
 #include "dtof/recording/tmf8829_json.hpp"
+#include "fuzz/input_file.hpp"
 
 namespace {
 

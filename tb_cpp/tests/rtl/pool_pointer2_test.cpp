@@ -19,10 +19,10 @@
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/readout/model.hpp"
 #include "dtof/readout/run_frame.hpp"
-#include "rtl/run_frame.hpp"
 #include "dtof/scene/scene.hpp"
-#include "scoreboard/scoreboard.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "rtl/run_frame.hpp"
+#include "scoreboard/scoreboard.hpp"
 #include "tests/rtl/pool_surfaces.hpp"
 #include "tests/rtl/rtl_test_support.hpp"
 

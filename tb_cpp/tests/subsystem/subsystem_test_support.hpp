@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "dtof/core/random.hpp"
-#include "dtof_registers.h"
 #include "dtof/readout/model.hpp"
 #include "dtof/readout/pool_pointer2.hpp"
+#include "dtof_registers.h"
 #include "subsystem/subsystem_bench.hpp"
 #include "tests/core/test_seed.hpp"
 #include "tests/readout/test_streams.hpp"
