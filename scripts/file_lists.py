@@ -6,11 +6,11 @@ import json
 import re
 from pathlib import Path
 
-from dtof_synth.errors import FlowError
+from dtof_synth.errors import FlowError, found_in
 from dtof_synth.readouts import Table
 
+ROOT = Path(__file__).resolve().parent.parent
 WRITTEN = "Written by scripts/generate.py from hdl/dtof.f"
-VERSION = "0.2.0"
 OWN_SRAMS = "own_srams"  # flag of FuseSoC: the stand-ins of the SRAMs are left out
 OWN_SRAMS_BENDER = "tech_override"  # the same as a target of Bender
 # Beside the parameters of the arrays, those of dtof_subsystem and of the bench.
@@ -20,6 +20,11 @@ SUBSYSTEM = {
     "RASTER_ORDER": "1: results come row by row, for a memory of all of them",
 }
 BENCH = {"ACQUISITIONS": "of the example's frame"}
+
+
+def version() -> str:
+    """The project's, which CMakeLists.txt has."""
+    return found_in("CMakeLists.txt", r"^project\(dtof_readout VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 
 
 def split(text: str) -> tuple[list[str], list[str], list[str]]:
@@ -74,7 +79,7 @@ def fusesoc(table: Table, listing: str, includes: list[str]) -> str:
         "# SPDX-License-Identifier: Apache-2.0",
         f"# {WRITTEN} and readouts.toml.",
         f"# --flag={OWN_SRAMS}: without the technology folder, for a core of one's own that has dtof_sram_1rw, dtof_sram_1r1w and dtof_clock_gate.",
-        f"name: dtof:readout:dtof_array:{VERSION}",
+        f"name: dtof:readout:dtof_array:{version()}",
         "description: Read-out of large SPAD arrays, TDC timestamps to depth codes",
         "filesets:",
         "  rtl:",
