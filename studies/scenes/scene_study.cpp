@@ -180,7 +180,8 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
                          static_cast<int>(calibration.distances_m().size())};
   const Positions positions = read(scene, FlatCalibration::kFrame);
   const auto photons = [&](const TargetMap& targets) {
-    return std::make_unique<PhotonSource>(sensor_, targets, klux_, seed_, FlatCalibration::kFrame);
+    return std::make_unique<PhotonSource>(sensor_.as_calibrated(), targets, klux_, seed_,
+                                          FlatCalibration::kFrame);
   };
   for (std::size_t e = 0; e < titles_.size(); ++e) {
     if (hears_other_columns(e)) {
@@ -279,9 +280,14 @@ std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene, std::
   std::vector<SceneMeasurement> measurements;
   for (std::size_t e = 0; e < titles_.size(); ++e) {
     SceneMeasurement measurement;
-    for (const Measurement& pixel : positions[e]) {
-      measurement.distance_m.push_back(distance(e, pixel.position));
-      measurement.confidence.push_back(pixel.confidence);
+    for (std::size_t i = 0; i < positions[e].size(); ++i) {
+      // The host knows the skew.
+      const int column = picked_column(scene, static_cast<int>(i) % scene.columns);
+      const double skew = sensor_.surroundings.skew.of_pixel(column, static_cast<int>(i) / scene.columns,
+                                                             scene.targets.columns()) /
+                          sensor_.time_resolution_s();
+      measurement.distance_m.push_back(distance(e, positions[e][i].position - skew));
+      measurement.confidence.push_back(positions[e][i].confidence);
     }
     measurements.push_back(std::move(measurement));
   }
