@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-.PHONY: claims dynamic-range frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims dynamic-range hostile-scenes frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
 SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
@@ -85,6 +85,16 @@ else
 	@scripts/reports.py begin dynamic_range
 	@$(DTOF_STUDY) dynamic-range --seed $(SEED) --out $(OUT)/dynamic_range
 	@scripts/publish.py dynamic_range
+endif
+
+hostile-scenes: study-program
+ifeq ($(SMALL),1)
+	@$(DTOF_STUDY) hostile-scenes --condition clear glass late-laser --readout coarsehistogram,poolpointer2 --klux 14 \
+	  --rows 16 --seeds 2 --seed $(SEED) --out build/hostile_scenes_small
+else
+	@scripts/reports.py begin hostile_scenes
+	@$(DTOF_STUDY) hostile-scenes --seed $(SEED) --out $(OUT)/hostile_scenes
+	@scripts/publish.py hostile_scenes
 endif
 
 frames: study-program

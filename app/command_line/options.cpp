@@ -125,7 +125,8 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
 void add_sensor_option(CLI::App& command, std::string& sensor) {
   command
       .add_option("--sensor,-p,--preset", sensor,
-                  "a preset of `dtof list`, or a sensor file (TOML, docs/user/sensor_file.md)")
+                  "a preset of `dtof list`, or a sensor file (TOML, docs/user/sensor_file.md); behind it\n"
+                  "conditions of `dtof list`, each after a +: thesis+fog")
       ->capture_default_str();
 }
 

@@ -176,11 +176,12 @@ std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& rea
     tabled.push_back({parameters, std::nullopt});
   }
   if (rule == TableRule::kFlat) {
-    const FlatCalibration calibration(scene.model());
+    const SensorModel sensor = scene.model().as_calibrated();
+    const FlatCalibration calibration(sensor);
     std::vector<RangeConverter> tables = calibration.fit(
         [&](const TargetMap& targets) {
-          return make_source(fidelity, PhotonSource(scene.model(), targets, scene.klux(), run.seed,
-                                                    FlatCalibration::kFrame));
+          return make_source(fidelity,
+                             PhotonSource(sensor, targets, scene.klux(), run.seed, FlatCalibration::kFrame));
         },
         readouts, run.seed, run.threads);
     for (std::size_t r = 0; r < tabled.size(); ++r) {
@@ -190,6 +191,21 @@ std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& rea
   return tabled;
 }
 
+/// Timing skew of the region's pixels; empty without any.
+std::vector<double> skew_bins(const SensorModel& sensor, const Region& region, int array_columns) {
+  std::vector<double> skews;
+  const TimingSkew& skew = sensor.surroundings.skew;
+  if (skew.none()) {
+    return skews;
+  }
+  for (int row = region.rows.first; row < region.rows.first + region.rows.count; ++row) {
+    for (const int column : region.columns) {
+      skews.push_back(skew.of_pixel(column, row, array_columns) / sensor.time_resolution_s());
+    }
+  }
+  return skews;
+}
+
 MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor,
                            const TabledReadout& readout, const FrameOptions& options, const Region& region,
                            const DepthImage& truth) {
@@ -197,7 +213,8 @@ MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor
   const ReadoutParameters& parameters = readout.parameters;
   frame.parameters = parameters;
   frame.run = run_readout(source, parameters, options.run, region, options.command_line);
-  FrameMaps maps = frame_maps(frame.run.results, parameters, sensor, readout.table, truth.metres);
+  FrameMaps maps = frame_maps(frame.run.results, parameters, sensor, readout.table, truth.metres,
+                              skew_bins(sensor, region, source.columns()));
   frame.figures = maps.figures;
   frame.mean_square = maps.mean_square;
   frame.depth = {truth.width, truth.height, std::move(maps.depth)};

@@ -8,6 +8,7 @@
 #include "dtof/core/parameters.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/scene/scene.hpp"
+#include "dtof/sensor/condition.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "rtl/registry.hpp"
 #include "subsystem/registry.hpp"
@@ -28,6 +29,10 @@ void add_list_command(CLI::App& app) {
       const SensorModel sensor = parse_preset(name);
       fmt::print("  {:<16} {:.3f} signal events, {:.3f} background events, {} acquisitions per frame\n", name,
                  sensor.signal_events(1.0, 1.0), sensor.background_events(14.0, 1.0), sensor.acquisitions);
+    }
+    fmt::print("\nConditions (--sensor PRESET+CONDITION):\n");
+    for (const Condition& condition : conditions()) {
+      fmt::print("  {:<20} {}\n", condition.name, condition.says);
     }
     fmt::print("\nScenes (--scene):\n");
     for (const Scene scene : kAllScenes) {

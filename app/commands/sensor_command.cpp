@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -41,7 +42,15 @@ void run_sensor_command(const std::string& name, bool keys) {
   const SensorModel sensor = find_sensor(name);
   const auto presets = preset_names();
   const bool preset = std::ranges::find(presets, name) != presets.end();
-  fmt::print("{}{}", preset ? std::string(preset_text(name)) : read_file(name), consequences(sensor));
+  std::string text;
+  if (preset) {
+    text = preset_text(name);
+  } else if (std::filesystem::exists(name)) {
+    text = read_file(name);
+  } else {
+    text = fmt::format("# {}: no file, but a sensor under conditions\n", name);
+  }
+  fmt::print("{}{}", text, consequences(sensor));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "common/engine_frame.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/core/progress.hpp"
@@ -20,7 +21,6 @@
 #include "dtof/io/csv_table.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/photon/photon_source.hpp"
-#include "dtof/readout/model.hpp"
 #include "dtof/report/table.hpp"
 
 namespace dtof {
@@ -35,27 +35,6 @@ struct Limit {
 };
 constexpr std::array<Limit, 2> kLimits = {
     {{3, &RangeCounts::above_3_percent}, {10, &RangeCounts::above_10_percent}}};
-
-/// Columns read of each scene, so that the lean form's engine is whole.
-int read_columns() { return ReadoutParameters::defaults(Readout::kPoolPointer2Lean).columns_together(); }
-
-/// The sensor's pixels around its centre.
-TargetMap middle_of(Scene scene, const SensorModel& sensor, int rows) {
-  SceneParameters parameters;
-  parameters.columns = sensor.columns;
-  parameters.rows = sensor.rows;
-  parameters.reflectivity = sensor.default_reflectivity;
-  const TargetMap whole = make_scene(scene, parameters);
-  TargetMap middle(read_columns(), rows);
-  const int left = (whole.columns() - middle.columns()) / 2;
-  const int top = (whole.rows() - middle.rows()) / 2;
-  for (int column = 0; column < middle.columns(); ++column) {
-    for (int row = 0; row < rows; ++row) {
-      middle.at(column, row) = whole.at(left + column, top + row);
-    }
-  }
-  return middle;
-}
 
 SensorModel sensor_of(const RangeSettings& settings, const RangeCell& cell) {
   SensorModel sensor = settings.sensor;
@@ -80,34 +59,6 @@ std::optional<std::uint16_t> full_confidence(const ReadoutParameters& readout) {
   }
   const int width = is_pointer_readout(readout.readout) ? readout.confidence_width : readout.count_width;
   return static_cast<std::uint16_t>((1U << static_cast<unsigned>(width)) - 1U);
-}
-
-using Columns = std::vector<std::vector<PixelResult>>;
-
-/// Results of the judged columns of one frame, index: read-out, column, row.
-std::vector<Columns> read_frame(const PhotonSource& source, const std::vector<ReadoutParameters>& readouts) {
-  const int judged = judged_range_columns();
-  const std::uint32_t acquisitions = source.acquisitions();
-  std::vector<Columns> results(readouts.size());
-  std::vector<std::pair<std::size_t, std::unique_ptr<ReadoutModel>>> alone;
-  for (std::size_t r = 0; r < readouts.size(); ++r) {
-    std::unique_ptr<ReadoutModel> model = make_readout_model(readouts[r]);
-    if (readouts[r].columns_together() == 1) {
-      alone.emplace_back(r, std::move(model));
-      continue;
-    }
-    ColumnStream stream;
-    results[r] = model->run_columns(
-        std::min(readouts[r].columns_together(), source.columns()),
-        [&](int column) -> const ColumnStream& { return stream = source.column(column); }, acquisitions);
-  }
-  for (int column = 0; column < judged && !alone.empty(); ++column) {
-    const ColumnStream stream = source.column(column);
-    for (const auto& [r, model] : alone) {
-      results[r].push_back(model->run_column(stream, acquisitions));
-    }
-  }
-  return results;
 }
 
 /// Distances that a read-out gave, and the truth.
@@ -203,10 +154,11 @@ void validate(const RangeSettings& settings) {
     throw InputError(
         fmt::format("dynamic range: an interval needs at least 2 seeds, not {}", settings.seeds));
   }
-  if (settings.sensor.columns < read_columns() || settings.sensor.rows < settings.rows || settings.rows < 1) {
+  if (settings.sensor.columns < engine_columns_read() || settings.sensor.rows < settings.rows ||
+      settings.rows < 1) {
     throw InputError(
         fmt::format("dynamic range: {} rows of {} columns are read, but the sensor has {} rows of {}",
-                    settings.rows, read_columns(), settings.sensor.rows, settings.sensor.columns));
+                    settings.rows, engine_columns_read(), settings.sensor.rows, settings.sensor.columns));
   }
   for (const double signal : settings.signals) {
     if (!std::isfinite(signal) || signal <= 0.0) {
@@ -239,8 +191,6 @@ const std::string& coarse_histogram() {
 }
 
 }  // namespace
-
-int judged_range_columns() { return ReadoutParameters::defaults(Readout::kPoolPointer2).columns_together(); }
 
 bool about_pool_readout(const RangeFinding& finding) { return is_pool(finding.readout); }
 
@@ -275,11 +225,11 @@ RangeReadouts measure_range_cell(const RangeSettings& settings, const RangeCell&
     const std::size_t s = index / seeds;
     const PhotonSource source(sensor, scenes[s], cell.klux, first_seed + index % seeds,
                               scene_frame(static_cast<std::uint32_t>(s)));
-    const std::vector<Columns> results = read_frame(source, readouts);
+    const std::vector<EngineResults> results = read_engine(source, readouts);
     for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
       RangeCounts& own = counts[index][r];
       const std::optional<std::uint16_t> full = full_confidence(readouts[r]);
-      for (int column = 0; column < judged_range_columns(); ++column) {
+      for (int column = 0; column < engine_columns_judged(); ++column) {
         for (int row = 0; row < settings.rows; ++row) {
           const PixelTarget& target = scenes[s].at(column, row);
           if (!target.returns_signal()) {

@@ -55,10 +55,6 @@ struct RangeSettings {
   std::filesystem::path store;
 };
 
-/// Columns judged of each scene: an engine of poolPointer 2. Its lean form reads more columns, whose other
-/// results are not judged.
-int judged_range_columns();
-
 /// Counts of each read-out, by its name, and seed.
 using RangeReadouts = std::map<std::string, std::vector<RangeCounts>>;
 using RangeResults = std::map<RangeCell, RangeReadouts>;

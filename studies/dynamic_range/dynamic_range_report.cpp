@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "common/engine_frame.hpp"
+
 namespace dtof {
 namespace {
 
@@ -326,9 +328,9 @@ std::string dynamic_range_report(const RangeSettings& settings, const DynamicRan
       "Every cell of every read-out, with intervals: "
       "[data/dynamic_range.csv.gz](data/dynamic_range.csv.gz).\n\n"
       "Command: `{}`\n",
-      scene_names(settings), ReadoutParameters::defaults(Readout::kPoolPointer2Lean).columns_together(),
-      settings.rows, settings.sensor.columns, settings.sensor.rows, judged_range_columns(), settings.seeds,
-      settings.seed, sum_of(study.grid.begin()->second.begin()->second).pixels, command_line);
+      scene_names(settings), engine_columns_read(), settings.rows, settings.sensor.columns,
+      settings.sensor.rows, engine_columns_judged(), settings.seeds, settings.seed,
+      sum_of(study.grid.begin()->second.begin()->second).pixels, command_line);
   return report;
 }
 

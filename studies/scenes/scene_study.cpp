@@ -178,9 +178,10 @@ SceneStudy::SceneStudy(SensorModel sensor, double klux, std::span<const ReadoutP
   const FlatCalibration calibration(sensor_);
   const StudyScene scene{"calibration", calibration.targets(),
                          static_cast<int>(calibration.distances_m().size())};
-  const Positions positions = read(scene, FlatCalibration::kFrame);
+  const Positions positions = read(sensor_.as_calibrated(), scene, FlatCalibration::kFrame);
   const auto photons = [&](const TargetMap& targets) {
-    return std::make_unique<PhotonSource>(sensor_, targets, klux_, seed_, FlatCalibration::kFrame);
+    return std::make_unique<PhotonSource>(sensor_.as_calibrated(), targets, klux_, seed_,
+                                          FlatCalibration::kFrame);
   };
   for (std::size_t e = 0; e < titles_.size(); ++e) {
     if (hears_other_columns(e)) {
@@ -201,8 +202,9 @@ double SceneStudy::distance(std::size_t estimator, double position) const {
   return converters_.empty() ? scale_.depth(position) : converters_[estimator].distance(position);
 }
 
-SceneStudy::Positions SceneStudy::read(const StudyScene& scene, std::uint32_t frame) const {
-  const PhotonSource source(sensor_, scene.targets, klux_, seed_, frame);
+SceneStudy::Positions SceneStudy::read(const SensorModel& sensor, const StudyScene& scene,
+                                       std::uint32_t frame) const {
+  const PhotonSource source(sensor, scene.targets, klux_, seed_, frame);
   const auto width = static_cast<std::size_t>(scene.columns);
   const auto rows = static_cast<std::size_t>(scene.targets.rows());
   Positions positions(titles_.size(), std::vector<Measurement>(width * rows));
@@ -274,14 +276,19 @@ void SceneStudy::read_engines(const StudyScene& scene, std::uint32_t frame, Posi
 }
 
 std::vector<SceneMeasurement> SceneStudy::measure(const StudyScene& scene, std::uint32_t n) const {
-  Positions positions = read(scene, scene_frame(n));
+  Positions positions = read(sensor_, scene, scene_frame(n));
   read_engines(scene, scene_frame(n), positions);
   std::vector<SceneMeasurement> measurements;
   for (std::size_t e = 0; e < titles_.size(); ++e) {
     SceneMeasurement measurement;
-    for (const Measurement& pixel : positions[e]) {
-      measurement.distance_m.push_back(distance(e, pixel.position));
-      measurement.confidence.push_back(pixel.confidence);
+    for (std::size_t i = 0; i < positions[e].size(); ++i) {
+      // The host knows the skew.
+      const int column = picked_column(scene, static_cast<int>(i) % scene.columns);
+      const double skew = sensor_.surroundings.skew.of_pixel(column, static_cast<int>(i) / scene.columns,
+                                                             scene.targets.columns()) /
+                          sensor_.time_resolution_s();
+      measurement.distance_m.push_back(distance(e, positions[e][i].position - skew));
+      measurement.confidence.push_back(positions[e][i].confidence);
     }
     measurements.push_back(std::move(measurement));
   }

@@ -88,7 +88,7 @@ class SceneStudy {
   using Positions = std::vector<std::vector<Measurement>>;  // estimator, row * columns + column
   [[nodiscard]] bool hears_other_columns(std::size_t estimator) const;
   /// All but the read-outs whose columns hear each other.
-  [[nodiscard]] Positions read(const StudyScene& scene, std::uint32_t frame) const;
+  [[nodiscard]] Positions read(const SensorModel& sensor, const StudyScene& scene, std::uint32_t frame) const;
   /// Those, which read whole engines of the scene, however few columns are asked for.
   void read_engines(const StudyScene& scene, std::uint32_t frame, Positions& positions) const;
   [[nodiscard]] double distance(std::size_t estimator, double position) const;

@@ -195,5 +195,21 @@ TEST(SceneStudy, PoolingHelpsTheMatchedFilterWhereASinglePixelIsLost) {
   EXPECT_LT(outliers("pooled matched filter"), 0.5 * outliers("matched filter (single pixel)"));
 }
 
+TEST(SceneStudy, TablesAreThoseOfTheSensorInClearConditions) {
+  // A laser that is a nanosecond late all the time: no table may know, whatever reads the pixel.
+  SensorModel sensor = parse_preset("thesis");
+  sensor.surroundings.settling = {.delay_s = 1e-9, .time_share = 100.0};
+  const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
+                                                   ReadoutParameters::defaults(Readout::kPoolPointer2)};
+  const SceneStudy study(sensor, 2.0, readouts, 3, 0);
+  const std::vector<SceneMeasurement> measured = study.measure({"wall", TargetMap(34, 8, {2.0, 1.0}), 4});
+  ASSERT_EQ(measured.size(), 5U);
+  for (std::size_t e = 0; e < measured.size(); ++e) {
+    std::vector<double> distances = measured[e].distance_m;
+    std::ranges::nth_element(distances, distances.begin() + 16);
+    EXPECT_THAT(distances[16], DoubleNear(2.15, 0.05)) << study.estimators()[e];
+  }
+}
+
 }  // namespace
 }  // namespace dtof

@@ -40,9 +40,9 @@ struct Outcome {
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
-  constexpr std::array<std::string_view, 13> kStudies = {
-      "claims",   "dynamic-range", "frames", "enlarge", "accuracy",       "coverage",   "fidelity",
-      "measured", "reproduce",     "scenes", "walk",    "sensor-effects", "speed-error"};
+  constexpr std::array<std::string_view, 14> kStudies = {
+      "claims",   "dynamic-range", "hostile-scenes", "frames", "enlarge", "accuracy",       "coverage",
+      "fidelity", "measured",      "reproduce",      "scenes", "walk",    "sensor-effects", "speed-error"};
   const std::string_view command = arguments.substr(0, arguments.find(' '));
   return std::ranges::find(kStudies, command) != kStudies.end() ? DTOF_STUDY_PROGRAM : DTOF_PROGRAM;
 }
@@ -729,6 +729,49 @@ TEST_F(Programs, DynamicRangeWritesItsReportAndTakesCellsThatAreDone) {
   expect_refused("dynamic-range --seeds 1 --out out", "seeds");
   expect_refused("dynamic-range --rows 161 --out out", "161 rows");
   expect_refused("dynamic-range --scene cellar --out out", "cellar");
+}
+
+TEST_F(Programs, HostileScenesWritesItsReportAndTakesCellsThatAreDone) {
+  const std::string command =
+      "hostile-scenes -r coarsehistogram --condition clear motion -k 2 --seeds 2 --rows 8 --scene sky --out "
+      "hostile";
+  const Outcome outcome = dtof(command);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
+  const std::string report = read_file(path("hostile/hostile_scenes.md"));
+  EXPECT_THAT(report, HasSubstr("# What each read-out survives"));
+  EXPECT_THAT(report, HasSubstr("* motion: everything goes away at 10 m/s."));
+  EXPECT_THAT(read_file_or_gzip(path("hostile/data/hostile_scenes.csv.gz")),
+              HasSubstr("\ncoarsehistogram,motion,2,"));
+  EXPECT_GT(std::filesystem::file_size(path("hostile/hostile_scenes.svg")), 0U);
+  std::filesystem::path cells;
+  for (const auto& entry : std::filesystem::directory_iterator(path("hostile"))) {
+    cells = entry.path().filename().string().starts_with("cells_") ? entry.path() : cells;
+  }
+  const auto written = std::filesystem::last_write_time(cells / "motion_2.csv");
+  ASSERT_EQ(dtof(command).exit_code, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(cells / "motion_2.csv"), written);
+  EXPECT_EQ(read_file(path("hostile/hostile_scenes.md")), report);
+  expect_refused("hostile-scenes --condition fog --out out", "clear");
+  expect_refused("hostile-scenes --condition clear fgo --out out", "fgo");
+  expect_refused("hostile-scenes --seeds 1 --out out", "seeds");
+  expect_refused("hostile-scenes --false-alarms 0 --out out", "false alarms");
+}
+
+TEST_F(Programs, ConditionsAreLaidOverTheSensorOfAFrame) {
+  const std::string frame =
+      "frame --scene flat --distance 3 --array-columns 4 --array-rows 8 -r coarsehistogram --fidelity exact ";
+  const Outcome clear = dtof(frame + "--out clear");
+  ASSERT_EQ(clear.exit_code, 0) << clear.output;
+  EXPECT_THAT(clear.output, HasSubstr("0.00 % |     0.00 %"));
+  const Outcome glass = dtof(frame + "--sensor thesis+glass --out glass");
+  ASSERT_EQ(glass.exit_code, 0) << glass.output;
+  EXPECT_THAT(glass.output, HasSubstr("100.00 % |   100.00 %"));
+  const Outcome skew = dtof(frame + "--sensor thesis+column-skew --out skew");
+  EXPECT_THAT(skew.output, HasSubstr("0.00 % |     0.00 %")) << "the host subtracts it";
+  EXPECT_THAT(dtof("list").output, HasSubstr("other-laser-6ppm"));
+  EXPECT_EQ(dtof("sensor thesis+fog").exit_code, 0);
+  expect_refused("frame --sensor thesis+fgo --out out", "did you mean 'fog'");
+  expect_refused("frame --sensor thesis+fog --fidelity fast --out out", "surroundings");
 }
 
 TEST_F(Programs, FramesAreReadSideBySideAndCheckedInRtl) {

@@ -85,7 +85,9 @@ enum class RandomPurpose : std::uint32_t {
   kPixelDefects = 8,
   kIntensityImage = 9,
   kTrainingScene = 10,
-  kIndependentPhotons = 11
+  kIndependentPhotons = 11,
+  kTimingSkew = 12,
+  kFurtherReturns = 13
 };
 
 }  // namespace dtof

@@ -25,13 +25,14 @@ void FrameFigures::merge(const FrameFigures& other) {
 
 FrameMaps frame_maps(std::span<const PixelResult> results, const ReadoutParameters& parameters,
                      const SensorModel& sensor, const std::optional<RangeConverter>& table,
-                     std::span<const float> truth) {
+                     std::span<const float> truth, std::span<const double> skew_bins) {
   constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
   const DepthScale scale(sensor.integration_time_s, parameters.np, sensor.pulse_fwhm_s);
   FrameMaps maps;
   RunningMoments errors;
   for (std::size_t i = 0; i < results.size(); ++i) {
-    const double position = code_position(results[i], parameters.fraction_bits);
+    const double position =
+        code_position(results[i], parameters.fraction_bits) - (skew_bins.empty() ? 0.0 : skew_bins[i]);
     const double before = scale.depth(position);
     const auto depth = static_cast<float>(table ? table->distance(position) : before);
     const float error = depth - truth[i];

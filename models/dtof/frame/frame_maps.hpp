@@ -38,10 +38,11 @@ struct FrameMaps {
 };
 
 /// Distances by `table`, or by Eq. 3.11 if there is none. `truth` has a value for each result, NaN where the
-/// result is not judged.
+/// result is not judged. `skew_bins`: timing skew of each result's pixel, which the host knows and subtracts;
+/// empty: none.
 FrameMaps frame_maps(std::span<const PixelResult> results, const ReadoutParameters& parameters,
                      const SensorModel& sensor, const std::optional<RangeConverter>& table,
-                     std::span<const float> truth);
+                     std::span<const float> truth, std::span<const double> skew_bins = {});
 
 /// The figures of a summary as text, with and without a look-up table: their names and their values; "-" if
 /// no pixel is judged.

@@ -2,15 +2,13 @@
 #include "dtof/photon/event_sampler.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <boost/math/special_functions/erf.hpp>
-#include <boost/random/exponential_distribution.hpp>
-#include <boost/random/normal_distribution.hpp>
 #include <cmath>
 #include <cstring>
 #include <numbers>
 
+#include "dtof/photon/bits64.hpp"
 #include "dtof/photon/physics.hpp"
 #include "dtof/photon/ziggurat.hpp"
 
@@ -30,39 +28,6 @@ constexpr double kDenseBackground = 24.0;
 constexpr double kSortWhileDrawing = 16.0;
 // A pulse whose centre is this many sigma outside the gate sends nothing into it (probability below 1e-32).
 constexpr double kNegligibleSigma = 12.0;
-
-/// 64 bits a call, so that Boost's ziggurats fill a double's mantissa from one word. One per pixel.
-class Bits64 {
- public:
-  using result_type = std::uint64_t;
-  static constexpr std::size_t kBatch = 32;
-
-  explicit Bits64(CounterRandom& random) : random_(random) {}
-  static constexpr result_type min() { return 0; }
-  static constexpr result_type max() { return std::numeric_limits<result_type>::max(); }
-  result_type operator()() { return batch()[next_++]; }
-
-  /// The batch that the next word is of, and the word's place in it; `skip_to` passes over words.
-  std::span<const std::uint64_t, kBatch> batch() {
-    if (next_ == kBatch) {
-      random_.fill(words_);
-      next_ = 0;
-    }
-    return words_;
-  }
-  [[nodiscard]] std::size_t next() const { return next_; }
-  void skip_to(std::size_t next) { next_ = next; }
-
- private:
-  CounterRandom& random_;
-  std::array<std::uint64_t, kBatch> words_{};
-  std::size_t next_ = kBatch;
-};
-
-double draw_exponential(Bits64& bits) { return boost::random::exponential_distribution<double>(1.0)(bits); }
-/// In [0, 1).
-double draw_uniform(Bits64& bits) { return static_cast<double>(bits() >> 11U) * 0x1.0p-53; }
-double draw_normal(Bits64& bits) { return boost::random::normal_distribution<double>(0.0, 1.0)(bits); }
 
 /// Inverse of erfc without Boost's detour over long double.
 double erfc_inverse(double value) {
@@ -165,6 +130,7 @@ EventSampler::EventSampler(const SensorModel& model, std::size_t keep)
       afterpulse_probability_(model.afterpulse_probability),
       afterpulse_time_constant_(model.afterpulse_time_constant_s / model.time_resolution_s()),
       keep_(keep),
+      returns_(model.surroundings.none() ? nullptr : std::make_shared<const ReturnSampler>(model)),
       background_{kBeforeFrame, kBeforeFrame},
       signal_{kBeforeFrame, kBeforeFrame} {}
 
@@ -182,13 +148,36 @@ std::span<const double> EventSampler::sample(const PixelRates& rates, CounterRan
     walk_background(background, random);
     walk_signal(visible, random);
     merge();
-    if (afterpulse_probability_ > 0.0) {
-      follow_with_afterpulses(random);
-    } else if (dead_time_ > 0.0) {
-      drop_in_dead_time();
-    }
+    lose_and_add(random);
   }
   return std::span<const double>(events_).first(event_count_);
+}
+
+std::span<const double> EventSampler::sample(const PixelReturns& returns, CounterRandom random,
+                                             CounterRandom further) {
+  walk_background(returns.rates.background * (gate_end_ - gate_begin_) / code_count_, random);
+  signal_end_ = kFirst;
+  if (!returns_->signal_changes()) {
+    walk_signal(returns.rates, random);
+  }
+  further_.clear();
+  returns_->draw(returns, further, further_);
+  make_room(merged_, signal_end_ + further_.size());
+  const auto merged = std::merge(signal_.begin(), signal_.begin() + static_cast<std::ptrdiff_t>(signal_end_),
+                                 further_.begin(), further_.end(), merged_.begin());
+  signal_end_ = static_cast<std::size_t>(merged - merged_.begin());
+  std::swap(signal_, merged_);
+  merge();
+  lose_and_add(random);
+  return std::span<const double>(events_).first(event_count_);
+}
+
+void EventSampler::lose_and_add(CounterRandom& random) {
+  if (afterpulse_probability_ > 0.0) {
+    follow_with_afterpulses(random);
+  } else if (dead_time_ > 0.0) {
+    drop_in_dead_time();
+  }
 }
 
 void EventSampler::walk_background(double events_per_acquisition, CounterRandom& random) {

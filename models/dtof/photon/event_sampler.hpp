@@ -10,16 +10,10 @@
 
 #include "dtof/core/pulse_response.hpp"
 #include "dtof/core/random.hpp"
+#include "dtof/photon/return_sampler.hpp"
 #include "dtof/photon/sensor_model.hpp"
 
 namespace dtof {
-
-/// Mean events of one pixel, before anything is lost.
-struct PixelRates {
-  double background = 0.0;   ///< per T_int, flat
-  double signal = 0.0;       ///< per pulse
-  double centre_bins = 0.0;  ///< mean arrival time of the signal in units of T_res
-};
 
 /// Draws the events of one pixel over a frame, in time order, and keeps its buffers from pixel to pixel.
 ///
@@ -37,6 +31,9 @@ class EventSampler {
 
   /// Valid until the next call.
   std::span<const double> sample(const PixelRates& rates, CounterRandom random);
+  /// The same with what the sensor's surroundings do, which must do something (Surroundings::none). Returns
+  /// that they add are drawn from `further`; all events of an acquisition are given.
+  std::span<const double> sample(const PixelReturns& returns, CounterRandom random, CounterRandom further);
 
  private:
   void walk_background(double events_per_acquisition, CounterRandom& random);
@@ -45,6 +42,7 @@ class EventSampler {
   void walk_signal(const PixelRates& rates, CounterRandom& random);
   void merge();
   void walk_in_time_order(const PixelRates& rates, double background, CounterRandom& random);
+  void lose_and_add(CounterRandom& random);
   void drop_in_dead_time();
   void follow_with_afterpulses(CounterRandom& random);
 
@@ -59,6 +57,7 @@ class EventSampler {
   double afterpulse_probability_;
   double afterpulse_time_constant_;
   std::size_t keep_;
+  std::shared_ptr<const ReturnSampler> returns_;  // none: nothing surrounds the sensor
 
   // Each process's events between two sentinels.
   std::vector<double> background_;
@@ -69,6 +68,8 @@ class EventSampler {
   std::vector<double> counted_;
   std::vector<double> afterpulses_;  // still to come in this acquisition
   std::size_t event_count_ = 0;
+  std::vector<double> further_;
+  std::vector<double> merged_;
 };
 
 }  // namespace dtof

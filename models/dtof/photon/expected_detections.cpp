@@ -52,10 +52,11 @@ double slot_probability(int k, double before, double after) {
 
 std::vector<std::vector<double>> expected_slot_detections(const SensorModel& model, const PixelRates& rates) {
   if (model.dead_time_s > 0.0 || model.afterpulse_probability > 0.0 || model.binning > 1 ||
-      model.coincidence_window_s) {
+      model.coincidence_window_s || !model.surroundings.none()) {
     throw InputError(
-        "expected detections know no dead time, afterpulsing, binning or coincidence: use the exact photon "
-        "model");
+        "expected detections know no dead time, afterpulsing, binning, coincidence or surroundings: use the "
+        "exact "
+        "photon model");
   }
   const auto codes = std::size_t{1} << static_cast<unsigned>(model.np);
   const double resolution = model.time_resolution_s();

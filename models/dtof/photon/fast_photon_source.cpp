@@ -262,15 +262,16 @@ class FastPixelSampler final : public PixelSampler {
 FastPhotonSource::FastPhotonSource(PhotonSource exact) : exact_(std::move(exact)) {
   if (!supports(exact_.model())) {
     throw InputError(
-        "the fast photon model has no dead time, afterpulsing, binning, coincidence, measured pulse or TDC "
+        "the fast photon model has no dead time, afterpulsing, binning, coincidence, measured pulse, TDC "
         "code "
-        "widths: use the exact one");
+        "widths or surroundings: use the exact one");
   }
 }
 
 bool FastPhotonSource::supports(const SensorModel& model) {
   return model.dead_time_s == 0.0 && model.afterpulse_probability == 0.0 && model.binning == 1 &&
-         !model.coincidence_window_s && !model.pulse_response && !model.tdc_codes;
+         !model.coincidence_window_s && !model.pulse_response && !model.tdc_codes &&
+         model.surroundings.none();
 }
 
 ColumnStream FastPhotonSource::column_rows(int index, RowRange range) const {

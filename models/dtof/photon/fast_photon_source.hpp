@@ -12,7 +12,7 @@ namespace dtof {
 /// Faster stand-in for a PhotonSource: times come from a table of the pixel's cumulative mean events
 /// (ArrivalTable) instead of single events. Pile-up to SLOTS is included; other random numbers than the exact
 /// source's. Time gates, jitter, hot and dead pixels work; dead time, afterpulsing, binning, coincidence, a
-/// measured pulse and TDC code widths need the exact source.
+/// measured pulse, TDC code widths and surroundings need the exact source.
 ///
 /// Streams (`column`): a pixel of few events per acquisition is drawn by the exact model. For others one
 /// exponential gap per detection gives acquisition and time together; empty acquisitions and events after the

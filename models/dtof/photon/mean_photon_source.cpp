@@ -57,9 +57,8 @@ class MeanPixelSampler final : public PixelSampler {
 MeanPhotonSource::MeanPhotonSource(PhotonSource exact) : exact_(std::move(exact)) {
   if (!FastPhotonSource::supports(exact_.model())) {
     throw InputError(
-        "the analytic photon model has no dead time, afterpulsing, binning, coincidence, measured pulse or "
-        "TDC "
-        "code widths: use the exact one");
+        "the analytic photon model has no dead time, afterpulsing, binning, coincidence, measured pulse, TDC "
+        "code widths or surroundings: use the exact one");
   }
 }
 

@@ -111,6 +111,7 @@ PhotonSource::PhotonSource(SensorModel model, TargetMap targets, double klux, st
       frame_(frame) {
   model_.validate();
   targets_->validate();
+  plain_ = model_.surroundings.none();
   if (!std::isfinite(klux) || klux < 0.0) {
     throw InputError(fmt::format("illuminance must be a finite number of at least 0 klux, not {}", klux));
   }
@@ -133,6 +134,39 @@ PhotonSource::PhotonSource(SensorModel model, TargetMap targets, double klux, st
       }
     }
   }
+  if (!plain_) {
+    validate_surroundings();
+  }
+}
+
+/// All events of a frame with surroundings are drawn at once, and a target stays before the sensor.
+void PhotonSource::validate_surroundings() const {
+  constexpr double kMostEventsInMemory = 1e8;
+  const Surroundings& around = model_.surroundings;
+  const double travel =
+      0.5 * std::abs(around.motion.velocity_m_per_s) * model_.pulse_period() * model_.acquisitions;
+  for (int column = 0; column < columns(); ++column) {
+    for (int row = 0; row < rows(); ++row) {
+      const PixelTarget& target = targets_->at(column, row);
+      if (target.returns_signal() && travel >= target.depth_m) {
+        throw InputError(fmt::format(
+            "pixel (column {}, row {}): a target at {:g} m that moves by {:g} m from the frame's middle "
+            "to its ends runs into the sensor",
+            column, row, target.depth_m, travel));
+      }
+      const PixelRates mean = rates(column, row);
+      const double events =
+          mean.signal + mean.background + around.cover_glass.events + around.other_laser.events +
+          fog_events(around.fog, model_.signal_events_1m, std::numeric_limits<double>::infinity());
+      if (!(events * model_.acquisitions <= kMostEventsInMemory)) {
+        throw InputError(
+            fmt::format("pixel (column {}, row {}): {:.3g} mean events a frame are too many for a sensor "
+                        "with surroundings "
+                        "(at most {:.0g})",
+                        column, row, events * model_.acquisitions, kMostEventsInMemory));
+      }
+    }
+  }
 }
 
 PhotonSource PhotonSource::at_frame(std::uint32_t frame) const {
@@ -144,7 +178,10 @@ PhotonSource PhotonSource::at_frame(std::uint32_t frame) const {
 PixelRates PhotonSource::rates(int column, int row) const {
   const PixelTarget& target = targets_->at(column, row);
   PixelRates rates;
-  rates.background = model_.background_events(klux_, target.reflectivity);
+  const double sunlit = plain_ ? target.reflectivity
+                               : target.reflectivity * model_.surroundings.sunlight_share(
+                                                           target.depth_m, target.returns_signal());
+  rates.background = model_.background_events(klux_, sunlit);
   if (!model_.defects.none()) {
     if (model_.defects.is_dead(column, row)) {
       return {};
@@ -158,7 +195,35 @@ PixelRates PhotonSource::rates(int column, int row) const {
     rates.signal = model_.signal_events(target.depth_m, target.reflectivity);
     rates.centre_bins = arrival_centre_s(target.depth_m, model_.pulse_fwhm_s) / model_.time_resolution_s();
   }
+  if (!plain_) {
+    const Surroundings& around = model_.surroundings;
+    if (target.returns_signal()) {
+      rates.signal *= around.two_way_transmittance(target.depth_m);
+      rates.centre_bins += around.skew.of_pixel(column, row, columns()) / model_.time_resolution_s();
+    }
+  }
   return rates;
+}
+
+PixelReturns PhotonSource::returns(int column, int row) const {
+  PixelReturns returns;
+  returns.rates = rates(column, row);
+  returns.dead = !model_.defects.none() && model_.defects.is_dead(column, row);
+  const PixelTarget& target = targets_->at(column, row);
+  if (target.returns_signal()) {
+    returns.distance_m = target.depth_m;
+  }
+  returns.skew_bins = model_.surroundings.skew.of_pixel(column, row, columns()) / model_.time_resolution_s();
+  return returns;
+}
+
+std::span<const double> PhotonSource::sample(EventSampler& sampler, int column, int row,
+                                             RandomPurpose purpose) const {
+  if (plain_) {
+    return sampler.sample(rates(column, row), random(column, row, purpose));
+  }
+  return sampler.sample(returns(column, row), random(column, row, purpose),
+                        random(column, row, RandomPurpose::kFurtherReturns));
 }
 
 ColumnStream PhotonSource::column_rows(int index, RowRange range) const {
@@ -197,9 +262,8 @@ PixelStreams::PixelStreams(const PhotonSource& source)
 PixelStreams::~PixelStreams() = default;
 
 void PixelStreams::append(int column, int row, ColumnStream& stream, RandomPurpose purpose) {
-  buffers_->tdc.append(
-      buffers_->sampler.sample(source_.rates(column, row), source_.random(column, row, purpose)),
-      source_.pixel_number(column, row), stream);
+  buffers_->tdc.append(source_.sample(buffers_->sampler, column, row, purpose),
+                       source_.pixel_number(column, row), stream);
 }
 
 ColumnStream PhotonSource::combined_column(int index, RowRange range) const {
@@ -222,7 +286,7 @@ ColumnStream PhotonSource::combined_column(int index, RowRange range) const {
   std::vector<std::vector<Events>> events(static_cast<std::size_t>(last - first));
   for (int column = first; column < last; ++column) {
     for (int row = first_row; row < last_row; ++row) {
-      const auto drawn = sampler.sample(rates(column, row), random(column, row));
+      const auto drawn = sample(sampler, column, row);
       events[static_cast<std::size_t>(column - first)].emplace_back(drawn.begin(), drawn.end());
     }
   }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 
 #include "dtof/core/detection.hpp"
 #include "dtof/core/random.hpp"
@@ -30,6 +31,9 @@ namespace dtof {
 ///  (TdcCodes; those of a block's pixels stay their own).
 /// An event in the last bin gets the no-detection code: it takes its slot, and read-outs drop it.
 ///
+/// What surrounds the sensor (photon/surroundings.hpp) adds to the events before 1.; a plain sensor's photons
+/// are the same with the program that knows it and without.
+///
 /// Random numbers depend on seed, frame and pixel alone. Copies are cheap. Some rows of a column
 /// (column_rows) draw no other pixel's events, but for coincidence and binning, which need those of
 /// neighbours and of the block.
@@ -52,11 +56,17 @@ class PhotonSource final : public StreamSource {
   [[nodiscard]] const SensorModel& model() const { return model_; }
   [[nodiscard]] const TargetMap& targets() const { return *targets_; }
   [[nodiscard]] double klux() const { return klux_; }
-  /// Mean events of a pixel before any loss, of a hot or dead pixel its own.
+  /// Mean events of a pixel before any loss, of a hot or dead pixel its own: background and the target's
+  /// return, as fog, a pane and skew leave them. Other returns and what changes in the frame are not in it.
   [[nodiscard]] PixelRates rates(int column, int row) const;
+  /// All that a pixel receives.
+  [[nodiscard]] PixelReturns returns(int column, int row) const;
   /// Random numbers of a pixel in this frame.
   [[nodiscard]] CounterRandom random(int column, int row,
                                      RandomPurpose purpose = RandomPurpose::kPhotons) const;
+  /// What `sampler`, of this source's model, draws of a pixel. Valid until its next call.
+  std::span<const double> sample(EventSampler& sampler, int column, int row,
+                                 RandomPurpose purpose = RandomPurpose::kPhotons) const;
 
   /// Row by row.
   [[nodiscard]] std::size_t pixel_number(int column, int row) const {
@@ -65,6 +75,7 @@ class PhotonSource final : public StreamSource {
   }
 
  private:
+  void validate_surroundings() const;
   [[nodiscard]] ColumnStream plain_column(int index, RowRange range) const;
   [[nodiscard]] ColumnStream combined_column(int index, RowRange range) const;
 
@@ -73,6 +84,7 @@ class PhotonSource final : public StreamSource {
   double klux_;
   std::uint64_t seed_;
   std::uint32_t frame_;
+  bool plain_ = true;  // nothing surrounds the sensor
 };
 
 /// Streams of single pixels of a PhotonSource without binning and coincidence, one after the other: keeps its

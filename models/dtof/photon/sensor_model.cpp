@@ -75,6 +75,17 @@ double SensorModel::background_events(double klux, double reflectivity) const {
   return background_events_per_klux * klux * reflectivity + dark_count_rate_hz * integration_time_s;
 }
 
+double SensorModel::pulse_period() const {
+  constexpr double kFramesPerSecond = 30.0;
+  return pulse_period_s > 0.0 ? pulse_period_s : 1.0 / kFramesPerSecond / acquisitions;
+}
+
+SensorModel SensorModel::as_calibrated() const {
+  SensorModel model = *this;
+  model.surroundings = {};
+  return model;
+}
+
 void SensorModel::validate() const {
   if (np < 3 || np > 16) {
     throw InputError(fmt::format("sensor model: NP must be 3 to 16, not {}", np));
@@ -120,6 +131,18 @@ void SensorModel::validate() const {
   require_at_least_zero(defects.hot_dark_count_rate_hz, "dark count rate of hot pixels (Hz)");
   if (coincidence_window_s) {
     require_at_least_zero(*coincidence_window_s, "coincidence window (s)");
+  }
+  require_at_least_zero(pulse_period_s, "pulse period (s)");
+  surroundings.validate();
+  if (surroundings.other_laser.events > 0.0) {
+    const FiringOffsets& offsets = surroundings.firing_offsets;
+    const double longest =
+        integration_time_s + offsets.step_s * ((1U << static_cast<unsigned>(offsets.bits)) - 1U);
+    if (pulse_period() < longest) {
+      throw InputError(
+          fmt::format("sensor model: pulses every {:g} ns overlap: range and firing offsets take {:g} ns",
+                      pulse_period() * kNanosecondsPerSecond, longest * kNanosecondsPerSecond));
+    }
   }
   // Written so that a NaN fails.
   if (time_gate && !(time_gate->begin_s >= 0.0 && time_gate->begin_s < time_gate->end_s &&

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dtof/core/pulse_response.hpp"
+#include "dtof/photon/surroundings.hpp"
 #include "dtof/photon/tdc_codes.hpp"
 
 namespace dtof {
@@ -71,6 +72,8 @@ struct SensorModel {
   double afterpulse_time_constant_s = 0.0;
   PixelDefects defects;
   std::shared_ptr<const TdcCodes> tdc_codes;  ///< none: equal codes
+  double pulse_period_s = 0.0;                ///< from pulse to pulse; 0: a thirtieth of a second a frame
+  Surroundings surroundings;
 
   // Improvement methods of thesis section 2.2.4.
   int binning = 1;  ///< B: blocks of B x B pixels share one stream; 1 = off
@@ -89,6 +92,12 @@ struct SensorModel {
   [[nodiscard]] double signal_events(double depth_m, double reflectivity) const;
   /// Mean background events of a pixel per T_int, dark counts included.
   [[nodiscard]] double background_events(double klux, double reflectivity) const;
+
+  /// From pulse to pulse, s.
+  [[nodiscard]] double pulse_period() const;
+  /// The sensor with nothing between it and its targets, a settled laser and no skew, as a host calibrates
+  /// it.
+  [[nodiscard]] SensorModel as_calibrated() const;
 
   /// Throws InputError with one sentence if a value is NaN, infinite, negative or outside its range.
   void validate() const;

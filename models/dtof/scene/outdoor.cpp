@@ -155,4 +155,31 @@ TargetMap make_isolated(int columns, int rows, double reflectivity) {
   return map;
 }
 
+TargetMap make_sky(int columns, int rows, double reflectivity) {
+  constexpr int kPattern = 34;
+  constexpr int kTeeth = 12;  // columns of a tooth of the wall's top
+  constexpr int kToothRows = 8;
+  constexpr int kBoxRows = 14;
+  const int middle = rows / 2;
+  const double surface = 0.5 * reflectivity;
+  TargetMap map(columns, rows, {0.0, reflectivity});
+  for (int column = 0; column < columns; ++column) {
+    const int top = middle - kToothRows / 2 + column % kTeeth * kToothRows / kTeeth;
+    const int place = column % kPattern;
+    const bool box = place >= 4 && place < 12;
+    const bool thin = place == 18;
+    const bool pole = place == 26 || place == 27;
+    for (int row = 0; row < rows; ++row) {
+      if (thin) {
+        map.at(column, row) = {2.0, surface};
+      } else if (pole || (box && row >= middle - kBoxRows)) {
+        map.at(column, row) = {3.0, surface};
+      } else if (row >= top) {
+        map.at(column, row) = {4.0, surface};
+      }
+    }
+  }
+  return map;
+}
+
 }  // namespace dtof

@@ -24,4 +24,10 @@ TargetMap make_poles(int columns, int rows, double reflectivity, std::uint64_t s
 /// Single pixels at 3 m before a wall at 4 m, one every 20 rows of a column, staggered.
 TargetMap make_isolated(int columns, int rows, double reflectivity);
 
+/// Sky, which returns nothing and is as bright as a surface of `reflectivity`, above a wall at 4 m of half of
+/// it whose top is ragged by 8 rows around the middle. A pattern of 34 columns stands out into the sky: a box
+/// of 8 columns and 14 rows above the middle at 3 m, a pole of 1 column at 2 m and one of 2 columns at 3 m,
+/// each of half of `reflectivity`.
+TargetMap make_sky(int columns, int rows, double reflectivity);
+
 }  // namespace dtof

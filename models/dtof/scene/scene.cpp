@@ -73,6 +73,8 @@ std::string_view scene_name(Scene scene) {
       return "poles";
     case Scene::kIsolated:
       return "isolated";
+    case Scene::kSky:
+      return "sky";
   }
   throw InputError("scene: no such scene");
 }
@@ -95,6 +97,8 @@ std::string_view scene_summary(Scene scene) {
       return "Poles and wires of 1 to 3 pixels before a wall, 0.8 to 4 m.";
     case Scene::kIsolated:
       return "Single pixels at 3 m before a wall at 4 m.";
+    case Scene::kSky:
+      return "Sky without a return above a ragged wall at 4 m, with boxes and poles before it.";
   }
   throw InputError("scene: no such scene");
 }
@@ -141,6 +145,8 @@ TargetMap make_scene(Scene scene, const SceneParameters& parameters) {
       return make_poles(parameters.columns, parameters.rows, parameters.reflectivity, parameters.seed);
     case Scene::kIsolated:
       return make_isolated(parameters.columns, parameters.rows, parameters.reflectivity);
+    case Scene::kSky:
+      return make_sky(parameters.columns, parameters.rows, parameters.reflectivity);
   }
   throw InputError("scene: no such scene");
 }

@@ -20,13 +20,14 @@ enum class Scene {
   kClutter,    ///< branches and leaves before a slanted ground, 1 to 4.5 m
   kPoles,      ///< poles and wires of 1 to 3 pixels before a wall, 0.8 to 4 m
   kIsolated,   ///< single pixels at 3 m before a wall at 4 m
+  kSky,  ///< no return above a ragged wall at 4 m; boxes at 3 m and poles at 2 and 3 m stand out into it
 };
 
-inline constexpr std::array<Scene, 8> kAllScenes = {Scene::kFlat,  Scene::kStaircase, Scene::kPlane,
+inline constexpr std::array<Scene, 9> kAllScenes = {Scene::kFlat,  Scene::kStaircase, Scene::kPlane,
                                                     Scene::kRoom,  Scene::kPlanes,    Scene::kClutter,
-                                                    Scene::kPoles, Scene::kIsolated};
+                                                    Scene::kPoles, Scene::kIsolated,  Scene::kSky};
 
-/// Command-line name: flat, staircase, plane, room, planes, clutter, poles, isolated.
+/// Command-line name: flat, staircase, plane, room, planes, clutter, poles, isolated, sky.
 std::string_view scene_name(Scene scene);
 /// One sentence on what the scene shows.
 std::string_view scene_summary(Scene scene);

@@ -10,6 +10,7 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/suggestion.hpp"
+#include "dtof/sensor/condition.hpp"
 #include "dtof/sensor/preset_texts.hpp"
 #include "dtof/sensor/sensor_file.hpp"
 
@@ -47,6 +48,10 @@ SensorModel find_sensor(std::string_view name_or_file) {
     return parse_preset(name_or_file);
   }
   const std::filesystem::path path(name_or_file);
+  if (const auto plus = name_or_file.rfind('+');
+      plus != std::string_view::npos && !std::filesystem::exists(path)) {
+    return under_condition(find_sensor(name_or_file.substr(0, plus)), name_or_file.substr(plus + 1));
+  }
   if (!path.has_extension() && !std::filesystem::exists(path)) {
     throw InputError(
         fmt::format("{}, and there is no such file", unknown_name("preset", name_or_file, preset_names())));

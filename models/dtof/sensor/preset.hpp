@@ -14,7 +14,8 @@ std::vector<std::string_view> preset_names();
 /// Throws InputError that names the known presets.
 SensorModel parse_preset(std::string_view name);
 
-/// What --sensor takes: a preset's name, or else the path of a sensor file. Throws InputError.
+/// What --sensor takes: a preset's name, or else the path of a sensor file; behind it any conditions
+/// (sensor/condition.hpp), each after a "+": thesis+fog+motion. Throws InputError.
 SensorModel find_sensor(std::string_view name_or_file);
 /// The text of that file, after it has been checked. Throws InputError.
 std::string_view preset_text(std::string_view name);

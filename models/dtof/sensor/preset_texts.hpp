@@ -12,5 +12,7 @@ struct PresetText {
   std::string_view toml;
 };
 const std::vector<PresetText>& preset_texts();
+/// The file sensor/conditions.toml.
+std::string_view conditions_text();
 
 }  // namespace dtof

@@ -40,7 +40,8 @@ enum class Need {
   kWithoutOptics,
   kWithOptics,
   kWithoutResponse,
-  kNever,  ///< the default stands
+  kWithSection,  ///< whenever the file has the key's section
+  kNever,        ///< the default stands
 };
 
 /// A number of the file. Units are those of the key's name; dividing by a power of ten, which a double holds
@@ -63,6 +64,8 @@ constexpr bool kIncluded = true;
 constexpr bool kExcluded = false;
 constexpr bool kWhole = true;
 constexpr bool kReal = false;
+constexpr double kClearGlass = 0.92;
+constexpr double kMicro = 1e6;
 constexpr double kNano = 1e9;
 constexpr double kPico = 1e12;
 
@@ -86,6 +89,17 @@ constexpr auto kNumbers = std::to_array<NumberKey>({
     {"tdc", "slots", Need::kNever, 1, kIncluded, 16, kWhole,
      [](Draft& d, double v) { d.model.slots = static_cast<int>(v); }, "2",
      "SLOTS, events that the TDC keeps per acquisition", "the bound on accuracy is computed for up to 16"},
+    {"tdc", "column_skew_ps", Need::kNever, 0, kIncluded, 1e6, kReal,
+     [](Draft& d, double v) { d.model.surroundings.skew.column_s = v / kPico; }, "0",
+     "delay of a column's timestamps is between minus and plus this, by column_skew_pattern",
+     "a microsecond is longer than any range of interest"},
+    {"tdc", "pixel_skew_ps", Need::kNever, 0, kIncluded, 1e6, kReal,
+     [](Draft& d, double v) { d.model.surroundings.skew.pixel_s = v / kPico; }, "0",
+     "delay of each pixel's timestamps, uniform between minus and plus this; adds to its column's",
+     "a microsecond is longer than any range of interest"},
+    {"tdc", "skew_seed", Need::kNever, 0, kIncluded, 4294967295.0, kWhole,
+     [](Draft& d, double v) { d.model.surroundings.skew.seed = static_cast<std::uint64_t>(v); }, "1",
+     "which skew a column and a pixel have; the same in every frame", "32 bits"},
     {"laser", "acquisitions", Need::kAlways, 1, kIncluded, 1048575, kWhole,
      [](Draft& d, double v) { d.model.acquisitions = static_cast<std::uint32_t>(v); }, "",
      "laser pulses of a frame", "the detections of a frame's columns are held in memory"},
@@ -100,6 +114,39 @@ constexpr auto kNumbers = std::to_array<NumberKey>({
      "the bin that the response begins with; those before it follow the last, as in a record of one laser "
      "period",
      "a bin of the record"},
+    {"laser", "pulse_period_us", Need::kNever, 0, kExcluded, 1e6, kReal,
+     [](Draft& d, double v) { d.model.pulse_period_s = v / kMicro; }, "1e6 / 30 / acquisitions",
+     "from pulse to pulse; decides how far targets and another laser's pulses move",
+     "a second is longer than any frame"},
+    {"laser", "start_up_silent_share", Need::kNever, 0, kIncluded, 1, kReal,
+     [](Draft& d, double v) { d.model.surroundings.settling.silent_share = v; }, "0",
+     "share of the frame at its begin in which the laser sends nothing", "a share"},
+    {"laser", "start_up_power_drop", Need::kNever, 0, kIncluded, 1, kReal,
+     [](Draft& d, double v) { d.model.surroundings.settling.power_drop = v; }, "0",
+     "the first pulse has 1 minus this of the settled power, which is reached exponentially", "a share"},
+    {"laser", "start_up_delay_ps", Need::kNever, -1e6, kIncluded, 1e6, kReal,
+     [](Draft& d, double v) { d.model.surroundings.settling.delay_s = v / kPico; }, "0",
+     "how much later the first pulse is than the settled ones; falls exponentially",
+     "a microsecond is longer than any range of interest"},
+    {"laser", "start_up_time_share", Need::kNever, 0, kExcluded, 100, kReal,
+     [](Draft& d, double v) { d.model.surroundings.settling.time_share = v; }, "required with the two before",
+     "time constant of both over the frame's length", "longer ones change nothing within a frame"},
+    {"laser", "power_drift", Need::kNever, -2, kIncluded, 2, kReal,
+     [](Draft& d, double v) { d.model.surroundings.settling.power_drift = v; }, "0",
+     "power at the frame's end minus that at its begin, over the mean; linear",
+     "with more, the laser would have less than no power"},
+    {"laser", "firing_offset_bits", Need::kNever, 0, kIncluded, 12, kWhole,
+     [](Draft& d, double v) { d.model.surroundings.firing_offsets.bits = static_cast<int>(v); }, "0 (none)",
+     "shot and start of the TDC are delayed together by a pseudo-random number of steps, 0 to 2^bits - 1: "
+     "only the other laser's pulses move",
+     "more would take a large part of the frame"},
+    {"laser", "firing_offset_step_ns", Need::kNever, 0, kExcluded, 1000, kReal,
+     [](Draft& d, double v) { d.model.surroundings.firing_offsets.step_s = v / kNano; },
+     "required with the bits", "step of the firing offsets, a clock of the sensor", "a clock"},
+    {"laser", "firing_offset_seed", Need::kNever, 1, kIncluded, 65535, kWhole,
+     [](Draft& d, double v) { d.model.surroundings.firing_offsets.seed = static_cast<std::uint16_t>(v); },
+     "1", "start of the shift register of 16 bits, the same in every frame",
+     "the register holds 16 bits, not all 0"},
     {"light", "signal_events_at_1m", Need::kWithoutOptics, 0, kIncluded, 1e6, kReal,
      [](Draft& d, double v) { d.model.signal_events_1m = v; }, "",
      "detected events of a pixel and pulse from a target of reflectivity 1 at 1 m; falls with the distance "
@@ -165,6 +212,66 @@ constexpr auto kNumbers = std::to_array<NumberKey>({
     {"detector", "defect_seed", Need::kNever, 0, kIncluded, 4294967295.0, kWhole,
      [](Draft& d, double v) { d.model.defects.seed = static_cast<std::uint64_t>(v); }, "1",
      "which pixels the shares choose; the same in every frame", "32 bits"},
+    {"cover_glass", "crosstalk_events", Need::kWithSection, 0, kIncluded, 100, kReal,
+     [](Draft& d, double v) { d.model.surroundings.cover_glass.events = v; }, "",
+     "detected events of a pixel and pulse that the cover glass before the sensor scatters into it: an early "
+     "return "
+     "that is the same in every pixel",
+     "a TDC keeps a few events of a pulse"},
+    {"cover_glass", "distance_m", Need::kNever, 0, kIncluded, 10, kReal,
+     [](Draft& d, double v) { d.model.surroundings.cover_glass.distance_m = v; }, "0.03", "of the glass",
+     "a cover glass is a part of the sensor"},
+    {"fog", "extinction_per_m", Need::kWithSection, 0, kIncluded, 100, kReal,
+     [](Draft& d, double v) { d.model.surroundings.fog.extinction_per_m = v; }, "",
+     "alpha of a homogeneous medium (fog, smoke, dust): a target at R keeps exp(-2 alpha R) of its signal; "
+     "the "
+     "visibility is 3.9 / alpha (Koschmieder)",
+     "nothing returns through more"},
+    {"fog", "lidar_ratio_sr", Need::kNever, 0, kExcluded, 1000, kReal,
+     [](Draft& d, double v) { d.model.surroundings.fog.lidar_ratio_sr = v; }, "18.8",
+     "extinction over backscatter: about 19 sr for water droplets (O'Connor et al. 2004), 50 to 80 for smoke",
+     "no aerosol's is near the limit"},
+    {"fog", "overlap_m", Need::kNever, 0, kExcluded, 100, kReal,
+     [](Draft& d, double v) { d.model.surroundings.fog.overlap_m = v; }, "0.1",
+     "distance from which on a pixel sees what the laser lights; nearer fog returns nothing",
+     "an overlap beyond 100 m has no use"},
+    {"pane", "distance_m", Need::kWithSection, 0, kExcluded, 1e5, kReal,
+     [](Draft& d, double v) { d.model.surroundings.pane.distance_m = v; }, "",
+     "of a pane across the scene: another return before all that is behind it",
+     "150 km are the longest range"},
+    {"pane", "reflectivity", Need::kWithSection, 0, kIncluded, 4, kReal,
+     [](Draft& d, double v) { d.model.surroundings.pane.reflectivity = v; }, "",
+     "of the pane as a matt surface, by its dust; a mirror's glint is more", "as that of a target"},
+    {"pane", "transmittance", Need::kNever, 0, kIncluded, 1, kReal,
+     [](Draft& d, double v) { d.model.surroundings.pane.transmittance = v; }, "0.92",
+     "share of the light that passes once: signal from behind passes twice, its sunlight once (0.92: two "
+     "surfaces "
+     "of clear glass)",
+     "a share"},
+    {"other_laser", "events", Need::kWithSection, 0, kIncluded, 100, kReal,
+     [](Draft& d, double v) { d.model.surroundings.other_laser.events = v; }, "",
+     "detected events of a pixel and pulse of another sensor's laser, the same in every pixel",
+     "a TDC keeps a few events of a pulse"},
+    {"other_laser", "rate_offset_ppm", Need::kNever, -1e5, kIncluded, 1e5, kReal,
+     [](Draft& d, double v) { d.model.surroundings.other_laser.rate_offset = v / 1e6; }, "0",
+     "how much faster it fires than the sensor's own laser; its pulses then arrive earlier from acquisition "
+     "to "
+     "acquisition",
+     "a tenth is another rate"},
+    {"other_laser", "first_arrival_ns", Need::kNever, -1e9, kIncluded, 1e9, kReal,
+     [](Draft& d, double v) { d.model.surroundings.other_laser.first_arrival_s = v / kNano; }, "0",
+     "phase: when its first pulse arrives after the frame's begin; pulses come before it, too",
+     "a second is longer than any frame"},
+    {"other_laser", "pulse_fwhm_ns", Need::kNever, 0, kExcluded, 1e6, kReal,
+     [](Draft& d, double v) { d.model.surroundings.other_laser.pulse_fwhm_s = v / kNano; },
+     "that of the sensor's own", "full width at half maximum of its Gaussian pulse",
+     "a pulse is shorter than the range"},
+    {"motion", "radial_velocity_m_per_s", Need::kWithSection, -1e4, kIncluded, 1e4, kReal,
+     [](Draft& d, double v) { d.model.surroundings.motion.velocity_m_per_s = v; }, "",
+     "of every target along its pixel's ray during the frame, above 0: away; its distance is that at the "
+     "frame's "
+     "middle",
+     "faster than a bullet"},
 });
 
 /// A key that is no number.
@@ -191,6 +298,10 @@ constexpr auto kOthers = std::to_array<OtherKey>({
      "column has line number (that modulo their number); empty lines do not count"},
     {"tdc", "code_widths_are_edges", "true or false", "false",
      "the file holds the upper edges of the codes, ascending, instead of their widths"},
+    {"tdc", "column_skew_pattern", "\"random\", \"ramp\" or \"alternating\"", "\"random\"",
+     "random: each column by itself, uniform between minus and plus; ramp: from minus at the first column to "
+     "plus at "
+     "the last; alternating: even columns plus, odd ones minus"},
     {"laser", "pulse_response_file", "path", "none: a Gaussian of pulse_fwhm_ns",
      "NPY with the measured pulse, one dimension, in proportion to its density; its centroid arrives one "
      "FWHM after "
@@ -200,7 +311,8 @@ constexpr auto kOthers = std::to_array<OtherKey>({
 });
 
 constexpr auto kSections =
-    std::to_array<std::string_view>({"array", "tdc", "laser", "light", "optics", "detector"});
+    std::to_array<std::string_view>({"array", "tdc", "laser", "light", "optics", "detector", "cover_glass",
+                                     "fog", "pane", "other_laser", "motion"});
 
 std::vector<std::string_view> keys_of(std::string_view section) {
   std::vector<std::string_view> names;
@@ -226,6 +338,7 @@ std::string_view default_of(const NumberKey& key) {
   switch (key.need) {
     case Need::kAlways:
     case Need::kWithOptics:
+    case Need::kWithSection:
       return "required";
     case Need::kWithoutOptics:
       return "required without [optics]";
@@ -239,13 +352,19 @@ std::string_view default_of(const NumberKey& key) {
 
 class SensorReader {
  public:
-  SensorReader(const toml::table& root, std::filesystem::path path) : root_(root), path_(std::move(path)) {}
+  /// `base`: what the file changes; none: the file says all.
+  SensorReader(const toml::table& root, std::filesystem::path path, const SensorModel* base = nullptr)
+      : root_(root), path_(std::move(path)), base_(base) {}
 
   SensorModel read() {
     check_names();
     Draft draft;
-    draft.model.dark_count_rate_hz = 0.0;
-    draft.model.name = read_name();
+    if (base_ != nullptr) {
+      draft.model = *base_;
+    } else {
+      draft.model.dark_count_rate_hz = 0.0;
+      draft.model.name = read_name();
+    }
     const bool optics = root_.contains("optics");
     const bool response = find("laser", "pulse_response_file") != nullptr;
     for (const NumberKey& key : kNumbers) {
@@ -258,9 +377,12 @@ class SensorReader {
           fail(*node, fmt::format("{} follows from pulse_response_file: give one of the two", key.name));
         }
         key.set(draft, number(key, *node));
+      } else if (base_ != nullptr && key.need != Need::kWithSection) {
+        continue;
       } else if (key.need == Need::kAlways ||
                  key.need == (optics ? Need::kWithOptics : Need::kWithoutOptics) ||
-                 (key.need == Need::kWithoutResponse && !response)) {
+                 (key.need == Need::kWithoutResponse && !response) ||
+                 (key.need == Need::kWithSection && root_.contains(key.section))) {
         fail_in(key.section, fmt::format("[{}] has no {} ({})", key.section, key.name, key.meaning));
       }
     }
@@ -274,6 +396,7 @@ class SensorReader {
     }
     read_code_widths(draft.model);
     read_detector(draft.model);
+    read_surroundings(draft.model.surroundings);
     try {
       draft.model.validate();
     } catch (const InputError& error) {
@@ -463,6 +586,9 @@ class SensorReader {
 
   void read_detector(SensorModel& model) const {
     PixelDefects& defects = model.defects;
+    if (base_ != nullptr && root_.get("detector") == nullptr) {
+      return;
+    }
     defects.hot = pixels("hot_pixels", model);
     defects.dead = pixels("dead_pixels", model);
     const bool hot = defects.hot_share > 0.0 || !defects.hot.empty();
@@ -476,6 +602,39 @@ class SensorReader {
     require("detector", "afterpulsing_time_constant_ns", afterpulsing, "an afterpulsing_probability above 0");
     require("detector", "afterpulsing_probability", !afterpulsing || model.afterpulse_time_constant_s > 0.0,
             "afterpulsing_time_constant_ns");
+  }
+
+  void read_surroundings(Surroundings& around) const {
+    TimingSkew& skew = around.skew;
+    if (const std::optional<std::string> pattern = text("tdc", "column_skew_pattern")) {
+      require("tdc", "column_skew_pattern", skew.column_s > 0.0, "a column_skew_ps above 0");
+      if (*pattern == "alternating") {
+        skew.pattern = SkewPattern::kAlternating;
+      } else if (*pattern == "ramp") {
+        skew.pattern = SkewPattern::kRamp;
+      } else if (*pattern != "random") {
+        fail(*find("tdc", "column_skew_pattern"),
+             fmt::format("column_skew_pattern is \"{}\", but must be \"random\", \"ramp\" or \"alternating\"",
+                         *pattern));
+      }
+    }
+    require("tdc", "skew_seed",
+            (skew.column_s > 0.0 && skew.pattern == SkewPattern::kRandom) || skew.pixel_s > 0.0,
+            "a random column_skew_ps or a pixel_skew_ps above 0");
+    const LaserSettling& settling = around.settling;
+    const bool settles = settling.power_drop != 0.0 || settling.delay_s != 0.0;
+    require("laser", "start_up_time_share", settles, "start_up_power_drop or start_up_delay_ps");
+    for (const std::string_view key : {"start_up_power_drop", "start_up_delay_ps"}) {
+      require("laser", key, !settles || settling.time_share > 0.0, "start_up_time_share");
+    }
+    const FiringOffsets& offsets = around.firing_offsets;
+    require("laser", "firing_offset_step_ns", offsets.bits > 0, "firing_offset_bits above 0");
+    require("laser", "firing_offset_seed", offsets.bits > 0, "firing_offset_bits above 0");
+    require("laser", "firing_offset_bits", offsets.bits == 0 || offsets.step_s > 0.0,
+            "firing_offset_step_ns");
+    if (root_.contains("pane") && find("pane", "transmittance") == nullptr) {
+      around.pane.transmittance = kClearGlass;
+    }
   }
 
   [[nodiscard]] std::vector<PixelPosition> pixels(std::string_view key, const SensorModel& model) const {
@@ -519,6 +678,7 @@ class SensorReader {
 
   const toml::table& root_;
   std::filesystem::path path_;
+  const SensorModel* base_;
 };
 
 }  // namespace
@@ -526,6 +686,15 @@ class SensorReader {
 SensorModel parse_sensor(std::string_view toml, const std::filesystem::path& path) {
   try {
     return SensorReader(toml::parse(toml, path.string()), path).read();
+  } catch (const toml::parse_error& error) {
+    fail_at_line(path.string(), error.source().begin.line, fmt::format("no TOML: {}", error.description()));
+  }
+}
+
+SensorModel change_sensor(const SensorModel& sensor, std::string_view toml,
+                          const std::filesystem::path& path) {
+  try {
+    return SensorReader(toml::parse(toml, path.string()), path, &sensor).read();
   } catch (const toml::parse_error& error) {
     fail_at_line(path.string(), error.source().begin.line, fmt::format("no TOML: {}", error.description()));
   }

@@ -18,6 +18,10 @@ SensorModel read_sensor_file(const std::filesystem::path& path);
 /// The same of a text; `path` is for messages and for the files that the text names.
 SensorModel parse_sensor(std::string_view toml, const std::filesystem::path& path);
 
+/// `sensor` with what a part of a sensor file says instead; keys that the text does not name stay.
+SensorModel change_sensor(const SensorModel& sensor, std::string_view toml,
+                          const std::filesystem::path& path);
+
 /// Markdown table of all keys with meaning, default and limits.
 std::string sensor_key_table();
 

@@ -65,7 +65,7 @@ TEST(Scene, EverySceneIsLegalForThePhotonSource) {
       EXPECT_EQ(map.rows(), rows);
       EXPECT_NO_THROW(map.validate());
       for (const PixelTarget& target : all_targets(map)) {
-        ASSERT_TRUE(target.returns_signal());
+        ASSERT_TRUE(target.returns_signal() || scene == Scene::kSky);
         ASSERT_LE(target.reflectivity, 0.5);
       }
     }
@@ -215,6 +215,25 @@ TEST(Scene, IsolatedPixelsHaveNoNeighbour) {
     }
   }
   EXPECT_EQ(isolated, 200 * 160 / 20);
+}
+
+TEST(Scene, SkyHasNoReturnAboveWallBoxesAndPoles) {
+  const TargetMap map = make_scene(Scene::kSky, {});
+  for (int column = 0; column < 200; ++column) {
+    const int place = column % 34;
+    // Row 0 is sky but for the poles; the last one has a target everywhere.
+    EXPECT_EQ(map.at(column, 0).returns_signal(), place == 18 || place == 26 || place == 27) << column;
+    EXPECT_TRUE(map.at(column, 159).returns_signal());
+    EXPECT_EQ(map.at(column, 84).returns_signal(), true);
+    EXPECT_EQ(map.at(column, 67).returns_signal(),
+              (place >= 4 && place < 12) || map.at(column, 0).returns_signal());
+  }
+  EXPECT_EQ(map.at(0, 0).reflectivity, 1.0);
+  EXPECT_EQ(map.at(0, 159), (PixelTarget{.depth_m = 4.0, .reflectivity = 0.5}));
+  EXPECT_EQ(map.at(5, 67), (PixelTarget{.depth_m = 3.0, .reflectivity = 0.5}));
+  EXPECT_FALSE(map.at(5, 65).returns_signal());
+  EXPECT_EQ(map.at(18, 0).depth_m, 2.0);
+  EXPECT_EQ(map.at(27, 0).depth_m, 3.0);
 }
 
 TEST(Scene, ShapesDependOnTheSeedAlone) {

@@ -14,6 +14,7 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/io/npy.hpp"
+#include "dtof/sensor/condition.hpp"
 #include "dtof/sensor/preset.hpp"
 
 namespace dtof {
@@ -138,6 +139,102 @@ TEST(SensorFile, WhatIsNoTomlIsRefusedWithTheLine) {
   EXPECT_THAT(refusal("[tdc]\nrange_ns = = 3\n"), StartsWith("my.toml:2: no TOML: "));
   EXPECT_THAT(refusal("[tdc]\nrange_ns = 1\nrange_ns = 2\n"), StartsWith("my.toml:3: no TOML: "));
   EXPECT_THAT(refusal(std::string("\xff\xfe\x00", 3)), HasSubstr("no TOML"));
+}
+
+TEST(SensorFile, SurroundingsReachTheModel) {
+  std::string text =
+      with("[laser]",
+           "column_skew_ps = 300\ncolumn_skew_pattern = \"ramp\"\npixel_skew_ps = 20\nskew_seed = 5\n"
+           "[laser]\npulse_period_us = 2\nstart_up_silent_share = 0.1\nstart_up_power_drop = 0.3\n"
+           "start_up_delay_ps = -70\nstart_up_time_share = 0.2\npower_drift = -0.4\n"
+           "firing_offset_bits = 4\nfiring_offset_step_ns = 3\nfiring_offset_seed = 99");
+  text +=
+      "[cover_glass]\ncrosstalk_events = 0.05\ndistance_m = 0.02\n"
+      "[fog]\nextinction_per_m = 0.1\nlidar_ratio_sr = 40\noverlap_m = 0.2\n"
+      "[pane]\ndistance_m = 1.5\nreflectivity = 0.02\ntransmittance = 0.8\n"
+      "[other_laser]\nevents = 0.3\nrate_offset_ppm = -6\nfirst_arrival_ns = 20\npulse_fwhm_ns = 3\n"
+      "[motion]\nradial_velocity_m_per_s = -7\n";
+  const SensorModel sensor = parse_sensor(text, "my.toml");
+  EXPECT_DOUBLE_EQ(sensor.pulse_period(), 2e-6);
+  const Surroundings expected = {
+      .cover_glass = {.events = 0.05, .distance_m = 0.02},
+      .fog = {.extinction_per_m = 0.1, .lidar_ratio_sr = 40.0, .overlap_m = 0.2},
+      .pane = {.distance_m = 1.5, .reflectivity = 0.02, .transmittance = 0.8},
+      .other_laser = {.events = 0.3,
+                      .rate_offset = -6.0 / 1e6,
+                      .first_arrival_s = 20.0 / 1e9,
+                      .pulse_fwhm_s = 3.0 / 1e9},
+      .motion = {.velocity_m_per_s = -7.0},
+      .settling = {.silent_share = 0.1,
+                   .power_drop = 0.3,
+                   .delay_s = -70.0 / 1e12,
+                   .time_share = 0.2,
+                   .power_drift = -0.4},
+      .skew = {.column_s = 300.0 / 1e12, .pattern = SkewPattern::kRamp, .pixel_s = 20.0 / 1e12, .seed = 5},
+      .firing_offsets = {.bits = 4, .step_s = 3.0 / 1e9, .seed = 99}};
+  EXPECT_EQ(sensor.surroundings, expected);
+  // Sections alone have the defaults of the table.
+  const Surroundings few =
+      parse_sensor(std::string(kLeast) +
+                       "[cover_glass]\ncrosstalk_events = 1\n[fog]\n"
+                       "extinction_per_m = 1\n[pane]\ndistance_m = 1\nreflectivity = 0\n",
+                   "my.toml")
+          .surroundings;
+  EXPECT_EQ(few.cover_glass.distance_m, 0.03);
+  EXPECT_EQ(few.fog.lidar_ratio_sr, 18.8);
+  EXPECT_EQ(few.fog.overlap_m, 0.1);
+  EXPECT_EQ(few.pane.transmittance, 0.92);
+  EXPECT_TRUE(parse_sensor(kLeast, "my.toml").surroundings.none());
+}
+
+TEST(SensorFile, SurroundingsThatCannotBeAreRefusedWithTheLine) {
+  const auto section = [](const std::string& keys) { return refusal(std::string(kLeast) + keys); };
+  EXPECT_THAT(section("[fog]\n"), StartsWith("my.toml:9: [fog] has no extinction_per_m"));
+  EXPECT_THAT(section("[fog]\nextinction_per_m = -1\n"),
+              HasSubstr("my.toml:10: extinction_per_m is -1, but must be 0 to 100"));
+  EXPECT_THAT(section("[pane]\ndistance_m = 1\n"), HasSubstr("[pane] has no reflectivity"));
+  EXPECT_THAT(section("[pane]\ndistance_m = 1\nreflectivity = 0.1\ntransmittance = 1.5\n"),
+              StartsWith("my.toml:12: transmittance is 1.5"));
+  EXPECT_THAT(section("[other_laser]\nrate_offset_ppm = 6\n"), HasSubstr("[other_laser] has no events"));
+  EXPECT_THAT(section("[motion]\nradial_velocity_m_per_s = nan\n"),
+              HasSubstr("radial_velocity_m_per_s is nan"));
+  EXPECT_THAT(section("[mist]\n"), HasSubstr("unknown section 'mist'"));
+  EXPECT_THAT(section("[cover_glass]\ncrosstalk_event = 1\n"), HasSubstr("did you mean 'crosstalk_events'"));
+  const auto laser = [](const std::string& keys) { return refusal(with("[laser]", "[laser]\n" + keys)); };
+  EXPECT_THAT(laser("start_up_power_drop = 0.5"),
+              HasSubstr("my.toml:4: start_up_power_drop needs start_up_time_share"));
+  EXPECT_THAT(laser("start_up_time_share = 0.5"),
+              HasSubstr("needs start_up_power_drop or start_up_delay_ps"));
+  EXPECT_THAT(laser("firing_offset_bits = 5"), HasSubstr("firing_offset_bits needs firing_offset_step_ns"));
+  EXPECT_THAT(laser("firing_offset_step_ns = 5"),
+              HasSubstr("firing_offset_step_ns needs firing_offset_bits"));
+  EXPECT_THAT(laser("firing_offset_seed = 0"), HasSubstr("not all 0"));
+  const auto tdc = [](const std::string& keys) { return refusal(with("[laser]", keys + "\n[laser]")); };
+  EXPECT_THAT(tdc("column_skew_pattern = \"ramp\""), HasSubstr("needs a column_skew_ps above 0"));
+  EXPECT_THAT(tdc("column_skew_ps = 1\ncolumn_skew_pattern = \"odd\""),
+              HasSubstr("my.toml:4: column_skew_pattern is \"odd\""));
+  EXPECT_THAT(tdc("skew_seed = 1"), HasSubstr("skew_seed needs"));
+}
+
+TEST(Condition, IsLaidOverASensor) {
+  const SensorModel thesis = parse_preset("thesis");
+  EXPECT_THAT(conditions().size(), ::testing::Ge(12U));
+  for (const Condition& condition : conditions()) {
+    const SensorModel sensor = find_sensor("thesis+" + condition.name);
+    EXPECT_EQ(sensor.name, "thesis-" + condition.name);
+    EXPECT_FALSE(sensor.surroundings.none()) << condition.name;
+    EXPECT_FALSE(condition.says.empty());
+    SensorModel other = sensor.as_calibrated();
+    EXPECT_EQ(other.signal_events_1m, thesis.signal_events_1m);
+    EXPECT_EQ(other.dark_count_rate_hz, thesis.dark_count_rate_hz);
+  }
+  EXPECT_EQ(conditions().front().name, "glass");
+  const SensorModel both = find_sensor("phone+fog+motion");
+  EXPECT_EQ(both.surroundings.fog.extinction_per_m, 0.1);
+  EXPECT_EQ(both.surroundings.motion.velocity_m_per_s, 10.0);
+  EXPECT_EQ(both.signal_events_1m, parse_preset("phone").signal_events_1m);
+  EXPECT_THROW(find_sensor("thesis+fgo"), InputError);
+  EXPECT_THROW(find_sensor("thesiss+fog"), InputError);
 }
 
 class SensorFiles : public ::testing::Test {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "dtof/core/pulse_response.hpp"
+#include "dtof/core/random.hpp"
+#include "dtof/photon/surroundings.hpp"
+
+namespace dtof {
+
+struct SensorModel;
+
+/// Mean events of one pixel, before anything is lost.
+struct PixelRates {
+  double background = 0.0;   ///< per T_int, flat
+  double signal = 0.0;       ///< per pulse
+  double centre_bins = 0.0;  ///< mean arrival time of the signal in units of T_res
+};
+
+/// What one pixel receives in surroundings.
+struct PixelReturns {
+  PixelRates rates;         ///< background, and the target's return at the frame's middle; skew included
+  double distance_m = 0.0;  ///< of the target at the frame's middle; 0: none
+  double skew_bins = 0.0;
+  bool dead = false;
+};
+
+/// Draws the events of one pixel over a frame that its surroundings add: cover glass, fog, pane, other laser,
+/// and the target's own if they change during the frame (Surroundings::signal_changes).
+///
+/// Each return is a Poisson process over the frame's pulses. What changes from pulse to pulse is drawn at its
+/// highest rate and thinned, which is exact.
+class ReturnSampler {
+ public:
+  explicit ReturnSampler(const SensorModel& model);
+
+  [[nodiscard]] bool signal_changes() const { return signal_changes_; }
+  /// The events in time order, as positions (EventSampler), inside the time gate.
+  void draw(const PixelReturns& returns, CounterRandom& random, std::vector<double>& positions) const;
+
+ private:
+  class Walk;
+  /// A pulse of the other laser that arrives in an acquisition's range.
+  struct Arrival {
+    std::uint32_t acquisition;
+    double centre_bins;
+  };
+
+  void list_arrivals(const SensorModel& model);
+  [[nodiscard]] double arrival_bins(double distance_m) const;
+  [[nodiscard]] double power(std::uint32_t acquisition) const {
+    return powers_.empty() ? 1.0 : powers_[acquisition];
+  }
+  [[nodiscard]] double delay_bins(std::uint32_t acquisition) const {
+    return delays_bins_.empty() ? 0.0 : delays_bins_[acquisition];
+  }
+  void draw_target(const PixelReturns& returns, Walk& walk) const;
+  void draw_surface(double distance_m, double events, double skew_bins, Walk& walk) const;
+  void draw_fog(const PixelReturns& returns, Walk& walk) const;
+  void draw_other_laser(double skew_bins, Walk& walk) const;
+
+  Surroundings around_;
+  bool signal_changes_;
+  double code_count_;
+  std::uint32_t acquisitions_;
+  double gate_begin_;
+  double gate_end_;
+  double sigma_;
+  double other_sigma_;
+  std::shared_ptr<const PulseResponse> response_;  // in units of T_res; none: a Gaussian of sigma_
+  double pulse_fwhm_s_;
+  double time_resolution_s_;
+  double signal_events_1m_;
+  double metres_per_pulse_;  // that a target moves
+  double highest_power_ = 1.0;
+  std::vector<double> powers_;       // of each pulse over the settled one; empty: always 1
+  std::vector<double> delays_bins_;  // of each pulse; empty: none
+  std::vector<Arrival> arrivals_;
+};
+
+}  // namespace dtof

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "hostile_scenes/hostile_scenes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/engine_frame.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/io/input_file.hpp"
+#include "dtof/sensor/preset.hpp"
+#include "hostile_scenes/hostile_report.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// 1,000 pixels with a target and 100 without; the wrong ones have confidence 1, the right ones 5, the sky's
+/// 0 to 9.
+HostileCounts counts(std::uint64_t within_10, std::uint64_t beyond) {
+  HostileCounts made;
+  made.by_confidence = {{{{5, 1000 - within_10 - beyond}}, {{1, within_10}}, {{1, beyond}}, {}}};
+  for (int confidence = 0; confidence < 10; ++confidence) {
+    made.by_confidence[static_cast<std::size_t>(Outcome::kSky)][confidence] = 10;
+  }
+  return made;
+}
+
+std::vector<HostileCounts> seeds(std::uint64_t within_10, std::uint64_t beyond = 0) {
+  return {counts(within_10, beyond), counts(within_10, beyond)};
+}
+
+TEST(HostileFigures, AreSharesOfTheirPixels) {
+  const std::vector<HostileCounts> made = {counts(20, 10), counts(40, 30)};
+  EXPECT_EQ(made[0].targets(), 1000U);
+  EXPECT_DOUBLE_EQ(share_above(made, 3).value, 0.05);
+  EXPECT_DOUBLE_EQ(share_above(made, 10).value, 0.02);
+  EXPECT_DOUBLE_EQ(share_detected(made, 0).value, 0.95);
+  EXPECT_DOUBLE_EQ(share_detected(made, 5).value, 0.95);
+  EXPECT_DOUBLE_EQ(share_detected(made, 6).value, 0.0);
+  EXPECT_DOUBLE_EQ(share_of_false_alarms(made, 0)->value, 1.0);
+  EXPECT_DOUBLE_EQ(share_of_false_alarms(made, 7)->value, 0.3);
+  std::vector<HostileCounts> no_sky = made;
+  for (HostileCounts& each : no_sky) {
+    each.by_confidence[static_cast<std::size_t>(Outcome::kSky)].clear();
+  }
+  EXPECT_FALSE(share_of_false_alarms(no_sky, 0).has_value());
+}
+
+TEST(HostileFigures, ThresholdIsTheLowestThatKeepsEveryLightsSkyQuiet) {
+  // 200 sky pixels: a tenth of them at each confidence.
+  EXPECT_EQ(least_confidence({seeds(0)}, 0.1), 9);
+  EXPECT_EQ(least_confidence({seeds(0)}, 0.0999), 10);
+  EXPECT_EQ(least_confidence({seeds(0)}, 0.35), 7);
+  std::vector<HostileCounts> brighter = seeds(0);
+  brighter[1].by_confidence[static_cast<std::size_t>(Outcome::kSky)][30] = 60;
+  EXPECT_EQ(least_confidence({brighter, seeds(0)}, 0.1), 31) << "the worst light decides";
+  EXPECT_EQ(least_confidence({seeds(0), brighter}, 0.1), 31);
+}
+
+class HostileReport : public testing::Test {
+ protected:
+  HostileReport() {
+    settings_.sensor = parse_preset("thesis");
+    settings_.readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
+                          ReadoutParameters::defaults(Readout::kPoolPointer2)};
+    settings_.conditions = {"clear", "fog", "late-laser"};
+    settings_.klux = {14.0};
+    for (const std::string& condition : settings_.conditions) {
+      HostileReadouts& readouts = study_.cells[{condition, 14.0}];
+      for (const std::string& name : hostile_estimators(settings_)) {
+        readouts[name] = seeds(20);
+        study_.thresholds[name] = 5;
+      }
+    }
+  }
+
+  HostileSettings settings_;
+  HostileScenes study_;
+};
+
+TEST_F(HostileReport, NamesTheConditionsThatAPoolReadoutDoesNotSurvive) {
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer2"), IsEmpty());
+  study_.cells[{"late-laser", 14.0}]["poolpointer2"] = seeds(0, 400);
+  study_.cells[{"fog", 14.0}]["poolpointer2"] = seeds(40);  // twice, within the intervals
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer2"),
+              ElementsAre("late-laser (14 klux)"));
+  const std::string report = hostile_report(settings_, study_, "the command");
+  EXPECT_THAT(report,
+              HasSubstr("poolPointer 2 has more than twice the coarse histogram's errors above 3 %, beyond "
+                        "both intervals, under: late-laser (14 klux)."));
+  EXPECT_THAT(report, HasSubstr("the best one's share named, under: no condition."));
+  EXPECT_THAT(report, HasSubstr("coarse histogram 98, poolPointer 2 98, matched filter 98"));
+  EXPECT_THAT(report, HasSubstr("* fog: fog of 39 m visibility"));
+  EXPECT_THAT(report, HasSubstr("Command: `the command`"));
+}
+
+TEST_F(HostileReport, NamesWhatFoolsEveryReadout) {
+  study_.cells[{"fog", 14.0}]["poolpointer2"] = seeds(0, 300);
+  EXPECT_THAT(fooled_together(settings_, study_), IsEmpty()) << "the coarse histogram is not";
+  study_.cells[{"fog", 14.0}]["coarsehistogram"] = seeds(0, 250);
+  EXPECT_THAT(fooled_together(settings_, study_), ElementsAre("fog (25 % at 14 klux)"))
+      << "filters do not count";
+}
+
+TEST_F(HostileReport, TablesHoldEveryFigure) {
+  study_.cells[{"fog", 14.0}]["poolpointer2"] = seeds(100, 150);
+  const std::string csv = hostile_csv(settings_, study_).csv();
+  EXPECT_THAT(csv, HasSubstr("\npoolpointer2,fog,14,2000,0.25,"));
+  EXPECT_THAT(csv, HasSubstr(",5,0.75,"));
+  EXPECT_THAT(csv, HasSubstr(",200,0.5,"));
+  EXPECT_THAT(hostile_report(settings_, study_, ""), HasSubstr(" 25 / 15 |"));
+  EXPECT_THAT(hostile_report(settings_, study_, ""), HasSubstr(" 50 / 75 |"));
+  const std::vector<PlotSeries> curves = hostile_curves(settings_, study_);
+  ASSERT_EQ(curves.size(), 4U);
+  EXPECT_THAT(curves[0].x, testing::Contains(testing::DoubleEq(50.0)));
+}
+
+class HostileScenesTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("dtof_hostile_" + std::to_string(getpid()));
+    settings_.sensor = parse_preset("thesis");
+    settings_.sensor.acquisitions = 1000;
+    settings_.readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram)};
+    settings_.conditions = {"clear", "glass", "column-skew"};
+    settings_.klux = {2.0};
+    settings_.scenes = {Scene::kRoom, Scene::kSky};
+    settings_.rows = 8;
+    settings_.seeds = 2;
+    settings_.store = folder_;
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  HostileSettings settings_;
+  std::filesystem::path folder_;
+};
+
+TEST_F(HostileScenesTest, GlassFoolsAndSkewIsSubtracted) {
+  const HostileScenes study = run_hostile_scenes(settings_);
+  for (const std::string& name : hostile_estimators(settings_)) {
+    const auto errors = [&](const char* condition) {
+      return share_above(study.cells.at({condition, 2.0}).at(name), 10).value;
+    };
+    EXPECT_LT(errors("clear"), 0.02) << name;
+    EXPECT_GT(errors("glass"), 0.4) << name;
+    EXPECT_LT(errors("column-skew"), 0.02) << name;
+    const auto figures = [&](const char* condition) {
+      const std::vector<HostileCounts>& own = study.cells.at({condition, 2.0}).at(name);
+      return std::pair(share_of_false_alarms(own, study.thresholds.at(name))->value,
+                       share_detected(own, study.thresholds.at(name)).value);
+    };
+    EXPECT_LT(figures("clear").first, 0.1) << name;
+    EXPECT_GT(figures("clear").second, 0.8) << name;
+    EXPECT_GT(figures("glass").first, 0.9) << name << ": the sky before the glass is no sky to it";
+  }
+  // Without the subtraction 440 ps are 66 mm, more than 3 % of anything nearer than 2.2 m.
+  const Estimate skewed = share_above(study.cells.at({"column-skew", 2.0}).at("matchedfilter"), 3);
+  EXPECT_LT(skewed.value, 0.05);
+  const HostileCounts& one = study.cells.at({"clear", 2.0}).at("coarsehistogram").front();
+  EXPECT_EQ(one.targets() + one.count(Outcome::kSky),
+            static_cast<std::uint64_t>(2 * engine_columns_judged() * settings_.rows));
+}
+
+TEST_F(HostileScenesTest, CellsThatAreDoneAreTaken) {
+  settings_.conditions = {"clear"};
+  const HostileScenes first = run_hostile_scenes(settings_);
+  const HostileScenes again = run_hostile_scenes(settings_);
+  EXPECT_EQ(again.cells, first.cells);
+  EXPECT_EQ(again.thresholds, first.thresholds);
+  write_file(folder_ / "clear_2.csv",
+             "readout,seed,outcome,confidence,pixels\ncoarsehistogram,0,2,7,10\ncoarsehistogram,1,0,7,10\n");
+  const std::vector<HostileCounts>& taken =
+      run_hostile_scenes(settings_).cells.at({"clear", 2.0}).at("coarsehistogram");
+  EXPECT_EQ(taken[0].count(Outcome::kBeyond), 10U);
+  EXPECT_EQ(taken[1].count(Outcome::kWithin3), 10U);
+}
+
+TEST_F(HostileScenesTest, RefusesWhatItCannotMeasure) {
+  const auto refused = [this](const char* word, auto change) {
+    HostileSettings wrong = settings_;
+    change(wrong);
+    EXPECT_THAT([&] { run_hostile_scenes(wrong); }, testing::ThrowsMessage<InputError>(HasSubstr(word)));
+  };
+  refused("clear", [](HostileSettings& s) { s.conditions = {"glass"}; });
+  refused("fgo", [](HostileSettings& s) { s.conditions = {"clear", "fgo"}; });
+  refused("2 seeds", [](HostileSettings& s) { s.seeds = 1; });
+  refused("false alarms", [](HostileSettings& s) { s.false_alarms = 0.0; });
+  refused("rows", [](HostileSettings& s) { s.rows = 161; });
+  refused("a scene", [](HostileSettings& s) { s.scenes.clear(); });
+  refused("binning", [](HostileSettings& s) { s.sensor.binning = 2; });
+}
+
+}  // namespace
+}  // namespace dtof
