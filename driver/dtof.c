@@ -4,6 +4,7 @@
 #define WHOLE_FRAME 64U /* a frame in 64ths */
 #define LIGHT_MM_PER_PS 0.299792458
 #define COLUMNS_OF_A_WORD 32U
+#define MOST_READS_OF_AN_ABORT 100U /* it takes 16 clocks */
 
 static dtof_status read_register(const dtof_device *device, uint32_t offset, uint32_t *value) {
   return device->bus.read(device->bus.context, offset, value) ? DTOF_OK : DTOF_BUS;
@@ -133,7 +134,8 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
       {DTOF_WEAK_BELOW, settings->weak_below, true},
       {DTOF_OUTPUT,
        (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
-           (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) | (settings->smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0U) |
+           (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) |
+           (settings->smooth && device->has_schedule ? DTOF_OUTPUT_SMOOTH_MASK : 0U) |
            (settings->prior ? DTOF_OUTPUT_PRIOR_MASK : 0U),
        device->has_schedule || device->has_raw_histogram},
       {DTOF_RAW_ROWS,
@@ -157,12 +159,22 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
 
 dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask) {
   for (uint32_t word = 0; word * COLUMNS_OF_A_WORD < device->columns; ++word) {
-    dtof_status status = write_register(device, DTOF_COLUMN_ENABLE + 4U * word, mask[word]);
+    uint32_t columns = device->columns - word * COLUMNS_OF_A_WORD;
+    uint32_t there = columns < COLUMNS_OF_A_WORD ? (UINT32_C(1) << columns) - 1U : UINT32_MAX;
+    dtof_status status = write_register(device, DTOF_COLUMN_ENABLE + 4U * word, mask[word] & there);
     if (status != DTOF_OK) {
       return status;
     }
   }
   return DTOF_OK;
+}
+
+dtof_status dtof_commit(const dtof_device *device) {
+  return write_register(device, DTOF_COMMIT, DTOF_COMMIT_SETTINGS_MASK);
+}
+
+dtof_status dtof_set_watchdog(const dtof_device *device, uint32_t clocks) {
+  return clocks > DTOF_WATCHDOG_CLOCKS_MASK ? DTOF_ARGUMENT : write_register(device, DTOF_WATCHDOG, clocks);
 }
 
 dtof_status dtof_enable_interrupts(const dtof_device *device, bool frame, bool error) {
@@ -196,6 +208,46 @@ dtof_status dtof_stop(const dtof_device *device) { return write_register(device,
 
 dtof_status dtof_flush(const dtof_device *device) { return command(device, DTOF_CONTROL_FLUSH_MASK); }
 
+dtof_status dtof_abort(const dtof_device *device, bool source_stopped) {
+  dtof_status status = write_register(
+      device, DTOF_CONTROL, DTOF_CONTROL_ABORT_MASK | (source_stopped ? DTOF_CONTROL_FLUSH_MASK : 0U));
+  bool busy = true;
+  for (uint32_t i = 0; status == DTOF_OK && busy; ++i) {
+    status = i < MOST_READS_OF_AN_ABORT ? dtof_busy(device, &busy) : DTOF_BUSY;
+  }
+  return status;
+}
+
+dtof_status dtof_recover(const dtof_device *device) {
+  static const uint32_t sticky[] = {DTOF_ERROR, DTOF_WARNING, DTOF_IRQ_STATUS};
+  dtof_status status = dtof_abort(device, true);
+  for (size_t i = 0; status == DTOF_OK && i < sizeof sticky / sizeof sticky[0]; ++i) {
+    status = write_register(device, sticky[i], UINT32_MAX);
+  }
+  return status;
+}
+
+dtof_status dtof_read_state(const dtof_device *device, dtof_state *state) {
+  static const uint32_t offsets[] = {DTOF_STATUS,      DTOF_ERROR,      DTOF_WARNING,
+                                     DTOF_FRAME_COUNT, DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS};
+  uint32_t values[sizeof offsets / sizeof offsets[0]];
+  for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; ++i) {
+    dtof_status status = read_register(device, offsets[i], &values[i]);
+    if (status != DTOF_OK) {
+      return status;
+    }
+  }
+  state->busy = FIELD(values[0], DTOF_STATUS_BUSY) != 0;
+  state->array_state = (uint8_t)FIELD(values[0], DTOF_STATUS_STATE);
+  state->level = (uint16_t)FIELD(values[0], DTOF_STATUS_LEVEL);
+  state->errors = values[1];
+  state->warnings = values[2];
+  state->frames = values[3];
+  state->lost_lines = values[4];
+  state->lost_acquisitions = values[5];
+  return DTOF_OK;
+}
+
 dtof_status dtof_frames(const dtof_device *device, uint32_t *frames, uint32_t *cycles) {
   dtof_status status = read_register(device, DTOF_FRAME_COUNT, frames);
   return status == DTOF_OK ? read_register(device, DTOF_FRAME_CYCLES, cycles) : status;
@@ -220,6 +272,9 @@ dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes) {
 }
 
 dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *result) {
+  if (FIELD(word, DTOF_RESULT_ABORTED) != 0) {
+    return DTOF_ABORTED;
+  }
   if (FIELD(word, DTOF_RESULT_SECOND) != 0) {
     result->has_second = true;
     result->second_position = (uint16_t)FIELD(word, DTOF_RESULT_POSITION);
@@ -246,6 +301,9 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
                               dtof_result *results) {
   size_t pixels = (size_t)device->rows * device->columns;
   size_t words_of_a_pixel = count == pixels ? 1U : 2U;
+  if (count > 0 && FIELD(words[count - 1], DTOF_RESULT_ABORTED) != 0) {
+    return DTOF_ABORTED;
+  }
   if (count != words_of_a_pixel * pixels) {
     return DTOF_STREAM;
   }

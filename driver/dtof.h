@@ -24,7 +24,8 @@ typedef enum {
   DTOF_VERSION_UNKNOWN = -3, /* another major version, or a minor version without registers that are needed */
   DTOF_ARGUMENT = -4,        /* a value that the hardware cannot take */
   DTOF_BUSY = -5,            /* a frame is under way */
-  DTOF_STREAM = -6           /* a result's row or column is not the array's */
+  DTOF_STREAM = -6,          /* a result's row or column is not the array's */
+  DTOF_ABORTED = -7          /* the frame was aborted: its words end here */
 } dtof_status;
 
 /* How registers are reached. Both return false if the access failed; `offset` is in bytes. */
@@ -92,6 +93,18 @@ typedef struct {
   uint16_t release; /* lines in the buffer before an acquisition begins; 0: as many as possible */
 } dtof_settings;
 
+/* What goes on, and what went wrong; nothing is forgotten by reading. */
+typedef struct {
+  bool busy;           /* a frame is under way */
+  uint8_t array_state; /* state_o of the array */
+  uint16_t level;      /* lines in the line buffer */
+  uint32_t errors;     /* DTOF_ERROR_*_MASK */
+  uint32_t warnings;   /* DTOF_WARNING_*_MASK */
+  uint32_t frames;     /* since reset, modulo 2^32 */
+  uint32_t lost_lines; /* these two since reset, at most 2^32 - 1 */
+  uint32_t lost_acquisitions;
+} dtof_state;
+
 /* One pixel's result. */
 typedef struct {
   uint16_t row;
@@ -121,12 +134,21 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus);
  * its shares of the frame are those that the device recommends. */
 dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions);
 
-/* Writes the settings of the next frame. DTOF_ARGUMENT, with nothing written, for what the hardware cannot
- * take. */
+/* Writes the settings of the frames that begin behind dtof_commit or dtof_start. DTOF_ARGUMENT, with nothing
+ * written, for what the hardware cannot take. */
 dtof_status dtof_configure(const dtof_device *device, const dtof_settings *settings);
 
-/* Enables the columns whose bit in `mask` is set, column 0 lowest, 32 a word; (columns + 31) / 32 words. */
+/* Enables the columns whose bit in `mask` is set, column 0 lowest, 32 a word; (columns + 31) / 32 words. A
+ * setting like those of dtof_configure. */
 dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask);
+
+/* Makes all settings that were written valid together, for every frame that begins from now on; for
+ * continuous mode. */
+dtof_status dtof_commit(const dtof_device *device);
+
+/* How many clocks a frame waits for a line before the rest of it counts as no detection, at once; 0: for
+ * ever. DTOF_ARGUMENT above 2^24 - 1, which is the value at reset. */
+dtof_status dtof_set_watchdog(const dtof_device *device, uint32_t clocks);
 
 /* Raises the interrupt when a frame's results were taken, when something went wrong, both or neither. */
 dtof_status dtof_enable_interrupts(const dtof_device *device, bool frame, bool error);
@@ -140,6 +162,19 @@ dtof_status dtof_stop(const dtof_device *device);
 /* Empties the line buffer. DTOF_BUSY while a frame is under way. */
 dtof_status dtof_flush(const dtof_device *device);
 
+/* Ends the frame that is under way, whatever it waits for, and continuous mode; the array is ready for
+ * another one behind this call. `source_stopped`: the next line that comes begins an acquisition; otherwise
+ * the rest of the acquisition that the source is in is thrown away. DTOF_BUSY if the hardware does not obey.
+ */
+dtof_status dtof_abort(const dtof_device *device, bool source_stopped);
+
+/* Behind any fault, with the source stopped: dtof_abort, and errors, warnings and interrupts are forgotten.
+ * The settings stay. */
+dtof_status dtof_recover(const dtof_device *device);
+
+/* What goes on. */
+dtof_status dtof_read_state(const dtof_device *device, dtof_state *state);
+
 /* Whether a frame is under way. */
 dtof_status dtof_busy(const dtof_device *device, bool *busy);
 
@@ -152,14 +187,15 @@ dtof_status dtof_take_errors(const dtof_device *device, uint32_t *errors);
 dtof_status dtof_take_warnings(const dtof_device *device, uint32_t *warnings);
 dtof_status dtof_take_interrupts(const dtof_device *device, uint32_t *causes);
 
-/* A word of the result stream. DTOF_STREAM if its place is not one of the array's. That of a second target
- * sets only second_position and has_second and asks for the result that the word before filled: DTOF_STREAM
- * if its row and column are others. */
+/* A word of the result stream. DTOF_STREAM if its place is not one of the array's, DTOF_ABORTED if it says
+ * that the frame ended before its last result. That of a second target sets only second_position and
+ * has_second and asks for the result that the word before filled: DTOF_STREAM if its row and column are
+ * others. */
 dtof_status dtof_unpack(const dtof_device *device, uint64_t word, dtof_result *result);
 
 /* A frame's words, placed at row * columns + column of `results`, which holds rows x columns; pixels in any
- * order, a second target directly behind its first. DTOF_STREAM if they are not each pixel once, with a
- * second target for all or none. */
+ * order, a second target directly behind its first. DTOF_ABORTED if the frame was aborted; DTOF_STREAM if
+ * they are not each pixel once, with a second target for all or none. */
 dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, size_t count,
                               dtof_result *results);
 

@@ -215,8 +215,10 @@ module example_bench #(
 
     write(dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
     // poolPointer 2's schedule: 14/64 of the frame for the coarse phase, 20/64 for the track phase.
-    write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
-    write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
+    if (READOUT == dtof_pkg::READOUT_POOLPOINTER2) begin
+      write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
+      write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
+    end
     write(dtof_registers_pkg::WEAK_BELOW, 2);
     write(dtof_registers_pkg::IRQ_ENABLE, 32'd1 << dtof_registers_pkg::IRQ_ENABLE_FRAME_LSB);
     write(dtof_registers_pkg::CONTROL, 32'd1 << dtof_registers_pkg::CONTROL_START_LSB);

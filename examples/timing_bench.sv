@@ -32,7 +32,7 @@ module timing_bench #(
   logic [31:0] pwdata = '0;
   logic pready, pslverr, irq;
   logic [31:0] prdata;
-  logic line_valid = 1'b0, line_last = 1'b0;
+  logic line_valid = 1'b0, line_last = 1'b0, frame_last;
   logic line_ready;
   logic [WIDTH-1:0] line = '0;
   logic result_valid, result_first, result_last;
@@ -66,7 +66,7 @@ module timing_bench #(
       .s_axis_tvalid_i(line_valid),
       .s_axis_tready_o(line_ready),
       .s_axis_tdata_i (line),
-      .s_axis_tlast_i (line_last),
+      .s_axis_tlast_i (line_last || frame_last),
       .m_axis_tvalid_o(result_valid),
       .m_axis_tready_i(result_ready),
       .m_axis_tdata_o (result),
@@ -101,6 +101,13 @@ module timing_bench #(
     line_valid = 1'b0;
     line_last = 1'b0;
   endtask
+
+  // Lines of `frame` one behind the other.
+  int taken = 0;
+  assign frame_last = (DIAGRAMS == 0) && (taken % LINES == LINES - 1);
+  always @(posedge clk) begin
+    if (line_valid && line_ready) taken <= taken + 1;
+  end
 
   task automatic diagrams;
     transfer(1'b1, dtof_registers_pkg::ACQUISITIONS, 32'd1);
@@ -158,8 +165,10 @@ module timing_bench #(
   task automatic frame;
     int index;
     transfer(1'b1, dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    transfer(1'b1, dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
-    transfer(1'b1, dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
+    if (READOUT == dtof_pkg::READOUT_POOLPOINTER2) begin
+      transfer(1'b1, dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
+      transfer(1'b1, dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
+    end
     line_valid = 1'b1;
     line = {WIDTH{1'b1}};
     clocks(2 * LINES + 8);  // the buffer is full

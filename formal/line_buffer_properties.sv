@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // dtof_line_buffer: an acquisition that has begun is never interrupted, and every line reaches the array in its place or, behind
 // an underrun, as no detection, whatever the source's and the array's pace and from reset at any time. One arbitrary line
-// of every fourth acquisition is watched.
+// of every fourth acquisition is watched. s_tlast_i is where it belongs; line_buffer_faults has the rest.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -32,7 +32,8 @@ module line_buffer_properties #(
   end
 
   logic [LEVEL_WIDTH-1:0] level;
-  logic underrun, misframed, s_tready, line_valid;
+  logic underrun, is_short, is_long, s_tready, line_valid, starved, kept, lost_acquisition;
+  logic [LEVEL_WIDTH-1:0] lost_lines;
   logic [WIDTH-1:0] line;
 
   dtof_line_buffer #(
@@ -43,10 +44,18 @@ module line_buffer_properties #(
       .clk_i       (clk_i),
       .rst_ni      (rst_n),
       .flush_i     (flush_i),
+      .abort_i     (1'b0),
+      .expire_i    (1'b0),
+      .done_i      (1'b0),
       .release_i   (release_i),
       .level_o     (level),
       .underrun_o  (underrun),
-      .misframed_o (misframed),
+      .starved_o   (starved),
+      .kept_o      (kept),
+      .short_o     (is_short),
+      .long_o      (is_long),
+      .lost_lines_o(lost_lines),
+      .lost_acquisition_o(lost_acquisition),
       .s_tvalid_i  (s_tvalid_i),
       .s_tready_o  (s_tready),
       .s_tdata_i   (s_tdata_i),
@@ -61,7 +70,7 @@ module line_buffer_properties #(
   (* anyconst *) logic [3:0] watched_line;
   logic [1:0] in_acquisition_q, out_acquisition_q;
   logic [3:0] in_line_q, out_line_q;
-  logic lost_q, come_q, push, step, at_watched;
+  logic live_q, lost_q, come_q, push, step, at_watched;
   logic [WIDTH-1:0] expected_q;
   logic [3:0] wait_q;  // clocks that the memory is full and nothing is offered
 
@@ -71,6 +80,7 @@ module line_buffer_properties #(
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
+      live_q <= 1'b0;
       in_acquisition_q <= '0;
       out_acquisition_q <= '0;
       in_line_q <= '0;
@@ -79,6 +89,7 @@ module line_buffer_properties #(
       come_q <= 1'b0;
       wait_q <= '0;
     end else begin
+      live_q <= 1'b1;
       if (push) begin
         in_line_q <= (32'(in_line_q) == ACQUISITION_LINES - 1) ? '0 : in_line_q + 1'b1;
         if (32'(in_line_q) == ACQUISITION_LINES - 1) in_acquisition_q <= in_acquisition_q + 1'b1;
@@ -110,6 +121,7 @@ module line_buffer_properties #(
   `ASSUME(m_release, release_i != '0 && 32'(release_i) <= ACQUISITION_LINES && 32'(release_i) <= LINES
                      && (WHOLE == 0 || 32'(release_i) == ACQUISITION_LINES))
   `ASSUME(m_flush_between, !flush_i || (!under_way && !line_ready_i))
+  `ASSUME(m_tlast, s_tlast_i == (32'(in_line_q) == ACQUISITION_LINES - 1))
   `ASSUME(m_watched, 32'(watched_line) < ACQUISITION_LINES)
   `PROVE(a_uninterrupted, !rst_n || !under_way || line_valid)
   `PROVE(a_released, !rst_n || under_way || !line_valid || level >= release_i)
@@ -117,12 +129,17 @@ module line_buffer_properties #(
   `PROVE(a_lost, !rst_n || !step || !(lost_q || underrun) || line == {WIDTH{1'b1}})
   `PROVE(a_underrun_inside, !rst_n || !underrun || (step && under_way && !lost_q && level <= 1))
   `PROVE(a_whole_never_runs_empty, !rst_n || WHOLE == 0 || !underrun)
-  `PROVE(a_takes_lines, !rst_n || s_tready || flush_i || 32'(level) >= LINES)
+  `PROVE(a_takes_lines, !rst_n || s_tready || flush_i || !live_q || 32'(level) >= LINES)
   `PROVE(a_level, !rst_n || 32'(level) <= LINES + 1)
-  `PROVE(a_misframed, !rst_n || misframed == (push && (s_tlast_i != (32'(in_line_q) == ACQUISITION_LINES - 1))))
+  `PROVE(a_framed, !rst_n || !(is_short || is_long))
+  `PROVE(a_kept, !rst_n || kept == push)
+  `PROVE(a_lost_acquisition, !rst_n || lost_acquisition == (step && (lost_q || underrun) && 32'(out_line_q) == ACQUISITION_LINES - 1))
   `PROVE(a_goes_on, !rst_n || 32'(wait_q) <= ACQUISITION_LINES + 1)
   `GOAL(rst_n && step && at_watched && watched_acquisition == 2'd1 && !lost_q && !underrun
         && 32'(watched_line) == ACQUISITION_LINES - 1)
+
+  logic unused;
+  assign unused = starved ^ ^lost_lines;
 
 endmodule
 

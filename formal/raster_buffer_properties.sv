@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // dtof_raster_buffer: every result leaves once, in raster order, under any pace of both sides and from reset at any time. One
-// arbitrary pixel is watched, its first result or its second; a frame has one or two results of every pixel.
+// arbitrary pixel is watched, its first result or its second; a frame has one or two results of every pixel. Behind a cut at any time
+// the result at the port stays, a frame whose results have been there ends with one that says so, and any other leaves no trace.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -16,6 +17,7 @@ module raster_buffer_properties #(
 ) (
     input logic                    clk_i,
     input logic                    reset_i,
+    input logic                    cut_i,
     input logic                    both_i,      // in a frame's first result: its pixels have two
     input logic                    s_tvalid_i,
     input logic [       WIDTH-1:0] s_result_i,
@@ -33,7 +35,7 @@ module raster_buffer_properties #(
     checking <= 1'b1;
   end
 
-  logic s_tready, tvalid, tlast, second;
+  logic s_tready, tvalid, tlast, second, aborted;
   logic [WIDTH-1:0] result;
   logic [COLUMN_WIDTH-1:0] column;
   logic [ROW_WIDTH-1:0] row;
@@ -46,6 +48,7 @@ module raster_buffer_properties #(
   ) u_dut (
       .clk_i     (clk_i),
       .rst_ni    (rst_n),
+      .cut_i     (cut_i),
       .s_tvalid_i(s_tvalid_i),
       .s_tready_o(s_tready),
       .s_result_i(s_result_i),
@@ -59,6 +62,7 @@ module raster_buffer_properties #(
       .m_column_o(column),
       .m_row_o   (row),
       .m_second_o(second),
+      .m_aborted_o(aborted),
       .m_tlast_o (tlast)
   );
 
@@ -69,6 +73,7 @@ module raster_buffer_properties #(
   logic come_q, held_q, whole_q, both_q, both_in, both_in_q, is_watched, push, pop;
   logic [7:0] last_in, last_out;
   logic [1:0] pause_q;
+  logic owed_q, aborted_q, ends;  // the word that ends a cut frame is to come or at the port
   logic [WIDTH-1:0] expected_q, result_q;
 
   // Whether pixels have two results is a frame's matter, known with its first one.
@@ -78,6 +83,7 @@ module raster_buffer_properties #(
   assign is_watched = (s_column_i == watched_column) && (s_row_i == watched_row) && (s_second_i == watched_second);
   assign push = s_tvalid_i && s_tready;
   assign pop = tvalid && m_tready_i;
+  assign ends = pop && (aborted || out_q == last_out);
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
@@ -87,6 +93,8 @@ module raster_buffer_properties #(
       held_q <= 1'b0;
       whole_q <= 1'b0;
       pause_q <= '0;
+      owed_q <= 1'b0;
+      aborted_q <= 1'b0;
     end else begin
       if (push) begin
         in_q <= s_tlast_i ? '0 : in_q + 1'b1;
@@ -100,12 +108,23 @@ module raster_buffer_properties #(
       end
       if (pop) begin
         out_q <= out_q + 1'b1;
-        if (out_q == last_out) begin
+        if (ends) begin
           out_q <= '0;
           whole_q <= 1'b0;
           come_q <= 1'b0;
+          owed_q <= 1'b0;
         end
       end
+      if (cut_i && !ends) begin
+        in_q <= '0;
+        if (!tvalid && out_q == '0) begin
+          whole_q <= 1'b0;
+          come_q <= 1'b0;
+        end else if (!tvalid || out_q != last_out) begin
+          owed_q <= 1'b1;
+        end
+      end
+      aborted_q <= aborted;
       held_q <= tvalid && !m_tready_i;
       pause_q <= (whole_q && !tvalid) ? pause_q + 1'b1 : '0;
     end
@@ -122,13 +141,15 @@ module raster_buffer_properties #(
   `ASSUME(m_all, !s_tvalid_i || !s_tlast_i || come_q || is_watched || (watched_second && !both_in))
   `PROVE(a_only_whole_frames, !(rst_n && tvalid) || whole_q)
   `PROVE(a_no_mixing, !(rst_n && push) || !whole_q)
-  `PROVE(a_order, !(rst_n && tvalid) ||
+  `PROVE(a_order, !(rst_n && tvalid && !aborted) ||
          (32'(row) * SRAM_NUM + 32'(column)) * (both_q ? 2 : 1) + 32'(second) == 32'(out_q))
-  `PROVE(a_result, !(rst_n && tvalid && column == watched_column && row == watched_row && second == watched_second)
+  `PROVE(a_result, !(rst_n && tvalid && !aborted && column == watched_column && row == watched_row && second == watched_second)
          || result == expected_q)
-  `PROVE(a_tlast, !(rst_n && tvalid) || tlast == (out_q == last_out))
-  `PROVE(a_valid_holds, !(rst_n && held_q) || (tvalid && result == result_q))
-  `PROVE(a_takes_results, !rst_n || whole_q || s_tready)
+  `PROVE(a_tlast, !(rst_n && tvalid) || tlast == (aborted || out_q == last_out))
+  `PROVE(a_aborted, !(rst_n && tvalid && aborted) || owed_q)
+  `PROVE(a_ends_at_once, !(rst_n && owed_q && !held_q) || (tvalid && aborted))
+  `PROVE(a_valid_holds, !(rst_n && held_q) || (tvalid && aborted == aborted_q && (aborted || result == result_q)))
+  `PROVE(a_takes_results, !rst_n || whole_q || cut_i || s_tready)
   `PROVE(a_goes_on, !rst_n || pause_q < 3)
   `GOAL(rst_n && pop && tlast && column == watched_column && row == watched_row)
 

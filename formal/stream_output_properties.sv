@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time.
+// dtof_stream_output: every result leaves once, in order, with its status, under any back-pressure and from reset at any time. Behind a
+// cut at any time the word at the port stays, and a frame whose words have been there ends with the word that says so.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -23,6 +24,7 @@ module stream_output_properties #(
     input logic [               15:0] weak_below_i,
     input logic [       SRAM_NUM-1:0] enable_i,
     input logic                       raw_i,
+    input logic                       cut_i,
     input logic                       result_tvalid_i,
     input logic [   COLUMN_WIDTH-1:0] column_i,
     input logic [      ROW_WIDTH-1:0] row_i,
@@ -69,6 +71,7 @@ module stream_output_properties #(
       .weak_below_i   (weak_below_i),
       .enable_i       (enable_i),
       .raw_i          (raw_i),
+      .cut_i          (cut_i),
       .result_tvalid_i(result_tvalid_i),
       .result_tready_o(result_tready),
       .result_tdata_i (result),
@@ -84,7 +87,8 @@ module stream_output_properties #(
   // What must come, in a queue: {first, last, word}, the oldest in slot 0.
   logic [ENTRY_WIDTH-1:0] slot0_q, slot1_q, entry;
   logic [1:0] count_q;
-  logic begins_q, weak, empty, masked, saturated, push, pop;
+  logic begins_q, weak, empty, masked, saturated, push, pop, stays, open, popped_open_q;
+  localparam logic [ENTRY_WIDTH-1:0] ABORTED = {1'b0, 1'b1, 1'b1, 63'd0};  // not the first, the last, the word's highest bit
 
   assign weak = (HAS_CONFIDENCE > 0) && !raw_i && (confidence < weak_below_i);
   assign empty = (HAS_CONFIDENCE > 0) && !raw_i && (confidence == 16'd0);
@@ -99,22 +103,34 @@ module stream_output_properties #(
   assign push = result_tvalid_i && result_tready;
   assign pop = tvalid && m_axis_tready_i;
 
+  // The frame whose word is or was the last at the port has not ended with it.
+  assign open = (count_q != 2'd0) ? !slot0_q[64] : popped_open_q;
+  assign stays = (count_q != 2'd0) && !pop;
+
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
       count_q <= '0;
       begins_q <= 1'b1;
+      popped_open_q <= 1'b0;
     end else begin
-      count_q <= count_q + 2'(push) - 2'(pop);
+      count_q <= cut_i ? 2'(stays) + 2'(open) : count_q + 2'(push) - 2'(pop);
       if (push) begins_q <= result_tlast_i;
+      if (cut_i) begins_q <= 1'b1;
+      popped_open_q <= open;
     end
-    if (pop) slot0_q <= (count_q == 2'd2) ? slot1_q : entry;
-    else if (push && count_q == 2'd0) slot0_q <= entry;
-    if (push) slot1_q <= entry;
+    if (cut_i) begin
+      if (!stays) slot0_q <= ABORTED;
+      slot1_q <= ABORTED;
+    end else begin
+      if (pop) slot0_q <= (count_q == 2'd2) ? slot1_q : entry;
+      else if (push && count_q == 2'd0) slot0_q <= entry;
+      if (push) slot1_q <= entry;
+    end
   end
 
   `ASSUME(m_column, 32'(column_i) < SRAM_NUM)
   `PROVE(a_tvalid, !rst_n || tvalid == (count_q != 2'd0))
-  `PROVE(a_tready, !rst_n || result_tready == (count_q != 2'd2))
+  `PROVE(a_tready, !rst_n || result_tready == (count_q != 2'd2 && !cut_i))
   `PROVE(a_word, !(rst_n && tvalid) || tdata == slot0_q[63:0])
   `PROVE(a_tlast, !(rst_n && tvalid) || tlast == slot0_q[64])
   `PROVE(a_tuser, !(rst_n && tvalid) || tuser == slot0_q[65])

@@ -55,6 +55,9 @@ pool/dtof_pool2_quad.sv
 thesis/dtof_array.sv
 pool/dtof_pool_pointer2_array.sv
 subsystem/dtof_line_buffer.sv
+subsystem/dtof_watchdog.sv
+subsystem/dtof_saturating_counter.sv
+subsystem/dtof_array_reset.sv
 subsystem/dtof_line_filter.sv
 subsystem/dtof_target_words.sv
 subsystem/dtof_stream_output.sv

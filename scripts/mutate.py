@@ -17,14 +17,14 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts"))
 
 from figures.small import written_root  # noqa: E402
-from mutation import cpp, report, rtl  # noqa: E402
+from mutation import cpp, report, rtl, subsystem  # noqa: E402
 from mutation.explained import explain, load  # noqa: E402
 from mutation.verdict import MutationError, Verdict  # noqa: E402
 
 BUILD = ROOT / "build" / "mutate"
 TABLE = written_root(ROOT) / "reports" / "mutants.csv"
-RUNS = {"C++": cpp.run, "RTL": rtl.run}
-COUNTS = {"C++": 200, "RTL": 160}
+RUNS = {"C++": cpp.run, "RTL": rtl.run, "subsystem": subsystem.run}
+COUNTS = {"C++": 200, "RTL": 160, "subsystem": 60}
 
 
 def judged(language: str, arguments: argparse.Namespace) -> list[Verdict]:

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of dtof_subsystem behind an APB4 port (hdl/subsystem/registers.toml; table in docs/user/integration.md).
 //
-// A transfer takes the two clocks of APB, without wait states. pslverr_o answers an offset without a register, and a
-// write to a register of which nothing can be written; neither does anything. pstrb_i chooses bytes, pprot is not looked at.
-// Settings are what was written; when a frame samples them is the subsystem's matter. An event that comes in the clock
-// in which its bit is cleared stays visible.
+// A transfer takes the two clocks of APB, without wait states. pslverr_o answers an offset without a register, a write to a
+// register of which nothing can be written in this configuration, and a write of 1 to a bit of a setting or command that this
+// configuration does not have; none of them does anything. pstrb_i chooses bytes, pprot is not looked at.
+// Settings are written one by one and become valid together, with COMMIT or START; those of CONTROL, IRQ_ENABLE and WATCHDOG
+// are valid at once. An event that comes in the clock in which its bit is cleared stays visible.
 // Latency: a command is a pulse in the clock behind its write.
-// Cost: the settings' flip-flops, SRAM_NUM of them for the columns, and the read multiplexer.
+// Cost: the settings' flip-flops, twice, SRAM_NUM of them for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -63,7 +64,10 @@ module dtof_apb_registers #(
     // commands and settings
     output logic                 start_o,
     output logic                 flush_o,
+    output logic                 abort_o,
     output logic                 continuous_o,
+    output logic [         23:0] watchdog_o,
+    // those that were committed
     output logic                 second_o,       // 0 without SECOND_TARGET
     output logic                 raw_o,          // these three are 0 without RAW_HISTOGRAM
     output logic [         11:0] raw_first_o,
@@ -84,51 +88,64 @@ module dtof_apb_registers #(
     input  logic [         15:0] level_i,
     input  logic [         31:0] frame_count_i,
     input  logic [         31:0] frame_cycles_i,
+    input  logic [         31:0] lost_lines_i,
+    input  logic [         31:0] lost_acquisitions_i,
     // events
     input  logic                 frame_i,
     input  logic                 underrun_i,
     input  logic                 start_ignored_i,
     input  logic                 illegal_schedule_i,
     input  logic                 overrun_i,
-    input  logic                 misframed_i,
+    input  logic                 short_i,
+    input  logic                 long_i,
+    input  logic                 timeout_i,
+    input  logic                 stalled_i,
+    input  logic                 flush_ignored_i,
+    input  logic                 aborted_i,
     input  logic                 counter_full_i,
     output logic                 irq_o
 );
 
-  localparam int ERRORS = 5;
+  localparam int ERRORS = 8;
+  localparam int WARNINGS = 4;
   localparam int CAUSES = 2;  // of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
 
   // One write a transfer, in its second clock.
 
-  logic access, known, writable, write;
+  logic access, known, writable, write, commit;
   logic [11:0] offset;
-  logic [31:0] mask;  // bits to write
+  logic [31:0] mask;     // bits to write
+  logic [31:0] written;  // bits that are written as 1
+  logic [31:0] there;    // bits of a register that this configuration has; all where a 1 does no harm
 
   assign offset = {paddr_i[11:2], 2'b00};
   assign access = psel_i && penable_i;
   assign known = dtof_registers_pkg::is_register(offset);
-  assign writable = dtof_registers_pkg::is_writable(offset);
+  assign writable = dtof_registers_pkg::is_writable(offset) && (there != '0) && ((written & ~there) == '0);
   assign write = access && pwrite_i && writable;
   assign mask = {{8{pstrb_i[3]}}, {8{pstrb_i[2]}}, {8{pstrb_i[1]}}, {8{pstrb_i[0]}}};
   assign pready_o = 1'b1;
   assign pslverr_o = access && (pwrite_i ? !writable : !known);
+
+  assign written = pwdata_i & mask;
+  assign commit = write && ((offset == dtof_registers_pkg::COMMIT && written[dtof_registers_pkg::COMMIT_SETTINGS_LSB])
+      || (offset == dtof_registers_pkg::CONTROL && written[dtof_registers_pkg::CONTROL_START_LSB]));
 
   logic unused_address;
   assign unused_address = ^paddr_i[1:0];
 
   // Commands, settings, and what events leave behind.
 
-  logic start_q, flush_q, continuous_q, counter_full_q, counter_full_cleared;
+  logic start_q, flush_q, abort_q, continuous_q;
   logic [ERRORS-1:0] error_q, error_event, error_cleared;
+  logic [WARNINGS-1:0] warning_q, warning_event, warning_cleared;
+  logic [23:0] watchdog_q;
   logic [CAUSES-1:0] cause_q, cause_event, cause_cleared, cause_enable_q;
   logic [ACQ_WIDTH-1:0] acquisitions_q;
   logic [15:0] release_q;
   logic [WEAK_WIDTH-1:0] weak_below_q;
   logic [SRAM_NUM-1:0] enable_q;
-  logic [31:0] written;  // bits that are written as 1
-
-  assign written = pwdata_i & mask;
 
   always_comb begin
     error_event = '0;
@@ -136,7 +153,15 @@ module dtof_apb_registers #(
     error_event[dtof_registers_pkg::ERROR_START_IGNORED_LSB] = start_ignored_i;
     error_event[dtof_registers_pkg::ERROR_ILLEGAL_SCHEDULE_LSB] = illegal_schedule_i;
     error_event[dtof_registers_pkg::ERROR_OVERRUN_LSB] = overrun_i;
-    error_event[dtof_registers_pkg::ERROR_MISFRAMED_LSB] = misframed_i;
+    error_event[dtof_registers_pkg::ERROR_MISFRAMED_LSB] = short_i || long_i;
+    error_event[dtof_registers_pkg::ERROR_TIMEOUT_LSB] = timeout_i;
+    error_event[dtof_registers_pkg::ERROR_STALLED_LSB] = stalled_i;
+    error_event[dtof_registers_pkg::ERROR_FLUSH_IGNORED_LSB] = flush_ignored_i;
+    warning_event = '0;
+    warning_event[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB] = counter_full_i;
+    warning_event[dtof_registers_pkg::WARNING_ABORTED_LSB] = aborted_i;
+    warning_event[dtof_registers_pkg::WARNING_SHORT_LSB] = short_i;
+    warning_event[dtof_registers_pkg::WARNING_LONG_LSB] = long_i;
     cause_event = '0;
     cause_event[dtof_registers_pkg::IRQ_STATUS_FRAME_LSB] = frame_i;
     cause_event[dtof_registers_pkg::IRQ_STATUS_ERROR_LSB] = |error_event;
@@ -145,17 +170,18 @@ module dtof_apb_registers #(
   assign error_cleared = (write && offset == dtof_registers_pkg::ERROR) ? written[ERRORS-1:0] : '0;
   assign cause_cleared = (write && offset == dtof_registers_pkg::IRQ_STATUS) ? written[CAUSES-1:0] : '0;
 
-  assign counter_full_cleared = write && (offset == dtof_registers_pkg::WARNING)
-      && written[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB];
+  assign warning_cleared = (write && offset == dtof_registers_pkg::WARNING) ? written[WARNINGS-1:0] : '0;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       start_q <= 1'b0;
       flush_q <= 1'b0;
+      abort_q <= 1'b0;
       continuous_q <= 1'b0;
       error_q <= '0;
       cause_q <= '0;
-      counter_full_q <= 1'b0;
+      warning_q <= '0;
+      watchdog_q <= {24{1'b1}};
       cause_enable_q <= '0;
       acquisitions_q <= '0;
       release_q <= 16'(MOST_RELEASE);
@@ -163,9 +189,10 @@ module dtof_apb_registers #(
     end else begin
       start_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_START_LSB];
       flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
+      abort_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_ABORT_LSB];
       error_q <= (error_q & ~error_cleared) | error_event;
       cause_q <= (cause_q & ~cause_cleared) | cause_event;
-      counter_full_q <= (counter_full_q && !counter_full_cleared) || counter_full_i;
+      warning_q <= (warning_q & ~warning_cleared) | warning_event;
       if (illegal_schedule_i) begin
         continuous_q <= 1'b0;
       end
@@ -177,6 +204,7 @@ module dtof_apb_registers #(
           end
           dtof_registers_pkg::IRQ_ENABLE:
           cause_enable_q <= (cause_enable_q & ~mask[CAUSES-1:0]) | written[CAUSES-1:0];
+          dtof_registers_pkg::WATCHDOG: watchdog_q <= (watchdog_q & ~mask[23:0]) | written[23:0];
           dtof_registers_pkg::ACQUISITIONS:
           acquisitions_q <= (acquisitions_q & ~mask[ACQ_WIDTH-1:0]) | written[ACQ_WIDTH-1:0];
           dtof_registers_pkg::RELEASE:
@@ -192,12 +220,17 @@ module dtof_apb_registers #(
 
   assign start_o = start_q;
   assign flush_o = flush_q;
+  assign abort_o = abort_q;
   assign continuous_o = continuous_q;
-  assign acquisitions_o = acquisitions_q;
-  assign release_o = release_q;
-  assign weak_below_o = 16'(weak_below_q);
-  assign enable_o = enable_q;
+  assign watchdog_o = watchdog_q;
   assign irq_o = |(cause_q & cause_enable_q);
+
+  // What was written, of what this configuration has.
+
+  logic second, raw, smooth, prior;
+  logic [11:0] raw_first, raw_last;
+  logic [ACQ_WIDTH-1:0] coarse_end, track_end;
+  logic [NP-1:0] gate_begin, gate_end;
 
   generate
     if (HAS_SCHEDULE != 0) begin : g_schedule
@@ -223,13 +256,13 @@ module dtof_apb_registers #(
           endcase
         end
       end
-      assign coarse_end_o = coarse_end_q;
-      assign track_end_o = track_end_q;
-      assign smooth_o = smooth_q;
+      assign coarse_end = coarse_end_q;
+      assign track_end = track_end_q;
+      assign smooth = smooth_q;
     end else begin : g_no_schedule
-      assign coarse_end_o = '0;
-      assign track_end_o = '0;
-      assign smooth_o = 1'b0;
+      assign coarse_end = '0;
+      assign track_end = '0;
+      assign smooth = 1'b0;
     end
 
     if (TIME_GATE != 0) begin : g_gate
@@ -245,11 +278,11 @@ module dtof_apb_registers #(
           gate_end_q <= (gate_end_q & ~mask[END_LSB+:NP]) | written[END_LSB+:NP];
         end
       end
-      assign gate_begin_o = gate_begin_q;
-      assign gate_end_o = gate_end_q;
+      assign gate_begin = gate_begin_q;
+      assign gate_end = gate_end_q;
     end else begin : g_no_gate
-      assign gate_begin_o = '0;
-      assign gate_end_o = '0;
+      assign gate_begin = '0;
+      assign gate_end = '0;
     end
 
     if (SECOND_TARGET != 0) begin : g_second_target
@@ -262,9 +295,9 @@ module dtof_apb_registers #(
           second_q <= written[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB];
         end
       end
-      assign second_o = second_q;
+      assign second = second_q;
     end else begin : g_one_target
-      assign second_o = 1'b0;
+      assign second = 1'b0;
     end
 
     if (PRIOR != 0) begin : g_prior
@@ -276,9 +309,9 @@ module dtof_apb_registers #(
           prior_q <= written[dtof_registers_pkg::OUTPUT_PRIOR_LSB];
         end
       end
-      assign prior_o = prior_q;
+      assign prior = prior_q;
     end else begin : g_no_prior
-      assign prior_o = 1'b0;
+      assign prior = 1'b0;
     end
 
     if (RAW_HISTOGRAM != 0) begin : g_raw_histogram
@@ -298,13 +331,13 @@ module dtof_apb_registers #(
           raw_last_q <= (raw_last_q & ~mask[LAST_LSB+:12]) | written[LAST_LSB+:12];
         end
       end
-      assign raw_o = raw_q;
-      assign raw_first_o = raw_first_q;
-      assign raw_last_o = raw_last_q;
+      assign raw = raw_q;
+      assign raw_first = raw_first_q;
+      assign raw_last = raw_last_q;
     end else begin : g_no_raw_histogram
-      assign raw_o = 1'b0;
-      assign raw_first_o = '0;
-      assign raw_last_o = '0;
+      assign raw = 1'b0;
+      assign raw_first = '0;
+      assign raw_last = '0;
     end
   endgenerate
 
@@ -330,14 +363,75 @@ module dtof_apb_registers #(
     end
   endgenerate
 
-  // Reading.
-
   localparam int ENABLE_INDEX_WIDTH = dtof_pkg::index_width(ENABLE_WORDS);
   logic [9:0] enable_index;
   logic [31:0] enable_word;
   assign enable_index = offset[11:2] - 10'(dtof_registers_pkg::COLUMN_ENABLE >> 2);
   assign enable_word = (32'(enable_index) < ENABLE_WORDS)
       ? enable_words[32*enable_index[ENABLE_INDEX_WIDTH-1:0]+:32] : '0;
+
+  // What was committed; no frame begins before a START, which commits.
+
+  always_ff @(posedge clk_i) begin
+    if (commit) begin
+      acquisitions_o <= acquisitions_q;
+      coarse_end_o <= coarse_end;
+      track_end_o <= track_end;
+      smooth_o <= smooth;
+      prior_o <= prior;
+      second_o <= second;
+      raw_o <= raw;
+      raw_first_o <= raw_first;
+      raw_last_o <= raw_last;
+      gate_begin_o <= gate_begin;
+      gate_end_o <= gate_end;
+      release_o <= release_q;
+      weak_below_o <= 16'(weak_below_q);
+      enable_o <= enable_q;
+    end
+  end
+
+  // What can be written.
+
+  localparam logic [31:0] ACQ_BITS = 32'hffffffff >> (32 - ACQ_WIDTH);
+  localparam logic [31:0] NP_BITS = 32'hffffffff >> (32 - NP);
+  localparam logic [31:0] ROWS_BITS = (32'hfff << dtof_registers_pkg::RAW_ROWS_FIRST_LSB)
+      | (32'hfff << dtof_registers_pkg::RAW_ROWS_LAST_LSB);
+  localparam logic [31:0] CONTROL_BITS = (32'd1 << dtof_registers_pkg::CONTROL_START_LSB)
+      | (32'd1 << dtof_registers_pkg::CONTROL_CONTINUOUS_LSB) | (32'd1 << dtof_registers_pkg::CONTROL_FLUSH_LSB)
+      | (32'd1 << dtof_registers_pkg::CONTROL_ABORT_LSB);
+  localparam logic [31:0] OUTPUT_BITS =
+      (((SECOND_TARGET != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB)
+      | (((RAW_HISTOGRAM != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_RAW_LSB)
+      | (((HAS_SCHEDULE != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_SMOOTH_LSB)
+      | (((PRIOR != 0) ? 32'd1 : 32'd0) << dtof_registers_pkg::OUTPUT_PRIOR_LSB);
+  localparam logic [31:0] LAST_COLUMNS = 32'hffffffff >> (32 * ENABLE_WORDS - SRAM_NUM);
+
+  always_comb begin
+    there = 32'hffffffff;
+    case (offset)
+      dtof_registers_pkg::CONTROL: there = CONTROL_BITS;
+      dtof_registers_pkg::IRQ_ENABLE: there = 32'hffffffff >> (32 - CAUSES);
+      dtof_registers_pkg::ACQUISITIONS: there = ACQ_BITS;
+      dtof_registers_pkg::COARSE_END, dtof_registers_pkg::TRACK_END: there = (HAS_SCHEDULE != 0) ? ACQ_BITS : '0;
+      dtof_registers_pkg::WATCHDOG: there = 32'h00ffffff;
+      dtof_registers_pkg::GATE:
+      there = (TIME_GATE == 0) ? '0
+          : (NP_BITS << dtof_registers_pkg::GATE_BEGIN_LSB) | (NP_BITS << dtof_registers_pkg::GATE_END_LSB);
+      dtof_registers_pkg::RELEASE: there = 32'h0000ffff;
+      dtof_registers_pkg::WEAK_BELOW: there = 32'hffffffff >> (32 - WEAK_WIDTH);
+      dtof_registers_pkg::OUTPUT: there = OUTPUT_BITS;
+      dtof_registers_pkg::RAW_ROWS: there = (RAW_HISTOGRAM != 0) ? ROWS_BITS : '0;
+      dtof_registers_pkg::COMMIT: there = 32'd1 << dtof_registers_pkg::COMMIT_SETTINGS_LSB;
+      default:
+      if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
+        there = (32'(enable_index) == ENABLE_WORDS - 1) ? LAST_COLUMNS
+            : (32'(enable_index) >= ENABLE_WORDS) ? '0 : 32'hffffffff;
+      end
+    endcase
+  end
+
+  // Reading.
 
   always_comb begin
     prdata_o = '0;
@@ -409,25 +503,29 @@ module dtof_apb_registers #(
       dtof_registers_pkg::IRQ_STATUS: prdata_o = 32'(cause_q);
       dtof_registers_pkg::FRAME_COUNT: prdata_o = frame_count_i;
       dtof_registers_pkg::FRAME_CYCLES: prdata_o = frame_cycles_i;
-      dtof_registers_pkg::WARNING: prdata_o[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB] = counter_full_q;
+      dtof_registers_pkg::WARNING: prdata_o = 32'(warning_q);
+      dtof_registers_pkg::WATCHDOG: prdata_o = 32'(watchdog_q);
+      dtof_registers_pkg::LOST_LINES: prdata_o = lost_lines_i;
+      dtof_registers_pkg::LOST_ACQUISITIONS: prdata_o = lost_acquisitions_i;
+      dtof_registers_pkg::COMMIT: prdata_o = '0;
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
-      dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end_o);
-      dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end_o);
+      dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end);
+      dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end);
       dtof_registers_pkg::GATE: begin
-        prdata_o[dtof_registers_pkg::GATE_BEGIN_LSB+:16] = 16'(gate_begin_o);
-        prdata_o[dtof_registers_pkg::GATE_END_LSB+:16] = 16'(gate_end_o);
+        prdata_o[dtof_registers_pkg::GATE_BEGIN_LSB+:16] = 16'(gate_begin);
+        prdata_o[dtof_registers_pkg::GATE_END_LSB+:16] = 16'(gate_end);
       end
       dtof_registers_pkg::RELEASE: prdata_o = 32'(release_q);
       dtof_registers_pkg::WEAK_BELOW: prdata_o = 32'(weak_below_q);
       dtof_registers_pkg::OUTPUT: begin
-        prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second_o;
-        prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw_o;
-        prdata_o[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth_o;
-        prdata_o[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior_o;
+        prdata_o[dtof_registers_pkg::OUTPUT_SECOND_TARGET_LSB] = second;
+        prdata_o[dtof_registers_pkg::OUTPUT_RAW_LSB] = raw;
+        prdata_o[dtof_registers_pkg::OUTPUT_SMOOTH_LSB] = smooth;
+        prdata_o[dtof_registers_pkg::OUTPUT_PRIOR_LSB] = prior;
       end
       dtof_registers_pkg::RAW_ROWS: begin
-        prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first_o;
-        prdata_o[dtof_registers_pkg::RAW_ROWS_LAST_LSB+:12] = raw_last_o;
+        prdata_o[dtof_registers_pkg::RAW_ROWS_FIRST_LSB+:12] = raw_first;
+        prdata_o[dtof_registers_pkg::RAW_ROWS_LAST_LSB+:12] = raw_last;
       end
       default:
       if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin

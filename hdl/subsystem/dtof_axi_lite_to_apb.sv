@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // AXI4-Lite to APB4, one transfer at a time; of a read and a write that wait both, the kind that was not last goes first.
 //
-// A write needs its address and its data, which may come in any order. pslverr_i becomes the response SLVERR. prot is not
-// looked at.
-// Latency: from the last of a request's parts to its response, three clocks and the APB's wait states.
-// Cost: address, data and response of a transfer, five state bits.
+// 1. A request's parts are held when they come, in any order: every ready comes from a flip-flop, and no path leads from one
+//    channel to another.
+// 2. A read, or a write with both of its parts, goes to the APB when the transfer before ends and its response will find room.
+// 3. Two responses of each kind may wait for their ready. pslverr_i becomes the response SLVERR. prot is not looked at.
+//
+// Latency: from the last of a request's parts to its response, four clocks and the APB's wait states. A read every two
+// clocks, as APB has them.
+// Cost: address and data of a request and of a transfer, two responses of each kind, ten state bits.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -48,71 +52,133 @@ module dtof_axi_lite_to_apb #(
   localparam logic [1:0] OKAY = 2'b00;
   localparam logic [1:0] SLVERR = 2'b10;
 
-  logic select_q, enable_q, write_q, bvalid_q, rvalid_q, error_q;
+  // Requests: each part is held until the APB takes it.
+
+  logic aw_held_q, w_held_q, ar_held_q, takes_write, takes_read;
+  logic [ADDR_WIDTH-1:0] aw_address_q, ar_address_q;
+  logic [31:0] w_data_q;
+  logic [3:0] w_strobe_q;
+
+  assign s_axi_awready_o = !aw_held_q;
+  assign s_axi_wready_o = !w_held_q;
+  assign s_axi_arready_o = !ar_held_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      aw_held_q <= 1'b0;
+      w_held_q <= 1'b0;
+      ar_held_q <= 1'b0;
+    end else begin
+      aw_held_q <= aw_held_q ? !takes_write : s_axi_awvalid_i;
+      w_held_q <= w_held_q ? !takes_write : s_axi_wvalid_i;
+      ar_held_q <= ar_held_q ? !takes_read : s_axi_arvalid_i;
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (!aw_held_q) begin
+      aw_address_q <= s_axi_awaddr_i;
+    end
+    if (!w_held_q) begin
+      w_data_q <= s_axi_wdata_i;
+      w_strobe_q <= s_axi_wstrb_i;
+    end
+    if (!ar_held_q) begin
+      ar_address_q <= s_axi_araddr_i;
+    end
+  end
+
+  // The APB.
+
+  logic select_q, enable_q, write_q;  // write_q: the kind of the last transfer
   logic [ADDR_WIDTH-1:0] address_q;
   logic [31:0] data_q;
   logic [3:0] strobe_q;
-  logic free, can_write, can_read, takes_write, takes_read, ends;
+  logic [1:0] writes_q, reads_q;  // responses that wait
+  logic free, can_write, can_read, ends;
 
-  assign free = !select_q && !bvalid_q && !rvalid_q;
-  assign can_write = s_axi_awvalid_i && s_axi_wvalid_i;
-  assign can_read = s_axi_arvalid_i;
-  // write_q is the kind of the last transfer.
+  assign ends = select_q && enable_q && pready_i;
+  assign free = !select_q || ends;
+  assign can_write = aw_held_q && w_held_q && (writes_q == 2'd0 || (writes_q == 2'd1 && !(select_q && write_q)));
+  assign can_read = ar_held_q && (reads_q == 2'd0 || (reads_q == 2'd1 && !(select_q && !write_q)));
   assign takes_write = free && can_write && (!write_q || !can_read);
   assign takes_read = free && can_read && (write_q || !can_write);
-  assign ends = select_q && enable_q && pready_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       select_q <= 1'b0;
       enable_q <= 1'b0;
       write_q <= 1'b0;
-      bvalid_q <= 1'b0;
-      rvalid_q <= 1'b0;
-    end else begin
+    end else if (free) begin
+      select_q <= takes_write || takes_read;
+      enable_q <= 1'b0;
       if (takes_write || takes_read) begin
-        select_q <= 1'b1;
-        enable_q <= 1'b0;
         write_q <= takes_write;
-      end else if (ends) begin
-        select_q <= 1'b0;
-        enable_q <= 1'b0;
-      end else if (select_q) begin
-        enable_q <= 1'b1;
       end
-      bvalid_q <= (ends && write_q) || (bvalid_q && !s_axi_bready_i);
-      rvalid_q <= (ends && !write_q) || (rvalid_q && !s_axi_rready_i);
+    end else begin
+      enable_q <= 1'b1;
     end
   end
 
   always_ff @(posedge clk_i) begin
     if (takes_write) begin
-      address_q <= s_axi_awaddr_i;
-      data_q <= s_axi_wdata_i;
-      strobe_q <= s_axi_wstrb_i;
+      address_q <= aw_address_q;
+      data_q <= w_data_q;
+      strobe_q <= w_strobe_q;
     end else if (takes_read) begin
-      address_q <= s_axi_araddr_i;
+      address_q <= ar_address_q;
       strobe_q <= '0;
-    end else if (ends) begin
-      data_q <= prdata_i;
-      error_q <= pslverr_i;
     end
   end
 
-  assign s_axi_awready_o = takes_write;
-  assign s_axi_wready_o = takes_write;
-  assign s_axi_arready_o = takes_read;
-  assign s_axi_bvalid_o = bvalid_q;
-  assign s_axi_bresp_o = error_q ? SLVERR : OKAY;
-  assign s_axi_rvalid_o = rvalid_q;
-  assign s_axi_rdata_o = data_q;
-  assign s_axi_rresp_o = error_q ? SLVERR : OKAY;
   assign psel_o = select_q;
   assign penable_o = enable_q;
   assign pwrite_o = write_q;
   assign paddr_o = address_q;
   assign pwdata_o = data_q;
   assign pstrb_o = strobe_q;
+
+  // Responses: the one at the port, and one behind it.
+
+  logic [32:0] read_q, read_behind_q;  // {error, data}
+  logic write_error_q, write_error_behind_q;
+  logic write_ends, read_ends, write_leaves, read_leaves;
+
+  assign write_ends = ends && write_q;
+  assign read_ends = ends && !write_q;
+  assign write_leaves = s_axi_bvalid_o && s_axi_bready_i;
+  assign read_leaves = s_axi_rvalid_o && s_axi_rready_i;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      writes_q <= '0;
+      reads_q <= '0;
+    end else begin
+      writes_q <= writes_q + 2'(write_ends) - 2'(write_leaves);
+      reads_q <= reads_q + 2'(read_ends) - 2'(read_leaves);
+    end
+  end
+
+  always_ff @(posedge clk_i) begin
+    if (writes_q == 2'd0 || write_leaves) begin
+      write_error_q <= (writes_q == 2'd2) ? write_error_behind_q : pslverr_i;
+    end
+    if (writes_q != 2'd2) begin
+      write_error_behind_q <= pslverr_i;
+    end
+    if (reads_q == 2'd0 || read_leaves) begin
+      read_q <= (reads_q == 2'd2) ? read_behind_q : {pslverr_i, prdata_i};
+    end
+    if (reads_q != 2'd2) begin
+      read_behind_q <= {pslverr_i, prdata_i};
+    end
+  end
+
+  assign s_axi_bvalid_o = (writes_q != 2'd0);
+  assign s_axi_bresp_o = write_error_q ? SLVERR : OKAY;
+  assign s_axi_rvalid_o = (reads_q != 2'd0);
+  assign s_axi_rdata_o = read_q[31:0];
+  assign s_axi_rresp_o = read_q[32] ? SLVERR : OKAY;
 
 endmodule
 

@@ -5,6 +5,7 @@
 // 2. With continuous_i the next frame begins in the clock behind the array's done_i.
 // 3. What is illegal begins no frame and ends the continuous frames; start_i while busy_o does nothing. Either is told
 //    with a pulse.
+// 4. abort_i ends the frame that is under way, at once. The next one begins with a start_i when the array is ready again.
 //
 // Legal is a schedule in order (HAS_SCHEDULE = 1), coarse_end <= track_end <= acquisitions;
 // 1 <= release <= MOST_RELEASE; and with raw_i (RAW_HISTOGRAM = 1) raw_first <= raw_last < PIXELS_PER_SRAM.
@@ -24,6 +25,8 @@ module dtof_frame_control #(
     input  logic                 clk_i,
     input  logic                 rst_ni,
     input  logic                 start_i,
+    input  logic                 abort_i,
+    input  logic                 resetting_i,         // the array is not ready yet behind abort_i
     input  logic                 continuous_i,
     input  logic [ACQ_WIDTH-1:0] acquisitions_i,
     input  logic [ACQ_WIDTH-1:0] coarse_end_i,
@@ -35,9 +38,11 @@ module dtof_frame_control #(
     output logic                 begin_o,             // the array's start: its settings are sampled
     input  logic                 done_i,              // the array's last clock
     input  logic                 frame_i,             // the frame's last result was taken
-    output logic                 busy_o,              // a frame is under way or about to begin by itself
-    output logic                 start_ignored_o,     // these two for one clock
+    output logic                 running_o,           // a frame is under way or about to begin by itself
+    output logic                 busy_o,              // the same, or the array is not ready yet behind abort_i
+    output logic                 start_ignored_o,     // these three for one clock
     output logic                 illegal_schedule_o,
+    output logic                 aborted_o,           // a frame was under way when abort_i came
     output logic [         31:0] frame_count_o,
     output logic [         31:0] frame_cycles_o       // from begin_o to done_i, both included
 );
@@ -64,13 +69,16 @@ module dtof_frame_control #(
 
   assign legal = legal_schedule && legal_raw && (release_i != '0) && (32'(release_i) <= MOST_RELEASE);
 
-  logic running_q, again_q;
+  logic running_q, again_q, begins;
   logic [31:0] cycles_q, frame_cycles_q, frame_count_q;
 
-  assign busy_o = running_q || again_q;
-  assign begin_o = ((start_i && !running_q) || again_q) && legal;
-  assign illegal_schedule_o = ((start_i && !running_q) || again_q) && !legal;
-  assign start_ignored_o = start_i && busy_o;
+  assign running_o = running_q || again_q;
+  assign busy_o = running_o || resetting_i;
+  assign begins = !abort_i && ((start_i && !busy_o) || again_q);
+  assign begin_o = begins && legal;
+  assign illegal_schedule_o = begins && !legal;
+  assign start_ignored_o = start_i && (busy_o || abort_i);
+  assign aborted_o = abort_i && running_q && !done_i;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -80,8 +88,8 @@ module dtof_frame_control #(
       frame_cycles_q <= '0;
       frame_count_q <= '0;
     end else begin
-      running_q <= begin_o || (running_q && !done_i);
-      again_q <= running_q && done_i && continuous_i;
+      running_q <= begin_o || (running_q && !done_i && !abort_i);
+      again_q <= running_q && done_i && continuous_i && !abort_i;
       if (begin_o) begin
         cycles_q <= 32'd2;
       end else if (running_q && (cycles_q != {32{1'b1}})) begin

@@ -2,13 +2,20 @@
 // Lines of timestamps on their way to an array, which takes an acquisition without a pause once it has begun.
 //
 // 1. A line, one timestamp of every column, comes whenever the source has one; the source may pause anywhere.
-// 2. An acquisition of ACQUISITION_LINES lines is offered to the array when release_i lines are in the buffer. With
+// 2. s_tlast_i ends an acquisition. One that ends early is short: its missing lines are "no detection". One that does not
+//    end with its ACQUISITION_LINES-th line is long: the lines behind are thrown away, up to and with the next s_tlast_i.
+//    Either way the next acquisition begins behind s_tlast_i.
+// 3. An acquisition is offered to the array when its last line is in the buffer, or release_i lines are. With
 //    release_i = ACQUISITION_LINES it is whole then, and cannot be interrupted.
-// 3. With less, the buffer may run empty inside an acquisition (underrun_o). Its other lines then are "no detection",
-//    and those that the source still delivers for it are thrown away, so that the next acquisition begins where it should.
+// 4. With less, the buffer may run empty inside an acquisition (underrun_o). Its other lines then are "no detection",
+//    and those that the source still delivers for it are thrown away.
+// 5. Behind expire_i every line is "no detection", without a pause, until done_i. Lines that come meanwhile are kept for
+//    the next frame.
+// 6. flush_i, abort_i and expire_i empty the buffer. Behind abort_i and expire_i the rest of the acquisition that the source
+//    is in is thrown away, up to and with its s_tlast_i; behind flush_i the next line begins an acquisition.
 //
 // Latency: two clocks from a line's acceptance to its offer. A line a clock goes in and out at the same time.
-// Cost: an SRAM of LINES x WIDTH bits, two addresses, four counters.
+// Cost: an SRAM of LINES x (WIDTH + 1) bits, two addresses, four counters.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -25,16 +32,25 @@ module dtof_line_buffer #(
     // side band of the SRAM macros, which the technology folder gives a meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
-    input  logic                   flush_i,      // empties the buffer; not while an acquisition is under way
+    input  logic                   flush_i,      // without abort_i: not while an acquisition is under way
+    input  logic                   abort_i,      // the array's frame ends here
+    input  logic                   expire_i,     // without effect where starved_o is low
+    input  logic                   done_i,       // the array's frame ends by itself
     input  logic [LEVEL_WIDTH-1:0] release_i,    // 1 to the smaller of ACQUISITION_LINES and LINES
     output logic [LEVEL_WIDTH-1:0] level_o,      // lines in the buffer
+    output logic                   starved_o,    // the array waits for an acquisition
+    // these for one clock
+    output logic                   kept_o,       // a line was accepted and is no rest of a long acquisition
     output logic                   underrun_o,   // the array needs a line that is not here: once an acquisition
-    output logic                   misframed_o,  // s_tlast_i is not where an acquisition ends; one clock
+    output logic                   short_o,      // s_tlast_i came before an acquisition's last line
+    output logic                   long_o,       // s_tlast_i did not come with it
+    output logic [LEVEL_WIDTH-1:0] lost_lines_o, // so many lines of the source are thrown away by themselves
+    output logic                   lost_acquisition_o,  // the array has taken an acquisition with lines that are missing
     // from the source, AXI4-Stream
     input  logic                   s_tvalid_i,
-    output logic                   s_tready_o,
+    output logic                   s_tready_o,   // low in reset
     input  logic [      WIDTH-1:0] s_tdata_i,
-    input  logic                   s_tlast_i,    // the last line of an acquisition; only checked
+    input  logic                   s_tlast_i,    // the last line of an acquisition
     // to the array
     output logic                   line_valid_o,  // high for a whole acquisition
     input  logic                   line_ready_i,
@@ -42,51 +58,70 @@ module dtof_line_buffer #(
 );
 
   localparam int ADDR_WIDTH = dtof_pkg::index_width(LINES);
-  localparam int INDEX_WIDTH = dtof_pkg::index_width(ACQUISITION_LINES + 1);
+  localparam int INDEX_WIDTH = dtof_pkg::index_width(ACQUISITION_LINES);
   localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(LINES - 1);
   localparam logic [INDEX_WIDTH-1:0] LAST_LINE = INDEX_WIDTH'(ACQUISITION_LINES - 1);
-  localparam logic [INDEX_WIDTH-1:0] ALL_LINES = INDEX_WIDTH'(ACQUISITION_LINES);
 
   `DTOF_REQUIRE(g_illegal_acquisition, ACQUISITION_LINES >= 1, "dtof_line_buffer: ACQUISITION_LINES must be at least 1")
   `DTOF_REQUIRE(g_illegal_lines, LINES >= 2, "dtof_line_buffer: LINES must be at least 2")
 
-  // The source's side.
+  // The source's side. A line is stored with whether its acquisition ends with it.
 
   logic [ADDR_WIDTH-1:0] write_address_q, read_address_q;
-  logic [LEVEL_WIDTH-1:0] stored_q;  // in the memory
+  logic [LEVEL_WIDTH-1:0] stored_q;    // in the memory
+  logic [LEVEL_WIDTH-1:0] complete_q;  // acquisitions whose end is in the buffer
   logic [INDEX_WIDTH-1:0] source_line_q;
-  logic write, read, take, head_q;
+  logic live_q;    // not in reset
+  logic behind_q;  // what comes up to s_tlast_i belongs to an acquisition that is over
+  logic accepted, write, ends, read, take, head_q, head_ends, empties, expires;
 
-  assign s_tready_o = (stored_q != LEVEL_WIDTH'(LINES)) && !flush_i;
-  assign write = s_tvalid_i && s_tready_o;
-  assign misframed_o = write && (s_tlast_i != (source_line_q == LAST_LINE));
+  assign empties = flush_i || abort_i || expires;
+  assign s_tready_o = live_q && (behind_q || stored_q != LEVEL_WIDTH'(LINES)) && !flush_i && !abort_i && !expire_i;
+  assign accepted = s_tvalid_i && s_tready_o;
+  assign write = accepted && !behind_q;
+  assign ends = s_tlast_i || (source_line_q == LAST_LINE);
+  assign short_o = write && s_tlast_i && (source_line_q != LAST_LINE);
+  assign long_o = write && !s_tlast_i && (source_line_q == LAST_LINE);
+  assign kept_o = write;
 
   // The line at the memory's output (head_q) stays there until the next is read.
   assign read = (stored_q != '0) && (!head_q || take);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
+      live_q <= 1'b0;
+      behind_q <= 1'b0;
       write_address_q <= '0;
       read_address_q <= '0;
       stored_q <= '0;
-      source_line_q <= '0;
-      head_q <= 1'b0;
-    end else if (flush_i) begin
-      write_address_q <= '0;
-      read_address_q <= '0;
-      stored_q <= '0;
+      complete_q <= '0;
       source_line_q <= '0;
       head_q <= 1'b0;
     end else begin
-      if (write) begin
-        write_address_q <= (write_address_q == LAST_ADDRESS) ? '0 : write_address_q + 1'b1;
-        source_line_q <= (source_line_q == LAST_LINE) ? '0 : source_line_q + 1'b1;
+      live_q <= 1'b1;
+      if (empties) begin
+        behind_q <= !flush_i && (behind_q || source_line_q != '0);
+        write_address_q <= '0;
+        read_address_q <= '0;
+        stored_q <= '0;
+        complete_q <= '0;
+        source_line_q <= '0;
+        head_q <= 1'b0;
+      end else begin
+        if (accepted) begin
+          behind_q <= !s_tlast_i && (behind_q || long_o);
+        end
+        if (write) begin
+          write_address_q <= (write_address_q == LAST_ADDRESS) ? '0 : write_address_q + 1'b1;
+          source_line_q <= ends ? '0 : source_line_q + 1'b1;
+        end
+        if (read) begin
+          read_address_q <= (read_address_q == LAST_ADDRESS) ? '0 : read_address_q + 1'b1;
+        end
+        stored_q <= stored_q + LEVEL_WIDTH'(write) - LEVEL_WIDTH'(read);
+        complete_q <= complete_q + LEVEL_WIDTH'(write && ends) - LEVEL_WIDTH'(take && head_ends);
+        head_q <= read || (head_q && !take);
       end
-      if (read) begin
-        read_address_q <= (read_address_q == LAST_ADDRESS) ? '0 : read_address_q + 1'b1;
-      end
-      stored_q <= stored_q + LEVEL_WIDTH'(write) - LEVEL_WIDTH'(read);
-      head_q <= read || (head_q && !take);
     end
   end
 
@@ -95,7 +130,7 @@ module dtof_line_buffer #(
   dtof_sram #(
       .PORTS(2),
       .DEPTH(LINES),
-      .WIDTH(WIDTH)
+      .WIDTH(WIDTH + 1)
   ) u_lines (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -103,53 +138,70 @@ module dtof_line_buffer #(
       .cfg_o       (sram_cfg_o),
       .read_en_i   (read),
       .read_addr_i (read_address_q),
-      .read_data_o (head),
+      .read_data_o ({head_ends, head}),
       .write_en_i  (write),
       .write_addr_i(write_address_q),
-      .write_data_i(s_tdata_i)
+      .write_data_i({ends, s_tdata_i})
   );
 
   // The array's side.
 
-  logic inside_q, lost_q;
-  logic [INDEX_WIDTH-1:0] line_q;     // of the acquisition
-  logic [INDEX_WIDTH-1:0] discard_q;  // lines of a lost acquisition that are still to come
+  logic inside_q, starved_q;
+  logic fill_q;     // the rest of the acquisition is "no detection"
+  logic discard_q;  // the lines at the head up to their acquisition's end are too late
+  logic drain_q;    // the rest of the frame is "no detection"
+  logic [INDEX_WIDTH-1:0] line_q;  // of the acquisition
   logic begin_allowed, step, last_line, missing;
 
   assign level_o = stored_q + LEVEL_WIDTH'(head_q);
-  assign begin_allowed = head_q && (discard_q == '0) && (level_o >= release_i);
+  assign begin_allowed = drain_q || (head_q && !discard_q && (complete_q != '0 || level_o >= release_i));
   assign line_valid_o = inside_q || begin_allowed;
   assign step = line_valid_o && line_ready_i;
   assign last_line = (line_q == LAST_LINE);
-  assign missing = lost_q || (inside_q && !head_q);
-  assign underrun_o = step && inside_q && !head_q && !lost_q;
+  assign missing = drain_q || fill_q || (inside_q && !head_q);
+  assign underrun_o = step && inside_q && !head_q && !fill_q && !drain_q;
   assign line_o = missing ? '1 : head;
-  assign take = head_q && ((step && !missing) || (discard_q != '0));
+  assign take = head_q && ((step && !missing) || discard_q);
+  assign starved_o = (starved_q || line_ready_i) && !line_valid_o;
+  assign expires = expire_i && starved_o;
+  assign lost_lines_o = expires ? level_o : LEVEL_WIDTH'(accepted && behind_q) + LEVEL_WIDTH'(take && discard_q);
+  assign lost_acquisition_o = step && last_line && missing;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       inside_q <= 1'b0;
-      lost_q <= 1'b0;
+      starved_q <= 1'b0;
+      fill_q <= 1'b0;
+      discard_q <= 1'b0;
+      drain_q <= 1'b0;
       line_q <= '0;
-      discard_q <= '0;
+    end else if (abort_i) begin
+      inside_q <= 1'b0;
+      starved_q <= 1'b0;
+      fill_q <= 1'b0;
+      discard_q <= 1'b0;
+      drain_q <= 1'b0;
+      line_q <= '0;
     end else begin
+      starved_q <= starved_o;
       if (step) begin
         inside_q <= !last_line;
         line_q <= last_line ? '0 : line_q + 1'b1;
-        lost_q <= missing && !last_line;
+        fill_q <= (missing || head_ends) && !last_line;
       end
-      if (flush_i) begin
-        discard_q <= '0;
+      if (empties) begin
+        discard_q <= 1'b0;
       end else if (underrun_o) begin
-        discard_q <= ALL_LINES - line_q;
-      end else if (head_q && (discard_q != '0)) begin
-        discard_q <= discard_q - 1'b1;
+        discard_q <= 1'b1;
+      end else if (take && head_ends) begin
+        discard_q <= 1'b0;
       end
+      drain_q <= expires || (drain_q && !done_i);
     end
   end
 
   `DTOF_ASSERT(a_release, release_i != '0, "release_i is 0")
-  `DTOF_ASSERT(a_flush_between, !flush_i || !inside_q, "the buffer is flushed inside an acquisition")
+  `DTOF_ASSERT(a_flush_between, !flush_i || abort_i || !inside_q, "the buffer is flushed inside an acquisition")
 
 endmodule
 

@@ -4,6 +4,8 @@
 //
 // 1. Results are written as they come, each at its pixel's address. The last of a frame ends that.
 // 2. The memory is read from the first address to the last, and the results leave. The next frame's wait meanwhile.
+// 3. cut_i ends a frame that comes in: nothing of it leaves. A frame that leaves ends, too: the result at the port stays
+//    until it is taken, and unless it was the last, one with m_aborted_o and m_tlast_o follows; its other fields mean nothing.
 //
 // Latency: the frame. A result a clock goes in, then a result a clock goes out.
 // Cost: a single-port SRAM of SRAM_NUM * PIXELS_PER_SRAM * TARGETS results of WIDTH bits, an address, a row and a column.
@@ -25,6 +27,7 @@ module dtof_raster_buffer #(
     // side band of the SRAM macros, which the technology folder gives a meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
+    input  logic                    cut_i,       // what comes next is another frame's
     // each pixel of a frame once, or each once and once more with s_second_i
     input  logic                    s_tvalid_i,
     output logic                    s_tready_o,
@@ -40,6 +43,7 @@ module dtof_raster_buffer #(
     output logic [COLUMN_WIDTH-1:0] m_column_o,
     output logic [   ROW_WIDTH-1:0] m_row_o,
     output logic                    m_second_o,
+    output logic                    m_aborted_o,
     output logic                    m_tlast_o
 );
 
@@ -53,9 +57,9 @@ module dtof_raster_buffer #(
   logic reading_q, unread_q, write_q, ends_q, head_q, both_q, both;
   logic [WIDTH-1:0] written_q;
   logic [ADDR_WIDTH-1:0] write_address_q, read_address_q;
-  logic accepted, read, taken, last_address, last_target;
+  logic accepted, read, taken, last_address, last_target, last_place;
 
-  assign s_tready_o = !reading_q && !ends_q;
+  assign s_tready_o = !reading_q && !ends_q && !cut_i;
   assign accepted = s_tvalid_i && s_tready_o;
 
   always_ff @(posedge clk_i) begin
@@ -68,8 +72,15 @@ module dtof_raster_buffer #(
 
   // Out: the result at the memory's output (head_q) stays there until the next is read.
 
-  assign read = reading_q && unread_q && (!head_q || m_tready_i);
+  logic aborted_q;  // behind the result at the output, if there is one, the frame ends as aborted
+  logic ended, shown, stays_open;
+
+  assign read = reading_q && unread_q && !cut_i && (!head_q || m_tready_i);
   assign taken = head_q && m_tready_i;
+  assign ended = m_tready_i && (head_q ? last_place : aborted_q);  // the port's word was the last, and was taken
+  // A result has been at the port, and the one that was there last does not end the frame.
+  assign shown = head_q || (m_column_o != '0) || (m_row_o != '0) || m_second_o;
+  assign stays_open = shown && !(head_q && last_place) && !(aborted_q && !head_q && m_tready_i);
   assign both = (TARGETS > 1) && both_q;
   assign last_address = (read_address_q == ADDR_WIDTH'(both ? RESULTS - 1 : RESULTS - TARGETS));
   assign last_target = m_second_o || !both;
@@ -81,6 +92,7 @@ module dtof_raster_buffer #(
       reading_q <= 1'b0;
       unread_q <= 1'b0;
       head_q <= 1'b0;
+      aborted_q <= 1'b0;
       read_address_q <= '0;
       m_column_o <= '0;
       m_row_o <= '0;
@@ -88,11 +100,17 @@ module dtof_raster_buffer #(
     end else begin
       write_q <= accepted;
       ends_q <= accepted && s_tlast_i;
-      if (ends_q) begin
+      if (cut_i) begin
+        reading_q <= (head_q && !m_tready_i) || stays_open;
+        unread_q <= 1'b0;
+        read_address_q <= '0;
+        aborted_q <= stays_open;
+      end else if (ends_q) begin
         reading_q <= 1'b1;
         unread_q <= 1'b1;
-      end else if (taken && m_tlast_o) begin
+      end else if (ended) begin
         reading_q <= 1'b0;
+        aborted_q <= 1'b0;
       end
       if (read) begin
         unread_q <= !last_address;
@@ -107,6 +125,11 @@ module dtof_raster_buffer #(
         if (m_column_o == LAST_COLUMN) begin
           m_row_o <= (m_row_o == LAST_ROW) ? '0 : m_row_o + 1'b1;
         end
+      end
+      if (ended) begin
+        m_column_o <= '0;
+        m_row_o <= '0;
+        m_second_o <= 1'b0;
       end
     end
   end
@@ -128,8 +151,10 @@ module dtof_raster_buffer #(
       .write_data_i(written_q)
   );
 
-  assign m_tvalid_o = head_q;
-  assign m_tlast_o = (m_column_o == LAST_COLUMN) && (m_row_o == LAST_ROW) && last_target;
+  assign last_place = (m_column_o == LAST_COLUMN) && (m_row_o == LAST_ROW) && last_target;
+  assign m_tvalid_o = head_q || aborted_q;
+  assign m_aborted_o = !head_q;
+  assign m_tlast_o = !head_q || last_place;
 
 endmodule
 

@@ -8,7 +8,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00020001;
+  localparam logic [31:0] VERSION_VALUE = 32'h00030001;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -121,7 +121,7 @@ package dtof_registers_pkg;
   localparam int SHARES_TRACK_LSB = 8;
   localparam int SHARES_TRACK_WIDTH = 8;
 
-  // begins frames
+  // begins and ends frames
   localparam logic [11:0] CONTROL = 12'h040;
   localparam int CONTROL_START_LSB = 0;
   localparam int CONTROL_START_WIDTH = 1;
@@ -129,6 +129,8 @@ package dtof_registers_pkg;
   localparam int CONTROL_CONTINUOUS_WIDTH = 1;
   localparam int CONTROL_FLUSH_LSB = 2;
   localparam int CONTROL_FLUSH_WIDTH = 1;
+  localparam int CONTROL_ABORT_LSB = 3;
+  localparam int CONTROL_ABORT_WIDTH = 1;
 
   // what goes on
   localparam logic [11:0] STATUS = 12'h044;
@@ -151,8 +153,14 @@ package dtof_registers_pkg;
   localparam int ERROR_OVERRUN_WIDTH = 1;
   localparam int ERROR_MISFRAMED_LSB = 4;
   localparam int ERROR_MISFRAMED_WIDTH = 1;
+  localparam int ERROR_TIMEOUT_LSB = 5;
+  localparam int ERROR_TIMEOUT_WIDTH = 1;
+  localparam int ERROR_STALLED_LSB = 6;
+  localparam int ERROR_STALLED_WIDTH = 1;
+  localparam int ERROR_FLUSH_IGNORED_LSB = 7;
+  localparam int ERROR_FLUSH_IGNORED_WIDTH = 1;
 
-  // what raises `irq_o`
+  // what raises `irq_o`; at once
   localparam logic [11:0] IRQ_ENABLE = 12'h04c;
   localparam int IRQ_ENABLE_FRAME_LSB = 0;
   localparam int IRQ_ENABLE_FRAME_WIDTH = 1;
@@ -180,6 +188,12 @@ package dtof_registers_pkg;
   localparam logic [11:0] WARNING = 12'h05c;
   localparam int WARNING_COUNTER_FULL_LSB = 0;
   localparam int WARNING_COUNTER_FULL_WIDTH = 1;
+  localparam int WARNING_ABORTED_LSB = 1;
+  localparam int WARNING_ABORTED_WIDTH = 1;
+  localparam int WARNING_SHORT_LSB = 2;
+  localparam int WARNING_SHORT_WIDTH = 1;
+  localparam int WARNING_LONG_LSB = 3;
+  localparam int WARNING_LONG_WIDTH = 1;
 
   // of a frame; 0 is legal
   localparam logic [11:0] ACQUISITIONS = 12'h060;
@@ -195,6 +209,11 @@ package dtof_registers_pkg;
   localparam logic [11:0] TRACK_END = 12'h068;
   localparam int TRACK_END_VALUE_LSB = 0;
   localparam int TRACK_END_VALUE_WIDTH = 24;
+
+  // how long a frame waits for lines, and the sink may refuse a result, before ERROR tells; at once
+  localparam logic [11:0] WATCHDOG = 12'h06c;
+  localparam int WATCHDOG_CLOCKS_LSB = 0;
+  localparam int WATCHDOG_CLOCKS_WIDTH = 24;
 
   // with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all of them
   localparam logic [11:0] GATE = 12'h070;
@@ -237,6 +256,21 @@ package dtof_registers_pkg;
   localparam int RAW_ROWS_LAST_LSB = 16;
   localparam int RAW_ROWS_LAST_WIDTH = 12;
 
+  // lines that came and were thrown away since reset: too late behind an underrun or a timeout, or behind a long acquisition; those of FLUSH and ABORT do not count
+  localparam logic [11:0] LOST_LINES = 12'h104;
+  localparam int LOST_LINES_VALUE_LSB = 0;
+  localparam int LOST_LINES_VALUE_WIDTH = 32;
+
+  // acquisitions of frames since reset in which a line counted as no detection because it was missing
+  localparam logic [11:0] LOST_ACQUISITIONS = 12'h108;
+  localparam int LOST_ACQUISITIONS_VALUE_LSB = 0;
+  localparam int LOST_ACQUISITIONS_VALUE_WIDTH = 32;
+
+  // makes all settings that were written valid together, for every frame that begins from now on
+  localparam logic [11:0] COMMIT = 12'h10c;
+  localparam int COMMIT_SETTINGS_LSB = 0;
+  localparam int COMMIT_SETTINGS_WIDTH = 1;
+
   // A result.
   localparam int RESULT_WIDTH = 64;
   localparam int RESULT_POSITION_LSB = 0;
@@ -261,18 +295,19 @@ package dtof_registers_pkg;
   localparam int RESULT_SECOND_WIDTH = 1;
   localparam int RESULT_RAW_LSB = 62;
   localparam int RESULT_RAW_WIDTH = 1;
+  localparam int RESULT_ABORTED_LSB = 63;
+  localparam int RESULT_ABORTED_WIDTH = 1;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h068)
-        || (offset >= 12'h070 && offset <= 12'h100);
+        || (offset >= 12'h040 && offset <= 12'h10c);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
-        || (offset >= 12'h05c && offset <= 12'h068)
-        || (offset >= 12'h070 && offset <= 12'h100);
+        || (offset >= 12'h05c && offset <= 12'h100)
+        || offset == 12'h10c;
   endfunction
 
 endpackage

@@ -8,6 +8,8 @@
 // enabled; `valid` that none of the three holds. `saturated` says that a counter of COUNTER_WIDTH bits (of a raw frame:
 // RAW_COUNTER_WIDTH) reads its largest value. Counts of a raw frame are neither weak nor empty.
 // tuser: a frame's first word. tlast: its last.
+// cut_i ends the frame here: the word at the port stays until it is taken, what waits behind is thrown away, and where
+// a frame's first words have been at the port, but not its last, a word with `aborted` alone, and tlast, ends it.
 // Latency: one clock. A word a clock while tready stays high. tvalid never falls before tready.
 // Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
 `include "dtof_macros.svh"
@@ -32,6 +34,7 @@ module dtof_stream_output #(
     input  logic [           15:0] weak_below_i,   // these three do not change during a frame
     input  logic [   SRAM_NUM-1:0] enable_i,
     input  logic                   raw_i,          // the frame's results are counts
+    input  logic                   cut_i,          // what comes next is another frame's
     // from the array
     input  logic                   result_tvalid_i,
     output logic                   result_tready_o,
@@ -95,44 +98,64 @@ module dtof_stream_output #(
   // The word at the port, and one behind it for the clock in which the array learns that the sink waits.
 
   logic valid_q, last_q, first_q, behind_q, behind_last_q, behind_first_q, begins_q;
-  logic [WORD_WIDTH-1:0] word_q, behind_word_q;
-  logic accepted, moves;
+  logic open_q;  // the frame whose word was the last at the port has not ended with it
+  logic [WORD_WIDTH-1:0] word_q, behind_word_q, enters_word;
+  logic accepted, aborts, enters, enters_last, enters_first, waits, moves;
 
-  assign accepted = result_tvalid_i && !behind_q;
+  assign accepted = result_tvalid_i && result_tready_o;
+  assign aborts = cut_i && open_q;
+  assign enters = accepted || aborts;
+  assign enters_last = aborts || result_tlast_i;
+  assign enters_first = !aborts && begins_q;
+  assign waits = behind_q && !cut_i;
   assign moves = !valid_q || m_axis_tready_i;
+
+  always_comb begin
+    enters_word = word;
+    if (aborts) begin
+      enters_word = '0;
+      enters_word[dtof_registers_pkg::RESULT_ABORTED_LSB] = 1'b1;
+    end
+  end
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       valid_q <= 1'b0;
       behind_q <= 1'b0;
       begins_q <= 1'b1;
+      open_q <= 1'b0;
     end else begin
-      if (accepted) begin
+      if (cut_i) begin
+        begins_q <= 1'b1;
+      end else if (accepted) begin
         begins_q <= result_tlast_i;
       end
       if (moves) begin
-        valid_q <= behind_q || accepted;
+        valid_q <= waits || enters;
         behind_q <= 1'b0;
-      end else if (accepted) begin
-        behind_q <= 1'b1;
+        if (waits || enters) begin
+          open_q <= waits ? !behind_last_q : !enters_last;
+        end
+      end else begin
+        behind_q <= waits || enters;
       end
     end
   end
 
   always_ff @(posedge clk_i) begin
-    if (accepted) begin
-      behind_word_q <= word;
-      behind_last_q <= result_tlast_i;
-      behind_first_q <= begins_q;
+    if (enters) begin
+      behind_word_q <= enters_word;
+      behind_last_q <= enters_last;
+      behind_first_q <= enters_first;
     end
     if (moves) begin
-      word_q <= behind_q ? behind_word_q : word;
-      last_q <= behind_q ? behind_last_q : result_tlast_i;
-      first_q <= behind_q ? behind_first_q : begins_q;
+      word_q <= waits ? behind_word_q : enters_word;
+      last_q <= waits ? behind_last_q : enters_last;
+      first_q <= waits ? behind_first_q : enters_first;
     end
   end
 
-  assign result_tready_o = !behind_q;
+  assign result_tready_o = !behind_q && !cut_i;
   assign m_axis_tvalid_o = valid_q;
   assign m_axis_tdata_o = word_q;
   assign m_axis_tuser_o = first_q;

@@ -2,7 +2,7 @@
 // An array of any read-out with everything around it: registers behind APB4, lines of timestamps in and results out as
 // AXI4-Streams of whole bytes, an interrupt (docs/user/integration.md). AXI4-Lite: dtof_axi_lite_to_apb in front.
 //
-// 1. Software writes the registers and CONTROL.START. What a frame uses is sampled when it begins.
+// 1. Software writes the registers and CONTROL.START. A frame uses the settings that were committed last when it begins.
 // 2. Lines of timestamps come from the source at its own pace, before and during frames. The line buffer offers an
 //    acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
 // 3. Columns that are not enabled and timestamps outside the time gate count as no detection.
@@ -11,6 +11,8 @@
 //    it may send histograms of chosen rows instead of results.
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
 // 6. Between frames the array's clock is gated (dtof_clock_gate of the technology folder).
+// 7. Whatever the source does, a frame ends: what is missing counts as no detection, an acquisition begins behind each
+//    s_axis_tlast_i, and a watchdog ends the wait for a source that is dead. CONTROL.ABORT ends a frame at any time.
 //
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is dtof_pool_pointer2_array. The parameters
 // that follow (common/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
@@ -24,7 +26,7 @@
 module dtof_subsystem #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
 `include "dtof_subsystem_declarations.svh"
-    // Lines that the line buffer holds: at least two. With those of an acquisition and four the source is never held up.
+    // Lines that the line buffer holds: at least two. Those of an acquisition and four hold a whole one while it is taken.
     parameter int BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
     parameter int RASTER_ORDER = 0,  // 1: a memory of all results brings them into the order of rows and columns
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
@@ -49,9 +51,9 @@ module dtof_subsystem #(
     output logic                     irq_o,
     // AXI4-Stream, lines of timestamps
     input  logic                     s_axis_tvalid_i,
-    output logic                     s_axis_tready_o,
+    output logic                     s_axis_tready_o,  // low in reset
     input  logic [S_TDATA_WIDTH-1:0] s_axis_tdata_i,   // a timestamp of every column, column 0 in the lowest bits
-    input  logic                     s_axis_tlast_i,   // the last line of an acquisition; only checked
+    input  logic                     s_axis_tlast_i,   // the last line of an acquisition
     // AXI4-Stream, results
     output logic                     m_axis_tvalid_o,
     input  logic                     m_axis_tready_i,
@@ -101,8 +103,11 @@ module dtof_subsystem #(
 
   // Registers and frames.
 
-  logic start, flush, continuous, second, raw, smooth, prior, begin_frame, busy, done, frame;
-  logic start_ignored, illegal_schedule, underrun, misframed, overrun, counter_full;
+  logic start, flush, abort, continuous, second, raw, smooth, prior, begin_frame, running, busy, done, frame;
+  logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
+  logic timeout, stalled, resetting, in_reset, array_rst_n, flushes;
+  logic [23:0] watchdog;
+  logic [31:0] lost_lines, lost_acquisitions;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
   logic [15:0] release_lines, weak_below;
@@ -160,7 +165,9 @@ module dtof_subsystem #(
       .pslverr_o         (pslverr_o),
       .start_o           (start),
       .flush_o           (flush),
+      .abort_o           (abort),
       .continuous_o      (continuous),
+      .watchdog_o        (watchdog),
       .second_o          (second),
       .raw_o             (raw),
       .raw_first_o       (raw_first),
@@ -180,12 +187,19 @@ module dtof_subsystem #(
       .level_i           (16'(level)),
       .frame_count_i     (frame_count),
       .frame_cycles_i    (frame_cycles),
+      .lost_lines_i      (lost_lines),
+      .lost_acquisitions_i(lost_acquisitions),
       .frame_i           (frame),
       .underrun_i        (underrun),
       .start_ignored_i   (start_ignored),
       .illegal_schedule_i(illegal_schedule),
       .overrun_i         (overrun),
-      .misframed_i       (misframed),
+      .short_i           (short_acquisition),
+      .long_i            (long_acquisition),
+      .timeout_i         (timeout),
+      .stalled_i         (stalled),
+      .flush_ignored_i   (flush && !flushes),
+      .aborted_i         (aborted),
       .counter_full_i    (counter_full),
       .irq_o             (irq_o)
   );
@@ -200,6 +214,8 @@ module dtof_subsystem #(
       .clk_i             (clk_i),
       .rst_ni            (rst_ni),
       .start_i           (start),
+      .abort_i           (abort),
+      .resetting_i       (resetting),
       .continuous_i      (continuous),
       .acquisitions_i    (acquisitions),
       .coarse_end_i      (coarse_end),
@@ -211,11 +227,23 @@ module dtof_subsystem #(
       .begin_o           (begin_frame),
       .done_i            (done),
       .frame_i           (frame),
+      .running_o         (running),
       .busy_o            (busy),
       .start_ignored_o   (start_ignored),
       .illegal_schedule_o(illegal_schedule),
+      .aborted_o         (aborted),
       .frame_count_o     (frame_count),
       .frame_cycles_o    (frame_cycles)
+  );
+
+  dtof_array_reset u_array_reset (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .scan_mode_i (scan_mode_i),
+      .abort_i     (abort),
+      .busy_o      (resetting),
+      .reset_o     (in_reset),
+      .array_rst_no(array_rst_n)
   );
 
   // What this frame uses; the array samples its own.
@@ -248,7 +276,8 @@ module dtof_subsystem #(
 
   // Lines in.
 
-  logic tdc_valid, tdc_ready;
+  logic tdc_valid, tdc_ready, starved, kept, expired, lost_acquisition;
+  logic [LEVEL_WIDTH-1:0] lost;
   logic [SRAM_NUM*NP-1:0] line, timestamps;
 
   dtof_line_buffer #(
@@ -260,18 +289,66 @@ module dtof_subsystem #(
       .rst_ni      (rst_ni),
       .sram_cfg_i  (sram_cfg_i),
       .sram_cfg_o  (buffer_cfg),
-      .flush_i     (flush && !busy),
+      .flush_i     (flushes),
+      .abort_i     (abort),
+      .expire_i    (expired && running),
+      .done_i      (done),
       .release_i   (frame_release_q),
       .level_o     (level),
+      .starved_o   (starved),
+      .kept_o      (kept),
       .underrun_o  (underrun),
-      .misframed_o (misframed),
+      .short_o     (short_acquisition),
+      .long_o      (long_acquisition),
+      .lost_lines_o(lost),
+      .lost_acquisition_o(lost_acquisition),
       .s_tvalid_i  (s_axis_tvalid_i),
       .s_tready_o  (s_axis_tready_o),
       .s_tdata_i   (s_axis_tdata_i[SRAM_NUM*NP-1:0]),
       .s_tlast_i   (s_axis_tlast_i),
       .line_valid_o(tdc_valid),
-      .line_ready_i(tdc_ready),
+      .line_ready_i(tdc_ready && !resetting),
       .line_o      (line)
+  );
+
+  assign flushes = flush && (abort || !running);
+
+  dtof_watchdog #(
+      .WIDTH(24)
+  ) u_line_watchdog (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_ni),
+      .limit_i  (watchdog),
+      .waits_i  (starved && running && !kept),
+      .expired_o(expired)
+  );
+
+  assign timeout = expired && running && starved && !abort;
+
+  dtof_watchdog #(
+      .WIDTH(24)
+  ) u_result_watchdog (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_ni),
+      .limit_i  (watchdog),
+      .waits_i  (m_axis_tvalid_o && !m_axis_tready_i),
+      .expired_o(stalled)
+  );
+
+  dtof_saturating_counter #(
+      .STEP_WIDTH(LEVEL_WIDTH)
+  ) u_lost_lines (
+      .clk_i  (clk_i),
+      .rst_ni (rst_ni),
+      .step_i (lost),
+      .count_o(lost_lines)
+  );
+
+  dtof_saturating_counter u_lost_acquisitions (
+      .clk_i  (clk_i),
+      .rst_ni (rst_ni),
+      .step_i (lost_acquisition),
+      .count_o(lost_acquisitions)
   );
 
   generate
@@ -293,7 +370,7 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-  // The array. Its clock rests between frames. Behind a reset it runs for as long as what had no reset takes to leave the
+  // The array. Its clock rests between frames. In and behind a reset it runs for as long as what had no reset takes to leave the
   // array's pipelines.
 
   logic array_clk, array_busy;
@@ -309,7 +386,7 @@ module dtof_subsystem #(
 
   dtof_clock_gate u_array_clock (
       .clk_i      (clk_i),
-      .enable_i   (begin_frame || array_busy || settling_q[7]),
+      .enable_i   (begin_frame || array_busy || in_reset || settling_q[7]),
       .scan_mode_i(scan_mode_i),
       .clk_o      (array_clk)
   );
@@ -325,7 +402,7 @@ module dtof_subsystem #(
 `include "dtof_pool_pointer2_array_parameters.svh"
       ) u_array (
           .clk_i          (array_clk),
-          .rst_ni         (rst_ni),
+          .rst_ni         (array_rst_n),
           .sram_cfg_i     (sram_cfg_i),
           .sram_cfg_o     (array_cfg),
           .start_i        (begin_frame),
@@ -356,7 +433,7 @@ module dtof_subsystem #(
 `include "dtof_array_parameters.svh"
       ) u_array (
           .clk_i          (array_clk),
-          .rst_ni         (rst_ni),
+          .rst_ni         (array_rst_n),
           .sram_cfg_i     (sram_cfg_i),
           .sram_cfg_o     (array_cfg),
           .start_i        (begin_frame),
@@ -407,7 +484,7 @@ module dtof_subsystem #(
           .CONFIDENCE_WIDTH(RESULT_CONFIDENCE_WIDTH)
       ) u_target_words (
           .clk_i     (clk_i),
-          .rst_ni    (rst_ni),
+          .rst_ni    (array_rst_n),
           .both_i    (frame_second_q),
           .s_tvalid_i(result_tvalid),
           .s_tready_o(result_tready),
@@ -448,7 +525,9 @@ module dtof_subsystem #(
     end
   endgenerate
 
-  logic word_tvalid, word_tready, word_tuser, word_tlast;
+  // Words wait for the sink at one place, which keeps the stream's rules where a frame is cut off: here or, in raster order, in
+  // the raster buffer.
+  logic word_tvalid, word_tready, word_tuser, word_tlast, output_rst_n, output_cut, aborted_word;
   logic [M_TDATA_WIDTH-1:0] word_tdata;
 
   dtof_stream_output #(
@@ -461,11 +540,12 @@ module dtof_subsystem #(
       .RAW_COUNTER_WIDTH(COUNT_WIDTH)
   ) u_stream_output (
       .clk_i          (clk_i),
-      .rst_ni         (rst_ni),
+      .rst_ni         (output_rst_n),
       .weak_below_i   (frame_weak_below_q),
       .enable_i       (frame_enable_q),
       .raw_i          (frame_raw),
-      .result_tvalid_i(target_tvalid),
+      .cut_i          (output_cut),
+      .result_tvalid_i(target_tvalid && !resetting),
       .result_tready_o(target_tready),
       .result_tdata_i (target_tdata),
       .result_second_i(target_second),
@@ -494,6 +574,9 @@ module dtof_subsystem #(
       logic [ROW_WIDTH-1:0] row;
       logic second_word;
 
+      assign output_rst_n = array_rst_n;
+      assign output_cut = 1'b0;
+
       dtof_raster_buffer #(
           .SRAM_NUM       (SRAM_NUM),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -504,6 +587,7 @@ module dtof_subsystem #(
           .rst_ni    (rst_ni),
           .sram_cfg_i(sram_cfg_i),
           .sram_cfg_o(raster_cfg),
+          .cut_i     (abort),
           .s_tvalid_i(word_tvalid),
           .s_tready_o(word_tready),
           .s_result_i({word_tdata[STATUS_LSB+:STATUS_WIDTH], word_tdata[CONFIDENCE_LSB+:KEPT_CONFIDENCE],
@@ -518,23 +602,31 @@ module dtof_subsystem #(
           .m_column_o(column),
           .m_row_o   (row),
           .m_second_o(second_word),
+          .m_aborted_o(aborted_word),
           .m_tlast_o (m_axis_tlast_o)
       );
 
       always_comb begin
         m_axis_tdata_o = '0;
-        m_axis_tdata_o[STATUS_LSB+:STATUS_WIDTH] = status;
-        m_axis_tdata_o[CONFIDENCE_LSB+:KEPT_CONFIDENCE] = confidence;
-        m_axis_tdata_o[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
-        m_axis_tdata_o[COLUMN_LSB+:COLUMN_WIDTH] = column;
-        m_axis_tdata_o[ROW_LSB+:ROW_WIDTH] = row;
-        m_axis_tdata_o[dtof_registers_pkg::RESULT_SECOND_LSB] = second_word;
+        if (aborted_word) begin
+          m_axis_tdata_o[dtof_registers_pkg::RESULT_ABORTED_LSB] = 1'b1;
+        end else begin
+          m_axis_tdata_o[STATUS_LSB+:STATUS_WIDTH] = status;
+          m_axis_tdata_o[CONFIDENCE_LSB+:KEPT_CONFIDENCE] = confidence;
+          m_axis_tdata_o[dtof_registers_pkg::RESULT_POSITION_LSB+:POSITION_WIDTH] = position;
+          m_axis_tdata_o[COLUMN_LSB+:COLUMN_WIDTH] = column;
+          m_axis_tdata_o[ROW_LSB+:ROW_WIDTH] = row;
+          m_axis_tdata_o[dtof_registers_pkg::RESULT_SECOND_LSB] = second_word;
+        end
       end
-      assign m_axis_tuser_o = (column == '0) && (row == '0) && !second_word;
+      assign m_axis_tuser_o = (column == '0) && (row == '0) && !second_word && !aborted_word;
 
       logic unused_word;
       assign unused_word = ^{word_tuser, word_tdata};
     end else begin : g_array_order
+      assign output_rst_n = rst_ni;
+      assign output_cut = abort;
+      assign aborted_word = word_tdata[dtof_registers_pkg::RESULT_ABORTED_LSB];
       assign raster_cfg = '1;
       assign word_tready = m_axis_tready_i;
       assign m_axis_tvalid_o = word_tvalid;
@@ -544,7 +636,7 @@ module dtof_subsystem #(
     end
   endgenerate
 
-  assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o;
+  assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o && !aborted_word;
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule

@@ -6,7 +6,7 @@ from pathlib import Path
 from unittest import mock
 
 import mutate
-from mutation import cpp, cpp_operators, equivalence, remembered, report, rtl, rtl_operators
+from mutation import cpp, cpp_operators, equivalence, remembered, report, rtl, rtl_operators, subsystem
 from mutation.explained import Explanation, explain
 from mutation.mutant import Mutant, Selection, draw
 from mutation.schemata import with_mutants
@@ -248,6 +248,37 @@ class Remembered(unittest.TestCase):
     def test_every_one_is_still_in_its_source(self):
         for folder in ("models", "hdl"):
             self.assertTrue(remembered.load(mutate.ROOT, folder), folder)
+
+
+class Subsystem(unittest.TestCase):
+    def test_every_module_has_mutants_but_those_that_are_tested_elsewhere(self):
+        selection = subsystem.select(subsystem.ROOT, 10000, 1)
+        found = {Path(mutant.file).name for mutant in selection.mutants}
+        there = {path.name for path in (subsystem.ROOT / subsystem.FOLDER).glob("*.sv")}
+        self.assertEqual(there - found, set(subsystem.ELSEWHERE))
+        self.assertGreater(len(selection.mutants), 200)
+
+    def test_the_first_test_that_fails_kills(self):
+        output = "x.cpp:3: Failure\n[  FAILED  ] All/Faults.End/ez_3x3, where GetParam() = ez (5 ms)\n[  FAILED  ] 1 test\n"
+        self.assertEqual(subsystem.killer(output), "subsystem_test: All/Faults.End/ez_3x3")
+        self.assertEqual(subsystem.killer("Aborted\n"), "subsystem_test ends early")
+
+    def test_a_mutant_is_judged_by_the_tests_and_taken_back(self):
+        mutant = Mutant(file="hdl/subsystem/a.sv", line=1, begin=11, end=12, original="b", mutated="c", operator="x", source="",
+                        above="", place=0)  # fmt: skip
+        with tempfile.TemporaryDirectory() as folder:
+            tree = Path(folder)
+            (tree / "hdl/subsystem").mkdir(parents=True)
+            (tree / mutant.file).write_text("assign a = b;\n")
+            build = subsystem.Build.__new__(subsystem.Build)
+            build.tree, build.timeout_s = tree, 1.0
+            seen = []
+            build.compile = lambda: seen.append((tree / mutant.file).read_text())
+            for by, state in (("subsystem_test: T", "killed"), (None, "survived")):
+                build.test = lambda timeout_s, by=by: by
+                self.assertEqual(build.judge(mutant).state, state)
+            self.assertEqual(seen, ["assign a = c;\n"] * 2)
+            self.assertEqual((tree / mutant.file).read_text(), "assign a = b;\n")
 
 
 if __name__ == "__main__":

@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "dtof_registers.h"
 #include "rtl/error.hpp"
 
 namespace dtof {
 
 void LineSource::drive() {
-  offered_ = !waiting_.empty() && (offered_ || random_.uniform() >= gap_probability);
+  offered_ = !waiting_.empty() && (offered_ || (!dead && random_.uniform() >= gap_probability));
   *ports_.line_valid = offered_ ? 1 : 0;
   if (!offered_) {
     // Nobody may look at the line.
@@ -34,6 +35,10 @@ void LineSource::drive() {
 }
 
 const Line* LineSource::observe(bool* last) {
+  if (offered_ && impatient && *ports_.line_ready == 0) {
+    waiting_.pop_front();
+    offered_ = false;
+  }
   if (!offered_ || *ports_.line_ready == 0) {
     return nullptr;
   }
@@ -60,26 +65,44 @@ void ResultSink::observe() {
   if (held_ && (word != held_word_ || first != held_first_ || last != held_last_)) {
     throw refuse("a word changed before tready");
   }
-  if (valid && first != current_.empty()) {
+  const bool aborts = valid && cut_ && (!held_ || held_word_ == DTOF_RESULT_ABORTED_MASK);
+  if (aborts && (word != DTOF_RESULT_ABORTED_MASK || first || !last)) {
+    throw refuse("a frame that was cut off does not end as aborted");
+  }
+  if (valid && !aborts && first != current_.empty()) {
     throw refuse("tuser is not on the first word");
   }
   if (valid && expected_.empty()) {
     throw refuse("a word although no frame has begun");
   }
-  if (valid && last != (current_.size() + 1 == expected_.front())) {
+  if (valid && !aborts && last != (current_.size() + 1 == expected_.front().words)) {
     throw refuse("tlast is not on the last word");
   }
   held_ = valid && *ports_.result_ready == 0;
   held_word_ = word;
   held_first_ = first;
   held_last_ = last;
-  if (valid && !held_) {
+  if (aborts && !held_) {
+    ++aborted_;
+    cut_ = false;
+    current_.clear();
+    expected_.pop_front();
+  } else if (valid && !held_) {
     current_.push_back(word);
     if (last) {
       frames_.push_back(std::move(current_));
+      numbers_.push_back(expected_.front().number);
       current_.clear();
       expected_.pop_front();
     }
+  }
+}
+
+void ResultSink::cut() {
+  const bool ends = held_ && held_last_;  // with the word that is offered
+  cut_ = (cut_ || !ends) && (held_ || !current_.empty());
+  while (expected_.size() > (cut_ || ends ? 1U : 0U)) {
+    expected_.pop_back();
   }
 }
 

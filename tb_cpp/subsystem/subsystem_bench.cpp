@@ -40,10 +40,12 @@ SubsystemBench::SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t
       source_(ports_, configuration_.parameters.np, stream(seed, Stream::kSource)),
       sink_(ports_, stream(seed, Stream::kSink)),
       acquisition_lines_(static_cast<std::size_t>(configuration_.pixels_per_sram) *
-                         static_cast<std::size_t>(configuration_.parameters.slots)) {
+                         static_cast<std::size_t>(configuration_.parameters.slots)),
+      reference_(acquisition_lines_, static_cast<Timestamp>(configuration_.parameters.no_detection())) {
   reset();
   buffer_lines_ = (get(DTOF_LINES) & DTOF_LINES_BUFFER_MASK) >> DTOF_LINES_BUFFER_LSB;
-  release_next_ = std::min(buffer_lines_, acquisition_lines_);
+  written_.release = std::min(buffer_lines_, acquisition_lines_);
+  committed_ = written_;
 }
 
 SubsystemBench::~SubsystemBench() {
@@ -51,36 +53,30 @@ SubsystemBench::~SubsystemBench() {
   write_coverage(*context_);
 }
 
-void SubsystemBench::reset() {
-  source_.reset();
+void SubsystemBench::reset(bool source_too) {
+  if (source_too) {
+    source_.reset();
+  }
   sink_.reset();
   bus_.reset();
-  forget_lines();
-  array_index_ = 0;
-  lost_ = false;
-  any_lost_ = false;
+  reference_.reset();
   array_held_ = false;
-  events_ = {};
-  release_next_ = std::min(buffer_lines_, acquisition_lines_);
-  second_next_ = false;
-  raw_next_ = false;
-  raw_rows_next_ = 0;
+  behind_reset_ = true;
+  written_ = {.release = std::min(buffer_lines_, acquisition_lines_)};
+  committed_ = written_;
   *ports_.reset_n = 0;
   for (int i = 0; i < 2; ++i) {
     source_.drive();
     bus_.drive();
     *ports_.clock = 0;
     model_->eval();
+    if (i > 0 && *ports_.line_ready != 0) {  // from the first edge on, whatever stood there at power-up
+      throw RtlError("a line is taken in reset");
+    }
     *ports_.clock = 1;
     model_->eval();
   }
   *ports_.reset_n = 1;
-}
-
-void SubsystemBench::forget_lines() {
-  accepted_.clear();
-  consumed_ = 0;
-  array_held_ = false;
 }
 
 void SubsystemBench::clock() {
@@ -93,6 +89,9 @@ void SubsystemBench::clock() {
   bus_.observe();
   observe_lines();
   sink_.observe();
+  if (*ports_.abort != 0) {
+    sink_.cut();
+  }
   *ports_.clock = 1;
   context_->time(2 * cycle_ + 1);
   model_->eval();
@@ -136,15 +135,15 @@ BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std:
   bus_.write(offset, data, strobe);
   run_transfer();
   if (offset == DTOF_RELEASE && strobe == RegisterBus::kAllBytes) {
-    release_next_ = data;
+    written_.release = data;
   }
   if (offset == DTOF_OUTPUT && strobe == RegisterBus::kAllBytes) {
-    second_next_ =
+    written_.second =
         configuration_.parameters.pool.second_target && (data & DTOF_OUTPUT_SECOND_TARGET_MASK) != 0;
-    raw_next_ = configuration_.raw_histogram && (data & DTOF_OUTPUT_RAW_MASK) != 0;
+    written_.raw = configuration_.raw_histogram && (data & DTOF_OUTPUT_RAW_MASK) != 0;
   }
   if (offset == DTOF_RAW_ROWS && strobe == RegisterBus::kAllBytes) {
-    raw_rows_next_ = data;
+    written_.raw_rows = data;
   }
   return bus_.response();
 }
@@ -179,77 +178,69 @@ Line SubsystemBench::array_line() const {
 
 void SubsystemBench::take_array_line() {
   const Line line = array_line();
-  const bool dark = std::ranges::all_of(
-      line, [this](Timestamp timestamp) { return timestamp == configuration_.parameters.no_detection(); });
-  const bool inside = array_index_ > 0;
-  const std::size_t here = accepted_.size() - std::min(accepted_.size(), consumed_);
-  if (!inside && here < release_) {
-    throw RtlError(fmt::format("an acquisition begins with {} lines instead of {}", here, release_));
-  }
-  if (!lost_ && here > 0 && line == accepted_[consumed_]) {
-    ++consumed_;
-  } else if (!dark) {
-    throw RtlError(fmt::format("line {} of an acquisition is not the source's", array_index_));
-  } else if (!lost_) {
-    // A line is at the buffer's output two clocks behind its acceptance.
-    if (!inside || here > 1) {
-      throw RtlError(fmt::format("an underrun with {} lines in the buffer", here));
-    }
-    lost_ = true;
-    any_lost_ = true;
-    events_.underrun = true;
-    consumed_ += acquisition_lines_ - array_index_;
-    ++frames_.back().lost;
-  }
+  reference_.take(line);
   frames_.back().lines.push_back(line);
-  if (++array_index_ == acquisition_lines_) {
-    array_index_ = 0;
-    lost_ = false;
-  }
+  frames_.back().lost = reference_.underruns();
 }
 
 std::size_t SubsystemBench::words() const {
   const auto columns = static_cast<std::size_t>(configuration_.sram_num);
-  if (raw_next_) {
-    const std::size_t first = (raw_rows_next_ & DTOF_RAW_ROWS_FIRST_MASK) >> DTOF_RAW_ROWS_FIRST_LSB;
-    const std::size_t last = (raw_rows_next_ & DTOF_RAW_ROWS_LAST_MASK) >> DTOF_RAW_ROWS_LAST_LSB;
+  if (committed_.raw) {
+    const std::size_t first = (committed_.raw_rows & DTOF_RAW_ROWS_FIRST_MASK) >> DTOF_RAW_ROWS_FIRST_LSB;
+    const std::size_t last = (committed_.raw_rows & DTOF_RAW_ROWS_LAST_MASK) >> DTOF_RAW_ROWS_LAST_LSB;
     return (last - first + 1) * static_cast<std::size_t>(configuration_.parameters.raw_bins()) * columns;
   }
-  return static_cast<std::size_t>(configuration_.pixels_per_sram) * columns * (second_next_ ? 2 : 1);
+  return static_cast<std::size_t>(configuration_.pixels_per_sram) * columns * (committed_.second ? 2 : 1);
 }
 
 void SubsystemBench::observe_lines() {
-  if (*ports_.begin != 0) {
-    frames_.emplace_back();
-    begin_cycle_ = cycle_;
-    release_ = release_next_;
-    sink_.expect_frame(words());
+  const bool commanded = *ports_.abort != 0 || *ports_.flush != 0 || reference_.expires() || behind_reset_;
+  const bool offered = *ports_.array_line_valid != 0;
+  const bool ready = *ports_.array_line_ready != 0;
+  if (!offered && (array_held_ || reference_.inside())) {
+    throw RtlError("an acquisition was interrupted");
+  }
+  if (offered && ready) {
+    take_array_line();
+  }
+  const bool refused = *ports_.line_valid != 0 && *ports_.line_ready == 0;
+  const bool sink_refuses = *ports_.result_valid != 0 && *ports_.result_ready == 0;
+  if (refused && !commanded && reference_.exact() && reference_.waiting() < buffer_lines_) {
+    throw RtlError(fmt::format("a line is refused with {} of {} lines in the buffer", reference_.waiting(),
+                               buffer_lines_));
+  }
+  events().overrun = events().overrun || (refused && sink_refuses);
+  bool last = false;
+  const Line* line = source_.observe(&last);
+  reference_.set_watchdog(*ports_.watchdog);
+  reference_.wait(ready, offered, sink_refuses, line != nullptr);
+  if (line != nullptr) {
+    reference_.accept(*line, last);
   }
   if (*ports_.done != 0) {
     frames_.back().cycles = cycle_ + 1 - begin_cycle_;
+    reference_.done();
   }
-  const bool offered = *ports_.array_line_valid != 0;
-  if (!offered && (array_held_ || array_index_ > 0)) {
-    throw RtlError("an acquisition was interrupted");
+  if (*ports_.begin != 0) {
+    frames_.emplace_back();
+    begin_cycle_ = cycle_;
+    reference_.set_release(committed_.release);
+    reference_.begin();
+    sink_.expect_frame(words());
   }
-  if (offered && *ports_.array_line_ready != 0) {
-    take_array_line();
+  if (*ports_.abort != 0) {
+    reference_.abort();
   }
-  // A frame that begins may ask for more lines than the one before.
-  array_held_ = offered && *ports_.array_line_ready == 0 && *ports_.begin == 0;
-
-  const bool refused = *ports_.line_valid != 0 && *ports_.line_ready == 0;
-  if (refused && !any_lost_ && accepted_.size() - consumed_ < buffer_lines_) {
-    throw RtlError(fmt::format("a line is refused with {} of {} lines in the buffer",
-                               accepted_.size() - consumed_, buffer_lines_));
+  if (*ports_.flush != 0) {
+    reference_.flush();
   }
-  events_.overrun = events_.overrun || (refused && *ports_.result_valid != 0 && *ports_.result_ready == 0);
-  bool last = false;
-  if (const Line* line = source_.observe(&last); line != nullptr) {
-    events_.misframed =
-        events_.misframed || last != (accepted_.size() % acquisition_lines_ == acquisition_lines_ - 1);
-    accepted_.push_back(*line);
+  // A frame that begins may ask for more lines than the one before, and one that ends takes none any more.
+  array_held_ = offered && !ready && *ports_.begin == 0 && *ports_.done == 0 && *ports_.abort == 0 &&
+                *ports_.flush == 0;
+  if (*ports_.commit != 0) {
+    committed_ = written_;
   }
+  behind_reset_ = false;
 }
 
 }  // namespace dtof

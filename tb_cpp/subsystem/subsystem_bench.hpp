@@ -21,18 +21,11 @@ struct ArrayFrame {
   std::uint32_t lost = 0;    ///< acquisitions in which the line buffer ran empty
 };
 
-/// What happened, clock by clock at the ports: what ERROR must say.
-struct SubsystemEvents {
-  bool underrun = false;
-  bool overrun = false;
-  bool misframed = false;
-};
-
 /// A subsystem with masters at all its ports, which checks in every clock that
 /// - the results keep their stream's protocol (ResultSink);
-/// - an acquisition begins when as many lines are here as `release` says, and is never interrupted;
-/// - each line reaches the array in its place, or, behind an underrun, as no detection;
-/// - a line is refused only when the buffer is full.
+/// - an acquisition begins when it is allowed to, and is never interrupted;
+/// - each line reaches the array in its place, or as no detection where StreamReference says so;
+/// - a line is refused only when the buffer is full, or in the clock of a command.
 class SubsystemBench {
  public:
   /// Everything random follows from `seed`.
@@ -49,12 +42,13 @@ class SubsystemBench {
   [[nodiscard]] ResultSink& sink() { return sink_; }
   [[nodiscard]] const ResultSink& sink() const { return sink_; }
   [[nodiscard]] const std::vector<ArrayFrame>& frames() const { return frames_; }
-  [[nodiscard]] SubsystemEvents& events() { return events_; }
+  [[nodiscard]] SubsystemEvents& events() { return reference_.events(); }
+  [[nodiscard]] const StreamReference& reference() const { return reference_; }
   [[nodiscard]] bool interrupt() const { return *ports_.irq != 0; }
   [[nodiscard]] bool axi_lite() const { return *ports_.axi_lite != 0; }
 
-  /// Two clocks of reset; the source forgets its lines.
-  void reset();
+  /// Two clocks of reset; the source forgets its lines, or is in another reset domain and keeps them.
+  void reset(bool source_too = true);
   /// Throws RtlError for whatever the bench checks.
   void clock();
   void clocks(std::uint64_t count);
@@ -70,14 +64,18 @@ class SubsystemBench {
   /// The same as `read` and `write` for a register that must be there: throws RtlError for an error response.
   std::uint32_t get(std::uint32_t offset);
   void set(std::uint32_t offset, std::uint32_t data);
-  /// The line buffer was told to empty itself; the source must have no line waiting.
-  void forget_lines();
 
  private:
   void run_transfer();
   void observe_lines();
   void take_array_line();
   [[nodiscard]] Line array_line() const;
+  struct Settings {
+    std::size_t release = 0;
+    bool second = false;
+    bool raw = false;
+    std::uint32_t raw_rows = 0;
+  };
   /// Words of the frame that begins.
   [[nodiscard]] std::size_t words() const;
 
@@ -90,21 +88,14 @@ class SubsystemBench {
   ResultSink sink_;
   std::size_t acquisition_lines_;
   std::size_t buffer_lines_ = 0;
-  std::size_t release_ = 0;       // of the frame that is under way
-  std::size_t release_next_ = 0;  // what the registers say
-  bool second_next_ = false;
-  bool raw_next_ = false;
-  std::uint32_t raw_rows_next_ = 0;
+  Settings written_;
+  Settings committed_;
+  StreamReference reference_;
   std::vector<ArrayFrame> frames_;
-  SubsystemEvents events_;
   std::uint64_t cycle_ = 0;
   std::uint64_t begin_cycle_ = 0;
-  std::vector<Line> accepted_;   // lines since the buffer was empty
-  std::size_t consumed_ = 0;     // of these; behind an underrun those that are still to come, too
-  std::size_t array_index_ = 0;  // line of the acquisition
-  bool lost_ = false;            // the acquisition ran empty
-  bool any_lost_ = false;
-  bool array_held_ = false;  // a line was offered to the array and not taken
+  bool array_held_ = false;   // a line was offered to the array and not taken
+  bool behind_reset_ = true;  // no clock yet
 };
 
 }  // namespace dtof

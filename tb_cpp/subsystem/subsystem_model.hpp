@@ -59,6 +59,10 @@ class SubsystemModel {
 
     const std::uint8_t* begin;             ///< the array's frame begins
     const std::uint8_t* done;              ///< and ends
+    const std::uint8_t* abort;             ///< CONTROL.ABORT, in its clock
+    const std::uint8_t* flush;             ///< CONTROL.FLUSH, unless it is ignored
+    const std::uint32_t* watchdog;         ///< WATCHDOG as it stands
+    const std::uint8_t* commit;            ///< settings become valid behind this clock
     const std::uint8_t* array_line_valid;  ///< at the array's port
     const std::uint8_t* array_line_ready;
     const std::uint32_t* array_line;  ///< as line_data, before mask and gate

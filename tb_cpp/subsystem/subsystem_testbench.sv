@@ -52,6 +52,10 @@ module subsystem_testbench #(
     output logic         m_axis_tlast_o,
     output logic         probe_begin_o,
     output logic         probe_done_o,
+    output logic         probe_abort_o,
+    output logic         probe_flush_o,
+    output logic [ 31:0] probe_watchdog_o,
+    output logic         probe_commit_o,
     output logic         probe_line_valid_o,
     output logic         probe_line_ready_o,
     output logic [511:0] probe_line_o
@@ -146,6 +150,10 @@ module subsystem_testbench #(
   assign axi_lite_o = (AXI_LITE != 0);
   assign probe_begin_o = u_subsystem.begin_frame;
   assign probe_done_o = u_subsystem.done;
+  assign probe_abort_o = u_subsystem.abort;
+  assign probe_flush_o = u_subsystem.flushes;
+  assign probe_watchdog_o = 32'(u_subsystem.watchdog);
+  assign probe_commit_o = u_subsystem.u_registers.commit;
   assign probe_line_valid_o = u_subsystem.tdc_valid;
   assign probe_line_ready_o = u_subsystem.tdc_ready;
   assign probe_line_o = 512'(u_subsystem.line);

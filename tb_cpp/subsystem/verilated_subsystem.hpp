@@ -58,6 +58,10 @@ class VerilatedSubsystem : public SubsystemModel {
             .result_last = &model_.m_axis_tlast_o,
             .begin = &model_.probe_begin_o,
             .done = &model_.probe_done_o,
+            .abort = &model_.probe_abort_o,
+            .flush = &model_.probe_flush_o,
+            .watchdog = &model_.probe_watchdog_o,
+            .commit = &model_.probe_commit_o,
             .array_line_valid = &model_.probe_line_valid_o,
             .array_line_ready = &model_.probe_line_ready_o,
             .array_line = model_.probe_line_o.data()};

@@ -249,6 +249,99 @@ TEST_P(Driver, StopsContinuousFramesAndTakesErrors) {
   EXPECT_EQ(dtof_flush(&device_), DTOF_OK);
 }
 
+TEST_P(Driver, RecoversFromADeadSourceAndASinkThatStops) {
+  CounterRandom random = this->random(22);
+  const RtlConfiguration& configuration = bench_.configuration();
+  const auto lines_of_an_acquisition = static_cast<std::uint32_t>(bench_.acquisition_lines());
+  EXPECT_EQ(dtof_set_watchdog(&device_, 1U << 24U), DTOF_ARGUMENT);
+  ASSERT_EQ(dtof_set_watchdog(&device_, 0), DTOF_OK);
+  FrameSettings settings{.acquisitions = 4,
+                         .gate = {0, configuration.parameters.no_detection()},
+                         .weak_below = 0,
+                         .enabled = {}};
+  const dtof_settings chosen = dtof_default_settings(&device_, settings.acquisitions);
+  for (const bool sink_stops : {false, true}) {
+    SCOPED_TRACE(testing::Message() << (sink_stops ? "the sink stops" : "the source dies"));
+    ASSERT_EQ(dtof_configure(&device_, &chosen), DTOF_OK);
+    std::vector<Line> lines = make_lines(configuration, settings.acquisitions, random);
+    if (!sink_stops) {
+      lines.resize(lines.size() - lines_of_an_acquisition);
+    }
+    push_lines(bench_, lines);
+    bench_.sink().blocked = sink_stops;
+    ASSERT_EQ(dtof_start(&device_, sink_stops), DTOF_OK);
+    bench_.clocks(10000);
+    dtof_state state{};
+    ASSERT_EQ(dtof_read_state(&device_, &state), DTOF_OK);
+    EXPECT_TRUE(state.busy);
+    EXPECT_EQ(dtof_start(&device_, false), DTOF_BUSY);
+    EXPECT_EQ(dtof_flush(&device_), DTOF_BUSY);
+    EXPECT_EQ(state.warnings, 0U);
+    bench_.source().reset();
+    ASSERT_EQ(dtof_recover(&device_), DTOF_OK);
+    ASSERT_EQ(dtof_read_state(&device_, &state), DTOF_OK);
+    EXPECT_FALSE(state.busy);
+    EXPECT_EQ(state.level, 0);
+    EXPECT_EQ(state.errors, 0U);
+    EXPECT_EQ(state.warnings, 0U);
+    EXPECT_EQ(state.lost_lines, 0U);
+    EXPECT_EQ(state.lost_acquisitions, 0U);
+    bench_.sink().blocked = false;
+    bench_.clocks(1000);
+
+    lines = make_lines(configuration, settings.acquisitions, random);
+    push_lines(bench_, lines);
+    ASSERT_EQ(dtof_start(&device_, false), DTOF_OK) << "the settings are still there";
+    bench_.wait_for_frames(1);
+    ASSERT_EQ(received_results(bench_, bench_.sink().frames().size() - 1),
+              expected_results(bench_, settings, lines));
+  }
+  // A source that the software has not stopped: the rest of its acquisition is no frame's.
+  const std::vector<Line> lines = make_lines(configuration, 120, random);
+  push_lines(bench_, lines);
+  const dtof_settings longer = dtof_default_settings(&device_, 60);
+  ASSERT_EQ(dtof_configure(&device_, &longer), DTOF_OK);
+  ASSERT_EQ(dtof_start(&device_, false), DTOF_OK);
+  while (bench_.source().waiting() > lines.size() - lines_of_an_acquisition - 1) {
+    bench_.clock();
+  }
+  ASSERT_EQ(dtof_abort(&device_, false), DTOF_OK);
+  dtof_state state{};
+  ASSERT_EQ(dtof_read_state(&device_, &state), DTOF_OK);
+  EXPECT_EQ(state.warnings, DTOF_WARNING_ABORTED_MASK);
+  ASSERT_EQ(dtof_configure(&device_, &chosen), DTOF_OK);
+  ASSERT_EQ(dtof_start(&device_, false), DTOF_OK);
+  bench_.wait_for_frames(1);
+  const std::vector<Line>& taken = bench_.frames().back().lines;
+  std::size_t places = 0;
+  for (std::size_t line = 0; line + taken.size() <= lines.size(); line += lines_of_an_acquisition) {
+    const auto first = lines.begin() + static_cast<std::ptrdiff_t>(line);
+    places += std::equal(taken.begin(), taken.end(), first) ? 1 : 0;
+  }
+  EXPECT_GT(places, 0U) << "the frame is not of whole acquisitions one behind the other";
+  ASSERT_EQ(received_results(bench_, bench_.sink().frames().size() - 1),
+            expected_results(bench_, settings, taken));
+}
+
+TEST_P(Driver, CommitsSettingsOfContinuousFrames) {
+  dtof_settings settings = dtof_default_settings(&device_, 0);
+  ASSERT_EQ(dtof_configure(&device_, &settings), DTOF_OK);
+  ASSERT_EQ(dtof_start(&device_, true), DTOF_OK);
+  bench_.wait_for_frames(2);
+  settings = dtof_default_settings(&device_, 2);
+  const std::vector<std::uint32_t> none((device_.columns + 31U) / 32U, 0);
+  ASSERT_EQ(dtof_configure(&device_, &settings), DTOF_OK);
+  ASSERT_EQ(dtof_enable_columns(&device_, none.data()), DTOF_OK);
+  bench_.wait_for_frames(4);
+  EXPECT_FALSE(fields_of(bench_.sink().frames().back().front()).masked) << "not committed";
+  ASSERT_EQ(dtof_commit(&device_), DTOF_OK);
+  push_lines(bench_, dark_lines(bench_.configuration(), 20));
+  bench_.wait_for_frames(4);
+  EXPECT_TRUE(fields_of(bench_.sink().frames().back().front()).masked);
+  EXPECT_EQ(bench_.frames().at(bench_.sink().numbers().back()).lines.size(), 2 * bench_.acquisition_lines());
+  ASSERT_EQ(dtof_abort(&device_, true), DTOF_OK);
+}
+
 TEST_P(Driver, RefusesWhatTheHardwareCannotTake) {
   const dtof_settings good = dtof_default_settings(&device_, 5);
   const auto refused = [&](auto change) {
@@ -359,6 +452,37 @@ TEST(DriverAlone, TellsWhenTheBusFails) {
   EXPECT_EQ(dtof_frames(&device, &value, &value), DTOF_BUS);
   EXPECT_EQ(dtof_take_errors(&device, &value), DTOF_BUS);
   EXPECT_EQ(dtof_take_warnings(&device, &value), DTOF_BUS);
+}
+
+TEST(DriverAlone, GivesUpWhenAnAbortDoesNothing) {
+  Memory memory;
+  dtof_device device{};
+  ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);
+  memory.values[DTOF_STATUS] = DTOF_STATUS_BUSY_MASK;
+  EXPECT_EQ(dtof_abort(&device, false), DTOF_BUSY);
+  EXPECT_EQ(memory.values[DTOF_CONTROL], DTOF_CONTROL_ABORT_MASK);
+  EXPECT_EQ(dtof_recover(&device), DTOF_BUSY);
+  EXPECT_EQ(memory.values[DTOF_CONTROL], DTOF_CONTROL_ABORT_MASK | DTOF_CONTROL_FLUSH_MASK);
+  memory.values[DTOF_STATUS] = 0;
+  EXPECT_EQ(dtof_recover(&device), DTOF_OK);
+  dtof_state state{};
+  memory.accesses_left = 0;
+  EXPECT_EQ(dtof_abort(&device, false), DTOF_BUS);
+  EXPECT_EQ(dtof_recover(&device), DTOF_BUS);
+  EXPECT_EQ(dtof_read_state(&device, &state), DTOF_BUS);
+  EXPECT_EQ(dtof_commit(&device), DTOF_BUS);
+  EXPECT_EQ(dtof_set_watchdog(&device, 1), DTOF_BUS);
+}
+
+TEST(DriverAlone, TellsWhenAFrameWasAborted) {
+  Memory memory;
+  dtof_device device{};
+  ASSERT_EQ(dtof_probe(&device, {&memory, memory_read, memory_write}), DTOF_OK);  // 2 columns of 3 rows
+  const std::vector<std::uint64_t> words = {0, 1, DTOF_RESULT_ABORTED_MASK};
+  std::vector<dtof_result> results(6);
+  EXPECT_EQ(dtof_unpack(&device, words[2], results.data()), DTOF_ABORTED);
+  EXPECT_EQ(dtof_unpack_frame(&device, words.data(), words.size(), results.data()), DTOF_ABORTED);
+  EXPECT_EQ(dtof_unpack_frame(&device, words.data(), 2, results.data()), DTOF_STREAM);
 }
 
 TEST(DriverAlone, TellsWhenAFrameIsNotWhole) {

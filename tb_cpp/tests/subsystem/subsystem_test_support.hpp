@@ -75,6 +75,15 @@ struct FrameSettings {
   int raw_last = 0;
 };
 
+/// Bits of OUTPUT that the configuration has.
+inline std::uint32_t existing_outputs(const RtlConfiguration& configuration) {
+  const ReadoutParameters& parameters = configuration.parameters;
+  return (parameters.pool.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+         (parameters.pool.prior ? DTOF_OUTPUT_PRIOR_MASK : 0) |
+         (configuration.raw_histogram ? DTOF_OUTPUT_RAW_MASK : 0) |
+         (is_pool_readout(parameters.readout) ? DTOF_OUTPUT_SMOOTH_MASK : 0);
+}
+
 inline void write_settings(SubsystemBench& bench, const FrameSettings& settings) {
   const RtlConfiguration& configuration = bench.configuration();
   bench.set(DTOF_ACQUISITIONS, settings.acquisitions);
@@ -83,15 +92,22 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
     bench.set(DTOF_COARSE_END, schedule.coarse_end);
     bench.set(DTOF_TRACK_END, schedule.track_end);
   }
-  bench.set(DTOF_GATE, static_cast<std::uint32_t>(settings.gate.begin) << DTOF_GATE_BEGIN_LSB |
-                           static_cast<std::uint32_t>(settings.gate.end) << DTOF_GATE_END_LSB);
+  if (configuration.parameters.time_gate) {
+    bench.set(DTOF_GATE, static_cast<std::uint32_t>(settings.gate.begin) << DTOF_GATE_BEGIN_LSB |
+                             static_cast<std::uint32_t>(settings.gate.end) << DTOF_GATE_END_LSB);
+  }
   bench.set(DTOF_WEAK_BELOW, settings.weak_below);
-  bench.set(DTOF_OUTPUT, (settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
-                             (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0) |
-                             (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0) |
-                             (settings.prior ? DTOF_OUTPUT_PRIOR_MASK : 0));
-  bench.set(DTOF_RAW_ROWS, static_cast<std::uint32_t>(settings.raw_first) << DTOF_RAW_ROWS_FIRST_LSB |
-                               static_cast<std::uint32_t>(settings.raw_last) << DTOF_RAW_ROWS_LAST_LSB);
+  const std::uint32_t outputs = existing_outputs(configuration);
+  if (outputs != 0) {
+    bench.set(DTOF_OUTPUT, outputs & ((settings.second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0) |
+                                      (settings.raw ? DTOF_OUTPUT_RAW_MASK : 0) |
+                                      (settings.smooth ? DTOF_OUTPUT_SMOOTH_MASK : 0) |
+                                      (settings.prior ? DTOF_OUTPUT_PRIOR_MASK : 0)));
+  }
+  if (configuration.raw_histogram) {
+    bench.set(DTOF_RAW_ROWS, static_cast<std::uint32_t>(settings.raw_first) << DTOF_RAW_ROWS_FIRST_LSB |
+                                 static_cast<std::uint32_t>(settings.raw_last) << DTOF_RAW_ROWS_LAST_LSB);
+  }
   for (std::size_t first = 0; first < settings.enabled.size(); first += 32) {
     std::uint32_t mask = 0;
     for (std::size_t i = first; i < std::min(first + 32, settings.enabled.size()); ++i) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tells when somebody waits for too long.
+//
+// 1. limit_i clocks in a row with waits_i: expired_o, for one clock, is high in the clock behind the last of them.
+// 2. If the wait goes on, the count begins again. limit_i = 0: never.
+//
+// Cost: a counter and a comparator of WIDTH bits.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_watchdog #(
+    parameter int WIDTH = 24
+) (
+    input  logic             clk_i,
+    input  logic             rst_ni,
+    input  logic [WIDTH-1:0] limit_i,
+    input  logic             waits_i,
+    output logic             expired_o
+);
+
+  logic [WIDTH-1:0] count_q;  // clocks of the wait
+  logic expired_q, reached;
+
+  assign reached = waits_i && (limit_i != '0) && (count_q >= limit_i - 1'b1);
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      count_q <= '0;
+      expired_q <= 1'b0;
+    end else begin
+      expired_q <= reached;
+      if (!waits_i || reached || limit_i == '0) begin
+        count_q <= '0;
+      end else begin
+        count_q <= count_q + 1'b1;
+      end
+    end
+  end
+
+  assign expired_o = expired_q;
+
+endmodule
+
+`default_nettype wire
