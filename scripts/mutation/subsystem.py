@@ -7,12 +7,12 @@ import subprocess
 import time
 from pathlib import Path
 
-from mutation import progress, remembered, rtl_operators
+from mutation import cpp, progress, remembered, rtl_operators
 from mutation.mutant import Mutant, Selection
 from mutation.verdict import MutationError, Verdict
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-TREE = ["tb_cpp", "hdl", "driver", "scripts", "synth", "docs/user/integration.md", "configurations.toml", "readouts.toml"]
+TREE = [*cpp.TREE, "docs/user/integration.md"]
 FOLDER = "hdl/subsystem"
 TARGET = "subsystem_test"
 # Frames of 3,333 acquisitions and more say nothing about a subsystem that shorter ones do not.
@@ -57,7 +57,7 @@ class Build:
                 shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__"))
             else:
                 shutil.copy(source, target)
-        self._run(["cmake", "-S", self.tree / "tb_cpp", "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"])
+        self._run(["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2"])
         self.compile()
         started = time.monotonic()
         by = self.test(None)
