@@ -37,7 +37,7 @@ for purpose in "$@"; do
 done
 
 is_installed() {
-  dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'install ok installed'
+  dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep 'install ok installed' > /dev/null
 }
 
 missing=()
@@ -67,7 +67,7 @@ release=$(. /etc/os-release && echo "${PRETTY_NAME:-this system}")
 
 # Whether the release has the package.
 is_offered() {
-  apt-cache policy "$1" | grep -q 'Candidate: [^(]'
+  apt-cache policy "$1" | grep 'Candidate: [^(]' > /dev/null  # -q would end apt-cache early, and the pipe with it
 }
 
 absent=()
