@@ -63,6 +63,7 @@ struct PngReader {
   int height = 0;
   int bit_depth = 0;
   int colour_type = 0;
+  int channels = 0;  ///< as decoded: grey or three colours, and alpha behind them
   std::vector<png_byte> pixels;
   std::vector<png_bytep> rows;
 
@@ -103,8 +104,21 @@ const char* describe(GreyBits bits) {
 
 constexpr double kGamma = 2.2;  // of photographs
 
-/// Whether colours are turned into grey or refused.
-enum class Colours { kRefused, kLuminance };
+/// Whether colours are turned into grey, or red, green and blue must be equal.
+enum class Colours { kEqual, kLuminance };
+
+bool is_readable(int colour_type, Colours colours) {
+  switch (colour_type) {
+    case PNG_COLOR_TYPE_GRAY:
+    case PNG_COLOR_TYPE_RGB:
+      return true;
+    case PNG_COLOR_TYPE_GRAY_ALPHA:
+    case PNG_COLOR_TYPE_RGB_ALPHA:
+      return colours == Colours::kEqual;
+    default:
+      return false;
+  }
+}
 
 /// Returns false after a libpng error; decodes the pixels only when the format is the wanted one.
 bool decode_png(PngReader& reader, GreyBits wanted, Colours colours) {
@@ -116,11 +130,13 @@ bool decode_png(PngReader& reader, GreyBits wanted, Colours colours) {
   reader.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   reader.bit_depth = png_get_bit_depth(reader.png, reader.info);
   reader.colour_type = png_get_color_type(reader.png, reader.info);
-  const bool colour = reader.colour_type == PNG_COLOR_TYPE_RGB && colours == Colours::kLuminance;
-  if ((reader.colour_type != PNG_COLOR_TYPE_GRAY && !colour) || !takes(wanted, reader.bit_depth)) {
+  if (!is_readable(reader.colour_type, colours) || !takes(wanted, reader.bit_depth)) {
     return true;
   }
-  if (colour) {
+  if (colours == Colours::kEqual && png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0) {
+    png_set_tRNS_to_alpha(reader.png);
+  }
+  if (colours == Colours::kLuminance && reader.colour_type == PNG_COLOR_TYPE_RGB) {
     constexpr double kUsualWeights = -1.0;
     png_set_gamma(reader.png, kGamma, 1.0 / kGamma);  // the sum is one of light, not of the file's values
     png_set_rgb_to_gray(reader.png, PNG_ERROR_ACTION_NONE, kUsualWeights, kUsualWeights);
@@ -130,11 +146,14 @@ bool decode_png(PngReader& reader, GreyBits wanted, Colours colours) {
   if (pixels > kMostPixels) {
     png_error(reader.png, "more than 2^26 pixels");
   }
-  if (pixels * static_cast<unsigned>(reader.bit_depth / 8) > kBestPacking * reader.file_size) {
+  const auto bytes_per_pixel =
+      static_cast<unsigned>(png_get_channels(reader.png, reader.info) * reader.bit_depth / 8);
+  if (pixels * bytes_per_pixel > kBestPacking * reader.file_size) {
     png_error(reader.png, "the file ends early");
   }
   png_set_interlace_handling(reader.png);
   png_read_update_info(reader.png, reader.info);
+  reader.channels = png_get_channels(reader.png, reader.info);
   const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
   reader.pixels.resize(row_bytes * static_cast<std::size_t>(reader.height));
   reader.rows.resize(static_cast<std::size_t>(reader.height));
@@ -151,12 +170,42 @@ struct GreyImage {
   int height = 0;
   int bit_depth = 0;  ///< 8 or 16
   std::vector<std::uint16_t> values;
+  std::vector<bool> transparent;  ///< empty: no pixel is
 };
 
-GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, const char* purpose,
-                        Colours colours = Colours::kRefused) {
-  const std::string file = read_file(path);
-  if (!std::string_view(file).starts_with(kPngSignature)) {
+/// Takes the grey of every pixel, and which pixels are transparent. Throws InputError for a pixel of a colour.
+void take_pixels(const std::filesystem::path& path, const PngReader& reader, GreyImage& image) {
+  const auto width = static_cast<std::size_t>(image.width);
+  const auto channels = static_cast<std::size_t>(reader.channels);
+  const bool alpha = channels % 2 == 0;
+  const std::size_t colours = channels - (alpha ? 1 : 0);
+  const int largest = (1 << image.bit_depth) - 1;
+  image.values.reserve(width * static_cast<std::size_t>(image.height));
+  for (std::size_t y = 0; y < reader.rows.size(); ++y) {
+    const png_byte* const row = reader.rows[y];
+    const auto sample = [&](std::size_t index) {
+      return image.bit_depth == 8 ? row[index]
+                                  : static_cast<std::uint16_t>(row[2 * index] << 8U | row[2 * index + 1]);
+    };
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::size_t first = x * channels;
+      for (std::size_t colour = 1; colour < colours; ++colour) {
+        if (sample(first + colour) != sample(first)) {
+          fail_in_file(path, fmt::format("column {}, row {}: red, green and blue are {}, {} and {}: a map is grey", x,
+                                         y, sample(first), sample(first + 1), sample(first + 2)));
+        }
+      }
+      image.values.push_back(sample(first));
+      if (alpha) {
+        image.transparent.push_back(sample(first + colours) != largest);
+      }
+    }
+  }
+}
+
+GreyImage read_grey_png(const std::filesystem::path& path, std::string_view file, GreyBits wanted,
+                        const char* purpose, Colours colours = Colours::kEqual) {
+  if (!file.starts_with(kPngSignature)) {
     fail_in_file(path, "not a PNG file");
   }
   PngReader reader;
@@ -170,20 +219,15 @@ GreyImage read_grey_png(const std::filesystem::path& path, GreyBits wanted, cons
     fail_in_file(path, fmt::format("damaged PNG: {}", reader.error));
   }
   if (reader.rows.empty()) {
-    fail_in_file(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale{} PNG", reader.bit_depth,
-                                   colour_type_name(reader.colour_type), purpose, describe(wanted),
-                                   colours == Colours::kLuminance ? " or RGB" : ""));
+    fail_in_file(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale or RGB PNG", reader.bit_depth,
+                                   colour_type_name(reader.colour_type), purpose, describe(wanted)));
   }
-  GreyImage image{
-      .width = reader.width, .height = reader.height, .bit_depth = reader.bit_depth, .values = {}};
-  image.values.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  const auto width = static_cast<std::size_t>(image.width);
-  for (const png_byte* const row : reader.rows) {
-    for (std::size_t x = 0; x < width; ++x) {
-      image.values.push_back(
-          image.bit_depth == 8 ? row[x] : static_cast<std::uint16_t>(row[2 * x] << 8U | row[2 * x + 1]));
-    }
-  }
+  GreyImage image{.width = reader.width,
+                  .height = reader.height,
+                  .bit_depth = reader.bit_depth,
+                  .values = {},
+                  .transparent = {}};
+  take_pixels(path, reader, image);
   return image;
 }
 
@@ -193,6 +237,7 @@ struct NumberMap {
   int height = 0;
   int png_bits = 0;  ///< 8 or 16; 0: no PNG
   std::vector<double> values = {};
+  std::vector<bool> transparent = {};  ///< pixels without a value; empty: there are none
 };
 
 float read_float(const char* bytes, bool little_endian) {
@@ -204,22 +249,28 @@ float read_float(const char* bytes, bool little_endian) {
   return std::bit_cast<float>(raw);
 }
 
-/// Takes the next token of a PFM header and the one white space behind it.
+/// Takes the next token of a PFM header, and what stands in front: white space, and comments from # to the end of
+/// a line.
 std::string_view next_token(const std::filesystem::path& path, std::string_view& rest) {
-  const std::size_t end = rest.substr(0, 64).find_first_of(" \t\r\n");
+  constexpr std::string_view kWhiteSpace = " \t\r\n";
+  while (!rest.empty() && (rest.front() == '#' || kWhiteSpace.find(rest.front()) != std::string_view::npos)) {
+    rest.remove_prefix(rest.front() == '#' ? std::min(rest.find('\n'), rest.size()) : 1);
+  }
+  const std::size_t end = rest.substr(0, 64).find_first_of(kWhiteSpace);
   if (end == std::string_view::npos || end == 0) {
     fail_in_file(path, "the PFM header is damaged");
   }
   const std::string_view token = rest.substr(0, end);
-  rest.remove_prefix(end + 1);
+  rest.remove_prefix(end);
   return token;
 }
 
 template <typename T>
 T parse_token(const std::filesystem::path& path, std::string_view token, const char* what) {
   T value{};
-  const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), value);
-  if (error != std::errc() || end != token.data() + token.size()) {
+  const std::string_view digits = token.substr(token.starts_with('+') ? 1 : 0);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc() || end != digits.data() + digits.size()) {
     fail_in_file(path, fmt::format("PFM {} \"{}\" is not a number", what, token));
   }
   return value;
@@ -239,34 +290,44 @@ NumberMap read_pfm(const std::filesystem::path& path, std::string_view file) {
     fail_in_file(
         path, fmt::format("{} x {} pixels: each must be 1..{}", image.width, image.height, kLargestExtent));
   }
-  if (std::abs(scale) != 1.0) {
-    fail_in_file(path, fmt::format("PFM scale {} is not 1 or -1: the values are scaled", scale));
+  if (!std::isfinite(scale) || scale == 0.0) {
+    fail_in_file(path, fmt::format("PFM scale {} is not a finite number other than 0", scale));
   }
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
-  if (rest.size() != width * height * sizeof(float)) {
-    fail_in_file(path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height,
-                                   width * height * sizeof(float), rest.size()));
+  const std::size_t bytes = width * height * sizeof(float);
+  // One white space ends the header; a line end of CR LF is two characters, unless LF is the first byte of a number.
+  rest.remove_prefix(rest.starts_with("\r\n") && rest.size() >= bytes + 2 ? 2 : 1);
+  if (rest.size() != bytes) {
+    fail_in_file(
+        path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height, bytes, rest.size()));
   }
   image.values.resize(width * height);
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
       // PFM stores the bottom row first.
       image.values[y * width + x] =
-          read_float(&rest[((height - 1 - y) * width + x) * sizeof(float)], scale < 0.0);
+          std::abs(scale) * double{read_float(&rest[((height - 1 - y) * width + x) * sizeof(float)], scale < 0.0)};
     }
   }
   return image;
 }
 
-NumberMap read_npy_map(const std::filesystem::path& path) {
-  NpyArray array = read_npy(path);
-  if (array.shape.size() != 2 || array.shape[0] > kLargestExtent || array.shape[1] > kLargestExtent) {
+NumberMap read_npy_map(const std::filesystem::path& path, std::string_view file) {
+  NpyArray array = parse_npy(path, file);
+  std::vector<std::size_t> shape = array.shape;
+  while (shape.size() > 2 && shape.back() == 1) {
+    shape.pop_back();
+  }
+  while (shape.size() > 2 && shape.front() == 1) {
+    shape.erase(shape.begin());
+  }
+  if (shape.size() != 2 || shape[0] > kLargestExtent || shape[1] > kLargestExtent) {
     fail_in_file(path, fmt::format("NPY shape ({}): a map has rows and columns, each 1..{}",
                                    fmt::join(array.shape, ", "), kLargestExtent));
   }
-  return {.width = static_cast<int>(array.shape[1]),
-          .height = static_cast<int>(array.shape[0]),
+  return {.width = static_cast<int>(shape[1]),
+          .height = static_cast<int>(shape[0]),
           .png_bits = 0,
           .values = std::move(array.values)};
 }
@@ -280,17 +341,18 @@ NumberMap read_number_map(const std::filesystem::path& path, const char* purpose
   const std::string file = read_file(path);
   const std::string_view start(file);
   if (start.starts_with(kPngSignature)) {
-    const GreyImage grey = read_grey_png(path, GreyBits::kEither, purpose);
+    GreyImage grey = read_grey_png(path, file, GreyBits::kEither, purpose);
     return {.width = grey.width,
             .height = grey.height,
             .png_bits = grey.bit_depth,
-            .values = {grey.values.begin(), grey.values.end()}};
+            .values = {grey.values.begin(), grey.values.end()},
+            .transparent = std::move(grey.transparent)};
   }
   if (start.starts_with("Pf") || start.starts_with("PF")) {
     return read_pfm(path, file);
   }
   if (start.starts_with("\x93NUMPY")) {
-    return read_npy_map(path);
+    return read_npy_map(path, file);
   }
   fail_in_file(path, "neither a PNG, a PFM nor an NPY file");
 }
@@ -330,7 +392,8 @@ DepthImage read_depth_image(const std::filesystem::path& path, std::optional<dou
   DepthImage image{.width = map.width, .height = map.height};
   image.metres.reserve(map.values.size());
   for (std::size_t i = 0; i < map.values.size(); ++i) {
-    const double metres = map.values[i] * scale;
+    const bool transparent = !map.transparent.empty() && map.transparent[i];
+    const double metres = transparent ? 0.0 : map.values[i] * scale;
     if (metres < 0.0) {
       fail_in_file(path, fmt::format("{}: negative depth {} m", pixel_name(map, i), metres));
     }
@@ -351,6 +414,9 @@ ReflectivityImage read_reflectivity_image(const std::filesystem::path& path, std
   ReflectivityImage image{.width = map.width, .height = map.height};
   image.values.reserve(map.values.size());
   for (std::size_t i = 0; i < map.values.size(); ++i) {
+    if (!map.transparent.empty() && map.transparent[i]) {
+      fail_in_file(path, fmt::format("{}: a transparent pixel has no reflectivity", pixel_name(map, i)));
+    }
     const double reflectivity = map.values[i] * scale;
     if (!std::isfinite(reflectivity) || reflectivity < 0.0) {
       fail_in_file(path, fmt::format("{}: a reflectivity of {} is not a finite number of at least 0",
@@ -366,17 +432,18 @@ DepthImage read_disparity_png(const std::filesystem::path& path, double metres_a
     fail_in_file(
         path, fmt::format("depth at disparity 1 is {}, must be a positive number of metres", metres_at_one));
   }
-  const GreyImage grey = read_grey_png(path, GreyBits::k8, "a disparity map");
+  const GreyImage grey = read_grey_png(path, read_file(path), GreyBits::k8, "a disparity map");
   DepthImage image{.width = grey.width, .height = grey.height};
   image.metres.reserve(grey.values.size());
-  for (const std::uint16_t disparity : grey.values) {
-    image.metres.push_back(disparity == 0 ? 0.0F : static_cast<float>(metres_at_one / disparity));
+  for (std::size_t i = 0; i < grey.values.size(); ++i) {
+    const bool known = grey.values[i] != 0 && (grey.transparent.empty() || !grey.transparent[i]);
+    image.metres.push_back(known ? static_cast<float>(metres_at_one / grey.values[i]) : 0.0F);
   }
   return image;
 }
 
 ReflectivityImage read_photograph(const std::filesystem::path& path) {
-  const GreyImage grey = read_grey_png(path, GreyBits::k8, "a photograph", Colours::kLuminance);
+  const GreyImage grey = read_grey_png(path, read_file(path), GreyBits::k8, "a photograph", Colours::kLuminance);
   constexpr double kWhite = 255.0;
   ReflectivityImage image{.width = grey.width, .height = grey.height};
   image.values.reserve(grey.values.size());

@@ -38,6 +38,10 @@ struct MatMatrix {
 PhotonTimes read_photon_times_mat(const std::filesystem::path& path,
                                   const std::string& variable = "photon_times");
 
+/// The same of contents that `path` has already given.
+PhotonTimes parse_photon_times_mat(const std::filesystem::path& path, std::string_view file,
+                                   const std::string& variable = "photon_times");
+
 /// Reads a two-dimensional real numeric variable. Throws InputError as above.
 MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable);
 
