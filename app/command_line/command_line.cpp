@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <exception>
 #include <new>
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
+#include "command_line/shell_words.hpp"
+#include "command_line/standard_streams.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/suggestion.hpp"
@@ -174,17 +177,19 @@ void run_command_line(CLI::App& app, int count, const char* const* arguments) {
 }
 
 int run_program(const Program& program, int count, const char* const* arguments) {
+  open_closed_streams();
   install_interruption_handler();
   const auto fail = [&](int code, const std::string& reason) {
-    fmt::print(stderr, "{}: error: {}\n", program.name, reason);
+    print_error_line(fmt::format("{}: error: {}", program.name, reason));
     return code;
   };
   try {
-    std::string command_line = program.name;
-    for (int i = 1; i < count; ++i) {
-      command_line += fmt::format(" {}", arguments[i]);
-    }
+    const std::string command_line =
+        shell_command(program.name, std::span(arguments, static_cast<std::size_t>(count)).subspan(count > 0 ? 1 : 0));
     run_command_line(*make_command_line(program, command_line), count, arguments);
+    if (const std::string reason = flush_standard_output(); !reason.empty()) {
+      return fail(kExitFailure, "standard output: cannot write: " + reason);
+    }
     return 0;
   } catch (const InputError& error) {
     return fail(kExitInputError, in_one_line(error.what()));

@@ -36,9 +36,9 @@ std::ptrdiff_t photons_near(std::span<const double> ticks, double surface) {
 
 }  // namespace
 
-MeasuredScene tmf8829_scene(const std::filesystem::path& log) {
-  const std::vector<Tmf8829Frame> frames = read_tmf8829_json(log);
-  HistogramCube cube = tmf8829_cube(frames);
+MeasuredScene tmf8829_scene(const std::filesystem::path& path) {
+  const Tmf8829Log log = read_tmf8829_json(path);
+  HistogramCube cube = tmf8829_cube(log, 0.0, path.string());
   MeasuredScene scene;
   scene.title = "TMF8829 log";
   scene.description = fmt::format(
@@ -47,7 +47,7 @@ MeasuredScene tmf8829_scene(const std::filesystem::path& log) {
       "pixels need neighbours in a column, so each frame is a column here and the {} zones of row 0 are its "
       "rows. "
       "Truth: the distance that the sensor itself reported.",
-      frames.size(), cube.rows);
+      log.frames.size(), cube.rows);
   scene.columns = cube.columns;
   scene.rows = cube.rows;
   for (const double distance : cube.true_distance) {

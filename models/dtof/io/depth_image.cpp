@@ -184,8 +184,8 @@ void take_pixels(const std::filesystem::path& path, const PngReader& reader, Gre
   for (std::size_t y = 0; y < reader.rows.size(); ++y) {
     const png_byte* const row = reader.rows[y];
     const auto sample = [&](std::size_t index) {
-      return image.bit_depth == 8 ? row[index]
-                                  : static_cast<std::uint16_t>(row[2 * index] << 8U | row[2 * index + 1]);
+      return static_cast<std::uint16_t>(image.bit_depth == 8 ? row[index]
+                                                             : row[2 * index] << 8U | row[2 * index + 1]);
     };
     for (std::size_t x = 0; x < width; ++x) {
       const std::size_t first = x * channels;
