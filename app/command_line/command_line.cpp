@@ -6,10 +6,12 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <span>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
@@ -197,6 +199,10 @@ int run_program(const Program& program, int count, const char* const* arguments)
     return fail(kExitRtlError, error.what());
   } catch (const Interrupted& error) {
     return fail(kExitInterrupted, error.what());
+  } catch (const std::system_error& error) {
+    // fmt says of a stream that takes no more: "cannot write to file: <reason>".
+    return fail(kExitFailure, std::ferror(stdout) != 0 ? "standard output: cannot write: " + error.code().message()
+                                                       : std::string(error.what()));
   } catch (const std::bad_alloc&) {
     return fail(kExitFailure, "the memory of this machine is not enough");
   } catch (const std::exception& error) {

@@ -15,13 +15,13 @@ namespace dtof {
 struct RecordingOptions {
   std::string file;
   std::string format = "auto";  ///< auto (by content, else by name), csv, npy, mat, tmf8820, tmf8829
-  std::optional<double> bin_width_s;  ///< NPY: width of a histogram bin
+  std::optional<double> bin_width_s = std::nullopt;  ///< NPY: width of a histogram bin
   double tick_s = 8e-12;              ///< MAT: duration of a tick
   std::string variable = "photon_times";
-  std::optional<std::uint32_t> acquisitions;
-  std::optional<int> columns;  ///< CSV: of the sensor; none: the last that detected something
-  std::optional<int> rows;     ///< CSV: likewise
-  Resampling resampling;       ///< for measured histograms and photon times
+  std::optional<std::uint32_t> acquisitions = std::nullopt;
+  std::optional<int> columns = std::nullopt;  ///< CSV: of the sensor; none: the last that detected something
+  std::optional<int> rows = std::nullopt;     ///< CSV: likewise
+  Resampling resampling = {};       ///< for measured histograms and photon times
 };
 
 /// A file that has been read, once, so that it may be a pipe.

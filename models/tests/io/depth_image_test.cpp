@@ -133,7 +133,7 @@ TEST_F(DepthImageTest, PngRefusesOtherDepthsAndColours) {
           "column 1, row 0: red, green and blue are 7, 7 and 8: a map is grey");
   refused(write_pixels("rgba.png", PNG_FORMAT_RGBA, 1, {5, 6, 5, 255}),
           "column 0, row 0: red, green and blue are 5, 6 and 5: a map is grey");
-  refused(write_palette("palette.png"), "8-bit palette PNG: a depth map must be an 8-bit or 16-bit greyscale or RGB PNG");
+  refused(write_palette("palette.png"), "1-bit palette PNG: a depth map must be an 8-bit or 16-bit greyscale or RGB PNG");
   refused(write("text.png", "hello"), "neither a PNG, a PFM nor an NPY file");
   refused(path("none.png"), "cannot read: No such file or directory");
 }
