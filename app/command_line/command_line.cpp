@@ -186,8 +186,8 @@ int run_program(const Program& program, int count, const char* const* arguments)
     return code;
   };
   try {
-    const std::string command_line =
-        shell_command(program.name, std::span(arguments, static_cast<std::size_t>(count)).subspan(count > 0 ? 1 : 0));
+    const std::string command_line = shell_command(
+        program.name, std::span(arguments, static_cast<std::size_t>(count)).subspan(count > 0 ? 1 : 0));
     run_command_line(*make_command_line(program, command_line), count, arguments);
     if (const std::string reason = flush_standard_output(); !reason.empty()) {
       return fail(kExitFailure, "standard output: cannot write: " + reason);
@@ -201,8 +201,9 @@ int run_program(const Program& program, int count, const char* const* arguments)
     return fail(kExitInterrupted, error.what());
   } catch (const std::system_error& error) {
     // fmt says of a stream that takes no more: "cannot write to file: <reason>".
-    return fail(kExitFailure, std::ferror(stdout) != 0 ? "standard output: cannot write: " + error.code().message()
-                                                       : std::string(error.what()));
+    return fail(kExitFailure, std::ferror(stdout) != 0
+                                  ? "standard output: cannot write: " + error.code().message()
+                                  : std::string(error.what()));
   } catch (const std::bad_alloc&) {
     return fail(kExitFailure, "the memory of this machine is not enough");
   } catch (const std::exception& error) {

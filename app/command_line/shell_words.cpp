@@ -12,7 +12,8 @@ namespace dtof {
 namespace {
 
 bool is_plain(unsigned char letter) {
-  return std::isalnum(letter) != 0 || std::string_view("-_./,:=+@%^").find(static_cast<char>(letter)) != std::string_view::npos;
+  return std::isalnum(letter) != 0 ||
+         std::string_view("-_./,:=+@%^").find(static_cast<char>(letter)) != std::string_view::npos;
 }
 
 }  // namespace

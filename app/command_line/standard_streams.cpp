@@ -16,7 +16,8 @@ void open_closed_streams() {
   constexpr std::array<int, 3> kModes = {O_WRONLY, O_RDONLY, O_WRONLY};  // input and output: of no use
   for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
     if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
-      (void)::open("/dev/null", kModes.at(static_cast<std::size_t>(descriptor)));  // NOLINT(android-cloexec-open)
+      (void)::open("/dev/null",
+                   kModes.at(static_cast<std::size_t>(descriptor)));  // NOLINT(android-cloexec-open)
     }
   }
 }

@@ -5,8 +5,8 @@
 
 namespace dtof {
 
-/// Takes the place of standard streams that are closed, so that no file gets their numbers: what is written to
-/// standard error is dropped, and writing to standard output fails.
+/// Takes the place of standard streams that are closed, so that no file gets their numbers: what is written
+/// to standard error is dropped, and writing to standard output fails.
 void open_closed_streams();
 
 /// Writes what waits for standard output; returns why not all of the output was written, or nothing.

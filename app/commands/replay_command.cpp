@@ -11,11 +11,11 @@
 #include <memory>
 #include <utility>
 
-#include "commands/commands.hpp"
-#include "commands/optional_output.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "command_line/truth_map.hpp"
+#include "commands/commands.hpp"
+#include "commands/optional_output.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/physical_constants.hpp"
 #include "dtof/frame/frame_truth.hpp"

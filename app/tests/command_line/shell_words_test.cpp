@@ -27,8 +27,8 @@ TEST(ShellWord, OthersAreQuoted) {
 
 TEST(ShellCommand, AShellTakesTheWordsBack) {
   const std::array<const char*, 7> words = {"plain", "a b", "it's", "$HOME", "`x`", "a\\b\xfc\n'!", "*"};
-  const std::string command = "bash -c '\"$@\"' bash " + shell_command("printf", std::array{"%s\\0"}) +
-                              shell_command("", words);
+  const std::string command =
+      "bash -c '\"$@\"' bash " + shell_command("printf", std::array{"%s\\0"}) + shell_command("", words);
   std::FILE* const pipe = popen(command.c_str(), "r");
   std::string output;
   for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;) {

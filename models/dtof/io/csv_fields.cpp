@@ -30,7 +30,8 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 std::string_view without_blanks(std::string_view text) {
   constexpr std::string_view kBlanks = " \t";
   const std::size_t begin = text.find_first_not_of(kBlanks);
-  return begin == std::string_view::npos ? "" : text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+  return begin == std::string_view::npos ? ""
+                                         : text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
 /// What stands in a field, without blanks and quotation marks around it.
@@ -60,7 +61,8 @@ struct LineReader {
   char separator;
   std::string_view may_be_none;
 
-  [[noreturn]] void refuse(std::size_t line, std::size_t field, std::string_view text, const char* what) const {
+  [[noreturn]] void refuse(std::size_t line, std::size_t field, std::string_view text,
+                           const char* what) const {
     fail_at_line(file_name, line, fmt::format("{} \"{}\" is {}", names[field], text, what));
   }
 
@@ -83,7 +85,7 @@ struct LineReader {
     digits.remove_prefix(negative ? 1 : 0);
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (error == std::errc::result_out_of_range) {
+    if (error == std::errc::result_out_of_range || (error == std::errc() && number == kNoCsvValue)) {
       refuse(line, field, text, "too large");
     }
     // With semicolons between the fields a comma may stand before the fraction.
@@ -104,14 +106,15 @@ struct LineReader {
   }
 };
 
-/// Reads a line of nothing but digits and separators; false for any other.
+/// Reads a line of nothing but digits and separators, and no number that is kNoCsvValue; false for any other.
 bool read_plain(std::string_view line, char separator, std::span<std::uint64_t> fields) {
   const char* position = line.data();
   const char* const line_end = line.data() + line.size();
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto [next, error] = std::from_chars(position, line_end, fields[i]);
     const bool last = i + 1 == fields.size();
-    if (error != std::errc() || (last ? next != line_end : next == line_end || *next != separator)) {
+    if (error != std::errc() || fields[i] == kNoCsvValue ||
+        (last ? next != line_end : next == line_end || *next != separator)) {
       return false;
     }
     position = last ? next : next + 1;

@@ -22,9 +22,9 @@ inline constexpr std::uint64_t kNoCsvValue = std::numeric_limits<std::uint64_t>:
 using CsvLineHandler = std::function<void(std::size_t line, std::span<const std::uint64_t> fields)>;
 
 /// Parses a CSV of unsigned decimal integers. `header`, the first line, gives the number and the names of the
-/// fields. Taken as the same are: commas and semicolons, one of the two in a whole file; blanks around a field;
-/// quotation marks around it; a fraction of zeros (100.0); empty lines behind the last one; a byte order mark in
-/// front. In the field `may_be_none` -1 stands for no value (kNoCsvValue). Throws InputError
+/// fields. Taken as the same are: commas and semicolons, one of the two in a whole file; blanks around a
+/// field; quotation marks around it; a fraction of zeros (100.0); empty lines behind the last one; a byte
+/// order mark in front. In the field `may_be_none` -1 stands for no value (kNoCsvValue). Throws InputError
 /// "<file>:<line>: <reason>" at the first malformed line.
 void parse_integer_csv(std::string_view file_name, std::string_view text, std::string_view header,
                        const CsvLineHandler& handler, std::string_view may_be_none = "");

@@ -10,7 +10,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <csetjmp>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -21,6 +20,7 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/io/atomic_file.hpp"
+#include "dtof/io/grey_png.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/npy.hpp"
 
@@ -28,208 +28,6 @@ namespace dtof {
 namespace {
 
 constexpr int kLargestExtent = 65535;
-// Far more than any depth camera has; a pixel takes 8 bytes while it is read.
-constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26U;
-// Deflate packs no better than this: a header that asks for more has too little data behind it.
-constexpr std::uint64_t kBestPacking = 1032;
-constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1a\n";
-
-const char* colour_type_name(int type) {
-  switch (type) {
-    case PNG_COLOR_TYPE_GRAY:
-      return "greyscale";
-    case PNG_COLOR_TYPE_GRAY_ALPHA:
-      return "greyscale with alpha";
-    case PNG_COLOR_TYPE_PALETTE:
-      return "palette";
-    case PNG_COLOR_TYPE_RGB:
-      return "RGB";
-    case PNG_COLOR_TYPE_RGB_ALPHA:
-      return "RGB with alpha";
-    default:
-      return "unknown";
-  }
-}
-
-/// State shared with libpng's callbacks. libpng leaves errors by longjmp, which must not cross a destructor:
-/// everything that owns memory lives here, outside the function that sets the jump.
-struct PngReader {
-  std::string_view rest;
-  std::size_t file_size = 0;
-  std::string error;
-  png_structp png = nullptr;
-  png_infop info = nullptr;
-  int width = 0;
-  int height = 0;
-  int bit_depth = 0;
-  int colour_type = 0;
-  int channels = 0;  ///< as decoded: grey or three colours, and alpha behind them
-  std::vector<png_byte> pixels;
-  std::vector<png_bytep> rows;
-
-  PngReader() = default;
-  PngReader(const PngReader&) = delete;
-  PngReader& operator=(const PngReader&) = delete;
-  PngReader(PngReader&&) = delete;
-  PngReader& operator=(PngReader&&) = delete;
-  ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
-};
-
-void on_png_error(png_structp png, png_const_charp message) {
-  static_cast<PngReader*>(png_get_error_ptr(png))->error = message;
-  png_longjmp(png, 1);
-}
-
-void on_png_warning(png_structp /*png*/, png_const_charp /*message*/) {}
-
-void on_png_read(png_structp png, png_bytep data, std::size_t length) {
-  auto& reader = *static_cast<PngReader*>(png_get_io_ptr(png));
-  if (length > reader.rest.size()) {
-    png_error(png, "the file ends early");
-  }
-  std::memcpy(data, reader.rest.data(), length);
-  reader.rest.remove_prefix(length);
-}
-
-/// Bits of a pixel that a purpose can take.
-enum class GreyBits { k8, k16, kEither };
-
-bool takes(GreyBits bits, int bit_depth) {
-  return (bit_depth == 8 && bits != GreyBits::k16) || (bit_depth == 16 && bits != GreyBits::k8);
-}
-
-const char* describe(GreyBits bits) {
-  return bits == GreyBits::k8 ? "an 8-bit" : bits == GreyBits::k16 ? "a 16-bit" : "an 8-bit or 16-bit";
-}
-
-constexpr double kGamma = 2.2;  // of photographs
-
-/// Whether colours are turned into grey, or red, green and blue must be equal.
-enum class Colours { kEqual, kLuminance };
-
-bool is_readable(int colour_type, Colours colours) {
-  switch (colour_type) {
-    case PNG_COLOR_TYPE_GRAY:
-    case PNG_COLOR_TYPE_RGB:
-      return true;
-    case PNG_COLOR_TYPE_GRAY_ALPHA:
-    case PNG_COLOR_TYPE_RGB_ALPHA:
-      return colours == Colours::kEqual;
-    default:
-      return false;
-  }
-}
-
-/// Returns false after a libpng error; decodes the pixels only when the format is the wanted one.
-bool decode_png(PngReader& reader, GreyBits wanted, Colours colours) {
-  if (setjmp(png_jmpbuf(reader.png)) != 0) {  // NOLINT(cert-err52-cpp): libpng's error interface
-    return false;
-  }
-  png_read_info(reader.png, reader.info);
-  reader.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
-  reader.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
-  reader.bit_depth = png_get_bit_depth(reader.png, reader.info);
-  reader.colour_type = png_get_color_type(reader.png, reader.info);
-  if (!is_readable(reader.colour_type, colours) || !takes(wanted, reader.bit_depth)) {
-    return true;
-  }
-  if (colours == Colours::kEqual && png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0) {
-    png_set_tRNS_to_alpha(reader.png);
-  }
-  if (colours == Colours::kLuminance && reader.colour_type == PNG_COLOR_TYPE_RGB) {
-    constexpr double kUsualWeights = -1.0;
-    png_set_gamma(reader.png, kGamma, 1.0 / kGamma);  // the sum is one of light, not of the file's values
-    png_set_rgb_to_gray(reader.png, PNG_ERROR_ACTION_NONE, kUsualWeights, kUsualWeights);
-  }
-  const std::uint64_t pixels =
-      static_cast<std::uint64_t>(reader.width) * static_cast<std::uint64_t>(reader.height);
-  if (pixels > kMostPixels) {
-    png_error(reader.png, "more than 2^26 pixels");
-  }
-  const auto bytes_per_pixel =
-      static_cast<unsigned>(png_get_channels(reader.png, reader.info) * reader.bit_depth / 8);
-  if (pixels * bytes_per_pixel > kBestPacking * reader.file_size) {
-    png_error(reader.png, "the file ends early");
-  }
-  png_set_interlace_handling(reader.png);
-  png_read_update_info(reader.png, reader.info);
-  reader.channels = png_get_channels(reader.png, reader.info);
-  const std::size_t row_bytes = png_get_rowbytes(reader.png, reader.info);
-  reader.pixels.resize(row_bytes * static_cast<std::size_t>(reader.height));
-  reader.rows.resize(static_cast<std::size_t>(reader.height));
-  for (std::size_t row = 0; row < reader.rows.size(); ++row) {
-    reader.rows[row] = &reader.pixels[row * row_bytes];
-  }
-  png_read_image(reader.png, reader.rows.data());
-  png_read_end(reader.png, nullptr);
-  return true;
-}
-
-struct GreyImage {
-  int width = 0;
-  int height = 0;
-  int bit_depth = 0;  ///< 8 or 16
-  std::vector<std::uint16_t> values;
-  std::vector<bool> transparent;  ///< empty: no pixel is
-};
-
-/// Takes the grey of every pixel, and which pixels are transparent. Throws InputError for a pixel of a colour.
-void take_pixels(const std::filesystem::path& path, const PngReader& reader, GreyImage& image) {
-  const auto width = static_cast<std::size_t>(image.width);
-  const auto channels = static_cast<std::size_t>(reader.channels);
-  const bool alpha = channels % 2 == 0;
-  const std::size_t colours = channels - (alpha ? 1 : 0);
-  const int largest = (1 << image.bit_depth) - 1;
-  image.values.reserve(width * static_cast<std::size_t>(image.height));
-  for (std::size_t y = 0; y < reader.rows.size(); ++y) {
-    const png_byte* const row = reader.rows[y];
-    const auto sample = [&](std::size_t index) {
-      return static_cast<std::uint16_t>(image.bit_depth == 8 ? row[index]
-                                                             : row[2 * index] << 8U | row[2 * index + 1]);
-    };
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::size_t first = x * channels;
-      for (std::size_t colour = 1; colour < colours; ++colour) {
-        if (sample(first + colour) != sample(first)) {
-          fail_in_file(path, fmt::format("column {}, row {}: red, green and blue are {}, {} and {}: a map is grey", x,
-                                         y, sample(first), sample(first + 1), sample(first + 2)));
-        }
-      }
-      image.values.push_back(sample(first));
-      if (alpha) {
-        image.transparent.push_back(sample(first + colours) != largest);
-      }
-    }
-  }
-}
-
-GreyImage read_grey_png(const std::filesystem::path& path, std::string_view file, GreyBits wanted,
-                        const char* purpose, Colours colours = Colours::kEqual) {
-  if (!file.starts_with(kPngSignature)) {
-    fail_in_file(path, "not a PNG file");
-  }
-  PngReader reader;
-  reader.rest = file;
-  reader.file_size = file.size();
-  reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, on_png_error, on_png_warning);
-  reader.info = png_create_info_struct(reader.png);
-  png_set_read_fn(reader.png, &reader, on_png_read);
-  png_set_user_limits(reader.png, kLargestExtent, kLargestExtent);
-  if (!decode_png(reader, wanted, colours)) {
-    fail_in_file(path, fmt::format("damaged PNG: {}", reader.error));
-  }
-  if (reader.rows.empty()) {
-    fail_in_file(path, fmt::format("{}-bit {} PNG: {} must be {} greyscale or RGB PNG", reader.bit_depth,
-                                   colour_type_name(reader.colour_type), purpose, describe(wanted)));
-  }
-  GreyImage image{.width = reader.width,
-                  .height = reader.height,
-                  .bit_depth = reader.bit_depth,
-                  .values = {},
-                  .transparent = {}};
-  take_pixels(path, reader, image);
-  return image;
-}
 
 /// Numbers of a file, row 0 on top.
 struct NumberMap {
@@ -249,8 +47,8 @@ float read_float(const char* bytes, bool little_endian) {
   return std::bit_cast<float>(raw);
 }
 
-/// Takes the next token of a PFM header, and what stands in front: white space, and comments from # to the end of
-/// a line.
+/// Takes the next token of a PFM header, and what stands in front: white space, and comments from # to the
+/// end of a line.
 std::string_view next_token(const std::filesystem::path& path, std::string_view& rest) {
   constexpr std::string_view kWhiteSpace = " \t\r\n";
   while (!rest.empty() && (rest.front() == '#' || kWhiteSpace.find(rest.front()) != std::string_view::npos)) {
@@ -296,18 +94,20 @@ NumberMap read_pfm(const std::filesystem::path& path, std::string_view file) {
   const auto width = static_cast<std::size_t>(image.width);
   const auto height = static_cast<std::size_t>(image.height);
   const std::size_t bytes = width * height * sizeof(float);
-  // One white space ends the header; a line end of CR LF is two characters, unless LF is the first byte of a number.
+  // One white space ends the header; a line end of CR LF is two characters, unless LF is the first byte of a
+  // number.
   rest.remove_prefix(rest.starts_with("\r\n") && rest.size() >= bytes + 2 ? 2 : 1);
   if (rest.size() != bytes) {
-    fail_in_file(
-        path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height, bytes, rest.size()));
+    fail_in_file(path, fmt::format("{} x {} pixels need {} bytes, the file has {}", width, height, bytes,
+                                   rest.size()));
   }
   image.values.resize(width * height);
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
       // PFM stores the bottom row first.
       image.values[y * width + x] =
-          std::abs(scale) * double{read_float(&rest[((height - 1 - y) * width + x) * sizeof(float)], scale < 0.0)};
+          std::abs(scale) *
+          double{read_float(&rest[((height - 1 - y) * width + x) * sizeof(float)], scale < 0.0)};
     }
   }
   return image;
@@ -372,6 +172,8 @@ void check_extent(const DepthImage& image) {
 
 /// A known depth in whole millimetres, else 0.
 double millimetres(float metres) { return metres > 0.0F ? std::round(double{metres} * 1000.0) : 0.0; }
+
+void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
 void append_to_string(png_structp png, png_bytep data, std::size_t length) {
   static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(data), length);
@@ -443,12 +245,13 @@ DepthImage read_disparity_png(const std::filesystem::path& path, double metres_a
 }
 
 ReflectivityImage read_photograph(const std::filesystem::path& path) {
-  const GreyImage grey = read_grey_png(path, read_file(path), GreyBits::k8, "a photograph", Colours::kLuminance);
+  const GreyImage grey =
+      read_grey_png(path, read_file(path), GreyBits::k8, "a photograph", Colours::kLuminance);
   constexpr double kWhite = 255.0;
   ReflectivityImage image{.width = grey.width, .height = grey.height};
   image.values.reserve(grey.values.size());
   for (const std::uint16_t value : grey.values) {
-    image.values.push_back(static_cast<float>(std::pow(value / kWhite, kGamma)));
+    image.values.push_back(static_cast<float>(std::pow(value / kWhite, kPhotographGamma)));
   }
   return image;
 }
@@ -478,7 +281,7 @@ void write_depth_png(const std::filesystem::path& path, const DepthImage& image)
     pixels.push_back(static_cast<png_byte>(value & 0xFFU));
   }
   std::string encoded;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, on_png_warning);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, ignore_warning);
   png_infop info = png_create_info_struct(png);
   png_set_write_fn(png, &encoded, append_to_string, no_flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 16,

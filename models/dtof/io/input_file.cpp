@@ -98,7 +98,9 @@ std::string unpack_gzip(const std::filesystem::path& path, std::string contents,
     check_length(path, contents.size(), longest);
     return contents;
   }
-  const auto fail = [&](const char* reason) { fail_in_file(path, fmt::format("damaged gzip data: {}", reason)); };
+  const auto fail = [&](const char* reason) {
+    fail_in_file(path, fmt::format("damaged gzip data: {}", reason));
+  };
   constexpr std::size_t kMostAtOnce = std::size_t{1} << 30U;  // zlib counts in 32 bits
   std::string unpacked;
   std::array<char, std::size_t{1} << 16U> chunk{};
@@ -109,7 +111,8 @@ std::string unpack_gzip(const std::filesystem::path& path, std::string contents,
     int code = Z_OK;
     while (code != Z_STREAM_END) {
       const std::size_t given = std::min(rest.size(), kMostAtOnce);
-      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast,cppcoreguidelines-pro-type-reinterpret-cast): zlib's
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast,cppcoreguidelines-pro-type-reinterpret-cast):
+      // zlib's
       stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(rest.data()));
       stream.avail_in = static_cast<uInt>(given);
       // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): zlib's type

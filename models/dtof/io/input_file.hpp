@@ -17,8 +17,8 @@ inline constexpr std::size_t kLongestUnpacked = std::size_t{1} << 28U;
 [[noreturn]] void fail_in_file(const std::filesystem::path& path, std::string_view reason);
 
 /// Whole contents of a file, which is read once from its beginning to its end, so that a pipe may take its
-/// place. Throws InputError "<path>: <reason>" when it is missing, unreadable, a directory, a device, empty or
-/// longer than `longest` bytes.
+/// place. Throws InputError "<path>: <reason>" when it is missing, unreadable, a directory, a device, empty
+/// or longer than `longest` bytes.
 std::string read_file(const std::filesystem::path& path, std::size_t longest = kLongestFile);
 
 /// As `read_file`, and unpacks gzip (recognised by its first two bytes). Throws also when the gzip data is

@@ -28,8 +28,8 @@ bool is_integer(const nlohmann::json& value) {
   return number == std::floor(number) && std::abs(number) <= kLargest;
 }
 
-/// Python's json and others write NaN, Infinity and -Infinity, which JSON does not have: null takes their place.
-/// Text without them stays as it is.
+/// Python's json and others write NaN, Infinity and -Infinity, which JSON does not have: null takes their
+/// place. Text without them stays as it is.
 std::string with_null_for_no_number(std::string_view text) {
   constexpr std::array<std::string_view, 3> kNoNumbers = {"NaN", "-Infinity", "Infinity"};
   std::string result;

@@ -54,7 +54,8 @@ double half(const char* bytes, bool big_endian) {
   constexpr int kSpecial = 31;
   double magnitude = 0.0;
   if (exponent == kSpecial) {
-    magnitude = fraction == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+    magnitude =
+        fraction == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
   } else {
     magnitude = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
   }
@@ -154,9 +155,10 @@ Elements find_elements(const std::filesystem::path& path, std::string_view heade
       return {&dtype, descr[0] == '>'};
     }
   }
-  fail_in_file(path, fmt::format("dtype '{}' is not one of i1, i2, i4, i8, u1, u2, u4, u8, f2, f4, f8, little- or "
-                                 "big-endian",
-                                 descr));
+  fail_in_file(path,
+               fmt::format("dtype '{}' is not one of i1, i2, i4, i8, u1, u2, u4, u8, f2, f4, f8, little- or "
+                           "big-endian",
+                           descr));
 }
 
 /// An integer beyond 2^53 has no place in a double of its own.
@@ -171,7 +173,8 @@ void check_integer(const std::filesystem::path& path, const Dtype& dtype, double
     place[axis] = index % shape[axis];
     index /= shape[axis];
   }
-  fail_in_file(path, fmt::format("element [{}]: the integer {:.0f} is beyond 2^53", fmt::join(place, ", "), value));
+  fail_in_file(path,
+               fmt::format("element [{}]: the integer {:.0f} is beyond 2^53", fmt::join(place, ", "), value));
 }
 
 }  // namespace
@@ -188,7 +191,8 @@ NpyArray parse_npy(const std::filesystem::path& path, std::string_view file) {
   const int version = static_cast<unsigned char>(file[6]);
   constexpr int kNewestVersion = 3;  // as 2, with names of fields in UTF-8
   if (version < 1 || version > kNewestVersion) {
-    fail_in_file(path, fmt::format("NPY format {}.{} is not 1.0, 2.0 or 3.0", version, static_cast<int>(file[7])));
+    fail_in_file(path,
+                 fmt::format("NPY format {}.{} is not 1.0, 2.0 or 3.0", version, static_cast<int>(file[7])));
   }
   const std::size_t length_size = version == 1 ? 2 : 4;
   const std::size_t header_begin = 8 + length_size;
@@ -206,7 +210,8 @@ NpyArray parse_npy(const std::filesystem::path& path, std::string_view file) {
   NpyArray array;
   array.shape = parse_shape(path, header);
   if (std::ranges::find(array.shape, std::size_t{0}) != array.shape.end()) {
-    fail_in_file(path, fmt::format("the array is empty: shape ({}) has no element", fmt::join(array.shape, ", ")));
+    fail_in_file(path,
+                 fmt::format("the array is empty: shape ({}) has no element", fmt::join(array.shape, ", ")));
   }
 
   const std::size_t available = (file.size() - header_begin - header_length) / dtype->size;

@@ -22,10 +22,10 @@ void check_photon_numbers(const HistogramCube& cube) {
       const std::span<const double> counts = cube.pixel(column, row);
       const double photons = std::accumulate(counts.begin(), counts.end(), 0.0);
       if (photons > kLargestPhotonNumber) {
-        cube.fail(fmt::format(
-            "column {}, row {}: {:.0f} photons are more than the {:g} that a pixel can "
-            "have in a frame; give a photon budget (--photons)",
-            column, row, photons, kLargestPhotonNumber));
+        cube.fail(
+            fmt::format("column {}, row {}: {:.0f} photons are more than the {:g} that a pixel can "
+                        "have in a frame; give a photon budget (--photons)",
+                        column, row, photons, kLargestPhotonNumber));
       }
     }
   }
@@ -77,7 +77,8 @@ HistogramStream::HistogramStream(HistogramCube cube, const Resampling& resamplin
                                        [](double count) { return count != std::floor(count); });
     if (fraction != cube_.counts.end()) {
       cube_.fail(fmt::format("{}: count {} is not an integer; give a photon budget (--photons)",
-                             cube_.place(static_cast<std::size_t>(fraction - cube_.counts.begin())), *fraction));
+                             cube_.place(static_cast<std::size_t>(fraction - cube_.counts.begin())),
+                             *fraction));
     }
   }
 }
@@ -114,7 +115,8 @@ void HistogramStream::draw_times(int column, int row, CounterRandom& random,
   }
 }
 
-HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset, const std::string& name) {
+HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset,
+                             const std::string& name) {
   HistogramCube cube;
   cube.name = name;
   if (array.shape.empty()) {

@@ -101,7 +101,8 @@ std::string left_out_phrase(std::size_t count, std::string_view what) {
   return count == 0 ? "" : fmt::format(", {} {} left out", count, what);
 }
 
-Recording open_tmf8820(const RecordingOptions& options, const RecordingFile& file, const Resampling& resampling) {
+Recording open_tmf8820(const RecordingOptions& options, const RecordingFile& file,
+                       const Resampling& resampling) {
   Tmf8820Log log;
   if (is_tmf8820_log(file.contents)) {
     log = parse_tmf8820_log(options.file, file.contents);
@@ -135,13 +136,12 @@ Recording open_recording(const RecordingOptions& options, RecordingFile file) {
     resampling.acquisitions = *options.acquisitions;
   }
   if (file.format == "csv") {
-    auto stream = std::make_unique<RecordedStream>(
-        parse_stream_csv(options.file, file.contents,
-                         {.np = resampling.np,
-                          .slots = resampling.slots,
-                          .columns = options.columns,
-                          .rows = options.rows,
-                          .acquisitions = options.acquisitions}));
+    auto stream = std::make_unique<RecordedStream>(parse_stream_csv(options.file, file.contents,
+                                                                    {.np = resampling.np,
+                                                                     .slots = resampling.slots,
+                                                                     .columns = options.columns,
+                                                                     .rows = options.rows,
+                                                                     .acquisitions = options.acquisitions}));
     Recording recording;
     recording.description = fmt::format("recorded stream, {} detections", stream->detection_count());
     recording.source = std::move(stream);

@@ -196,7 +196,8 @@ RecordedStream parse_stream_csv(const std::filesystem::path& path, std::string_v
                  fmt::format("more than {} timestamps for acquisition {}, column {}, row {} (SLOTS = {})",
                              options.slots, line->acquisition, line->column, line->row, options.slots));
   }
-  return {std::move(streams), rows, options.acquisitions.value_or(static_cast<std::uint32_t>(found.acquisitions))};
+  return {std::move(streams), rows,
+          options.acquisitions.value_or(static_cast<std::uint32_t>(found.acquisitions))};
 }
 
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source) {

@@ -45,8 +45,8 @@ class RecordedStream : public StreamSource {
 
 /// Reads a recorded stream, plain or gzip. Lines may stand in any order; slot order is line order within one
 /// acquisition, column and row. LF or CRLF line ends; the last line may lack one. How a line may be written
-/// beside that is parse_integer_csv's (io/csv_fields.hpp); a timestamp of -1 is no event, and its line counts for
-/// the sizes alone. At most 65,536 columns, 65,536 rows and 2^24 pixels. Throws InputError
+/// beside that is parse_integer_csv's (io/csv_fields.hpp); a timestamp of -1 is no event, and its line counts
+/// for the sizes alone. At most 65,536 columns, 65,536 rows and 2^24 pixels. Throws InputError
 /// "<file>:<line>: <reason>" for the first line that breaks the format.
 RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCsvOptions& options);
 

@@ -26,16 +26,16 @@ struct Tmf8820Capture {
   std::array<std::uint32_t, kTmf8820Bins> reference{};  ///< the emitted pulse; all 0 where the file has none
 };
 
-/// Reads a list of captures in front of a plane (C. Sifferman, SPAD-ICCP-Summer-School, part 2). A distance of
-/// 0, null or NaN is unknown, and the reference histogram may be missing. Throws InputError naming file, capture
-/// and member that is wrong.
+/// Reads a list of captures in front of a plane (C. Sifferman, SPAD-ICCP-Summer-School, part 2). A distance
+/// of 0, null or NaN is unknown, and the reference histogram may be missing. Throws InputError naming file,
+/// capture and member that is wrong.
 std::vector<Tmf8820Capture> read_tmf8820_json(const std::filesystem::path& path);
 
 /// The same of text that `path` has already given.
 std::vector<Tmf8820Capture> parse_tmf8820_json(const std::filesystem::path& path, std::string_view text);
 
-/// Captures side by side: one column a capture, one row a zone, truth in `true_distance`. `name`: the file, for
-/// refusals.
+/// Captures side by side: one column a capture, one row a zone, truth in `true_distance`. `name`: the file,
+/// for refusals.
 HistogramCube tmf8820_cube(std::span<const Tmf8820Capture> captures, double bin_width = kTmf8820BinWidth,
                            double offset = 0.0, const std::string& name = HistogramCube().name);
 

@@ -68,7 +68,8 @@ class OpenCapture {
 };
 
 /// A field of a "#Raw" line; throws InputError unless it is an integer from 0 to `largest`.
-std::uint64_t number(const std::string& name, std::size_t line, std::string_view field, std::uint64_t largest) {
+std::uint64_t number(const std::string& name, std::size_t line, std::string_view field,
+                     std::uint64_t largest) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size() || value > largest) {
@@ -121,7 +122,8 @@ Tmf8820Log parse_tmf8820_log(const std::filesystem::path& path, std::string_view
     const std::size_t index = number(name, line, fields[2], kChannels * kBytes - 1);
     std::array<std::uint64_t, kTmf8820Bins> numbers{};
     for (std::size_t bin = 0; bin < kTmf8820Bins; ++bin) {
-      numbers.at(bin) = number(name, line, fields[kFieldsBefore + bin], std::numeric_limits<std::uint16_t>::max());
+      numbers.at(bin) =
+          number(name, line, fields[kFieldsBefore + bin], std::numeric_limits<std::uint16_t>::max());
     }
     if (index == 0) {
       close(line);
@@ -136,7 +138,8 @@ Tmf8820Log parse_tmf8820_log(const std::filesystem::path& path, std::string_view
   }
   close(0);
   if (log.captures.empty()) {
-    throw InputError(fmt::format("{}: no whole capture: one has {} lines \"#Raw\"", name, kChannels * kBytes));
+    throw InputError(
+        fmt::format("{}: no whole capture: one has {} lines \"#Raw\"", name, kChannels * kBytes));
   }
   return log;
 }

@@ -87,8 +87,8 @@ std::optional<Tmf8829Frame> parse_frame(const JsonNode& node) {
   return frame;
 }
 
-/// Steps of the sensor's converter that its configuration puts into a bin, as a power of two; where a log does
-/// not say, histograms of either length span the same range.
+/// Steps of the sensor's converter that its configuration puts into a bin, as a power of two; where a log
+/// does not say, histograms of either length span the same range.
 std::int64_t bin_shift(const JsonNode& root, std::size_t bins) {
   const auto configuration = root.find("configuration");
   const auto shift = configuration ? configuration->find("bin_shift") : std::nullopt;
@@ -106,7 +106,8 @@ std::int64_t bin_shift(const JsonNode& root, std::size_t bins) {
 void append_pixel(HistogramCube& cube, std::span<const std::uint32_t> histogram, const Tmf8829Pixel& pixel) {
   cube.counts.insert(cube.counts.end(), histogram.begin(), histogram.end());
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  cube.true_distance.push_back(pixel.peaks.empty() ? kUnknown : pixel.peaks.front().distance.value_or(kUnknown));
+  cube.true_distance.push_back(pixel.peaks.empty() ? kUnknown
+                                                   : pixel.peaks.front().distance.value_or(kUnknown));
 }
 
 }  // namespace
@@ -139,8 +140,9 @@ Tmf8829Log parse_tmf8829_json(const std::filesystem::path& path, std::string_vie
     }
   }
   if (log.frames.empty()) {
-    set.fail(log.left_out == 0 ? "no frames"
-                               : fmt::format("none of {} frames has both results and histograms", log.left_out));
+    set.fail(log.left_out == 0
+                 ? "no frames"
+                 : fmt::format("none of {} frames has both results and histograms", log.left_out));
   }
   log.bin_width = std::ldexp(kTmf8829BinWidth,
                              static_cast<int>(bin_shift(root, log.frames.front().bins) - kTmf8829BinShift));

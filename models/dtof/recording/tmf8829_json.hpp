@@ -17,16 +17,16 @@ namespace dtof {
 /// Bins of a histogram, in the sensor's 8 x 8 modes and in all others; a reference has as many as the others.
 inline constexpr std::size_t kTmf8829Bins = 64;
 inline constexpr std::size_t kTmf8829FineBins = 256;
-/// s; of a histogram of 64 bins. 122.2 mm per bin, the slope of histogram peaks against on-chip distances in the
-/// published log, whose configuration has `bin_shift` 2 and `histogram_bins` 218: its histograms end in the middle of
-/// bin 54, at 218 / 2^2. So a bin is 2^bin_shift steps of a quarter of this width.
+/// s; of a histogram of 64 bins. 122.2 mm per bin, the slope of histogram peaks against on-chip distances in
+/// the published log, whose configuration has `bin_shift` 2 and `histogram_bins` 218: its histograms end in
+/// the middle of bin 54, at 218 / 2^2. So a bin is 2^bin_shift steps of a quarter of this width.
 inline constexpr double kTmf8829BinWidth = 815e-12;
 inline constexpr std::int64_t kTmf8829BinShift = 2;
 /// Centre of gravity of a histogram peak at distance zero, in bins (bin k counts as k), from the same fit.
 inline constexpr double kTmf8829ZeroDistanceBin = 3.11;
 
-/// A target that the sensor reported. What a log leaves out is not there: the makers' own viewer and client treat
-/// every member so.
+/// A target that the sensor reported. What a log leaves out is not there: the makers' own viewer and client
+/// treat every member so.
 struct Tmf8829Peak {
   std::optional<double> distance;  ///< m, along the pixel's ray
   std::optional<double> x;         ///< m

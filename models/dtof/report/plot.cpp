@@ -208,9 +208,9 @@ std::string gnuplot_script(const std::filesystem::path& output, const std::vecto
              "set terminal svg size {},{} font 'sans,13' background '#ffffff'\n"
              "set output {}\n{}{}set xlabel {} noenhanced\nset ylabel {} noenhanced\n"
              "set grid\nset autoscale xfix\n{}{}{}",
-             width, height, quoted(output.string()), data_blocks(series), heading, quoted_text(layout.x_label),
-             quoted_text(layout.y_label), layout.logarithmic_y ? "set logscale y\n" : "",
-             layout.logarithmic_x ? "set logscale x\n" : "",
+             width, height, quoted(output.string()), data_blocks(series), heading,
+             quoted_text(layout.x_label), quoted_text(layout.y_label),
+             layout.logarithmic_y ? "set logscale y\n" : "", layout.logarithmic_x ? "set logscale x\n" : "",
              layout.logarithmic_x ? logarithmic_marks(series) : "") +
          plots(series, layout);
 }

@@ -137,7 +137,8 @@ TEST_F(AtomicFileTest, GzipIsUnpackedFromAPipe) {
   // Members follow each other, as `cat a.gz b.gz` writes them; what is no member is ignored, as gzip does.
   EXPECT_EQ(unpack_gzip("a.gz", packed + packed), text + text);
   EXPECT_EQ(unpack_gzip("a.gz", packed + "rest"), text);
-  test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed, 1U << 18U); }, "a.gz: more than 0 MiB to read");
+  test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed, 1U << 18U); },
+                           "a.gz: more than 0 MiB to read");
   for (std::size_t size = 2; size < packed.size(); size += 7) {
     test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed.substr(0, size)); },
                              "a.gz: damaged gzip data: the file ends early");

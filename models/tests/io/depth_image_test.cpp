@@ -34,7 +34,8 @@ std::string png_word(std::uint32_t value) {
 std::string png_chunk(const std::string& name, const std::string& data) {
   const std::string body = name + data;
   const auto checksum = crc32(0, reinterpret_cast<const Bytef*>(body.data()), static_cast<uInt>(body.size()));
-  return png_word(static_cast<std::uint32_t>(data.size())) + body + png_word(static_cast<std::uint32_t>(checksum));
+  return png_word(static_cast<std::uint32_t>(data.size())) + body +
+         png_word(static_cast<std::uint32_t>(checksum));
 }
 
 class DepthImageTest : public test::IoTest {
@@ -74,8 +75,8 @@ class DepthImageTest : public test::IoTest {
     return path(name);
   }
   /// A PNG of one row from its samples as they stand in the file; `key`: contents of a tRNS chunk.
-  std::filesystem::path write_raw(const char* name, int bits, int colour_type, unsigned width, const std::string& samples,
-                                  const std::string& key = "") {
+  std::filesystem::path write_raw(const char* name, int bits, int colour_type, unsigned width,
+                                  const std::string& samples, const std::string& key = "") {
     const std::string row = '\0' + samples;  // no filter
     std::string packed(compressBound(static_cast<uLong>(row.size())), '\0');
     uLongf size = packed.size();
@@ -86,8 +87,9 @@ class DepthImageTest : public test::IoTest {
     header += static_cast<char>(bits);
     header += static_cast<char>(colour_type);
     header += std::string(3, '\0');
-    return write(name, "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) + (key.empty() ? "" : png_chunk("tRNS", key)) +
-                           png_chunk("IDAT", packed) + png_chunk("IEND", ""));
+    return write(name, "\x89PNG\r\n\x1a\n" + png_chunk("IHDR", header) +
+                           (key.empty() ? "" : png_chunk("tRNS", key)) + png_chunk("IDAT", packed) +
+                           png_chunk("IEND", ""));
   }
   void refused(const std::filesystem::path& file, const std::string& reason) {
     test::expect_input_error([&] { (void)read_depth_image(file); }, file.string() + ": " + reason);
@@ -133,7 +135,8 @@ TEST_F(DepthImageTest, PngRefusesOtherDepthsAndColours) {
           "column 1, row 0: red, green and blue are 7, 7 and 8: a map is grey");
   refused(write_pixels("rgba.png", PNG_FORMAT_RGBA, 1, {5, 6, 5, 255}),
           "column 0, row 0: red, green and blue are 5, 6 and 5: a map is grey");
-  refused(write_palette("palette.png"), "1-bit palette PNG: a depth map must be an 8-bit or 16-bit greyscale or RGB PNG");
+  refused(write_palette("palette.png"),
+          "1-bit palette PNG: a depth map must be an 8-bit or 16-bit greyscale or RGB PNG");
   refused(write("text.png", "hello"), "neither a PNG, a PFM nor an NPY file");
   refused(path("none.png"), "cannot read: No such file or directory");
 }
@@ -148,7 +151,8 @@ TEST_F(DepthImageTest, GreyInOtherFormsIsTheSameMap) {
   EXPECT_THAT(map(write_raw("ga.png", 8, kGreyAlpha, 2, "\x64\xff\xc8\xff")), same);
   EXPECT_THAT(map(write_raw("rgba.png", 8, kRgbAlpha, 2, "\x64\x64\x64\xff\xc8\xc8\xc8\xff")), same);
   const auto deep = ElementsAre(FloatEq(1.0F), FloatEq(0.258F));
-  EXPECT_THAT(map(write_raw("rgb16.png", 16, kRgb, 2, "\x03\xe8\x03\xe8\x03\xe8\x01\x02\x01\x02\x01\x02")), deep);
+  EXPECT_THAT(map(write_raw("rgb16.png", 16, kRgb, 2, "\x03\xe8\x03\xe8\x03\xe8\x01\x02\x01\x02\x01\x02")),
+              deep);
   EXPECT_THAT(map(write_raw("ga16.png", 16, kGreyAlpha, 2, "\x03\xe8\xff\xff\x01\x02\xff\xff")), deep);
 }
 
@@ -159,13 +163,15 @@ TEST_F(DepthImageTest, TransparentPixelsAreUnknown) {
   const auto unknown_first = ElementsAre(0.0F, FloatEq(0.258F));
   const auto map = [&](const std::filesystem::path& file) { return read_depth_image(file, 0.001).metres; };
   // Alpha below its largest value, of which no more than one step is missing.
-  EXPECT_THAT(map(write_raw("a16.png", 16, kGreyAlpha, 2, "\x03\xe8\xff\xfe\x01\x02\xff\xff")), unknown_first);
+  EXPECT_THAT(map(write_raw("a16.png", 16, kGreyAlpha, 2, "\x03\xe8\xff\xfe\x01\x02\xff\xff")),
+              unknown_first);
   // The key of a tRNS chunk: one grey, or one colour.
   const std::string grey("\x03\xe8\x01\x02", 4);
   EXPECT_THAT(map(write_raw("key.png", 16, kGrey, 2, grey, "\x03\xe8")), unknown_first);
   EXPECT_THAT(map(write_raw("key8.png", 8, kGrey, 2, "\x64\xc8", std::string("\0\x64", 2))),
               ElementsAre(0.0F, FloatEq(0.2F)));
-  EXPECT_THAT(map(write_raw("keyrgb.png", 8, kRgb, 2, "\x64\x64\x64\xc8\xc8\xc8", std::string("\0\x64\0\x64\0\x64", 6))),
+  EXPECT_THAT(map(write_raw("keyrgb.png", 8, kRgb, 2, "\x64\x64\x64\xc8\xc8\xc8",
+                            std::string("\0\x64\0\x64\0\x64", 6))),
               ElementsAre(0.0F, FloatEq(0.2F)));
   EXPECT_THAT(read_disparity_png(path("key8.png"), 50.0).metres, ElementsAre(0.0F, FloatEq(0.25F)));
   test::expect_input_error([&] { (void)read_reflectivity_image(path("key.png")); },
@@ -305,7 +311,8 @@ TEST_F(DepthImageTest, NpyUnknownNegativeAndOddShapes) {
 TEST_F(DepthImageTest, NpyAxesOfOneElementAreLeftOut) {
   const std::vector<double> metres = {1, 2, 3, 4, 5, 6};
   for (const std::vector<std::size_t>& shape :
-       {std::vector<std::size_t>{2, 3, 1}, std::vector<std::size_t>{1, 2, 3}, std::vector<std::size_t>{1, 2, 3, 1}}) {
+       {std::vector<std::size_t>{2, 3, 1}, std::vector<std::size_t>{1, 2, 3},
+        std::vector<std::size_t>{1, 2, 3, 1}}) {
     write_npy(path("a.npy"), shape, metres);
     const DepthImage image = read_depth_image(path("a.npy"));
     EXPECT_EQ(image.width, 3);
@@ -360,8 +367,9 @@ TEST_F(DepthImageTest, Disparity) {
                            EndsWith("depth at disparity 1 is -1, must be a positive number of metres"));
   EXPECT_THAT(read_disparity_png(write_png("rgb.png", PNG_FORMAT_RGB), 50.0).metres,
               ::testing::Each(FloatEq(0.5F)));
-  test::expect_input_error([&] { (void)read_disparity_png(write_png("16.png", PNG_FORMAT_LINEAR_Y), 1.0); },
-                           EndsWith("16-bit greyscale PNG: a disparity map must be an 8-bit greyscale or RGB PNG"));
+  test::expect_input_error(
+      [&] { (void)read_disparity_png(write_png("16.png", PNG_FORMAT_LINEAR_Y), 1.0); },
+      EndsWith("16-bit greyscale PNG: a disparity map must be an 8-bit greyscale or RGB PNG"));
 }
 
 /// A PNG without its chunks that say how values follow from light.

@@ -77,7 +77,8 @@ TEST_F(NpyTest, ReadsBothByteOrders) {
   };
   const auto check = [&](const std::string& descr, const std::string& data, double first, double second) {
     SCOPED_TRACE(descr);
-    EXPECT_THAT(read(npy(header(descr, "(2,)"), data)).values, ElementsAre(DoubleEq(first), DoubleEq(second)));
+    EXPECT_THAT(read(npy(header(descr, "(2,)"), data)).values,
+                ElementsAre(DoubleEq(first), DoubleEq(second)));
   };
   check(">u1", bytes<std::uint8_t>({1, 200}), 1, 200);
   check(">i2", swapped(std::vector<std::int16_t>{-2, 258}), -2, 258);
@@ -93,8 +94,8 @@ TEST_F(NpyTest, ReadsBothByteOrders) {
 
 TEST_F(NpyTest, HalfPrecisionOfEveryKind) {
   // One, the largest, the smallest normal and subnormal number, minus zero, a third.
-  const NpyArray array =
-      read(npy(header("<f2", "(6,)"), bytes<std::uint16_t>({0x3C00, 0x7BFF, 0x0400, 0x0001, 0x8000, 0x3555})));
+  const NpyArray array = read(
+      npy(header("<f2", "(6,)"), bytes<std::uint16_t>({0x3C00, 0x7BFF, 0x0400, 0x0001, 0x8000, 0x3555})));
   EXPECT_THAT(array.values, ElementsAre(1.0, 65504.0, 0x1p-14, 0x1p-24, -0.0, 1365.0 / 4096.0));
   EXPECT_TRUE(std::signbit(array.values[4]));
   const NpyArray special = read(npy(header("<f2", "(3,)"), bytes<std::uint16_t>({0x7C00, 0xFC00, 0x7E00})));

@@ -202,12 +202,14 @@ TEST(HistogramStream, EmptyPixelsAndNoAcquisitions) {
 
 TEST(HistogramStream, Refusals) {
   const HistogramCube cube = cube_of(1, 1, {1.5, 2});
-  test::expect_input_error([&] { HistogramStream(cube, {}); },
-                           "histograms: column 0, row 0, bin 0: count 1.5 is not an integer; give a photon budget (--photons)");
+  test::expect_input_error(
+      [&] { HistogramStream(cube, {}); },
+      "histograms: column 0, row 0, bin 0: count 1.5 is not an integer; give a photon budget (--photons)");
   HistogramCube named = cube_of(2, 1, {1, 2, 3, 0.5});
   named.name = "a.npy";
-  test::expect_input_error([&] { HistogramStream(named, {}); },
-                           "a.npy: column 1, row 0, bin 1: count 0.5 is not an integer; give a photon budget (--photons)");
+  test::expect_input_error(
+      [&] { HistogramStream(named, {}); },
+      "a.npy: column 0, row 0, bin 3: count 0.5 is not an integer; give a photon budget (--photons)");
   const auto refused = [&](const Resampling& resampling, const std::string& reason) {
     test::expect_input_error([&] { HistogramStream(cube, resampling); }, "resampling: " + reason);
   };

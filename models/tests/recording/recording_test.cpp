@@ -19,8 +19,12 @@ using ::testing::EndsWith;
 
 class RecordingTest : public test::IoTest {
  protected:
-  static std::string format_of(const std::filesystem::path& file) { return read_recording({.file = file}).format; }
-  static Recording open(const RecordingOptions& options) { return open_recording(options, read_recording(options)); }
+  static std::string format_of(const std::filesystem::path& file) {
+    return read_recording({.file = file}).format;
+  }
+  static Recording open(const RecordingOptions& options) {
+    return open_recording(options, read_recording(options));
+  }
 };
 
 TEST_F(RecordingTest, ContentSaysWhatAFileIsAndElseTheName) {
@@ -33,8 +37,11 @@ TEST_F(RecordingTest, ContentSaysWhatAFileIsAndElseTheName) {
     EXPECT_EQ(format_of(write(name, "\x93NUMPY...")), "npy") << name;
     EXPECT_EQ(format_of(write(name, "MATLAB 5.0")), "mat") << name;
   }
-  for (const auto& [name, format] :
-       {std::pair{"a.Csv", "csv"}, {"a.csv.gz", "csv"}, {"a.NPY", "npy"}, {"a.mat", "mat"}, {"a.json", "tmf8820"}}) {
+  for (const auto& [name, format] : {std::pair{"a.Csv", "csv"},
+                                     {"a.csv.gz", "csv"},
+                                     {"a.NPY", "npy"},
+                                     {"a.mat", "mat"},
+                                     {"a.json", "tmf8820"}}) {
     EXPECT_EQ(format_of(write(name, "what?")), format);
   }
   test::expect_input_error([&] { (void)format_of(write("a.txt", "what?")); },
@@ -45,7 +52,8 @@ TEST_F(RecordingTest, ContentSaysWhatAFileIsAndElseTheName) {
 TEST_F(RecordingTest, PipesAndGzipAreReadOnce) {
   const std::string stream = "acquisition,column,row,timestamp\n0,0,0,5\n2,1,0,7\n";
   write_gzip_file(path("a.csv.gz"), stream);
-  for (const std::filesystem::path& file : {path("a.csv.gz"), pipe_of(stream), pipe_of(contents(path("a.csv.gz")))}) {
+  for (const std::filesystem::path& file :
+       {path("a.csv.gz"), pipe_of(stream), pipe_of(contents(path("a.csv.gz")))}) {
     const Recording recording = open({.file = file});
     EXPECT_EQ(recording.source->acquisitions(), 3U);
     EXPECT_THAT(recording.source->column(1).row(0), ElementsAre(Detection{2, 7}));
@@ -60,9 +68,11 @@ TEST_F(RecordingTest, RefusalsNameTheFile) {
   write_npy(path("a.npy"), std::vector<std::size_t>{2, 1}, std::vector<double>{3, 0.5});
   test::expect_input_error(
       [&] { (void)open({.file = path("a.npy"), .bin_width_s = 1e-9}); },
-      path("a.npy").string() + ": column 1, row 0, bin 0: count 0.5 is not an integer; give a photon budget (--photons)");
-  test::expect_input_error([&] { (void)open({.file = path("a.npy"), .bin_width_s = -1e-9}); },
-                           path("a.npy").string() + ": bin width is -1e-09, must be a positive number of seconds");
+      path("a.npy").string() +
+          ": column 1, row 0, bin 0: count 0.5 is not an integer; give a photon budget (--photons)");
+  test::expect_input_error(
+      [&] { (void)open({.file = path("a.npy"), .bin_width_s = -1e-9}); },
+      path("a.npy").string() + ": bin width is -1e-09, must be a positive number of seconds");
 }
 
 TEST_F(RecordingTest, WhatIsLeftOutIsSaid) {

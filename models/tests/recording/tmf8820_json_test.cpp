@@ -84,8 +84,9 @@ TEST_F(Tmf8820Test, UnknownDistancesAndNoReference) {
 }
 
 TEST_F(Tmf8820Test, WhatIsNoNumberIsNullOutsideOfStringsOnly) {
-  EXPECT_EQ(parse_json("a", R"({"a": NaN, "b": [-Infinity, Infinity, -1], "c": "NaN \" Infinity", "NaN": 1})"),
-            nlohmann::json::parse(R"({"a": null, "b": [null, null, -1], "c": "NaN \" Infinity", "NaN": 1})"));
+  EXPECT_EQ(
+      parse_json("a", R"({"a": NaN, "b": [-Infinity, Infinity, -1], "c": "NaN \" Infinity", "NaN": 1})"),
+      nlohmann::json::parse(R"({"a": null, "b": [null, null, -1], "c": "NaN \" Infinity", "NaN": 1})"));
   EXPECT_EQ(parse_json("a", "\xEF\xBB\xBF[1]"), nlohmann::json::parse("[1]"));
   test::expect_input_error([] { (void)parse_json("a", "[NaN, Nothing]"); }, HasSubstr("a: parse error"));
 }

@@ -36,7 +36,8 @@ void refused(const std::string& text, const std::string& reason) {
 }
 
 TEST(Tmf8820Log, BytesOfAChannelAreAdded) {
-  const Tmf8820Log log = parse_tmf8820_log("a.log", "TMF8820 Arduino\r\n" + capture(0) + "#Obj,65,1,27\n" + capture(100));
+  const Tmf8820Log log =
+      parse_tmf8820_log("a.log", "TMF8820 Arduino\r\n" + capture(0) + "#Obj,65,1,27\n" + capture(100));
   ASSERT_EQ(log.captures.size(), 2U);
   EXPECT_EQ(log.incomplete, 0U);
   EXPECT_TRUE(std::isnan(log.captures[0].distance));

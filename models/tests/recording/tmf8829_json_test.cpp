@@ -142,21 +142,25 @@ TEST_F(Tmf8829Test, FramesWithoutResultsOrHistogramsAreLeftOutAndCounted) {
   empty_results["results"] = nlohmann::json::array();
   auto no_histograms = frame(first_bin);
   no_histograms["mp_histo"] = nullptr;
-  const Tmf8829Log log =
-      read_tmf8829_json(write_log({no_results, frame(first_bin), empty_results, no_histograms, frame(first_bin)}));
+  const Tmf8829Log log = read_tmf8829_json(
+      write_log({no_results, frame(first_bin), empty_results, no_histograms, frame(first_bin)}));
   EXPECT_EQ(log.frames.size(), 2U);
   EXPECT_EQ(log.left_out, 3U);
   EXPECT_EQ(tmf8829_cube(log).columns, 4);
-  test::expect_input_error([&] { (void)read_tmf8829_json(write_log({no_results, no_histograms})); },
-                           EndsWith("a.json.Result_Set: none of 2 frames has both results and histograms"));
+  test::expect_input_error(
+      [&] {
+        (void)read_tmf8829_json(write_log({no_results, no_histograms}));
+      },
+      EndsWith("a.json.Result_Set: none of 2 frames has both results and histograms"));
 }
 
 TEST_F(Tmf8829Test, HistogramsOfThe8x8ModesHaveFineBins) {
   auto json = frame([](int i, int j) { return 10 * i + j; });
+  int number = 0;
   for (auto& row : json["mp_histo"]) {
     for (auto& pixel : row) {
       std::vector<int> bins(kTmf8829FineBins, 3);
-      bins[200] = 70;
+      bins[200] = 70 + number++;
       pixel["bin"] = bins;
     }
   }
@@ -164,7 +168,7 @@ TEST_F(Tmf8829Test, HistogramsOfThe8x8ModesHaveFineBins) {
   const HistogramCube cube = tmf8829_cube(log);
   EXPECT_EQ(cube.bins, 256);
   EXPECT_NEAR(cube.bin_width, 203.75e-12, 1e-18);  // the range of 64 bins of 815 ps
-  EXPECT_EQ(cube.pixel(1, 1)[200], 70.0);
+  EXPECT_EQ(cube.pixel(1, 1)[200], 73.0);
   json["mp_histo"][1][1]["bin"] = std::vector<int>(kTmf8829Bins, 3);
   test::expect_input_error([&] { (void)read_tmf8829_json(write_log({json})); },
                            EndsWith("Result_Set[0].mp_histo[1][1].bin: 64 elements instead of 256"));
@@ -179,11 +183,13 @@ TEST_F(Tmf8829Test, TheConfigurationSaysHowWideABinIs) {
   EXPECT_NEAR(width(2), 815e-12, 1e-18);
   EXPECT_NEAR(width(0), 203.75e-12, 1e-18);
   EXPECT_NEAR(width(3), 1630e-12, 1e-18);
-  test::expect_input_error([&] { (void)width(8); }, EndsWith("a.json.configuration.bin_shift: 8 is not within 0 to 7"));
+  test::expect_input_error([&] { (void)width(8); },
+                           EndsWith("a.json.configuration.bin_shift: 8 is not within 0 to 7"));
 }
 
 TEST_F(Tmf8829Test, AByteOrderMarkStandsInFront) {
-  const std::string text = nlohmann::json{{"Result_Set", {frame([](int i, int j) { return 10 * i + j; })}}}.dump();
+  const std::string text =
+      nlohmann::json{{"Result_Set", {frame([](int i, int j) { return 10 * i + j; })}}}.dump();
   EXPECT_EQ(read_tmf8829_json(write("a.json", "\xEF\xBB\xBF" + text)).frames.at(0).histogram(1, 1)[0], 11U);
 }
 
@@ -213,7 +219,8 @@ TEST_F(Tmf8829Test, Refusals) {
   refused(json, "Result_Set[0].results[0][1].noise: not an integer");
   test::expect_input_error([] { (void)tmf8829_cube({}); }, "histograms: no frames");
   const Tmf8829Log sizes = read_tmf8829_json(write_log({frame(plain), frame(plain, 3)}));
-  test::expect_input_error([&] { (void)tmf8829_cube(sizes, 0.0, "a.json"); }, "a.json: frames of different size");
+  test::expect_input_error([&] { (void)tmf8829_cube(sizes, 0.0, "a.json"); },
+                           "a.json: frames of different size");
   json = frame(plain);
   json["results"][0][1]["peaks"][0]["distance"] = "near";
   refused(json, "Result_Set[0].results[0][1].peaks[0].distance: \"near\" is not a number");
