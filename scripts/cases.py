@@ -336,11 +336,16 @@ def use_before_declaration(_case: Case) -> None:
     require("implicit" not in done.text, next((line for line in done.text.splitlines() if "implicit" in line), ""))
 
 
+def has_commit() -> bool:
+    """Whether software commits its settings together."""
+    return any("] COMMIT = " in path.read_text(encoding="utf-8") for path in HDL.rglob("dtof_registers_pkg.sv"))
+
+
 @rule
 def torn_settings(case: Case) -> None:
     bench = (case.folder / "torn_bench.sv").read_text(encoding="utf-8")
     # Registers that are committed together take the last of the writes.
-    if "COMMIT " in (HDL / "common" / "dtof_registers_pkg.sv").read_text(encoding="utf-8"):
+    if has_commit():
         last = "write(dtof_registers_pkg::TRACK_END, 8);"
         require(bench.count(last) == 1, f"torn_bench.sv: no '{last}'")
         bench = bench.replace(last, last + " write(dtof_registers_pkg::COMMIT, 1);")
