@@ -137,9 +137,4 @@ std::string unpack_gzip(const std::filesystem::path& path, std::string contents,
   return unpacked;
 }
 
-std::string_view without_byte_order_mark(std::string_view text) {
-  constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
-}
-
 }  // namespace dtof

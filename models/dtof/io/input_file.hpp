@@ -30,6 +30,9 @@ std::string unpack_gzip(const std::filesystem::path& path, std::string contents,
                         std::size_t longest = kLongestUnpacked);
 
 /// Text without the byte order mark of UTF-8 in front of it, which some editors write.
-std::string_view without_byte_order_mark(std::string_view text);
+constexpr std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
 
 }  // namespace dtof
