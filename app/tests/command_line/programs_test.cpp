@@ -1270,11 +1270,11 @@ TEST_F(Programs, TheContentOfAJsonFileChoosesItsReader) {
 
 TEST_F(Programs, AStandardOutputThatIsFullIsAFailure) {
   for (const char* command : {"sensor thesis", "list"}) {
-    const Outcome outcome = dtof(std::string(command) + " 2>&1 >/dev/full");
+    const Outcome outcome = dtof(std::string(command) + " 2>said >/dev/full; code=$?; cat said; exit $code");
     EXPECT_EQ(outcome.exit_code, 4) << command;
     EXPECT_EQ(outcome.output, "dtof: error: standard output: cannot write: No space left on device\n");
   }
-  EXPECT_EQ(dtof("sensor thesis >&-").exit_code, 4);
+  EXPECT_EQ(dtof("sensor thesis 2>/dev/null >&-; exit $?").exit_code, 4);
 }
 
 TEST_F(Programs, ClosedStreamsGiveNoFileTheirNumbers) {

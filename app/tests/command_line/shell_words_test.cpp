@@ -5,6 +5,8 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <string>
 
 namespace dtof {
@@ -27,14 +29,16 @@ TEST(ShellWord, OthersAreQuoted) {
 
 TEST(ShellCommand, AShellTakesTheWordsBack) {
   const std::array<const char*, 7> words = {"plain", "a b", "it's", "$HOME", "`x`", "a\\b\xfc\n'!", "*"};
-  const std::string command =
-      "bash -c '\"$@\"' bash " + shell_command("printf", std::array{"%s\\0"}) + shell_command("", words);
-  std::FILE* const pipe = popen(command.c_str(), "r");
+  const std::filesystem::path script = std::filesystem::path(::testing::TempDir()) / "dtof_shell_words.sh";
+  std::ofstream(script, std::ios::binary)
+      << shell_command("printf", std::array{"%s\\0"}) << shell_command("", words);
+  std::FILE* const pipe = popen(("bash " + shell_word(script.string())).c_str(), "r");
   std::string output;
   for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;) {
     output += static_cast<char>(letter);
   }
   pclose(pipe);
+  std::filesystem::remove(script);
   std::string expected;
   for (const char* word : words) {
     expected += word;
