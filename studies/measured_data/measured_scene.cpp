@@ -42,12 +42,15 @@ MeasuredScene tmf8829_scene(const std::filesystem::path& path) {
   MeasuredScene scene;
   scene.title = "TMF8829 log";
   scene.description = fmt::format(
-      "Log of an ams TMF8829, {} frames. It holds the histograms of the sensor's row 0 only; read-outs that "
+      "Log of an ams TMF8829, {} frames{}. It holds the histograms of the sensor's row 0 only; read-outs "
+      "that "
       "pool "
       "pixels need neighbours in a column, so each frame is a column here and the {} zones of row 0 are its "
       "rows. "
       "Truth: the distance that the sensor itself reported.",
-      log.frames.size(), cube.rows);
+      log.frames.size(),
+      log.left_out == 0 ? "" : fmt::format(", {} without results or histograms left out", log.left_out),
+      cube.rows);
   scene.columns = cube.columns;
   scene.rows = cube.rows;
   for (const double distance : cube.true_distance) {

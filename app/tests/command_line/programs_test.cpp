@@ -1230,7 +1230,8 @@ TEST_F(Programs, OptionsWithoutEffectAreErrors) {
   expect_refused("replay " + stream + " --photons 3", "--photons has no effect");
   expect_refused("replay " + stream + " --tick 3", "--tick has no effect");
   expect_refused("replay " + stream + " --bin-width 3", "--bin-width has no effect");
-  expect_refused("replay " + file("a.npy", "\x93NUMPY") + " --bin-width 3 --array-rows 3", "--array-rows has no effect");
+  expect_refused("replay " + file("a.npy", "\x93NUMPY") + " --bin-width 3 --array-rows 3",
+                 "--array-rows has no effect");
   // The same options where they have one, also for one read-out of several.
   const std::string small = kSmallScene + " --out out ";
   EXPECT_EQ(dtof("frame -r sifh,hispointer --guard 3 --scene flat --distance 3 " + small).exit_code, 0);
