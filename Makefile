@@ -19,6 +19,7 @@
 # make example    a frame of dtof_subsystem in a small SystemVerilog bench (scripts/example.mk)
 # make bench      speed of RTL, models and photon model; SMALL=1: each once, on less work
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
+# make cases      every case that outsiders reported, of ../shared/cases (scripts/cases.mk)
 # make test-adding the worked example of docs/user/adding_a_readout.md, in a fresh clone (scripts/adding.mk)
 # make playground the C++ models in a page (scripts/playground.mk)
 # make mutate     small changes of RTL and models: which of them the tests notice (long)
@@ -47,7 +48,10 @@ packages:
 	@scripts/install_packages.sh
 
 configure: packages | build_folder
-	@cmake -S . --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
+	@# A folder that was moved or copied has the cache of another one.
+	@configured=$$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' $(BUILD)/CMakeCache.txt 2> /dev/null); \
+	  [ -z "$$configured" ] || [ "$$configured" -ef . ] || fresh=--fresh; \
+	  cmake $$fresh -S . --preset release > $(BUILD).log 2>&1 || { cat $(BUILD).log; exit 1; }
 
 build: configure
 	@ninja -C $(BUILD) dtof
@@ -116,6 +120,7 @@ include scripts/faults.mk
 include scripts/sensor_effects.mk
 include scripts/mutate.mk
 include scripts/hostile.mk
+include scripts/cases.mk
 include scripts/adding.mk
 include scripts/playground.mk
 include scripts/wave.mk

@@ -21,6 +21,8 @@ foreach(library ${DTOF_MODEL_LIBRARIES})
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/models/dtof/${library} COMPONENT models DESTINATION include/dtof
     FILES_MATCHING PATTERN "*.hpp" ${left_out})
 endforeach()
+list(TRANSFORM DTOF_MODEL_LIBRARIES PREPEND dtof_ OUTPUT_VARIABLE model_targets)
+add_custom_target(dtof_models DEPENDS ${model_targets})  # what the component "models" has
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/dtof)
 install(EXPORT dtof-models COMPONENT models NAMESPACE dtof:: DESTINATION ${package})
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/dtof-config.cmake.in ${PROJECT_BINARY_DIR}/dtof-config.cmake

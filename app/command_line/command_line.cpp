@@ -6,12 +6,17 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
+#include <span>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
+#include "command_line/shell_words.hpp"
+#include "command_line/standard_streams.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/suggestion.hpp"
@@ -174,17 +179,19 @@ void run_command_line(CLI::App& app, int count, const char* const* arguments) {
 }
 
 int run_program(const Program& program, int count, const char* const* arguments) {
+  open_closed_streams();
   install_interruption_handler();
   const auto fail = [&](int code, const std::string& reason) {
-    fmt::print(stderr, "{}: error: {}\n", program.name, reason);
+    print_error_line(fmt::format("{}: error: {}", program.name, reason));
     return code;
   };
   try {
-    std::string command_line = program.name;
-    for (int i = 1; i < count; ++i) {
-      command_line += fmt::format(" {}", arguments[i]);
-    }
+    const std::string command_line = shell_command(
+        program.name, std::span(arguments, static_cast<std::size_t>(count)).subspan(count > 0 ? 1 : 0));
     run_command_line(*make_command_line(program, command_line), count, arguments);
+    if (const std::string reason = flush_standard_output(); !reason.empty()) {
+      return fail(kExitFailure, "standard output: cannot write: " + reason);
+    }
     return 0;
   } catch (const InputError& error) {
     return fail(kExitInputError, in_one_line(error.what()));
@@ -192,6 +199,11 @@ int run_program(const Program& program, int count, const char* const* arguments)
     return fail(kExitRtlError, error.what());
   } catch (const Interrupted& error) {
     return fail(kExitInterrupted, error.what());
+  } catch (const std::system_error& error) {
+    // fmt says of a stream that takes no more: "cannot write to file: <reason>".
+    return fail(kExitFailure, std::ferror(stdout) != 0
+                                  ? "standard output: cannot write: " + error.code().message()
+                                  : std::string(error.what()));
   } catch (const std::bad_alloc&) {
     return fail(kExitFailure, "the memory of this machine is not enough");
   } catch (const std::exception& error) {

@@ -216,7 +216,12 @@ void SensorOptions::add_sensor_to(CLI::App& command) {
       ->capture_default_str();
 }
 
-SensorModel SensorOptions::described() const { return find_sensor(sensor); }
+SensorModel SensorOptions::described() const {
+  if (!read_once) {
+    read_once = find_sensor(sensor);
+  }
+  return *read_once;
+}
 
 SensorModel SensorOptions::model(int np, int slots) const {
   SensorModel model = described();

@@ -62,6 +62,8 @@ struct SensorOptions {
   std::optional<double> coincidence_ns;
   std::string fidelity = "exact";
   double tolerance = 0.01;
+  mutable std::optional<SensorModel> read_once =
+      std::nullopt;  ///< `sensor` as it was first read: it may be a pipe
 
   void add_to(CLI::App& command);
   /// Without --klux, for commands that take several light levels.

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
@@ -251,8 +252,7 @@ void write_comparison(const std::vector<TruthComparison>& comparisons, const Rep
 }
 
 /// Options that say nothing about this kind of recording.
-void check_recording_options(const CLI::App& command, const RecordingOptions& recording) {
-  const std::string format = recording_format(recording);
+void check_recording_options(const CLI::App& command, const std::string& format) {
   if (format == "csv") {
     for (const char* option : {"--photons", "--background", "--shift"}) {
       refuse_without_effect(command, option, "a TDC stream is replayed as it was recorded");
@@ -343,7 +343,7 @@ std::string lost_photons_sentence(const Recording& recording, const Region& regi
                                             photons.outside, photons.all, range);
 }
 
-void run_replay_command(const ReplayOptions& options) {
+void run_replay_command(const ReplayOptions& options, RecordingFile file) {
   check_run_options(options.run);
   if (options.truth_scale && options.truth_file.empty()) {
     throw InputError("--truth-scale needs --truth");
@@ -364,7 +364,7 @@ void run_replay_command(const ReplayOptions& options) {
   resampling.time_shift = options.shift_ns * 1e-9;
   resampling.photon_budget = options.photons;
   resampling.seed = options.run.seed;
-  Recording recording = open_recording(recording_options);
+  Recording recording = open_recording(recording_options, std::move(file));
   const Region region{.columns = parse_columns(options.run.columns, recording.source->columns()),
                       .rows = parse_rows(options.run.rows, recording.source->rows())};
   if (options.readout.all()) {
@@ -459,8 +459,9 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
   add_run_options(*command, options->run, true);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->callback([options, command] {
-    check_recording_options(*command, options->recording);
-    run_replay_command(*options);
+    RecordingFile file = read_recording(options->recording);
+    check_recording_options(*command, file.format);
+    run_replay_command(*options, std::move(file));
   });
 }
 

@@ -2,14 +2,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <string>
 
 #include "commands/commands.hpp"
 #include "dtof/core/physical_constants.hpp"
-#include "dtof/io/input_file.hpp"
 #include "dtof/photon/fast_photon_source.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "dtof/sensor/sensor_file.hpp"
@@ -39,18 +36,8 @@ void run_sensor_command(const std::string& name, bool keys) {
     fmt::print("{}", sensor_key_table());
     return;
   }
-  const SensorModel sensor = find_sensor(name);
-  const auto presets = preset_names();
-  const bool preset = std::ranges::find(presets, name) != presets.end();
-  std::string text;
-  if (preset) {
-    text = preset_text(name);
-  } else if (std::filesystem::exists(name)) {
-    text = read_file(name);
-  } else {
-    text = fmt::format("# {}: no file, but a sensor under conditions\n", name);
-  }
-  fmt::print("{}{}", text, consequences(sensor));
+  const DescribedSensor sensor = find_described_sensor(name);
+  fmt::print("{}{}", sensor.text, consequences(sensor.model));
 }
 
 }  // namespace

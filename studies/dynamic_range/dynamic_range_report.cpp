@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/engine_frame.hpp"
+#include "common/percent_text.hpp"
 
 namespace dtof {
 namespace {
@@ -21,11 +22,6 @@ constexpr std::array kShown = {Readout::kPoolPointer2, Readout::kPoolPointer2Lea
                                Readout::kHisPointer, Readout::kEzPointer};
 
 std::string title_of(const std::string& name) { return std::string(readout_title(parse_readout(name))); }
-
-std::string per_cent(double share) {
-  const double value = 100.0 * share;
-  return value == 0.0 ? "0" : value < 9.95 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
-}
 
 std::string with_interval(const Estimate& share) {
   return fmt::format("{:.2f} ({:.2f} to {:.2f})", 100.0 * share.value, 100.0 * share.interval.low,
@@ -101,9 +97,10 @@ std::string signal_table(const RangeSettings& settings, const DynamicRange& stud
         row.push_back(
             found == readouts.end()
                 ? "-"
-                : fmt::format("{} / {}",
-                              per_cent(range_share(found->second, &RangeCounts::above_3_percent).value),
-                              per_cent(range_share(found->second, &RangeCounts::above_10_percent).value)));
+                : fmt::format(
+                      "{} / {}",
+                      percent_text(range_share(found->second, &RangeCounts::above_3_percent).value),
+                      percent_text(range_share(found->second, &RangeCounts::above_10_percent).value)));
       }
       if (study.grid.begin()->second.contains(name)) {
         table.add(std::move(row));
@@ -129,7 +126,7 @@ RangeCounts sum_of(const std::vector<RangeCounts>& seeds) {
 }
 
 std::string share_or_dash(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? "-" : per_cent(static_cast<double>(part) / static_cast<double>(whole));
+  return whole == 0 ? "-" : percent_text(static_cast<double>(part) / static_cast<double>(whole));
 }
 
 /// Whether full counters cost the read-out more than the intervals of both explain.

@@ -10,22 +10,13 @@
 #include <set>
 
 #include "common/engine_frame.hpp"
+#include "common/percent_text.hpp"
 #include "dtof/sensor/condition.hpp"
 
 namespace dtof {
 namespace {
 
 constexpr double kFooled = 0.1;
-
-std::string per_cent(double share) {
-  const double value = 100.0 * share;
-  return value == 0.0 ? "0" : value < 9.95 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
-}
-
-const std::string& coarse_histogram() {
-  static const std::string name(readout_name(Readout::kCoarseHistogram));
-  return name;
-}
 
 /// "late-laser (14, 50 klux)" of each condition with a light.
 std::vector<std::string> named(const HostileSettings& settings,
@@ -58,8 +49,8 @@ std::string error_table(const HostileSettings& settings, const HostileScenes& st
     const HostileReadouts& readouts = study.cells.at({condition, klux});
     std::vector<std::string> row = {condition};
     for (const std::string& name : hostile_estimators(settings)) {
-      row.push_back(fmt::format("{} / {}", per_cent(share_above(readouts.at(name), 3).value),
-                                per_cent(share_above(readouts.at(name), 10).value)));
+      row.push_back(fmt::format("{} / {}", percent_text(share_above(readouts.at(name), 3).value),
+                                percent_text(share_above(readouts.at(name), 10).value)));
     }
     table.add(std::move(row));
   }
@@ -80,8 +71,8 @@ std::string alarm_table(const HostileSettings& settings, const HostileScenes& st
       const std::vector<HostileCounts>& seeds = readouts.at(name);
       const int threshold = study.thresholds.at(name);
       const std::optional<Estimate> alarms = share_of_false_alarms(seeds, threshold);
-      row.push_back(fmt::format("{} / {}", alarms ? per_cent(alarms->value) : "-",
-                                per_cent(share_detected(seeds, threshold).value)));
+      row.push_back(fmt::format("{} / {}", alarms ? percent_text(alarms->value) : "-",
+                                percent_text(share_detected(seeds, threshold).value)));
     }
     table.add(std::move(row));
   }
@@ -94,7 +85,7 @@ std::string detected_sentence(const HostileSettings& settings, const HostileScen
   for (const std::string& name : hostile_estimators(settings)) {
     std::vector<std::string> shares;
     for (const double klux : settings.klux) {
-      shares.push_back(per_cent(
+      shares.push_back(percent_text(
           share_detected(study.cells.at({std::string(kClear), klux}).at(name), study.thresholds.at(name))
               .value));
     }
@@ -128,7 +119,7 @@ std::vector<std::string> behind_coarse_histogram(const HostileSettings& settings
                                                  const std::string& estimator) {
   std::map<std::string, std::vector<std::string>> lights;
   for (const auto& [cell, readouts] : study.cells) {
-    const auto coarse = readouts.find(coarse_histogram());
+    const auto coarse = readouts.find(std::string(readout_name(Readout::kCoarseHistogram)));
     if (coarse == readouts.end()) {
       return {};
     }
@@ -148,7 +139,7 @@ std::vector<std::string> fooled_together(const HostileSettings& settings, const 
       best = std::min(best, share_above(readouts.at(std::string(readout_name(readout.readout))), 10).value);
     }
     if (best > kFooled) {
-      lights[cell.condition].push_back(fmt::format("{} % at {:g}", per_cent(best), cell.klux));
+      lights[cell.condition].push_back(fmt::format("{} % at {:g}", percent_text(best), cell.klux));
     }
   }
   return named(settings, lights);

@@ -36,18 +36,21 @@ std::ptrdiff_t photons_near(std::span<const double> ticks, double surface) {
 
 }  // namespace
 
-MeasuredScene tmf8829_scene(const std::filesystem::path& log) {
-  const std::vector<Tmf8829Frame> frames = read_tmf8829_json(log);
-  HistogramCube cube = tmf8829_cube(frames);
+MeasuredScene tmf8829_scene(const std::filesystem::path& path) {
+  const Tmf8829Log log = read_tmf8829_json(path);
+  HistogramCube cube = tmf8829_cube(log, 0.0, path.string());
   MeasuredScene scene;
   scene.title = "TMF8829 log";
   scene.description = fmt::format(
-      "Log of an ams TMF8829, {} frames. It holds the histograms of the sensor's row 0 only; read-outs that "
+      "Log of an ams TMF8829, {} frames{}. It holds the histograms of the sensor's row 0 only; read-outs "
+      "that "
       "pool "
       "pixels need neighbours in a column, so each frame is a column here and the {} zones of row 0 are its "
       "rows. "
       "Truth: the distance that the sensor itself reported.",
-      frames.size(), cube.rows);
+      log.frames.size(),
+      log.left_out == 0 ? "" : fmt::format(", {} without results or histograms left out", log.left_out),
+      cube.rows);
   scene.columns = cube.columns;
   scene.rows = cube.rows;
   for (const double distance : cube.true_distance) {

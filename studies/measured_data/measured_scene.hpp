@@ -30,7 +30,7 @@ struct MeasuredScene {
 /// Log of an ams TMF8829 with the sensor's own distances as truth. The published log holds the histograms of
 /// the sensor's row 0 only, so a frame of the log becomes a column, and the zones of that row its pixels:
 /// neighbours in the column are neighbours in the scene. Throws InputError for an unreadable log.
-MeasuredScene tmf8829_scene(const std::filesystem::path& log);
+MeasuredScene tmf8829_scene(const std::filesystem::path& path);
 
 /// Photon times of a scene of two surfaces. Times are tick * `tick_s` + `shift_s`; distances are c/2 of them.
 struct TwoSurfaces {

@@ -99,7 +99,8 @@ void run_enlarge_command(EnlargeOptions options) {
   settings.weights =
       options.weights.empty()
           ? trained_weights()
-          : parse_enlarger_weights(read_file(options.weights, kLongestWeights), options.weights);
+          : parse_enlarger_weights(without_byte_order_mark(read_file(options.weights, kLongestWeights)),
+                                   options.weights);
   for (const std::string& text : options.arrays) {
     settings.arrays.push_back(parse_array_size(text));
   }

@@ -1273,7 +1273,8 @@ TEST_F(Programs, OptionsWithoutEffectAreErrors) {
   expect_refused("replay " + stream + " --photons 3", "--photons has no effect");
   expect_refused("replay " + stream + " --tick 3", "--tick has no effect");
   expect_refused("replay " + stream + " --bin-width 3", "--bin-width has no effect");
-  expect_refused("replay a.npy --bin-width 3 --array-rows 3", "--array-rows has no effect");
+  expect_refused("replay " + file("a.npy", "\x93NUMPY") + " --bin-width 3 --array-rows 3",
+                 "--array-rows has no effect");
   // The same options where they have one, also for one read-out of several.
   const std::string small = kSmallScene + " --out out ";
   EXPECT_EQ(dtof("frame -r sifh,hispointer --guard 3 --scene flat --distance 3 " + small).exit_code, 0);
@@ -1309,6 +1310,70 @@ TEST_F(Programs, TheContentOfAJsonFileChoosesItsReader) {
   std::filesystem::create_directories(path("tmf8829"));
   expect_refused("replay " + file("tmf8829/tmf8829.json", " [{}]") + " --out out", "dist_to_plane");
   expect_refused("replay " + file("tmf8820.json", "\n{}") + " --out out", "Result_Set");
+}
+
+TEST_F(Programs, AStandardOutputThatIsFullIsAFailure) {
+  for (const char* command : {"sensor thesis", "list"}) {
+    const Outcome outcome = dtof(std::string(command) + " 2>said >/dev/full; code=$?; cat said; exit $code");
+    EXPECT_EQ(outcome.exit_code, 4) << command;
+    EXPECT_EQ(outcome.output, "dtof: error: standard output: cannot write: No space left on device\n");
+  }
+  EXPECT_EQ(dtof("sensor thesis 2>/dev/null >&-; exit $?").exit_code, 4);
+}
+
+TEST_F(Programs, ClosedStreamsGiveNoFileTheirNumbers) {
+  const Outcome refused = dtof("frame --sensor nothere 2>&- >/dev/null");
+  EXPECT_EQ(refused.exit_code, 1);
+  const Outcome outcome =
+      dtof("frame -r ezpointer --scene flat --table none --out out " + kSmallScene + " 2>&- <&- >/dev/null");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(read_file(path("out/summary.csv")), ::testing::StartsWith("read-out,"));
+}
+
+TEST_F(Programs, PipesAreReadAsFilesAre) {
+  write_npy(path("map.npy"), std::vector<std::size_t>{2, 2}, std::vector<double>{1.0, 1.5, 2.0, 2.5});
+  const std::string frame = "frame -r ezpointer --table none " + kSmallScene;
+  ASSERT_EQ(dtof(frame + " --depth map.npy --out file").exit_code, 0);
+  const Outcome piped = run("cat", "map.npy | " DTOF_PROGRAM " " + frame + " --depth /dev/stdin --out pipe");
+  ASSERT_EQ(piped.exit_code, 0) << piped.output;
+  EXPECT_EQ(read_file(path("pipe/summary.csv")), read_file(path("file/summary.csv")));
+  write_file(path("s.csv"), "acquisition,column,row,timestamp\n0,0,0,100\n2,1,0,101\n");
+  ASSERT_EQ(dtof("replay s.csv -r ezpointer --out file").exit_code, 0);
+  const Outcome replayed = run("cat", "s.csv | " DTOF_PROGRAM " replay /dev/stdin -r ezpointer --out pipe");
+  ASSERT_EQ(replayed.exit_code, 0) << replayed.output;
+  EXPECT_EQ(read_file(path("pipe/ezpointer.csv")), read_file(path("file/ezpointer.csv")));
+}
+
+TEST_F(Programs, TheCommandOnAPageRunsInAShell) {
+  write_npy(path("a b&c.npy"), std::vector<std::size_t>{2, 2}, std::vector<double>{1.0, 1.5, 2.0, 2.5});
+  ASSERT_EQ(dtof("frame -r ezpointer --table none --depth 'a b&c.npy' --out 'x y' " + kSmallScene).exit_code,
+            0);
+  const std::string page = read_file(path("x y/summary.md"));
+  const std::size_t begin = page.find("Command: `dtof ") + std::string_view("Command: `dtof ").size();
+  const std::string arguments = page.substr(begin, page.find('`', begin) - begin);
+  EXPECT_THAT(arguments, HasSubstr("--depth 'a b&c.npy' --out 'x y'"));
+  std::filesystem::rename(path("x y"), path("first"));
+  ASSERT_EQ(dtof(arguments).exit_code, 0);
+  EXPECT_EQ(read_file(path("x y/summary.md")), page);
+}
+
+TEST_F(Programs, ALatin1NameLeavesPicturesWhole) {
+  const std::string name = "mess\xfcng.npy";
+  write_npy(path(name), std::vector<std::size_t>{2, 2}, std::vector<double>{1.0, 1.5, 2.0, 2.5});
+  write_npy(path("messung.npy"), std::vector<std::size_t>{2, 2}, std::vector<double>{1.0, 1.5, 2.0, 2.5});
+  const std::string frame = "frame -r ezpointer --table none " + kSmallScene;
+  ASSERT_EQ(dtof(frame + " --depth messung.npy --out plain").exit_code, 0);
+  ASSERT_EQ(dtof(frame + " --depth " + name + " --out latin").exit_code, 0);
+  // A white picture has a tenth of the bytes.
+  EXPECT_GT(std::filesystem::file_size(path("latin/ezpointer_depth.png")),
+            std::filesystem::file_size(path("plain/ezpointer_depth.png")) * 9 / 10);
+}
+
+TEST_F(Programs, ASensorFileMayBeginWithAByteOrderMark) {
+  const Outcome preset = dtof("sensor thesis");
+  const Outcome marked = dtof("sensor " + file("marked.toml", "\xEF\xBB\xBF" + preset.output));
+  EXPECT_EQ(marked.exit_code, 0) << marked.output;
+  EXPECT_THAT(marked.output, HasSubstr("# What follows:"));
 }
 
 }  // namespace

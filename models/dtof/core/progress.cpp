@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
+#include <string>
 #include <utility>
 
 #include "dtof/core/error.hpp"
@@ -29,6 +31,9 @@ bool is_time_to_log(std::chrono::steady_clock::time_point now, std::chrono::stea
   last = now;
   return true;
 }
+
+/// Progress that nobody can read (standard error is closed or full) is no failure.
+void print_to_standard_error(const std::string& text) { std::fputs(text.c_str(), stderr); }
 
 }  // namespace
 
@@ -72,7 +77,7 @@ Progress::Progress(std::string title, std::size_t total, std::chrono::steady_clo
 
 Progress::~Progress() {
   if (terminal_ && drawn_percent_ >= 0) {
-    fmt::print(stderr, "\r\033[K");
+    print_to_standard_error("\r\033[K");
   }
 }
 
@@ -85,7 +90,7 @@ void Progress::advance(std::size_t steps) {
   if (terminal_) {
     draw(done, now);
   } else if (is_time_to_log(now, log_interval_)) {
-    fmt::print(stderr, "{}\n", progress_text(title_, done, total_, now - start_));
+    print_to_standard_error(progress_text(title_, done, total_, now - start_) + "\n");
   }
 }
 
@@ -95,7 +100,7 @@ void Progress::draw(std::size_t done, Clock::time_point now) {
   if (percent > drawn_percent_ || now - drawn_at_ >= std::chrono::seconds(1)) {
     drawn_percent_ = percent;
     drawn_at_ = now;
-    fmt::print(stderr, "\r\033[K{}", progress_text(title_, done, total_, now - start_));
+    print_to_standard_error("\r\033[K" + progress_text(title_, done, total_, now - start_));
   }
 }
 

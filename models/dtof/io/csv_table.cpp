@@ -15,7 +15,7 @@
 namespace dtof {
 CsvTable::CsvTable(std::filesystem::path path) : path_(std::move(path)) {
   const std::string contents = read_file_or_gzip(path_);
-  std::string_view text(contents);
+  std::string_view text = without_byte_order_mark(contents);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);

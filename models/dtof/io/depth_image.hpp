@@ -28,24 +28,27 @@ struct ReflectivityImage {
   std::vector<float> values = {};  ///< [row][column], row 0 on top
 };
 
-// Maps are greyscale PNGs of 8 or 16 bits, greyscale PFMs ("Pf", scale 1 or -1: big- or little-endian), or
-// NPY arrays of shape (rows, columns), told apart by content; at most 65535 pixels in a row or column and, as
-// a PNG, 2^26 in all. Readers throw InputError "<path>: <reason>" for anything else, a damaged file, a scale
+// Maps are PNGs of 8 or 16 bits, PFMs ("Pf") or NPY arrays of shape (rows, columns), told apart by content;
+// at most 65535 pixels in a row or column and, as a PNG, 2^26 in all. A PNG is grey: as greyscale or with
+// red, green and blue equal in every pixel. Its pixels may be transparent, by alpha below its largest value
+// or by the key of a tRNS chunk: such a pixel has no value. The magnitude of a PFM's scale multiplies its
+// numbers, the sign is their byte order. An NPY's axes of one element before or behind the two are left out.
+// A file is read once. Readers throw InputError "<path>: <reason>" for anything else, a damaged file, a scale
 // that is not above 0, or a value that the map cannot hold.
 
 /// Distances in m: the file's numbers times `metres_per_unit`, by default 0.001 for a PNG of 16 bits and 1
-/// for PFM and NPY; a PNG of 8 bits has no default. Numbers that are 0, NaN or infinite are unknown and
-/// become 0; negative ones are refused.
+/// for PFM and NPY; a PNG of 8 bits has no default. Numbers that are 0, NaN or infinite and transparent
+/// pixels are unknown and become 0; negative ones are refused.
 DepthImage read_depth_image(const std::filesystem::path& path,
                             std::optional<double> metres_per_unit = std::nullopt);
 
 /// The file's numbers times `per_unit`; by default a PNG's full range becomes 0 to 1, and PFM and NPY are
-/// taken as they are. Negative numbers, NaN and infinity are refused.
+/// taken as they are. Negative numbers, NaN, infinity and transparent pixels are refused.
 ReflectivityImage read_reflectivity_image(const std::filesystem::path& path,
                                           std::optional<double> per_unit = std::nullopt);
 
-/// Disparity map as an 8-bit greyscale PNG (e.g. Middlebury stereo, 0 = unknown); depth = `metres_at_one` /
-/// disparity.
+/// Disparity map as a grey PNG of 8 bits (e.g. Middlebury stereo; 0 or transparent = unknown); depth =
+/// `metres_at_one` / disparity.
 DepthImage read_disparity_png(const std::filesystem::path& path, double metres_at_one);
 
 /// A photograph as an 8-bit greyscale or RGB PNG of gamma 2.2; its relative luminance, 0 to 1, stands for the

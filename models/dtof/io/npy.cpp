@@ -8,9 +8,11 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -23,31 +25,65 @@
 namespace dtof {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "elements are copied as they stand in the file");
+static_assert(std::endian::native == std::endian::little, "elements are written as they stand in memory");
 
 // Four histogram cubes of 200 x 160 pixels and 1024 bins; as doubles 1 GiB.
 constexpr std::size_t kMostElements = std::size_t{1} << 27U;
 constexpr std::string_view kMagic = "\x93NUMPY";
 
 template <typename T>
-double element(const char* bytes) {
-  T value{};
-  std::memcpy(&value, bytes, sizeof(T));
-  return static_cast<double>(value);
+T element(const char* bytes, bool big_endian) {
+  std::array<char, sizeof(T)> raw{};
+  std::memcpy(raw.data(), bytes, raw.size());
+  if (big_endian) {
+    std::ranges::reverse(raw);
+  }
+  return std::bit_cast<T>(raw);
+}
+
+template <typename T>
+double number(const char* bytes, bool big_endian) {
+  return static_cast<double>(element<T>(bytes, big_endian));
+}
+
+/// IEEE 754's half precision: a sign, five bits of exponent, ten of fraction.
+double half(const char* bytes, bool big_endian) {
+  const auto bits = element<std::uint16_t>(bytes, big_endian);
+  const int exponent = bits >> 10U & 0x1F;
+  const int fraction = bits & 0x3FF;
+  constexpr int kSpecial = 31;
+  double magnitude = 0.0;
+  if (exponent == kSpecial) {
+    magnitude =
+        fraction == 0 ? std::numeric_limits<double>::infinity() : std::numeric_limits<double>::quiet_NaN();
+  } else {
+    magnitude = exponent == 0 ? std::ldexp(fraction, -24) : std::ldexp(1024 + fraction, exponent - 25);
+  }
+  return (bits & 0x8000U) != 0 ? -magnitude : magnitude;
 }
 
 struct Dtype {
   const char* name;
   std::size_t size;
-  double (*read)(const char*);
+  double (*read)(const char*, bool);
 };
-constexpr std::array<Dtype, 7> kDtypes = {{{"u1", 1, element<std::uint8_t>},
-                                           {"u2", 2, element<std::uint16_t>},
-                                           {"u4", 4, element<std::uint32_t>},
-                                           {"i4", 4, element<std::int32_t>},
-                                           {"i8", 8, element<std::int64_t>},
-                                           {"f4", 4, element<float>},
-                                           {"f8", 8, element<double>}}};
+constexpr std::array<Dtype, 11> kDtypes = {{{"i1", 1, number<std::int8_t>},
+                                            {"i2", 2, number<std::int16_t>},
+                                            {"i4", 4, number<std::int32_t>},
+                                            {"i8", 8, number<std::int64_t>},
+                                            {"u1", 1, number<std::uint8_t>},
+                                            {"u2", 2, number<std::uint16_t>},
+                                            {"u4", 4, number<std::uint32_t>},
+                                            {"u8", 8, number<std::uint64_t>},
+                                            {"f2", 2, half},
+                                            {"f4", 4, number<float>},
+                                            {"f8", 8, number<double>}}};
+
+/// The dtype and byte order of a file.
+struct Elements {
+  const Dtype* dtype;
+  bool big_endian;
+};
 
 [[noreturn]] void fail_header(const std::filesystem::path& path, std::string_view key) {
   fail_in_file(path, fmt::format("the NPY header has no readable '{}'", key));
@@ -107,70 +143,94 @@ std::vector<std::size_t> parse_shape(const std::filesystem::path& path, std::str
   return shape;
 }
 
-const Dtype& find_dtype(const std::filesystem::path& path, std::string_view header) {
+Elements find_elements(const std::filesystem::path& path, std::string_view header) {
   constexpr std::string_view kKey = "descr";
   const std::string_view descr = enclosed(path, behind_key(path, header, kKey), '\'', '\'', kKey);
   if (descr.empty()) {
     fail_header(path, kKey);
   }
   for (const Dtype& dtype : kDtypes) {
-    if (descr.substr(1) == dtype.name && (descr[0] == '<' || (descr[0] == '|' && dtype.size == 1))) {
-      return dtype;
+    if (descr.substr(1) == dtype.name &&
+        (descr[0] == '<' || descr[0] == '>' || (descr[0] == '|' && dtype.size == 1))) {
+      return {&dtype, descr[0] == '>'};
     }
   }
-  fail_in_file(path, fmt::format("dtype '{}' is not one of little-endian u1, u2, u4, i4, i8, f4, f8", descr));
+  fail_in_file(path,
+               fmt::format("dtype '{}' is not one of i1, i2, i4, i8, u1, u2, u4, u8, f2, f4, f8, little- or "
+                           "big-endian",
+                           descr));
+}
+
+/// An integer beyond 2^53 has no place in a double of its own.
+void check_integer(const std::filesystem::path& path, const Dtype& dtype, double value,
+                   std::span<const std::size_t> shape, std::size_t index) {
+  constexpr double kLargest = 0x1.0p53;
+  if (dtype.name[0] == 'f' || std::abs(value) <= kLargest) {
+    return;
+  }
+  std::vector<std::size_t> place(shape.size());
+  for (std::size_t axis = shape.size(); axis-- > 0;) {
+    place[axis] = index % shape[axis];
+    index /= shape[axis];
+  }
+  fail_in_file(path,
+               fmt::format("element [{}]: the integer {:.0f} is beyond 2^53", fmt::join(place, ", "), value));
 }
 
 }  // namespace
 
-NpyArray read_npy(const std::filesystem::path& path) {
-  const std::string file = read_file(path);
-  if (!std::string_view(file).starts_with(kMagic)) {
+NpyArray read_npy(const std::filesystem::path& path) { return parse_npy(path, read_file(path)); }
+
+NpyArray parse_npy(const std::filesystem::path& path, std::string_view file) {
+  if (!file.starts_with(kMagic)) {
     fail_in_file(path, "not an NPY file");
   }
   if (file.size() < 10) {
     fail_in_file(path, "the NPY header ends early");
   }
   const int version = static_cast<unsigned char>(file[6]);
-  if (version != 1 && version != 2) {
-    fail_in_file(path, fmt::format("NPY format {}.{} is not 1.0 or 2.0", version, static_cast<int>(file[7])));
+  constexpr int kNewestVersion = 3;  // as 2, with names of fields in UTF-8
+  if (version < 1 || version > kNewestVersion) {
+    fail_in_file(path,
+                 fmt::format("NPY format {}.{} is not 1.0, 2.0 or 3.0", version, static_cast<int>(file[7])));
   }
   const std::size_t length_size = version == 1 ? 2 : 4;
   const std::size_t header_begin = 8 + length_size;
   if (file.size() < header_begin) {
     fail_in_file(path, "the NPY header ends early");
   }
-  const auto header_length = static_cast<std::size_t>(version == 1 ? element<std::uint16_t>(&file[8])
-                                                                   : element<std::uint32_t>(&file[8]));
+  const std::size_t header_length =
+      version == 1 ? element<std::uint16_t>(&file[8], false) : element<std::uint32_t>(&file[8], false);
   if (file.size() - header_begin < header_length) {
     fail_in_file(path, "the NPY header ends early");
   }
-  const std::string_view header = std::string_view(file).substr(header_begin, header_length);
-  const Dtype& dtype = find_dtype(path, header);
+  const std::string_view header = file.substr(header_begin, header_length);
+  const auto [dtype, big_endian] = find_elements(path, header);
   const bool fortran = parse_fortran_order(path, header);
   NpyArray array;
   array.shape = parse_shape(path, header);
+  if (std::ranges::find(array.shape, std::size_t{0}) != array.shape.end()) {
+    fail_in_file(path,
+                 fmt::format("the array is empty: shape ({}) has no element", fmt::join(array.shape, ", ")));
+  }
 
-  const std::size_t available = (file.size() - header_begin - header_length) / dtype.size;
+  const std::size_t available = (file.size() - header_begin - header_length) / dtype->size;
   std::size_t count = 1;
   for (const std::size_t extent : array.shape) {
-    if (extent != 0 && count > available / extent) {
+    if (count > available / extent) {
       fail_in_file(path, fmt::format("shape ({}) of {} needs more than the file's {} elements: truncated",
-                                     fmt::join(array.shape, ", "), dtype.name, available));
+                                     fmt::join(array.shape, ", "), dtype->name, available));
     }
     count *= extent;
   }
   const std::size_t data_begin = header_begin + header_length;
-  if (file.size() - data_begin != count * dtype.size) {
+  if (file.size() - data_begin != count * dtype->size) {
     fail_in_file(path,
                  fmt::format("shape ({}) of {} needs {} bytes, the file has {}", fmt::join(array.shape, ", "),
-                             dtype.name, count * dtype.size, file.size() - data_begin));
+                             dtype->name, count * dtype->size, file.size() - data_begin));
   }
   if (count > kMostElements) {
     fail_in_file(path, fmt::format("shape ({}) holds more than 2^27 elements", fmt::join(array.shape, ", ")));
-  }
-  if (count == 0) {
-    fail_in_file(path, fmt::format("shape ({}) holds nothing", fmt::join(array.shape, ", ")));
   }
 
   array.values.resize(count);
@@ -189,7 +249,8 @@ NpyArray read_npy(const std::filesystem::path& path) {
         index[axis] = 0;
       }
     }
-    array.values[i] = dtype.read(&file[data_begin + source * dtype.size]);
+    array.values[i] = dtype->read(&file[data_begin + source * dtype->size], big_endian);
+    check_integer(path, *dtype, array.values[i], array.shape, i);
   }
   return array;
 }

@@ -4,20 +4,25 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace dtof {
 
-/// An array of an NPY file, in C order, converted to double (integers beyond 2^53 are rounded).
+/// An array of an NPY file, in C order, converted to double.
 struct NpyArray {
   std::vector<std::size_t> shape;  ///< empty: a single number
   std::vector<double> values;
 };
 
-/// Reads NPY format 1.0 and 2.0 (numpy.lib.format) of dtype u1, u2, u4, i4, i8, f4 or f8, little-endian, C or
-/// Fortran order, at most 2^27 elements. Throws InputError "<path>: <reason>" for anything else, a truncated
-/// file or bytes left over.
+/// Reads NPY format 1.0, 2.0 and 3.0 (numpy.lib.format) of integers (i1, i2, i4, i8, u1, u2, u4, u8) and
+/// floating-point numbers (f2, f4, f8), little- or big-endian, C or Fortran order, at most 2^27 elements.
+/// Throws InputError "<path>: <reason>" for anything else, an empty array, an integer beyond +-2^53, which a
+/// double cannot hold, a truncated file or bytes left over.
 NpyArray read_npy(const std::filesystem::path& path);
+
+/// The same of contents that `path` has already given.
+NpyArray parse_npy(const std::filesystem::path& path, std::string_view file);
 
 /// Writes f8 in C order, format 1.0; the product of `shape` must be values.size() (std::logic_error).
 void write_npy(const std::filesystem::path& path, std::span<const std::size_t> shape,

@@ -22,10 +22,10 @@ void check_photon_numbers(const HistogramCube& cube) {
       const std::span<const double> counts = cube.pixel(column, row);
       const double photons = std::accumulate(counts.begin(), counts.end(), 0.0);
       if (photons > kLargestPhotonNumber) {
-        throw InputError(fmt::format(
-            "histograms: column {}, row {}: {:.0f} photons are more than the {:g} that a pixel can "
-            "have in a frame; give a photon budget (--photons)",
-            column, row, photons, kLargestPhotonNumber));
+        cube.fail(
+            fmt::format("column {}, row {}: {:.0f} photons are more than the {:g} that a pixel can "
+                        "have in a frame; give a photon budget (--photons)",
+                        column, row, photons, kLargestPhotonNumber));
       }
     }
   }
@@ -33,35 +33,37 @@ void check_photon_numbers(const HistogramCube& cube) {
 
 }  // namespace
 
+void HistogramCube::fail(const std::string& reason) const {
+  throw InputError(fmt::format("{}: {}", name, reason));
+}
+
+std::string HistogramCube::place(std::size_t index) const {
+  const auto pixel = index / static_cast<std::size_t>(bins);
+  return fmt::format("column {}, row {}, bin {}", pixel % static_cast<std::size_t>(columns),
+                     pixel / static_cast<std::size_t>(columns), index % static_cast<std::size_t>(bins));
+}
+
 void HistogramCube::validate() const {
   if (columns < 1 || rows < 1 || bins < 1) {
-    throw InputError(
-        fmt::format("histograms: {} x {} pixels of {} bins: each must be 1 or more", columns, rows, bins));
+    fail(fmt::format("{} x {} pixels of {} bins: each must be 1 or more", columns, rows, bins));
   }
   if (!std::isfinite(bin_width) || bin_width <= 0.0) {
-    throw InputError(
-        fmt::format("histograms: bin width is {}, must be a positive number of seconds", bin_width));
+    fail(fmt::format("bin width is {}, must be a positive number of seconds", bin_width));
   }
   if (!std::isfinite(offset)) {
-    throw InputError(fmt::format("histograms: offset is {}, must be a finite number of seconds", offset));
+    fail(fmt::format("offset is {}, must be a finite number of seconds", offset));
   }
   const std::size_t pixels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   if (counts.size() != pixels * static_cast<std::size_t>(bins)) {
-    throw InputError(fmt::format("histograms: {} counts for {} x {} pixels of {} bins", counts.size(),
-                                 columns, rows, bins));
+    fail(fmt::format("{} counts for {} x {} pixels of {} bins", counts.size(), columns, rows, bins));
   }
   if (!true_distance.empty() && true_distance.size() != pixels) {
-    throw InputError(
-        fmt::format("histograms: {} true distances for {} pixels", true_distance.size(), pixels));
+    fail(fmt::format("{} true distances for {} pixels", true_distance.size(), pixels));
   }
   constexpr double kLargestCount = 0x1.0p53;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (!(counts[i] >= 0.0 && counts[i] <= kLargestCount)) {
-      const auto pixel = i / static_cast<std::size_t>(bins);
-      throw InputError(fmt::format("histograms: column {}, row {}, bin {}: count {} is not in 0..2^53",
-                                   pixel % static_cast<std::size_t>(columns),
-                                   pixel / static_cast<std::size_t>(columns),
-                                   i % static_cast<std::size_t>(bins), counts[i]));
+      fail(fmt::format("{}: count {} is not in 0..2^53", place(i), counts[i]));
     }
   }
 }
@@ -74,8 +76,9 @@ HistogramStream::HistogramStream(HistogramCube cube, const Resampling& resamplin
     const auto fraction = std::find_if(cube_.counts.begin(), cube_.counts.end(),
                                        [](double count) { return count != std::floor(count); });
     if (fraction != cube_.counts.end()) {
-      throw InputError(
-          fmt::format("histograms: count {} is not an integer; give a photon budget (--photons)", *fraction));
+      cube_.fail(fmt::format("{}: count {} is not an integer; give a photon budget (--photons)",
+                             cube_.place(static_cast<std::size_t>(fraction - cube_.counts.begin())),
+                             *fraction));
     }
   }
 }
@@ -112,9 +115,12 @@ void HistogramStream::draw_times(int column, int row, CounterRandom& random,
   }
 }
 
-HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset) {
+HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset,
+                             const std::string& name) {
+  HistogramCube cube;
+  cube.name = name;
   if (array.shape.empty()) {
-    throw InputError("histograms: the array is a single number, its last axis must be the bins");
+    cube.fail("the array is a single number, its last axis must be the bins");
   }
   constexpr std::size_t kLargest = std::numeric_limits<int>::max();
   const std::size_t bins = array.shape.back();
@@ -124,9 +130,8 @@ HistogramCube histogram_cube(const NpyArray& array, double bin_width, double off
     rows *= array.shape[axis];
   }
   if (bins > kLargest || columns > kLargest || rows > kLargest) {
-    throw InputError(fmt::format("histograms: {} x {} pixels of {} bins are too many", columns, rows, bins));
+    cube.fail(fmt::format("{} x {} pixels of {} bins are too many", columns, rows, bins));
   }
-  HistogramCube cube;
   cube.columns = static_cast<int>(columns);
   cube.rows = static_cast<int>(rows);
   cube.bins = static_cast<int>(bins);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "dtof/io/npy.hpp"
@@ -19,6 +20,7 @@ struct HistogramCube {
   double offset = 0.0;                     ///< s, time of the left edge of bin 0
   std::vector<double> counts = {};         ///< [row][column][bin], rows * columns * bins numbers >= 0
   std::vector<double> true_distance = {};  ///< m, [row][column], NaN = unknown; empty: none known
+  std::string name = "histograms";         ///< in front of refusals: the file
 
   [[nodiscard]] std::span<const double> pixel(int column, int row) const {
     const auto index =
@@ -27,6 +29,10 @@ struct HistogramCube {
   }
   /// Throws InputError when sizes disagree, or a count is negative, not finite or above 2^53.
   void validate() const;
+  /// Throws InputError "<name>: <reason>".
+  [[noreturn]] void fail(const std::string& reason) const;
+  /// "column 3, row 0, bin 12" of an index of `counts`.
+  [[nodiscard]] std::string place(std::size_t index) const;
 };
 
 /// A histogram cube as the stream of one frame (io/resampling.hpp). A photon's time is uniform in its bin.
@@ -50,6 +56,7 @@ class HistogramStream : public ResampledStream {
 /// Cube from an array whose last axis is the bins: [bins], [columns, bins] or [..., rows, columns, bins]
 /// (leading axes are stacked as rows). Widths in s. Throws InputError for a scalar or counts that no cube can
 /// hold.
-HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset = 0.0);
+HistogramCube histogram_cube(const NpyArray& array, double bin_width, double offset = 0.0,
+                             const std::string& name = HistogramCube().name);
 
 }  // namespace dtof

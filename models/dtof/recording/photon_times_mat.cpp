@@ -224,10 +224,8 @@ struct Variable {
 }
 
 /// The matrix element of the variable `name`; empty if there is none. Every element must be sound.
-std::string find_variable(const std::filesystem::path& path, const std::string& name) {
+std::string find_variable(const std::filesystem::path& path, std::string_view file, const std::string& name) {
   constexpr std::string_view kLittleEndianLevel5 = {"\x00\x01IM", 4};
-  const std::string contents = read_file(path);
-  const std::string_view file = contents;
   if (!file.starts_with("MATLAB")) {
     fail(path, "not a MATLAB file");
   }
@@ -268,8 +266,8 @@ std::string find_variable(const std::filesystem::path& path, const std::string& 
   return found;
 }
 
-Variable read_variable(const std::filesystem::path& path, const std::string& name) {
-  Variable variable{std::make_unique<const std::string>(find_variable(path, name)), {}};
+Variable read_variable(const std::filesystem::path& path, std::string_view file, const std::string& name) {
+  Variable variable{std::make_unique<const std::string>(find_variable(path, file, name)), {}};
   std::string_view rest = *variable.bytes;
   const auto matrix = take_element(rest);
   auto array = matrix ? parse_array(matrix->data) : std::nullopt;
@@ -291,7 +289,12 @@ Variable read_variable(const std::filesystem::path& path, const std::string& nam
 }  // namespace
 
 PhotonTimes read_photon_times_mat(const std::filesystem::path& path, const std::string& variable) {
-  const Variable read = read_variable(path, variable);
+  return parse_photon_times_mat(path, read_file(path), variable);
+}
+
+PhotonTimes parse_photon_times_mat(const std::filesystem::path& path, std::string_view file,
+                                   const std::string& variable) {
+  const Variable read = read_variable(path, file, variable);
   const Array& cells = read.array;
   if (cells.kind != kCellClass) {
     fail(path, fmt::format("\"{}\" is not a cell array", variable));
@@ -339,7 +342,7 @@ PhotonTimes read_photon_times_mat(const std::filesystem::path& path, const std::
 }
 
 MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable) {
-  const Variable read = read_variable(path, variable);
+  const Variable read = read_variable(path, read_file(path), variable);
   std::vector<double> by_column;
   if (!append_numbers(read.array, by_column)) {
     fail(path, fmt::format("\"{}\" is not a real numeric matrix, or damaged", variable));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "dtof/recording/resampling.hpp"
@@ -37,6 +38,10 @@ struct MatMatrix {
 /// kind.
 PhotonTimes read_photon_times_mat(const std::filesystem::path& path,
                                   const std::string& variable = "photon_times");
+
+/// The same of contents that `path` has already given.
+PhotonTimes parse_photon_times_mat(const std::filesystem::path& path, std::string_view file,
+                                   const std::string& variable = "photon_times");
 
 /// Reads a two-dimensional real numeric variable. Throws InputError as above.
 MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable);

@@ -14,14 +14,20 @@ namespace dtof {
 /// How a recorded file becomes a stream.
 struct RecordingOptions {
   std::string file;
-  std::string format = "auto";  ///< auto (by file name, JSON by content), csv, npy, mat, tmf8820, tmf8829
-  std::optional<double> bin_width_s;  ///< NPY: width of a histogram bin
-  double tick_s = 8e-12;              ///< MAT: duration of a tick
+  std::string format = "auto";  ///< auto (by content, else by name), csv, npy, mat, tmf8820, tmf8829
+  std::optional<double> bin_width_s = std::nullopt;  ///< NPY: width of a histogram bin
+  double tick_s = 8e-12;                             ///< MAT: duration of a tick
   std::string variable = "photon_times";
-  std::optional<std::uint32_t> acquisitions;
-  std::optional<int> columns;  ///< CSV: of the sensor; none: the last that detected something
-  std::optional<int> rows;     ///< CSV: likewise
-  Resampling resampling;       ///< for measured histograms and photon times
+  std::optional<std::uint32_t> acquisitions = std::nullopt;
+  std::optional<int> columns = std::nullopt;  ///< CSV: of the sensor; none: the last that detected something
+  std::optional<int> rows = std::nullopt;     ///< CSV: likewise
+  Resampling resampling = {};                 ///< for measured histograms and photon times
+};
+
+/// A file that has been read, once, so that it may be a pipe.
+struct RecordingFile {
+  std::string contents;  ///< unpacked, if it was gzip
+  std::string format;    ///< csv, npy, mat, tmf8820 or tmf8829
 };
 
 /// A recorded frame; distances as the file knows them.
@@ -32,10 +38,12 @@ struct Recording {
   std::vector<double> true_distance;
 };
 
-/// Kind of the file: `options.format`, for auto what name and content say. Throws InputError.
-std::string recording_format(const RecordingOptions& options);
+/// Reads `options.file` and finds its kind: `options.format`, for auto what the content says, else the name.
+/// Throws InputError.
+RecordingFile read_recording(const RecordingOptions& options);
 
-/// Throws InputError that names the file (and line) and what is wrong with it.
-Recording open_recording(const RecordingOptions& options);
+/// The frame of a file that has been read; its contents are released. Throws InputError that names the file
+/// (and line) and what is wrong with it.
+Recording open_recording(const RecordingOptions& options, RecordingFile file);
 
 }  // namespace dtof

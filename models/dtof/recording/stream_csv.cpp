@@ -70,15 +70,18 @@ std::size_t sort_pixel(std::span<Line> lines, int slots) {
   return first;
 }
 
-int size_or_largest(const std::optional<int>& given, const std::vector<Line>& lines,
-                    std::uint16_t Line::*member) {
-  if (given) {
-    return *given;
+/// Sizes that a file's lines ask for, those without an event among them.
+struct Extent {
+  std::uint64_t acquisitions = 0;
+  std::uint64_t columns = 0;
+  std::uint64_t rows = 0;
+
+  void include(std::span<const std::uint64_t> fields) {
+    acquisitions = std::max(acquisitions, fields[0] + 1);
+    columns = std::max(columns, fields[1] + 1);
+    rows = std::max(rows, fields[2] + 1);
   }
-  const auto largest = std::max_element(lines.begin(), lines.end(),
-                                        [&](const Line& a, const Line& b) { return a.*member < b.*member; });
-  return static_cast<int>((*largest).*member) + 1;
-}
+};
 
 void check_options(const StreamCsvOptions& options) {
   const auto check = [](const char* what, std::int64_t value, std::int64_t lowest, std::int64_t highest) {
@@ -107,39 +110,48 @@ std::size_t RecordedStream::detection_count() const {
 }
 
 RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCsvOptions& options) {
+  // A frame as text is longer than what other files may unpack to.
+  return parse_stream_csv(path, read_file_or_gzip(path, kLongestFile), options);
+}
+
+RecordedStream parse_stream_csv(const std::filesystem::path& path, std::string_view text,
+                                const StreamCsvOptions& options) {
   check_options(options);
   const std::string name = path.string();
-  const std::string text = read_file(path);
   const Limit columns_limit = limit(options.columns, kLargestSize, "columns:", "largest array:");
   const Limit rows_limit = limit(options.rows, kLargestSize, "rows:", "largest array:");
   const Limit acquisitions_limit =
       limit(options.acquisitions, kLargestAcquisitionCount, "acquisitions:", "largest frame:");
   const std::uint64_t codes = std::uint64_t{1} << static_cast<unsigned>(options.np);
 
+  Extent found;
   std::vector<Line> lines;
   lines.reserve(text.size() / 12);
-  parse_integer_csv(
-      name, text, kStreamCsvHeader, [&](std::size_t number, std::span<const std::uint64_t> fields) {
-        check_index(name, number, "acquisition", fields[0], acquisitions_limit);
-        check_index(name, number, "column", fields[1], columns_limit);
-        check_index(name, number, "row", fields[2], rows_limit);
-        if (fields[3] >= codes) {
-          fail_at_line(
-              name, number,
-              fmt::format("timestamp {} is outside 0..{} (NP = {})", fields[3], codes - 1, options.np));
-        }
-        lines.push_back({static_cast<std::uint32_t>(fields[0]), static_cast<std::uint16_t>(fields[1]),
-                         static_cast<std::uint16_t>(fields[2]), static_cast<Timestamp>(fields[3]), number});
-      });
-  if (lines.empty() && (!options.columns || !options.rows || !options.acquisitions)) {
+  const auto take = [&](std::size_t number, std::span<const std::uint64_t> fields) {
+    check_index(name, number, "acquisition", fields[0], acquisitions_limit);
+    check_index(name, number, "column", fields[1], columns_limit);
+    check_index(name, number, "row", fields[2], rows_limit);
+    found.include(fields);
+    if (fields[3] == kNoCsvValue) {
+      return;
+    }
+    if (fields[3] >= codes) {
+      fail_at_line(name, number,
+                   fmt::format("timestamp {} is outside 0..{} (NP = {})", fields[3], codes - 1, options.np));
+    }
+    lines.push_back({static_cast<std::uint32_t>(fields[0]), static_cast<std::uint16_t>(fields[1]),
+                     static_cast<std::uint16_t>(fields[2]), static_cast<Timestamp>(fields[3]), number});
+  };
+  parse_integer_csv(name, text, kStreamCsvHeader, take, "timestamp");
+  if (found.columns == 0 && (!options.columns || !options.rows || !options.acquisitions)) {
     throw InputError(
         fmt::format("{}: no detections: columns, rows and acquisitions cannot be found and must be given "
                     "(--array-columns, --array-rows, --acquisitions)",
                     name));
   }
 
-  const int columns = size_or_largest(options.columns, lines, &Line::column);
-  const int rows = size_or_largest(options.rows, lines, &Line::row);
+  const int columns = options.columns.value_or(static_cast<int>(found.columns));
+  const int rows = options.rows.value_or(static_cast<int>(found.rows));
   const auto pixels = static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows);
   if (pixels > kLargestPixelCount) {
     throw InputError(
@@ -151,10 +163,8 @@ RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCs
     return static_cast<std::size_t>(line.column) * static_cast<std::size_t>(rows) + line.row;
   };
   std::vector<std::size_t> begin(pixels + 1, 0);
-  std::uint32_t last_acquisition = 0;
   for (const Line& line : lines) {
     ++begin[pixel_of(line) + 1];
-    last_acquisition = std::max(last_acquisition, line.acquisition);
   }
   for (std::size_t i = 1; i < begin.size(); ++i) {
     begin[i] += begin[i - 1];
@@ -186,7 +196,8 @@ RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCs
                  fmt::format("more than {} timestamps for acquisition {}, column {}, row {} (SLOTS = {})",
                              options.slots, line->acquisition, line->column, line->row, options.slots));
   }
-  return {std::move(streams), rows, options.acquisitions.value_or(last_acquisition + 1)};
+  return {std::move(streams), rows,
+          options.acquisitions.value_or(static_cast<std::uint32_t>(found.acquisitions))};
 }
 
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source) {

@@ -43,10 +43,16 @@ class RecordedStream : public StreamSource {
   std::uint32_t acquisitions_;
 };
 
-/// Reads a recorded stream. Lines may stand in any order; slot order is line order within one acquisition,
-/// column and row. LF or CRLF line ends; the last line may lack one. At most 65,536 columns, 65,536 rows and
-/// 2^24 pixels. Throws InputError "<file>:<line>: <reason>" for the first line that breaks the format.
+/// Reads a recorded stream, plain or gzip. Lines may stand in any order; slot order is line order within one
+/// acquisition, column and row. LF or CRLF line ends; the last line may lack one. How a line may be written
+/// beside that is parse_integer_csv's (io/csv_fields.hpp); a timestamp of -1 is no event, and its line counts
+/// for the sizes alone. At most 65,536 columns, 65,536 rows and 2^24 pixels. Throws InputError
+/// "<file>:<line>: <reason>" for the first line that breaks the format.
 RecordedStream read_stream_csv(const std::filesystem::path& path, const StreamCsvOptions& options);
+
+/// The same of text that `path` has already given.
+RecordedStream parse_stream_csv(const std::filesystem::path& path, std::string_view text,
+                                const StreamCsvOptions& options);
 
 /// Writes `source` column by column, row by row; reading it back gives the same stream.
 void write_stream_csv(const std::filesystem::path& path, const StreamSource& source);

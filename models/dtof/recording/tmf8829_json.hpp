@@ -4,33 +4,42 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "dtof/recording/histogram_stream.hpp"
 
 namespace dtof {
 
+/// Bins of a histogram, in the sensor's 8 x 8 modes and in all others; a reference has as many as the others.
 inline constexpr std::size_t kTmf8829Bins = 64;
-/// s; 122.2 mm per bin, the slope of histogram peaks against on-chip distances in the published log.
+inline constexpr std::size_t kTmf8829FineBins = 256;
+/// s; of a histogram of 64 bins. 122.2 mm per bin, the slope of histogram peaks against on-chip distances in
+/// the published log, whose configuration has `bin_shift` 2 and `histogram_bins` 218: its histograms end in
+/// the middle of bin 54, at 218 / 2^2. So a bin is 2^bin_shift steps of a quarter of this width.
 inline constexpr double kTmf8829BinWidth = 815e-12;
+inline constexpr std::int64_t kTmf8829BinShift = 2;
 /// Centre of gravity of a histogram peak at distance zero, in bins (bin k counts as k), from the same fit.
 inline constexpr double kTmf8829ZeroDistanceBin = 3.11;
 
-/// A target that the sensor reported.
+/// A target that the sensor reported. What a log leaves out is not there: the makers' own viewer and client
+/// treat every member so.
 struct Tmf8829Peak {
-  double distance = 0.0;  ///< m, along the pixel's ray
-  double x = 0.0;         ///< m
-  double y = 0.0;         ///< m
-  double z = 0.0;         ///< m
-  std::int64_t signal = 0;
-  std::int64_t snr = 0;
+  std::optional<double> distance;  ///< m, along the pixel's ray
+  std::optional<double> x;         ///< m
+  std::optional<double> y;         ///< m
+  std::optional<double> z;         ///< m
+  std::optional<std::int64_t> signal;
+  std::optional<std::int64_t> snr;
 };
 
 struct Tmf8829Pixel {
   std::vector<Tmf8829Peak> peaks;
-  std::int64_t noise = 0;
-  std::int64_t crosstalk = 0;
+  std::optional<std::int64_t> noise;
+  std::optional<std::int64_t> crosstalk;
 };
 
 /// One frame of an ams TMF8829 log (ams-OSRAM tmf8829_json_logfile_viewer).
@@ -39,12 +48,13 @@ struct Tmf8829Pixel {
 /// histogram of the pixel in row 0, column i (its peaks follow that pixel's reported distance to 27 mm in all
 /// 26 frames, and no other row's or column's). Histograms of rows 1 to 15 are not in it.
 struct Tmf8829Frame {
-  std::int64_t number = 0;
+  std::optional<std::int64_t> number;
   int rows = 0;
   int columns = 0;
+  std::size_t bins = kTmf8829Bins;
   std::vector<Tmf8829Pixel> results;      ///< [row][column]
-  std::vector<std::uint32_t> histograms;  ///< [list][entry][bin] as in the file, rows * columns * 64
-  std::vector<std::vector<std::uint32_t>> reference;  ///< 64 bins each
+  std::vector<std::uint32_t> histograms;  ///< [list][entry][bin] as in the file, rows * columns * bins
+  std::vector<std::vector<std::uint32_t>> reference;  ///< 64 bins each; may be none
 
   [[nodiscard]] const Tmf8829Pixel& result(int row, int column) const {
     return results.at(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -53,20 +63,29 @@ struct Tmf8829Frame {
   [[nodiscard]] std::span<const std::uint32_t> histogram(int list, int entry) const {
     const auto index =
         static_cast<std::size_t>(list) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(entry);
-    return std::span(histograms).subspan(index * kTmf8829Bins, kTmf8829Bins);
+    return std::span(histograms).subspan(index * bins, bins);
   }
   /// Every list repeats one histogram, so that only row 0 is known.
   [[nodiscard]] bool only_row_zero() const;
 };
 
+struct Tmf8829Log {
+  std::vector<Tmf8829Frame> frames;
+  std::size_t left_out = 0;  ///< frames without results or without histograms, which nothing can be read from
+  double bin_width = kTmf8829BinWidth;  ///< s
+};
+
 /// Reads a log, plain or gzip. Throws InputError naming file and member that is wrong.
-std::vector<Tmf8829Frame> read_tmf8829_json(const std::filesystem::path& path);
+Tmf8829Log read_tmf8829_json(const std::filesystem::path& path);
+
+/// The same of text that `path` has already given.
+Tmf8829Log parse_tmf8829_json(const std::filesystem::path& path, std::string_view text);
 
 /// Cube of the histograms that the log holds, with the first on-chip distance of each pixel as
-/// `true_distance` (NaN where the sensor reported none). `frames` must agree in size. A log that knows row 0
+/// `true_distance` (NaN where the sensor reported none). Frames must agree in size. A log that knows row 0
 /// only: one column a frame, one row a pixel of row 0. Otherwise: the frames' columns side by side, with
-/// their own rows.
-HistogramCube tmf8829_cube(std::span<const Tmf8829Frame> frames, double bin_width = kTmf8829BinWidth,
-                           double offset = 0.0);
+/// their own rows. `name`: the file, for refusals.
+HistogramCube tmf8829_cube(const Tmf8829Log& log, double offset = 0.0,
+                           const std::string& name = HistogramCube().name);
 
 }  // namespace dtof

@@ -19,6 +19,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/report/colour_map.hpp"
+#include "dtof/report/utf8.hpp"
 
 namespace dtof {
 namespace {
@@ -176,7 +177,7 @@ class Picture {
     cairo_set_font_size(cr, size);
     cairo_set_source_rgb(cr, 0.0, 0.0, 0.0);
     cairo_move_to(cr, x, y);
-    cairo_show_text(cr, text.c_str());
+    cairo_show_text(cr, as_utf8(text).c_str());
   }
 
   void map(double x, double y, const DepthImage& image, const Scale& scale, int pixel_size) {
@@ -244,11 +245,14 @@ class Picture {
                            bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(cr, size);
     cairo_text_extents_t extents{};
-    cairo_text_extents(cr, text.c_str(), &extents);
+    cairo_text_extents(cr, as_utf8(text).c_str(), &extents);
     return extents.x_advance;
   }
 
   [[nodiscard]] std::string png(Palette palette) const {
+    if (const cairo_status_t status = cairo_status(context_.get()); status != CAIRO_STATUS_SUCCESS) {
+      throw InputError(fmt::format("picture: {}", cairo_status_to_string(status)));
+    }
     cairo_surface_flush(surface_.get());
     const int width = cairo_image_surface_get_width(surface_.get());
     const int height = cairo_image_surface_get_height(surface_.get());

@@ -17,6 +17,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/report/utf8.hpp"
 
 namespace dtof {
 namespace {
@@ -61,6 +62,9 @@ std::string quoted(const std::string& text) {
   }
   return out + "'";
 }
+
+/// What a picture shows, which may hold a file's name.
+std::string quoted_text(const std::string& text) { return quoted(as_utf8(text)); }
 
 /// Marks at 1, 2 and 5 of every decade, where gnuplot would label the decades only.
 std::string logarithmic_marks(const std::vector<PlotSeries>& series) {
@@ -122,7 +126,7 @@ std::string drawn_series(const PlotSeries& line, std::size_t index, const PlotSt
   const std::string with = layout.markers ? fmt::format("linespoints pointtype {}", style.marker) : "lines";
   return drawn +
          fmt::format("$series{} using 1:2 with {} linewidth 1.5 linecolor rgb '{}' dashtype {} title {}",
-                     index, with, style.colour, style.dash, layout.panels ? "''" : quoted(line.label));
+                     index, with, style.colour, style.dash, layout.panels ? "''" : quoted_text(line.label));
 }
 
 std::string limits(const PlotLayout& layout) {
@@ -177,7 +181,7 @@ std::string plots(const std::vector<PlotSeries>& series, const PlotLayout& layou
       fmt::format("set pointsize 0.6\nset xtics {:.9g}\nset ytics {:.9g}\nset yrange [{:.9g}:{:.9g}]\n",
                   x.tick_step(5.0), y.tick_step(6.0), y.low - margin, y.high + margin);
   for (std::size_t i = 0; i < series.size(); ++i) {
-    all += fmt::format("set title {} noenhanced\nplot {}{}\n", quoted(series[i].label),
+    all += fmt::format("set title {} noenhanced\nplot {}{}\n", quoted_text(series[i].label),
                        drawn_series(series[i], i, styles[i], layout), limits(layout));
   }
   return all;
@@ -191,22 +195,22 @@ std::string gnuplot_script(const std::filesystem::path& output, const std::vecto
   std::size_t width = 900;
   std::size_t height = 560;
   std::string heading =
-      fmt::format("set title {} noenhanced\nset key outside right noenhanced\n", quoted(layout.title));
+      fmt::format("set title {} noenhanced\nset key outside right noenhanced\n", quoted_text(layout.title));
   if (layout.panels) {
     const std::size_t across = std::clamp<std::size_t>(series.size(), 1, kPanelsAcross);
     const std::size_t down = (series.size() + across - 1) / across;
     width = std::max<std::size_t>(across * kPanelWidth, 700);
     height = down * kPanelHeight + 40;
     heading = fmt::format("set multiplot layout {},{} title {} noenhanced\nunset key\n", down, across,
-                          quoted(layout.title));
+                          quoted_text(layout.title));
   }
   return fmt::format(
              "set terminal svg size {},{} font 'sans,13' background '#ffffff'\n"
              "set output {}\n{}{}set xlabel {} noenhanced\nset ylabel {} noenhanced\n"
              "set grid\nset autoscale xfix\n{}{}{}",
-             width, height, quoted(output.string()), data_blocks(series), heading, quoted(layout.x_label),
-             quoted(layout.y_label), layout.logarithmic_y ? "set logscale y\n" : "",
-             layout.logarithmic_x ? "set logscale x\n" : "",
+             width, height, quoted(output.string()), data_blocks(series), heading,
+             quoted_text(layout.x_label), quoted_text(layout.y_label),
+             layout.logarithmic_y ? "set logscale y\n" : "", layout.logarithmic_x ? "set logscale x\n" : "",
              layout.logarithmic_x ? logarithmic_marks(series) : "") +
          plots(series, layout);
 }

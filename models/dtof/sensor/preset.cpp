@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/suggestion.hpp"
+#include "dtof/io/input_file.hpp"
 #include "dtof/sensor/condition.hpp"
 #include "dtof/sensor/preset_texts.hpp"
 #include "dtof/sensor/sensor_file.hpp"
@@ -43,20 +45,25 @@ SensorModel parse_preset(std::string_view name) {
   return parse_sensor(preset_text(name), fmt::format("preset {}.toml", name));
 }
 
-SensorModel find_sensor(std::string_view name_or_file) {
+SensorModel find_sensor(std::string_view name_or_file) { return find_described_sensor(name_or_file).model; }
+
+DescribedSensor find_described_sensor(std::string_view name_or_file) {
   if (is_preset(name_or_file)) {
-    return parse_preset(name_or_file);
+    return {std::string(preset_text(name_or_file)), parse_preset(name_or_file)};
   }
   const std::filesystem::path path(name_or_file);
   if (const auto plus = name_or_file.rfind('+');
       plus != std::string_view::npos && !std::filesystem::exists(path)) {
-    return under_condition(find_sensor(name_or_file.substr(0, plus)), name_or_file.substr(plus + 1));
+    return {fmt::format("# {}: no file, but a sensor under conditions\n", name_or_file),
+            under_condition(find_sensor(name_or_file.substr(0, plus)), name_or_file.substr(plus + 1))};
   }
   if (!path.has_extension() && !std::filesystem::exists(path)) {
     throw InputError(
         fmt::format("{}, and there is no such file", unknown_name("preset", name_or_file, preset_names())));
   }
-  return read_sensor_file(path);
+  std::string text = read_file(path);
+  SensorModel model = parse_sensor(text, path);
+  return {std::move(text), std::move(model)};
 }
 
 }  // namespace dtof

@@ -128,5 +128,30 @@ TEST_F(AtomicFileTest, InputFileRefusals) {
   test::expect_input_error([&] { (void)read_file(write("empty", "")); }, EndsWith("the file is empty"));
 }
 
+TEST_F(AtomicFileTest, GzipIsUnpackedFromAPipe) {
+  const std::string text(300000, 'x');
+  write_gzip_file(path("a.gz"), text);
+  const std::string packed = contents(path("a.gz"));
+  EXPECT_EQ(read_file_or_gzip(pipe_of(packed)), text);
+  EXPECT_EQ(read_file_or_gzip(pipe_of("plain")), "plain");
+  // Members follow each other, as `cat a.gz b.gz` writes them; what is no member is ignored, as gzip does.
+  EXPECT_EQ(unpack_gzip("a.gz", packed + packed), text + text);
+  EXPECT_EQ(unpack_gzip("a.gz", packed + "rest"), text);
+  test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed, 1U << 18U); },
+                           "a.gz: more than 0 MiB to read");
+  for (std::size_t size = 2; size < packed.size(); size += 7) {
+    test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed.substr(0, size)); },
+                             "a.gz: damaged gzip data: the file ends early");
+  }
+  test::expect_input_error([&] { (void)unpack_gzip("a.gz", packed + packed.substr(0, 12)); },
+                           "a.gz: damaged gzip data: the file ends early");
+}
+
+TEST(ByteOrderMark, StandsInFrontOnly) {
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB\xBF{}"), "{}");
+  EXPECT_EQ(without_byte_order_mark("\xEF\xBB{}"), "\xEF\xBB{}");
+  EXPECT_EQ(without_byte_order_mark("{}\xEF\xBB\xBF"), "{}\xEF\xBB\xBF");
+}
+
 }  // namespace
 }  // namespace dtof

@@ -53,6 +53,10 @@ TEST_F(CsvTableTest, ColumnsLinesAndAll) {
   EXPECT_THAT(numbers.rows(), ElementsAre(ElementsAre(1.5, -2.0), ElementsAre(300.0, 4.0)));
 }
 
+TEST_F(CsvTableTest, AByteOrderMarkIsNoPartOfTheFirstName) {
+  EXPECT_THAT(table("\xEF\xBB\xBFpixel,a\n0,1.5\n").column("pixel"), ElementsAre(0.0));
+}
+
 TEST_F(CsvTableTest, LinesWithoutNumbersAreLeftOut) {
   EXPECT_THAT(table("p,a,b\n0,1,2\n1,,\n2,3,4\n").rows(),
               ElementsAre(ElementsAre(1.0, 2.0), ElementsAre(3.0, 4.0)));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "dtof/core/error.hpp"
 
@@ -31,6 +33,9 @@ class IoTest : public ::testing::Test {
     directory_ = ::mkdtemp(name.data());
   }
   ~IoTest() override {
+    for (const int pipe : pipes_) {
+      ::close(pipe);
+    }
     std::error_code ignored;
     std::filesystem::permissions(directory_, std::filesystem::perms::owner_all, ignored);
     std::filesystem::remove_all(directory_, ignored);
@@ -41,6 +46,16 @@ class IoTest : public ::testing::Test {
   [[nodiscard]] std::filesystem::path write(std::string_view name, std::string_view contents) const {
     std::ofstream(path(name), std::ios::binary) << contents;
     return path(name);
+  }
+
+  /// A pipe that gives these bytes (fewer than a pipe holds) once.
+  [[nodiscard]] std::filesystem::path pipe_of(std::string_view bytes) {
+    std::array<int, 2> ends{};
+    EXPECT_EQ(::pipe(ends.data()), 0);
+    EXPECT_EQ(::write(ends[1], bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+    ::close(ends[1]);
+    pipes_.push_back(ends[0]);
+    return "/dev/fd/" + std::to_string(ends[0]);
   }
 
   [[nodiscard]] static std::string contents(const std::filesystem::path& file) {
@@ -54,6 +69,7 @@ class IoTest : public ::testing::Test {
 
  private:
   std::filesystem::path directory_;
+  std::vector<int> pipes_;
 };
 
 /// `action` must throw an InputError whose one-line message matches.

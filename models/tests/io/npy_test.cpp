@@ -2,6 +2,8 @@
 #include "dtof/io/npy.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -58,6 +60,59 @@ TEST_F(NpyTest, ReadsEveryDtype) {
   check("<i8", bytes<std::int64_t>({-5, 1LL << 52}), -5, 4503599627370496.0);
   check("<f4", bytes<float>({-0.5F, 1e30F}), -0.5, double{1e30F});
   check("<f8", bytes<double>({-0.5, 1e300}), -0.5, 1e300);
+  check("|i1", bytes<std::int8_t>({-128, 127}), -128, 127);
+  check("<i2", bytes<std::int16_t>({-32768, 32767}), -32768, 32767);
+  check("<u8", bytes<std::uint64_t>({1, 1ULL << 53U}), 1, 9007199254740992.0);
+}
+
+TEST_F(NpyTest, ReadsBothByteOrders) {
+  const auto swapped = [](const auto& values) {
+    std::string result = bytes(values);
+    const std::size_t size = sizeof(values.front());
+    for (std::size_t at = 0; at < result.size(); at += size) {
+      std::reverse(result.begin() + static_cast<std::ptrdiff_t>(at),
+                   result.begin() + static_cast<std::ptrdiff_t>(at + size));
+    }
+    return result;
+  };
+  const auto check = [&](const std::string& descr, const std::string& data, double first, double second) {
+    SCOPED_TRACE(descr);
+    EXPECT_THAT(read(npy(header(descr, "(2,)"), data)).values,
+                ElementsAre(DoubleEq(first), DoubleEq(second)));
+  };
+  check(">u1", bytes<std::uint8_t>({1, 200}), 1, 200);
+  check(">i2", swapped(std::vector<std::int16_t>{-2, 258}), -2, 258);
+  check(">u2", swapped(std::vector<std::uint16_t>{2, 40000}), 2, 40000);
+  check(">i4", swapped(std::vector<std::int32_t>{-70000, 3}), -70000, 3);
+  check(">u4", swapped(std::vector<std::uint32_t>{1, 4000000000U}), 1, 4e9);
+  check(">i8", swapped(std::vector<std::int64_t>{-5, 1LL << 40}), -5, 1099511627776.0);
+  check(">u8", swapped(std::vector<std::uint64_t>{5, 1ULL << 40U}), 5, 1099511627776.0);
+  check(">f4", swapped(std::vector<float>{-0.5F, 3.25F}), -0.5, 3.25);
+  check(">f8", swapped(std::vector<double>{-0.5, 1e300}), -0.5, 1e300);
+  check(">f2", swapped(std::vector<std::uint16_t>{0x3C00, 0xC100}), 1.0, -2.5);
+}
+
+TEST_F(NpyTest, HalfPrecisionOfEveryKind) {
+  // One, the largest, the smallest normal and subnormal number, minus zero, a third.
+  const NpyArray array = read(
+      npy(header("<f2", "(6,)"), bytes<std::uint16_t>({0x3C00, 0x7BFF, 0x0400, 0x0001, 0x8000, 0x3555})));
+  EXPECT_THAT(array.values, ElementsAre(1.0, 65504.0, 0x1p-14, 0x1p-24, -0.0, 1365.0 / 4096.0));
+  EXPECT_TRUE(std::signbit(array.values[4]));
+  const NpyArray special = read(npy(header("<f2", "(3,)"), bytes<std::uint16_t>({0x7C00, 0xFC00, 0x7E00})));
+  EXPECT_EQ(special.values[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(special.values[1], -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isnan(special.values[2]));
+}
+
+TEST_F(NpyTest, IntegersBeyondADoubleAreRefusedWithTheirPlace) {
+  refused(npy(header("<u8", "(2, 2)"), bytes<std::uint64_t>({1, 2, (1ULL << 53U) + 2, 3})),
+          "element [1, 0]: the integer 9007199254740994 is beyond 2^53");
+  refused(npy(header("<i8", "(2,)"), bytes<std::int64_t>({1, -(1LL << 60)})),
+          "element [1]: the integer -1152921504606846976 is beyond 2^53");
+  // In Fortran order the place is that of the array, not of the file.
+  refused(npy(header("<u8", "(2, 3)", true), bytes<std::uint64_t>({0, 0, 0, 1ULL << 63U, 0, 0})),
+          "element [1, 1]: the integer 9223372036854775808 is beyond 2^53");
+  EXPECT_THAT(read(npy(header("<f8", "(1,)"), bytes<double>({1e30}))).values, ElementsAre(1e30));
 }
 
 TEST_F(NpyTest, ReadsFortranOrderVersion2AndScalars) {
@@ -66,6 +121,7 @@ TEST_F(NpyTest, ReadsFortranOrderVersion2AndScalars) {
   EXPECT_THAT(fortran.shape, ElementsAre(2U, 3U));
   EXPECT_THAT(fortran.values, ElementsAre(0, 1, 2, 10, 11, 12));
   EXPECT_THAT(read(npy(header("|u1", "(1, 2)"), bytes<std::uint8_t>({3, 4}), 2)).values, ElementsAre(3, 4));
+  EXPECT_THAT(read(npy(header("|u1", "(1, 2)"), bytes<std::uint8_t>({5, 6}), 3)).values, ElementsAre(5, 6));
   const NpyArray scalar = read(npy(header("|u1", "()"), bytes<std::uint8_t>({3})));
   EXPECT_THAT(scalar.shape, IsEmpty());
   EXPECT_THAT(scalar.values, ElementsAre(3));
@@ -86,12 +142,11 @@ TEST_F(NpyTest, Refusals) {
   const std::string two = bytes<double>({1, 2});
   refused("PK\x03\x04", "not an NPY file");
   refused("\x93NUMPY", "the NPY header ends early");
-  refused(npy(header("<f8", "(2,)"), two, 3), "NPY format 3.0 is not 1.0 or 2.0");
+  refused(npy(header("<f8", "(2,)"), two, 4), "NPY format 4.0 is not 1.0, 2.0 or 3.0");
   refused(npy(header("<f8", "(2,)"), "").substr(0, 40), "the NPY header ends early");
-  refused(npy(header(">f8", "(2,)"), two),
-          "dtype '>f8' is not one of little-endian u1, u2, u4, i4, i8, f4, f8");
-  refused(npy(header("<c16", "(1,)"), two),
-          "dtype '<c16' is not one of little-endian u1, u2, u4, i4, i8, f4, f8");
+  const std::string kinds = "is not one of i1, i2, i4, i8, u1, u2, u4, u8, f2, f4, f8, little- or big-endian";
+  refused(npy(header("<c16", "(1,)"), two), "dtype '<c16' " + kinds);
+  refused(npy(header("|f8", "(2,)"), two), "dtype '|f8' " + kinds);
   refused(npy("{'descr': [('a', '<f8')], 'fortran_order': False, 'shape': (2,), }", two),
           "the NPY header has no readable 'descr'");
   refused(npy("{'descr': '<f8', 'shape': (2,), }", two), "the NPY header has no readable 'fortran_order'");
@@ -107,7 +162,10 @@ TEST_F(NpyTest, Refusals) {
           "shape (4294967296, 4294967296) of f8 needs more than the file's 2 elements: truncated");
   refused(npy(header("<f8", "(99999999999999999999,)"), two),
           "the NPY shape (99999999999999999999,) is too large");
-  refused(npy(header("<f8", "(0, 3)"), ""), "shape (0, 3) holds nothing");
+  refused(npy(header("<f8", "(0, 3)"), ""), "the array is empty: shape (0, 3) has no element");
+  refused(npy(header("<f8", "(4, 0)"), ""), "the array is empty: shape (4, 0) has no element");
+  refused(npy(header("<f8", "(4294967296, 4294967296, 0)"), ""),
+          "the array is empty: shape (4294967296, 4294967296, 0) has no element");
 }
 
 TEST_F(NpyTest, ReadsTheMeasuredImpulseResponse) {

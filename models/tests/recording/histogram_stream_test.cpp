@@ -202,8 +202,14 @@ TEST(HistogramStream, EmptyPixelsAndNoAcquisitions) {
 
 TEST(HistogramStream, Refusals) {
   const HistogramCube cube = cube_of(1, 1, {1.5, 2});
-  test::expect_input_error([&] { HistogramStream(cube, {}); },
-                           "histograms: count 1.5 is not an integer; give a photon budget (--photons)");
+  test::expect_input_error(
+      [&] { HistogramStream(cube, {}); },
+      "histograms: column 0, row 0, bin 0: count 1.5 is not an integer; give a photon budget (--photons)");
+  HistogramCube named = cube_of(2, 1, {1, 2, 3, 0.5});
+  named.name = "a.npy";
+  test::expect_input_error(
+      [&] { HistogramStream(named, {}); },
+      "a.npy: column 0, row 0, bin 3: count 0.5 is not an integer; give a photon budget (--photons)");
   const auto refused = [&](const Resampling& resampling, const std::string& reason) {
     test::expect_input_error([&] { HistogramStream(cube, resampling); }, "resampling: " + reason);
   };
@@ -251,6 +257,8 @@ TEST(HistogramCube, FromArrays) {
   array.values[21] = 0;
   test::expect_input_error([&] { (void)histogram_cube(array, 0.0); },
                            "histograms: bin width is 0, must be a positive number of seconds");
+  test::expect_input_error([&] { (void)histogram_cube(array, 0.0, 0.0, "a.npy"); },
+                           "a.npy: bin width is 0, must be a positive number of seconds");
   test::expect_input_error([&] { (void)histogram_cube({.shape = {}, .values = {1}}, 1e-9); },
                            "histograms: the array is a single number, its last axis must be the bins");
 }

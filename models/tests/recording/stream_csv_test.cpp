@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "dtof/core/random.hpp"
+#include "dtof/io/atomic_file.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -56,6 +57,47 @@ TEST_F(StreamCsvTest, AcceptsGivenSizesCrLfAndAMissingLastNewline) {
   EXPECT_EQ(read("", options).detection_count(), 0U);
 }
 
+TEST_F(StreamCsvTest, ReadsTheTextThatOthersWrite) {
+  const auto read_text = [&](const std::string& text) {
+    const RecordedStream stream = read_stream_csv(write("stream.csv", text), {});
+    EXPECT_EQ(stream.columns(), 2);
+    EXPECT_EQ(stream.rows(), 2);
+    EXPECT_EQ(stream.acquisitions(), 6U);
+    EXPECT_EQ(stream.detection_count(), 3U);
+    EXPECT_THAT(stream.column(0).row(1), ElementsAre(Detection{2, 7}));
+    EXPECT_THAT(stream.column(1).row(0), ElementsAre(Detection{5, 30}, Detection{5, 1000}));
+  };
+  const std::string header(kHeader);
+  for (const std::string& text :
+       {header + "5,1,0,30\n2,0,1,7\n5,1,0,1000\n\n",
+        header + "5,1,0,30\r\n2,0,1,7\r\n5,1,0,1000\r\n\r\n \r\n",
+        "\"acquisition\",\"column\",\"row\",\"timestamp\"\n" +
+            std::string("5,1,0,30\n2,0,1,\"7\"\n\"5\",1,0,1000\n"),
+        "acquisition, column, row, timestamp\n" + std::string("5, 1, 0, 30\n2 ,0,1,7\n5,1,\t0,1000 \n"),
+        "acquisition;column;row;timestamp\n" + std::string("5;1;0;30\n2;0;1;7,0\n5;1;0;1000.0\n"),
+        header + "5.0,1.0,0.0,30.\n2,0,1,7.000\n5,1,0,1000\n",
+        "\xEF\xBB\xBF" + header + "5,1,0,30\n2,0,1,7\n5,1,0,1000\n"}) {
+    SCOPED_TRACE(text);
+    read_text(text);
+  }
+}
+
+TEST_F(StreamCsvTest, MinusOneIsNoEventButCountsForTheSizes) {
+  const RecordedStream stream = read("0,0,0,5\n3,0,0,-1\n1,2,0,-1.0\n1,0,1, -1\n1,0,0,6\n");
+  EXPECT_EQ(stream.columns(), 3);
+  EXPECT_EQ(stream.rows(), 2);
+  EXPECT_EQ(stream.acquisitions(), 4U);
+  EXPECT_EQ(stream.detection_count(), 2U);
+  EXPECT_THAT(stream.column(0).row(0), ElementsAre(Detection{0, 5}, Detection{1, 6}));
+  EXPECT_EQ(read("1,1,1,-1\n").detection_count(), 0U);
+  refused("1,0,0,5\n1,2,0,-1\n", "3: column 2 is outside 0..1 (columns: 2)", {.columns = 2});
+}
+
+TEST_F(StreamCsvTest, GzipIsUnpacked) {
+  write_gzip_file(path("s.csv.gz"), std::string(kHeader) + "5,1,0,30\n");
+  EXPECT_THAT(read_stream_csv(path("s.csv.gz"), {}).column(1).row(0), ElementsAre(Detection{5, 30}));
+}
+
 TEST_F(StreamCsvTest, RefusesMalformedLines) {
   refused("1,0,0,5\n1,0,0\n", "3: 3 fields instead of 4 (acquisition,column,row,timestamp)");
   refused("1,0,0,5,6\n", "2: 5 fields instead of 4 (acquisition,column,row,timestamp)");
@@ -64,10 +106,20 @@ TEST_F(StreamCsvTest, RefusesMalformedLines) {
   refused("1,0,0x1,5\n", "2: row \"0x1\" is not a decimal integer");
   refused("1,-1,0,5\n", "2: column \"-1\" is not a decimal integer");
   refused("1,0,0,+5\n", "2: timestamp \"+5\" is not a decimal integer");
-  refused("1,0, 0,5\n", "2: row \" 0\" is not a decimal integer");
-  refused("1,0,0,5.0\n", "2: timestamp \"5.0\" is not a decimal integer");
+  refused("1,0,0 0,5\n", "2: row \"0 0\" is not a decimal integer");
+  refused("1,0,0,5.5\n", "2: timestamp \"5.5\" is not a decimal integer");
+  refused("1,0,0,5.05\n", "2: timestamp \"5.05\" is not a decimal integer");
+  refused("1,0,0,.0\n", "2: timestamp \".0\" is not a decimal integer");
+  refused("1,0,0,1e2\n", "2: timestamp \"1e2\" is not a decimal integer");
+  refused("1,0,0,-2\n", "2: timestamp \"-2\" is not a decimal integer");
+  refused("1,0,0,-0\n", "2: timestamp \"-0\" is not a decimal integer");
+  refused("-1,0,0,5\n", "2: acquisition \"-1\" is not a decimal integer");
+  refused("1,0,0,\"5\n", "2: timestamp \"\"5\" is not a decimal integer");
+  refused("1;0;0;5\n", "2: 1 fields instead of 4 (acquisition,column,row,timestamp)");
+  refused("1,0,0,18446744073709551615\n", "2: timestamp \"18446744073709551615\" is too large");
   refused("1,0,0,nan\n", "2: timestamp \"nan\" is not a decimal integer");
   refused("1,0,0,5\n\n1,0,0,6\n", "3: empty line");
+  refused("1,0,0,5\n \n\n1,0,0,6\n\n", "3: empty line");
   refused("99999999999999999999999,0,0,5\n", "2: acquisition \"99999999999999999999999\" is too large");
   refused("1,0,0,5\n1,0,", "3: 3 fields instead of 4 (acquisition,column,row,timestamp)");
 }

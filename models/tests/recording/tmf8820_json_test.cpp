@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "dtof/io/json_file.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -46,12 +47,56 @@ TEST_F(Tmf8820Test, ReadsCapturesIntoACube) {
   EXPECT_EQ(cube.true_distance[3 * 2 + 1], 0.2);
 }
 
+TEST_F(Tmf8820Test, CountsMayHaveAFractionOfZeros) {
+  nlohmann::json json = {capture(0.1)};
+  json[0]["hists"][3][5] = 12.0;
+  json[0]["hists"][3][6] = 4294967295.0;
+  const auto captures = read_tmf8820_json(write("a.json", json.dump()));
+  EXPECT_EQ(captures[0].histograms[3][5], 12U);
+  EXPECT_EQ(captures[0].histograms[3][6], 4294967295U);
+  json[0]["hists"][3][6] = 4294967296.0;
+  refused(json.dump(), "[0].hists[3][6]: 4294967296.0 is not a photon count (0..2^32-1)");
+}
+
+TEST_F(Tmf8820Test, UnknownDistancesAndNoReference) {
+  nlohmann::json json = {capture(0.1), capture(0.0), capture(0.3), capture(0.4), capture(0.5)};
+  json[1]["hists"][0][0] = 99;
+  json[2]["dist_to_plane"] = "NaN";
+  json[3]["dist_to_plane"] = nullptr;
+  json[4]["dist_to_plane"] = "0.5";
+  json[4].erase("reference_hist");
+  std::string text = json.dump();
+  // As Python's json writes it: no string.
+  text.replace(text.find("\"NaN\""), 5, "NaN");
+  const auto captures = read_tmf8820_json(write("a.json", text));
+  ASSERT_EQ(captures.size(), 5U);
+  EXPECT_EQ(captures[0].distance, 0.1);
+  for (const std::size_t unknown : {1, 2, 3}) {
+    EXPECT_TRUE(std::isnan(captures[unknown].distance)) << unknown;
+    EXPECT_EQ(captures[unknown].histograms[4][100], 7U);
+  }
+  EXPECT_EQ(captures[1].histograms[0][0], 99U);
+  EXPECT_EQ(captures[4].distance, 0.5);
+  EXPECT_EQ(captures[4].reference[5], 0U);
+  const HistogramCube cube = tmf8820_cube(captures);
+  EXPECT_TRUE(std::isnan(cube.true_distance[1]));
+  EXPECT_EQ(cube.true_distance[4], 0.5);
+}
+
+TEST_F(Tmf8820Test, WhatIsNoNumberIsNullOutsideOfStringsOnly) {
+  EXPECT_EQ(
+      parse_json("a", R"({"a": NaN, "b": [-Infinity, Infinity, -1], "c": "NaN \" Infinity", "NaN": 1})"),
+      nlohmann::json::parse(R"({"a": null, "b": [null, null, -1], "c": "NaN \" Infinity", "NaN": 1})"));
+  EXPECT_EQ(parse_json("a", "\xEF\xBB\xBF[1]"), nlohmann::json::parse("[1]"));
+  test::expect_input_error([] { (void)parse_json("a", "[NaN, Nothing]"); }, HasSubstr("a: parse error"));
+}
+
 TEST_F(Tmf8820Test, Refusals) {
   refused("{}", ": not an array");
   refused("[]", ": no captures");
   refused(R"([{"hists": []}])", R"([0]: "dist_to_plane" is missing)");
   nlohmann::json json = {capture(0.1), capture(-0.2)};
-  refused(json.dump(), "[1].dist_to_plane: not a positive distance");
+  refused(json.dump(), "[1].dist_to_plane: negative distance");
   json[1] = capture(0.2);
   json[1]["hists"].erase(8);
   refused(json.dump(), "[1].hists: 8 elements instead of 9");

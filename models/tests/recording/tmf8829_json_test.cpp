@@ -57,15 +57,18 @@ class Tmf8829Test : public test::IoTest {
 };
 
 TEST_F(Tmf8829Test, ReadsResultsAndHistograms) {
-  const auto frames = read_tmf8829_json(write_log({frame([](int i, int j) { return 10 * i + j; })}));
+  const Tmf8829Log log = read_tmf8829_json(write_log({frame([](int i, int j) { return 10 * i + j; })}));
+  const auto& frames = log.frames;
   ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(log.left_out, 0U);
   EXPECT_EQ(frames[0].number, 42);
-  EXPECT_NEAR(frames[0].result(1, 0).peaks.at(0).distance, 1.010, 1e-12);
-  EXPECT_NEAR(frames[0].result(1, 0).peaks.at(0).x, -0.0015, 1e-12);
+  EXPECT_NEAR(frames[0].result(1, 0).peaks.at(0).distance.value(), 1.010, 1e-12);
+  EXPECT_NEAR(frames[0].result(1, 0).peaks.at(0).x.value(), -0.0015, 1e-12);
   EXPECT_EQ(frames[0].histogram(1, 1)[0], 11U);
   EXPECT_EQ(frames[0].reference.at(0).at(0), 9U);
   EXPECT_FALSE(frames[0].only_row_zero());
-  const HistogramCube cube = tmf8829_cube(frames);
+  const HistogramCube cube = tmf8829_cube(log);
+  EXPECT_NEAR(cube.bin_width, 815e-12, 1e-18);
   EXPECT_EQ(cube.columns, 2);
   EXPECT_EQ(cube.rows, 2);
   EXPECT_EQ(cube.pixel(1, 0)[0], 1.0);
@@ -83,9 +86,9 @@ TEST_F(Tmf8829Test, MoreColumnsThanRows) {
 TEST_F(Tmf8829Test, RepeatedHistogramsBelongToRowZero) {
   auto json = frame([](int i, int) { return 10 * i; });
   json["results"][0][1]["peaks"] = nlohmann::json::array();
-  const auto frames = read_tmf8829_json(write_log({json, frame([](int i, int) { return 10 * i + 5; })}));
-  EXPECT_TRUE(frames[0].only_row_zero());
-  const HistogramCube cube = tmf8829_cube(frames);
+  const Tmf8829Log log = read_tmf8829_json(write_log({json, frame([](int i, int) { return 10 * i + 5; })}));
+  EXPECT_TRUE(log.frames[0].only_row_zero());
+  const HistogramCube cube = tmf8829_cube(log);
   EXPECT_EQ(cube.columns, 2);
   EXPECT_EQ(cube.rows, 2);
   EXPECT_EQ(cube.pixel(0, 1)[0], 10.0);
@@ -98,11 +101,96 @@ TEST_F(Tmf8829Test, RepeatedHistogramsBelongToRowZero) {
 TEST_F(Tmf8829Test, EveryListMustRepeatItsHistogram) {
   const auto only_row_zero = [&](int odd_list) {
     const auto first_bin = [&](int i, int j) { return 10 * i + (i == odd_list ? j : 0); };
-    return read_tmf8829_json(write_log({frame(first_bin)})).at(0).only_row_zero();
+    return read_tmf8829_json(write_log({frame(first_bin)})).frames.at(0).only_row_zero();
   };
   EXPECT_FALSE(only_row_zero(0));
   EXPECT_FALSE(only_row_zero(1));
   EXPECT_TRUE(only_row_zero(2));
+}
+
+TEST_F(Tmf8829Test, EveryMemberOfAResultMayBeMissing) {
+  auto json = frame([](int i, int j) { return 10 * i + j; });
+  json.erase("info");
+  json.erase("ref_histo");
+  json["results"][0][0] = {{"peaks", {{{"distance", 1234.5}}}}};
+  json["results"][0][1] = nlohmann::json::object();
+  json["results"][1][0] = {{"peaks", {{{"snr", 3}, {"distance", nullptr}}}}, {"noise", 4.0}};
+  const Tmf8829Log log = read_tmf8829_json(write_log({json}));
+  ASSERT_EQ(log.frames.size(), 1U);
+  const Tmf8829Frame& read = log.frames[0];
+  EXPECT_FALSE(read.number.has_value());
+  EXPECT_TRUE(read.reference.empty());
+  EXPECT_NEAR(read.result(0, 0).peaks.at(0).distance.value(), 1.2345, 1e-12);
+  EXPECT_FALSE(read.result(0, 0).peaks.at(0).x.has_value());
+  EXPECT_FALSE(read.result(0, 0).noise.has_value());
+  EXPECT_TRUE(read.result(0, 1).peaks.empty());
+  EXPECT_EQ(read.result(1, 0).noise, 4);
+  EXPECT_EQ(read.result(1, 0).peaks.at(0).snr, 3);
+  const HistogramCube cube = tmf8829_cube(log);
+  EXPECT_NEAR(cube.true_distance[0], 1.2345, 1e-12);
+  EXPECT_TRUE(std::isnan(cube.true_distance[1]));
+  EXPECT_TRUE(std::isnan(cube.true_distance[2]));
+  EXPECT_NEAR(cube.true_distance[3], 1.011, 1e-12);
+  EXPECT_EQ(cube.pixel(1, 0)[0], 1.0);
+}
+
+TEST_F(Tmf8829Test, FramesWithoutResultsOrHistogramsAreLeftOutAndCounted) {
+  const auto first_bin = [](int i, int j) { return 10 * i + j; };
+  auto no_results = frame(first_bin);
+  no_results.erase("results");
+  auto empty_results = frame(first_bin);
+  empty_results["results"] = nlohmann::json::array();
+  auto no_histograms = frame(first_bin);
+  no_histograms["mp_histo"] = nullptr;
+  const Tmf8829Log log = read_tmf8829_json(
+      write_log({no_results, frame(first_bin), empty_results, no_histograms, frame(first_bin)}));
+  EXPECT_EQ(log.frames.size(), 2U);
+  EXPECT_EQ(log.left_out, 3U);
+  EXPECT_EQ(tmf8829_cube(log).columns, 4);
+  test::expect_input_error(
+      [&] {
+        (void)read_tmf8829_json(write_log({no_results, no_histograms}));
+      },
+      EndsWith("a.json.Result_Set: none of 2 frames has both results and histograms"));
+}
+
+TEST_F(Tmf8829Test, HistogramsOfThe8x8ModesHaveFineBins) {
+  auto json = frame([](int i, int j) { return 10 * i + j; });
+  int number = 0;
+  for (auto& row : json["mp_histo"]) {
+    for (auto& pixel : row) {
+      std::vector<int> bins(kTmf8829FineBins, 3);
+      bins[200] = 70 + number++;
+      pixel["bin"] = bins;
+    }
+  }
+  const Tmf8829Log log = read_tmf8829_json(write_log({json}));
+  const HistogramCube cube = tmf8829_cube(log);
+  EXPECT_EQ(cube.bins, 256);
+  EXPECT_NEAR(cube.bin_width, 203.75e-12, 1e-18);  // the range of 64 bins of 815 ps
+  EXPECT_EQ(cube.pixel(1, 1)[200], 73.0);
+  json["mp_histo"][1][1]["bin"] = std::vector<int>(kTmf8829Bins, 3);
+  test::expect_input_error([&] { (void)read_tmf8829_json(write_log({json})); },
+                           EndsWith("Result_Set[0].mp_histo[1][1].bin: 64 elements instead of 256"));
+}
+
+TEST_F(Tmf8829Test, TheConfigurationSaysHowWideABinIs) {
+  const auto width = [&](const nlohmann::json& shift) {
+    const nlohmann::json log = {{"Result_Set", {frame([](int i, int j) { return 10 * i + j; })}},
+                                {"configuration", {{"bin_shift", shift}}}};
+    return read_tmf8829_json(write("a.json", log.dump())).bin_width;
+  };
+  EXPECT_NEAR(width(2), 815e-12, 1e-18);
+  EXPECT_NEAR(width(0), 203.75e-12, 1e-18);
+  EXPECT_NEAR(width(3), 1630e-12, 1e-18);
+  test::expect_input_error([&] { (void)width(8); },
+                           EndsWith("a.json.configuration.bin_shift: 8 is not within 0 to 7"));
+}
+
+TEST_F(Tmf8829Test, AByteOrderMarkStandsInFront) {
+  const std::string text =
+      nlohmann::json{{"Result_Set", {frame([](int i, int j) { return 10 * i + j; })}}}.dump();
+  EXPECT_EQ(read_tmf8829_json(write("a.json", "\xEF\xBB\xBF" + text)).frames.at(0).histogram(1, 1)[0], 11U);
 }
 
 TEST_F(Tmf8829Test, Refusals) {
@@ -129,7 +217,13 @@ TEST_F(Tmf8829Test, Refusals) {
   json = frame(plain);
   json["results"][0][1]["noise"] = "2";
   refused(json, "Result_Set[0].results[0][1].noise: not an integer");
-  test::expect_input_error([] { (void)tmf8829_cube({}); }, "TMF8829: no frames");
+  test::expect_input_error([] { (void)tmf8829_cube({}); }, "histograms: no frames");
+  const Tmf8829Log sizes = read_tmf8829_json(write_log({frame(plain), frame(plain, 3)}));
+  test::expect_input_error([&] { (void)tmf8829_cube(sizes, 0.0, "a.json"); },
+                           "a.json: frames of different size");
+  json = frame(plain);
+  json["results"][0][1]["peaks"][0]["distance"] = "near";
+  refused(json, "Result_Set[0].results[0][1].peaks[0].distance: \"near\" is not a number");
 }
 
 TEST_F(Tmf8829Test, GzipIsUnpackedAndDamageIsRefused) {
@@ -138,7 +232,7 @@ TEST_F(Tmf8829Test, GzipIsUnpackedAndDamageIsRefused) {
   gzFile gzip = gzopen(file.c_str(), "wb");
   gzwrite(gzip, text.data(), static_cast<unsigned>(text.size()));
   gzclose(gzip);
-  EXPECT_EQ(read_tmf8829_json(file).size(), 1U);
+  EXPECT_EQ(read_tmf8829_json(file).frames.size(), 1U);
   const std::string whole = contents(file);
   test::expect_input_error([&] { (void)read_tmf8829_json(write("t.gz", whole.substr(0, whole.size() / 2))); },
                            EndsWith("t.gz: damaged gzip data: the file ends early"));
@@ -151,13 +245,15 @@ TEST_F(Tmf8829Test, GzipIsUnpackedAndDamageIsRefused) {
 TEST_F(Tmf8829Test, PublishedLogHoldsRowZeroAndFollowsTheOnChipDistances) {
   const auto file = test::shared_data("ams_tmf8829_log.json.gz");
   DTOF_SKIP_IF_ABSENT(file);
-  const auto frames = read_tmf8829_json(file);
+  const Tmf8829Log log = read_tmf8829_json(file);
+  const auto& frames = log.frames;
   ASSERT_EQ(frames.size(), 26U);
+  EXPECT_EQ(log.bin_width, kTmf8829BinWidth);  // bin_shift is 2
   EXPECT_EQ(frames[0].rows, 16);
   EXPECT_EQ(frames[0].columns, 16);
   EXPECT_EQ(frames[0].reference.size(), 8U);
   EXPECT_TRUE(std::ranges::all_of(frames, &Tmf8829Frame::only_row_zero));
-  const HistogramCube cube = tmf8829_cube(frames);
+  const HistogramCube cube = tmf8829_cube(log);
   EXPECT_EQ(cube.columns, 26);
   EXPECT_EQ(cube.rows, 16);
 

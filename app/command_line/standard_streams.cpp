@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line/standard_streams.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <system_error>
+
+namespace dtof {
+
+void open_closed_streams() {
+  // open() gives the lowest number that is free.
+  constexpr std::array<int, 3> kModes = {O_WRONLY, O_RDONLY, O_WRONLY};  // input and output: of no use
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor) {
+    if (::fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
+      (void)::open("/dev/null",
+                   kModes.at(static_cast<std::size_t>(descriptor)));  // NOLINT(android-cloexec-open)
+    }
+  }
+}
+
+std::string flush_standard_output() {
+  const bool failed = std::ferror(stdout) != 0;
+  if (std::fflush(stdout) != 0) {
+    return std::generic_category().message(errno);
+  }
+  return failed ? "some of it could not be written" : "";
+}
+
+void print_error_line(const std::string& line) noexcept {
+  std::fputs(line.c_str(), stderr);
+  std::fputs("\n", stderr);
+}
+
+}  // namespace dtof

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "command_line/shell_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace dtof {
+namespace {
+
+TEST(ShellWord, PlainWordsStayAsTheyAre) {
+  for (const char* word : {"--depth", "a/b-c_d.npy", "0,2-3", "a=b", "1e+3", "50%", "x:y@z"}) {
+    EXPECT_EQ(shell_word(word), word);
+  }
+}
+
+TEST(ShellWord, OthersAreQuoted) {
+  EXPECT_EQ(shell_word(""), "''");
+  EXPECT_EQ(shell_word("a b&c.npy"), "'a b&c.npy'");
+  EXPECT_EQ(shell_word("it's"), R"('it'\''s')");
+  EXPECT_EQ(shell_word("m\u00fcng"), "'m\u00fcng'");
+  EXPECT_EQ(shell_word("mess\xfcng.npy"), R"($'mess\374ng.npy')");
+  EXPECT_EQ(shell_word("two\nlines\\'"), R"($'two\012lines\\\'')");
+}
+
+TEST(ShellCommand, AShellTakesTheWordsBack) {
+  const std::array<const char*, 7> words = {"plain", "a b", "it's", "$HOME", "`x`", "a\\b\xfc\n'!", "*"};
+  const std::filesystem::path script = std::filesystem::path(::testing::TempDir()) / "dtof_shell_words.sh";
+  std::ofstream(script, std::ios::binary)
+      << shell_command("printf", std::array{"%s\\0"}) << shell_command("", words);
+  std::FILE* const pipe = popen(("bash " + shell_word(script.string())).c_str(), "r");
+  std::string output;
+  for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;) {
+    output += static_cast<char>(letter);
+  }
+  pclose(pipe);
+  std::filesystem::remove(script);
+  std::string expected;
+  for (const char* word : words) {
+    expected += word;
+    expected += '\0';
+  }
+  EXPECT_EQ(output, expected);
+}
+
+}  // namespace
+}  // namespace dtof
