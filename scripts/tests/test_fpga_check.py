@@ -51,7 +51,7 @@ class FpgaCheck(unittest.TestCase):
             self.assertIsInstance(parameters["READOUT"], int, name)
         self.assertEqual(subsystems["poolpointer2-lean"][1]["GROUP_SIZE"], 8)
         self.assertEqual(sorted(fpga_check.memories(subsystems["ezpointer"][1])),
-                         ["16 words x 14 bits", "16 words x 14 bits", "36 words x 20 bits"])
+                         ["16 words x 14 bits", "16 words x 14 bits", "36 words x 21 bits"])
 
     def test_a_memory_that_is_read_without_a_clock_is_noticed(self):
         with tempfile.TemporaryDirectory() as folder:
