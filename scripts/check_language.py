@@ -24,7 +24,7 @@ def problem(name: str, line: str) -> str:
         return "a sentence begins with 'Of': say what it is about" if NO_NOUN_ON_A_PAGE.search(line) else ""
     if NO_NOUN.search(line):
         return "a comment begins with 'Of': say what it describes"
-    found = PERSON.search(line) if name.startswith("hdl/") and name.endswith((".sv", ".svh")) else None
+    found = PERSON.search(line) if name.startswith(("hdl/", "formal/", "fpga/", "examples/")) and name.endswith((".sv", ".svh")) else None
     return f"'{found[1]}' in the RTL: wires do not" if found else ""
 
 

@@ -35,9 +35,9 @@ MISREAD = [  # pattern in the RTL, and what is wrong with it
 ]
 # A name that nobody has declared is an error in every file, and no wire of one bit; what a user's files declare stays theirs. No
 # file but the benches has a delay, so that a `timescale of a user's files matters to none.
-HEAD = re.compile(r"^// verilator lint_off TIMESCALEMOD\n`default_nettype none\n\n(?:module|package) \w+", re.MULTILINE)
+HEAD = re.compile(r"^// verilator lint_off TIMESCALEMOD\n`default_nettype none\n\n(?:module|package|bind) \w+", re.MULTILINE)
 TAIL = "\n\n`default_nettype wire\n"
-FIRST = re.compile(r"^(?:module|package|interface) \w+", re.MULTILINE)
+FIRST = re.compile(r"^(?:module|package|interface|bind) \w+", re.MULTILINE)
 HARMLESS_SORRY: dict[str, str] = {}  # part of an Icarus line, and why it does no harm
 BLOCK_RAM = {"ecp5": "DP16KD", "ice40": "SB_RAM40_4K"}
 
@@ -220,7 +220,8 @@ def check_sentences(limits: list[tuple[str, dict[str, int], str]]) -> list[str]:
 
 def main() -> int:
     configurations = load(ROOT / "configurations.toml").values()
-    sources = {str(path.relative_to(ROOT)): path.read_text() for path in sorted(HDL.rglob("*.sv"))}
+    sources = {str(path.relative_to(ROOT)): path.read_text() for folder in ("hdl", "formal", "fpga", "examples")
+               for path in sorted((ROOT / folder).rglob("*.sv"))}
     limits = parameter_limits()
     illegal = [sentence for _, _, sentence in limits if sentence]
     failures = [*check_misread(sources), *check_nettype(sources), *check_file_list(), *check_sentences(limits)]

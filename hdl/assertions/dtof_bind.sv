@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Binds the protocols' assertions and covers to every array and subsystem of a simulation: dtof_assertions.f, behind dtof.f.
 
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
 bind dtof_subsystem dtof_stream_protocol #(.WIDTH(S_TDATA_WIDTH), .WHOSE("the source of lines")) u_line_protocol (
     .clk_i, .rst_ni, .tvalid_i(s_axis_tvalid_i), .tready_i(s_axis_tready_o), .tdata_i(s_axis_tdata_i), .tlast_i(s_axis_tlast_i)
 );
@@ -28,3 +31,5 @@ bind dtof_pool_pointer2_array dtof_array_protocol #(.LINES(PIXELS_PER_SRAM * SLO
 bind dtof_pool_pointer2_array dtof_stream_protocol #(.WIDTH(TDATA_WIDTH), .WHOSE("the array")) u_result_protocol (
     .clk_i, .rst_ni, .tvalid_i(result_tvalid_o), .tready_i(result_tready_i), .tdata_i(result_tdata_o), .tlast_i(result_tlast_o)
 );
+
+`default_nettype wire
