@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and docs/user/configuration.md
 need, from readouts.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C and the page on integration, from
-hdl/subsystem/registers.toml. --check only says which are stale."""
+hdl/subsystem/registers.toml, and the table of studies in docs/user/commands.md, from studies.toml. --check only says which are stale."""
 
 import ast
 import re
@@ -17,6 +17,7 @@ import file_lists  # noqa: E402
 import registers  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load  # noqa: E402
+from figures import reports  # noqa: E402
 
 WRITTEN = "Written by scripts/generate.py from readouts.toml."
 FEWEST_BITS, MOST_BITS = 3, 16  # of a timestamp
@@ -27,6 +28,8 @@ PREFIX = "dtof_"  # of every module
 COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
 COLUMNS_END = "// end of columns\n"
 INTEGRATION = "docs/user/integration.md"
+COMMANDS = "docs/user/commands.md"
+STUDIES_BEGIN, STUDIES_END = "<!-- studies: scripts/generate.py -->\n", "<!-- end of studies -->\n"
 CONFIGURATION = "docs/user/configuration.md"
 
 
@@ -448,6 +451,20 @@ def rtl_of(module: str) -> str:
     return str(path.relative_to(ROOT))
 
 
+def studies_table(text: str) -> str:
+    """The page of the commands with a table of studies.toml between its marks."""
+    if text.count(STUDIES_BEGIN) != 1 or text.count(STUDIES_END) != 1:
+        raise FlowError(f"{COMMANDS} has no place for the table of studies")
+    lines = ["| study | minutes | what it answers | pages |", "|---|---:|---|---|"]
+    for name, study in reports.studies(ROOT).items():
+        pages = ", ".join(f"[{page['title']}](../../reports/{page['file']})" if (ROOT / "reports" / page["file"]).is_file() else page["title"]
+                          for page in study.get("page", []))
+        minutes = f"{study['minutes']:g}" if study["minutes"] >= 1 else "< 1"
+        lines.append(f"| `{name}` | {minutes} | {study['does']} | {pages or '-'} |")
+    head, rest = text.split(STUDIES_BEGIN)
+    return head + STUDIES_BEGIN + "\n".join(lines) + "\n" + STUDIES_END + rest.split(STUDIES_END)[1]
+
+
 def check_top(name: str, text: str, table: Table) -> list[str]:
     """What differs between a top module's own parameters and the table's: the module is a contract of its own, written by
     hand."""
@@ -477,7 +494,7 @@ def main() -> int:
     try:
         table = load()
         current = {name: (ROOT / name).read_text(encoding="utf-8") for name in
-                   ("hdl/dtof.f", CONFIGURATION, INTEGRATION)}
+                   ("hdl/dtof.f", CONFIGURATION, INTEGRATION, COMMANDS)}
         whole = registers.load()
         listing = column_files(current["hdl/dtof.f"], table)
         files = {
@@ -498,6 +515,7 @@ def main() -> int:
             "hdl/subsystem/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),
             INTEGRATION: registers.page(current[INTEGRATION], whole),
+            COMMANDS: studies_table(current[COMMANDS]),
         }
         differences = [difference for top in table.tops
                        for difference in check_top(top, (ROOT / rtl_of(top)).read_text(encoding="utf-8"), table)]
