@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Every test, C++ and Python, by CTest. The last line says how many tests were skipped, because what they need is not here.
+# Every test, C++ and Python, by CTest. The last lines say how many tests were skipped, and why.
 set -euo pipefail
 build=$1
 ctest --test-dir "$build" --output-on-failure -j "$(nproc)"
@@ -9,5 +9,6 @@ skipped=$(($(sed -nE 's/^\[  SKIPPED \] ([0-9]+) tests?\.$/+\1/p; s/^OK \(skippe
 if [ "$skipped" = 0 ]; then
   echo "tests: all ran"
 else
-  echo "tests: $skipped skipped, for what they need is not here ($log says which)"
+  sed -n '/: Skipped$/{n;p}' "$log" | sort | uniq -c | sort -rn | sed 's/^ *\([0-9]*\) /  skipped, \1 times: /'
+  echo "tests: $skipped skipped, each with its reason in $log"
 fi
