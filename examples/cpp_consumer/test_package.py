@@ -123,6 +123,7 @@ class Package(unittest.TestCase):
             self.assertIn("-DOWN", command)
             self.assertNotIn("-Werror", command)
             self.assertNotIn("-O2", command)
+        self.assertNotIn("dtof_report", (binary / "build.ninja").read_text(encoding="utf-8"), "pictures need cairo and Python")
         self.assertFalse(list(binary.rglob("*_test*")), "a parent's build has none of the project's tests and programs")
 
     @unittest.skipIf(shutil.which("clang++") is None, "clang++ is not here")
