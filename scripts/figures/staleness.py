@@ -116,7 +116,8 @@ def compared(report: Report, known: Measured | None, now: Inputs) -> Stale | Non
         return None
     changed = {place for place, digest in now.folders.items() if digest not in known.folders.values()}
     gone = {place for place, digest in known.folders.items() if digest not in now.folders.values()} - now.folders.keys()
-    return Stale(report, tuple(sorted(changed or gone)))
+    # A folder may have gone whose files lie in another one, too.
+    return Stale(report, tuple(sorted(changed or gone or known.folders.keys() ^ now.folders.keys())))
 
 
 def stale(root: Path, reports: dict[str, Report], tree: SourceTree) -> dict[str, Stale]:

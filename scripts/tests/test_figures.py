@@ -116,6 +116,13 @@ class Staleness(Project):
         self.write("tb_cpp/low/b.hpp", "long b();\n")
         self.assertIn("tb_cpp/low", self.stale()["pareto"])
 
+    def test_a_folder_that_goes_and_whose_file_is_elsewhere_too_is_named(self) -> None:
+        self.write("tb_cpp/twin/b.hpp", FILES["models/dtof/core/b.hpp"])
+        self.write("models/dtof/core/a.cpp", FILES["models/dtof/core/a.cpp"] + '#include "twin/b.hpp"\n')
+        self.measure()
+        self.write("models/dtof/core/a.cpp", FILES["models/dtof/core/a.cpp"])
+        self.assertEqual(self.stale(), {"pareto": ("tb_cpp/twin",)})
+
     def test_a_change_of_an_input_does_and_names_the_place(self) -> None:
         for name, text, expected in (
                 ("hdl/a.sv", "module a; wire w; endmodule\n", {"area": ("hdl",)}),
