@@ -117,10 +117,12 @@ class Staleness(Project):
         self.assertIn("tb_cpp/low", self.stale()["pareto"])
 
     def test_a_folder_that_goes_and_whose_file_is_elsewhere_too_is_named(self) -> None:
-        self.write("tb_cpp/twin/b.hpp", FILES["models/dtof/core/b.hpp"])
-        self.write("models/dtof/core/a.cpp", FILES["models/dtof/core/a.cpp"] + '#include "twin/b.hpp"\n')
+        for folder in ("twin", "other"):
+            self.write(f"tb_cpp/{folder}/b.hpp", FILES["models/dtof/core/b.hpp"])
+        own = FILES["models/dtof/core/a.cpp"] + '#include "other/b.hpp"\n'
+        self.write("models/dtof/core/a.cpp", own + '#include "twin/b.hpp"\n')
         self.measure()
-        self.write("models/dtof/core/a.cpp", FILES["models/dtof/core/a.cpp"])
+        self.write("models/dtof/core/a.cpp", own)
         self.assertEqual(self.stale(), {"pareto": ("tb_cpp/twin",)})
 
     def test_a_change_of_an_input_does_and_names_the_place(self) -> None:
