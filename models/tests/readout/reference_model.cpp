@@ -2,6 +2,7 @@
 #include "tests/readout/reference_model.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bitset>
 #include <functional>
 #include <map>
@@ -291,6 +292,13 @@ class Frame {
 };
 
 }  // namespace
+
+bool has_reference(Readout readout) {
+  using enum Readout;
+  constexpr std::array kKnown = {kEzPointer,  kHisPointer1, kHisPointer, kSifh,           kFifh,
+                                 kThreeSteps, kPifh,        kHistogram,  kCoarseHistogram};
+  return std::ranges::find(kKnown, readout) != kKnown.end();
+}
 
 PixelResult reference_result(const ReadoutParameters& parameters, const std::vector<Detection>& detections,
                              std::int64_t acquisitions) {

@@ -10,6 +10,10 @@
 
 namespace dtof {
 
+/// Whether the slow reading below knows the read-out. The pool read-outs have a reference of their own; a
+/// read-out that was just added has none yet.
+bool has_reference(Readout readout);
+
 /// Slow reading of docs/reference/readouts.md, sentence by sentence, sharing nothing with the models:
 /// timestamps are selected by predicates, counts live in a map, all arithmetic is signed 64 bit.
 PixelResult reference_result(const ReadoutParameters& parameters, const std::vector<Detection>& detections,

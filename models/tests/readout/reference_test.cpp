@@ -147,7 +147,7 @@ TEST_P(AgainstReference, FullBins) {
 /// pool_pointer2_test has what pools pixels.
 std::vector<Readout> single_pixel_readouts() {
   std::vector<Readout> readouts;
-  std::ranges::remove_copy_if(kAllReadouts, std::back_inserter(readouts), is_pool_readout);
+  std::ranges::copy_if(kAllReadouts, std::back_inserter(readouts), has_reference);
   return readouts;
 }
 
