@@ -26,7 +26,9 @@ module smoothing_properties #(
   (* anyconst *) logic [3*CONFIDENCE_WIDTH-1:0] margins;
   (* anyconst *) logic [2:0] bright;
   (* anyconst *) logic smooth, starts, has_left;
+  (* anyconst *) logic [CONFIDENCE_WIDTH-1:0] confidence;
   logic [15:0] start, left_registered;
+  logic [2:0] near, expected_near;
   logic [CONFIDENCE_WIDTH-1:0] start_margin;
   logic [3:0] t_q = 4'd0;
   logic checking;
@@ -58,6 +60,8 @@ module smoothing_properties #(
       .left_position_i (left_registered),
       .left_o          (left_registered),
       .lost_position_i (lost[row*16+:16]),
+      .confidence_i    (confidence),
+      .near_o          (near),
       .margin_i        (margins[row*CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]),
       .bright_i        (bright[row]),
       .take_distances_i(t_q == 4'd4),
@@ -74,11 +78,12 @@ module smoothing_properties #(
     centre = 32'(positions[31:16]);
     reach = (CELL_SHIFT == 10) ? 2048 : bright[1] ? 1536 : 1024;
     sum = 0;
+    expected_near = 3'b000;
     for (i = 0; i <= 2; i = i + 1) begin  // above, below, to the left
       neighbour = (i == 2) ? 32'(left[31:16]) : 32'(positions[i*32+:16]);
-      if ((smooth || starts) && ((i == 2) ? has_left : has[i*2]) && neighbour - centre <= reach
-          && centre - neighbour <= reach) begin
-        sum = sum + neighbour - centre;
+      if (((i == 2) ? has_left : has[i*2]) && neighbour - centre <= reach && centre - neighbour <= reach) begin
+        expected_near[i] = 1'b1;
+        sum = (smooth || starts) ? sum + neighbour - centre : 0;
       end
     end
     // Rounded towards zero.
@@ -96,7 +101,8 @@ module smoothing_properties #(
   `ASSUME(m_one_mode, smooth_i == smooth)
   `PROVE(a_start, t_q != 4'd6 || !starts || (start == moved[15:0] && start_margin == margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]))
   `PROVE(a_result, t_q != 4'd7 || starts
-         || result[16+CONFIDENCE_WIDTH-1:0] == {word[15:0], margins[CONFIDENCE_WIDTH+:CONFIDENCE_WIDTH]})
+         || result[16+CONFIDENCE_WIDTH-1:0] == {word[15:0], confidence})
+  `PROVE(a_near, t_q != 4'd5 || near == expected_near)
   `PROVE(a_second, t_q != 4'd7 || starts || SECOND_TARGET == 0 || 16'(result >> (16 + CONFIDENCE_WIDTH)) == lost_word[15:0])
   `GOAL(t_q == 4'd7 && !starts && smooth && has == 3'b111 && has_left && sum < -2600)
 

@@ -46,6 +46,11 @@ pool/dtof_pool2_pixel_update.sv
 pool/dtof_label_chain.sv
 pool/dtof_beside_evidence.sv
 pool/dtof_smoothing.sv
+pool/dtof_eighth_octaves.sv
+pool/dtof_significance_offset.sv
+pool/dtof_candidate_significance.sv
+pool/dtof_near_significance.sv
+pool/dtof_pool_confidence.sv
 pool/dtof_pool2_candidate_decoder.sv
 pool/dtof_pool2_line.sv
 pool/dtof_pool2_engine.sv

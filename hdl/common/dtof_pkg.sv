@@ -50,6 +50,7 @@ package dtof_pkg;
   localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // dtof_label_chain: from the last pass_label to the two best beliefs
 
   localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // dtof_pool2_candidate_decoder: from capture_above to the first pair sum
+  localparam int POOL2_DECODER_SIGNIFICANCE_CLOCKS = 3;  // dtof_pool2_candidate_decoder: from a candidate to its significance
   localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // dtof_pool2_candidate_decoder: from capture_above to count_own
   localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // dtof_pool2_engine: from take_position to take_distances
   localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // dtof_pool2_engine: from take_distances to take_word and take_result
@@ -107,13 +108,16 @@ package dtof_pkg;
   localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
   localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
+  localparam int POOL_SIGNIFICANCE_WIDTH = 3;         // of a candidate, at most
+  localparam int POOL_SIGNIFICANCE_OFFSET_WIDTH = 5;  // of long frames, 0 .. 17
+  localparam int POOL_SKY_WIDTH = 4;                  // a background / 4, for which a sky's margins are known
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (dtof_pool2_line)
   localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
   // Bits of the types in dtof_pool2_command.svh and dtof_pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
   // of these types. Every lint finds a wrong number.
-  localparam int POOL2_COMMAND_WIDTH = 63;         // pool2_engine_command_t
-  localparam int POOL2_DECODE_COMMAND_WIDTH = 21;  // pool2_decode_command_t
+  localparam int POOL2_COMMAND_WIDTH = 65;         // pool2_engine_command_t
+  localparam int POOL2_DECODE_COMMAND_WIDTH = 23;  // pool2_decode_command_t
   localparam int POOL2_CHAIN_COMMAND_WIDTH = 8;    // chain_command_t
   localparam int POOL2_BESIDE_COMMAND_WIDTH = 8;   // beside_command_t
   localparam int POOL2_DISTANCE_WIDTH = 15;        // pixel_distance_t
@@ -148,6 +152,15 @@ package dtof_pkg;
     pool_background_width = 2 * pixel_width - POOL_CELL_WIDTH * labels;
     if (pool_background_width < POOL_FEWEST_BACKGROUND_BITS) pool_background_width = POOL_FEWEST_BACKGROUND_BITS;
     if (pool_background_width > POOL_BACKGROUND_WIDTH) pool_background_width = POOL_BACKGROUND_WIDTH;
+  endfunction
+
+  // Bits of each candidate's significance that a group's word keeps, 3, 2 or 0: as many as two pixels' words leave beside
+  // candidates, background, with PRIOR which candidates were used, and whether the background is tilted.
+  function automatic int pool_significance_width(input int labels, input int pixel_width, input int advantage_width,
+                                                 input int rival_moves, input int prior);
+    pool_significance_width = (2 * pixel_width - pool_group_width(labels, pixel_width) - ((prior != 0) ? labels : 0) - 1) / labels;
+    if (pool_significance_width > POOL_SIGNIFICANCE_WIDTH) pool_significance_width = POOL_SIGNIFICANCE_WIDTH;
+    if (pool_significance_width < 2 || advantage_width != 7 || rival_moves == 0) pool_significance_width = 0;
   endfunction
 
   // Bits of a group's word: candidates and background.

@@ -42,6 +42,7 @@ typedef struct packed {
   logic first_label;    // with search: for the first candidate
   logic candidate;      // the turn before has found its candidate
   logic take_prior;     // the line is the group's word of the last frame, or 0
+  logic [1:0] missing;  // neighbours above, below and to the left that the group does not have
 } pool2_decode_command_t;
 
 // To dtof_label_chain.

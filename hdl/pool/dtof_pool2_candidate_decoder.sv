@@ -14,6 +14,9 @@
 //    takes away leaves the pairs on their way to the head.
 //
 // Schedule: the table of dtof_pool2_sequencer, with this module's POOL2_DECODER_*_CLOCKS (dtof_pkg).
+// 5. With SIGNIFICANCE_WIDTH each candidate's significance follows (dtof_candidate_significance), and whether the first octet
+//    has more than one and a half times the least one's counts, and 16.
+//
 // With PRIOR a pair sum is larger by 28 where the last frame used a candidate (Prior from the last frame).
 // Cost at the defaults: 384 flip-flops of ring, 280 of shift registers, per engine.
 
@@ -24,6 +27,8 @@ module dtof_pool2_candidate_decoder #(
     parameter int COUNT_WIDTH = 7,    // bits of a coarse bin
     parameter int LABELS = 5,         // candidates of a group
     parameter int PRIOR = 0,          // 1: candidates begin from those that were used in the last frame
+    parameter int SIGNIFICANCE_WIDTH = 3,  // bits of a candidate's significance, 0: none
+    localparam int SIGNIFICANCES_WIDTH = dtof_pkg::max_of(LABELS * SIGNIFICANCE_WIDTH, 1),
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
     localparam int LINE_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH
@@ -35,8 +40,13 @@ module dtof_pool2_candidate_decoder #(
     // with take_prior: the group's candidates of the last frame, and which of them were used
     input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
     input  logic [           LABELS-1:0] last_used_i,
+    input  logic                         has_right_i,  // the group has a neighbour to its right
+    input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
     // the newest candidate is the last cell; both valid from candidate until the next one
     output logic [LABELS*CELL_WIDTH-1:0] cells_o,
+    // the newest one is the last; valid POOL2_DECODER_SIGNIFICANCE_CLOCKS after candidate, until the next one
+    output logic [SIGNIFICANCES_WIDTH-1:0] significances_o,
+    output logic                         tilted_o,     // with background_o: the background falls towards late bins
     output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group's bins are counted
 );
 
@@ -46,6 +56,7 @@ module dtof_pool2_candidate_decoder #(
 
   localparam int OWN_WEIGHT = 3;
   localparam int LEAK_SHIFT = 3;
+  localparam int LEAST_TILT = 32;
   localparam int PRIOR_WEIGHT = 28;
   localparam int BIN_SUM_WIDTH = COUNT_WIDTH + 3;  // 7 bins
   localparam int SUM_WIDTH = COUNT_WIDTH + 4;      // of a pair
@@ -80,7 +91,7 @@ module dtof_pool2_candidate_decoder #(
 
   // Background.
 
-  logic [OCTET_WIDTH-1:0] octet, octet_q, least_octet_q;
+  logic [OCTET_WIDTH-1:0] octet, octet_q, least_octet_q, first_sum_q;
   logic octet_done_q, first_octet_q;
   logic [OCTET_WIDTH+2:0] five_octets;
 
@@ -96,25 +107,33 @@ module dtof_pool2_candidate_decoder #(
       if (octet_done_q && (first_octet_q || octet_q < least_octet_q)) begin
         least_octet_q <= octet_q;
       end
+      if (octet_done_q && first_octet_q) begin
+        first_sum_q <= octet_q;
+      end
     end
   end
 
   assign five_octets = (OCTET_WIDTH + 3)'(least_octet_q) + ((OCTET_WIDTH + 3)'(least_octet_q) << 2);
   assign background_o = BACKGROUND_WIDTH'(five_octets >> COUNT_WIDTH);
 
+  assign tilted_o = (SIGNIFICANCE_WIDTH != 0)
+      && ((OCTET_WIDTH + 3)'({first_sum_q, 1'b0}) > (OCTET_WIDTH + 3)'(least_octet_q) + (OCTET_WIDTH + 3)'({least_octet_q, 1'b0})
+          + (OCTET_WIDTH + 3)'(LEAST_TILT));
+
   // What the last frame adds. A candidate's cell is at most 1 from the middle of its own pair i, 4 (i + 1), and all others
   // are further than PRIOR_REACH = 2 from it: a used candidate raises its own pair's sum, a clock before that is complete.
 
-  logic [SUM_WIDTH-1:0] last_sum;
+  logic [SUM_WIDTH-1:0] last_sum, raised;  // raised: of the pair at the head
   genvar k;
   generate
     if (PRIOR != 0) begin : g_prior
-      logic [LABELS-1:0] used_q, here;
+      logic [LABELS-1:0] used_q, here, at_head;
       logic [LABELS*5-1:0] pairs_q;
       logic [SUM_WIDTH-1:0] raised_sum_q;
 
       for (k = 0; k < LABELS; k = k + 1) begin : g_label
         assign here[k] = used_q[k] && (pairs_q[k*5+:5] == command.pair);
+        assign at_head[k] = used_q[k] && (pairs_q[k*5+:5] == command.pair - 5'd1);
         always_ff @(posedge clk_i) begin
           if (command.take_prior) begin
             pairs_q[k*5+:5] <= 5'((last_cells_i[k*CELL_WIDTH+:CELL_WIDTH] - CELL_WIDTH'(3)) >> 2);
@@ -131,10 +150,12 @@ module dtof_pool2_candidate_decoder #(
         end
       end
       assign last_sum = raised_sum_q;
+      assign raised = (at_head != '0) ? SUM_WIDTH'(PRIOR_WEIGHT) : '0;
       logic unused_last_sum;
       assign unused_last_sum = ^last_sum_q;
     end else begin : g_no_prior
       assign last_sum = SUM_WIDTH'(last_sum_q);
+      assign raised = '0;
       logic unused_prior;
       assign unused_prior = ^{last_cells_i, last_used_i, command.take_prior};
     end
@@ -255,6 +276,49 @@ module dtof_pool2_candidate_decoder #(
   end
 
   assign cells_o = cells;
+
+  // How far each candidate stands out. The ring's head is pair i, its place j pair i + j; the last places are those that have
+  // just passed the head.
+
+  generate
+    if (SIGNIFICANCE_WIDTH != 0) begin : g_significance
+      logic [SIGNIFICANCE_WIDTH-1:0] significance;
+      logic [SIGNIFICANCES_WIDTH-1:0] significances_q;
+      logic [SUM_WIDTH-1:0] best_raised_q;
+
+      always_ff @(posedge clk_i) begin
+        if (active_i && better && command.pair != 5'd0) begin
+          best_raised_q <= raised;
+        end
+        if (command.search && !command.first_label && command.pair == 5'(dtof_pkg::POOL2_DECODER_SIGNIFICANCE_CLOCKS)) begin
+          significances_q <= {significance, significances_q[SIGNIFICANCES_WIDTH-1:SIGNIFICANCE_WIDTH]};
+        end
+      end
+
+      dtof_candidate_significance #(
+          .SUM_WIDTH (SUM_WIDTH),
+          .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
+      ) u_significance (
+          .clk_i         (clk_i),
+          .active_i      (active_i),
+          .ahead_i       ({ring_q[5*ENTRY_WIDTH+:SUM_WIDTH], ring_q[4*ENTRY_WIDTH+:SUM_WIDTH]}),
+          .behind_i      ({ring_q[(ENTRIES-2)*ENTRY_WIDTH+:SUM_WIDTH], ring_q[(ENTRIES-3)*ENTRY_WIDTH+:SUM_WIDTH]}),
+          .better_i      (better && command.pair != 5'd0),
+          .new_peak_i    (command.pair == 5'd0),
+          .pair_i        (best_pair_q),
+          .peak_i        (best_q),
+          .raised_i      (best_raised_q),
+          .missing_i     ({1'b0, command.missing} + {2'b00, !has_right_i}),
+          .offset_i      (significance_offset_i),
+          .significance_o(significance)
+      );
+      assign significances_o = significances_q;
+    end else begin : g_no_significance
+      assign significances_o = '0;
+      logic unused_significance;
+      assign unused_significance = ^{raised, has_right_i, significance_offset_i, command.missing, first_sum_q};
+    end
+  endgenerate
 
 endmodule
 

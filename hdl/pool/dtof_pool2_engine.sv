@@ -45,6 +45,7 @@ module dtof_pool2_engine #(
     localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
+    localparam int SIGNIFICANCE_WIDTH = dtof_pkg::pool_significance_width(LABELS, PIXEL_WIDTH, ADVANTAGE_WIDTH, RIVAL_MOVES, PRIOR),
     localparam int CONFIDENCE_WIDTH = dtof_pkg::pool_confidence_width(ADVANTAGE_WIDTH),
     localparam int RESULT_WIDTH = dtof_pkg::pool_result_width(ADVANTAGE_WIDTH, SECOND_TARGET)
 ) (
@@ -54,7 +55,8 @@ module dtof_pool2_engine #(
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
     input  logic                    smooth_i,       // S1 is on
-    input  logic                    has_right_i,    // in choose: the column in work has one to its right
+    input  logic                    has_right_i,    // in choose: the column in work has one to its right; in decode: the pair
+    input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
     input  logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_i,  // pool2_engine_command_t
     input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
@@ -83,7 +85,9 @@ module dtof_pool2_engine #(
   localparam int CHOOSE_MESSAGE_WIDTH = LABELS * CHOOSE_PENALTY_WIDTH;
   localparam int DECIDE_MESSAGE_WIDTH = 2 * DECIDE_PENALTY_WIDTH;
   localparam int LEFT_WIDTH = CELL_WIDTH + OFFSET_BITS;  // of a column's best label in choose
-  localparam int WINNER_WIDTH = 16;                      // in decide
+  // In decide: {margin, position} of the winner; the margin with significances alone.
+  localparam int WINNER_WIDTH = 16 + ((SIGNIFICANCE_WIDTH != 0) ? CONFIDENCE_WIDTH : 0);
+  localparam int EVIDENCE_FIRST = GROUP_WIDTH + ((PRIOR != 0) ? LABELS : 0);  // {significances, tilted} in a group's word
   localparam int SCRATCH_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH + LEFT_WIDTH, DECIDE_MESSAGE_WIDTH + WINNER_WIDTH);
 
   `include "dtof_pool2_command.svh"
@@ -125,6 +129,8 @@ module dtof_pool2_engine #(
 
   logic [LABELS*CELL_WIDTH-1:0] new_cells;
   logic [BACKGROUND_WIDTH-1:0] new_background;
+  logic [dtof_pkg::max_of(LABELS * SIGNIFICANCE_WIDTH, 1)-1:0] new_significances;
+  logic new_tilted;
 
   logic [LABELS-1:0] last_used;  // candidates of the group whose word is at line_i
   generate
@@ -136,9 +142,10 @@ module dtof_pool2_engine #(
   endgenerate
 
   dtof_pool2_candidate_decoder #(
-      .COUNT_WIDTH(COUNT_WIDTH),
-      .LABELS     (LABELS),
-      .PRIOR      (PRIOR)
+      .COUNT_WIDTH       (COUNT_WIDTH),
+      .LABELS            (LABELS),
+      .PRIOR             (PRIOR),
+      .SIGNIFICANCE_WIDTH(SIGNIFICANCE_WIDTH)
   ) u_candidate_decoder (
       .clk_i       (clk_i),
       .active_i    (command.decoding),
@@ -146,7 +153,11 @@ module dtof_pool2_engine #(
       .line_i      (line_bins),
       .last_cells_i(line_i[LABELS*CELL_WIDTH-1:0]),
       .last_used_i (last_used),
+      .has_right_i (has_right_i),
+      .significance_offset_i(significance_offset_i),
       .cells_o     (new_cells),
+      .significances_o(new_significances),
+      .tilted_o    (new_tilted),
       .background_o(new_background)
   );
 
@@ -219,6 +230,8 @@ module dtof_pool2_engine #(
   logic [CHOOSE_EVIDENCE_WIDTH+1:0] choose_margin;
   logic [LEFT_WIDTH-1:0] best_lead;
   logic [POSITION_WIDTH-1:0] position;  // decide's winner
+  logic [WINNER_WIDTH-1:0] winner;
+  logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
 
   genvar k;
   generate
@@ -231,7 +244,14 @@ module dtof_pool2_engine #(
   assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
   assign left_cell = scratch[CELL_WIDTH-1:0];
   assign choose_scratch = SCRATCH_WIDTH'({choose_message, command.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
-  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command.back ? position[15:0] : scratch[WINNER_WIDTH-1:0]});
+  generate
+    if (SIGNIFICANCE_WIDTH != 0) begin : g_winner_margin
+      assign winner = {decide_margin[CONFIDENCE_WIDTH-1:0], position[15:0]};
+    end else begin : g_winner
+      assign winner = position[15:0];
+    end
+  endgenerate
+  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command.back ? winner : scratch[WINNER_WIDTH-1:0]});
 
   dtof_sram #(
       .PORTS(1),
@@ -274,7 +294,6 @@ module dtof_pool2_engine #(
 
   logic decided_rival, unused_loser;
   logic [POSITION_WIDTH-1:0] leader_position, rival_position, lost_position;
-  logic [DECIDE_EVIDENCE_WIDTH+1:0] decide_margin;
 
   generate
     if (RIVAL_MOVES != 0) begin : g_absolute
@@ -407,11 +426,23 @@ module dtof_pool2_engine #(
     end
   endgenerate
 
+  logic [HALF_WIDTH-1:0] new_evidence;  // of a group's candidates
+  generate
+    if (SIGNIFICANCE_WIDTH != 0) begin : g_new_evidence
+      assign new_evidence = HALF_WIDTH'({new_significances, new_tilted}) << EVIDENCE_FIRST;
+    end else begin : g_no_new_evidence
+      assign new_evidence = '0;
+      logic unused_new_evidence;
+      assign unused_new_evidence = ^{new_significances, new_tilted};
+    end
+  endgenerate
+
   // Registered here, for the way to the pairs is long. A pair takes it a clock before it writes it, and it is 0 while words are
   // cleared.
   always_ff @(posedge clk_i) begin
     if (active || was_active_q) begin
-      word_o <= (HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) & {HALF_WIDTH{command.decoding}})
+      word_o <= ((HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) | new_evidence)
+              & {HALF_WIDTH{command.decoding}})
           | (done_word & {HALF_WIDTH{command.choosing}});
     end
   end
@@ -432,11 +463,13 @@ module dtof_pool2_engine #(
       .take_position_i (command.take_position),
       .has_position_i  (command.has_position),
       .position_i      (command.deciding ? position[15:0] : best_start),
-      .left_i          (scratch[WINNER_WIDTH-1:0]),
+      .left_i          (scratch[15:0]),
       .left_position_i (command.deciding ? left_lead : left_start),
       .left_o          (left_lead),
       .lost_position_i (lost_position[15:0]),
       .margin_i        (command.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
+      .confidence_i    (confidence),
+      .near_o          (near),
       .bright_i        (last_bright_q),
       .take_distances_i(command.take_distances),
       .start_o         (start),
@@ -444,6 +477,69 @@ module dtof_pool2_engine #(
       .take_result_i   (command.take_result),
       .result_o        (result_o)
   );
+
+  // Decide: the confidence. What the groups of both labels say comes along with the pixel, as its group's background does.
+
+  logic [2:0] near;
+  logic [CONFIDENCE_WIDTH-1:0] confidence;
+
+  generate
+    if (SIGNIFICANCE_WIDTH != 0) begin : g_confidence
+      localparam int SKY_WIDTH = dtof_pkg::POOL_SKY_WIDTH;
+      localparam int FACTS_WIDTH = 2 * SIGNIFICANCE_WIDTH + 1 + SKY_WIDTH;  // {of the rival, of the leader, tilted, sky}
+      logic [SIGNIFICANCE_WIDTH-1:0] leader_significance, rival_significance;
+      logic [FACTS_WIDTH-1:0] prepared_facts_q, next_facts_q, facts_q, last_facts_q;
+
+      dtof_near_significance #(
+          .LABELS    (LABELS),
+          .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
+      ) u_leader (
+          .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
+          .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
+          .cell_i         (captured_q[POINTER_WIDTH-1-:CELL_WIDTH]),
+          .significance_o (leader_significance)
+      );
+
+      dtof_near_significance #(
+          .LABELS    (LABELS),
+          .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
+      ) u_rival (
+          .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
+          .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
+          .cell_i         (captured_q[POINTER_WIDTH+:CELL_WIDTH]),
+          .significance_o (rival_significance)
+      );
+
+      always_ff @(posedge clk_i) begin
+        if (command.decide.advance) begin
+          prepared_facts_q <= {rival_significance, leader_significance, line_q[EVIDENCE_FIRST],
+                               line_background[BACKGROUND_WIDTH-1-:SKY_WIDTH]};
+          {last_facts_q, facts_q, next_facts_q} <= {facts_q, next_facts_q, prepared_facts_q};
+        end
+      end
+
+      dtof_pool_confidence #(
+          .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+          .KEPT_WIDTH      (SIGNIFICANCE_WIDTH)
+      ) u_confidence (
+          .clk_i           (clk_i),
+          .take_position_i (command.deciding && command.take_position),
+          .margin_i        (decide_margin[CONFIDENCE_WIDTH-1:0]),
+          .left_margin_i   (scratch[16+:CONFIDENCE_WIDTH]),
+          .significance_i  (decided_rival ? last_facts_q[FACTS_WIDTH-1-:SIGNIFICANCE_WIDTH]
+                            : last_facts_q[SKY_WIDTH+1+:SIGNIFICANCE_WIDTH]),
+          .tilted_i        (last_facts_q[SKY_WIDTH]),
+          .sky_i           (last_facts_q[SKY_WIDTH-1:0]),
+          .take_distances_i(command.deciding && command.take_distances),
+          .near_i          (near),
+          .confidence_o    (confidence)
+      );
+    end else begin : g_margin
+      assign confidence = start_margin;
+      logic unused_near;
+      assign unused_near = ^near;
+    end
+  endgenerate
 
   logic unused;
   assign unused = ^{decided_rival, unused_loser, lost_position, position, decide_margin, best_cell[CELL_WIDTH],

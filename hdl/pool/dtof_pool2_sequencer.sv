@@ -21,7 +21,7 @@
 //
 // Schedule: the table below. A line says in which clocks t of a step a command is given. Columns and engines have it in
 //   the next clock, and what takes longer takes the clocks that the module in question states (dtof_pkg).
-// Latency, K labels: a pair's groups x (32 K + 45) in decode; (pixels + 4) and (pixels + 5) x max(K + 5, 9) in choose, without
+// Latency, K labels: a pair's groups x (32 K + 45) in decode, without significances (32 K + 42); (pixels + 4) and (pixels + 5) x max(K + 5, 9) in choose, without
 //   SMOOTH_STARTS twice (pixels + 4), and (pixels + 4) and (pixels + 5) x 6 in decide, a column. With PRIOR choose has a step
 //   more per column, two if the pixels are odd.
 // Cost: counters and a register of the commands, per array.
@@ -38,6 +38,7 @@ module dtof_pool2_sequencer #(
     parameter int ENGINE_COLUMNS = 34,    // columns of an engine
     parameter int SMOOTH_STARTS = 1,      // 1: a pixel's pointer starts closer to those of the pixels around
     parameter int PRIOR = 0,              // 1: candidates begin from those that were used in the last frame
+    parameter int SIGNIFICANCE_WIDTH = 3,  // bits of a candidate's significance that a group's word keeps; 0: none
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int GROUP_WORDS = (GROUPS + 1) / 2,
@@ -96,7 +97,8 @@ module dtof_pool2_sequencer #(
   localparam int SEARCH = FILL + BINS;  // the ring is full; a turn takes BINS clocks
   localparam int FIRST_CANDIDATE = SEARCH + BINS - 1 + dtof_pkg::POOL_DECODER_CANDIDATE_CLOCKS;
   localparam int LAST_CANDIDATE = FIRST_CANDIDATE + BINS * (LABELS - 1);
-  localparam int LAST_OF_DECODE = LAST_CANDIDATE + READ_CLOCKS;
+  localparam int LAST_SIGNIFICANCE = LAST_CANDIDATE + ((SIGNIFICANCE_WIDTH != 0) ? dtof_pkg::POOL2_DECODER_SIGNIFICANCE_CLOCKS : 0);
+  localparam int LAST_OF_DECODE = LAST_SIGNIFICANCE + READ_CLOCKS;
   localparam int TAKE_PRIOR = FILL - 1;  // in time for the first pair sum, and read when the first bins have been
 
   localparam int SPREAD = dtof_pkg::POOL_CHAIN_SPREAD_CLOCKS;
@@ -323,7 +325,7 @@ module dtof_pool2_sequencer #(
       decode.candidate      = every(t, FIRST_CANDIDATE, BINS, LABELS);
       columns.read_prior    = at(t, TAKE_PRIOR - DECODE_LINE_CLOCKS) && (PRIOR != 0) && prior_i;
       decode.take_prior     = at(t, TAKE_PRIOR) && (PRIOR != 0);
-      columns.read_group    = at(t, LAST_CANDIDATE);
+      columns.read_group    = at(t, LAST_SIGNIFICANCE);
       columns.write_group   = at(t, LAST_OF_DECODE);
     end
 
@@ -372,6 +374,7 @@ module dtof_pool2_sequencer #(
     // What goes with the commands.
     decode.own_bin = 5'(t - COUNT_OWN);
     decode.pair = 5'(t - FILL);
+    decode.missing = 2'(decoding && step_q == '0) + 2'(decoding && last_step) + 2'(decoding && first_pair);
     beside.has_left = !first_pair || odd_q;
     chain.target = 3'(t - TARGET);
     chain.clear_message = (step_q < STEP_WIDTH'(LEAD));

@@ -77,6 +77,7 @@ module dtof_pool_pointer2_array #(
                                                          POINTER_SHIFT, RIVAL_MOVES);
   localparam int PIXEL_WIDTH = dtof_pkg::pool2_pixel_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES);
+  localparam int SIGNIFICANCE_WIDTH = dtof_pkg::pool_significance_width(LABELS, PIXEL_WIDTH, ADVANTAGE_WIDTH, RIVAL_MOVES, PRIOR);
   localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH);
   localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH;
   localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
@@ -258,7 +259,8 @@ module dtof_pool_pointer2_array #(
       .LINE_HALVES    (LINE_HALVES),
       .ENGINE_COLUMNS (STEPS),
       .SMOOTH_STARTS  (RIVAL_MOVES),
-      .PRIOR          (PRIOR)
+      .PRIOR          (PRIOR),
+      .SIGNIFICANCE_WIDTH(SIGNIFICANCE_WIDTH)
   ) u_sequencer (
       .clk_i        (clk_i),
       .rst_ni       (rst_ni),
@@ -292,6 +294,17 @@ module dtof_pool_pointer2_array #(
     end
   end
 
+  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset;
+
+  dtof_significance_offset #(
+      .ACQ_WIDTH(ACQ_WIDTH)
+  ) u_significance_offset (
+      .clk_i    (clk_i),
+      .take_i   (start_i && !busy_o),
+      .acq_num_i(acq_num_i),
+      .offset_o (significance_offset)
+  );
+
   // The groups' words are of the last frame only if one has ended since reset.
 
   generate
@@ -320,7 +333,8 @@ module dtof_pool_pointer2_array #(
   // own missing neighbour.
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
-  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27;
+  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27
+      + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH;
 
   logic told_read, told_write, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] told_address;
@@ -367,12 +381,14 @@ module dtof_pool_pointer2_array #(
     end
   endgenerate
 
-  assign has_right = (engine_column != STEP_WIDTH'(STEPS - 1));
-  assign last_has_right = (engine_column != STEP_WIDTH'(LAST_COLUMNS - 1));
+  // Decode works on pairs, whose first column is in work.
+  assign has_right = (engine_column != STEP_WIDTH'(command.decoding ? (STEPS - 1) / 2 * 2 : STEPS - 1));
+  assign last_has_right = (engine_column != STEP_WIDTH'(command.decoding ? (LAST_COLUMNS - 1) / 2 * 2 : LAST_COLUMNS - 1));
 
   logic [TOLD_WIDTH-1:0] told, heard;
   logic [COMMAND_WIDTH-1:0] heard_command;
   logic [NP-1:0] heard_gate_begin, heard_gate_end;
+  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] heard_significance_offset;
   logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
   logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_keep_first, heard_keep_last, heard_load;
   logic heard_sweep, heard_make_room;
@@ -385,12 +401,12 @@ module dtof_pool_pointer2_array #(
   logic [LAST_PAIRS-1:0] heard_last_select;
   logic [ROW_WIDTH-1:0] heard_scratch_row;
 
-  assign told = {gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
+  assign told = {significance_offset, gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
                  second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, sweep, make_room,
                  told_read, told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
-  assign {heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
+  assign {heard_significance_offset, heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
           heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_sweep, heard_make_room,
           heard_read, heard_write, heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
@@ -588,6 +604,7 @@ module dtof_pool_pointer2_array #(
           .sram_cfg_o   (engine_cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
           .smooth_i     (heard_smooth),
           .has_right_i  (has_right_here),
+          .significance_offset_i(heard_significance_offset),
           .command_i    (heard_command),
           .line_i       (line),
           .word_o       (word),

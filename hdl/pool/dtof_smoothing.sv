@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // poolPointer 2: moves a column's positions closer together: in choose where the leaders' pointers start, in decide the
-// winners (S1), of which it also makes the result word.
+// winners (S1), of which it also makes the result word, with a confidence
+// from outside (dtof_pool_confidence, or start_margin_o).
 //
 // Equations (docs/reference/poolpointer2.md, Choose and Decide): with c the position in a row and x, y, z those in the rows
 // above and below and in the column to the left, c + ((|x - c| <= T ? x - c : 0) + (|y - c| <= T ? y - c : 0)
@@ -39,6 +40,8 @@ module dtof_smoothing #(
     output logic [                15:0] left_o,            // left_i, registered with take_position_i
     input  logic [                15:0] lost_position_i,   // with SECOND_TARGET = 1: of the label that lost
     input  logic [CONFIDENCE_WIDTH-1:0] margin_i,
+    input  logic [CONFIDENCE_WIDTH-1:0] confidence_i,      // of the row in the middle, with take_result_i
+    output logic [                 2:0] near_o,            // {left, below, above}: within T of the row in the middle
     input  logic                        bright_i,          // its group is bright
     input  logic                        take_distances_i,
     output logic [                15:0] start_o,
@@ -95,16 +98,21 @@ module dtof_smoothing #(
   assign reach = centre_bright_q ? BRIGHT_REACH : DARK_REACH;
   assign moves = starts_i || smooth_i;
 
-  function automatic logic [DISTANCE_WIDTH-1:0] contribution(input logic counts, input logic [15:0] neighbour,
-                                                             input logic [15:0] centre, input logic signed [16:0] most);
-    logic signed [16:0] distance;
-    distance = $signed({1'b0, neighbour}) - $signed({1'b0, centre});
-    contribution = (counts && distance <= most && distance >= -most) ? distance[DISTANCE_WIDTH-1:0] : '0;
+  logic signed [16:0] above_distance, below_distance, left_distance;
+  logic [2:0] near;
+
+  function automatic logic is_near(input logic signed [16:0] distance, input logic signed [16:0] most);
+    is_near = (distance <= most) && (distance >= -most);
   endfunction
 
-  assign from_above = contribution(moves && above_valid_q, above_q, centre_q, reach);
-  assign from_below = contribution(moves && below_valid_q, below_q, centre_q, reach);
-  assign from_left = contribution(moves && has_left_i, centre_left_q, centre_q, reach);
+  assign above_distance = $signed({1'b0, above_q}) - $signed({1'b0, centre_q});
+  assign below_distance = $signed({1'b0, below_q}) - $signed({1'b0, centre_q});
+  assign left_distance = $signed({1'b0, centre_left_q}) - $signed({1'b0, centre_q});
+  assign near = {has_left_i && is_near(left_distance, reach), below_valid_q && is_near(below_distance, reach),
+                 above_valid_q && is_near(above_distance, reach)};
+  assign from_above = above_distance[DISTANCE_WIDTH-1:0] & {DISTANCE_WIDTH{moves && near[0]}};
+  assign from_below = below_distance[DISTANCE_WIDTH-1:0] & {DISTANCE_WIDTH{moves && near[1]}};
+  assign from_left = left_distance[DISTANCE_WIDTH-1:0] & {DISTANCE_WIDTH{moves && near[2]}};
 
   // A quarter of the sum, rounded towards zero.
 
@@ -124,6 +132,7 @@ module dtof_smoothing #(
 
   always_ff @(posedge clk_i) begin
     if (take_distances_i) begin
+      near_o <= near;
       from_above_q <= $signed(from_above);
       from_below_q <= $signed(from_below);
       from_left_q <= $signed(from_left);
@@ -154,7 +163,7 @@ module dtof_smoothing #(
           below_lost_q <= lost_position_i;
         end
         if (take_result_i) begin
-          result_o <= {lost_limited, limited, centre_margin_q};
+          result_o <= {lost_limited, limited, confidence_i};
         end
       end
     end else begin : g_one_target
@@ -162,14 +171,14 @@ module dtof_smoothing #(
       assign unused_position = ^lost_position_i;
       always_ff @(posedge clk_i) begin
         if (take_result_i) begin
-          result_o <= {limited, centre_margin_q};
+          result_o <= {limited, confidence_i};
         end
       end
     end
   endgenerate
 
   logic unused;
-  assign unused = ^{1'b0, centre_valid_q, rounded[1:0]};
+  assign unused = ^{1'b0, centre_valid_q, rounded[1:0], above_distance, below_distance, left_distance};
 
 endmodule
 

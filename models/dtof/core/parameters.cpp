@@ -20,6 +20,7 @@ constexpr int kPoolCoarseBits = 5;
 constexpr int kPoolPositionBits = 16;
 constexpr int kPoolRivalBits = 7;
 constexpr int kPoolCellBits = 7;
+constexpr int kMostPoolSignificanceBits = 3;
 constexpr int kFewestPoolBackgroundBits = 4;
 
 // Sentences are word for word those with which the RTL stops elaboration (hdl/lint/parameter_limits.csv).
@@ -100,6 +101,13 @@ int PoolPointerParameters::word_bits() const {
 
 int PoolPointerParameters::background_bits() const {
   return std::clamp(2 * word_bits() - kPoolCellBits * labels, kFewestPoolBackgroundBits, kPoolBackgroundBits);
+}
+
+int PoolPointerParameters::significance_bits() const {
+  const int flags = 1 + (prior ? labels : 0);  // the background is tilted; candidates that were used
+  const int room = 2 * word_bits() - kPoolCellBits * labels - background_bits() - flags;
+  const int bits = std::min(room / labels, kMostPoolSignificanceBits);
+  return count_bits == 7 && rival_moves && bits >= 2 ? bits : 0;
 }
 
 PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {

@@ -44,6 +44,9 @@ struct PoolPointerParameters {
   /// Highest bits of a group's background that its word keeps: 4 to 6, as many as two pixel words leave
   /// beside the candidates.
   [[nodiscard]] int background_bits() const;
+  /// Bits of a candidate's significance that a group's word keeps, as many as two pixel words leave: 3, 2 or
+  /// none, and none with an advantage of 4 bits or a rival that rests. Without it a result's confidence is its margin.
+  [[nodiscard]] int significance_bits() const;
   bool operator==(const PoolPointerParameters&) const = default;
 };
 

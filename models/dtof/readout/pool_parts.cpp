@@ -20,7 +20,16 @@ constexpr std::array<Gear, 9> kGears = {
     {{0, 256}, {8, 128}, {16, 64}, {32, 32}, {64, 16}, {80, 8}, {100, 4}, {116, 2}, {124, 1}}};
 constexpr std::array<Gear, 6> kShortGears = {{{0, 512}, {4, 256}, {8, 128}, {12, 64}, {14, 32}, {15, 16}}};
 constexpr int kShortCountBits = 4;
+constexpr int kLeastTilt = 32;             // of two first octets over three emptiest ones
 constexpr std::int32_t kSettledStep = 64;  // a pointer that moves by no more is near its pulse
+
+std::array<int, 4> octets(const CoarseHistogram& histogram) {
+  std::array<int, 4> sums{};
+  for (std::size_t i = 0; i < kCoarseBins; ++i) {
+    sums[i / 8] += histogram[i];
+  }
+  return sums;
+}
 
 std::int32_t gear_step(std::span<const Gear> gears, int advantage) {
   std::int32_t step = gears[0].step;
@@ -51,15 +60,12 @@ bool count_period(CoarseHistogram& histogram, const CoarseHistogram& counts, boo
 }
 
 int group_background(const CoarseHistogram& histogram, int count_width) {
-  int least_octet = std::numeric_limits<int>::max();
-  for (std::size_t octet = 0; octet < kCoarseBins; octet += 8) {
-    int sum = 0;
-    for (std::size_t i = octet; i < octet + 8; ++i) {
-      sum += histogram[i];
-    }
-    least_octet = std::min(least_octet, sum);
-  }
-  return (5 * least_octet) >> count_width;
+  return (5 * std::ranges::min(octets(histogram))) >> count_width;
+}
+
+bool group_tilted(const CoarseHistogram& histogram) {
+  const std::array<int, 4> sums = octets(histogram);
+  return 2 * sums[0] > 3 * std::ranges::min(sums) + kLeastTilt;
 }
 
 std::size_t highest_pair(const PairSums& sums, const TakenPairs& taken) {
@@ -257,11 +263,11 @@ std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits) {
   return static_cast<std::uint16_t>(std::clamp(position - half_bin, 0, end - 1));
 }
 
-PixelResult pool_result(std::int32_t position, int margin, unsigned fraction_bits) {
+PixelResult pool_result(std::int32_t position, int confidence, unsigned fraction_bits) {
   const unsigned word = pool_word(position, fraction_bits);
   return {static_cast<std::uint16_t>(word >> fraction_bits),
           static_cast<std::uint16_t>(word & ((1U << fraction_bits) - 1)),
-          static_cast<std::uint16_t>(std::abs(margin))};
+          static_cast<std::uint16_t>(confidence)};
 }
 
 }  // namespace dtof

@@ -43,6 +43,8 @@ struct PoolGroup {
   int labels;                                         ///< candidates in use
   int score_limit;                                    ///< 2^score bits - 1
   int background;                                     ///< B, 0 .. 39
+  bool tilted;                                        ///< the first octet has far more than the emptiest one
+  std::array<int, kMostLabels> significance;          ///< of a candidate, as kept
   std::array<std::int32_t, kMostLabels> centre_cell;  ///< 0 .. 127; the candidate's position is its low end
 
   [[nodiscard]] std::int32_t centre(int label) const {
@@ -77,6 +79,10 @@ constexpr std::int32_t in_cells(std::int32_t distance, int shift = kCellShift) {
 
 /// B of a group from the emptiest octet of its histogram's bins.
 int group_background(const CoarseHistogram& histogram, int count_width);
+/// True where the first octet has more than one and a half times as many counts as the emptiest one, and 16:
+/// where
+/// light is so strong that a pixel's two timestamps come early, margins say little.
+bool group_tilted(const CoarseHistogram& histogram);
 /// The largest sum not taken, the lowest on a tie; kCoarsePairs if all are taken.
 std::size_t highest_pair(const PairSums& sums, const TakenPairs& taken);
 void take_pairs(TakenPairs& taken, std::size_t peak);
@@ -126,7 +132,7 @@ std::vector<std::array<int, kMostLabels>> chain_beliefs(std::span<const ChainNod
 /// Code and fraction of a position as one number.
 std::uint16_t pool_word(std::int32_t position, unsigned fraction_bits);
 /// The result of a winner at `position`.
-PixelResult pool_result(std::int32_t position, int margin, unsigned fraction_bits);
+PixelResult pool_result(std::int32_t position, int confidence, unsigned fraction_bits);
 
 /// What two adjacent pixels of a column count in the coarse phase: a timestamp per acquisition, the even
 /// row's in even ones, the odd row's in odd ones, and the other's where that one has none. Both are ascending

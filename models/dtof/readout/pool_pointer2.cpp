@@ -10,6 +10,7 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/readout/pixelwise_model.hpp"
+#include "dtof/readout/pool_evidence.hpp"
 
 namespace dtof {
 namespace {
@@ -29,10 +30,12 @@ void require_range(const char* name, int value, int lowest, int highest) {
 class Groups {
  public:
   /// `prior`: of the last frame, empty if there is none.
-  Groups(std::span<const PoolColumn> columns, std::uint32_t coarse_end,
+  Groups(std::span<const PoolColumn> columns, std::uint32_t acquisitions, std::uint32_t coarse_end,
          const PoolPointer2Parameters& parameters, const PoolPrior& prior)
       : parameters_(parameters),
         rows_(static_cast<std::size_t>(parameters.group_rows)),
+        offset_(significance_offset(acquisitions)),
+        significance_bits_(parameters.common().significance_bits()),
         lost_bits_(kPoolBackgroundBits - parameters.common().background_bits()) {
     const std::size_t pairs = (columns.size() + kPairColumns - 1) / kPairColumns;
     height_ = (columns.front().size() + rows_ - 1) / rows_;
@@ -107,17 +110,19 @@ class Groups {
         &histograms_[index(pair, g > 0 ? g - 1 : g)], &histograms_[index(pair, g + 1 < height_ ? g + 1 : g)],
         &histograms_[index(pair > 0 ? pair - 1 : pair, g)],
         &histograms_[index(pair + 1 < pairs ? pair + 1 : pair, g)]};
+    const int missing =
+        (g > 0 ? 0 : 1) + (g + 1 < height_ ? 0 : 1) + (pair > 0 ? 0 : 1) + (pair + 1 < pairs ? 0 : 1);
     PairSums sums{};
+    TakenPairs raised{};
     for (std::size_t i = 0; i < kCoarsePairs; ++i) {
       sums[i] = parameters_.own_weight * (own[i] + own[i + 1]);
       for (const CoarseHistogram* neighbour : neighbours) {
         sums[i] += (*neighbour)[i] + (*neighbour)[i + 1];
       }
       const std::int32_t middle = kCellsPerCoarseBin * (static_cast<std::int32_t>(i) + 1);
-      if (std::ranges::any_of(
-              used, [&](std::int32_t cell) { return std::abs(middle - cell) <= parameters_.prior_reach; })) {
-        sums[i] += parameters_.prior_weight;
-      }
+      raised[i] = std::ranges::any_of(
+          used, [&](std::int32_t cell) { return std::abs(middle - cell) <= parameters_.prior_reach; });
+      sums[i] += raised[i] ? parameters_.prior_weight : 0;
     }
     PoolGroup group{};
     group.labels = parameters_.labels;
@@ -125,11 +130,18 @@ class Groups {
     // The group's word has no room for the lowest bits; the middle of what they can be stands for them.
     group.background = ((group_background(own, parameters_.count_width) >> lost_bits_) << lost_bits_) +
                        ((1 << lost_bits_) >> 1);
+    group.tilted = significance_bits_ > 0 && group_tilted(own);
     const int least = std::ranges::min(sums);
     TakenPairs taken{};
+    PairSums before = sums;  // the last candidate took its leakage
     for (int label = 0; label < group.labels; ++label) {
       const std::size_t peak = highest_pair(sums, taken);
-      group.centre_cell[static_cast<std::size_t>(label)] = centre_cell(sums, peak);
+      const auto k = static_cast<std::size_t>(label);
+      group.centre_cell[k] = centre_cell(sums, peak);
+      group.significance[k] = kept_significance(
+          significance(sums, before, {peak, raised[peak], missing}, parameters_.prior_weight, offset_),
+          significance_bits_);
+      before = sums;
       take_leakage(sums, peak, std::max(sums[peak] - least, 0) >> parameters_.leak_shift);
       take_pairs(taken, peak);
     }
@@ -137,9 +149,11 @@ class Groups {
   }
 
   const PoolPointer2Parameters& parameters_;
-  std::size_t rows_;    // of a group
-  int lost_bits_;       // of a background
-  std::size_t height_;  // groups of a pair
+  std::size_t rows_;       // of a group
+  int offset_;             // of a significance
+  int significance_bits_;  // of one that are kept
+  int lost_bits_;          // of a background
+  std::size_t height_;     // groups of a pair
   std::vector<CoarseHistogram> histograms_;
   std::vector<PoolGroup> groups_;
 };
@@ -312,6 +326,18 @@ PoolPrior used_cells(const std::vector<std::vector<PoolPointerWord>>& words, con
   return prior;
 }
 
+/// The largest significance of the candidates within a coarse bin of a position; 0 if there is none.
+int significance_near(const PoolGroup& group, std::int32_t position,
+                      const PoolPointer2Parameters& parameters) {
+  int most = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
+    if (agree(group.centre_cell[k], in_cells(position), parameters)) {
+      most = std::max(most, group.significance[k]);
+    }
+  }
+  return most;
+}
+
 PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column, const Groups& groups,
                    const PoolPointer2Parameters& parameters) {
   std::vector<ChainNode> chain;
@@ -332,12 +358,37 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
   for (std::size_t row = 0; row < words.size(); ++row) {
     const int margin = beliefs[row][0] - beliefs[row][1];
     const std::size_t winner = margin >= 0 ? 0 : 1;
+    const PoolGroup& group = groups.at(column, row);
     winners.push_back({.position = chain[row].position[winner],
                        .lost = chain[row].position[1 - winner],
                        .margin = margin,
-                       .background = groups.at(column, row).background});
+                       .background = group.background,
+                       .significance = significance_near(group, chain[row].position[winner], parameters),
+                       .tilted = group.tilted});
   }
   return winners;
+}
+
+/// Calls `visit` with the winners above, below and to the left whose positions are within T of a row's.
+template <typename Visit>
+void for_each_near_neighbour(std::span<const PoolWinner> winners, std::span<const PoolWinner> left,
+                             std::size_t row, const PoolPointer2Parameters& parameters, const Visit& visit) {
+  const bool bright = winners[row].background >= parameters.smooth_bright_from;
+  const int reach = parameters.smooth_reach[bright ? 1 : 0];
+  const auto visit_near = [&](const PoolWinner& neighbour) {
+    if (std::abs(neighbour.position - winners[row].position) <= reach) {
+      visit(neighbour);
+    }
+  };
+  if (row > 0) {
+    visit_near(winners[row - 1]);
+  }
+  if (row + 1 < winners.size()) {
+    visit_near(winners[row + 1]);
+  }
+  if (!left.empty()) {
+    visit_near(left[row]);
+  }
 }
 
 }  // namespace
@@ -352,6 +403,7 @@ PoolPointerParameters PoolPointer2Parameters::common() const {
           .rival_moves = rival_moves != 0,
           .cell_shift = cell_shift,
           .second_target = second_target,
+          .prior = keeps_prior,
           .coarse_share = coarse_share,
           .track_share = track_share,
           .engine_columns = engine_columns,
@@ -403,7 +455,7 @@ std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::u
   };
   const std::uint32_t coarse_end = share(parameters.coarse_share);
   const std::uint32_t track_end = share(parameters.coarse_share + parameters.track_share);
-  const Groups groups(columns, coarse_end, parameters, prior != nullptr ? *prior : PoolPrior());
+  const Groups groups(columns, acquisitions, coarse_end, parameters, prior != nullptr ? *prior : PoolPrior());
   std::vector<std::vector<PoolTracks>> tracks(columns.size());
   for (std::size_t column = 0; column < columns.size(); ++column) {
     tracks[column].resize(columns[column].size());
@@ -439,32 +491,38 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
   std::vector<std::int32_t> positions;
   for (std::size_t row = 0; row < winners.size(); ++row) {
     const std::int32_t own = winners[row].position;
-    const bool bright = winners[row].background >= parameters.smooth_bright_from;
-    const int reach = parameters.smooth_reach[bright ? 1 : 0];
     std::int32_t sum = 0;
-    const auto add = [&](const PoolWinner& neighbour) {
-      const std::int32_t distance = neighbour.position - own;
-      sum += std::abs(distance) <= reach ? distance : 0;
-    };
-    if (row > 0) {
-      add(winners[row - 1]);
-    }
-    if (row + 1 < winners.size()) {
-      add(winners[row + 1]);
-    }
-    if (!left.empty()) {
-      add(left[row]);
-    }
+    for_each_near_neighbour(winners, left, row, parameters,
+                            [&](const PoolWinner& neighbour) { sum += neighbour.position - own; });
     positions.push_back(own + sum / (1 << kSmoothShift));
   }
   return positions;
 }
 
+std::vector<int> pool_confidences(std::span<const PoolWinner> winners, std::span<const PoolWinner> left,
+                                  const PoolPointer2Parameters& parameters) {
+  const int bits = parameters.common().significance_bits();
+  std::vector<int> confidences;
+  for (std::size_t row = 0; row < winners.size(); ++row) {
+    const PoolWinner& winner = winners[row];
+    PooledMargin margin{.own = std::abs(winner.margin), .others = 0};
+    for_each_near_neighbour(winners, left, row, parameters, [&](const PoolWinner& neighbour) {
+      margin.others += std::abs(neighbour.margin);
+    });
+    confidences.push_back(
+        bits == 0 ? margin.own
+                  : pool_confidence(winner.significance, bits, margin, winner.background, winner.tilted));
+  }
+  return confidences;
+}
+
 std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
                                                         std::uint32_t acquisitions,
-                                                        const PoolPointer2Parameters& parameters,
+                                                        const PoolPointer2Parameters& given,
                                                         std::vector<PoolPrior>* priors) {
-  parameters.validate();
+  given.validate();
+  PoolPointer2Parameters parameters = given;
+  parameters.keeps_prior = given.keeps_prior || priors != nullptr;
   const int engines = (count + parameters.engine_columns - 1) / parameters.engine_columns;
   if (priors != nullptr && !priors->empty() && priors->size() != static_cast<std::size_t>(engines)) {
     throw InputError(fmt::format("priors of {} engines for an array of {}", priors->size(), engines));
@@ -491,15 +549,15 @@ std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnR
     const std::vector<PoolWinners> columns = read_engine(engine, acquisitions, parameters, prior);
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const PoolWinners& winners = columns[i];
-      const std::vector<std::int32_t> smoothed = smoothed_positions(
-          winners, i > 0 ? std::span<const PoolWinner>(columns[i - 1]) : std::span<const PoolWinner>(),
-          parameters);
+      const auto left = i > 0 ? std::span<const PoolWinner>(columns[i - 1]) : std::span<const PoolWinner>();
+      const std::vector<std::int32_t> smoothed = smoothed_positions(winners, left, parameters);
+      const std::vector<int> confidences = pool_confidences(winners, left, parameters);
       std::vector<PixelResult>& pixels = results.emplace_back();
       const auto fraction_bits = static_cast<unsigned>(16 - np);
       for (std::size_t row = 0; row < winners.size(); ++row) {
         const PoolWinner& winner = winners[row];
         PixelResult result =
-            pool_result(parameters.smooth ? smoothed[row] : winner.position, winner.margin, fraction_bits);
+            pool_result(parameters.smooth ? smoothed[row] : winner.position, confidences[row], fraction_bits);
         if (parameters.second_target) {
           result.second = pool_word(winner.lost, fraction_bits);
         }
@@ -560,6 +618,7 @@ PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& paramet
                                    .track_share = parameters.pool.track_share,
                                    .smooth = parameters.pool.smooth,
                                    .smooth_reach = smooth_reach_of(parameters.pool.cell_shift),
+                                   .keeps_prior = parameters.pool.prior,
                                    .second_target = parameters.pool.second_target};
   own.validate();
   return own;

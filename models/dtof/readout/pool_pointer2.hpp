@@ -66,6 +66,7 @@ struct PoolPointer2Parameters {
                                      1536};  ///< units: T of dark and of bright groups, S1's and starts'
   int smooth_bright_from = 6;                ///< B from which a group is bright there
 
+  bool keeps_prior = false;    ///< the array is one with PRIOR = 1, whose group words have less room
   bool second_target = false;  ///< a result has the position of the label that lost, too, without S1
 
   /// Throws InputError.
@@ -102,6 +103,8 @@ struct PoolWinner {
   std::int32_t lost;      ///< units: of the label that lost
   int margin;             ///< belief of the leader less the rival's
   int background;         ///< B of its group
+  int significance = 0;   ///< of its group's candidates near the position
+  bool tilted = false;    ///< its group
 };
 using PoolWinners = std::vector<PoolWinner>;
 
@@ -123,9 +126,14 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
                                              std::span<const PoolWinner> left,
                                              const PoolPointer2Parameters& parameters);
 
+/// Confidences of a column's winners: how much speaks for a target, or their margins where the parameters
+/// keep no significance.
+std::vector<int> pool_confidences(std::span<const PoolWinner> winners, std::span<const PoolWinner> left,
+                                  const PoolPointer2Parameters& parameters);
+
 /// Reads an array of `count` columns, column by column from left to right, engine by engine; index: column,
 /// row. With `priors`, one for each engine or none before the first frame, a video's frame that the last one
-/// helps (read_engine). Throws InputError for illegal parameters, malformed streams, columns of different
+/// helps (read_engine), of an array with PRIOR = 1. Throws InputError for illegal parameters, malformed streams, columns of different
 /// lengths or priors of another array.
 std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
                                                         std::uint32_t acquisitions,

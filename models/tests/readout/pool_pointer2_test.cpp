@@ -53,6 +53,7 @@ struct Pixel {
   int n = 0, pa = 0, pb = 0;
   int ka = 0, kb = 0;  // lean: whose candidates they are
   int winner = 0, loser = 0, margin = 0;
+  int significance = 0;
 };
 
 struct Group {
@@ -60,6 +61,8 @@ struct Group {
   std::vector<int> cell;
   int b = 0;
   bool frozen = false;
+  bool tilted = false;
+  std::vector<int> significance;  // of each candidate
 };
 
 int floor_divide(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
@@ -74,7 +77,8 @@ class Reference {
     bool smooth = true;
     bool lean = false;  ///< the numbers of poolPointer 2 lean
     bool second_target = false;
-    int cell = 512;  ///< positions of a settled pointer's cell
+    int cell = 512;      ///< positions of a settled pointer's cell
+    bool prior = false;  ///< the array has PRIOR = 1
   };
 
   /// By group, the cells that its pixels chose.
@@ -201,13 +205,16 @@ class Reference {
 
   void decode(Place place, Group& own) {
     std::vector<Group*> beside;
+    int missing = 0;
     for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
                            Place{place.column - 1, place.row}, Place{place.column + 1, place.row}}) {
       const auto found = groups_.find(at);
       beside.push_back(found == groups_.end() ? &own : &found->second);
+      missing += found == groups_.end() ? 1 : 0;
     }
     std::array<int, 4> octets{};
     std::vector<int> w;
+    std::vector<int> raise;
     for (std::size_t i = 0; i < 32; ++i) {
       octets[i / 8] += own.h[i];
       if (i < 31) {
@@ -219,11 +226,14 @@ class Reference {
         for (const int cell : before_[place]) {
           wanted = wanted || (cell >= 4 * static_cast<int>(i) + 2 && cell <= 4 * static_cast<int>(i) + 6);
         }
-        w.back() += wanted ? 28 : 0;
+        raise.push_back(wanted ? 28 : 0);
+        w.back() += raise.back();
       }
     }
     own.b = 5 * *std::min_element(octets.begin(), octets.end()) / 128;
     own.b = open_.lean ? own.b / 4 * 4 + 2 : own.b;
+    own.tilted = 2 * octets[0] - 32 > *std::min_element(octets.begin(), octets.end()) * 3;
+    std::vector<int> earlier = w;
     const int least = *std::min_element(w.begin(), w.end());
     std::vector<int> free_pairs(31);
     std::iota(free_pairs.begin(), free_pairs.end(), 0);
@@ -240,6 +250,9 @@ class Reference {
         --cell;
       }
       own.cell.push_back(cell);
+      own.significance.push_back(
+          significance(w, earlier, peak, missing, raise[static_cast<std::size_t>(peak)]));
+      earlier = w;
       const int leak = (value(peak) - least) / 8;
       for (const int i : {peak - 2, peak + 2}) {
         if (i >= 0 && i <= 30 && value(peak) > least) {
@@ -248,6 +261,39 @@ class Reference {
       }
       std::erase_if(free_pairs, [&](int i) { return std::abs(i - peak) <= 1; });
     }
+  }
+
+  /// 2^-3 (8 e + m), m the next three bits of x behind its first one.
+  static int lg(int x) {
+    int e = 0;
+    while (x >> (e + 1) != 0) {
+      ++e;
+    }
+    return 8 * e + x * 8 / (1 << e) - 8;
+  }
+
+  [[nodiscard]] int significance(const std::vector<int>& w, const std::vector<int>& earlier, int peak,
+                                 int missing, int raise) const {
+    // The pairs beyond the peak are those before the last candidate's leakage was taken.
+    std::vector<int> sides;
+    for (const int away : {-4, -3, 3, 4}) {
+      const int at = peak + away;
+      const bool inside = away < 0 ? peak >= 4 : peak <= 26;
+      sides.push_back(!inside    ? 0
+                      : away < 0 ? w[static_cast<std::size_t>(at)]
+                                 : earlier[static_cast<std::size_t>(at)]);
+    }
+    const int low = sides[0] + sides[1];
+    const int high = sides[2] + sides[3];
+    const int around = peak < 4 ? high * 9 / 4 : peak > 26 ? 2 * low : low + high;
+    const int height = 4 * (w[static_cast<std::size_t>(peak)] - raise) - around;
+    if (height < 1) {
+      return 0;
+    }
+    const int long_frame = all_ > 3333 ? (lg(all_) - 93) / 2 : 0;
+    const int above = 2 * lg(height) - lg(around * 9 / 8 + 64) - 36 - long_frame - 4 * missing;
+    const int z = above < 0 ? 0 : std::min(7, above / 4);
+    return open_.prior ? (z < 3 ? 0 : (z - 1) / 2) : z;
   }
 
   /// Distance from a position in whole cells, towards minus infinity.
@@ -427,17 +473,26 @@ class Reference {
     }
   }
 
+  /// Those above, below and to the left that are near.
+  template <typename Position>
+  std::vector<Place> near_places(Place place, Position position) {
+    const int reach = open_.cell == 1024 ? 2048 : group(place).b < 6 ? 1024 : 1536;
+    std::vector<Place> near;
+    for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
+                           Place{place.column - 1, place.row}}) {
+      if (pixels_.contains(at) && std::abs(position(pixels_.at(at)) - position(pixels_.at(place))) <= reach) {
+        near.push_back(at);
+      }
+    }
+    return near;
+  }
+
   /// By how much a position moves towards those of the pixels above, below and to the left.
   template <typename Position>
   int towards_neighbours(Place place, Position position) {
-    const int reach = open_.cell == 1024 ? 2048 : group(place).b < 6 ? 1024 : 1536;
     int sum = 0;
-    for (const Place at : {Place{place.column, place.row - 1}, Place{place.column, place.row + 1},
-                           Place{place.column - 1, place.row}}) {
-      if (pixels_.contains(at)) {
-        const int d = position(pixels_.at(at)) - position(pixels_.at(place));
-        sum += d > reach || d < -reach ? 0 : d;
-      }
+    for (const Place at : near_places(place, position)) {
+      sum += position(pixels_.at(at)) - position(pixels_.at(place));
     }
     return sum >= 0 ? sum / 4 : -(-sum / 4);
   }
@@ -533,7 +588,43 @@ class Reference {
       pixel.margin = belief[i][0] - belief[i][1];
       pixel.winner = position[i][pixel.margin < 0 ? 1 : 0];
       pixel.loser = position[i][pixel.margin < 0 ? 0 : 1];
+      const Group& g = group({c, r});
+      for (std::size_t k = 0; k < g.cell.size(); ++k) {
+        if (std::abs(floor_divide(pixel.winner, 512) - g.cell[k]) <= 4) {
+          pixel.significance = std::max(pixel.significance, g.significance[k]);
+        }
+      }
     }
+  }
+
+  int confidence(Place place) {
+    const Pixel& pixel = pixels_.at(place);
+    const Group& g = group(place);
+    const int own = std::abs(pixel.margin);
+    if (open_.lean) {
+      return own;
+    }
+    const std::vector<int> weights =
+        open_.prior ? std::vector{0, 22, 32, 64} : std::vector{0, 13, 16, 20, 24, 29, 35, 64};
+    const int weight = std::min(weights[static_cast<std::size_t>(pixel.significance)], 4 * own);
+    if (g.tilted) {
+      return weight;
+    }
+    int pooled = own;
+    for (const Place at : near_places(place, [](const Pixel& other) { return other.winner; })) {
+      pooled += std::abs(pixels_.at(at).margin);
+    }
+    struct Sky {
+      int below;  // B
+      int mean;
+      std::vector<int> parts;
+    };
+    const std::vector<Sky> skies = {{4, 18, {4, 8}},      {8, 10, {4, 8}},     {12, 14, {4, 16}},
+                                    {16, 22, {8, 16}},    {20, 36, {8, 512}},  {24, 64, {16, 64}},
+                                    {28, 128, {16, 512}}, {32, 200, {32, 64}}, {40, 255, {32, 64}}};
+    const auto sky = std::find_if(skies.begin(), skies.end(), [&](const Sky& s) { return g.b < s.below; });
+    const int above = std::max(0, pooled - sky->mean);
+    return weight + std::min(127, above / sky->parts[0] + above / sky->parts[1]);
   }
 
   PixelResult result(Place place) {
@@ -546,7 +637,7 @@ class Reference {
     const auto limited = [&](int x) { return std::clamp(x - scale / 2, 0, 65536 - scale - 1); };
     const int word = limited(position);
     return {static_cast<std::uint16_t>(word / scale), static_cast<std::uint16_t>(word % scale),
-            static_cast<std::uint16_t>(std::abs(pixel.margin)),
+            static_cast<std::uint16_t>(confidence(place)),
             static_cast<std::uint16_t>(open_.second_target ? limited(pixel.loser) : 0)};
   }
 
@@ -828,6 +919,7 @@ TEST_F(PoolPointer2, VideosAsReference) {
   constexpr int kColumns = 7;
   PoolPointer2Parameters parameters;
   parameters.engine_columns = 4;
+  parameters.keeps_prior = true;
   std::size_t changed = 0;
   for (int video = 0; video < 6; ++video) {
     const int rows = 5 + pick(draw, 12);
@@ -864,7 +956,7 @@ TEST_F(PoolPointer2, VideosAsReference) {
         const std::size_t end = std::min<std::size_t>(first + 4, kColumns);
         Reference reference({array.begin() + static_cast<std::ptrdiff_t>(first),
                              array.begin() + static_cast<std::ptrdiff_t>(end)},
-                            10, kAcquisitions, {}, used[engine]);
+                            10, kAcquisitions, {.prior = true}, used[engine]);
         const auto expected = reference.run();
         used[engine] = reference.used();
         for (std::size_t column = 0; column < expected.size(); ++column) {
@@ -886,9 +978,13 @@ TEST_F(PoolPointer2, LongFramesAsReference) {
     }
   }
   expect_as_reference(array, 10, 3333);
-  for (const auto& column : read_array(array, 10, 3333, {})) {
-    for (const PixelResult& result : column) {
-      EXPECT_GE(result.confidence, 116) << "the finest gears were not reached";
+  std::vector<PoolColumn> events;
+  for (const ColumnStream& column : array) {
+    events.push_back(pool_column_events(column, 10, 3333));
+  }
+  for (const PoolWinners& column : read_engine(events, 3333, {})) {
+    for (const PoolWinner& winner : column) {
+      EXPECT_GE(winner.margin, 116) << "the finest gears were not reached";
     }
   }
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The largest significance of the near candidates: none of them has more, one of them has it, and without one it is 0.
+`include "properties.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module near_significance_properties #(
+    parameter int LABELS = 5,
+    parameter int KEPT_WIDTH = 3
+) (
+    input logic                         clk_i,
+    input logic [         LABELS*7-1:0] cells_i,
+    input logic [LABELS*KEPT_WIDTH-1:0] significances_i,
+    input logic [                  6:0] cell_i
+);
+
+  logic checking;
+  assign checking = 1'b1;
+
+  logic [KEPT_WIDTH-1:0] significance;
+  logic [LABELS-1:0] near, not_more, equal;
+
+  dtof_near_significance #(.LABELS(LABELS), .KEPT_WIDTH(KEPT_WIDTH)) u_dut (
+      .cells_i(cells_i),
+      .significances_i(significances_i),
+      .cell_i(cell_i),
+      .significance_o(significance)
+  );
+
+  genvar k;
+  generate
+    for (k = 0; k < LABELS; k = k + 1) begin : g_label
+      assign near[k] = (32'(cells_i[k*7+:7]) + 4 >= 32'(cell_i)) && (32'(cells_i[k*7+:7]) <= 32'(cell_i) + 4);
+      assign not_more[k] = !near[k] || (significances_i[k*KEPT_WIDTH+:KEPT_WIDTH] <= significance);
+      assign equal[k] = near[k] && (significances_i[k*KEPT_WIDTH+:KEPT_WIDTH] == significance);
+    end
+  endgenerate
+
+  `PROVE(a_none_has_more, &not_more)
+  `PROVE(a_one_has_it, |equal || significance == '0)
+
+endmodule
+
+`default_nettype wire

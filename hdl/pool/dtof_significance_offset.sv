@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// poolPointer 2: by how much candidates of a long frame are less significant, for its sweeps hide part of the background.
+//
+// Equation (docs/reference/poolpointer2.md, Significance): (lg(A) - lg(3333)) / 2 eighth octaves, lg(3333) = 93, 0 to 17 for A of
+// up to 65,535 acquisitions, 0 for shorter frames; the largest it can say for longer ones.
+//
+// Schedule: offset_o from a clock after take_i until the next one. Cost: 5 flip-flops, a dtof_eighth_octaves, per array.
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_significance_offset #(
+    parameter int ACQ_WIDTH = 16,  // at least 2
+    localparam int OFFSET_WIDTH = dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH
+) (
+    input  logic                    clk_i,
+    input  logic                    take_i,
+    input  logic [   ACQ_WIDTH-1:0] acq_num_i,  // A
+    output logic [OFFSET_WIDTH-1:0] offset_o
+);
+
+  localparam int LOGARITHM_WIDTH = 3 + dtof_pkg::index_width(ACQ_WIDTH);
+  localparam int LEAST = 93;
+  localparam int MOST = (1 << OFFSET_WIDTH) - 1;
+
+  logic [LOGARITHM_WIDTH-1:0] logarithm;
+  int half;
+
+  dtof_eighth_octaves #(
+      .WIDTH(ACQ_WIDTH)
+  ) u_logarithm (
+      .x_i        (acq_num_i),
+      .logarithm_o(logarithm)
+  );
+
+  assign half = (32'(logarithm) - LEAST) >>> 1;
+
+  always_ff @(posedge clk_i) begin
+    if (take_i) begin
+      offset_o <= (32'(logarithm) <= LEAST) ? '0 : (half > MOST) ? OFFSET_WIDTH'(MOST) : OFFSET_WIDTH'(half);
+    end
+  end
+
+endmodule
+
+`default_nettype wire
