@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-.PHONY: claims dynamic-range hostile-scenes frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
+.PHONY: claims detection dynamic-range hostile-scenes frames pool-parts pulse-widths scenes pool pool-search rivals pareto trade real-data walk-error video
 SMALL_SCENES := $(if $(SMALL),--klux 14 --columns 8)
 SMALL_POOL := $(if $(SMALL),--klux 14 --scene planes --seeds 2)
 SCENE_MAPS := --disparity $(SHARED_DATA)/middlebury_Art_disp1.png \
@@ -95,6 +95,16 @@ else
 	@scripts/reports.py begin hostile_scenes
 	@$(DTOF_STUDY) hostile-scenes --seed $(SEED) --out $(OUT)/hostile_scenes
 	@scripts/publish.py hostile_scenes
+endif
+
+detection: study-program
+ifeq ($(SMALL),1)
+	@$(DTOF_STUDY) detection --readout ezpointer,poolpointer2 --klux 14 50 --distance 4 --seeds 2 --seed $(SEED) \
+	  --out build/detection_small
+else
+	@scripts/reports.py begin detection
+	@$(DTOF_STUDY) detection --seed $(SEED) --out $(OUT)/detection
+	@scripts/publish.py detection
 endif
 
 frames: study-program

@@ -21,7 +21,7 @@
 //
 // Schedule: the table below. A line says in which clocks t of a step a command is given. Columns and engines have it in
 //   the next clock, and what takes longer takes the clocks that the module in question states (dtof_pkg).
-// Latency, K labels: a pair's groups x (32 K + 45) in decode, without significances (32 K + 42); (pixels + 4) and (pixels + 5) x max(K + 5, 9) in choose, without
+// Latency, K labels: a pair's groups x (32 K + 48) in decode, without significances (32 K + 45); (pixels + 4) and (pixels + 5) x max(K + 5, 9) in choose, without
 //   SMOOTH_STARTS twice (pixels + 4), and (pixels + 4) and (pixels + 5) x 6 in decide, a column. With PRIOR choose has a step
 //   more per column, two if the pixels are odd.
 // Cost: counters and a register of the commands, per array.

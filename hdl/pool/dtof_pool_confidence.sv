@@ -57,19 +57,9 @@ module dtof_pool_confidence #(
   logic [7:0] mean;
   logic [POOLED_WIDTH-1:0] pooled, excess_q, first_part, second_part;
 
-  always_comb begin
-    case (sky_q)
-      4'd0: mean = 8'd18;
-      4'd1: mean = 8'd10;
-      4'd2: mean = 8'd14;
-      4'd3: mean = 8'd22;
-      4'd4: mean = 8'd36;
-      4'd5: mean = 8'd64;
-      4'd6: mean = 8'd128;
-      4'd7: mean = 8'd200;
-      default: mean = 8'd255;
-    endcase
-  end
+  // Tables are expressions, for Yosys makes a memory of a case with constants.
+  assign mean = (sky_q == 4'd0) ? 8'd18 : (sky_q == 4'd1) ? 8'd10 : (sky_q == 4'd2) ? 8'd14 : (sky_q == 4'd3) ? 8'd22
+      : (sky_q == 4'd4) ? 8'd36 : (sky_q == 4'd5) ? 8'd64 : (sky_q == 4'd6) ? 8'd128 : (sky_q == 4'd7) ? 8'd200 : 8'd255;
 
   always_comb begin
     case (sky_q)
@@ -89,27 +79,11 @@ module dtof_pool_confidence #(
 
   generate
     if (KEPT_WIDTH == 3) begin : g_three_bits
-      always_comb begin
-        case (significance_q)
-          3'd0: weight = 7'd0;
-          3'd1: weight = 7'd13;
-          3'd2: weight = 7'd16;
-          3'd3: weight = 7'd20;
-          3'd4: weight = 7'd24;
-          3'd5: weight = 7'd29;
-          3'd6: weight = 7'd35;
-          default: weight = 7'd64;
-        endcase
-      end
+      assign weight = (significance_q == 3'd0) ? 7'd0 : (significance_q == 3'd1) ? 7'd13 : (significance_q == 3'd2) ? 7'd16
+          : (significance_q == 3'd3) ? 7'd20 : (significance_q == 3'd4) ? 7'd24 : (significance_q == 3'd5) ? 7'd29
+          : (significance_q == 3'd6) ? 7'd35 : 7'd64;
     end else begin : g_two_bits
-      always_comb begin
-        case (significance_q)
-          2'd0: weight = 7'd0;
-          2'd1: weight = 7'd22;
-          2'd2: weight = 7'd32;
-          default: weight = 7'd64;
-        endcase
-      end
+      assign weight = (significance_q == 2'd0) ? 7'd0 : (significance_q == 2'd1) ? 7'd22 : (significance_q == 2'd2) ? 7'd32 : 7'd64;
     end
   endgenerate
 
