@@ -139,7 +139,8 @@ std::vector<ReadoutDetection> run_detection(const DetectionSettings& settings) {
   const auto wall = measure(settings, walls, settings.seed, progress);
   std::vector<ReadoutDetection> study;
   for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
-    ReadoutDetection readout{.readout = settings.readouts[r].readout};
+    ReadoutDetection readout;
+    readout.readout = settings.readouts[r].readout;
     const auto pooled = [&](const std::vector<std::vector<PixelCounts>>& seeds) {
       std::map<int, std::uint64_t> sum;
       for (const std::vector<PixelCounts>& counts : seeds) {

@@ -36,7 +36,7 @@ struct DetectionCell {
 };
 
 struct ReadoutDetection {
-  Readout readout;
+  Readout readout = Readout::kEzPointer;
   int threshold = 0;                    ///< the lowest confidence that no sky has too often
   std::vector<double> held_out_alarms;  ///< share of each sky that passes, of other seeds; lights first
   std::vector<DetectionCell> cells;     ///< lights first

@@ -53,19 +53,19 @@ constexpr std::array kDistances = {0.5, 1.0, 2.0, 3.0, 5.0};
 constexpr int kRows = 100;
 
 /// What is compared with the exact model.
-enum class Rival { kExactAgain, kFastStream, kFastSampler, kAnalytic };
-constexpr std::array kRivals = {Rival::kExactAgain, Rival::kFastStream, Rival::kFastSampler,
-                                Rival::kAnalytic};
+enum class PhotonRoute { kExactAgain, kFastStream, kFastSampler, kAnalytic };
+constexpr std::array kRivals = {PhotonRoute::kExactAgain, PhotonRoute::kFastStream, PhotonRoute::kFastSampler,
+                                PhotonRoute::kAnalytic};
 
-std::string rival_title(Rival rival) {
+std::string rival_title(PhotonRoute rival) {
   switch (rival) {
-    case Rival::kExactAgain:
+    case PhotonRoute::kExactAgain:
       return "exact";
-    case Rival::kFastStream:
+    case PhotonRoute::kFastStream:
       return "fast stream";
-    case Rival::kFastSampler:
+    case PhotonRoute::kFastSampler:
       return "fast sampler";
-    case Rival::kAnalytic:
+    case PhotonRoute::kAnalytic:
       return "analytic";
   }
   throw std::logic_error("unknown photon model");
@@ -250,15 +250,15 @@ class SpeedErrorReport {
     const PixelRates rates = exact.rates(0, 0);
     const Sample reference = sample_streams(exact, sensor_, options_.run.threads);
     for (std::size_t i = 0; i < kRivals.size(); ++i) {
-      if (kRivals[i] == Rival::kAnalytic) {
+      if (kRivals[i] == PhotonRoute::kAnalytic) {
         compare_analytic(klux, distance, rates, reference, verdicts_[i]);
         continue;
       }
-      const Sample sample =
-          kRivals[i] == Rival::kExactAgain
-              ? sample_streams(exact.at_frame(1), sensor_, options_.run.threads)
-              : (kRivals[i] == Rival::kFastStream ? sample_streams(fast, sensor_, options_.run.threads)
-                                                  : sample_sampler(fast, sensor_, options_.run.threads));
+      const Sample sample = kRivals[i] == PhotonRoute::kExactAgain
+                                ? sample_streams(exact.at_frame(1), sensor_, options_.run.threads)
+                                : (kRivals[i] == PhotonRoute::kFastStream
+                                       ? sample_streams(fast, sensor_, options_.run.threads)
+                                       : sample_sampler(fast, sensor_, options_.run.threads));
       Verdict& verdict = verdicts_[i];
       const double total_ratio = as_ratio(reference.codes, sample.codes);
       verdict.codes_p = std::min(verdict.codes_p, two_sample_p(reference.codes, sample.codes, total_ratio));
@@ -280,7 +280,7 @@ class SpeedErrorReport {
       const std::vector<double> predicted =
           code_distribution(sensor_, rates, default_parameters(kReadouts[r], sensor_));
       verdict.results_p = std::min(verdict.results_p, one_sample_p(reference.results[r], predicted));
-      add_point(Rival::kAnalytic, kReadouts[r], klux, distance, as_distribution(reference.results[r]),
+      add_point(PhotonRoute::kAnalytic, kReadouts[r], klux, distance, as_distribution(reference.results[r]),
                 predicted, verdict);
     }
     verdict.numbers_p = std::nan("");  // it has no numbers
@@ -296,7 +296,7 @@ class SpeedErrorReport {
     return in_a / in_b;
   }
 
-  void add_point(Rival rival, Readout readout, double klux, double distance,
+  void add_point(PhotonRoute rival, Readout readout, double klux, double distance,
                  const std::vector<double>& reference, const std::vector<double>& other, Verdict& verdict) {
     const ReadoutParameters parameters = default_parameters(readout, sensor_);
     const PredictedErrors a = predict_errors(reference, sensor_, parameters, distance);
