@@ -99,6 +99,7 @@ dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisit
   settings.track_share = device->track_share;
   settings.smooth = true;
   settings.gate_end = (uint16_t)((UINT32_C(1) << device->timestamp_bits) - 1U);
+  settings.shot_unit = 1;
   return settings;
 }
 
@@ -110,6 +111,7 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
 
   if (settings->acquisitions >> device->acquisition_bits != 0 || release > most_lines(device) ||
       settings->weak_below > confidences ||
+      settings->shot_bits > (DTOF_SHOT_BITS_MASK >> DTOF_SHOT_BITS_LSB) ||
       (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
       (device->has_schedule && shares > WHOLE_FRAME) ||
       (settings->second_target && !device->has_second_target) || (settings->prior && !device->has_prior) ||
@@ -132,6 +134,10 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
        device->has_gate},
       {DTOF_RELEASE, release, true},
       {DTOF_WEAK_BELOW, settings->weak_below, true},
+      {DTOF_SHOT,
+       (uint32_t)settings->shot_bits << DTOF_SHOT_BITS_LSB | (uint32_t)settings->shot_unit
+                                                                 << DTOF_SHOT_UNIT_LSB,
+       true},
       {DTOF_OUTPUT,
        (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
            (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) |
@@ -175,6 +181,24 @@ dtof_status dtof_commit(const dtof_device *device) {
 
 dtof_status dtof_set_watchdog(const dtof_device *device, uint32_t clocks) {
   return clocks > DTOF_WATCHDOG_CLOCKS_MASK ? DTOF_ARGUMENT : write_register(device, DTOF_WATCHDOG, clocks);
+}
+
+dtof_status dtof_seed_shots(const dtof_device *device, uint32_t seed) {
+  return seed == 0 || seed > DTOF_SHOT_SEED_VALUE_MASK ? DTOF_ARGUMENT
+                                                       : write_register(device, DTOF_SHOT_SEED, seed);
+}
+
+uint32_t dtof_shot_seed(uint32_t serial_number) {
+  /* MurmurHash3's last step, which maps different numbers to different ones; the upper half of them. */
+  uint32_t mixed = serial_number;
+  mixed = (mixed ^ mixed >> 16) * UINT32_C(0x85EBCA6B);
+  mixed = (mixed ^ mixed >> 13) * UINT32_C(0xC2B2AE35);
+  mixed = (mixed ^ mixed >> 16) >> 16;
+  return mixed == 0 ? 1U : mixed;
+}
+
+dtof_status dtof_read_shot_state(const dtof_device *device, uint32_t *state) {
+  return read_register(device, DTOF_SHOT_STATE, state);
 }
 
 dtof_status dtof_enable_interrupts(const dtof_device *device, bool frame, bool error) {

@@ -90,7 +90,9 @@ typedef struct {
   bool raw; /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
   uint16_t raw_first_row;
   uint16_t raw_last_row;
-  uint16_t release; /* lines in the buffer before an acquisition begins; 0: as many as possible */
+  uint16_t release;  /* lines in the buffer before an acquisition begins; 0: as many as possible */
+  uint8_t shot_bits; /* start dither: shot_o waits 0 to 2^shot_bits - 1 units, at most 7; 0: no wait */
+  uint8_t shot_unit; /* clocks of a unit */
 } dtof_settings;
 
 /* What goes on, and what went wrong; nothing is forgotten by reading. */
@@ -145,6 +147,17 @@ dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask)
 /* Makes all settings that were written valid together, for every frame that begins from now on; for
  * continuous mode. */
 dtof_status dtof_commit(const dtof_device *device);
+
+/* Begins the sequence of start dither's delays at `seed`, at once; 1 to 65535, another one in each sensor, or
+ * their delays are the same. DTOF_ARGUMENT for others. */
+dtof_status dtof_seed_shots(const dtof_device *device, uint32_t seed);
+
+/* A seed for the sensor with this serial number: neighbouring numbers give seeds that are far apart. */
+uint32_t dtof_shot_seed(uint32_t serial_number);
+
+/* From which state the delays of the frame follow that began last: the seed of the same sequence in the
+ * models. */
+dtof_status dtof_read_shot_state(const dtof_device *device, uint32_t *state);
 
 /* How many clocks a frame waits for a line before the rest of it counts as no detection, at once; 0: for
  * ever. DTOF_ARGUMENT above 2^24 - 1, which is the value at reset. */

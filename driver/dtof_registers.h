@@ -6,7 +6,7 @@
 
 #define DTOF_ID_EXPECTED UINT32_C(0x444F4650)
 #define DTOF_VERSION_MAJOR_EXPECTED UINT32_C(3)
-#define DTOF_VERSION_MINOR_EXPECTED UINT32_C(1)
+#define DTOF_VERSION_MINOR_EXPECTED UINT32_C(2)
 
 /* says that this is the subsystem */
 #define DTOF_ID UINT32_C(0x000)
@@ -268,6 +268,23 @@
 #define DTOF_COMMIT UINT32_C(0x10C)
 #define DTOF_COMMIT_SETTINGS_LSB 0
 #define DTOF_COMMIT_SETTINGS_MASK UINT32_C(0x00000001)
+
+/* start dither: how long `shot_o` waits behind the request for an acquisition */
+#define DTOF_SHOT UINT32_C(0x110)
+#define DTOF_SHOT_BITS_LSB 0
+#define DTOF_SHOT_BITS_MASK UINT32_C(0x00000007)
+#define DTOF_SHOT_UNIT_LSB 8
+#define DTOF_SHOT_UNIT_MASK UINT32_C(0x0000FF00)
+
+/* where the sequence of delays begins; another one in each sensor; at once */
+#define DTOF_SHOT_SEED UINT32_C(0x114)
+#define DTOF_SHOT_SEED_VALUE_LSB 0
+#define DTOF_SHOT_SEED_VALUE_MASK UINT32_C(0x0000FFFF)
+
+/* from which state the last frame's delays follow */
+#define DTOF_SHOT_STATE UINT32_C(0x118)
+#define DTOF_SHOT_STATE_VALUE_LSB 0
+#define DTOF_SHOT_STATE_VALUE_MASK UINT32_C(0x0000FFFF)
 
 /* A result: a word of 64 bits. */
 #define DTOF_RESULT_POSITION_LSB 0

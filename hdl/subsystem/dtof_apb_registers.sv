@@ -4,8 +4,8 @@
 // A transfer takes the two clocks of APB, without wait states. pslverr_o answers an offset without a register, a write to a
 // register of which nothing can be written in this configuration, and a write of 1 to a bit of a setting or command that this
 // configuration does not have; none of them does anything. pstrb_i chooses bytes, pprot is not looked at.
-// Settings are written one by one and become valid together, with COMMIT or START; those of CONTROL, IRQ_ENABLE and WATCHDOG
-// are valid at once. An event that comes in the clock in which its bit is cleared stays visible.
+// Settings are written one by one and become valid together, with COMMIT or START; those of CONTROL, IRQ_ENABLE, WATCHDOG and
+// SHOT_SEED are valid at once. An event that comes in the clock in which its bit is cleared stays visible.
 // Latency: a command is a pulse in the clock behind its write.
 // Cost: the settings' flip-flops, twice, SRAM_NUM of them for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
@@ -67,6 +67,8 @@ module dtof_apb_registers #(
     output logic                 abort_o,
     output logic                 continuous_o,
     output logic [         23:0] watchdog_o,
+    output logic [         15:0] shot_seed_o,
+    output logic                 shot_reseed_o,  // in the clock behind a write of SHOT_SEED
     // those that were committed
     output logic                 second_o,       // 0 without SECOND_TARGET
     output logic                 raw_o,          // these three are 0 without RAW_HISTOGRAM
@@ -82,6 +84,8 @@ module dtof_apb_registers #(
     output logic [         15:0] release_o,
     output logic [         15:0] weak_below_o,
     output logic [ SRAM_NUM-1:0] enable_o,
+    output logic [          2:0] shot_bits_o,
+    output logic [          7:0] shot_unit_o,
     // status
     input  logic                 busy_i,
     input  logic [          2:0] state_i,
@@ -90,6 +94,7 @@ module dtof_apb_registers #(
     input  logic [         31:0] frame_cycles_i,
     input  logic [         31:0] lost_lines_i,
     input  logic [         31:0] lost_acquisitions_i,
+    input  logic [         15:0] shot_state_i,
     // events
     input  logic                 frame_i,
     input  logic                 underrun_i,
@@ -145,6 +150,10 @@ module dtof_apb_registers #(
   logic [ACQ_WIDTH-1:0] acquisitions_q;
   logic [15:0] release_q;
   logic [WEAK_WIDTH-1:0] weak_below_q;
+  logic [2:0] shot_bits_q;
+  logic [7:0] shot_unit_q;
+  logic [15:0] shot_seed_q;
+  logic shot_reseed_q;
   logic [SRAM_NUM-1:0] enable_q;
 
   always_comb begin
@@ -186,10 +195,15 @@ module dtof_apb_registers #(
       acquisitions_q <= '0;
       release_q <= 16'(MOST_RELEASE);
       weak_below_q <= '0;
+      shot_bits_q <= '0;
+      shot_unit_q <= 8'd1;
+      shot_seed_q <= 16'd1;
+      shot_reseed_q <= 1'b0;
     end else begin
       start_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_START_LSB];
       flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
       abort_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_ABORT_LSB];
+      shot_reseed_q <= write && (offset == dtof_registers_pkg::SHOT_SEED) && (pstrb_i[1:0] != '0);
       error_q <= (error_q & ~error_cleared) | error_event;
       cause_q <= (cause_q & ~cause_cleared) | cause_event;
       warning_q <= (warning_q & ~warning_cleared) | warning_event;
@@ -211,6 +225,13 @@ module dtof_apb_registers #(
           release_q <= (release_q & ~mask[15:0]) | written[15:0];
           dtof_registers_pkg::WEAK_BELOW:
           weak_below_q <= (weak_below_q & ~mask[WEAK_WIDTH-1:0]) | written[WEAK_WIDTH-1:0];
+          dtof_registers_pkg::SHOT: begin
+            shot_bits_q <= (shot_bits_q & ~mask[dtof_registers_pkg::SHOT_BITS_LSB+:3])
+                | written[dtof_registers_pkg::SHOT_BITS_LSB+:3];
+            shot_unit_q <= (shot_unit_q & ~mask[dtof_registers_pkg::SHOT_UNIT_LSB+:8])
+                | written[dtof_registers_pkg::SHOT_UNIT_LSB+:8];
+          end
+          dtof_registers_pkg::SHOT_SEED: shot_seed_q <= (shot_seed_q & ~mask[15:0]) | written[15:0];
           default: begin
           end
         endcase
@@ -223,6 +244,8 @@ module dtof_apb_registers #(
   assign abort_o = abort_q;
   assign continuous_o = continuous_q;
   assign watchdog_o = watchdog_q;
+  assign shot_seed_o = shot_seed_q;
+  assign shot_reseed_o = shot_reseed_q;
   assign irq_o = |(cause_q & cause_enable_q);
 
   // What was written, of what this configuration has.
@@ -388,6 +411,8 @@ module dtof_apb_registers #(
       release_o <= release_q;
       weak_below_o <= 16'(weak_below_q);
       enable_o <= enable_q;
+      shot_bits_o <= shot_bits_q;
+      shot_unit_o <= shot_unit_q;
     end
   end
 
@@ -397,6 +422,7 @@ module dtof_apb_registers #(
   localparam logic [31:0] NP_BITS = 32'hffffffff >> (32 - NP);
   localparam logic [31:0] ROWS_BITS = (32'hfff << dtof_registers_pkg::RAW_ROWS_FIRST_LSB)
       | (32'hfff << dtof_registers_pkg::RAW_ROWS_LAST_LSB);
+  localparam logic [31:0] SHOT_FIELDS = (32'h7 << dtof_registers_pkg::SHOT_BITS_LSB) | (32'hff << dtof_registers_pkg::SHOT_UNIT_LSB);
   localparam logic [31:0] CONTROL_BITS = (32'd1 << dtof_registers_pkg::CONTROL_START_LSB)
       | (32'd1 << dtof_registers_pkg::CONTROL_CONTINUOUS_LSB) | (32'd1 << dtof_registers_pkg::CONTROL_FLUSH_LSB)
       | (32'd1 << dtof_registers_pkg::CONTROL_ABORT_LSB);
@@ -422,6 +448,8 @@ module dtof_apb_registers #(
       dtof_registers_pkg::WEAK_BELOW: there = 32'hffffffff >> (32 - WEAK_WIDTH);
       dtof_registers_pkg::OUTPUT: there = OUTPUT_BITS;
       dtof_registers_pkg::RAW_ROWS: there = (RAW_HISTOGRAM != 0) ? ROWS_BITS : '0;
+      dtof_registers_pkg::SHOT: there = SHOT_FIELDS;
+      dtof_registers_pkg::SHOT_SEED: there = 32'h0000ffff;
       dtof_registers_pkg::COMMIT: there = 32'd1 << dtof_registers_pkg::COMMIT_SETTINGS_LSB;
       default:
       if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
@@ -508,6 +536,12 @@ module dtof_apb_registers #(
       dtof_registers_pkg::LOST_LINES: prdata_o = lost_lines_i;
       dtof_registers_pkg::LOST_ACQUISITIONS: prdata_o = lost_acquisitions_i;
       dtof_registers_pkg::COMMIT: prdata_o = '0;
+      dtof_registers_pkg::SHOT: begin
+        prdata_o[dtof_registers_pkg::SHOT_BITS_LSB+:3] = shot_bits_q;
+        prdata_o[dtof_registers_pkg::SHOT_UNIT_LSB+:8] = shot_unit_q;
+      end
+      dtof_registers_pkg::SHOT_SEED: prdata_o = 32'(shot_seed_q);
+      dtof_registers_pkg::SHOT_STATE: prdata_o = 32'(shot_state_i);
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
       dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end);
       dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end);

@@ -8,7 +8,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00030001;
+  localparam logic [31:0] VERSION_VALUE = 32'h00030002;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -271,6 +271,23 @@ package dtof_registers_pkg;
   localparam int COMMIT_SETTINGS_LSB = 0;
   localparam int COMMIT_SETTINGS_WIDTH = 1;
 
+  // start dither: how long `shot_o` waits behind the request for an acquisition
+  localparam logic [11:0] SHOT = 12'h110;
+  localparam int SHOT_BITS_LSB = 0;
+  localparam int SHOT_BITS_WIDTH = 3;
+  localparam int SHOT_UNIT_LSB = 8;
+  localparam int SHOT_UNIT_WIDTH = 8;
+
+  // where the sequence of delays begins; another one in each sensor; at once
+  localparam logic [11:0] SHOT_SEED = 12'h114;
+  localparam int SHOT_SEED_VALUE_LSB = 0;
+  localparam int SHOT_SEED_VALUE_WIDTH = 16;
+
+  // from which state the last frame's delays follow
+  localparam logic [11:0] SHOT_STATE = 12'h118;
+  localparam int SHOT_STATE_VALUE_LSB = 0;
+  localparam int SHOT_STATE_VALUE_WIDTH = 16;
+
   // A result.
   localparam int RESULT_WIDTH = 64;
   localparam int RESULT_POSITION_LSB = 0;
@@ -300,14 +317,14 @@ package dtof_registers_pkg;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h10c);
+        || (offset >= 12'h040 && offset <= 12'h118);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
         || (offset >= 12'h05c && offset <= 12'h100)
-        || offset == 12'h10c;
+        || (offset >= 12'h10c && offset <= 12'h114);
   endfunction
 
 endpackage

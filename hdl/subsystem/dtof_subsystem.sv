@@ -13,6 +13,8 @@
 // 6. Between frames the array's clock is gated (dtof_clock_gate of the technology folder).
 // 7. Whatever the source does, a frame ends: what is missing counts as no detection, an acquisition begins behind each
 //    s_axis_tlast_i, and a watchdog ends the wait for a source that is dead. CONTROL.ABORT ends a frame at any time.
+// 8. shot_o fires the laser and starts the TDCs, once for each acquisition that a frame needs, on request with a pseudo-random
+//    delay (dtof_shot_dither). A source whose laser runs freely leaves shot_o open.
 //
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is dtof_pool_pointer2_array. The parameters
 // that follow (common/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
@@ -49,6 +51,7 @@ module dtof_subsystem #(
     output logic [             31:0] prdata_o,
     output logic                     pslverr_o,
     output logic                     irq_o,
+    output logic                     shot_o,           // fires the laser and starts the TDCs, for one clock
     // AXI4-Stream, lines of timestamps
     input  logic                     s_axis_tvalid_i,
     output logic                     s_axis_tready_o,  // low in reset
@@ -107,6 +110,10 @@ module dtof_subsystem #(
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
   logic timeout, stalled, resetting, in_reset, array_rst_n, flushes;
   logic [23:0] watchdog;
+  logic [15:0] shot_seed, shot_state;
+  logic [2:0] shot_bits;
+  logic [7:0] shot_unit;
+  logic shot_reseed;
   logic [31:0] lost_lines, lost_acquisitions;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
@@ -168,6 +175,8 @@ module dtof_subsystem #(
       .abort_o           (abort),
       .continuous_o      (continuous),
       .watchdog_o        (watchdog),
+      .shot_seed_o       (shot_seed),
+      .shot_reseed_o     (shot_reseed),
       .second_o          (second),
       .raw_o             (raw),
       .raw_first_o       (raw_first),
@@ -182,6 +191,8 @@ module dtof_subsystem #(
       .release_o         (release_lines),
       .weak_below_o      (weak_below),
       .enable_o          (enable),
+      .shot_bits_o       (shot_bits),
+      .shot_unit_o       (shot_unit),
       .busy_i            (busy),
       .state_i           (state),
       .level_i           (16'(level)),
@@ -189,6 +200,7 @@ module dtof_subsystem #(
       .frame_cycles_i    (frame_cycles),
       .lost_lines_i      (lost_lines),
       .lost_acquisitions_i(lost_acquisitions),
+      .shot_state_i      (shot_state),
       .frame_i           (frame),
       .underrun_i        (underrun),
       .start_ignored_i   (start_ignored),
@@ -276,7 +288,7 @@ module dtof_subsystem #(
 
   // Lines in.
 
-  logic tdc_valid, tdc_ready, starved, kept, expired, lost_acquisition;
+  logic tdc_valid, tdc_ready, starved, kept, expired, lost_acquisition, queued, source_inside, arrives, rest_ends, taken;
   logic [LEVEL_WIDTH-1:0] lost;
   logic [SRAM_NUM*NP-1:0] line, timestamps;
 
@@ -296,7 +308,12 @@ module dtof_subsystem #(
       .release_i   (frame_release_q),
       .level_o     (level),
       .starved_o   (starved),
+      .queued_o    (queued),
+      .inside_o    (source_inside),
       .kept_o      (kept),
+      .arrives_o   (arrives),
+      .rest_ends_o (rest_ends),
+      .taken_o     (taken),
       .underrun_o  (underrun),
       .short_o     (short_acquisition),
       .long_o      (long_acquisition),
@@ -324,6 +341,29 @@ module dtof_subsystem #(
   );
 
   assign timeout = expired && running && starved && !abort;
+
+  dtof_shot_dither #(
+      .ACQ_WIDTH(ACQ_WIDTH)
+  ) u_shot_dither (
+      .clk_i         (clk_i),
+      .rst_ni        (rst_ni),
+      .reseed_i      (shot_reseed),
+      .seed_i        (shot_seed),
+      .bits_i        (shot_bits),
+      .unit_i        (shot_unit),
+      .acquisitions_i(acquisitions),
+      .begin_i       (begin_frame),
+      .abort_i       (abort),
+      .flush_i       (flushes),
+      .give_up_i     (timeout),
+      .arrives_i     (arrives),
+      .queued_i      (queued),
+      .taken_i       (taken),
+      .inside_i      (source_inside),
+      .rest_ends_i   (rest_ends),
+      .shot_o        (shot_o),
+      .first_state_o (shot_state)
+  );
 
   dtof_watchdog #(
       .WIDTH(24)
