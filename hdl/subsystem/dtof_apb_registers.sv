@@ -190,14 +190,14 @@ module dtof_apb_registers #(
       error_q <= '0;
       cause_q <= '0;
       warning_q <= '0;
-      watchdog_q <= {24{1'b1}};
+      watchdog_q <= 24'(dtof_registers_pkg::WATCHDOG_RESET);
       cause_enable_q <= '0;
       acquisitions_q <= '0;
       release_q <= 16'(MOST_RELEASE);
       weak_below_q <= '0;
-      shot_bits_q <= '0;
-      shot_unit_q <= 8'd1;
-      shot_seed_q <= 16'd1;
+      shot_bits_q <= dtof_registers_pkg::SHOT_RESET[dtof_registers_pkg::SHOT_BITS_LSB+:3];
+      shot_unit_q <= dtof_registers_pkg::SHOT_RESET[dtof_registers_pkg::SHOT_UNIT_LSB+:8];
+      shot_seed_q <= 16'(dtof_registers_pkg::SHOT_SEED_RESET);
       shot_reseed_q <= 1'b0;
     end else begin
       start_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_START_LSB];

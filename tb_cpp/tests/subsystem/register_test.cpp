@@ -155,6 +155,29 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   EXPECT_GT(refused, 20);
 }
 
+// What dtof_registers.h and the maps of driver/maps say of a value behind a reset.
+TEST_P(Subsystem, ReadsBehindAResetWhatTheMapsSay) {
+  for (int round = 0; round < 2; ++round) {
+    std::size_t compared = 0;
+    const auto compare = [&](std::uint32_t offset, std::uint32_t number, std::uint32_t value,
+                             std::uint32_t mask) {
+      for (std::uint32_t i = 0; i < number; ++i) {
+        EXPECT_EQ(bench_.get(offset + 4 * i) & mask, value) << "register " << offset + 4 * i;
+      }
+      compared += mask != 0 ? 1 : 0;
+    };
+#define COMPARE(OFFSET, NUMBER, VALUE, MASK) compare(OFFSET, NUMBER, VALUE, MASK);
+    DTOF_FOR_EACH_REGISTER(COMPARE)
+#undef COMPARE
+    EXPECT_GT(compared, 25U);
+    bench_.set(DTOF_ACQUISITIONS, 3);
+    bench_.set(DTOF_WATCHDOG, 5);
+    bench_.set(DTOF_SHOT, 0x203);
+    bench_.set(DTOF_SHOT_SEED, 77);
+    bench_.reset();
+  }
+}
+
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
   for (const std::uint32_t offset : {0x034U, 0x03CU, 0x11CU, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
