@@ -431,3 +431,42 @@ double dtof_time_of_flight_mm(const dtof_device *device, const dtof_result *resu
                               double fwhm_ps) {
   return LIGHT_MM_PER_PS / 2.0 * (code_ps * (code_of(device, result) + 0.5) - fwhm_ps);
 }
+
+uint32_t dtof_crc(const uint64_t *words, size_t count) {
+  /* By halves of a byte: what four bits add to the remainder. */
+  static const uint32_t halves[] = {
+      UINT32_C(0x00000000), UINT32_C(0x1DB71064), UINT32_C(0x3B6E20C8), UINT32_C(0x26D930AC),
+      UINT32_C(0x76DC4190), UINT32_C(0x6B6B51F4), UINT32_C(0x4DB26158), UINT32_C(0x5005713C),
+      UINT32_C(0xEDB88320), UINT32_C(0xF00F9344), UINT32_C(0xD6D6A3E8), UINT32_C(0xCB61B38C),
+      UINT32_C(0x9B64C2B0), UINT32_C(0x86D3D2D4), UINT32_C(0xA00AE278), UINT32_C(0xBDBDF21C)};
+  uint32_t crc = UINT32_MAX;
+  for (size_t i = 0; i < count; ++i) {
+    for (unsigned bit = 0; bit < 64U; bit += 4U) {
+      crc = crc >> 4 ^ halves[(crc ^ (uint32_t)(words[i] >> bit)) & 15U];
+    }
+  }
+  return ~crc;
+}
+
+dtof_status dtof_check_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                             uint32_t *frame) {
+  uint32_t crc = 0;
+  uint32_t later = 0;
+  if (count > 0 && FIELD(words[count - 1], DTOF_RESULT_ABORTED) != 0) {
+    return DTOF_ABORTED;
+  }
+  dtof_status status = read_register(device, DTOF_FRAME_COUNT, frame);
+  if (status == DTOF_OK) {
+    status = read_register(device, DTOF_FRAME_CRC, &crc);
+  }
+  if (status == DTOF_OK) {
+    status = read_register(device, DTOF_FRAME_COUNT, &later);
+  }
+  if (status != DTOF_OK) {
+    return status;
+  }
+  if (later != *frame) {
+    return DTOF_BUSY;
+  }
+  return crc == dtof_crc(words, count) ? DTOF_OK : DTOF_CORRUPT;
+}

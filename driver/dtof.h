@@ -25,7 +25,8 @@ typedef enum {
   DTOF_ARGUMENT = -4,        /* a value that the hardware cannot take */
   DTOF_BUSY = -5,            /* a frame is under way */
   DTOF_STREAM = -6,          /* a result's row or column is not the array's */
-  DTOF_ABORTED = -7          /* the frame was aborted: its words end here */
+  DTOF_ABORTED = -7,         /* the frame was aborted: its words end here */
+  DTOF_CORRUPT = -8          /* the words are not those that were sent */
 } dtof_status;
 
 /* How registers are reached. Both return false if the access failed; `offset` is in bytes. */
@@ -218,6 +219,16 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
  * are not that. */
 dtof_status dtof_unpack_raw(const dtof_device *device, uint16_t first_row, uint16_t last_row,
                             const uint64_t *words, size_t count, dtof_result *bins);
+
+/* CRC-32 of IEEE 802.3 over the words, the lowest byte of each first: what the hardware computes of a frame.
+ */
+uint32_t dtof_crc(const uint64_t *words, size_t count);
+
+/* Compares the words of the frame that ended last with its checksum, once its last word was taken:
+ * DTOF_CORRUPT if a word was lost, changed or moved, DTOF_ABORTED for the words of a frame that was aborted.
+ * `frame` is its number since reset, 1 the first, modulo 2^32. In continuous mode call it before the next
+ * frame ends; DTOF_BUSY if one ends meanwhile. */
+dtof_status dtof_check_frame(const dtof_device *device, const uint64_t *words, size_t count, uint32_t *frame);
 
 /* The second target as a result of its own; has_second must be true. */
 dtof_result dtof_second(const dtof_result *result);

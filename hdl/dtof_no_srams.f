@@ -58,6 +58,7 @@ subsystem/dtof_line_buffer.sv
 subsystem/dtof_watchdog.sv
 subsystem/dtof_saturating_counter.sv
 subsystem/dtof_shot_dither.sv
+subsystem/dtof_frame_crc.sv
 subsystem/dtof_array_reset.sv
 subsystem/dtof_line_filter.sv
 subsystem/dtof_target_words.sv

@@ -92,6 +92,7 @@ module dtof_apb_registers #(
     input  logic [         15:0] level_i,
     input  logic [         31:0] frame_count_i,
     input  logic [         31:0] frame_cycles_i,
+    input  logic [         31:0] frame_crc_i,
     input  logic [         31:0] lost_lines_i,
     input  logic [         31:0] lost_acquisitions_i,
     input  logic [         15:0] shot_state_i,
@@ -531,6 +532,7 @@ module dtof_apb_registers #(
       dtof_registers_pkg::IRQ_STATUS: prdata_o = 32'(cause_q);
       dtof_registers_pkg::FRAME_COUNT: prdata_o = frame_count_i;
       dtof_registers_pkg::FRAME_CYCLES: prdata_o = frame_cycles_i;
+      dtof_registers_pkg::FRAME_CRC: prdata_o = frame_crc_i;
       dtof_registers_pkg::WARNING: prdata_o = 32'(warning_q);
       dtof_registers_pkg::WATCHDOG: prdata_o = 32'(watchdog_q);
       dtof_registers_pkg::LOST_LINES: prdata_o = lost_lines_i;

@@ -326,6 +326,12 @@ package dtof_registers_pkg;
   localparam int SHOT_STATE_VALUE_LSB = 0;
   localparam int SHOT_STATE_VALUE_WIDTH = 16;
 
+  // checksum of the words of the last frame that FRAME_COUNT counts
+  localparam logic [11:0] FRAME_CRC = 12'h11c;
+  localparam logic [31:0] FRAME_CRC_RESET = 32'h00000000;
+  localparam int FRAME_CRC_VALUE_LSB = 0;
+  localparam int FRAME_CRC_VALUE_WIDTH = 32;
+
   // A result.
   localparam int RESULT_WIDTH = 64;
   localparam int RESULT_POSITION_LSB = 0;
@@ -355,7 +361,7 @@ package dtof_registers_pkg;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h118);
+        || (offset >= 12'h040 && offset <= 12'h11c);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);

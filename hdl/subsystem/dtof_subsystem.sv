@@ -122,7 +122,7 @@ module dtof_subsystem #(
   logic [SRAM_NUM-1:0] enable;
   logic [2:0] state;
   logic [LEVEL_WIDTH-1:0] level;
-  logic [31:0] frame_count, frame_cycles;
+  logic [31:0] frame_count, frame_cycles, frame_crc;
 
   dtof_apb_registers #(
       .READOUT         (READOUT),
@@ -198,6 +198,7 @@ module dtof_subsystem #(
       .level_i           (16'(level)),
       .frame_count_i     (frame_count),
       .frame_cycles_i    (frame_cycles),
+      .frame_crc_i       (frame_crc),
       .lost_lines_i      (lost_lines),
       .lost_acquisitions_i(lost_acquisitions),
       .shot_state_i      (shot_state),
@@ -675,6 +676,19 @@ module dtof_subsystem #(
       assign m_axis_tlast_o = word_tlast;
     end
   endgenerate
+
+  dtof_frame_crc #(
+      .WIDTH(M_TDATA_WIDTH)
+  ) u_frame_crc (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_ni),
+      .taken_i  (m_axis_tvalid_o && m_axis_tready_i),
+      .word_i   (m_axis_tdata_o),
+      .first_i  (m_axis_tuser_o),
+      .last_i   (m_axis_tlast_o),
+      .aborted_i(aborted_word),
+      .crc_o    (frame_crc)
+  );
 
   assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o && !aborted_word;
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
