@@ -64,6 +64,7 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->raw_bins = FIELD(values[RAW_BINS], DTOF_RAW_BINS_VALUE);
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
   device->has_prior = FIELD(values[READOUT], DTOF_READOUT_PRIOR) != 0;
+  device->has_parity = FIELD(values[READOUT], DTOF_READOUT_PARITY) != 0;
   device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
   device->rows = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_ROWS);
   device->timestamp_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_TIMESTAMP);
@@ -252,8 +253,9 @@ dtof_status dtof_recover(const dtof_device *device) {
 }
 
 dtof_status dtof_read_state(const dtof_device *device, dtof_state *state) {
-  static const uint32_t offsets[] = {DTOF_STATUS,      DTOF_ERROR,      DTOF_WARNING,
-                                     DTOF_FRAME_COUNT, DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS};
+  static const uint32_t offsets[] = {DTOF_STATUS,       DTOF_ERROR,      DTOF_WARNING,
+                                     DTOF_FRAME_COUNT,  DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS,
+                                     DTOF_PARITY_ERRORS};
   uint32_t values[sizeof offsets / sizeof offsets[0]];
   for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; ++i) {
     dtof_status status = read_register(device, offsets[i], &values[i]);
@@ -269,6 +271,7 @@ dtof_status dtof_read_state(const dtof_device *device, dtof_state *state) {
   state->frames = values[3];
   state->lost_lines = values[4];
   state->lost_acquisitions = values[5];
+  state->parity_errors = values[6];
   return DTOF_OK;
 }
 

@@ -53,6 +53,7 @@ typedef struct {
   bool has_second_target;
   bool has_prior;
   bool has_raw_histogram;
+  bool has_parity;   /* of the words in the subsystem's own memories */
   uint32_t raw_bins; /* of a raw histogram; 0 where there is none */
   uint16_t acquisition_lines;
   uint16_t buffer_lines;
@@ -106,6 +107,7 @@ typedef struct {
   uint32_t frames;     /* since reset, modulo 2^32 */
   uint32_t lost_lines; /* these two since reset, at most 2^32 - 1 */
   uint32_t lost_acquisitions;
+  uint32_t parity_errors; /* likewise; 0 where has_parity is false */
 } dtof_state;
 
 /* One pixel's result. */

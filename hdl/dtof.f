@@ -10,6 +10,7 @@ technology/behavioural/dtof_clock_gate.sv
 technology/behavioural/dtof_sram_1r1w.sv
 technology/behavioural/dtof_sram_1rw.sv
 common/dtof_sram.sv
+common/dtof_parity_sram.sv
 common/dtof_array_errors.sv
 common/dtof_gate_register.sv
 thesis/dtof_pass_sequencer.sv

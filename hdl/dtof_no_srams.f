@@ -5,6 +5,7 @@
 common/dtof_pkg.sv
 subsystem/dtof_registers_pkg.sv
 common/dtof_sram.sv
+common/dtof_parity_sram.sv
 common/dtof_array_errors.sv
 common/dtof_gate_register.sv
 thesis/dtof_pass_sequencer.sv

@@ -18,6 +18,7 @@ module dtof_apb_registers #(
     parameter int HAS_SCHEDULE = 0,
     parameter int TIME_GATE = 0,
     parameter int RASTER_ORDER = 0,
+    parameter int PARITY = 0,
     parameter int SECOND_TARGET = 0,
     parameter int PRIOR = 0,
     parameter int RAW_HISTOGRAM = 0,
@@ -96,6 +97,7 @@ module dtof_apb_registers #(
     input  logic [         31:0] lost_lines_i,
     input  logic [         31:0] lost_acquisitions_i,
     input  logic [         15:0] shot_state_i,
+    input  logic [         31:0] parity_errors_i,
     // events
     input  logic                 frame_i,
     input  logic                 underrun_i,
@@ -107,12 +109,13 @@ module dtof_apb_registers #(
     input  logic                 timeout_i,
     input  logic                 stalled_i,
     input  logic                 flush_ignored_i,
+    input  logic                 parity_error_i,
     input  logic                 aborted_i,
     input  logic                 counter_full_i,
     output logic                 irq_o
 );
 
-  localparam int ERRORS = 8;
+  localparam int ERRORS = 9;
   localparam int WARNINGS = 4;
   localparam int CAUSES = 2;  // of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
@@ -167,6 +170,7 @@ module dtof_apb_registers #(
     error_event[dtof_registers_pkg::ERROR_TIMEOUT_LSB] = timeout_i;
     error_event[dtof_registers_pkg::ERROR_STALLED_LSB] = stalled_i;
     error_event[dtof_registers_pkg::ERROR_FLUSH_IGNORED_LSB] = flush_ignored_i;
+    error_event[dtof_registers_pkg::ERROR_PARITY_LSB] = parity_error_i;
     warning_event = '0;
     warning_event[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB] = counter_full_i;
     warning_event[dtof_registers_pkg::WARNING_ABORTED_LSB] = aborted_i;
@@ -474,6 +478,7 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
         prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
         prdata_o[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
+        prdata_o[dtof_registers_pkg::READOUT_PARITY_LSB] = (PARITY != 0);
         prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
       end
       dtof_registers_pkg::SIZE: begin
@@ -543,6 +548,7 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::SHOT_UNIT_LSB+:8] = shot_unit_q;
       end
       dtof_registers_pkg::SHOT_SEED: prdata_o = 32'(shot_seed_q);
+      dtof_registers_pkg::PARITY_ERRORS: prdata_o = parity_errors_i;
       dtof_registers_pkg::SHOT_STATE: prdata_o = 32'(shot_state_i);
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
       dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end);

@@ -15,7 +15,7 @@
 //    is in is thrown away, up to and with its s_tlast_i; behind flush_i the next line begins an acquisition.
 //
 // Latency: two clocks from a line's acceptance to its offer. A line a clock goes in and out at the same time.
-// Cost: an SRAM of LINES x (WIDTH + 1) bits, two addresses, five counters.
+// Cost: an SRAM of LINES x (WIDTH + 1 + PARITY) bits, two addresses, five counters.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -25,6 +25,7 @@ module dtof_line_buffer #(
     parameter int ACQUISITION_LINES = 320,  // of an acquisition
     parameter int LINES = 324,              // that the memory holds; one more waits at its output
     parameter int WIDTH = 2000,             // bits of a line
+    parameter int PARITY = 0,               // 1: each word of the memory has a parity bit
     localparam int LEVEL_WIDTH = $clog2(LINES + 2)
 ) (
     input  logic                   clk_i,
@@ -50,6 +51,7 @@ module dtof_line_buffer #(
     output logic                   short_o,      // s_tlast_i came before an acquisition's last line
     output logic                   long_o,       // s_tlast_i did not come with it
     output logic [LEVEL_WIDTH-1:0] lost_lines_o, // so many lines of the source are thrown away by themselves
+    output logic                   parity_error_o,      // a line that was read two clocks ago is damaged
     output logic                   lost_acquisition_o,  // the array has taken an acquisition with lines that are missing
     // from the source, AXI4-Stream
     input  logic                   s_tvalid_i,
@@ -141,10 +143,11 @@ module dtof_line_buffer #(
 
   logic [WIDTH-1:0] head;
 
-  dtof_sram #(
-      .PORTS(2),
-      .DEPTH(LINES),
-      .WIDTH(WIDTH + 1)
+  dtof_parity_sram #(
+      .PORTS (2),
+      .DEPTH (LINES),
+      .WIDTH (WIDTH + 1),
+      .PARITY(PARITY)
   ) u_lines (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -153,6 +156,7 @@ module dtof_line_buffer #(
       .read_en_i   (read),
       .read_addr_i (read_address_q),
       .read_data_o ({head_ends, head}),
+      .error_o     (parity_error_o),
       .write_en_i  (write),
       .write_addr_i(write_address_q),
       .write_data_i({ends, s_tdata_i})

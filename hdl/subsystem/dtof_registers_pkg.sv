@@ -42,6 +42,8 @@ package dtof_registers_pkg;
   localparam int READOUT_RAW_HISTOGRAM_WIDTH = 1;
   localparam int READOUT_PRIOR_LSB = 13;
   localparam int READOUT_PRIOR_WIDTH = 1;
+  localparam int READOUT_PARITY_LSB = 14;
+  localparam int READOUT_PARITY_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -176,6 +178,8 @@ package dtof_registers_pkg;
   localparam int ERROR_STALLED_WIDTH = 1;
   localparam int ERROR_FLUSH_IGNORED_LSB = 7;
   localparam int ERROR_FLUSH_IGNORED_WIDTH = 1;
+  localparam int ERROR_PARITY_LSB = 8;
+  localparam int ERROR_PARITY_WIDTH = 1;
 
   // what raises `irq_o`; at once
   localparam logic [11:0] IRQ_ENABLE = 12'h04c;
@@ -332,6 +336,12 @@ package dtof_registers_pkg;
   localparam int FRAME_CRC_VALUE_LSB = 0;
   localparam int FRAME_CRC_VALUE_WIDTH = 32;
 
+  // words with a wrong parity since reset, each time they were read
+  localparam logic [11:0] PARITY_ERRORS = 12'h120;
+  localparam logic [31:0] PARITY_ERRORS_RESET = 32'h00000000;
+  localparam int PARITY_ERRORS_VALUE_LSB = 0;
+  localparam int PARITY_ERRORS_VALUE_WIDTH = 32;
+
   // A result.
   localparam int RESULT_WIDTH = 64;
   localparam int RESULT_POSITION_LSB = 0;
@@ -361,7 +371,7 @@ package dtof_registers_pkg;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h11c);
+        || (offset >= 12'h040 && offset <= 12'h120);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);

@@ -31,6 +31,7 @@ module dtof_subsystem #(
     // Lines that the line buffer holds: at least two. Those of an acquisition and four hold a whole one while it is taken.
     parameter int BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
     parameter int RASTER_ORDER = 0,  // 1: a memory of all results brings them into the order of rows and columns
+    parameter int PARITY = 0,        // 1: the words of the subsystem's own memories have parity bits; the array's have none
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
     localparam int M_TDATA_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
@@ -103,6 +104,7 @@ module dtof_subsystem #(
                 "dtof_subsystem: PIXELS_PER_SRAM times SLOTS must be at most 65535")
   `DTOF_REQUIRE(g_illegal_buffer, BUFFER_LINES >= 2 && BUFFER_LINES <= 65534,
                 "dtof_subsystem: BUFFER_LINES must be 2 to 65534")
+  `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_subsystem: PARITY must be 0 or 1")
 
   // Registers and frames.
 
@@ -114,7 +116,8 @@ module dtof_subsystem #(
   logic [2:0] shot_bits;
   logic [7:0] shot_unit;
   logic shot_reseed;
-  logic [31:0] lost_lines, lost_acquisitions;
+  logic [31:0] lost_lines, lost_acquisitions, parity_errors;
+  logic line_parity_error, raster_parity_error;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
   logic [15:0] release_lines, weak_below;
@@ -129,6 +132,7 @@ module dtof_subsystem #(
       .HAS_SCHEDULE    (POOL),
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
+      .PARITY          (PARITY),
       .SECOND_TARGET   (SECOND_TARGET),
       .PRIOR           (PRIOR),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
@@ -202,6 +206,7 @@ module dtof_subsystem #(
       .lost_lines_i      (lost_lines),
       .lost_acquisitions_i(lost_acquisitions),
       .shot_state_i      (shot_state),
+      .parity_errors_i   (parity_errors),
       .frame_i           (frame),
       .underrun_i        (underrun),
       .start_ignored_i   (start_ignored),
@@ -212,6 +217,7 @@ module dtof_subsystem #(
       .timeout_i         (timeout),
       .stalled_i         (stalled),
       .flush_ignored_i   (flush && !flushes),
+      .parity_error_i    (line_parity_error || raster_parity_error),
       .aborted_i         (aborted),
       .counter_full_i    (counter_full),
       .irq_o             (irq_o)
@@ -296,7 +302,8 @@ module dtof_subsystem #(
   dtof_line_buffer #(
       .ACQUISITION_LINES(ACQUISITION_LINES),
       .LINES            (BUFFER_LINES),
-      .WIDTH            (SRAM_NUM * NP)
+      .WIDTH            (SRAM_NUM * NP),
+      .PARITY           (PARITY)
   ) u_line_buffer (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -319,6 +326,7 @@ module dtof_subsystem #(
       .short_o     (short_acquisition),
       .long_o      (long_acquisition),
       .lost_lines_o(lost),
+      .parity_error_o(line_parity_error),
       .lost_acquisition_o(lost_acquisition),
       .s_tvalid_i  (s_axis_tvalid_i),
       .s_tready_o  (s_axis_tready_o),
@@ -390,6 +398,15 @@ module dtof_subsystem #(
       .rst_ni (rst_ni),
       .step_i (lost_acquisition),
       .count_o(lost_acquisitions)
+  );
+
+  dtof_saturating_counter #(
+      .STEP_WIDTH(2)
+  ) u_parity_errors (
+      .clk_i  (clk_i),
+      .rst_ni (rst_ni),
+      .step_i (2'(line_parity_error) + 2'(raster_parity_error)),
+      .count_o(parity_errors)
   );
 
   generate
@@ -622,12 +639,14 @@ module dtof_subsystem #(
           .SRAM_NUM       (SRAM_NUM),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
           .WIDTH          (KEPT_WIDTH),
+          .PARITY         (PARITY),
           .TARGETS        (TARGETS)
       ) u_raster_buffer (
           .clk_i     (clk_i),
           .rst_ni    (rst_ni),
           .sram_cfg_i(sram_cfg_i),
           .sram_cfg_o(raster_cfg),
+          .parity_error_o(raster_parity_error),
           .cut_i     (abort),
           .s_tvalid_i(word_tvalid),
           .s_tready_o(word_tready),
@@ -669,6 +688,7 @@ module dtof_subsystem #(
       assign output_cut = abort;
       assign aborted_word = word_tdata[dtof_registers_pkg::RESULT_ABORTED_LSB];
       assign raster_cfg = '1;
+      assign raster_parity_error = 1'b0;
       assign word_tready = m_axis_tready_i;
       assign m_axis_tvalid_o = word_tvalid;
       assign m_axis_tdata_o = word_tdata;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dtof/core/random.hpp"
+#include "rtl/sram.hpp"
 #include "subsystem/axi_stream.hpp"
 #include "subsystem/register_bus.hpp"
 #include "subsystem/registry.hpp"
@@ -47,6 +48,8 @@ class SubsystemBench {
   [[nodiscard]] const std::vector<ArrayFrame>& frames() const { return frames_; }
   [[nodiscard]] SubsystemEvents& events() { return reference_.events(); }
   [[nodiscard]] const StreamReference& reference() const { return reference_; }
+  /// Its SRAMs; none unless it was built with WRITABLE_SRAMS.
+  [[nodiscard]] std::vector<RtlSram> srams() { return find_srams(*context_); }
   /// shot_o of the last clock.
   [[nodiscard]] bool shot() const { return shot_; }
   [[nodiscard]] const ShotReference& shot_reference() const { return shot_reference_; }

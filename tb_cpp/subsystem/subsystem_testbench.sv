@@ -9,7 +9,8 @@ module subsystem_testbench #(
     parameter AXI_LITE = 0,
 `include "dtof_subsystem_declarations.svh"
     parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
-    parameter RASTER_ORDER = 0
+    parameter RASTER_ORDER = 0,
+    parameter PARITY = 0
 ) (
     input  logic         clk_i,
     input  logic         rst_ni,
@@ -121,6 +122,7 @@ module subsystem_testbench #(
       .READOUT(READOUT),
       .BUFFER_LINES(BUFFER_LINES),
       .RASTER_ORDER(RASTER_ORDER),
+      .PARITY(PARITY),
 `include "dtof_subsystem_parameters.svh"
   ) u_subsystem (
       .clk_i,

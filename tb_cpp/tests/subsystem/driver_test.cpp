@@ -47,6 +47,7 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_second_target, configuration.parameters.pool.second_target);
   EXPECT_EQ(device_.has_prior, configuration.parameters.pool.prior);
   EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
+  EXPECT_EQ(device_.has_parity, (bench_.get(DTOF_READOUT) & DTOF_READOUT_PARITY_MASK) != 0);
   EXPECT_EQ(device_.has_raster_order, (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0);
   EXPECT_EQ(device_.count_width, configuration.parameters.count_width);
   EXPECT_EQ(device_.nb, configuration.parameters.nb);

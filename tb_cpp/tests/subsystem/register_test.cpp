@@ -179,14 +179,14 @@ TEST_P(Subsystem, ReadsBehindAResetWhatTheMapsSay) {
 }
 
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x120U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x124U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }
   for (const std::uint32_t offset :
        {DTOF_ID, DTOF_VERSION, DTOF_SIZE, DTOF_HISTOGRAM, DTOF_POINTER, DTOF_POOL, DTOF_ENGINES, DTOF_SHARES,
         DTOF_STATUS, DTOF_FRAME_COUNT, DTOF_FRAME_CYCLES, DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS,
-        DTOF_SHOT_STATE, DTOF_FRAME_CRC}) {
+        DTOF_SHOT_STATE, DTOF_FRAME_CRC, DTOF_PARITY_ERRORS}) {
     const std::uint32_t value = bench_.get(offset);
     EXPECT_TRUE(bench_.write(offset, ~value).error) << offset;
     EXPECT_EQ(bench_.get(offset), value) << offset;
