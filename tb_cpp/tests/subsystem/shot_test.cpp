@@ -185,6 +185,10 @@ TEST_P(Shots, HaveAConstantPaceWithoutDelays) {
       // The first acquisition falls anywhere on the array's raster of SLOTS clocks, the others alike.
       EXPECT_EQ(std::ranges::count(found, found.back()), found.front() == found.back() ? 39 : 38);
       EXPECT_LE(found.back() - found.front(), 1U);
+      // From shot to first line, the lines, and four clocks, on the raster (integration.md, How fast).
+      const auto slots = static_cast<std::uint64_t>(bench_.configuration().parameters.slots);
+      const std::uint64_t clocks = sensor_.latency + 1 + bench_.acquisition_lines() + 4;
+      EXPECT_EQ(found.back(), (clocks + slots - 1) / slots * slots);
     }
     EXPECT_EQ(bench_.get(DTOF_SHOT_STATE), state) << "without bits no delay is drawn before this frame";
   }
