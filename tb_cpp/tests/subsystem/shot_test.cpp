@@ -261,6 +261,47 @@ TEST_P(Shots, HaveTheDelaysOfThePhotonModel) {
   }
 }
 
+// A sensor that delivers while it measures the next acquisition hides delays behind its lines, another one
+// pays for them.
+TEST_P(Shots, CostNothingWhereTheyHideBehindLines) {
+  constexpr std::uint64_t kUnit = 2;  // a multiple of the array's raster
+  constexpr std::uint32_t kBits = 2;
+  const std::uint64_t lines = bench_.acquisition_lines();
+  if (bench_.configuration().parameters.slots != 2 || lines < 14 || !holds_an_acquisition()) {
+    return;  // too short to hide six clocks behind a request
+  }
+  CounterRandom random = this->random(57);
+  sensor_.latency = 0;
+  const auto clocks = [&](std::uint32_t release, std::uint32_t bits) {
+    const FrameSettings settings = this->settings(20);
+    write_settings(bench_, settings);
+    bench_.set(DTOF_RELEASE, release);
+    bench_.set(DTOF_SHOT, shot_register(bits, kUnit));
+    bench_.set(DTOF_SHOT_SEED, 1234);
+    const std::vector<Line> taken = make_lines(bench_.configuration(), settings.acquisitions, random);
+    load(taken);
+    start();
+    clock_until_idle(random);
+    EXPECT_EQ(bench_.frames().back().shots.size(), settings.acquisitions);
+    EXPECT_EQ(bench_.frames().back().lines, taken);
+    return bench_.frames().back().cycles;
+  };
+  const std::uint64_t hidden = clocks(1, 0);
+  EXPECT_EQ(clocks(1, kBits), hidden);
+  const auto all = static_cast<std::uint32_t>(lines);
+  const std::uint64_t whole = clocks(all, 0);
+  EXPECT_GT(whole, hidden);
+  double delays = 0.0;
+  for (const double delay : FiringOffsets{.bits = kBits, .step_s = kUnit, .seed = 1234}.delays(20)) {
+    delays += delay;
+  }
+  // The array's pauses, between phases and behind an acquisition, hide some of them even then.
+  const std::uint64_t delayed = clocks(all, kBits);
+  EXPECT_GT(delayed, whole);
+  EXPECT_LE(delayed, whole + static_cast<std::uint64_t>(delays));
+  EXPECT_EQ(bench_.get(DTOF_ERROR), 0U) << "no line was late";
+}
+
 TEST_P(Shots, EndWithTheirFrame) {
   CounterRandom random = this->random(54);
   std::size_t timeouts = 0;
