@@ -148,7 +148,7 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     ASSERT_EQ(dtof_check_frame(&device_, words.data(), words.size(), &checked), DTOF_OK);
     EXPECT_EQ(checked, frame + 1);
     std::vector<std::uint64_t> damaged = words;
-    damaged[random() % damaged.size()] ^= std::uint64_t{1} << (random() % 64);
+    damaged[random() % damaged.size()] ^= std::uint64_t{1} << (random() % DTOF_RESULT_ABORTED_LSB);
     EXPECT_EQ(dtof_check_frame(&device_, damaged.data(), damaged.size(), &checked), DTOF_CORRUPT);
     EXPECT_EQ(dtof_check_frame(&device_, words.data() + 1, words.size() - 1, &checked), DTOF_CORRUPT);
     EXPECT_EQ(dtof_check_frame(&device_, words.data(), words.size() - 1, &checked), DTOF_CORRUPT);
