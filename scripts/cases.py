@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import case_tools as tools
-from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, run, shell, succeed
+from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, run, shell, succeed, with_shot
 
 CASES = ROOT.parent / "shared" / "cases"
 HDL = ROOT / "hdl"
@@ -312,18 +312,9 @@ def sensor_wide(case: Case) -> None:
 # RTL in designs of others.
 
 
-def soc(case: Case) -> Path:
-    """The case's chip, whose subsystem has the port that came later: without it Verilator says PINMISSING, as of any output."""
-    text = (case.folder / "soc.sv").read_text(encoding="utf-8")
-    require(text.count(".irq_o(irq),") == 1 and "shot_o" not in text, "soc.sv connects irq_o otherwise, or shot_o")
-    path = case.work / "soc.sv"
-    path.write_text(text.replace(".irq_o(irq),", ".irq_o(irq), .shot_o(),"), encoding="utf-8")
-    return path
-
-
 @rule
 def module_names(case: Case) -> None:
-    own = [case.folder / "own_line_buffer.sv", soc(case)]
+    own = [case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work)]
     for files in (["-f", "dtof.f", *own], [*own, "-f", "dtof.f"]):
         # One of the two files of the case has a `timescale: Verilator would complain about the other.
         done = run("verilator", "--lint-only", "-Wno-TIMESCALEMOD", *files, "--top-module", "soc", folder=HDL)
@@ -333,7 +324,7 @@ def module_names(case: Case) -> None:
 
 @rule
 def timescale(case: Case) -> None:
-    chip = soc(case)
+    chip = with_shot(case.folder / "soc.sv", case.work)
     for files in (["-f", "dtof.f", chip], [chip, "-f", "dtof.f"]):
         succeed(run("verilator", "--lint-only", *files, "--top-module", "soc", folder=HDL))
     bench = ["-f", "dtof.f", ROOT / "examples" / "example_bench.sv", "--top-module", "example_bench"]
