@@ -86,7 +86,7 @@ function(dtof_rtl_models library)
 endfunction()
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;NO_WAVEFORM;SUBSYSTEM" "READOUT;TARGET;BUFFER_LINES;RASTER_ORDER;AXI_LITE;${DTOF_PARAMETERS}" ""
+  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;NO_WAVEFORM;SUBSYSTEM" "READOUT;TARGET;BUFFER_LINES;RASTER_ORDER;AXI_LITE;PARITY;${DTOF_PARAMETERS}" ""
     ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
@@ -103,7 +103,7 @@ function(dtof_verilate name)
     set(top subsystem_testbench)
     set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_dtof_pool_pointer2_array} COARSE_SHARE TRACK_SHARE)
     set(overrides -GREADOUT=${DTOF_SUBSYSTEM_NUMBER_${P_READOUT}})
-    foreach(parameter BUFFER_LINES RASTER_ORDER AXI_LITE)
+    foreach(parameter BUFFER_LINES RASTER_ORDER AXI_LITE PARITY)
       if(DEFINED P_${parameter})
         list(APPEND overrides -G${parameter}=${P_${parameter}})
       endif()

@@ -64,6 +64,7 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->raw_bins = FIELD(values[RAW_BINS], DTOF_RAW_BINS_VALUE);
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
   device->has_prior = FIELD(values[READOUT], DTOF_READOUT_PRIOR) != 0;
+  device->has_parity = FIELD(values[READOUT], DTOF_READOUT_PARITY) != 0;
   device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
   device->rows = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_ROWS);
   device->timestamp_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_TIMESTAMP);
@@ -99,6 +100,7 @@ dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisit
   settings.track_share = device->track_share;
   settings.smooth = true;
   settings.gate_end = (uint16_t)((UINT32_C(1) << device->timestamp_bits) - 1U);
+  settings.shot_unit = 1;
   return settings;
 }
 
@@ -110,6 +112,7 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
 
   if (settings->acquisitions >> device->acquisition_bits != 0 || release > most_lines(device) ||
       settings->weak_below > confidences ||
+      settings->shot_bits > (DTOF_SHOT_BITS_MASK >> DTOF_SHOT_BITS_LSB) ||
       (device->has_gate && (settings->gate_begin > codes || settings->gate_end > codes)) ||
       (device->has_schedule && shares > WHOLE_FRAME) ||
       (settings->second_target && !device->has_second_target) || (settings->prior && !device->has_prior) ||
@@ -132,6 +135,10 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
        device->has_gate},
       {DTOF_RELEASE, release, true},
       {DTOF_WEAK_BELOW, settings->weak_below, true},
+      {DTOF_SHOT,
+       (uint32_t)settings->shot_bits << DTOF_SHOT_BITS_LSB | (uint32_t)settings->shot_unit
+                                                                 << DTOF_SHOT_UNIT_LSB,
+       true},
       {DTOF_OUTPUT,
        (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
            (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) |
@@ -175,6 +182,24 @@ dtof_status dtof_commit(const dtof_device *device) {
 
 dtof_status dtof_set_watchdog(const dtof_device *device, uint32_t clocks) {
   return clocks > DTOF_WATCHDOG_CLOCKS_MASK ? DTOF_ARGUMENT : write_register(device, DTOF_WATCHDOG, clocks);
+}
+
+dtof_status dtof_seed_shots(const dtof_device *device, uint32_t seed) {
+  return seed == 0 || seed > DTOF_SHOT_SEED_VALUE_MASK ? DTOF_ARGUMENT
+                                                       : write_register(device, DTOF_SHOT_SEED, seed);
+}
+
+uint32_t dtof_shot_seed(uint32_t serial_number) {
+  /* MurmurHash3's last step, which maps different numbers to different ones; the upper half of them. */
+  uint32_t mixed = serial_number;
+  mixed = (mixed ^ mixed >> 16) * UINT32_C(0x85EBCA6B);
+  mixed = (mixed ^ mixed >> 13) * UINT32_C(0xC2B2AE35);
+  mixed = (mixed ^ mixed >> 16) >> 16;
+  return mixed == 0 ? 1U : mixed;
+}
+
+dtof_status dtof_read_shot_state(const dtof_device *device, uint32_t *state) {
+  return read_register(device, DTOF_SHOT_STATE, state);
 }
 
 dtof_status dtof_enable_interrupts(const dtof_device *device, bool frame, bool error) {
@@ -228,8 +253,9 @@ dtof_status dtof_recover(const dtof_device *device) {
 }
 
 dtof_status dtof_read_state(const dtof_device *device, dtof_state *state) {
-  static const uint32_t offsets[] = {DTOF_STATUS,      DTOF_ERROR,      DTOF_WARNING,
-                                     DTOF_FRAME_COUNT, DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS};
+  static const uint32_t offsets[] = {DTOF_STATUS,       DTOF_ERROR,      DTOF_WARNING,
+                                     DTOF_FRAME_COUNT,  DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS,
+                                     DTOF_PARITY_ERRORS};
   uint32_t values[sizeof offsets / sizeof offsets[0]];
   for (size_t i = 0; i < sizeof offsets / sizeof offsets[0]; ++i) {
     dtof_status status = read_register(device, offsets[i], &values[i]);
@@ -245,6 +271,7 @@ dtof_status dtof_read_state(const dtof_device *device, dtof_state *state) {
   state->frames = values[3];
   state->lost_lines = values[4];
   state->lost_acquisitions = values[5];
+  state->parity_errors = values[6];
   return DTOF_OK;
 }
 
@@ -406,4 +433,43 @@ double dtof_distance_mm(const dtof_device *device, const dtof_result *result, co
 double dtof_time_of_flight_mm(const dtof_device *device, const dtof_result *result, double code_ps,
                               double fwhm_ps) {
   return LIGHT_MM_PER_PS / 2.0 * (code_ps * (code_of(device, result) + 0.5) - fwhm_ps);
+}
+
+uint32_t dtof_crc(const uint64_t *words, size_t count) {
+  /* By halves of a byte: what four bits add to the remainder. */
+  static const uint32_t halves[] = {
+      UINT32_C(0x00000000), UINT32_C(0x1DB71064), UINT32_C(0x3B6E20C8), UINT32_C(0x26D930AC),
+      UINT32_C(0x76DC4190), UINT32_C(0x6B6B51F4), UINT32_C(0x4DB26158), UINT32_C(0x5005713C),
+      UINT32_C(0xEDB88320), UINT32_C(0xF00F9344), UINT32_C(0xD6D6A3E8), UINT32_C(0xCB61B38C),
+      UINT32_C(0x9B64C2B0), UINT32_C(0x86D3D2D4), UINT32_C(0xA00AE278), UINT32_C(0xBDBDF21C)};
+  uint32_t crc = UINT32_MAX;
+  for (size_t i = 0; i < count; ++i) {
+    for (unsigned bit = 0; bit < 64U; bit += 4U) {
+      crc = crc >> 4 ^ halves[(crc ^ (uint32_t)(words[i] >> bit)) & 15U];
+    }
+  }
+  return ~crc;
+}
+
+dtof_status dtof_check_frame(const dtof_device *device, const uint64_t *words, size_t count,
+                             uint32_t *frame) {
+  uint32_t crc = 0;
+  uint32_t later = 0;
+  if (count > 0 && FIELD(words[count - 1], DTOF_RESULT_ABORTED) != 0) {
+    return DTOF_ABORTED;
+  }
+  dtof_status status = read_register(device, DTOF_FRAME_COUNT, frame);
+  if (status == DTOF_OK) {
+    status = read_register(device, DTOF_FRAME_CRC, &crc);
+  }
+  if (status == DTOF_OK) {
+    status = read_register(device, DTOF_FRAME_COUNT, &later);
+  }
+  if (status != DTOF_OK) {
+    return status;
+  }
+  if (later != *frame) {
+    return DTOF_BUSY;
+  }
+  return crc == dtof_crc(words, count) ? DTOF_OK : DTOF_CORRUPT;
 }

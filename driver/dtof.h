@@ -25,7 +25,8 @@ typedef enum {
   DTOF_ARGUMENT = -4,        /* a value that the hardware cannot take */
   DTOF_BUSY = -5,            /* a frame is under way */
   DTOF_STREAM = -6,          /* a result's row or column is not the array's */
-  DTOF_ABORTED = -7          /* the frame was aborted: its words end here */
+  DTOF_ABORTED = -7,         /* the frame was aborted: its words end here */
+  DTOF_CORRUPT = -8          /* the words are not those that were sent */
 } dtof_status;
 
 /* How registers are reached. Both return false if the access failed; `offset` is in bytes. */
@@ -52,6 +53,7 @@ typedef struct {
   bool has_second_target;
   bool has_prior;
   bool has_raw_histogram;
+  bool has_parity;   /* of the words in the subsystem's own memories */
   uint32_t raw_bins; /* of a raw histogram; 0 where there is none */
   uint16_t acquisition_lines;
   uint16_t buffer_lines;
@@ -90,7 +92,9 @@ typedef struct {
   bool raw; /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
   uint16_t raw_first_row;
   uint16_t raw_last_row;
-  uint16_t release; /* lines in the buffer before an acquisition begins; 0: as many as possible */
+  uint16_t release;  /* lines in the buffer before an acquisition begins; 0: as many as possible */
+  uint8_t shot_bits; /* start dither: shot_o waits 0 to 2^shot_bits - 1 units, at most 7; 0: no wait */
+  uint8_t shot_unit; /* clocks of a unit */
 } dtof_settings;
 
 /* What goes on, and what went wrong; nothing is forgotten by reading. */
@@ -103,6 +107,7 @@ typedef struct {
   uint32_t frames;     /* since reset, modulo 2^32 */
   uint32_t lost_lines; /* these two since reset, at most 2^32 - 1 */
   uint32_t lost_acquisitions;
+  uint32_t parity_errors; /* likewise; 0 where has_parity is false */
 } dtof_state;
 
 /* One pixel's result. */
@@ -145,6 +150,17 @@ dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask)
 /* Makes all settings that were written valid together, for every frame that begins from now on; for
  * continuous mode. */
 dtof_status dtof_commit(const dtof_device *device);
+
+/* Begins the sequence of start dither's delays at `seed`, at once; 1 to 65535, another one in each sensor, or
+ * their delays are the same. DTOF_ARGUMENT for others. */
+dtof_status dtof_seed_shots(const dtof_device *device, uint32_t seed);
+
+/* A seed for the sensor with this serial number: neighbouring numbers give seeds that are far apart. */
+uint32_t dtof_shot_seed(uint32_t serial_number);
+
+/* From which state the delays of the frame follow that began last: the seed of the same sequence in the
+ * models. */
+dtof_status dtof_read_shot_state(const dtof_device *device, uint32_t *state);
 
 /* How many clocks a frame waits for a line before the rest of it counts as no detection, at once; 0: for
  * ever. DTOF_ARGUMENT above 2^24 - 1, which is the value at reset. */
@@ -205,6 +221,16 @@ dtof_status dtof_unpack_frame(const dtof_device *device, const uint64_t *words, 
  * are not that. */
 dtof_status dtof_unpack_raw(const dtof_device *device, uint16_t first_row, uint16_t last_row,
                             const uint64_t *words, size_t count, dtof_result *bins);
+
+/* CRC-32 of IEEE 802.3 over the words, the lowest byte of each first: what the hardware computes of a frame.
+ */
+uint32_t dtof_crc(const uint64_t *words, size_t count);
+
+/* Compares the words of the frame that ended last with its checksum, once its last word was taken:
+ * DTOF_CORRUPT if a word was lost, changed or moved, DTOF_ABORTED for the words of a frame that was aborted.
+ * `frame` is its number since reset, 1 the first, modulo 2^32. In continuous mode call it before the next
+ * frame ends; DTOF_BUSY if one ends meanwhile. */
+dtof_status dtof_check_frame(const dtof_device *device, const uint64_t *words, size_t count, uint32_t *frame);
 
 /* The second target as a result of its own; has_second must be true. */
 dtof_result dtof_second(const dtof_result *result);

@@ -44,6 +44,7 @@ module example_bench #(
   logic result_ready = 1'b0;
   logic [63:0] result;
   logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] unused_sram_cfg;
+  logic unused_shot;
 
   dtof_subsystem #(
       .READOUT        (READOUT),
@@ -68,6 +69,7 @@ module example_bench #(
       .prdata_o       (prdata),
       .pslverr_o      (pslverr),
       .irq_o          (irq),
+      .shot_o         (unused_shot),  // the source fires by itself
       .s_axis_tvalid_i(line_valid),
       .s_axis_tready_o(line_ready),
       .s_axis_tdata_i (line),

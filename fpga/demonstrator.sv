@@ -111,6 +111,7 @@ module demonstrator #(
   logic [63:0] result_tdata;
   logic [31:0] prdata;
   logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] unused_sram_cfg;
+  logic unused_shot;
 
   dtof_subsystem #(
       .READOUT        (READOUT),
@@ -134,6 +135,7 @@ module demonstrator #(
       .prdata_o       (prdata),
       .pslverr_o      (pslverr),
       .irq_o          (irq),
+      .shot_o         (unused_shot),  // the source fires by itself
       .s_axis_tvalid_i(line_tvalid),
       .s_axis_tready_o(line_tready),
       .s_axis_tdata_i (line_tdata),

@@ -10,6 +10,7 @@ technology/behavioural/dtof_clock_gate.sv
 technology/behavioural/dtof_sram_1r1w.sv
 technology/behavioural/dtof_sram_1rw.sv
 common/dtof_sram.sv
+common/dtof_parity_sram.sv
 common/dtof_array_errors.sv
 common/dtof_gate_register.sv
 thesis/dtof_pass_sequencer.sv
@@ -69,6 +70,8 @@ pool/dtof_pool_pointer2_array.sv
 subsystem/dtof_line_buffer.sv
 subsystem/dtof_watchdog.sv
 subsystem/dtof_saturating_counter.sv
+subsystem/dtof_shot_dither.sv
+subsystem/dtof_frame_crc.sv
 subsystem/dtof_array_reset.sv
 subsystem/dtof_line_filter.sv
 subsystem/dtof_target_words.sv

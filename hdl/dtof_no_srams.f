@@ -5,6 +5,7 @@
 common/dtof_pkg.sv
 subsystem/dtof_registers_pkg.sv
 common/dtof_sram.sv
+common/dtof_parity_sram.sv
 common/dtof_array_errors.sv
 common/dtof_gate_register.sv
 thesis/dtof_pass_sequencer.sv
@@ -62,6 +63,8 @@ pool/dtof_pool_pointer2_array.sv
 subsystem/dtof_line_buffer.sv
 subsystem/dtof_watchdog.sv
 subsystem/dtof_saturating_counter.sv
+subsystem/dtof_shot_dither.sv
+subsystem/dtof_frame_crc.sv
 subsystem/dtof_array_reset.sv
 subsystem/dtof_line_filter.sv
 subsystem/dtof_target_words.sv

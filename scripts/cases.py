@@ -22,7 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import case_tools as tools
-from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, run, shell, succeed
+from case_tools import DTOF, ROOT, CaseError, depth_map, refused, require, require_depths, run, shell, succeed, with_shot
 
 CASES = ROOT.parent / "shared" / "cases"
 HDL = ROOT / "hdl"
@@ -314,7 +314,7 @@ def sensor_wide(case: Case) -> None:
 
 @rule
 def module_names(case: Case) -> None:
-    own = [case.folder / "own_line_buffer.sv", case.folder / "soc.sv"]
+    own = [case.folder / "own_line_buffer.sv", with_shot(case.folder / "soc.sv", case.work)]
     for files in (["-f", "dtof.f", *own], [*own, "-f", "dtof.f"]):
         # One of the two files of the case has a `timescale: Verilator would complain about the other.
         done = run("verilator", "--lint-only", "-Wno-TIMESCALEMOD", *files, "--top-module", "soc", folder=HDL)
@@ -324,7 +324,8 @@ def module_names(case: Case) -> None:
 
 @rule
 def timescale(case: Case) -> None:
-    for files in (["-f", "dtof.f", case.folder / "soc.sv"], [case.folder / "soc.sv", "-f", "dtof.f"]):
+    chip = with_shot(case.folder / "soc.sv", case.work)
+    for files in (["-f", "dtof.f", chip], [chip, "-f", "dtof.f"]):
         succeed(run("verilator", "--lint-only", *files, "--top-module", "soc", folder=HDL))
     bench = ["-f", "dtof.f", ROOT / "examples" / "example_bench.sv", "--top-module", "example_bench"]
     done = run("verilator", "--lint-only", "--timing", *bench, folder=HDL)

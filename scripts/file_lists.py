@@ -18,6 +18,7 @@ READOUT = "dtof_pkg::READOUT_*: {}"
 SUBSYSTEM = {
     "BUFFER_LINES": "lines that the line buffer holds",
     "RASTER_ORDER": "1: results come row by row, for a memory of all of them",
+    "PARITY": "1: words of the line buffer and of the memory for RASTER_ORDER have parity bits",
 }
 BENCH = {"ACQUISITIONS": "of the example's frame"}
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
 """Writes the lists of read-outs, parameters and RTL files that SystemVerilog, C++, CMake, FuseSoC, Bender and docs/user/configuration.md
-need, from readouts.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C and the page on integration, from
+need, from readouts.toml and hdl/dtof.f, and the registers of dtof_subsystem for RTL, C, others' tools and the page on integration, from
 hdl/subsystem/registers.toml, and the table of studies in docs/user/commands.md, from studies.toml. --check only says which are stale."""
 
 import ast
@@ -14,6 +14,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "synth"))
 
 import file_lists  # noqa: E402
+import register_maps  # noqa: E402
 import registers  # noqa: E402
 from dtof_synth.errors import FlowError  # noqa: E402
 from dtof_synth.readouts import Expression, Readout, Table, Top, evaluate, load  # noqa: E402
@@ -514,6 +515,7 @@ def main() -> int:
             **all_connections(table),
             "hdl/subsystem/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),
+            **register_maps.files(whole),
             INTEGRATION: registers.page(current[INTEGRATION], whole),
             COMMANDS: studies_table(current[COMMANDS]),
         }

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """hdl/subsystem/registers.toml: the registers of dtof_subsystem and its result word, as the constants of the RTL, a C
-header and tables of Markdown. scripts/generate.py writes them."""
+header and tables of Markdown. scripts/generate.py writes them; register_maps.py has the formats of others' tools."""
 
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from dtof_synth.errors import FlowError
@@ -16,6 +16,7 @@ WRITTEN = "Written by scripts/generate.py from hdl/subsystem/registers.toml."
 ACCESS = {"constant": "read", "status": "read", "setting": "read, write", "command": "write 1",
           "sticky": "read, write 1 clears"}  # fmt: skip
 READ_ONLY = ("constant", "status")
+BY_PARAMETERS = "parameters"  # a reset value that they decide
 REGISTER_BITS, RESULT_BITS, ADDRESS_BITS = 32, 64, 12
 
 
@@ -25,6 +26,7 @@ class Field:
     bits: list[int]  # lowest, highest
     help: str
     access: str = ""
+    reset: int | str | None = None  # as given
 
     @property
     def lowest(self) -> int:
@@ -33,6 +35,17 @@ class Field:
     @property
     def width(self) -> int:
         return self.bits[1] - self.bits[0] + 1
+
+    @property
+    def mask(self) -> int:
+        return ((1 << self.width) - 1) << self.lowest
+
+    @property
+    def reset_value(self) -> int | None:
+        """What it reads behind a reset; None where the parameters decide."""
+        if isinstance(self.reset, int):
+            return self.reset
+        return None if self.reset == BY_PARAMETERS or self.access == "constant" else 0
 
     @property
     def place(self) -> str:
@@ -54,6 +67,15 @@ class Register:
     @property
     def writable(self) -> bool:
         return any(field.access not in READ_ONLY for field in self.fields)
+
+    @property
+    def reset_mask(self) -> int:
+        """Bits whose value behind a reset is the same for all parameters. Those without a field read as 0."""
+        return ((1 << REGISTER_BITS) - 1) & ~sum(field.mask for field in self.fields if field.reset_value is None)
+
+    @property
+    def reset_value(self) -> int:
+        return sum((field.reset_value or 0) << field.lowest for field in self.fields)
 
     @property
     def place(self) -> str:
@@ -82,6 +104,8 @@ def checked_fields(where: str, entries: dict, bits: int, access: bool) -> list[F
         taken |= mine
         if access != (field.access in ACCESS):
             raise FlowError(f"{place}: access must be one of {', '.join(ACCESS)}" if access else f"{place}: has no access")
+        if not (field.reset in (None, BY_PARAMETERS) if not isinstance(field.reset, int) else 0 <= field.reset < 1 << field.width):
+            raise FlowError(f"{place}: reset must be a number of its bits, or '{BY_PARAMETERS}'")
         if field.access in ("command", "sticky") and field.width != 1:
             raise FlowError(f"{place}: a {field.access} has one bit")
     return fields
@@ -96,6 +120,9 @@ def parse(text: str) -> Map:
             fields = checked_fields(f"{where}: {name}", entry.pop("fields"), REGISTER_BITS, access=True)
             registers.append(Register(name, fields=fields, **entry))
         result = checked_fields(f"{where}: result", table["result"], RESULT_BITS, access=False)
+        known = {"ID": {"VALUE": table["id"]}, "VERSION": {"MAJOR": table["major"], "MINOR": table["minor"]}}
+        registers = [replace(register, fields=[replace(field, reset=known.get(register.name, {}).get(field.name, field.reset))
+                                               for field in register.fields]) for register in registers]
         whole = Map(table["id"], table["major"], table["minor"], registers, result)
     except (tomllib.TOMLDecodeError, KeyError, TypeError) as error:
         raise FlowError(f"{where}: {error}") from None
@@ -130,7 +157,8 @@ def systemverilog(whole: Map) -> str:
     lines = [
         "// SPDX-License-Identifier: Apache-2.0",
         f"// {WRITTEN}",
-        "// Offsets of the registers, and of each field the lowest bit and the number of bits.",
+        "// Offsets of the registers, their values behind a reset (0 where the parameters decide), and for each field its lowest bit and",
+        "// its number of bits.",
         "",
         "// verilator lint_off TIMESCALEMOD",
         "`default_nettype none",
@@ -144,6 +172,7 @@ def systemverilog(whole: Map) -> str:
         lines += ["", f"  // {register.help}", f"  localparam logic [11:0] {register.name} = 12'h{register.offset:03x};"]
         if register.number > 1:
             lines.append(f"  localparam int {register.name}_NUMBER = {register.number};")
+        lines.append(f"  localparam logic [31:0] {register.name}_RESET = 32'h{register.reset_value:08x};")
         for field in register.fields:
             lines.append(f"  localparam int {register.name}_{field.name}_LSB = {field.lowest};")
             lines.append(f"  localparam int {register.name}_{field.name}_WIDTH = {field.width};")
@@ -182,6 +211,12 @@ def c_header(whole: Map) -> str:
             lines.append(f"#define DTOF_{register.name}_NUMBER {register.number}")
         for field in register.fields:
             lines += field_lines(f"DTOF_{register.name}", field, REGISTER_BITS)
+    lines += ["", "/* X(offset, registers, value behind a reset, bits of it that no parameter decides) for each of them. */",
+              "#define DTOF_FOR_EACH_REGISTER(X) \\"]  # fmt: skip
+    for register in whole.registers:
+        end = "" if register is whole.registers[-1] else " \\"
+        lines.append(f"  X(DTOF_{register.name}, {register.number}, UINT32_C(0x{register.reset_value:08X}), "
+                     f"UINT32_C(0x{register.reset_mask:08X})){end}")
     lines += ["", "/* A result: a word of 64 bits. */"]
     for field in whole.result:
         lines += field_lines("DTOF_RESULT", field, RESULT_BITS)

@@ -4,8 +4,8 @@
 // A transfer takes the two clocks of APB, without wait states. pslverr_o answers an offset without a register, a write to a
 // register of which nothing can be written in this configuration, and a write of 1 to a bit of a setting or command that this
 // configuration does not have; none of them does anything. pstrb_i chooses bytes, pprot is not looked at.
-// Settings are written one by one and become valid together, with COMMIT or START; those of CONTROL, IRQ_ENABLE and WATCHDOG
-// are valid at once. An event that comes in the clock in which its bit is cleared stays visible.
+// Settings are written one by one and become valid together, with COMMIT or START; those of CONTROL, IRQ_ENABLE, WATCHDOG and
+// SHOT_SEED are valid at once. An event that comes in the clock in which its bit is cleared stays visible.
 // Latency: a command is a pulse in the clock behind its write.
 // Cost: the settings' flip-flops, twice, SRAM_NUM of them for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
@@ -18,6 +18,7 @@ module dtof_apb_registers #(
     parameter int HAS_SCHEDULE = 0,
     parameter int TIME_GATE = 0,
     parameter int RASTER_ORDER = 0,
+    parameter int PARITY = 0,
     parameter int SECOND_TARGET = 0,
     parameter int PRIOR = 0,
     parameter int RAW_HISTOGRAM = 0,
@@ -67,6 +68,8 @@ module dtof_apb_registers #(
     output logic                 abort_o,
     output logic                 continuous_o,
     output logic [         23:0] watchdog_o,
+    output logic [         15:0] shot_seed_o,
+    output logic                 shot_reseed_o,  // in the clock behind a write of SHOT_SEED
     // those that were committed
     output logic                 second_o,       // 0 without SECOND_TARGET
     output logic                 raw_o,          // these three are 0 without RAW_HISTOGRAM
@@ -82,14 +85,19 @@ module dtof_apb_registers #(
     output logic [         15:0] release_o,
     output logic [         15:0] weak_below_o,
     output logic [ SRAM_NUM-1:0] enable_o,
+    output logic [          2:0] shot_bits_o,
+    output logic [          7:0] shot_unit_o,
     // status
     input  logic                 busy_i,
     input  logic [          2:0] state_i,
     input  logic [         15:0] level_i,
     input  logic [         31:0] frame_count_i,
     input  logic [         31:0] frame_cycles_i,
+    input  logic [         31:0] frame_crc_i,
     input  logic [         31:0] lost_lines_i,
     input  logic [         31:0] lost_acquisitions_i,
+    input  logic [         15:0] shot_state_i,
+    input  logic [         31:0] parity_errors_i,
     // events
     input  logic                 frame_i,
     input  logic                 underrun_i,
@@ -101,12 +109,13 @@ module dtof_apb_registers #(
     input  logic                 timeout_i,
     input  logic                 stalled_i,
     input  logic                 flush_ignored_i,
+    input  logic                 parity_error_i,
     input  logic                 aborted_i,
     input  logic                 counter_full_i,
     output logic                 irq_o
 );
 
-  localparam int ERRORS = 8;
+  localparam int ERRORS = 9;
   localparam int WARNINGS = 4;
   localparam int CAUSES = 2;  // of an interrupt
   localparam int WEAK_WIDTH = dtof_pkg::min_of(CONFIDENCE_WIDTH + 1, 16);
@@ -145,6 +154,10 @@ module dtof_apb_registers #(
   logic [ACQ_WIDTH-1:0] acquisitions_q;
   logic [15:0] release_q;
   logic [WEAK_WIDTH-1:0] weak_below_q;
+  logic [2:0] shot_bits_q;
+  logic [7:0] shot_unit_q;
+  logic [15:0] shot_seed_q;
+  logic shot_reseed_q;
   logic [SRAM_NUM-1:0] enable_q;
 
   always_comb begin
@@ -157,6 +170,7 @@ module dtof_apb_registers #(
     error_event[dtof_registers_pkg::ERROR_TIMEOUT_LSB] = timeout_i;
     error_event[dtof_registers_pkg::ERROR_STALLED_LSB] = stalled_i;
     error_event[dtof_registers_pkg::ERROR_FLUSH_IGNORED_LSB] = flush_ignored_i;
+    error_event[dtof_registers_pkg::ERROR_PARITY_LSB] = parity_error_i;
     warning_event = '0;
     warning_event[dtof_registers_pkg::WARNING_COUNTER_FULL_LSB] = counter_full_i;
     warning_event[dtof_registers_pkg::WARNING_ABORTED_LSB] = aborted_i;
@@ -181,15 +195,20 @@ module dtof_apb_registers #(
       error_q <= '0;
       cause_q <= '0;
       warning_q <= '0;
-      watchdog_q <= {24{1'b1}};
+      watchdog_q <= 24'(dtof_registers_pkg::WATCHDOG_RESET);
       cause_enable_q <= '0;
       acquisitions_q <= '0;
       release_q <= 16'(MOST_RELEASE);
       weak_below_q <= '0;
+      shot_bits_q <= dtof_registers_pkg::SHOT_RESET[dtof_registers_pkg::SHOT_BITS_LSB+:3];
+      shot_unit_q <= dtof_registers_pkg::SHOT_RESET[dtof_registers_pkg::SHOT_UNIT_LSB+:8];
+      shot_seed_q <= 16'(dtof_registers_pkg::SHOT_SEED_RESET);
+      shot_reseed_q <= 1'b0;
     end else begin
       start_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_START_LSB];
       flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
       abort_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_ABORT_LSB];
+      shot_reseed_q <= write && (offset == dtof_registers_pkg::SHOT_SEED) && (pstrb_i[1:0] != '0);
       error_q <= (error_q & ~error_cleared) | error_event;
       cause_q <= (cause_q & ~cause_cleared) | cause_event;
       warning_q <= (warning_q & ~warning_cleared) | warning_event;
@@ -211,6 +230,13 @@ module dtof_apb_registers #(
           release_q <= (release_q & ~mask[15:0]) | written[15:0];
           dtof_registers_pkg::WEAK_BELOW:
           weak_below_q <= (weak_below_q & ~mask[WEAK_WIDTH-1:0]) | written[WEAK_WIDTH-1:0];
+          dtof_registers_pkg::SHOT: begin
+            shot_bits_q <= (shot_bits_q & ~mask[dtof_registers_pkg::SHOT_BITS_LSB+:3])
+                | written[dtof_registers_pkg::SHOT_BITS_LSB+:3];
+            shot_unit_q <= (shot_unit_q & ~mask[dtof_registers_pkg::SHOT_UNIT_LSB+:8])
+                | written[dtof_registers_pkg::SHOT_UNIT_LSB+:8];
+          end
+          dtof_registers_pkg::SHOT_SEED: shot_seed_q <= (shot_seed_q & ~mask[15:0]) | written[15:0];
           default: begin
           end
         endcase
@@ -223,6 +249,8 @@ module dtof_apb_registers #(
   assign abort_o = abort_q;
   assign continuous_o = continuous_q;
   assign watchdog_o = watchdog_q;
+  assign shot_seed_o = shot_seed_q;
+  assign shot_reseed_o = shot_reseed_q;
   assign irq_o = |(cause_q & cause_enable_q);
 
   // What was written, of what this configuration has.
@@ -388,6 +416,8 @@ module dtof_apb_registers #(
       release_o <= release_q;
       weak_below_o <= 16'(weak_below_q);
       enable_o <= enable_q;
+      shot_bits_o <= shot_bits_q;
+      shot_unit_o <= shot_unit_q;
     end
   end
 
@@ -397,6 +427,7 @@ module dtof_apb_registers #(
   localparam logic [31:0] NP_BITS = 32'hffffffff >> (32 - NP);
   localparam logic [31:0] ROWS_BITS = (32'hfff << dtof_registers_pkg::RAW_ROWS_FIRST_LSB)
       | (32'hfff << dtof_registers_pkg::RAW_ROWS_LAST_LSB);
+  localparam logic [31:0] SHOT_FIELDS = (32'h7 << dtof_registers_pkg::SHOT_BITS_LSB) | (32'hff << dtof_registers_pkg::SHOT_UNIT_LSB);
   localparam logic [31:0] CONTROL_BITS = (32'd1 << dtof_registers_pkg::CONTROL_START_LSB)
       | (32'd1 << dtof_registers_pkg::CONTROL_CONTINUOUS_LSB) | (32'd1 << dtof_registers_pkg::CONTROL_FLUSH_LSB)
       | (32'd1 << dtof_registers_pkg::CONTROL_ABORT_LSB);
@@ -422,6 +453,8 @@ module dtof_apb_registers #(
       dtof_registers_pkg::WEAK_BELOW: there = 32'hffffffff >> (32 - WEAK_WIDTH);
       dtof_registers_pkg::OUTPUT: there = OUTPUT_BITS;
       dtof_registers_pkg::RAW_ROWS: there = (RAW_HISTOGRAM != 0) ? ROWS_BITS : '0;
+      dtof_registers_pkg::SHOT: there = SHOT_FIELDS;
+      dtof_registers_pkg::SHOT_SEED: there = 32'h0000ffff;
       dtof_registers_pkg::COMMIT: there = 32'd1 << dtof_registers_pkg::COMMIT_SETTINGS_LSB;
       default:
       if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
@@ -445,6 +478,7 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_RASTER_ORDER_LSB] = (RASTER_ORDER != 0);
         prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
         prdata_o[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
+        prdata_o[dtof_registers_pkg::READOUT_PARITY_LSB] = (PARITY != 0);
         prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
       end
       dtof_registers_pkg::SIZE: begin
@@ -503,11 +537,19 @@ module dtof_apb_registers #(
       dtof_registers_pkg::IRQ_STATUS: prdata_o = 32'(cause_q);
       dtof_registers_pkg::FRAME_COUNT: prdata_o = frame_count_i;
       dtof_registers_pkg::FRAME_CYCLES: prdata_o = frame_cycles_i;
+      dtof_registers_pkg::FRAME_CRC: prdata_o = frame_crc_i;
       dtof_registers_pkg::WARNING: prdata_o = 32'(warning_q);
       dtof_registers_pkg::WATCHDOG: prdata_o = 32'(watchdog_q);
       dtof_registers_pkg::LOST_LINES: prdata_o = lost_lines_i;
       dtof_registers_pkg::LOST_ACQUISITIONS: prdata_o = lost_acquisitions_i;
       dtof_registers_pkg::COMMIT: prdata_o = '0;
+      dtof_registers_pkg::SHOT: begin
+        prdata_o[dtof_registers_pkg::SHOT_BITS_LSB+:3] = shot_bits_q;
+        prdata_o[dtof_registers_pkg::SHOT_UNIT_LSB+:8] = shot_unit_q;
+      end
+      dtof_registers_pkg::SHOT_SEED: prdata_o = 32'(shot_seed_q);
+      dtof_registers_pkg::PARITY_ERRORS: prdata_o = parity_errors_i;
+      dtof_registers_pkg::SHOT_STATE: prdata_o = 32'(shot_state_i);
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);
       dtof_registers_pkg::COARSE_END: prdata_o = 32'(coarse_end);
       dtof_registers_pkg::TRACK_END: prdata_o = 32'(track_end);

@@ -15,7 +15,7 @@
 //    is in is thrown away, up to and with its s_tlast_i; behind flush_i the next line begins an acquisition.
 //
 // Latency: two clocks from a line's acceptance to its offer. A line a clock goes in and out at the same time.
-// Cost: an SRAM of LINES x (WIDTH + 1) bits, two addresses, four counters.
+// Cost: an SRAM of LINES x (WIDTH + 1 + PARITY) bits, two addresses, five counters.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -25,6 +25,7 @@ module dtof_line_buffer #(
     parameter int ACQUISITION_LINES = 320,  // of an acquisition
     parameter int LINES = 324,              // that the memory holds; one more waits at its output
     parameter int WIDTH = 2000,             // bits of a line
+    parameter int PARITY = 0,               // 1: each word of the memory has a parity bit
     localparam int LEVEL_WIDTH = $clog2(LINES + 2)
 ) (
     input  logic                   clk_i,
@@ -39,12 +40,18 @@ module dtof_line_buffer #(
     input  logic [LEVEL_WIDTH-1:0] release_i,    // 1 to the smaller of ACQUISITION_LINES and LINES
     output logic [LEVEL_WIDTH-1:0] level_o,      // lines in the buffer
     output logic                   starved_o,    // the array waits for an acquisition
+    output logic                   queued_o,     // an acquisition is here of which the array has no line yet
+    output logic                   inside_o,     // the source is inside an acquisition
     // these for one clock
     output logic                   kept_o,       // a line was accepted and is no rest of a long acquisition
+    output logic                   arrives_o,    // likewise, the first of an acquisition
+    output logic                   rest_ends_o,  // the last line of a rest that is thrown away was accepted
+    output logic                   taken_o,      // the array takes the first line of an acquisition
     output logic                   underrun_o,   // the array needs a line that is not here: once an acquisition
     output logic                   short_o,      // s_tlast_i came before an acquisition's last line
     output logic                   long_o,       // s_tlast_i did not come with it
     output logic [LEVEL_WIDTH-1:0] lost_lines_o, // so many lines of the source are thrown away by themselves
+    output logic                   parity_error_o,      // a line that was read two clocks ago is damaged
     output logic                   lost_acquisition_o,  // the array has taken an acquisition with lines that are missing
     // from the source, AXI4-Stream
     input  logic                   s_tvalid_i,
@@ -70,9 +77,11 @@ module dtof_line_buffer #(
   logic [ADDR_WIDTH-1:0] write_address_q, read_address_q;
   logic [LEVEL_WIDTH-1:0] stored_q;    // in the memory
   logic [LEVEL_WIDTH-1:0] complete_q;  // acquisitions whose end is in the buffer
+  logic [LEVEL_WIDTH-1:0] queued_q;    // acquisitions that have begun to arrive, and the array has not begun them
   logic [INDEX_WIDTH-1:0] source_line_q;
   logic live_q;    // not in reset
   logic behind_q;  // what comes up to s_tlast_i belongs to an acquisition that is over
+  logic drain_q;   // the rest of the frame is "no detection" for the array
   logic accepted, write, ends, read, take, head_q, head_ends, empties, expires;
 
   assign empties = flush_i || abort_i || expires;
@@ -83,6 +92,10 @@ module dtof_line_buffer #(
   assign short_o = write && s_tlast_i && (source_line_q != LAST_LINE);
   assign long_o = write && !s_tlast_i && (source_line_q == LAST_LINE);
   assign kept_o = write;
+  assign arrives_o = write && (source_line_q == '0);
+  assign rest_ends_o = accepted && behind_q && s_tlast_i;
+  assign queued_o = (queued_q != '0);
+  assign inside_o = behind_q || (source_line_q != '0);
 
   // The line at the memory's output (head_q) stays there until the next is read.
   assign read = (stored_q != '0) && (!head_q || take);
@@ -95,6 +108,7 @@ module dtof_line_buffer #(
       read_address_q <= '0;
       stored_q <= '0;
       complete_q <= '0;
+      queued_q <= '0;
       source_line_q <= '0;
       head_q <= 1'b0;
     end else begin
@@ -105,6 +119,7 @@ module dtof_line_buffer #(
         read_address_q <= '0;
         stored_q <= '0;
         complete_q <= '0;
+        queued_q <= '0;
         source_line_q <= '0;
         head_q <= 1'b0;
       end else begin
@@ -120,6 +135,7 @@ module dtof_line_buffer #(
         end
         stored_q <= stored_q + LEVEL_WIDTH'(write) - LEVEL_WIDTH'(read);
         complete_q <= complete_q + LEVEL_WIDTH'(write && ends) - LEVEL_WIDTH'(take && head_ends);
+        queued_q <= queued_q + LEVEL_WIDTH'(arrives_o) - LEVEL_WIDTH'(taken_o && !drain_q);
         head_q <= read || (head_q && !take);
       end
     end
@@ -127,10 +143,11 @@ module dtof_line_buffer #(
 
   logic [WIDTH-1:0] head;
 
-  dtof_sram #(
-      .PORTS(2),
-      .DEPTH(LINES),
-      .WIDTH(WIDTH + 1)
+  dtof_parity_sram #(
+      .PORTS (2),
+      .DEPTH (LINES),
+      .WIDTH (WIDTH + 1),
+      .PARITY(PARITY)
   ) u_lines (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -139,6 +156,7 @@ module dtof_line_buffer #(
       .read_en_i   (read),
       .read_addr_i (read_address_q),
       .read_data_o ({head_ends, head}),
+      .error_o     (parity_error_o),
       .write_en_i  (write),
       .write_addr_i(write_address_q),
       .write_data_i({ends, s_tdata_i})
@@ -149,7 +167,6 @@ module dtof_line_buffer #(
   logic inside_q, starved_q;
   logic fill_q;     // the rest of the acquisition is "no detection"
   logic discard_q;  // the lines at the head up to their acquisition's end are too late
-  logic drain_q;    // the rest of the frame is "no detection"
   logic [INDEX_WIDTH-1:0] line_q;  // of the acquisition
   logic begin_allowed, step, last_line, missing;
 
@@ -158,6 +175,7 @@ module dtof_line_buffer #(
   assign line_valid_o = inside_q || begin_allowed;
   assign step = line_valid_o && line_ready_i;
   assign last_line = (line_q == LAST_LINE);
+  assign taken_o = step && (line_q == '0);
   assign missing = drain_q || fill_q || (inside_q && !head_q);
   assign underrun_o = step && inside_q && !head_q && !fill_q && !drain_q;
   assign line_o = missing ? '1 : head;
@@ -200,6 +218,7 @@ module dtof_line_buffer #(
     end
   end
 
+  `DTOF_ASSERT(a_queued, !taken_o || drain_q || queued_o, "the array takes an acquisition that has not arrived")
   `DTOF_ASSERT(a_release, release_i != '0, "release_i is 0")
   `DTOF_ASSERT(a_flush_between, !flush_i || abort_i || !inside_q, "the buffer is flushed inside an acquisition")
 

@@ -18,6 +18,7 @@ module dtof_raster_buffer #(
     parameter int SRAM_NUM = 200,         // columns
     parameter int PIXELS_PER_SRAM = 160,  // rows
     parameter int WIDTH = 27,             // bits of a result beside its place
+    parameter int PARITY = 0,             // 1: each word of the memory has a parity bit
     parameter int TARGETS = 1,            // results of a pixel, at most: 1 or 2
     localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM),
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM)
@@ -27,6 +28,7 @@ module dtof_raster_buffer #(
     // side band of the SRAM macros, which the technology folder gives a meaning
     input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_i,
     output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] sram_cfg_o,
+    output logic                   parity_error_o,  // a result that was read two clocks ago is damaged
     input  logic                    cut_i,       // what comes next is another frame's
     // each pixel of a frame once, or each once and once more with s_second_i
     input  logic                    s_tvalid_i,
@@ -134,10 +136,11 @@ module dtof_raster_buffer #(
     end
   end
 
-  dtof_sram #(
-      .PORTS(1),
-      .DEPTH(RESULTS),
-      .WIDTH(WIDTH)
+  dtof_parity_sram #(
+      .PORTS (1),
+      .DEPTH (RESULTS),
+      .WIDTH (WIDTH),
+      .PARITY(PARITY)
   ) u_results (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -146,6 +149,7 @@ module dtof_raster_buffer #(
       .read_en_i   (read),
       .read_addr_i (read_address_q),
       .read_data_o (m_result_o),
+      .error_o     (parity_error_o),
       .write_en_i  (write_q),
       .write_addr_i(write_address_q),
       .write_data_i(written_q)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Written by scripts/generate.py from hdl/subsystem/registers.toml.
-// Offsets of the registers, and of each field the lowest bit and the number of bits.
+// Offsets of the registers, their values behind a reset (0 where the parameters decide), and for each field its lowest bit and
+// its number of bits.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -8,15 +9,17 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00030001;
+  localparam logic [31:0] VERSION_VALUE = 32'h00030002;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
+  localparam logic [31:0] ID_RESET = 32'h444f4650;
   localparam int ID_VALUE_LSB = 0;
   localparam int ID_VALUE_WIDTH = 32;
 
   // of the registers and the result stream
   localparam logic [11:0] VERSION = 12'h004;
+  localparam logic [31:0] VERSION_RESET = 32'h00030002;
   localparam int VERSION_MINOR_LSB = 0;
   localparam int VERSION_MINOR_WIDTH = 16;
   localparam int VERSION_MAJOR_LSB = 16;
@@ -24,6 +27,7 @@ package dtof_registers_pkg;
 
   // what the array is
   localparam logic [11:0] READOUT = 12'h008;
+  localparam logic [31:0] READOUT_RESET = 32'h00000000;
   localparam int READOUT_NUMBER_LSB = 0;
   localparam int READOUT_NUMBER_WIDTH = 8;
   localparam int READOUT_SCHEDULE_LSB = 8;
@@ -38,9 +42,12 @@ package dtof_registers_pkg;
   localparam int READOUT_RAW_HISTOGRAM_WIDTH = 1;
   localparam int READOUT_PRIOR_LSB = 13;
   localparam int READOUT_PRIOR_WIDTH = 1;
+  localparam int READOUT_PARITY_LSB = 14;
+  localparam int READOUT_PARITY_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;
+  localparam logic [31:0] SIZE_RESET = 32'h00000000;
   localparam int SIZE_COLUMNS_LSB = 0;
   localparam int SIZE_COLUMNS_WIDTH = 16;
   localparam int SIZE_ROWS_LSB = 16;
@@ -48,6 +55,7 @@ package dtof_registers_pkg;
 
   // bits of what goes in and out
   localparam logic [11:0] WIDTHS = 12'h010;
+  localparam logic [31:0] WIDTHS_RESET = 32'h00000000;
   localparam int WIDTHS_TIMESTAMP_LSB = 0;
   localparam int WIDTHS_TIMESTAMP_WIDTH = 8;
   localparam int WIDTHS_FRACTION_LSB = 8;
@@ -59,6 +67,7 @@ package dtof_registers_pkg;
 
   // lines of timestamps
   localparam logic [11:0] LINES = 12'h014;
+  localparam logic [31:0] LINES_RESET = 32'h00000000;
   localparam int LINES_ACQUISITION_LSB = 0;
   localparam int LINES_ACQUISITION_WIDTH = 16;
   localparam int LINES_BUFFER_LSB = 16;
@@ -66,16 +75,19 @@ package dtof_registers_pkg;
 
   // timestamps of a pixel in an acquisition
   localparam logic [11:0] SLOTS = 12'h018;
+  localparam logic [31:0] SLOTS_RESET = 32'h00000000;
   localparam int SLOTS_VALUE_LSB = 0;
   localparam int SLOTS_VALUE_WIDTH = 8;
 
   // of a raw histogram
   localparam logic [11:0] RAW_BINS = 12'h01c;
+  localparam logic [31:0] RAW_BINS_RESET = 32'h00000000;
   localparam int RAW_BINS_VALUE_LSB = 0;
   localparam int RAW_BINS_VALUE_WIDTH = 17;
 
   // parameters of the histograms
   localparam logic [11:0] HISTOGRAM = 12'h020;
+  localparam logic [31:0] HISTOGRAM_RESET = 32'h00000000;
   localparam int HISTOGRAM_COUNT_WIDTH_LSB = 0;
   localparam int HISTOGRAM_COUNT_WIDTH_WIDTH = 8;
   localparam int HISTOGRAM_NB_LSB = 8;
@@ -85,6 +97,7 @@ package dtof_registers_pkg;
 
   // parameters of a pointer read-out
   localparam logic [11:0] POINTER = 12'h024;
+  localparam logic [31:0] POINTER_RESET = 32'h00000000;
   localparam int POINTER_STEP_LSB = 0;
   localparam int POINTER_STEP_WIDTH = 15;
   localparam int POINTER_GUARD_LSB = 15;
@@ -92,6 +105,7 @@ package dtof_registers_pkg;
 
   // parameters of poolPointer 2, which tell it from poolPointer 2 lean; 0 without READOUT.SCHEDULE
   localparam logic [11:0] POOL = 12'h028;
+  localparam logic [31:0] POOL_RESET = 32'h00000000;
   localparam int POOL_GROUP_SIZE_LSB = 0;
   localparam int POOL_GROUP_SIZE_WIDTH = 8;
   localparam int POOL_LABELS_LSB = 8;
@@ -109,6 +123,7 @@ package dtof_registers_pkg;
 
   // more parameters of poolPointer 2; 0 without READOUT.SCHEDULE
   localparam logic [11:0] ENGINES = 12'h02c;
+  localparam logic [31:0] ENGINES_RESET = 32'h00000000;
   localparam int ENGINES_COLUMNS_LSB = 0;
   localparam int ENGINES_COLUMNS_WIDTH = 16;
   localparam int ENGINES_RIVAL_MOVES_LSB = 16;
@@ -116,6 +131,7 @@ package dtof_registers_pkg;
 
   // the recommended schedule of poolPointer 2 in 64ths of a frame; 0 without READOUT.SCHEDULE
   localparam logic [11:0] SHARES = 12'h030;
+  localparam logic [31:0] SHARES_RESET = 32'h00000000;
   localparam int SHARES_COARSE_LSB = 0;
   localparam int SHARES_COARSE_WIDTH = 8;
   localparam int SHARES_TRACK_LSB = 8;
@@ -123,6 +139,7 @@ package dtof_registers_pkg;
 
   // begins and ends frames
   localparam logic [11:0] CONTROL = 12'h040;
+  localparam logic [31:0] CONTROL_RESET = 32'h00000000;
   localparam int CONTROL_START_LSB = 0;
   localparam int CONTROL_START_WIDTH = 1;
   localparam int CONTROL_CONTINUOUS_LSB = 1;
@@ -134,6 +151,7 @@ package dtof_registers_pkg;
 
   // what goes on
   localparam logic [11:0] STATUS = 12'h044;
+  localparam logic [31:0] STATUS_RESET = 32'h00000000;
   localparam int STATUS_BUSY_LSB = 0;
   localparam int STATUS_BUSY_WIDTH = 1;
   localparam int STATUS_STATE_LSB = 4;
@@ -143,6 +161,7 @@ package dtof_registers_pkg;
 
   // what went wrong since it was last cleared
   localparam logic [11:0] ERROR = 12'h048;
+  localparam logic [31:0] ERROR_RESET = 32'h00000000;
   localparam int ERROR_UNDERRUN_LSB = 0;
   localparam int ERROR_UNDERRUN_WIDTH = 1;
   localparam int ERROR_START_IGNORED_LSB = 1;
@@ -159,9 +178,12 @@ package dtof_registers_pkg;
   localparam int ERROR_STALLED_WIDTH = 1;
   localparam int ERROR_FLUSH_IGNORED_LSB = 7;
   localparam int ERROR_FLUSH_IGNORED_WIDTH = 1;
+  localparam int ERROR_PARITY_LSB = 8;
+  localparam int ERROR_PARITY_WIDTH = 1;
 
   // what raises `irq_o`; at once
   localparam logic [11:0] IRQ_ENABLE = 12'h04c;
+  localparam logic [31:0] IRQ_ENABLE_RESET = 32'h00000000;
   localparam int IRQ_ENABLE_FRAME_LSB = 0;
   localparam int IRQ_ENABLE_FRAME_WIDTH = 1;
   localparam int IRQ_ENABLE_ERROR_LSB = 1;
@@ -169,6 +191,7 @@ package dtof_registers_pkg;
 
   // `irq_o` is high while an enabled one is set
   localparam logic [11:0] IRQ_STATUS = 12'h050;
+  localparam logic [31:0] IRQ_STATUS_RESET = 32'h00000000;
   localparam int IRQ_STATUS_FRAME_LSB = 0;
   localparam int IRQ_STATUS_FRAME_WIDTH = 1;
   localparam int IRQ_STATUS_ERROR_LSB = 1;
@@ -176,16 +199,19 @@ package dtof_registers_pkg;
 
   // frames whose last result was taken, since reset; begins again at 0 behind 2^32 - 1, so that differences hold
   localparam logic [11:0] FRAME_COUNT = 12'h054;
+  localparam logic [31:0] FRAME_COUNT_RESET = 32'h00000000;
   localparam int FRAME_COUNT_VALUE_LSB = 0;
   localparam int FRAME_COUNT_VALUE_WIDTH = 32;
 
   // how long the last frame took, from the clock of its start to that of the array's `done_o`
   localparam logic [11:0] FRAME_CYCLES = 12'h058;
+  localparam logic [31:0] FRAME_CYCLES_RESET = 32'h00000000;
   localparam int FRAME_CYCLES_VALUE_LSB = 0;
   localparam int FRAME_CYCLES_VALUE_WIDTH = 32;
 
   // what the results should be read with, since it was last cleared; raises no interrupt
   localparam logic [11:0] WARNING = 12'h05c;
+  localparam logic [31:0] WARNING_RESET = 32'h00000000;
   localparam int WARNING_COUNTER_FULL_LSB = 0;
   localparam int WARNING_COUNTER_FULL_WIDTH = 1;
   localparam int WARNING_ABORTED_LSB = 1;
@@ -197,26 +223,31 @@ package dtof_registers_pkg;
 
   // of a frame; 0 is legal
   localparam logic [11:0] ACQUISITIONS = 12'h060;
+  localparam logic [31:0] ACQUISITIONS_RESET = 32'h00000000;
   localparam int ACQUISITIONS_VALUE_LSB = 0;
   localparam int ACQUISITIONS_VALUE_WIDTH = 24;
 
   // poolPointer 2: the coarse phase ends before this acquisition
   localparam logic [11:0] COARSE_END = 12'h064;
+  localparam logic [31:0] COARSE_END_RESET = 32'h00000000;
   localparam int COARSE_END_VALUE_LSB = 0;
   localparam int COARSE_END_VALUE_WIDTH = 24;
 
   // poolPointer 2: the track phase ends before this acquisition
   localparam logic [11:0] TRACK_END = 12'h068;
+  localparam logic [31:0] TRACK_END_RESET = 32'h00000000;
   localparam int TRACK_END_VALUE_LSB = 0;
   localparam int TRACK_END_VALUE_WIDTH = 24;
 
   // how long a frame waits for lines, and the sink may refuse a result, before ERROR tells; at once
   localparam logic [11:0] WATCHDOG = 12'h06c;
+  localparam logic [31:0] WATCHDOG_RESET = 32'h00ffffff;
   localparam int WATCHDOG_CLOCKS_LSB = 0;
   localparam int WATCHDOG_CLOCKS_WIDTH = 24;
 
   // with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all of them
   localparam logic [11:0] GATE = 12'h070;
+  localparam logic [31:0] GATE_RESET = 32'h00000000;
   localparam int GATE_BEGIN_LSB = 0;
   localparam int GATE_BEGIN_WIDTH = 16;
   localparam int GATE_END_LSB = 16;
@@ -224,16 +255,19 @@ package dtof_registers_pkg;
 
   // lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller, LINES.BUFFER
   localparam logic [11:0] RELEASE = 12'h074;
+  localparam logic [31:0] RELEASE_RESET = 32'h00000000;
   localparam int RELEASE_VALUE_LSB = 0;
   localparam int RELEASE_VALUE_WIDTH = 16;
 
   // a result whose confidence is below is weak
   localparam logic [11:0] WEAK_BELOW = 12'h078;
+  localparam logic [31:0] WEAK_BELOW_RESET = 32'h00000000;
   localparam int WEAK_BELOW_VALUE_LSB = 0;
   localparam int WEAK_BELOW_VALUE_WIDTH = 16;
 
   // what a frame sends
   localparam logic [11:0] OUTPUT = 12'h07c;
+  localparam logic [31:0] OUTPUT_RESET = 32'h00000000;
   localparam int OUTPUT_SECOND_TARGET_LSB = 0;
   localparam int OUTPUT_SECOND_TARGET_WIDTH = 1;
   localparam int OUTPUT_RAW_LSB = 1;
@@ -246,11 +280,13 @@ package dtof_registers_pkg;
   // register k: columns 32 k and up; at reset all are enabled
   localparam logic [11:0] COLUMN_ENABLE = 12'h080;
   localparam int COLUMN_ENABLE_NUMBER = 32;
+  localparam logic [31:0] COLUMN_ENABLE_RESET = 32'h00000000;
   localparam int COLUMN_ENABLE_MASK_LSB = 0;
   localparam int COLUMN_ENABLE_MASK_WIDTH = 32;
 
   // with OUTPUT.RAW: whose histograms a frame sends
   localparam logic [11:0] RAW_ROWS = 12'h100;
+  localparam logic [31:0] RAW_ROWS_RESET = 32'h00000000;
   localparam int RAW_ROWS_FIRST_LSB = 0;
   localparam int RAW_ROWS_FIRST_WIDTH = 12;
   localparam int RAW_ROWS_LAST_LSB = 16;
@@ -258,18 +294,53 @@ package dtof_registers_pkg;
 
   // lines that came and were thrown away since reset: too late behind an underrun or a timeout, or behind a long acquisition; those of FLUSH and ABORT do not count
   localparam logic [11:0] LOST_LINES = 12'h104;
+  localparam logic [31:0] LOST_LINES_RESET = 32'h00000000;
   localparam int LOST_LINES_VALUE_LSB = 0;
   localparam int LOST_LINES_VALUE_WIDTH = 32;
 
   // acquisitions of frames since reset in which a line counted as no detection because it was missing
   localparam logic [11:0] LOST_ACQUISITIONS = 12'h108;
+  localparam logic [31:0] LOST_ACQUISITIONS_RESET = 32'h00000000;
   localparam int LOST_ACQUISITIONS_VALUE_LSB = 0;
   localparam int LOST_ACQUISITIONS_VALUE_WIDTH = 32;
 
   // makes all settings that were written valid together, for every frame that begins from now on
   localparam logic [11:0] COMMIT = 12'h10c;
+  localparam logic [31:0] COMMIT_RESET = 32'h00000000;
   localparam int COMMIT_SETTINGS_LSB = 0;
   localparam int COMMIT_SETTINGS_WIDTH = 1;
+
+  // start dither: how long `shot_o` waits behind the request for an acquisition
+  localparam logic [11:0] SHOT = 12'h110;
+  localparam logic [31:0] SHOT_RESET = 32'h00000100;
+  localparam int SHOT_BITS_LSB = 0;
+  localparam int SHOT_BITS_WIDTH = 3;
+  localparam int SHOT_UNIT_LSB = 8;
+  localparam int SHOT_UNIT_WIDTH = 8;
+
+  // where the sequence of delays begins; another one in each sensor; at once
+  localparam logic [11:0] SHOT_SEED = 12'h114;
+  localparam logic [31:0] SHOT_SEED_RESET = 32'h00000001;
+  localparam int SHOT_SEED_VALUE_LSB = 0;
+  localparam int SHOT_SEED_VALUE_WIDTH = 16;
+
+  // from which state the last frame's delays follow
+  localparam logic [11:0] SHOT_STATE = 12'h118;
+  localparam logic [31:0] SHOT_STATE_RESET = 32'h00000001;
+  localparam int SHOT_STATE_VALUE_LSB = 0;
+  localparam int SHOT_STATE_VALUE_WIDTH = 16;
+
+  // checksum of the words of the last frame that FRAME_COUNT counts
+  localparam logic [11:0] FRAME_CRC = 12'h11c;
+  localparam logic [31:0] FRAME_CRC_RESET = 32'h00000000;
+  localparam int FRAME_CRC_VALUE_LSB = 0;
+  localparam int FRAME_CRC_VALUE_WIDTH = 32;
+
+  // words with a wrong parity since reset, each time they were read
+  localparam logic [11:0] PARITY_ERRORS = 12'h120;
+  localparam logic [31:0] PARITY_ERRORS_RESET = 32'h00000000;
+  localparam int PARITY_ERRORS_VALUE_LSB = 0;
+  localparam int PARITY_ERRORS_VALUE_WIDTH = 32;
 
   // A result.
   localparam int RESULT_WIDTH = 64;
@@ -300,14 +371,14 @@ package dtof_registers_pkg;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h10c);
+        || (offset >= 12'h040 && offset <= 12'h120);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
         || (offset >= 12'h05c && offset <= 12'h100)
-        || offset == 12'h10c;
+        || (offset >= 12'h10c && offset <= 12'h114);
   endfunction
 
 endpackage

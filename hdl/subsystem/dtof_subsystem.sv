@@ -13,6 +13,8 @@
 // 6. Between frames the array's clock is gated (dtof_clock_gate of the technology folder).
 // 7. Whatever the source does, a frame ends: what is missing counts as no detection, an acquisition begins behind each
 //    s_axis_tlast_i, and a watchdog ends the wait for a source that is dead. CONTROL.ABORT ends a frame at any time.
+// 8. shot_o fires the laser and starts the TDCs, once for each acquisition that a frame needs, on request with a pseudo-random
+//    delay (dtof_shot_dither). A source whose laser runs freely leaves shot_o open.
 //
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is dtof_pool_pointer2_array. The parameters
 // that follow (common/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
@@ -29,6 +31,7 @@ module dtof_subsystem #(
     // Lines that the line buffer holds: at least two. Those of an acquisition and four hold a whole one while it is taken.
     parameter int BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
     parameter int RASTER_ORDER = 0,  // 1: a memory of all results brings them into the order of rows and columns
+    parameter int PARITY = 0,        // 1: the words of the subsystem's own memories have parity bits; the array's have none
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
     localparam int M_TDATA_WIDTH = dtof_registers_pkg::RESULT_WIDTH
 ) (
@@ -49,6 +52,7 @@ module dtof_subsystem #(
     output logic [             31:0] prdata_o,
     output logic                     pslverr_o,
     output logic                     irq_o,
+    output logic                     shot_o,           // fires the laser and starts the TDCs, for one clock
     // AXI4-Stream, lines of timestamps
     input  logic                     s_axis_tvalid_i,
     output logic                     s_axis_tready_o,  // low in reset
@@ -100,6 +104,7 @@ module dtof_subsystem #(
                 "dtof_subsystem: PIXELS_PER_SRAM times SLOTS must be at most 65535")
   `DTOF_REQUIRE(g_illegal_buffer, BUFFER_LINES >= 2 && BUFFER_LINES <= 65534,
                 "dtof_subsystem: BUFFER_LINES must be 2 to 65534")
+  `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_subsystem: PARITY must be 0 or 1")
 
   // Registers and frames.
 
@@ -107,7 +112,12 @@ module dtof_subsystem #(
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
   logic timeout, stalled, resetting, in_reset, array_rst_n, flushes;
   logic [23:0] watchdog;
-  logic [31:0] lost_lines, lost_acquisitions;
+  logic [15:0] shot_seed, shot_state;
+  logic [2:0] shot_bits;
+  logic [7:0] shot_unit;
+  logic shot_reseed;
+  logic [31:0] lost_lines, lost_acquisitions, parity_errors;
+  logic line_parity_error, raster_parity_error;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
   logic [15:0] release_lines, weak_below;
@@ -115,13 +125,14 @@ module dtof_subsystem #(
   logic [SRAM_NUM-1:0] enable;
   logic [2:0] state;
   logic [LEVEL_WIDTH-1:0] level;
-  logic [31:0] frame_count, frame_cycles;
+  logic [31:0] frame_count, frame_cycles, frame_crc;
 
   dtof_apb_registers #(
       .READOUT         (READOUT),
       .HAS_SCHEDULE    (POOL),
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
+      .PARITY          (PARITY),
       .SECOND_TARGET   (SECOND_TARGET),
       .PRIOR           (PRIOR),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
@@ -168,6 +179,8 @@ module dtof_subsystem #(
       .abort_o           (abort),
       .continuous_o      (continuous),
       .watchdog_o        (watchdog),
+      .shot_seed_o       (shot_seed),
+      .shot_reseed_o     (shot_reseed),
       .second_o          (second),
       .raw_o             (raw),
       .raw_first_o       (raw_first),
@@ -182,13 +195,18 @@ module dtof_subsystem #(
       .release_o         (release_lines),
       .weak_below_o      (weak_below),
       .enable_o          (enable),
+      .shot_bits_o       (shot_bits),
+      .shot_unit_o       (shot_unit),
       .busy_i            (busy),
       .state_i           (state),
       .level_i           (16'(level)),
       .frame_count_i     (frame_count),
       .frame_cycles_i    (frame_cycles),
+      .frame_crc_i       (frame_crc),
       .lost_lines_i      (lost_lines),
       .lost_acquisitions_i(lost_acquisitions),
+      .shot_state_i      (shot_state),
+      .parity_errors_i   (parity_errors),
       .frame_i           (frame),
       .underrun_i        (underrun),
       .start_ignored_i   (start_ignored),
@@ -199,6 +217,7 @@ module dtof_subsystem #(
       .timeout_i         (timeout),
       .stalled_i         (stalled),
       .flush_ignored_i   (flush && !flushes),
+      .parity_error_i    (line_parity_error || raster_parity_error),
       .aborted_i         (aborted),
       .counter_full_i    (counter_full),
       .irq_o             (irq_o)
@@ -276,14 +295,15 @@ module dtof_subsystem #(
 
   // Lines in.
 
-  logic tdc_valid, tdc_ready, starved, kept, expired, lost_acquisition;
+  logic tdc_valid, tdc_ready, starved, kept, expired, lost_acquisition, queued, source_inside, arrives, rest_ends, taken;
   logic [LEVEL_WIDTH-1:0] lost;
   logic [SRAM_NUM*NP-1:0] line, timestamps;
 
   dtof_line_buffer #(
       .ACQUISITION_LINES(ACQUISITION_LINES),
       .LINES            (BUFFER_LINES),
-      .WIDTH            (SRAM_NUM * NP)
+      .WIDTH            (SRAM_NUM * NP),
+      .PARITY           (PARITY)
   ) u_line_buffer (
       .clk_i       (clk_i),
       .rst_ni      (rst_ni),
@@ -296,11 +316,17 @@ module dtof_subsystem #(
       .release_i   (frame_release_q),
       .level_o     (level),
       .starved_o   (starved),
+      .queued_o    (queued),
+      .inside_o    (source_inside),
       .kept_o      (kept),
+      .arrives_o   (arrives),
+      .rest_ends_o (rest_ends),
+      .taken_o     (taken),
       .underrun_o  (underrun),
       .short_o     (short_acquisition),
       .long_o      (long_acquisition),
       .lost_lines_o(lost),
+      .parity_error_o(line_parity_error),
       .lost_acquisition_o(lost_acquisition),
       .s_tvalid_i  (s_axis_tvalid_i),
       .s_tready_o  (s_axis_tready_o),
@@ -324,6 +350,29 @@ module dtof_subsystem #(
   );
 
   assign timeout = expired && running && starved && !abort;
+
+  dtof_shot_dither #(
+      .ACQ_WIDTH(ACQ_WIDTH)
+  ) u_shot_dither (
+      .clk_i         (clk_i),
+      .rst_ni        (rst_ni),
+      .reseed_i      (shot_reseed),
+      .seed_i        (shot_seed),
+      .bits_i        (shot_bits),
+      .unit_i        (shot_unit),
+      .acquisitions_i(acquisitions),
+      .begin_i       (begin_frame),
+      .abort_i       (abort),
+      .flush_i       (flushes),
+      .give_up_i     (timeout),
+      .arrives_i     (arrives),
+      .queued_i      (queued),
+      .taken_i       (taken),
+      .inside_i      (source_inside),
+      .rest_ends_i   (rest_ends),
+      .shot_o        (shot_o),
+      .first_state_o (shot_state)
+  );
 
   dtof_watchdog #(
       .WIDTH(24)
@@ -349,6 +398,15 @@ module dtof_subsystem #(
       .rst_ni (rst_ni),
       .step_i (lost_acquisition),
       .count_o(lost_acquisitions)
+  );
+
+  dtof_saturating_counter #(
+      .STEP_WIDTH(2)
+  ) u_parity_errors (
+      .clk_i  (clk_i),
+      .rst_ni (rst_ni),
+      .step_i (2'(line_parity_error) + 2'(raster_parity_error)),
+      .count_o(parity_errors)
   );
 
   generate
@@ -581,12 +639,14 @@ module dtof_subsystem #(
           .SRAM_NUM       (SRAM_NUM),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
           .WIDTH          (KEPT_WIDTH),
+          .PARITY         (PARITY),
           .TARGETS        (TARGETS)
       ) u_raster_buffer (
           .clk_i     (clk_i),
           .rst_ni    (rst_ni),
           .sram_cfg_i(sram_cfg_i),
           .sram_cfg_o(raster_cfg),
+          .parity_error_o(raster_parity_error),
           .cut_i     (abort),
           .s_tvalid_i(word_tvalid),
           .s_tready_o(word_tready),
@@ -628,6 +688,7 @@ module dtof_subsystem #(
       assign output_cut = abort;
       assign aborted_word = word_tdata[dtof_registers_pkg::RESULT_ABORTED_LSB];
       assign raster_cfg = '1;
+      assign raster_parity_error = 1'b0;
       assign word_tready = m_axis_tready_i;
       assign m_axis_tvalid_o = word_tvalid;
       assign m_axis_tdata_o = word_tdata;
@@ -635,6 +696,19 @@ module dtof_subsystem #(
       assign m_axis_tlast_o = word_tlast;
     end
   endgenerate
+
+  dtof_frame_crc #(
+      .WIDTH(M_TDATA_WIDTH)
+  ) u_frame_crc (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_ni),
+      .taken_i  (m_axis_tvalid_o && m_axis_tready_i),
+      .word_i   (m_axis_tdata_o),
+      .first_i  (m_axis_tuser_o),
+      .last_i   (m_axis_tlast_o),
+      .aborted_i(aborted_word),
+      .crc_o    (frame_crc)
+  );
 
   assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o && !aborted_word;
   assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;

@@ -42,6 +42,8 @@ class Descriptions(unittest.TestCase):
             (("bits = [8, 63]", "bits = [8, 64]"), "highest of 0 to 63"),
             (('"setting"', '"command"'), "a command has one bit"),
             (('"setting"', '"wish"'), "access must be one of"),
+            (('"setting"', '"setting", reset = 256'), "a number of its bits"),
+            (('"setting"', '"setting", reset = "soon"'), "or 'parameters'"),
             (('help = "all"', 'help = "all", access = "status"'), "has no access"),
             (('help = "who is in"', 'helps = "who is in"'), "helps"),
             (("major = 2", ""), "major"),
@@ -59,6 +61,13 @@ class Descriptions(unittest.TestCase):
                      "is_register = (offset >= 12'h00c && offset <= 12'h014);",
                      "is_writable = offset == 12'h00c;"):  # fmt: skip
             self.assertIn(line, text)
+
+    def test_reset_values(self):
+        whole = registers.parse(SMALL.replace('"setting"', '"setting", reset = 0x5A'))
+        self.assertEqual((whole.registers[0].reset_value, whole.registers[0].reset_mask), (0x5A00, 0xFFFFFFFF))
+        self.assertIn("localparam logic [31:0] SPEED_RESET = 32'h00005a00;", registers.systemverilog(whole))
+        self.assertIn("  X(DTOF_SPEED, 1, UINT32_C(0x00005A00), UINT32_C(0xFFFFFFFF)) \\", registers.c_header(whole))
+        self.assertIn("  X(DTOF_DOOR, 2, UINT32_C(0x00000000), UINT32_C(0x0000000F))\n", registers.c_header(whole))
 
     def test_c_header(self):
         text = registers.c_header(registers.parse(SMALL))
@@ -84,7 +93,7 @@ class Descriptions(unittest.TestCase):
                          "ENGINES=2cSHARES=30CONTROL=40STATUS=44ERROR=48IRQ_ENABLE=4c"
                          "IRQ_STATUS=50FRAME_COUNT=54FRAME_CYCLES=58WARNING=5cACQUISITIONS=60COARSE_END=64TRACK_END=68WATCHDOG=6c"
                          "GATE=70RELEASE=74WEAK_BELOW=78OUTPUT=7cCOLUMN_ENABLE=80RAW_ROWS=100"
-                         "LOST_LINES=104LOST_ACQUISITIONS=108COMMIT=10c")
+                         "LOST_LINES=104LOST_ACQUISITIONS=108COMMIT=10cSHOT=110SHOT_SEED=114SHOT_STATE=118FRAME_CRC=11cPARITY_ERRORS=120")
 
 
 if __name__ == "__main__":

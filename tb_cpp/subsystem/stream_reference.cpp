@@ -76,15 +76,17 @@ void StreamReference::take(const Line& line) {
   }
 }
 
-void StreamReference::wait(bool array_ready, bool array_valid, bool sink_refuses, bool line_accepted) {
+void StreamReference::wait(bool array_ready, bool array_valid, bool sink_refuses, bool line_accepted,
+                           bool aborts) {
   starved_ = (starved_ || array_ready) && !array_valid;
   const bool here = !acquisitions_.empty() && (acquisitions_.front().ended || waiting_ >= release_);
   withheld_ = starved_ && here ? withheld_ + 1 : 0;
   if (withheld_ > kLongestWay) {
     throw RtlError(fmt::format("an acquisition is here and not offered, {} lines wait", waiting_));
   }
-  if (expires_ && starved_ && running_) {
-    events_.timeout = true;
+  gave_up_ = expires_ && starved_ && running_;
+  if (gave_up_) {
+    events_.timeout = events_.timeout || !aborts;
     lost_lines_ += waiting_;
     hunting_ = hunting_ || source_index_ > 0;
     empty();

@@ -42,8 +42,8 @@ class StreamReference {
   /// The array takes `line`; throws RtlError if it must not, or if it is another one.
   void take(const Line& line);
   /// Whether the array waits for an acquisition, and whether the sink refuses a word; throws RtlError if the
-  /// array waits although an acquisition is here.
-  void wait(bool array_ready, bool array_valid, bool sink_refuses, bool line_accepted);
+  /// array waits although an acquisition is here. A timeout in the clock of an abort is not told.
+  void wait(bool array_ready, bool array_valid, bool sink_refuses, bool line_accepted, bool aborts);
   void accept(const Line& line, bool last);
   void begin();
   void done();
@@ -52,6 +52,8 @@ class StreamReference {
 
   /// A line may be refused in this clock although there is room: the watchdog has expired in the last one.
   [[nodiscard]] bool expires() const { return expires_; }
+  /// The watchdog has ended the frame for the source in this clock.
+  [[nodiscard]] bool gave_up() const { return gave_up_; }
   /// The array is inside an acquisition.
   [[nodiscard]] bool inside() const { return index_ > 0; }
   /// Lines that wait for the array, and whether this is exact: nothing was thrown away.
@@ -94,6 +96,7 @@ class StreamReference {
   bool running_ = false;
   bool starved_ = false;
   bool expires_ = false;
+  bool gave_up_ = false;
   bool stalls_ = false;
   std::uint32_t waited_ = 0;
   std::uint32_t withheld_ = 0;  // clocks in which an acquisition was here and not offered

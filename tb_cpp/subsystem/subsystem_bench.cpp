@@ -60,6 +60,8 @@ void SubsystemBench::reset(bool source_too) {
   sink_.reset();
   bus_.reset();
   reference_.reset();
+  shot_reference_.reset();
+  shot_ = false;
   array_held_ = false;
   behind_reset_ = true;
   written_ = {.release = std::min(buffer_lines_, acquisition_lines_)};
@@ -133,9 +135,19 @@ BusResponse SubsystemBench::read(std::uint32_t offset) {
 
 BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std::uint8_t strobe) {
   bus_.write(offset, data, strobe);
+  if (offset == DTOF_SHOT_SEED) {
+    shot_reference_.set_seed(data);  // valid in a clock of the transfer
+  }
   run_transfer();
   if (offset == DTOF_RELEASE && strobe == RegisterBus::kAllBytes) {
     written_.release = data;
+  }
+  if (offset == DTOF_ACQUISITIONS && strobe == RegisterBus::kAllBytes) {
+    written_.shot.acquisitions = data;
+  }
+  if (offset == DTOF_SHOT && strobe == RegisterBus::kAllBytes) {
+    written_.shot.bits = (data & DTOF_SHOT_BITS_MASK) >> DTOF_SHOT_BITS_LSB;
+    written_.shot.unit = (data & DTOF_SHOT_UNIT_MASK) >> DTOF_SHOT_UNIT_LSB;
   }
   if (offset == DTOF_OUTPUT && strobe == RegisterBus::kAllBytes) {
     written_.second =
@@ -193,6 +205,28 @@ std::size_t SubsystemBench::words() const {
   return static_cast<std::size_t>(configuration_.pixels_per_sram) * columns * (committed_.second ? 2 : 1);
 }
 
+void SubsystemBench::observe_shot(ShotClock now) {
+  now.begin = *ports_.begin != 0;
+  now.done = *ports_.done != 0;
+  now.abort = *ports_.abort != 0;
+  now.flush = *ports_.flush != 0;
+  now.reseed = *ports_.reseed != 0;
+  now.gave_up = reference_.gave_up() && !now.abort;
+  if (now.begin) {
+    shot_reference_.set(committed_.shot);
+  }
+  shot_ = *ports_.shot != 0;
+  if (shot_reference_.clock(now) != shot_) {
+    throw RtlError(fmt::format("a shot is {}", shot_ ? "fired that nobody needs" : "missing"));
+  }
+  if (shot_) {
+    if (frames_.empty()) {
+      throw RtlError("a shot before the first frame");
+    }
+    frames_.back().shots.push_back(cycle_ - begin_cycle_);
+  }
+}
+
 void SubsystemBench::observe_lines() {
   const bool commanded = *ports_.abort != 0 || *ports_.flush != 0 || reference_.expires() || behind_reset_;
   const bool offered = *ports_.array_line_valid != 0;
@@ -200,6 +234,8 @@ void SubsystemBench::observe_lines() {
   if (!offered && (array_held_ || reference_.inside())) {
     throw RtlError("an acquisition was interrupted");
   }
+  ShotClock now{.inside = reference_.hunting() || reference_.source_index() > 0,
+                .taken = offered && ready && !reference_.inside()};
   if (offered && ready) {
     take_array_line();
   }
@@ -213,10 +249,13 @@ void SubsystemBench::observe_lines() {
   bool last = false;
   const Line* line = source_.observe(&last);
   reference_.set_watchdog(*ports_.watchdog);
-  reference_.wait(ready, offered, sink_refuses, line != nullptr);
+  reference_.wait(ready, offered, sink_refuses, line != nullptr, *ports_.abort != 0);
   if (line != nullptr) {
+    now.arrives = !reference_.hunting() && reference_.source_index() == 0;
+    now.rest_ends = reference_.hunting() && last;
     reference_.accept(*line, last);
   }
+  observe_shot(now);
   if (*ports_.done != 0) {
     frames_.back().cycles = cycle_ + 1 - begin_cycle_;
     reference_.done();

@@ -6,9 +6,11 @@
 #include <vector>
 
 #include "dtof/core/random.hpp"
+#include "rtl/sram.hpp"
 #include "subsystem/axi_stream.hpp"
 #include "subsystem/register_bus.hpp"
 #include "subsystem/registry.hpp"
+#include "subsystem/shot_reference.hpp"
 
 class VerilatedContext;
 
@@ -16,16 +18,18 @@ namespace dtof {
 
 /// What the array in the subsystem took in a frame.
 struct ArrayFrame {
-  std::vector<Line> lines;   ///< all acquisitions' one behind the other, before mask and gate
-  std::uint64_t cycles = 0;  ///< from its start to done, both included; 0 while it is under way
-  std::uint32_t lost = 0;    ///< acquisitions in which the line buffer ran empty
+  std::vector<Line> lines;           ///< all acquisitions' one behind the other, before mask and gate
+  std::uint64_t cycles = 0;          ///< from its start to done, both included; 0 while it is under way
+  std::uint32_t lost = 0;            ///< acquisitions in which the line buffer ran empty
+  std::vector<std::uint64_t> shots;  ///< clocks of shot_o, from the frame's start
 };
 
 /// A subsystem with masters at all its ports, which checks in every clock that
 /// - the results keep their stream's protocol (ResultSink);
 /// - an acquisition begins when it is allowed to, and is never interrupted;
 /// - each line reaches the array in its place, or as no detection where StreamReference says so;
-/// - a line is refused only when the buffer is full, or in the clock of a command.
+/// - a line is refused only when the buffer is full, or in the clock of a command;
+/// - a shot is fired when ShotReference says so, and not otherwise.
 class SubsystemBench {
  public:
   /// Everything random follows from `seed`.
@@ -44,6 +48,11 @@ class SubsystemBench {
   [[nodiscard]] const std::vector<ArrayFrame>& frames() const { return frames_; }
   [[nodiscard]] SubsystemEvents& events() { return reference_.events(); }
   [[nodiscard]] const StreamReference& reference() const { return reference_; }
+  /// Its SRAMs; none unless it was built with WRITABLE_SRAMS.
+  [[nodiscard]] std::vector<RtlSram> srams() { return find_srams(*context_); }
+  /// shot_o of the last clock.
+  [[nodiscard]] bool shot() const { return shot_; }
+  [[nodiscard]] const ShotReference& shot_reference() const { return shot_reference_; }
   [[nodiscard]] bool interrupt() const { return *ports_.irq != 0; }
   [[nodiscard]] bool axi_lite() const { return *ports_.axi_lite != 0; }
 
@@ -69,12 +78,14 @@ class SubsystemBench {
   void run_transfer();
   void observe_lines();
   void take_array_line();
+  void observe_shot(ShotClock now);
   [[nodiscard]] Line array_line() const;
   struct Settings {
     std::size_t release = 0;
     bool second = false;
     bool raw = false;
     std::uint32_t raw_rows = 0;
+    ShotReference::Settings shot = {};
   };
   /// Words of the frame that begins.
   [[nodiscard]] std::size_t words() const;
@@ -91,6 +102,8 @@ class SubsystemBench {
   Settings written_;
   Settings committed_;
   StreamReference reference_;
+  ShotReference shot_reference_;
+  bool shot_ = false;
   std::vector<ArrayFrame> frames_;
   std::uint64_t cycle_ = 0;
   std::uint64_t begin_cycle_ = 0;

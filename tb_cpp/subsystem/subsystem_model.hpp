@@ -44,6 +44,7 @@ class SubsystemModel {
     const std::uint8_t* rresp;
 
     const std::uint8_t* irq;
+    const std::uint8_t* shot;
 
     std::uint8_t* line_valid;
     const std::uint8_t* line_ready;
@@ -63,6 +64,7 @@ class SubsystemModel {
     const std::uint8_t* flush;             ///< CONTROL.FLUSH, unless it is ignored
     const std::uint32_t* watchdog;         ///< WATCHDOG as it stands
     const std::uint8_t* commit;            ///< settings become valid behind this clock
+    const std::uint8_t* reseed;            ///< SHOT_SEED was written
     const std::uint8_t* array_line_valid;  ///< at the array's port
     const std::uint8_t* array_line_ready;
     const std::uint32_t* array_line;  ///< as line_data, before mask and gate

@@ -9,7 +9,8 @@ module subsystem_testbench #(
     parameter AXI_LITE = 0,
 `include "dtof_subsystem_declarations.svh"
     parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
-    parameter RASTER_ORDER = 0
+    parameter RASTER_ORDER = 0,
+    parameter PARITY = 0
 ) (
     input  logic         clk_i,
     input  logic         rst_ni,
@@ -41,6 +42,7 @@ module subsystem_testbench #(
     output logic [ 31:0] s_axi_rdata_o,
     output logic [  1:0] s_axi_rresp_o,
     output logic         irq_o,
+    output logic         shot_o,
     input  logic         s_axis_tvalid_i,
     output logic         s_axis_tready_o,
     input  logic [511:0] s_axis_tdata_i,
@@ -56,6 +58,7 @@ module subsystem_testbench #(
     output logic         probe_flush_o,
     output logic [ 31:0] probe_watchdog_o,
     output logic         probe_commit_o,
+    output logic         probe_reseed_o,
     output logic         probe_line_valid_o,
     output logic         probe_line_ready_o,
     output logic [511:0] probe_line_o
@@ -119,6 +122,7 @@ module subsystem_testbench #(
       .READOUT(READOUT),
       .BUFFER_LINES(BUFFER_LINES),
       .RASTER_ORDER(RASTER_ORDER),
+      .PARITY(PARITY),
 `include "dtof_subsystem_parameters.svh"
   ) u_subsystem (
       .clk_i,
@@ -136,6 +140,7 @@ module subsystem_testbench #(
       .prdata_o(prdata),
       .pslverr_o(pslverr),
       .irq_o,
+      .shot_o,
       .s_axis_tvalid_i,
       .s_axis_tready_o,
       .s_axis_tdata_i(s_axis_tdata_i[S_TDATA_WIDTH-1:0]),
@@ -154,6 +159,7 @@ module subsystem_testbench #(
   assign probe_flush_o = u_subsystem.flushes;
   assign probe_watchdog_o = 32'(u_subsystem.watchdog);
   assign probe_commit_o = u_subsystem.u_registers.commit;
+  assign probe_reseed_o = u_subsystem.shot_reseed;
   assign probe_line_valid_o = u_subsystem.tdc_valid;
   assign probe_line_ready_o = u_subsystem.tdc_ready;
   assign probe_line_o = 512'(u_subsystem.line);

@@ -46,6 +46,7 @@ class VerilatedSubsystem : public SubsystemModel {
             .rdata = &model_.s_axi_rdata_o,
             .rresp = &model_.s_axi_rresp_o,
             .irq = &model_.irq_o,
+            .shot = &model_.shot_o,
             .line_valid = &model_.s_axis_tvalid_i,
             .line_ready = &model_.s_axis_tready_o,
             .line_data = model_.s_axis_tdata_i.data(),
@@ -62,6 +63,7 @@ class VerilatedSubsystem : public SubsystemModel {
             .flush = &model_.probe_flush_o,
             .watchdog = &model_.probe_watchdog_o,
             .commit = &model_.probe_commit_o,
+            .reseed = &model_.probe_reseed_o,
             .array_line_valid = &model_.probe_line_valid_o,
             .array_line_ready = &model_.probe_line_ready_o,
             .array_line = model_.probe_line_o.data()};

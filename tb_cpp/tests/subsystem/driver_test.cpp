@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <boost/crc.hpp>
 #include <map>
 
 #include "dtof.h"
@@ -46,6 +47,7 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_second_target, configuration.parameters.pool.second_target);
   EXPECT_EQ(device_.has_prior, configuration.parameters.pool.prior);
   EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
+  EXPECT_EQ(device_.has_parity, (bench_.get(DTOF_READOUT) & DTOF_READOUT_PARITY_MASK) != 0);
   EXPECT_EQ(device_.has_raster_order, (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0);
   EXPECT_EQ(device_.count_width, configuration.parameters.count_width);
   EXPECT_EQ(device_.nb, configuration.parameters.nb);
@@ -142,6 +144,14 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     EXPECT_EQ(cycles, bench_.frames().back().cycles);
 
     const std::vector<std::uint64_t>& words = bench_.sink().frames().back();
+    std::uint32_t checked = 0;
+    ASSERT_EQ(dtof_check_frame(&device_, words.data(), words.size(), &checked), DTOF_OK);
+    EXPECT_EQ(checked, frame + 1);
+    std::vector<std::uint64_t> damaged = words;
+    damaged[random() % damaged.size()] ^= std::uint64_t{1} << (random() % DTOF_RESULT_ABORTED_LSB);
+    EXPECT_EQ(dtof_check_frame(&device_, damaged.data(), damaged.size(), &checked), DTOF_CORRUPT);
+    EXPECT_EQ(dtof_check_frame(&device_, words.data() + 1, words.size() - 1, &checked), DTOF_CORRUPT);
+    EXPECT_EQ(dtof_check_frame(&device_, words.data(), words.size() - 1, &checked), DTOF_CORRUPT);
     std::vector<dtof_result> results(words.size());
     ASSERT_EQ(dtof_unpack_frame(&device_, words.data(), words.size(), results.data()), DTOF_OK);
     for (const ResultFields& expected : expected_results(bench_, settings, lines, &priors)) {
@@ -450,8 +460,52 @@ TEST(DriverAlone, TellsWhenTheBusFails) {
   EXPECT_EQ(dtof_start(&device, false), DTOF_BUS);
   EXPECT_EQ(dtof_busy(&device, &busy), DTOF_BUS);
   EXPECT_EQ(dtof_frames(&device, &value, &value), DTOF_BUS);
+  EXPECT_EQ(dtof_check_frame(&device, nullptr, 0, &value), DTOF_BUS);
+  EXPECT_EQ(dtof_seed_shots(&device, 1), DTOF_BUS);
+  EXPECT_EQ(dtof_read_shot_state(&device, &value), DTOF_BUS);
   EXPECT_EQ(dtof_take_errors(&device, &value), DTOF_BUS);
   EXPECT_EQ(dtof_take_warnings(&device, &value), DTOF_BUS);
+}
+
+TEST(DriverAlone, ComputesTheChecksumOfZlib) {
+  // "12345678" and its CRC-32, and the first of it twice.
+  const std::array<std::uint64_t, 2> words = {0x3837363534333231, 0x3837363534333231};
+  EXPECT_EQ(dtof_crc(words.data(), 0), 0U);
+  EXPECT_EQ(dtof_crc(words.data(), 1), 0x9AE0DAAFU);
+  CounterRandom random{1, 2, 3, 4};
+  std::vector<std::uint64_t> many(1000);
+  for (std::size_t i = 0; i < many.size(); ++i) {
+    many[i] = std::uint64_t{random()} << 32U | random();
+    boost::crc_32_type expected;
+    for (std::size_t k = 0; k <= i; ++k) {
+      for (unsigned byte = 0; byte < 8; ++byte) {
+        expected.process_byte(static_cast<unsigned char>(many[k] >> (8 * byte)));
+      }
+    }
+    ASSERT_EQ(dtof_crc(many.data(), i + 1), expected.checksum());
+  }
+}
+
+TEST(DriverAlone, ChecksAFrameAgainstItsOwnChecksumAlone) {
+  // A frame that ends between two reads: the count differs, and the checksum may be either's.
+  struct Counting {
+    std::uint32_t frames = 0;
+    std::uint32_t step = 1;
+  } counting;
+  dtof_device device{};
+  device.bus = {&counting,
+                [](void* context, std::uint32_t offset, std::uint32_t* value) {
+                  auto& device_state = *static_cast<Counting*>(context);
+                  *value = offset == DTOF_FRAME_COUNT ? device_state.frames += device_state.step : 0;
+                  return true;
+                },
+                nullptr};
+  std::uint32_t frame = 0;
+  const std::uint64_t aborted = DTOF_RESULT_ABORTED_MASK;
+  EXPECT_EQ(dtof_check_frame(&device, nullptr, 0, &frame), DTOF_BUSY);
+  counting.step = 0;
+  EXPECT_EQ(dtof_check_frame(&device, nullptr, 0, &frame), DTOF_OK) << "the checksum of nothing";
+  EXPECT_EQ(dtof_check_frame(&device, &aborted, 1, &frame), DTOF_ABORTED);
 }
 
 TEST(DriverAlone, GivesUpWhenAnAbortDoesNothing) {

@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 
+#include "dtof.h"
 #include "tests/subsystem/subsystem_test_support.hpp"
 
 namespace dtof {
@@ -98,6 +99,13 @@ class StreamFaults : public Subsystem {
     EXPECT_LE(lost_lines, bench_.reference().lost_lines());
     EXPECT_GE(lost_lines + bench_.reference().doubtful_lines(), bench_.reference().lost_lines());
     EXPECT_EQ(bench_.get(DTOF_LOST_ACQUISITIONS), bench_.reference().lost_acquisitions());
+    // The checksum is the last whole frame's, whatever was cut off behind it.
+    const std::vector<std::vector<std::uint64_t>>& frames = bench_.sink().frames();
+    if (bench_.get(DTOF_FRAME_COUNT) > 0) {
+      EXPECT_EQ(bench_.get(DTOF_FRAME_CRC), dtof_crc(frames.back().data(), frames.back().size()));
+    } else {
+      EXPECT_EQ(bench_.get(DTOF_FRAME_CRC), 0U);
+    }
     bench_.set(DTOF_ERROR, 0xFFFFFFFF);
     bench_.set(DTOF_WARNING, 0xFFFFFFFF);
     bench_.events() = {};

@@ -68,6 +68,9 @@ TEST_P(Subsystem, SaysWhatItIs) {
   EXPECT_EQ(bench_.get(DTOF_WARNING), 0U);
   EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
   EXPECT_EQ(bench_.get(DTOF_OUTPUT), pool ? DTOF_OUTPUT_SMOOTH_MASK : 0U);
+  EXPECT_EQ(bench_.get(DTOF_SHOT), 1U << DTOF_SHOT_UNIT_LSB) << "without a delay";
+  EXPECT_EQ(bench_.get(DTOF_SHOT_SEED), 1U);
+  EXPECT_EQ(bench_.get(DTOF_SHOT_STATE), 1U);
   EXPECT_EQ(bench_.get(DTOF_RELEASE),
             std::min<std::uint32_t>(static_cast<std::uint32_t>(bench_.acquisition_lines()),
                                     bench_.get(DTOF_LINES) >> DTOF_LINES_BUFFER_LSB));
@@ -89,6 +92,12 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
   }
   if (offset == DTOF_ACQUISITIONS || offset == DTOF_RELEASE) {
     return 0xFFFF;
+  }
+  if (offset == DTOF_SHOT) {
+    return DTOF_SHOT_BITS_MASK | DTOF_SHOT_UNIT_MASK;
+  }
+  if (offset == DTOF_SHOT_SEED) {
+    return DTOF_SHOT_SEED_VALUE_MASK;
   }
   if (offset == DTOF_OUTPUT) {
     return existing_outputs(configuration);
@@ -112,9 +121,9 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
 
 TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   CounterRandom random = this->random(1);
-  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END,
-                                        DTOF_TRACK_END,  DTOF_GATE,         DTOF_RELEASE,
-                                        DTOF_OUTPUT,     DTOF_RAW_ROWS,     DTOF_WATCHDOG};
+  std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END, DTOF_TRACK_END,
+                                        DTOF_GATE,       DTOF_RELEASE,      DTOF_OUTPUT,     DTOF_RAW_ROWS,
+                                        DTOF_WATCHDOG,   DTOF_SHOT,         DTOF_SHOT_SEED};
   for (std::uint32_t i = 0; i < DTOF_COLUMN_ENABLE_NUMBER; ++i) {
     offsets.push_back(DTOF_COLUMN_ENABLE + 4 * i);
   }
@@ -146,14 +155,38 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   EXPECT_GT(refused, 20);
 }
 
+// What dtof_registers.h and the maps of driver/maps say of a value behind a reset.
+TEST_P(Subsystem, ReadsBehindAResetWhatTheMapsSay) {
+  for (int round = 0; round < 2; ++round) {
+    std::size_t compared = 0;
+    const auto compare = [&](std::uint32_t offset, std::uint32_t number, std::uint32_t value,
+                             std::uint32_t mask) {
+      for (std::uint32_t i = 0; i < number; ++i) {
+        EXPECT_EQ(bench_.get(offset + 4 * i) & mask, value) << "register " << offset + 4 * i;
+      }
+      compared += mask != 0 ? 1 : 0;
+    };
+#define COMPARE(OFFSET, NUMBER, VALUE, MASK) compare(OFFSET, NUMBER, VALUE, MASK);
+    DTOF_FOR_EACH_REGISTER(COMPARE)
+#undef COMPARE
+    EXPECT_GT(compared, 25U);
+    bench_.set(DTOF_ACQUISITIONS, 3);
+    bench_.set(DTOF_WATCHDOG, 5);
+    bench_.set(DTOF_SHOT, 0x203);
+    bench_.set(DTOF_SHOT_SEED, 77);
+    bench_.reset();
+  }
+}
+
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x110U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x124U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }
   for (const std::uint32_t offset :
        {DTOF_ID, DTOF_VERSION, DTOF_SIZE, DTOF_HISTOGRAM, DTOF_POINTER, DTOF_POOL, DTOF_ENGINES, DTOF_SHARES,
-        DTOF_STATUS, DTOF_FRAME_COUNT, DTOF_FRAME_CYCLES, DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS}) {
+        DTOF_STATUS, DTOF_FRAME_COUNT, DTOF_FRAME_CYCLES, DTOF_LOST_LINES, DTOF_LOST_ACQUISITIONS,
+        DTOF_SHOT_STATE, DTOF_FRAME_CRC, DTOF_PARITY_ERRORS}) {
     const std::uint32_t value = bench_.get(offset);
     EXPECT_TRUE(bench_.write(offset, ~value).error) << offset;
     EXPECT_EQ(bench_.get(offset), value) << offset;

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// dtof_frame_crc: the checksum of a frame is that of its words, bit by bit with the polynomial in its other order, from the first word
+// to the last; it changes with a frame's last word alone, and not with that of a frame that was cut off.
+`include "properties.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module frame_crc_properties #(
+    parameter int WIDTH = 64
+) (
+    input logic             clk_i,
+    input logic             reset_i,
+    input logic             taken_i,
+    input logic [WIDTH-1:0] word_i,
+    input logic             first_i,
+    input logic             last_i,
+    input logic             aborted_i
+);
+
+  logic checking = 1'b0;
+  logic rst_n;
+  assign rst_n = checking && !reset_i;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic [31:0] crc;
+
+  dtof_frame_crc #(
+      .WIDTH(WIDTH)
+  ) u_dut (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_n),
+      .taken_i  (taken_i),
+      .word_i   (word_i),
+      .first_i  (first_i),
+      .last_i   (last_i),
+      .aborted_i(aborted_i),
+      .crc_o    (crc)
+  );
+
+  // The last word that was taken, and whether that was in the last clock.
+  logic taken_q, first_q, ends_q;
+  logic [WIDTH-1:0] word_q;
+
+  // The highest bit first: x^31 of the remainder is bit 31, a bit of the word enters there.
+  logic [32*WIDTH+31:0] remainders;
+  logic [31:0] remainder_q, expected_q, mirrored;
+  logic [1:0] frames_q;  // that came whole, modulo 4
+  genvar i;
+  generate
+    assign remainders[31:0] = first_q ? {32{1'b1}} : remainder_q;
+    for (i = 0; i < WIDTH; i = i + 1) begin : g_bit
+      assign remainders[32*i+32+:32] = {remainders[32*i+:31], 1'b0}
+          ^ ((remainders[32*i+31] ^ word_q[i]) ? 32'h04c11db7 : 32'd0);
+    end
+    for (i = 0; i < 32; i = i + 1) begin : g_mirror
+      assign mirrored[i] = !remainders[32*WIDTH+31-i];
+    end
+  endgenerate
+
+  always_ff @(posedge clk_i or negedge rst_n) begin
+    if (!rst_n) begin
+      {taken_q, first_q, ends_q, word_q} <= '0;
+      remainder_q <= '0;
+      expected_q <= '0;
+      frames_q <= '0;
+    end else begin
+      taken_q <= taken_i;
+      if (taken_i) begin
+        first_q <= first_i;
+        ends_q <= last_i && !aborted_i;
+        word_q <= word_i;
+      end
+      if (taken_q) begin
+        remainder_q <= remainders[32*WIDTH+:32];
+        if (ends_q) begin
+          expected_q <= mirrored;
+          frames_q <= frames_q + 1'b1;
+        end
+      end
+    end
+  end
+
+  `PROVE(a_crc, !rst_n || crc == expected_q)
+  `GOAL(rst_n && frames_q == 2 && crc != '0 && taken_i && last_i && aborted_i && !first_i)
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// dtof_parity_sram: a word that is as it was written raises no error and has its data; one whose bits have changed in an odd number of
+// places raises one, two clocks behind its read. The contents of the memory are arbitrary until an address is written: they stand for a
+// word that was damaged.
+`include "properties.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module parity_sram_properties #(
+    parameter int PORTS = 2,
+    parameter int DEPTH = 3,
+    parameter int WIDTH = 3,
+    localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
+) (
+    input logic                  clk_i,
+    input logic                  reset_i,
+    input logic                  read_en_i,
+    input logic [ADDR_WIDTH-1:0] read_addr_i,
+    input logic                  write_en_i,
+    input logic [ADDR_WIDTH-1:0] write_addr_i,
+    input logic [     WIDTH-1:0] write_data_i
+);
+
+  logic checking = 1'b0;
+  logic rst_n;
+  assign rst_n = checking && !reset_i;
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+  end
+
+  logic [WIDTH-1:0] data;
+  logic error;
+
+  dtof_parity_sram #(
+      .PORTS (PORTS),
+      .DEPTH (DEPTH),
+      .WIDTH (WIDTH),
+      .PARITY(1)
+  ) u_dut (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_n),
+      .cfg_i       ('0),
+      .read_en_i   (read_en_i),
+      .read_addr_i (read_addr_i),
+      .read_data_o (data),
+      .error_o     (error),
+      .write_en_i  (write_en_i),
+      .write_addr_i(write_addr_i),
+      .write_data_i(write_data_i)
+  );
+
+  // One address is followed. Whether its word was written since the begin, what with, and whether the last reads were of it.
+  (* anyconst *) logic [ADDR_WIDTH-1:0] watched;
+  logic written_q, good_q, good_before_q, read_q, read_before_q;
+  logic [WIDTH-1:0] word_q, expected_q;
+
+  always_ff @(posedge clk_i) begin
+    if (!checking) begin
+      written_q <= 1'b0;
+    end else if (write_en_i && write_addr_i == watched) begin
+      written_q <= 1'b1;
+      word_q <= write_data_i;
+    end
+    good_q <= rst_n && read_en_i && (read_addr_i == watched) && written_q;
+    read_q <= rst_n && read_en_i;
+    expected_q <= word_q;
+    good_before_q <= rst_n && good_q;
+    read_before_q <= rst_n && read_q;
+  end
+
+  `ASSUME(m_range, read_addr_i < DEPTH && write_addr_i < DEPTH)
+  `ASSUME(m_ports, !(read_en_i && write_en_i && (PORTS == 1 || read_addr_i == write_addr_i)))
+  `PROVE(a_data, !rst_n || !good_q || data == expected_q)
+  `PROVE(a_no_false_alarm, !rst_n || !good_before_q || !error)
+  `PROVE(a_only_behind_a_read, !rst_n || read_before_q || !error)
+  `GOAL(rst_n && error)
+
+endmodule
+
+`default_nettype wire

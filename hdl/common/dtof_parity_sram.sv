@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// dtof_sram with an optional parity bit in each word, which is checked at each read.
+//
+// 1. With PARITY = 1 a word is stored with the XOR of its bits. A word that is read with an odd number of wrong bits is told; its data
+//    comes all the same. An even number of wrong bits is not seen.
+// 2. With PARITY = 0 this is a dtof_sram and nothing else.
+//
+// Contract: that of dtof_sram, and every word that is read was written before. With PORTS = 2 no address is read in the clock in
+// which it is written.
+// Schedule: read_en_i in clock 0, data in clock 1, error_o in clock 2 for one clock, from a flip-flop.
+// Cost with PARITY = 1: a bit a word, two trees of WIDTH XORs, two flip-flops.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_parity_sram #(
+    parameter int PORTS = 2,
+    parameter int DEPTH = 160,  // words
+    parameter int WIDTH = 10,   // bits a word, without parity
+    parameter int PARITY = 0,   // 1: each word has a parity bit
+    localparam int ADDR_WIDTH = (DEPTH > 2) ? $clog2(DEPTH) : 1
+) (
+    input  logic                  clk_i,
+    input  logic                  rst_ni,
+    input  logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] cfg_i,  // side band of the macro
+    output logic [dtof_pkg::SRAM_CFG_WIDTH-1:0] cfg_o,
+    input  logic                  read_en_i,
+    input  logic [ADDR_WIDTH-1:0] read_addr_i,
+    output logic [     WIDTH-1:0] read_data_o,
+    output logic                  error_o,              // the word that was read two clocks ago is damaged
+    input  logic                  write_en_i,
+    input  logic [ADDR_WIDTH-1:0] write_addr_i,
+    input  logic [     WIDTH-1:0] write_data_i
+);
+
+  `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_parity_sram: PARITY must be 0 or 1")
+
+  localparam int STORED_WIDTH = WIDTH + ((PARITY != 0) ? 1 : 0);
+
+  logic [STORED_WIDTH-1:0] stored, written;
+
+  assign read_data_o = stored[WIDTH-1:0];
+
+  dtof_sram #(
+      .PORTS(PORTS),
+      .DEPTH(DEPTH),
+      .WIDTH(STORED_WIDTH)
+  ) u_sram (
+      .clk_i       (clk_i),
+      .rst_ni      (rst_ni),
+      .cfg_i       (cfg_i),
+      .cfg_o       (cfg_o),
+      .read_en_i   (read_en_i),
+      .read_addr_i (read_addr_i),
+      .read_data_o (stored),
+      .write_en_i  (write_en_i),
+      .write_addr_i(write_addr_i),
+      .write_data_i(written)
+  );
+
+  generate
+    if (PARITY != 0) begin : g_parity
+      logic read_q, error_q;
+      assign written = {^write_data_i, write_data_i};
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          read_q <= 1'b0;
+          error_q <= 1'b0;
+        end else begin
+          read_q <= read_en_i;
+          error_q <= read_q && (^stored);
+        end
+      end
+      assign error_o = error_q;
+    end else begin : g_no_parity
+      assign written = write_data_i;
+      assign error_o = 1'b0;
+    end
+  endgenerate
+
+endmodule
+
+`default_nettype wire

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parity of the subsystem's own memories: bits that change in the line buffer and in the raster buffer are
+// told, and nothing else is.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "dtof.h"
+#include "tests/subsystem/subsystem_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+class Parity : public Subsystem {
+ protected:
+  bool has_parity() { return (bench_.get(DTOF_READOUT) & DTOF_READOUT_PARITY_MASK) != 0; }
+
+  std::optional<RtlSram> sram(std::string_view name) {
+    for (const RtlSram& sram : bench_.srams()) {
+      if (sram.path().find(name) != std::string::npos) {
+        return sram;
+      }
+    }
+    return std::nullopt;
+  }
+
+  static void flip(RtlSram& sram, int word, int bit) { sram.set_bit(word, bit, !sram.bit(word, bit)); }
+
+  // A frame's settings, and its lines on their way.
+  std::vector<Line> prepare(std::uint32_t acquisitions, CounterRandom& random) {
+    write_settings(bench_, {.acquisitions = acquisitions,
+                            .gate = {0, bench_.configuration().parameters.no_detection()},
+                            .weak_below = 0,
+                            .enabled = {},
+                            .second_target = bench_.configuration().parameters.pool.second_target,
+                            .raw = false});
+    std::vector<Line> lines = make_lines(bench_.configuration(), acquisitions, random);
+    push_lines(bench_, lines);
+    return lines;
+  }
+
+  void expect_errors(std::uint32_t number, std::uint32_t since_reset) {
+    EXPECT_EQ(bench_.get(DTOF_ERROR), number > 0 ? DTOF_ERROR_PARITY_MASK : 0U);
+    EXPECT_EQ(bench_.get(DTOF_IRQ_STATUS) & DTOF_IRQ_STATUS_ERROR_MASK,
+              number > 0 ? DTOF_IRQ_STATUS_ERROR_MASK : 0U);
+    EXPECT_EQ(bench_.get(DTOF_PARITY_ERRORS), since_reset);
+    bench_.set(DTOF_ERROR, 0xFFFFFFFF);
+    bench_.set(DTOF_IRQ_STATUS, 0xFFFFFFFF);
+  }
+};
+
+INSTANTIATE_TEST_SUITE_P(All, Parity, testing::ValuesIn(compiled_subsystems()), subsystem_test_name);
+
+TEST_P(Parity, IsQuietWhileNothingChanges) {
+  CounterRandom random = this->random(60);
+  bench_.source().gap_probability = 0.3;
+  for (int frame = 0; frame < 5; ++frame) {
+    bench_.sink().stall_probability = 0.5 * random.uniform();
+    bench_.source().gap_probability = 0.0;
+    prepare(1 + random() % 5, random);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    expect_errors(0, 0);
+  }
+}
+
+TEST_P(Parity, OfALineTellsEachWordOnce) {
+  if (!has_parity()) {
+    EXPECT_FALSE(sram("u_line_buffer").has_value()) << "SRAMs are writable where there is parity";
+    return;
+  }
+  CounterRandom random = this->random(61);
+  RtlSram lines = *sram("u_line_buffer");
+  const int parity_bit = lines.width() - 1;
+  EXPECT_EQ(lines.width(), bench_.configuration().sram_num * bench_.configuration().parameters.np + 2);
+  std::uint32_t since_reset = 0;
+  for (int round = 0; round < 20; ++round) {
+    bench_.reset();
+    since_reset = 0;
+    prepare(2, random);
+    bench_.clocks(bench_.acquisition_lines());  // nothing is taken before the frame: they lie in the buffer
+    // The parity bit, so that the lines stay what the bench expects; the first line has left the memory.
+    std::uint32_t flipped = 0;
+    for (int word = 1; word + 2 < static_cast<int>(bench_.acquisition_lines()); ++word) {
+      if (pick(random, 2) == 0) {
+        flip(lines, word, parity_bit);
+        ++flipped;
+      }
+    }
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    since_reset += flipped;
+    expect_errors(flipped, since_reset);
+    prepare(2, random);  // each word is written anew
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    expect_errors(0, since_reset);
+    dtof_device device{};
+    ASSERT_EQ(dtof_probe(&device, {&bench_,
+                                   [](void* context, std::uint32_t offset, std::uint32_t* value) {
+                                     *value = static_cast<SubsystemBench*>(context)->get(offset);
+                                     return true;
+                                   },
+                                   nullptr}),
+              DTOF_OK);
+    dtof_state state{};
+    ASSERT_EQ(dtof_read_state(&device, &state), DTOF_OK);
+    EXPECT_EQ(state.parity_errors, since_reset);
+  }
+}
+
+TEST_P(Parity, OfAResultTellsEveryBit) {
+  const bool raster = (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0;
+  if (!has_parity() || !raster) {
+    return;
+  }
+  CounterRandom random = this->random(62);
+  RtlSram results = *sram("u_raster_buffer");
+  std::uint32_t since_reset = 0;
+  for (int bit = 0; bit < results.width(); ++bit) {
+    prepare(2, random);
+    bench_.sink().blocked = true;
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    while (bench_.frames().size() <= static_cast<std::size_t>(bit) || bench_.frames().back().cycles == 0) {
+      bench_.clock();
+    }
+    bench_.clocks(50);  // the first word waits at the port, behind it the memory
+    const int word = 2 + pick(random, results.words() - 2);
+    flip(results, word, bit);
+    const int twice = 2 + (word - 1) % (results.words() - 2);
+    flip(results, twice, bit);  // an even number of bits in one word is not seen
+    flip(results, twice, (bit + 1) % results.width());
+    bench_.sink().blocked = false;
+    bench_.wait_for_frames(1);
+    ++since_reset;
+    expect_errors(1, since_reset);
+  }
+}
+
+}  // namespace
+}  // namespace dtof
