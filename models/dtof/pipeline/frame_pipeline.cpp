@@ -35,6 +35,17 @@ Fidelity frame_fidelity(std::string_view name, double tolerance, const PhotonSou
   return parse_fidelity(name, scene, {.tolerance = tolerance, .use = use, .readouts = sampled});
 }
 
+std::vector<RangeConverter> flat_tables(const SensorModel& sensor, double klux, Fidelity fidelity,
+                                        std::span<const ReadoutParameters> readouts, std::uint64_t seed,
+                                        int threads) {
+  const SensorModel calibrated = sensor.as_calibrated();
+  const FlatCalibration calibration(calibrated);
+  const auto photons = [&](const TargetMap& targets) {
+    return make_source(fidelity, PhotonSource(calibrated, targets, klux, seed, FlatCalibration::kFrame));
+  };
+  return calibration.fit(photons, readouts, seed, threads);
+}
+
 FramePipeline::FramePipeline(PhotonSource scene, const FrameEngine& engine, Settings settings)
     : scene_(std::move(scene)),
       engine_(engine),
@@ -52,14 +63,8 @@ std::vector<TabledReadout> FramePipeline::tables(std::span<const ReadoutParamete
     tabled.push_back({parameters, std::nullopt});
   }
   if (rule == TableRule::kFlat) {
-    const SensorModel sensor = scene_.model().as_calibrated();
-    const FlatCalibration calibration(sensor);
-    const auto photons = [&](const TargetMap& targets) {
-      return make_source(settings_.fidelity, PhotonSource(sensor, targets, scene_.klux(), settings_.seed,
-                                                          FlatCalibration::kFrame));
-    };
-    std::vector<RangeConverter> tables =
-        calibration.fit(photons, readouts, settings_.seed, settings_.threads);
+    std::vector<RangeConverter> tables = flat_tables(scene_.model(), scene_.klux(), settings_.fidelity,
+                                                     readouts, settings_.seed, settings_.threads);
     for (std::size_t r = 0; r < tabled.size(); ++r) {
       tabled[r].table = std::move(tables[r]);
     }

@@ -33,6 +33,12 @@ void check_frame_memory(const SensorModel& sensor, int rows);
 Fidelity frame_fidelity(std::string_view name, double tolerance, const PhotonSource& scene,
                         std::span<const ReadoutParameters> readouts, const FrameEngine& engine);
 
+/// The look-up table of each read-out's model behind `--table flat` (FlatCalibration), from photons of the
+/// sensor as a host calibrates it. All tables are fitted to the same photons. Throws InputError.
+std::vector<RangeConverter> flat_tables(const SensorModel& sensor, double klux, Fidelity fidelity,
+                                        std::span<const ReadoutParameters> readouts, std::uint64_t seed,
+                                        int threads);
+
 /// A read-out and its look-up table; without a table Eq. 3.11 gives the distances.
 struct TabledReadout {
   ReadoutParameters parameters;
@@ -77,7 +83,7 @@ class FramePipeline {
   /// What the region's pixels can be judged by.
   [[nodiscard]] const FrameTruth& truth() const { return truth_; }
 
-  /// The read-outs with their look-up tables by this rule. All tables are fitted to the same photons.
+  /// The read-outs with their look-up tables by this rule.
   [[nodiscard]] std::vector<TabledReadout> tables(std::span<const ReadoutParameters> readouts,
                                                   TableRule rule) const;
   /// Reads the frame; with a precision, further ones of the scene until it is reached. Pixels of a frame
