@@ -81,4 +81,4 @@ def save_npz(file: FileName, frame: Frame) -> None:
         made = frame[name]
         arrays |= {f"{name}_depth_m": made.depth_m, f"{name}_error_m": made.error_m, f"{name}_code": made.results.code,
                    f"{name}_fraction": made.results.fraction, f"{name}_confidence": made.results.confidence}
-    np.savez_compressed(os.fspath(file), **arrays)  # type: ignore[arg-type]
+    np.savez_compressed(os.fspath(file), **arrays)
