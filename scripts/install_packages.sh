@@ -30,7 +30,7 @@ for purpose in "$@"; do
     slurm) packages+=(snakemake slurm-wlm munge) ;;  # a cluster of one node, for make sweep-test only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
     python)  # installs the Python module and draws the examples' pictures, for make test only
-      packages+=(python3-pip python3-setuptools python3-wheel python3-matplotlib) ;;
+      packages+=(python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib) ;;
     learning) packages+=(libdlib-dev) ;;        # trains the enlarger's weights, for make train-enlarger only
     slang) packages+=(npm) ;;                   # fetches slang, for make lint-slang only
     playground)  # the models as WebAssembly, for make playground only

@@ -211,7 +211,7 @@ RivalFrame read_frame(const Rival& rival, std::span<const StreamSource* const> s
 }
 
 py::dict read_rival(const NamedRival& named, const py::object& photons, int threads,
-                  const py::object& progress) {
+                    const py::object& progress) {
   const Sources sources = to_sources(named, photons);
   std::vector<const StreamSource*> read;
   for (const std::shared_ptr<StreamSource>& source : sources) {
