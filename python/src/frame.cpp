@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,12 +64,15 @@ struct Frame {
   }
 };
 
+/// A rule's name, or a table (or none: Eq. 3.11) of each read-out by its name.
+using TableChoice = std::variant<std::string, std::map<std::string, std::optional<RangeConverter>>>;
+
 /// What a frame is made of, beside scene, sensor and read-outs.
 struct FrameChoice {
   double klux;
   std::uint64_t seed;
   std::uint32_t frame;
-  std::string table;
+  TableChoice table;
   std::string fidelity;
   double tolerance;
   std::optional<std::vector<int>> columns;
@@ -139,13 +143,32 @@ std::vector<ReadoutFrame> measure_all(const FramePipeline& pipeline, const std::
   return readouts;
 }
 
+/// The read-outs with tables that were given; empty if a rule was. Throws InputError for an unknown rule.
+std::vector<TabledReadout> given_tables(const std::vector<ReadoutParameters>& readouts,
+                                        const TableChoice& choice) {
+  std::vector<TabledReadout> tabled;
+  if (const auto* rule = std::get_if<std::string>(&choice)) {
+    (void)parse_table_rule(*rule);
+    return tabled;
+  }
+  const auto& tables = std::get<std::map<std::string, std::optional<RangeConverter>>>(choice);
+  for (const ReadoutParameters& parameters : readouts) {
+    const auto found = tables.find(std::string(readout_name(parameters.readout)));
+    if (found == tables.end()) {
+      throw InputError(fmt::format("table: there is none for {}", readout_name(parameters.readout)));
+    }
+    tabled.push_back({parameters, found->second});
+  }
+  return tabled;
+}
+
 Frame make_frame(const SceneMap& scene, SensorModel sensor, const std::vector<ReadoutParameters>& readouts,
                  const FrameChoice& choice, const py::object& progress) {
   sensor.np = readouts.front().np;
   sensor.slots = readouts.front().slots;
   sensor.validate();
   check_frame_memory(sensor, scene.targets->rows());
-  const TableRule rule = parse_table_rule(choice.table);
+  const std::vector<TabledReadout> given = given_tables(readouts, choice.table);
   const PhotonSource photons = scene_photons(scene, sensor, choice.klux, choice.seed, choice.frame);
   const Region region = choose_region(photons.columns(), photons.rows(), choice.columns, choice.rows);
   return do_work(progress, [&](const Progress::Observer& observer) {
@@ -162,14 +185,19 @@ Frame make_frame(const SceneMap& scene, SensorModel sensor, const std::vector<Re
                                   .seed = choice.seed,
                                   .threads = choice.threads,
                                   .keep_photons = readouts.size() > 1});
-    return Frame{std::make_shared<const FrameTruth>(pipeline.truth()), region,
-                 measure_all(pipeline, pipeline.tables(readouts, rule), choice)};
+    return Frame{
+        std::make_shared<const FrameTruth>(pipeline.truth()), region,
+        measure_all(pipeline,
+                    given.empty()
+                        ? pipeline.tables(readouts, parse_table_rule(std::get<std::string>(choice.table)))
+                        : given,
+                    choice)};
   });
 }
 
 Frame frame(const std::variant<std::string, SceneMap>& scene,
             const std::variant<std::string, SensorModel>& sensor, const py::object& readouts, double klux,
-            std::uint64_t seed, std::uint32_t frame_number, const std::string& table,
+            std::uint64_t seed, std::uint32_t frame_number, const TableChoice& table,
             const std::string& fidelity, double tolerance, const std::optional<std::vector<int>>& columns,
             const std::optional<std::pair<int, int>>& rows, const std::optional<double>& precision_percent,
             int max_frames, int threads, const py::object& progress) {
@@ -272,6 +300,8 @@ void bind_frames(py::module_& module) {
              "One frame of a scene, as `dtof frame` makes it: photons, TDC stream, read-outs, look-up "
              "tables, distances, errors.\n"
              "Arguments are that command's options; scene, sensor and readouts may be names or objects. "
+             "table: flat, none, or a dict of\n"
+             "LookupTables by the read-outs' names. "
              "progress(done, total) is\n"
              "called every few hundredths of a second; an exception of it, and Control-C, end the work.");
 }

@@ -3,13 +3,15 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <numeric>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
@@ -136,15 +138,77 @@ py::dict all_events(const StreamSource& source, int threads, const py::object& p
 
 using WholeNumbers = InputArray<std::int64_t>;
 
-void require_numbers(const WholeNumbers& array, const char* name, py::ssize_t count, std::int64_t end) {
+std::span<const std::int64_t> checked_numbers(const WholeNumbers& array, const char* name, py::ssize_t count,
+                                              std::int64_t end) {
   if (array.ndim() != 1 || array.shape(0) != count) {
     throw InputError(fmt::format("{}: one axis of {} numbers is wanted, as many as columns", name, count));
   }
-  for (py::ssize_t i = 0; i < count; ++i) {
-    if (array.at(i) < 0 || array.at(i) >= end) {
-      throw InputError(fmt::format("{}[{}]: {} is outside 0 to {}", name, i, array.at(i), end - 1));
+  const std::span numbers(array.data(), static_cast<std::size_t>(count));
+  const auto wrong =
+      std::ranges::find_if(numbers, [&](std::int64_t number) { return number < 0 || number >= end; });
+  if (wrong != numbers.end()) {
+    throw InputError(
+        fmt::format("{}[{}]: {} is outside 0 to {}", name, wrong - numbers.begin(), *wrong, end - 1));
+  }
+  return numbers;
+}
+
+/// The events of a list, all within their limits.
+struct EventList {
+  std::span<const std::int64_t> column;
+  std::span<const std::int64_t> row;
+  std::span<const std::int64_t> acquisition;
+  std::span<const std::int64_t> timestamp;
+};
+
+/// The detections of each pixel in the list's order, pixel by pixel: `ends` says where a pixel's are over.
+std::vector<Detection> by_pixel(const EventList& events, std::size_t rows, std::vector<std::size_t>& ends) {
+  const auto pixel = [&](std::size_t i) {
+    return static_cast<std::size_t>(events.column[i]) * rows + static_cast<std::size_t>(events.row[i]);
+  };
+  for (std::size_t i = 0; i < events.row.size(); ++i) {
+    ++ends[pixel(i)];
+  }
+  std::size_t before = 0;
+  for (std::size_t& end : ends) {  // for now: where the pixel's next detection goes
+    before += std::exchange(end, before);
+  }
+  std::vector<Detection> detections(events.row.size());
+  for (std::size_t i = 0; i < events.row.size(); ++i) {
+    detections[ends[pixel(i)]++] = {static_cast<std::uint32_t>(events.acquisition[i]),
+                                    static_cast<Timestamp>(events.timestamp[i])};
+  }
+  return detections;
+}
+
+/// Throws InputError if an acquisition of the pixel has more than `slots` events.
+void check_slots(std::span<const Detection> pixel, int slots, std::size_t column, std::size_t row) {
+  const auto most = static_cast<std::size_t>(slots);
+  for (std::size_t i = most; i < pixel.size(); ++i) {
+    if (pixel[i].acquisition == pixel[i - most].acquisition) {
+      throw InputError(fmt::format("column {}, row {}: acquisition {} has more than {} events (slots)",
+                                   column, row, pixel[i].acquisition, slots));
     }
   }
+}
+
+std::shared_ptr<StreamSource> make_stream(const EventList& events, int columns, int rows,
+                                          std::uint32_t acquisitions, int slots) {
+  const auto height = static_cast<std::size_t>(rows);
+  std::vector<std::size_t> ends(static_cast<std::size_t>(columns) * height);
+  std::vector<Detection> detections = by_pixel(events, height, ends);
+  std::vector<ColumnStream> streams(static_cast<std::size_t>(columns));
+  parallel_for(streams.size(), 0, [&](std::size_t column) {
+    for (std::size_t row = 0; row < height; ++row) {
+      const std::size_t place = column * height + row;
+      const std::size_t begin = place == 0 ? 0 : ends[place - 1];
+      const std::span pixel = std::span(detections).subspan(begin, ends[place] - begin);
+      std::ranges::stable_sort(pixel, {}, &Detection::acquisition);
+      check_slots(pixel, slots, column, row);
+      streams[column].append_row(pixel);
+    }
+  });
+  return std::make_shared<RecordedStream>(std::move(streams), rows, acquisitions);
 }
 
 std::shared_ptr<StreamSource> event_list(const WholeNumbers& column, const WholeNumbers& row,
@@ -161,35 +225,14 @@ std::shared_ptr<StreamSource> event_list(const WholeNumbers& column, const Whole
   if (np < 1 || np > 16) {
     throw InputError(fmt::format("np: {} is outside 1 to 16", np));
   }
-  require_numbers(column, "column", count, columns);
-  require_numbers(row, "row", count, rows);
-  require_numbers(acquisition, "acquisition", count, acquisitions);
-  require_numbers(timestamp, "timestamp", count, std::int64_t{1} << static_cast<unsigned>(np));
-  std::vector<py::ssize_t> order(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), py::ssize_t{0});
-  std::ranges::stable_sort(
-      order, {}, [&](py::ssize_t i) { return std::tuple(column.at(i), row.at(i), acquisition.at(i)); });
-  std::vector<ColumnStream> streams(static_cast<std::size_t>(columns));
-  std::size_t next = 0;
-  for (int c = 0; c < columns; ++c) {
-    for (int r = 0; r < rows; ++r) {
-      int together = 0;
-      std::int64_t last = -1;
-      for (; next < order.size() && column.at(order[next]) == c && row.at(order[next]) == r; ++next) {
-        const std::int64_t now = acquisition.at(order[next]);
-        together = now == last ? together + 1 : 1;
-        last = now;
-        if (together > slots) {
-          throw InputError(fmt::format("column {}, row {}: acquisition {} has more than {} events (slots)", c,
-                                       r, now, slots));
-        }
-        streams[static_cast<std::size_t>(c)].append(
-            {static_cast<std::uint32_t>(now), static_cast<Timestamp>(timestamp.at(order[next]))});
-      }
-      streams[static_cast<std::size_t>(c)].finish_row();
-    }
-  }
-  return std::make_shared<RecordedStream>(std::move(streams), rows, acquisitions);
+  const EventList events{.column = checked_numbers(column, "column", count, columns),
+                         .row = checked_numbers(row, "row", count, rows),
+                         .acquisition = checked_numbers(acquisition, "acquisition", count, acquisitions),
+                         .timestamp = checked_numbers(timestamp, "timestamp", count,
+                                                      std::int64_t{1} << static_cast<unsigned>(np))};
+  return do_work(py::none(), [&](const Progress::Observer& /*observer*/) {
+    return make_stream(events, columns, rows, acquisitions, slots);
+  });
 }
 
 std::shared_ptr<StreamSource> histogram_photons(const InputArray<double>& counts, double bin_width_s,
@@ -266,7 +309,7 @@ void bind_photons(py::module_& module) {
            "timestamp (uint16).")
       .def(
           "write_csv",
-          [](const StreamSource& source, const std::string& file) {
+          [](const StreamSource& source, const std::filesystem::path& file) {
             run_work(py::none(),
                      [&](const Progress::Observer& /*observer*/) { write_stream_csv(file, source); });
           },

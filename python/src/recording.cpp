@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,13 +30,13 @@ struct HeldRecording {
   std::vector<double> true_distance;
 };
 
-HeldRecording read(const std::string& file, const std::string& format,
+HeldRecording read(const std::filesystem::path& file, const std::string& format,
                    const std::optional<double>& bin_width_s, double tick_s, const std::string& variable,
                    const std::optional<std::uint32_t>& acquisitions, const std::optional<int>& columns,
                    const std::optional<int>& rows, int np, int slots, double integration_time_s,
                    double time_shift_s, const std::optional<double>& photons, double background,
                    std::uint64_t seed, std::uint32_t frame) {
-  const RecordingOptions options{.file = file,
+  const RecordingOptions options{.file = file.string(),
                                  .format = format,
                                  .bin_width_s = bin_width_s,
                                  .tick_s = tick_s,
@@ -68,7 +70,7 @@ py::object true_distances(const HeldRecording& recording) {
 }
 
 /// A result file as arrays of its lines.
-py::dict read_results(const std::string& file) {
+py::dict read_results(const std::filesystem::path& file) {
   std::vector<std::int32_t> column;
   std::vector<std::int32_t> row;
   std::vector<std::uint16_t> code;

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <variant>
@@ -129,7 +131,7 @@ void bind_scenes(py::module_& module) {
       "Scenes that need no file: a name and a sentence each.");
   module.def(
       "read_depth",
-      [](const std::string& file, const std::optional<double>& metres_per_unit) {
+      [](const std::filesystem::path& file, const std::optional<double>& metres_per_unit) {
         DepthImage image = read_depth_image(file, metres_per_unit);
         return taken_array(std::move(image.metres), {image.height, image.width});
       },

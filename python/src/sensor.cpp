@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -62,7 +64,8 @@ void bind_sensors(py::module_& module) {
       module, "Sensor",
       "A laser, its SPADs and their TDC: a preset's name or the path of a sensor file, and behind it any\n"
       "conditions, each after a plus: \"thesis+fog\". Cannot be changed; replace() makes another one.")
-      .def(py::init([](const std::string& name_or_file) { return find_sensor(name_or_file); }),
+      .def(py::init(
+               [](const std::filesystem::path& name_or_file) { return find_sensor(name_or_file.string()); }),
            "name_or_file"_a = "thesis")
       .def_static(
           "parse", [](const std::string& toml, const std::string& name) { return parse_sensor(toml, name); },

@@ -62,9 +62,13 @@ class FilesTest(unittest.TestCase):
         np.testing.assert_array_equal(scene.depth_m, np.nan_to_num(self.made.depth_m))
 
     def test_result_file(self) -> None:
-        programs.run("dtof", "frame", "--scene", "sky", "--array-columns", 9, "--array-rows", 6, "--readout", "sifh", "--out", self.out)
-        read = dtof.read_results(str(self.out / "sifh.csv"))
-        np.testing.assert_array_equal(read["code"].reshape(6, 9), self.frame["sifh"].results.code)
+        programs.run("dtof", "frame", "--scene", "sky", "--array-columns", 9, "--array-rows", 6, "--readout", "coarsehistogram", "--out",
+                     self.out)
+        read = dtof.read_results(self.out / "coarsehistogram.csv")
+        results = dtof.frame(dtof.Scene("sky", columns=9, rows=6), readouts="coarsehistogram")["coarsehistogram"].results
+        for field in ("code", "fraction", "confidence"):
+            np.testing.assert_array_equal(read[field].reshape(6, 9), getattr(results, field))
+        self.assertGreater(len(np.unique(read["fraction"])), 1)
         self.assertEqual(read["column"][:3].tolist(), [0, 1, 2])
         (self.out / "bad.csv").write_text("column,row,code,fraction,confidence\n1,2,x,0,0\n", encoding="ascii")
         with self.assertRaisesRegex(ValueError, r"bad.csv:2: "):

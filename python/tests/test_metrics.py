@@ -63,6 +63,7 @@ class MetricsTest(unittest.TestCase):
         self.assertGreater(frames.interval[1] - frames.interval[0], 0.2)  # frames differ by more than pixels would
         errors = dtof.target_errors(2.0, 2.0 + np.linspace(-0.101, 0.101, 51), (0.0, 6.75))
         self.assertAlmostEqual(errors["bias_m"].value, 0.0, 12)
+        self.assertAlmostEqual(errors["rmse_m"].value, float(np.sqrt((np.linspace(-0.101, 0.101, 51)**2).mean())), 12)
         self.assertAlmostEqual(errors["share_above_3_percent"].value, 22 / 51, 12)
         with self.assertRaises(ValueError):
             dtof.estimate_mean([1.0])

@@ -74,6 +74,10 @@ class ProgramTest(unittest.TestCase):
         self.compare(frame, "--array-columns", 8, "--array-rows", ROWS, "--acquisitions", 700, "--dead-time", 7.3, "--gate", 3.1, 40.7,
                      "--slots", 3, "--np", 9, "--nb", 4, "--window-centred", "--code-gate", 5, 400)
 
+    def test_the_timestamps_are_the_readouts(self) -> None:
+        frame = dtof.frame(dtof.Scene("room", columns=6, rows=ROWS), "thesis", dtof.Readout("sifh", np=9, slots=1))
+        self.compare(frame, "--array-columns", 6, "--array-rows", ROWS, "--np", 9, "--slots", 1)
+
     def test_own_maps(self) -> None:
         random = np.random.default_rng(5)
         depth = random.uniform(0.5, 5.0, (31, 23))
@@ -113,12 +117,24 @@ class ProgramTest(unittest.TestCase):
         counts[1, 2, :] = 3.0
         np.save(self.out / "counts.npy", counts)
         programs.run("dtof", "replay", self.out / "counts.npy", "--bin-width", 500, "--readout", "hispointer", "--out", self.out / "replay",
-                     "--photons", 300, "--background", 0.1)
+                     "--photons", 300, "--background", 0.1, "--shift", 2.5)
         expected = programs.codes(self.out / "replay" / "hispointer.csv", 3)["code"]
-        read = dtof.read_recording(str(self.out / "counts.npy"), bin_width_s=500 * 1e-12, photons=300.0, background=0.1)
-        own = dtof.histogram_photons(counts, 500 * 1e-12, photons=300.0, background=0.1)
+        read = dtof.read_recording(str(self.out / "counts.npy"), bin_width_s=500 * 1e-12, photons=300.0, background=0.1, time_shift_s=2.5e-9)
+        own = dtof.histogram_photons(counts, 500 * 1e-12, photons=300.0, background=0.1, offset_s=2.5e-9)
         for source in (read.photons, own):
             np.testing.assert_array_equal(dtof.read_out(source, "hispointer").code, expected)
+
+    def test_tables_can_be_used_again(self) -> None:
+        scene = dtof.Scene("room", columns=COLUMNS, rows=ROWS)
+        first = dtof.frame(scene, readouts=["sifh", "poolpointer2"])
+        tables = {name: first[name].table for name in first}
+        for readouts in (["sifh", "poolpointer2"], ["poolpointer2"]):
+            again = dtof.frame(scene, readouts=readouts, table=tables)
+            for name in again:
+                np.testing.assert_array_equal(again[name].depth_m, first[name].depth_m)
+                self.assertEqual(again[name].summary, first[name].summary)
+        with self.assertRaisesRegex(ValueError, "table: there is none for fifh"):
+            dtof.frame(scene, readouts=["fifh"], table=tables)
 
     def test_refusals_are_the_programs(self) -> None:
         cases = [(lambda: dtof.frame(sensor="thesys"), ["--sensor", "thesys"]),

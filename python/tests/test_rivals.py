@@ -17,7 +17,7 @@ STUDIED = ["histogram32", "hedh4", "gray8", "guided"]  # guided takes three fram
 
 class RivalTest(unittest.TestCase):
     def test_shares_are_the_studys(self) -> None:
-        columns = 6
+        columns = 40
         with tempfile.TemporaryDirectory() as folder:
             programs.run("dtof-study", "rivals", "--scene", "room", "--rival", *STUDIED, "--readout", "sifh", "--klux", 14,
                          "--columns", columns, "--seeds", 1, "--out", folder)
