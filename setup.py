@@ -3,6 +3,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -29,10 +30,12 @@ class CMakeBuild(build_ext):
         self.copy_file(str(build / "python" / "dtof" / target.name), str(target))
 
 
-(ROOT / "build").mkdir(exist_ok=True)
+work = ROOT / "build" / "setuptools"
+shutil.rmtree(work, ignore_errors=True)  # else a file that has gone would be packed again
+work.mkdir(parents=True)
 setup(
     version=VERSION.search((ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1],
     ext_modules=[Extension("dtof._core", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
-    options={"egg_info": {"egg_base": "build"}, "build": {"build_base": "build/setuptools"}},
+    options={"egg_info": {"egg_base": "build/setuptools"}, "build": {"build_base": "build/setuptools"}},
 )

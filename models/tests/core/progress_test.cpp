@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
@@ -115,6 +116,17 @@ TEST(Interruption, AFlagStopsTheWorkOfItsScopeAlone) {
   EXPECT_EQ(bodies, 0);
   EXPECT_NO_THROW(check_interruption());
   EXPECT_NO_THROW(work());
+}
+
+TEST(Interruption, TheFlagGoesWithTheWorkToItsThreads) {
+  const std::atomic<bool> stop = false;
+  std::atomic<int> with_flag = 0;
+  const StopScope scope(&stop);
+  parallel_for(50, 4, [&](std::size_t /*index*/) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // so that others take a share
+    with_flag += StopScope::flag() == &stop ? 1 : 0;
+  });
+  EXPECT_EQ(with_flag, 50);
 }
 
 TEST(Interruption, NoneWithoutASignal) { EXPECT_NO_THROW(check_interruption()); }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
+#include "dtof/core/pixel_sampler.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/scene/scene.hpp"
@@ -38,6 +39,7 @@ TEST(FramePipeline, ResultsAreTheModelsAndDistancesThoseOfTheTable) {
   const FramePipeline pipeline(scene, engine, {.region = Region::whole(12, 10)});
   const std::array readouts = {sifh()};
   const auto tabled = pipeline.tables(readouts, TableRule::kFlat);
+  ASSERT_TRUE(tabled.front().table);
   const MeasuredFrame frame = pipeline.measure(tabled.front());
   EXPECT_EQ(frame.run.results, run_frame(scene, sifh()));
   for (std::size_t i = 0; i < frame.run.results.size(); ++i) {
@@ -65,6 +67,27 @@ TEST(FramePipeline, ARegionHasItsOwnPixelsAndTruth) {
     const std::size_t pixel = (3 + i / 2) * 12 + (i % 2 == 0 ? 2 : 7);
     EXPECT_EQ(some.run.results[i], all.run.results[pixel]);
     EXPECT_EQ(part.truth().metres[i], whole.truth().metres[pixel]);
+  }
+}
+
+TEST(FramePipeline, APhotonModelThatCanBeSampledIsSampledUnlessStreamsAreAskedFor) {
+  const PhotonSource scene = room();
+  const Region part{.columns = {2, 7}, .rows = {.first = 3, .count = 4}};
+  const TabledReadout readout{sifh(), std::nullopt};
+  const auto measured = [&](bool streams_only, const Region& region) {
+    const ModelEngine engine({.streams_only = streams_only});
+    const FramePipeline pipeline(scene, engine, {.region = region, .fidelity = Fidelity::kFast});
+    return pipeline.measure(readout).run.results;
+  };
+  const auto fast = make_source(Fidelity::kFast, scene);
+  const auto& sampled = dynamic_cast<const SampledSource&>(*fast);
+  const std::vector<PixelResult> whole = run_sampled_frame(sampled, sifh());
+  EXPECT_EQ(measured(false, Region::whole(12, 10)), whole);
+  EXPECT_EQ(measured(true, Region::whole(12, 10)), run_frame(*fast, sifh()));
+  const std::vector<PixelResult> some = measured(false, part);
+  ASSERT_EQ(some.size(), 8U);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(some[i], whole[(3 + i / 2) * 12 + (i % 2 == 0 ? 2 : 7)]);
   }
 }
 
@@ -98,7 +121,7 @@ TEST(FramePipeline, AnObserverIsToldEveryColumn) {
   }});
   const FramePipeline pipeline(room(), engine, {.region = Region::whole(12, 10)});
   (void)pipeline.measure({sifh(), std::nullopt});
-  EXPECT_EQ(told.size(), 12U);
+  ASSERT_EQ(told.size(), 12U);
   EXPECT_EQ(told.back(), 12U);
 }
 
