@@ -61,6 +61,7 @@ struct FrameOptions {
 /// "flat, staircase, ..."
 std::string scene_names() {
   std::vector<std::string_view> names;
+  names.reserve(kAllScenes.size());
   for (const Scene scene : kAllScenes) {
     names.push_back(scene_name(scene));
   }
