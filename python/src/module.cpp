@@ -9,6 +9,7 @@
 namespace {
 
 /// Bad input is a ValueError with the library's sentence.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 calls
 void translate(std::exception_ptr error) {
   try {
     if (error) {

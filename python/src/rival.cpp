@@ -80,7 +80,7 @@ std::unique_ptr<Rival> spline(const SensorModel& sensor, const Numbers& n) {
 }
 
 const std::vector<Family>& families() {
-  static const std::vector<Family> kFamilies = {
+  static const std::vector<Family> known = {
       {"histogram", {{"bin_bits", 5, 2, 16}, {"count_bits", 8, 1, 16}}, histogram},
       {"hedh", {{"parts", 4, 2, 64}}, hedh},
       {"pedh", {{"parts", 4, 2, 64}, {"optimised", 0, 0, 1}}, pedh},
@@ -91,7 +91,7 @@ const std::vector<Family>& families() {
       {"sketch", {{"size", 2, 1, 32}}, sketch},
       {"spline", {{"knots", 4, 2, 64}, {"count_bits", 12, 2, 24}}, spline},
   };
-  return kFamilies;
+  return known;
 }
 
 /// A rival for a sensor.
@@ -192,6 +192,7 @@ RivalFrame read_frame(const Rival& rival, std::span<const StreamSource* const> s
     }
     for (int row = 0; row < rows; ++row) {
       std::vector<std::span<const Detection>> pixel;
+      pixel.reserve(streams.size());
       for (const ColumnStream& stream : streams) {
         pixel.push_back(stream.row(row));
       }
@@ -240,6 +241,7 @@ RangeConverter rival_table(const NamedRival& named, double klux, std::uint64_t s
                           FlatCalibration::kFrame + 2 * static_cast<std::uint32_t>(before));
     }
     std::vector<const StreamSource*> sources;
+    sources.reserve(count);
     for (const PhotonSource& frame : frames) {
       sources.push_back(&frame);
     }

@@ -56,7 +56,7 @@ SceneMap scene_of_depth(const Map& depth, const Reflectivity& reflectivity, cons
   if (share == nullptr) {
     set_reflectivities(targets, std::get<Map>(reflectivity));
   }
-  return SceneMap(std::move(targets), "depth map");
+  return {std::move(targets), "depth map"};
 }
 
 SceneMap scene_of_name(const std::string& name, const std::optional<SensorModel>& sensor,
@@ -78,7 +78,7 @@ SceneMap scene_of_name(const std::string& name, const std::optional<SensorModel>
   if (reflectivity && share == nullptr) {
     set_reflectivities(targets, std::get<Map>(*reflectivity));
   }
-  return SceneMap(std::move(targets), name);
+  return {std::move(targets), name};
 }
 
 /// One number of each pixel, row by row, where it lies in the map.
