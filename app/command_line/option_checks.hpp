@@ -20,9 +20,7 @@ inline constexpr double kMostReflectivity = 4.0;  ///< up to which the photon mo
 /// "4: a white matt surface is 1, ...", to end a refusal with.
 std::string reflectivity_reason();
 CLI::Validator sensible_reflectivity();
-/// Most acquisitions of a frame: more than the RTL's 16 bits hold; a column of 160 rows and 2 slots fits 2.7
-/// GB.
-inline constexpr double kMostAcquisitions = 1048575;
+/// Up to kMostAcquisitions (pipeline/frame_pipeline.hpp).
 CLI::Validator sensible_acquisitions();
 
 /// "" if `text` is what an option of CLI11's type (FLOAT, INT or UINT) can hold, else the reason, e.g. "'abc'

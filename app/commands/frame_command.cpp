@@ -21,18 +21,13 @@
 #include "commands/optional_output.hpp"
 #include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
-#include "dtof/core/kept_streams.hpp"
-#include "dtof/core/pixel_sampler.hpp"
-#include "dtof/frame/flat_calibration.hpp"
-#include "dtof/frame/frame_maps.hpp"
 #include "dtof/frame/frame_truth.hpp"
-#include "dtof/host/range_converter.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/depth_image.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/io/result_csv.hpp"
-#include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/photon_source.hpp"
+#include "dtof/pipeline/frame_pipeline.hpp"
 #include "dtof/recording/stream_csv.hpp"
 #include "dtof/report/colour_png.hpp"
 #include "dtof/report/ply.hpp"
@@ -63,22 +58,10 @@ struct FrameOptions {
   std::string command_line;
 };
 
-/// What one read-out made of the frame, over the region read. With --precision of several frames: the maps
-/// are those of the first.
-struct MeasuredFrame {
-  ReadoutParameters parameters;
-  ReadoutRun run;
-  DepthImage depth;
-  DepthImage error;
-  FrameFigures figures;  ///< of all frames
-  double mean_square = 0.0;
-  int frames = 1;
-  bool precision_reached = true;
-};
-
 /// "flat, staircase, ..."
 std::string scene_names() {
   std::vector<std::string_view> names;
+  names.reserve(kAllScenes.size());
   for (const Scene scene : kAllScenes) {
     names.push_back(scene_name(scene));
   }
@@ -150,127 +133,9 @@ void check_distances(const FrameOptions& options, const SensorModel& sensor) {
   }
 }
 
-/// A column's detections are held while it is read out.
-void check_memory(const SensorModel& sensor, int rows) {
-  constexpr double kMostDetections = 160.0 * 2.0 * kMostAcquisitions;
-  const double detections = static_cast<double>(rows) * sensor.slots * sensor.acquisitions;
-  if (detections > kMostDetections) {
-    throw InputError(fmt::format(
-        "{} acquisitions of {} rows and {} slots: a column could have {:.2g} detections, more than the "
-        "{:.2g} (2.7 GB) that are held",
-        sensor.acquisitions, rows, sensor.slots, detections, kMostDetections));
-  }
-}
-
-/// A read-out and the look-up table that `--table` gives it.
-struct TabledReadout {
-  ReadoutParameters parameters;
-  std::optional<RangeConverter> table;
-};
-
-std::vector<TabledReadout> with_tables(const std::vector<ReadoutParameters>& readouts, TableRule rule,
-                                       const PhotonSource& scene, Fidelity fidelity, const RunSettings& run) {
-  std::vector<TabledReadout> tabled;
-  tabled.reserve(readouts.size());
-  for (const ReadoutParameters& parameters : readouts) {
-    tabled.push_back({parameters, std::nullopt});
-  }
-  if (rule == TableRule::kFlat) {
-    const SensorModel sensor = scene.model().as_calibrated();
-    const FlatCalibration calibration(sensor);
-    std::vector<RangeConverter> tables = calibration.fit(
-        [&](const TargetMap& targets) {
-          return make_source(fidelity,
-                             PhotonSource(sensor, targets, scene.klux(), run.seed, FlatCalibration::kFrame));
-        },
-        readouts, run.seed, run.threads);
-    for (std::size_t r = 0; r < tabled.size(); ++r) {
-      tabled[r].table = std::move(tables[r]);
-    }
-  }
-  return tabled;
-}
-
-/// Timing skew of the region's pixels; empty without any.
-std::vector<double> skew_bins(const SensorModel& sensor, const Region& region, int array_columns) {
-  std::vector<double> skews;
-  const TimingSkew& skew = sensor.surroundings.skew;
-  if (skew.none()) {
-    return skews;
-  }
-  for (int row = region.rows.first; row < region.rows.first + region.rows.count; ++row) {
-    for (const int column : region.columns) {
-      skews.push_back(skew.of_pixel(column, row, array_columns) / sensor.time_resolution_s());
-    }
-  }
-  return skews;
-}
-
-MeasuredFrame measure_once(const StreamSource& source, const SensorModel& sensor,
-                           const TabledReadout& readout, const FrameOptions& options, const Region& region,
-                           const DepthImage& truth) {
-  MeasuredFrame frame;
-  const ReadoutParameters& parameters = readout.parameters;
-  frame.parameters = parameters;
-  frame.run = run_readout(source, parameters, options.run, region, options.command_line);
-  FrameMaps maps = frame_maps(frame.run.results, parameters, sensor, readout.table, truth.metres,
-                              skew_bins(sensor, region, source.columns()));
-  frame.figures = maps.figures;
-  frame.mean_square = maps.mean_square;
-  frame.depth = {truth.width, truth.height, std::move(maps.depth)};
-  frame.error = {truth.width, truth.height, std::move(maps.error)};
-  return frame;
-}
-
-/// The first frame's photons. Streams are drawn once and kept if they are read more than once.
-class FirstFrame {
- public:
-  FirstFrame(Fidelity fidelity, const PhotonSource& scene, const RunSettings& run, std::size_t readouts)
-      : source_(make_source(fidelity, scene)),
-        streams_(*source_, readouts > 1 || run.verify ? KeptStreams::kMostBytes : 0),
-        run_(run) {}
-
-  [[nodiscard]] const StreamSource& source(Readout readout) const {
-    const bool sampled = dynamic_cast<const SampledSource*>(source_.get()) != nullptr;
-    if (sampled && reads_samples(readout, run_)) {
-      return *source_;
-    }
-    return streams_;
-  }
-
- private:
-  std::unique_ptr<StreamSource> source_;
-  KeptStreams streams_;
-  const RunSettings& run_;
-};
-
-/// With --precision, frames until the rmse's interval is narrow enough. Pixels of a frame differ in distance,
-/// frames are equals: the interval comes from the spread of the frames' mean squares.
-MeasuredFrame measure(const PhotonSource& scene, Fidelity fidelity, const FirstFrame& first,
-                      const TabledReadout& readout, const FrameOptions& options, const Region& region,
-                      const DepthImage& truth) {
-  MeasuredFrame frame =
-      measure_once(first.source(readout.parameters.readout), scene.model(), readout, options, region, truth);
-  std::vector<double> mean_squares = {frame.mean_square};
-  if (!options.precision_percent) {
-    return frame;
-  }
-  constexpr int kFewestFrames = 4;
-  const auto reached = [&] {
-    // A root's relative error is half its square's.
-    return frame.frames >= kFewestFrames &&
-           0.5 * estimate_mean(mean_squares).relative_half_width() <= *options.precision_percent / 100.0;
-  };
-  while (!(frame.precision_reached = reached()) && frame.frames < options.most_frames) {
-    const auto next =
-        make_source(fidelity, scene.at_frame(scene_frame(static_cast<std::uint32_t>(frame.frames))));
-    const MeasuredFrame other = measure_once(*next, scene.model(), readout, options, region, truth);
-    frame.run.seconds += other.run.seconds;
-    frame.figures.merge(other.figures);
-    mean_squares.push_back(other.mean_square);
-    ++frame.frames;
-  }
-  return frame;
+/// A map of the region, in m.
+DepthImage region_map(const Region& region, const std::vector<float>& metres) {
+  return {static_cast<int>(region.columns.size()), region.rows.count, metres};
 }
 
 /// End of the error maps' scale in m, the same for every read-out.
@@ -287,20 +152,21 @@ void write_readout_files(const MeasuredFrame& frame, const Region& region, const
                          const SensorModel& sensor, const FrameOptions& options) {
   const std::filesystem::path folder(options.out);
   const std::string name(readout_name(frame.parameters.readout));
+  const DepthImage depth = region_map(region, frame.maps.depth);
   write_result_csv(folder / (name + ".csv"), result_records(frame.run.results, region));
   const std::filesystem::path millimetres = folder / (name + "_depth_mm.png");
-  write_optional(millimetres, depth_png_obstacle(frame.depth),
-                 [&] { write_depth_png(millimetres, frame.depth); });
+  write_optional(millimetres, depth_png_obstacle(depth), [&] { write_depth_png(millimetres, depth); });
   const std::filesystem::path cloud = folder / (name + ".ply");
   const double degrees = sensor.degrees_per_pixel();
-  write_optional(cloud, ply_obstacle(frame.depth.width, frame.depth.height, degrees),
-                 [&] { write_ply(cloud, frame.depth, depth_range, degrees); });
+  write_optional(cloud, ply_obstacle(depth.width, depth.height, degrees),
+                 [&] { write_ply(cloud, depth, depth_range, degrees); });
   const std::string title(readout_title(frame.parameters.readout));
   const std::string scene = scene_sentence(sensor, options);
-  write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{frame.depth, "", MapKind::kDepth}},
+  write_map_picture(folder / (name + "_depth.png"), std::vector<MapPanel>{{depth, "", MapKind::kDepth}},
                     {.title = fmt::format("{}, depth in m: {}", title, scene), .depth_range = depth_range});
   write_map_picture(
-      folder / (name + "_error.png"), std::vector<MapPanel>{{frame.error, "", MapKind::kError}},
+      folder / (name + "_error.png"),
+      std::vector<MapPanel>{{region_map(region, frame.maps.error), "", MapKind::kError}},
       {.title = fmt::format("{}, error in m: {}", title, scene), .largest_error = kLargestError});
 }
 
@@ -314,7 +180,7 @@ Table summarise(const std::vector<MeasuredFrame>& frames, const FrameOptions& op
   }
   Table table(head);
   for (const MeasuredFrame& frame : frames) {
-    std::vector<std::string> row = figure_values(frame.figures, tables);
+    std::vector<std::string> row = figure_values(frame.maps.figures, tables);
     row.insert(row.begin(), std::string(readout_title(frame.parameters.readout)));
     row.push_back(frame.run.cycles == 0 ? "-" : fmt::format("{}", frame.run.cycles));
     if (options.precision_percent) {
@@ -356,15 +222,9 @@ std::string precision_sentence(const std::vector<MeasuredFrame>& frames, const F
 
 /// The photon model; with --precision one that has noise.
 Fidelity photon_model(const FrameOptions& options, std::span<const ReadoutParameters> readouts,
-                      const PhotonSource& scene) {
-  std::vector<Readout> sampled;
-  for (const ReadoutParameters& parameters : readouts) {
-    if (reads_samples(parameters.readout, options.run)) {
-      sampled.push_back(parameters.readout);
-    }
-  }
-  const PhotonUse use = sampled.empty() ? PhotonUse::kStream : PhotonUse::kSampler;
-  const Fidelity fidelity = options.sensor.photon_model(scene, use, sampled);
+                      const PhotonSource& scene, const FrameEngine& engine) {
+  const Fidelity fidelity =
+      frame_fidelity(options.sensor.fidelity, options.sensor.tolerance, scene, readouts, engine);
   if (options.precision_percent && fidelity == Fidelity::kAnalytic) {
     throw InputError(
         "frame: the analytic photon model has no noise, so --precision has nothing to do; choose exact, fast "
@@ -373,14 +233,22 @@ Fidelity photon_model(const FrameOptions& options, std::span<const ReadoutParame
   return fidelity;
 }
 
-void write_overview(const std::vector<MeasuredFrame>& frames, const DepthImage& truth,
+/// What --precision asks for; none without it.
+std::optional<FramePrecision> frame_precision(const FrameOptions& options) {
+  if (!options.precision_percent) {
+    return std::nullopt;
+  }
+  return FramePrecision{.relative = *options.precision_percent / 100.0, .most_frames = options.most_frames};
+}
+
+void write_overview(const std::vector<MeasuredFrame>& frames, const Region& region, const DepthImage& truth,
                     const ColourRange& depth_range, const SensorModel& sensor, const FrameOptions& options) {
   std::vector<MapPanel> depths = {{truth, "true depth", MapKind::kDepth}};
   std::vector<MapPanel> errors;
   for (const MeasuredFrame& frame : frames) {
     const std::string title(readout_title(frame.parameters.readout));
-    depths.push_back({frame.depth, title, MapKind::kDepth});
-    errors.push_back({frame.error, title, MapKind::kError});
+    depths.push_back({region_map(region, frame.maps.depth), title, MapKind::kDepth});
+    errors.push_back({region_map(region, frame.maps.error), title, MapKind::kError});
   }
   const std::filesystem::path folder(options.out);
   const std::string title = scene_sentence(sensor, options);
@@ -412,26 +280,33 @@ void run_frame_command(const FrameOptions& options) {
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
   validate_maps(options);
   check_distances(options, sensor);
-  check_memory(sensor, options.array_rows.value_or(sensor.rows));
+  check_frame_memory(sensor, options.array_rows.value_or(sensor.rows));
   OwnMap made = make_targets(options, sensor);
   const bool own = !options.maps.depth.empty();
   require_reachable(made.targets, sensor, own ? options.maps.depth : "--scene " + options.scene, own);
   const PhotonSource scene(sensor, std::move(made.targets), options.sensor.klux, options.run.seed);
-  const Fidelity fidelity = photon_model(options, readouts, scene);
+  const ProgramEngine engine(options.run, options.command_line);
+  const Fidelity fidelity = photon_model(options, readouts, scene, engine);
   const Region region{.columns = parse_columns(options.run.columns, scene.columns()),
                       .rows = parse_rows(options.run.rows, scene.rows())};
-  const FrameTruth judged = frame_truth(scene.targets(), sensor, region.columns, region.rows);
-  if (options.precision_percent && !judged.any_judged()) {
-    throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
-  }
-  const DepthImage truth{static_cast<int>(region.columns.size()), region.rows.count, judged.metres};
   if (options.readout.all()) {
     readouts = without_unfit_engines(scene, std::move(readouts), options.run, region);
   }
   check_engine(scene, readouts, options.run, region);
+  const FramePipeline pipeline(scene, engine,
+                               {.region = region,
+                                .fidelity = fidelity,
+                                .seed = options.run.seed,
+                                .threads = options.run.threads,
+                                .keep_photons = readouts.size() > 1 || options.run.verify});
+  const FrameTruth& judged = pipeline.truth();
+  if (options.precision_percent && !judged.any_judged()) {
+    throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
+  }
+  const DepthImage truth = region_map(region, judged.metres);
   const TableRule rule = parse_table_rule(options.table);
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<TabledReadout> tabled = with_tables(readouts, rule, scene, fidelity, options.run);
+  const std::vector<TabledReadout> tabled = pipeline.tables(readouts, rule);
   const double table_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   create_output_folder(options.out);
@@ -439,13 +314,12 @@ void run_frame_command(const FrameOptions& options) {
   if (!options.record.empty()) {
     write_stream_csv(options.record, *make_source(fidelity, scene));
   }
-  const FirstFrame first(fidelity, scene, options.run, readouts.size());
   std::vector<MeasuredFrame> frames;
   for (const TabledReadout& readout : tabled) {
-    frames.push_back(measure(scene, fidelity, first, readout, options, region, truth));
+    frames.push_back(pipeline.measure(readout, frame_precision(options)));
     write_readout_files(frames.back(), region, range, sensor, options);
   }
-  write_overview(frames, truth, range, sensor, options);
+  write_overview(frames, region, truth, range, sensor, options);
   double seconds = 0.0;
   for (const MeasuredFrame& frame : frames) {
     seconds += frame.run.seconds;

@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "dtof/core/error.hpp"
-#include "dtof/core/pixel_sampler.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/frame/array_rows.hpp"
 #include "dtof/readout/run_frame.hpp"
@@ -96,11 +95,17 @@ std::vector<ReadoutParameters> without_unfit_engines(const StreamSource& source,
 }
 
 bool reads_samples(Readout readout, const RunSettings& options) {
-  return !options.hardware() && !options.streams_only && !is_pool_readout(readout);
+  return !options.hardware() &&
+         ModelEngine({.threads = options.threads, .streams_only = options.streams_only})
+             .reads_samples(readout);
 }
 
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunSettings& options, const Region& region, const std::string& command) {
+  if (!options.hardware()) {
+    return ModelEngine({.threads = options.threads, .streams_only = options.streams_only})
+        .read(source, parameters, region);
+  }
   const auto start = std::chrono::steady_clock::now();
   ReadoutRun run;
   const std::vector<int>& columns = region.columns;
@@ -124,32 +129,25 @@ ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& para
     finish(frame.results);
     return run;
   }
-  if (options.rtl()) {
-    RtlRunOptions rtl_options;
-    rtl_options.trace = options.trace;
-    const RtlSourceFrame frame =
-        run_frame_rtl(*array.source, parameters, options.threads, columns, rtl_options, &progress);
-    run.cycles = frame.clocks.value_or(0);
-    run.array = array_phrase(
-        source.columns(), find_rtl_configurations(parameters, array.source->rows(), source.columns(), columns,
-                                                  !options.trace.empty())
-                              .front()
-                              .pixels_per_sram);
-    finish(frame.results);
-    if (options.verify) {
-      const std::string difference = check_source_frame(
-          *array.source, parameters, columns, frame,
-          {.threads = options.threads, .first_row = array.first, .seed = options.seed, .command = command});
-      if (!difference.empty()) {
-        throw RtlError(difference);
-      }
+  RtlRunOptions rtl_options;
+  rtl_options.trace = options.trace;
+  const RtlSourceFrame frame =
+      run_frame_rtl(*array.source, parameters, options.threads, columns, rtl_options, &progress);
+  run.cycles = frame.clocks.value_or(0);
+  run.array = array_phrase(
+      source.columns(), find_rtl_configurations(parameters, array.source->rows(), source.columns(), columns,
+                                                !options.trace.empty())
+                            .front()
+                            .pixels_per_sram);
+  finish(frame.results);
+  if (options.verify) {
+    const std::string difference = check_source_frame(
+        *array.source, parameters, columns, frame,
+        {.threads = options.threads, .first_row = array.first, .seed = options.seed, .command = command});
+    if (!difference.empty()) {
+      throw RtlError(difference);
     }
-    return run;
   }
-  const auto* sampled = dynamic_cast<const SampledSource*>(array.source.get());
-  finish(sampled != nullptr && reads_samples(parameters.readout, options)
-             ? run_sampled_frame(*sampled, parameters, options.threads, columns, &progress)
-             : run_frame(*array.source, parameters, options.threads, columns, &progress));
   return run;
 }
 

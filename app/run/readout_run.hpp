@@ -1,26 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dtof/core/detection.hpp"
 #include "dtof/core/parameters.hpp"
-#include "dtof/core/result.hpp"
+#include "dtof/pipeline/frame_engine.hpp"
 #include "run/region.hpp"
 #include "run/run_settings.hpp"
 
 namespace dtof {
-
-/// A frame read out by the chosen engine.
-struct ReadoutRun {
-  std::vector<PixelResult> results;  ///< of the region, as Region says
-  std::uint64_t cycles = 0;          ///< clocks of a frame in `array`; 0 for the model, or if not known
-  std::string array;                 ///< "200 columns of 160 rows"; empty for the model
-  double seconds = 0.0;              ///< wall time, photon generation included
-};
 
 /// Throws InputError for what `run_readout` would refuse of an engine that is hardware: a read-out that is
 /// not compiled for so many rows, more acquisitions than the RTL's 16 bits count, or more columns than a
@@ -46,5 +38,24 @@ bool reads_samples(Readout readout, const RunSettings& options);
 /// --trace. Throws InputError for a region outside the source.
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunSettings& options, const Region& region, const std::string& command);
+
+/// The same for a FramePipeline. The settings must outlive the engine.
+class ProgramEngine final : public FrameEngine {
+ public:
+  ProgramEngine(const RunSettings& settings, std::string command)
+      : settings_(settings), command_(std::move(command)) {}
+
+  [[nodiscard]] bool reads_samples(Readout readout) const override {
+    return dtof::reads_samples(readout, settings_);
+  }
+  [[nodiscard]] ReadoutRun read(const StreamSource& source, const ReadoutParameters& parameters,
+                                const Region& region) const override {
+    return run_readout(source, parameters, settings_, region, command_);
+  }
+
+ private:
+  const RunSettings& settings_;
+  std::string command_;
+};
 
 }  // namespace dtof

@@ -54,10 +54,6 @@ Interval parse_interval(std::string_view part, const Naming& naming) {
 
 }  // namespace
 
-Region Region::whole(int columns, int rows) {
-  return {.columns = parse_columns("all", columns), .rows = parse_rows("all", rows)};
-}
-
 std::vector<int> parse_columns(std::string_view text, int columns) {
   std::vector<int> chosen;
   if (text == "all") {

@@ -8,18 +8,9 @@
 #include "dtof/core/detection.hpp"
 #include "dtof/core/result.hpp"
 #include "dtof/io/result_csv.hpp"
+#include "dtof/pipeline/region.hpp"
 
 namespace dtof {
-
-/// Pixels of the sensor that are read out: these rows of these columns. Frames of a region are row-major:
-/// index = (row - rows.first) * columns.size() + i for the i-th column.
-struct Region {
-  std::vector<int> columns;  ///< ascending, each once
-  RowRange rows;
-
-  /// Every pixel of a sensor of so many columns and rows.
-  static Region whole(int columns, int rows);
-};
 
 /// Column list of the command line: "all", or numbers and ranges such as "0-9,20,30-32"; ascending.
 /// Throws InputError for anything else, a column named twice, or one that is not below `columns`.

@@ -86,7 +86,7 @@ class Build:
                 shutil.copy(source, self.original / name)
         shutil.copytree(self.original, self.tree)
         flags = f"-O1 -include {HERE / 'live_mutant.hpp'} -w -Wno-error -Wno-narrowing"
-        command = ["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
+        command = ["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None", "-DDTOF_PYTHON=OFF",
                    f"-DCMAKE_CXX_FLAGS={flags}"]  # fmt: skip
         self._run(command, "CMake refuses the copy with mutants")
 

@@ -57,7 +57,7 @@ class Build:
                 shutil.copytree(source, target, ignore=shutil.ignore_patterns("__pycache__"))
             else:
                 shutil.copy(source, target)
-        self._run(["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2"])
+        self._run(["cmake", "-S", self.tree, "-B", self.binary, "-G", "Ninja", "-DDTOF_PYTHON=OFF", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_FLAGS_RELEASE=-O2"])
         self.compile()
         started = time.monotonic()
         by = self.test(None)

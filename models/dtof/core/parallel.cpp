@@ -37,7 +37,9 @@ int hardware_threads() { return static_cast<int>(std::max(1U, std::thread::hardw
 void parallel_for(std::size_t count, int threads, const std::function<void(std::size_t)>& body) {
   const auto limit = static_cast<std::size_t>(threads > 0 ? threads : hardware_threads());
   const tbb::global_control control(tbb::global_control::max_allowed_parallelism, limit);
-  const auto run = [&body](std::size_t index) {
+  const std::atomic<bool>* const stop = StopScope::flag();
+  const auto run = [&body, stop](std::size_t index) {
+    const StopScope scope(stop);
     begin_body();
     check_interruption();
     body(index);

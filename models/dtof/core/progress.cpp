@@ -18,6 +18,8 @@ namespace {
 
 volatile std::sig_atomic_t interruption_requested = 0;
 
+thread_local const std::atomic<bool>* stop_flag = nullptr;
+
 void request_interruption(int /*signal*/) { interruption_requested = 1; }
 
 /// True once every `interval`, for whichever work asks first.
@@ -43,10 +45,16 @@ void install_interruption_handler() {
 }
 
 void check_interruption() {
-  if (interruption_requested != 0) {
+  if (interruption_requested != 0 || (stop_flag != nullptr && *stop_flag)) {
     throw Interrupted();
   }
 }
+
+StopScope::StopScope(const std::atomic<bool>* flag) : before_(stop_flag) { stop_flag = flag; }
+
+StopScope::~StopScope() { stop_flag = before_; }
+
+const std::atomic<bool>* StopScope::flag() { return stop_flag; }
 
 std::string progress_text(std::string_view title, std::size_t done, std::size_t total,
                           std::chrono::duration<double> elapsed) {
@@ -75,6 +83,13 @@ Progress::Progress(std::string title, std::size_t total, std::chrono::steady_clo
       terminal_(isatty(STDERR_FILENO) == 1),
       drawn_at_(start_) {}
 
+Progress::Progress(std::size_t total, Observer observer)
+    : total_(total),
+      observer_(std::move(observer)),
+      log_interval_(),
+      start_(Clock::now()),
+      terminal_(false) {}
+
 Progress::~Progress() {
   if (terminal_ && drawn_percent_ >= 0) {
     print_to_standard_error("\r\033[K");
@@ -82,6 +97,11 @@ Progress::~Progress() {
 }
 
 void Progress::advance(std::size_t steps) {
+  if (observer_) {
+    const std::scoped_lock lock(mutex_);
+    observer_(std::min(done_.fetch_add(steps) + steps, total_), total_);
+    return;
+  }
   const std::size_t done = std::min(done_.fetch_add(steps) + steps, total_);
   if (total_ == 0) {
     return;

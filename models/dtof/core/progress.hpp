@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -12,8 +13,26 @@ namespace dtof {
 
 /// Makes SIGINT and SIGTERM set a flag that `check_interruption` turns into an exception.
 void install_interruption_handler();
-/// Throws Interrupted after SIGINT or SIGTERM.
+/// Throws Interrupted after SIGINT or SIGTERM, and once the flag of the thread's StopScope is set.
 void check_interruption();
+
+/// For a caller that has signals of its own, as Python has: while it lives, the flag stops this thread's
+/// work, that of its `parallel_for` included. The flag must outlive it.
+class StopScope {
+ public:
+  explicit StopScope(const std::atomic<bool>* flag);
+  StopScope(const StopScope&) = delete;
+  StopScope& operator=(const StopScope&) = delete;
+  StopScope(StopScope&&) = delete;
+  StopScope& operator=(StopScope&&) = delete;
+  ~StopScope();
+
+  /// The thread's flag; null without one.
+  static const std::atomic<bool>* flag();
+
+ private:
+  const std::atomic<bool>* before_;
+};
 
 /// E.g. "columns 40 %, 3 min left"; the time left assumes that the rest goes as fast as what is done, and is
 /// left out in the first second. `done` is at most `total`, which is above 0.
@@ -21,9 +40,14 @@ std::string progress_text(std::string_view title, std::size_t done, std::size_t 
                           std::chrono::duration<double> elapsed);
 
 /// How far a work is, on standard error: one line that is drawn anew on a terminal, else, so that a log shows
-/// that the program is alive, a line at most every `log_interval` of the whole program. Thread-safe.
+/// that the program is alive, a line at most every `log_interval` of the whole program. With an observer,
+/// nothing is written. Thread-safe.
 class Progress {
  public:
+  /// Is told what is done of how much, by any thread, one after the other.
+  using Observer = std::function<void(std::size_t done, std::size_t total)>;
+
+  Progress(std::size_t total, Observer observer);
   Progress(std::string title, std::size_t total,
            std::chrono::steady_clock::duration log_interval = std::chrono::minutes(1));
   Progress(const Progress&) = delete;
@@ -41,6 +65,7 @@ class Progress {
 
   std::string title_;
   std::size_t total_;
+  Observer observer_;
   Clock::duration log_interval_;
   Clock::time_point start_;
   bool terminal_;

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <string>
+#include <thread>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
@@ -81,6 +84,49 @@ TEST(InterruptionDeathTest, SignalsStopParallelWorkAfterTheCurrentIndex) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(interrupt_parallel_work(SIGINT), testing::ExitedWithCode(10), "");
   EXPECT_EXIT(interrupt_parallel_work(SIGTERM), testing::ExitedWithCode(10), "");
+}
+
+TEST(Progress, AnObserverIsToldInsteadOfStandardError) {
+  testing::internal::CaptureStderr();
+  std::size_t last = 0;
+  int calls = 0;
+  {
+    Progress progress(100, [&](std::size_t done, std::size_t total) {
+      EXPECT_EQ(total, 100U);
+      EXPECT_EQ(done, last + 1);  // one after the other
+      last = done;
+      ++calls;
+    });
+    parallel_for(100, 2, [&progress](std::size_t /*index*/) { progress.advance(); });
+  }
+  EXPECT_EQ(calls, 100);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Interruption, AFlagStopsTheWorkOfItsScopeAlone) {
+  const std::atomic<bool> stop = true;
+  int bodies = 0;
+  const auto work = [&] { parallel_for(4, 2, [](std::size_t /*index*/) { check_interruption(); }); };
+  {
+    const StopScope scope(&stop);
+    EXPECT_THROW(check_interruption(), Interrupted);
+    EXPECT_THROW(work(), Interrupted);
+    EXPECT_THROW(parallel_for(4, 2, [&](std::size_t /*index*/) { ++bodies; }), Interrupted);
+  }
+  EXPECT_EQ(bodies, 0);
+  EXPECT_NO_THROW(check_interruption());
+  EXPECT_NO_THROW(work());
+}
+
+TEST(Interruption, TheFlagGoesWithTheWorkToItsThreads) {
+  const std::atomic<bool> stop = false;
+  std::atomic<int> with_flag = 0;
+  const StopScope scope(&stop);
+  parallel_for(50, 4, [&](std::size_t /*index*/) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // so that others take a share
+    with_flag += StopScope::flag() == &stop ? 1 : 0;
+  });
+  EXPECT_EQ(with_flag, 50);
 }
 
 TEST(Interruption, NoneWithoutASignal) { EXPECT_NO_THROW(check_interruption()); }

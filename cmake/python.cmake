@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# What the Python module needs: pybind11 and the headers of the Python that is going to import it, by default Debian's, as for all of the
+# project's scripts. Where they are not here, a build of the programs goes on without the module, and a build of the module alone ends.
+if(NOT DEFINED Python_EXECUTABLE)
+  set(Python_EXECUTABLE /usr/bin/python3)
+endif()
+set(missing "")
+if(DTOF_SANITIZE OR DTOF_COVERAGE)
+  set(missing "sanitizers and coverage would have to be in Python itself")
+else()
+  find_package(Python COMPONENTS Interpreter Development.Module QUIET)
+  find_package(pybind11 2.10 CONFIG QUIET)
+  if(NOT Python_FOUND OR NOT pybind11_FOUND)
+    set(missing "pybind11 or Python's headers are not here (Debian: pybind11-dev, python3-dev)")
+  endif()
+endif()
+if(missing AND DTOF_PROGRAMS)
+  message(STATUS "No Python module is built: ${missing}")
+  set(DTOF_PYTHON OFF)
+elseif(missing)
+  message(FATAL_ERROR "No Python module can be built: ${missing}")
+endif()

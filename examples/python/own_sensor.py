@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: Apache-2.0
+# %% [markdown]
+# # Own sensor
+#
+# From a sensor file to a table of read-outs: which one serves this sensor in this light, and how sure is that?
+
+# %%
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import dtof
+
+try:
+    import matplotlib
+    matplotlib.use("Agg" if "ipykernel" not in sys.modules else matplotlib.get_backend())
+    from matplotlib import pyplot
+except ImportError:  # figures are printed, pictures are not drawn
+    pyplot = None
+
+out = Path(sys.argv[1] if len(sys.argv) == 2 else "build/python_examples")
+out.mkdir(parents=True, exist_ok=True)
+
+# %% [markdown]
+# ## The sensor
+#
+# A sensor file describes laser, SPADs and TDC (docs/user/sensor_file.md). `dtof.preset_text("thesis")` is one to start from; here is a
+# small one. What the file does not name is off or has a default.
+
+# %%
+sensor_file = """
+name = "mine"
+
+[array]
+columns = 34
+rows = 32
+field_of_view_deg = 40.0
+
+[tdc]
+range_ns = 60.0
+timestamp_bits = 10
+
+[laser]
+acquisitions = 2000
+pulse_fwhm_ns = 1.2
+
+[light]
+signal_events_at_1m = 0.25
+background_events_per_klux = 0.018
+
+[detector]
+dark_count_rate_hz = 2e4
+dead_time_ns = 8.0
+"""
+sensor = dtof.Sensor.parse(sensor_file, "mine.toml")
+print(sensor)
+print(f"range {sensor.range_m:.2f} m, a bin is {sensor.time_resolution_s * 1e12:.0f} ps, "
+      f"{sensor.signal_events(2.0):.3f} signal and {sensor.background_events(14.0):.3f} background events a pulse at 2 m and 14 klux")
+
+# %% [markdown]
+# ## Read-outs by light
+#
+# Pixels of a frame hang together (they share a scene, and pool read-outs share photons), frames do not: the interval of 95 % comes from
+# the frames. Four frames of three lights.
+
+# %%
+READOUTS = ["ezpointer", "hispointer", "sifh", "coarsehistogram", "poolpointer2", "poolpointer2-lean"]
+LIGHTS = [2.0, 14.0, 50.0]
+FRAMES = 4
+scene = dtof.Scene("room", sensor)
+estimates = {}
+for klux in LIGHTS:
+    frames = [dtof.frame(scene, sensor, READOUTS, klux=klux)]
+    tables = {name: frames[0][name].table for name in READOUTS}  # fitted once for each light
+    frames += [dtof.frame(scene, sensor, READOUTS, klux=klux, table=tables, frame=number) for number in range(1, FRAMES)]
+    pixels = int(np.count_nonzero(~np.isnan(frames[0].truth_m)))
+    for name in READOUTS:
+        shares = [frame[name].figures["share_above_3_percent"] for frame in frames]
+        rmse = [frame[name].figures["rmse_m"] for frame in frames]
+        estimates[name, klux] = dtof.estimate_share_of_frames(shares, pixels), dtof.estimate_mean(rmse)
+
+# %%
+print("pixels off by more than 3 % of the distance, and rmse in mm, with intervals of 95 %")
+print(f"{'':20}" + "".join(f"{f'{klux:g} klux':^36}" for klux in LIGHTS))
+for name in READOUTS:
+    line = f"{dtof.Readout(name).title:20}"
+    for klux in LIGHTS:
+        share, rmse_m = estimates[name, klux]
+        low, high = share.interval
+        line += f"{share.value:7.2%} ({max(low, 0.0):6.2%} to {high:6.2%}) {rmse_m.value * 1e3:6.0f} mm "
+    print(line)
+
+# %% [markdown]
+# ## Parameters
+#
+# Every parameter of a read-out is a keyword. Here hisPointer's coarse histogram has other numbers of bins.
+
+# %%
+for bits in (3, 4, 5, 6):
+    readout = dtof.Readout("hispointer", sensor, nb=bits)
+    made = dtof.frame(scene, sensor, readout, klux=14.0)["hispointer"]
+    print(f"hisPointer with {1 << bits:2} coarse bins: {made.figures['share_above_3_percent']:6.2%} off by more than 3 %")
+
+# %% [markdown]
+# ## What others propose
+#
+# Rivals read the same photons. `rival.flat_table` is their look-up table, fitted as a read-out's is.
+
+# %%
+photons = dtof.photons(scene, sensor, klux=14.0)
+for name in ("histogram32", "hedh4", "gray8"):
+    rival = dtof.Rival(name, sensor)
+    distance = rival.flat_table(klux=14.0).distance(rival.read_out(photons)["position"])
+    errors = dtof.error_summary(scene.depth_m, distance)
+    print(f"{rival.title:20} {rival.bits_per_pixel:4} bits a pixel: {errors.share_above_3_percent:6.2%} off by more than 3 %")
+
+# %%
+if pyplot is not None:
+    figure, axis = pyplot.subplots(figsize=(7.5, 4.2), layout="constrained")
+    for name in READOUTS:
+        values = np.array([[estimates[name, klux][0].value, *estimates[name, klux][0].interval] for klux in LIGHTS]) * 100.0
+        below = np.clip(values[:, 0] - values[:, 1], 0.0, values[:, 0])
+        axis.errorbar(LIGHTS, values[:, 0], yerr=[below, values[:, 2] - values[:, 0]], marker="o", capsize=3,
+                      label=dtof.Readout(name).title)
+    axis.set_xscale("log")
+    axis.set_xticks(LIGHTS, [f"{klux:g}" for klux in LIGHTS])
+    axis.minorticks_off()
+    axis.set_xlabel("light, klux")
+    axis.set_ylabel("pixels off by more than 3 %, %")
+    axis.set_title(f"sensor {sensor.name}, scene {scene.name}, {FRAMES} frames, intervals of 95 %")
+    axis.legend()
+    figure.savefig(out / "own_sensor.png", dpi=100)
+    print(out / "own_sensor.png")

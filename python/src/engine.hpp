@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "dtof/core/parameters.hpp"
+#include "dtof/core/result.hpp"
+#include "dtof/pipeline/region.hpp"
+
+namespace dtof::python {
+
+/// A frame of one read-out as Python holds it: arrays may show its results.
+class Results {
+ public:
+  Results(ReadoutParameters parameters, Region region, std::vector<PixelResult> results)
+      : parameters_(parameters),
+        region_(std::move(region)),
+        results_(std::make_shared<const std::vector<PixelResult>>(std::move(results))) {}
+
+  [[nodiscard]] const ReadoutParameters& parameters() const { return parameters_; }
+  [[nodiscard]] const Region& region() const { return region_; }
+  [[nodiscard]] const std::vector<PixelResult>& pixels() const { return *results_; }
+  [[nodiscard]] std::vector<pybind11::ssize_t> shape() const {
+    return {region_.rows.count, static_cast<pybind11::ssize_t>(region_.columns.size())};
+  }
+  /// One number of each pixel, where it lies in the results.
+  [[nodiscard]] pybind11::array_t<std::uint16_t> field(std::uint16_t PixelResult::*member) const;
+  /// Places on the code axis in bins.
+  [[nodiscard]] pybind11::array_t<double> positions() const;
+
+ private:
+  ReadoutParameters parameters_;
+  Region region_;
+  std::shared_ptr<const std::vector<PixelResult>> results_;
+};
+
+}  // namespace dtof::python

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "src/scene.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dtof/core/error.hpp"
+#include "dtof/io/depth_image.hpp"
+#include "dtof/photon/sensor_model.hpp"
+#include "dtof/scene/scene.hpp"
+#include "src/arrays.hpp"
+#include "src/bindings.hpp"
+
+namespace dtof::python {
+namespace {
+
+namespace py = pybind11;
+using namespace py::literals;
+
+using Map = InputArray<float>;
+
+struct MapSize {
+  int width;
+  int height;
+};
+
+MapSize size_of(const Map& map, const char* name) {
+  if (map.ndim() != 2) {
+    throw InputError(
+        fmt::format("{}: an array of two axes (rows, columns) is wanted, this one has {}", name, map.ndim()));
+  }
+  return {static_cast<int>(map.shape(1)), static_cast<int>(map.shape(0))};
+}
+
+void set_reflectivities(TargetMap& targets, const Map& map) {
+  const MapSize size = size_of(map, "reflectivity");
+  set_reflectivity(targets, size.width, size.height, {map.data(), static_cast<std::size_t>(map.size())});
+}
+
+using Reflectivity = std::variant<double, Map>;
+
+SceneMap scene_of_depth(const Map& depth, const Reflectivity& reflectivity, const std::optional<int>& columns,
+                        const std::optional<int>& rows) {
+  const MapSize size = size_of(depth, "depth");
+  const auto* share = std::get_if<double>(&reflectivity);
+  TargetMap targets = scene_from_depth_image(
+      size.width, size.height, {depth.data(), static_cast<std::size_t>(depth.size())},
+      columns.value_or(size.width), rows.value_or(size.height), share == nullptr ? 1.0 : *share);
+  if (share == nullptr) {
+    set_reflectivities(targets, std::get<Map>(reflectivity));
+  }
+  return {std::move(targets), "depth map"};
+}
+
+SceneMap scene_of_name(const std::string& name, const std::optional<SensorModel>& sensor,
+                       const std::optional<int>& columns, const std::optional<int>& rows,
+                       const std::optional<Reflectivity>& reflectivity, double distance_m, double near_m,
+                       double far_m, int steps, std::uint64_t seed) {
+  const SensorModel thesis;
+  const SensorModel& whose = sensor ? *sensor : thesis;
+  const double* share = reflectivity ? std::get_if<double>(&*reflectivity) : nullptr;
+  TargetMap targets =
+      make_scene(parse_scene(name), {.columns = columns.value_or(whose.columns),
+                                     .rows = rows.value_or(whose.rows),
+                                     .distance_m = distance_m,
+                                     .near_m = near_m,
+                                     .far_m = far_m,
+                                     .steps = steps,
+                                     .reflectivity = share == nullptr ? whose.default_reflectivity : *share,
+                                     .seed = seed});
+  if (reflectivity && share == nullptr) {
+    set_reflectivities(targets, std::get<Map>(*reflectivity));
+  }
+  return {std::move(targets), name};
+}
+
+/// One number of each pixel, row by row, where it lies in the map.
+py::array_t<double> pixel_array(const SceneMap& scene, double PixelTarget::*member) {
+  const TargetMap& targets = *scene.targets;
+  constexpr auto kStep = static_cast<py::ssize_t>(sizeof(PixelTarget));
+  return shared_array<double>(scene.targets, &(targets.at(0, 0).*member), {targets.rows(), targets.columns()},
+                              {kStep, kStep * targets.rows()});
+}
+
+}  // namespace
+
+void bind_scenes(py::module_& module) {
+  py::class_<SceneMap>(module, "Scene",
+                       "What the sensor looks at: a distance and a reflectivity for each pixel. scenes() has "
+                       "the names. Size and\n"
+                       "reflectivity are the sensor's where nothing else is said; reflectivity may be an "
+                       "array (rows, columns).")
+      .def(py::init(&scene_of_name), "name"_a = "room", "sensor"_a = py::none(), py::kw_only(),
+           "columns"_a = py::none(), "rows"_a = py::none(), "reflectivity"_a = py::none(),
+           "distance_m"_a = 1.0, "near_m"_a = 0.8, "far_m"_a = 5.0, "steps"_a = 8, "seed"_a = 1)
+      .def_static("from_depth", &scene_of_depth, "depth_m"_a, "reflectivity"_a = 1.0, py::kw_only(),
+                  "columns"_a = py::none(), "rows"_a = py::none(),
+                  "A depth map of one's own: an array (rows, columns) in m, taken as float32; 0, NaN and "
+                  "infinity are unknown.\n"
+                  "With `columns` and `rows` it is resampled by nearest neighbour.")
+      .def_property_readonly("columns", [](const SceneMap& scene) { return scene.targets->columns(); })
+      .def_property_readonly("rows", [](const SceneMap& scene) { return scene.targets->rows(); })
+      .def_readonly("name", &SceneMap::name)
+      .def_property_readonly(
+          "depth_m", [](const SceneMap& scene) { return pixel_array(scene, &PixelTarget::depth_m); },
+          "float64 (rows, columns), m; 0 or infinity: no target. No copy.")
+      .def_property_readonly(
+          "reflectivity",
+          [](const SceneMap& scene) { return pixel_array(scene, &PixelTarget::reflectivity); },
+          "float64 (rows, columns). No copy.")
+      .def("__repr__", [](const SceneMap& scene) {
+        return fmt::format("<dtof.Scene {}: {} x {} pixels>", scene.name, scene.targets->columns(),
+                           scene.targets->rows());
+      });
+  module.def(
+      "scenes",
+      [] {
+        py::dict found;
+        for (const Scene scene : kAllScenes) {
+          found[py::str(std::string(scene_name(scene)))] = std::string(scene_summary(scene));
+        }
+        return found;
+      },
+      "Scenes that need no file: a name and a sentence each.");
+  module.def(
+      "read_depth",
+      [](const std::filesystem::path& file, const std::optional<double>& metres_per_unit) {
+        DepthImage image = read_depth_image(file, metres_per_unit);
+        return taken_array(std::move(image.metres), {image.height, image.width});
+      },
+      "file"_a, "metres_per_unit"_a = py::none(),
+      "A depth map of a file (PNG of 8 or 16 bits, PFM, NPY): float32 (rows, columns), m; 0 is unknown.");
+}
+
+}  // namespace dtof::python

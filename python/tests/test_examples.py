@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The examples run, each within a minute of processor time, and their pictures are drawn where matplotlib is installed; the pages' code runs, too."""
+
+import importlib.util
+import os
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from programs import ROOT
+
+EXAMPLES = ROOT / "examples" / "python"
+PICTURES = {"first_picture": ["first_picture.png", "first_picture_pixel.png"], "own_sensor": ["own_sensor.png"], "own_data": ["own_data.png"]}
+PAGE = ROOT / "docs" / "user" / "python.md"
+SECONDS = 60.0
+
+
+def run(code: str | Path, folder: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-W", "error::DeprecationWarning:__main__"] + (["-c", code] if isinstance(code, str) else [str(code)])
+    return subprocess.run([*command, *arguments], capture_output=True, text=True, check=False, cwd=folder, timeout=600,
+                          env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
+
+
+def processor_seconds() -> float:
+    """What the programs that were run have taken; how busy the machine is does not matter."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+class ExamplesTest(unittest.TestCase):
+    def test_every_example_is_tried(self) -> None:
+        self.assertEqual({file.stem for file in EXAMPLES.glob("*.py")}, set(PICTURES))
+
+    def try_example(self, name: str) -> str:
+        with tempfile.TemporaryDirectory() as folder:
+            begin = processor_seconds()
+            done = run(EXAMPLES / f"{name}.py", folder, folder)
+            seconds = processor_seconds() - begin
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertLess(seconds, SECONDS)
+            if importlib.util.find_spec("matplotlib") is not None:
+                for picture in PICTURES[name]:
+                    self.assertGreater((Path(folder) / picture).stat().st_size, 10_000, picture)
+        return done.stdout
+
+    def test_first_picture(self) -> None:
+        said = self.try_example("first_picture")
+        shares = [float(share) for share in re.findall(r"([\d.]+)% of the pixels", said)]
+        self.assertEqual(len(shares), 3)
+        self.assertEqual(shares, sorted(shares, reverse=True))  # SiFH, hisPointer, poolPointer 2
+
+    def test_own_sensor(self) -> None:
+        said = self.try_example("own_sensor")
+        self.assertRegex(said, r"(?m)^hisPointer {2,}[\d.]+% \( *[\d.]+% to +[\d.]+%\) +\d+ mm")
+        self.assertRegex(said, r"HEDH-4 +30 bits a pixel: [\d.]+%")
+
+    def test_own_data(self) -> None:
+        said = self.try_example("own_data")
+        self.assertIn("the same codes: True", said)
+        self.assertRegex(said, r"hisPointer, 400 photons a pixel: +[\d.]+%")
+
+    def test_the_pages_code(self) -> None:
+        text = PAGE.read_text(encoding="utf-8")
+        blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+        self.assertGreater(len(blocks), 3)
+        with tempfile.TemporaryDirectory() as folder:
+            done = run("\n".join(blocks), folder)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+
+if __name__ == "__main__":
+    unittest.main()

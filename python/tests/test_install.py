@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`pip install .` from the source tree without network, and what CMake says where pybind11 is not."""
+
+import importlib.util
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import dtof
+
+from programs import ROOT
+
+NEEDED = ("pip", "setuptools", "wheel")
+PROGRAM = """
+import dtof
+made = dtof.frame(dtof.Scene("room", columns=4, rows=4), readouts=["sifh"])["sifh"]
+print(dtof.__file__, dtof.__version__, made.results.code.tolist())
+"""
+
+
+def configure(folder: str, *options: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(["cmake", "-S", str(ROOT), "-B", folder, "-DCMAKE_DISABLE_FIND_PACKAGE_pybind11=ON", *options],
+                          capture_output=True, text=True, check=False)
+
+
+class InstallTest(unittest.TestCase):
+    @unittest.skipUnless(all(importlib.util.find_spec(name) for name in NEEDED), "pip, setuptools or wheel is not installed")
+    def test_pip_install(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", "--without-pip", folder], check=True)
+            python = Path(folder) / "bin" / "python"
+            done = subprocess.run([sys.executable, "-m", "pip", "--python", str(python), "install", "--no-build-isolation", "--no-index", "."],
+                                  cwd=ROOT, capture_output=True, text=True, check=False)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+            said = subprocess.run([python, "-c", PROGRAM], cwd=folder, capture_output=True, text=True, check=True, env=environment).stdout
+            typed = [path.name for path in Path(said.split()[0]).parent.iterdir()]
+        self.assertTrue(said.startswith(folder), said)
+        made = dtof.frame(dtof.Scene("room", columns=4, rows=4), readouts=["sifh"])["sifh"]
+        self.assertEqual(said.split(maxsplit=1)[1].strip(), f"{dtof.__version__} {made.results.code.tolist()}")
+        self.assertLessEqual({"_core.pyi", "py.typed"}, set(typed))
+
+    def test_the_version_is_the_projects(self) -> None:
+        found = re.search(r"project\(dtof_readout VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))
+        assert found is not None
+        self.assertEqual(dtof.__version__, found[1])
+
+    def test_without_pybind11_the_programs_are_configured_and_a_line_says_so(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            done = configure(folder)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(re.findall("-- (No Python module.*)", done.stdout),
+                             ["No Python module is built: pybind11 or Python's headers are not here (Debian: pybind11-dev, python3-dev)"])
+            self.assertFalse((Path(folder) / "python").exists())
+
+    def test_the_module_alone_cannot_do_without(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            done = configure(folder, "-DDTOF_PROGRAMS=OFF", "-DDTOF_PYTHON=ON")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("No Python module can be built", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
