@@ -150,6 +150,14 @@ RtlConfiguration configuration_of(const ReadoutParameters& parameters, int rows,
   return configuration;
 }
 
+void load_array(const RtlConfiguration& configuration, std::span<const SourceFile> sources) {
+  auto* make = reinterpret_cast<ArrayModel* (*)(VerilatedContext&)>(
+      maker_of(configuration, array_top(configuration.parameters.readout), sources));
+  register_rtl_configuration(configuration, [make](VerilatedContext& context) {
+    return std::unique_ptr<ArrayModel>(make(context));
+  });
+}
+
 }  // namespace
 
 std::string obstacle_to_building() {
@@ -176,12 +184,15 @@ void build_missing_arrays(const ReadoutParameters& parameters, int rows, int col
     if (refusal([&] { return find_rtl_configuration(parameters, rows, width); }).empty()) {
       continue;
     }
-    const RtlConfiguration configuration = configuration_of(parameters, rows, width);
-    auto* make = reinterpret_cast<ArrayModel* (*)(VerilatedContext&)>(
-        maker_of(configuration, array_top(parameters.readout), sources));
-    register_rtl_configuration(configuration, [make](VerilatedContext& context) {
-      return std::unique_ptr<ArrayModel>(make(context));
-    });
+    load_array(configuration_of(parameters, rows, width), sources);
+  }
+}
+
+void build_missing_array(const RtlConfiguration& configuration, std::span<const SourceFile> sources) {
+  configuration.parameters.validate();
+  if (!has_array(configuration)) {
+    require_buildable(fmt::format("no RTL is compiled for {}", configuration.to_string()));
+    load_array(configuration, sources);
   }
 }
 

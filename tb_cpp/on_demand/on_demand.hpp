@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dtof/core/parameters.hpp"
+#include "rtl/configuration.hpp"
 #include "sources/sources.hpp"
 
 namespace dtof {
@@ -22,6 +23,10 @@ void build_missing_arrays(const ReadoutParameters& parameters, int rows, int col
 void build_missing_subsystems(const ReadoutParameters& parameters, int rows, int columns,
                               std::span<const int> selected,
                               std::span<const SourceFile> sources = project_sources());
+
+/// The same for one array: make_array_model() then has `configuration`.
+void build_missing_array(const RtlConfiguration& configuration,
+                         std::span<const SourceFile> sources = project_sources());
 
 /// Columns of an array whose columns are independent: more take longer to compile, and groups of them are
 /// read one after the other.

@@ -144,6 +144,8 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   return *best;
 }
 
+bool has_array(const RtlConfiguration& configuration) { return registry().contains(key(configuration)); }
+
 std::unique_ptr<ArrayModel> make_array_model(const RtlConfiguration& configuration,
                                              VerilatedContext& context) {
   const auto entry = registry().find(key(configuration));

@@ -30,6 +30,9 @@ std::vector<RtlConfiguration> compiled_rtl_configurations();
 RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns,
                                         bool waveform = false);
 
+/// Whether make_array_model() has `configuration`.
+bool has_array(const RtlConfiguration& configuration);
+
 /// Throws InputError listing what is compiled if `configuration` is not.
 std::unique_ptr<ArrayModel> make_array_model(const RtlConfiguration& configuration,
                                              VerilatedContext& context);

@@ -61,21 +61,6 @@ ColumnStream adversarial_column(const ArrayParameters& array, std::uint32_t acqu
   return column;
 }
 
-std::vector<ColumnStream> make_columns(const ArrayParameters& array, std::uint32_t acquisitions,
-                                       std::size_t& kind, CounterRandom& random) {
-  if (acquisitions >= kLongFrame) {
-    kind = static_cast<std::size_t>(StreamKind::kConstant);  // counters saturate
-  }
-  const bool pool = is_pool_readout(array.readout.readout);
-  std::vector<ColumnStream> columns;
-  columns.reserve(static_cast<std::size_t>(array.columns));
-  for (int column = 0; column < array.columns; ++column) {
-    columns.push_back(pool && column % 2 == 0 ? surface_column(array, acquisitions, random)
-                                              : adversarial_column(array, acquisitions, kind, random));
-  }
-  return columns;
-}
-
 /// The bus as hexadecimal digits, column 0 in the lowest bits.
 std::string bus_digits(std::span<const Timestamp> timestamps, int np) {
   const std::size_t bits = timestamps.size() * static_cast<std::size_t>(np);
@@ -185,6 +170,21 @@ std::array<std::uint32_t, 3> schedule_settings(const ReadoutParameters& readout,
 
 }  // namespace
 
+std::vector<ColumnStream> random_columns(const ArrayParameters& array, std::uint32_t acquisitions,
+                                         std::size_t& kind, CounterRandom& random) {
+  if (acquisitions >= kLongFrame) {
+    kind = static_cast<std::size_t>(StreamKind::kConstant);  // counters saturate
+  }
+  const bool pool = is_pool_readout(array.readout.readout);
+  std::vector<ColumnStream> columns;
+  columns.reserve(static_cast<std::size_t>(array.columns));
+  for (int column = 0; column < array.columns; ++column) {
+    columns.push_back(pool && column % 2 == 0 ? surface_column(array, acquisitions, random)
+                                              : adversarial_column(array, acquisitions, kind, random));
+  }
+  return columns;
+}
+
 void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> frames, std::uint64_t seed,
                    const std::filesystem::path& folder) {
   constexpr std::array<int, 4> kPauses = {0, 10, 40, 75};
@@ -211,7 +211,7 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
                           : kPauses[1];
     const int stall = kStalls[static_cast<std::size_t>(pick(random, kStalls.size()))];
     bool reset = acquisitions >= kShortestFrameToReset && acquisitions < kLongFrame;
-    const std::vector<ColumnStream> columns = make_columns(frame_array, acquisitions, kind, random);
+    const std::vector<ColumnStream> columns = random_columns(frame_array, acquisitions, kind, random);
     if (!has_prior) {
       files.write(frame_array, acquisitions, settings, pause, stall, reset, columns,
                   results_of(frame_array, columns, acquisitions));

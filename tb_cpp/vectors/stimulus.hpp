@@ -4,11 +4,20 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <vector>
 
+#include "dtof/core/detection.hpp"
+#include "dtof/core/random.hpp"
 #include "dtof/scene/scene.hpp"
 #include "vectors/rtl_parameters.hpp"
 
 namespace dtof {
+
+/// Columns of random streams, each pixel of another kind (tests/readout/test_streams.hpp), from `kind` on;
+/// every second column of a pool read-out sees one surface. Frames of 1,000 acquisitions and more begin with
+/// a constant code, so that counters saturate.
+std::vector<ColumnStream> random_columns(const ArrayParameters& array, std::uint32_t acquisitions,
+                                         std::size_t& kind, CounterRandom& random);
 
 /// Writes what a test bench drives and expects, for one frame after the other:
 ///   frames.txt      a line per frame: acquisitions, three settings (gate begin, gate end, 0, or of
