@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "random/check.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <vector>
 
+#include "dtof/core/frame_time.hpp"
 #include "dtof/core/random.hpp"
 #include "on_demand/on_demand.hpp"
 #include "rtl/error.hpp"
@@ -32,6 +35,28 @@ RtlRunOptions disturbed(CounterRandom& random, std::uint32_t acquisitions) {
   return options;
 }
 
+/// Whether a dark frame takes the clocks that are predicted.
+std::string clock_difference(RtlReadout& rtl, const std::string& reproduce) {
+  const RtlConfiguration& configuration = rtl.configuration();
+  constexpr std::uint32_t kAcquisitions = 43;
+  std::vector<ColumnStream> columns(static_cast<std::size_t>(configuration.sram_num));
+  for (ColumnStream& column : columns) {
+    for (int row = 0; row < configuration.pixels_per_sram; ++row) {
+      column.finish_row();
+    }
+  }
+  const std::uint64_t clocks = rtl.run(columns, kAcquisitions).statistics.cycles;
+  const std::uint64_t predicted =
+      predicted_frame_clocks(configuration.parameters, configuration.pixels_per_sram, configuration.sram_num,
+                             kAcquisitions, configuration.signalled_clear);
+  return clocks == predicted
+             ? ""
+             : fmt::format(
+                   "a frame of {} acquisitions takes {} clocks, not the {} predicted\n  read-out   {}\n"
+                   "  reproduce  {}\n",
+                   kAcquisitions, clocks, predicted, configuration.to_string(), reproduce);
+}
+
 }  // namespace
 
 ArrayCheck check_array(const RtlConfiguration& configuration, std::uint64_t seed,
@@ -43,6 +68,10 @@ ArrayCheck check_array(const RtlConfiguration& configuration, std::uint64_t seed
                         .rows = configuration.pixels_per_sram,
                         .columns = configuration.sram_num};
   ArrayCheck check;
+  check.difference = clock_difference(rtl, reproduce);
+  if (!check.difference.empty()) {
+    return check;
+  }
   std::size_t kind = random() % 9;
   for (const std::uint32_t acquisitions : kFrames) {
     if (array.readout.time_gate) {

@@ -44,6 +44,8 @@ struct PoolPointerParameters {
   /// Highest bits of a group's background that its word keeps: 4 to 6, as many as two pixel words leave
   /// beside the candidates.
   [[nodiscard]] int background_bits() const;
+  /// Halves of a memory word that eight coarse bins of `count_width` bits take, 1 or 2.
+  [[nodiscard]] int bin_halves(int count_width) const;
   bool operator==(const PoolPointerParameters&) const = default;
 };
 
