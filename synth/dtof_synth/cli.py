@@ -299,7 +299,7 @@ def _add_liberty(parser: argparse.ArgumentParser) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description="Area, timing and power of the named configurations.")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at the same time")
-    parser.add_argument("--configurations", type=Path, default=ROOT / "configurations.toml", help="file that names them")
+    parser.add_argument("--configurations", type=Path, help="a file of more of them, which are then those that are meant")
     commands = parser.add_subparsers(dest="command", required=True)
     run = commands.add_parser("run", help="synthesise, time, report")
     run.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, with reports")
@@ -351,7 +351,12 @@ def main() -> int:
         print("error: --jobs must be at least 1", file=sys.stderr)
         return 2
     try:
-        return arguments.action(arguments, configuration.load(arguments.configurations))
+        named = configuration.load(ROOT / "configurations.toml")
+        if arguments.configurations:
+            more = configuration.load(arguments.configurations)
+            arguments.configuration = getattr(arguments, "configuration", None) or list(more)
+            named |= more
+        return arguments.action(arguments, named)
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

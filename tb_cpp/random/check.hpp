@@ -19,8 +19,8 @@ struct ArrayCheck {
 };
 
 /// Builds the array if it is not there, and runs frames of random streams through array and model: short and
-/// long, with pauses, back-pressure, resets, another gate in each. Before, a dark frame must take the clocks that predicted_frame_clocks() says.
-/// `reproduce`: the command that runs this array again.
+/// long, with pauses, back-pressure, resets, another gate in each. Before, a dark frame must take the clocks
+/// that predicted_frame_clocks() says. `reproduce`: the command that runs this array again.
 ArrayCheck check_array(const RtlConfiguration& configuration, std::uint64_t seed,
                        const std::string& reproduce, std::span<const SourceFile> sources = project_sources());
 

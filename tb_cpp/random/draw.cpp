@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "random/draw.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/random.hpp"
-#include "rtl/settings.hpp"
 
 namespace dtof {
 namespace {
@@ -113,17 +110,6 @@ RtlConfiguration drawn_configuration(std::uint64_t seed, std::uint32_t index) {
       1, is_pool_readout(readout) ? kMostPoolRows : std::min(kMostRows, kMostBins / bins(parameters)));
   configuration.sram_num = draw.from(1, 9);
   return configuration;
-}
-
-std::string configuration_toml(const std::string& name, const RtlConfiguration& configuration) {
-  std::string parameters;
-  for (const RtlSetting& setting : rtl_settings(configuration, array_top(configuration.parameters.readout))) {
-    if (setting.name != "READOUT") {
-      parameters += fmt::format("{}{} = {}", parameters.empty() ? "" : ", ", setting.name, setting.value);
-    }
-  }
-  return fmt::format("[configuration.{}]\nreadout = \"{}\"\nparameters = {{ {} }}\n", name,
-                     readout_name(configuration.parameters.readout), parameters);
 }
 
 }  // namespace dtof

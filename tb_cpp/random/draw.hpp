@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 #include "rtl/configuration.hpp"
 
@@ -12,8 +11,5 @@ namespace dtof {
 /// seconds. The read-outs follow each other, so that 11 draws have all of them; every other parameter is
 /// drawn from all of its legal values, a pool read-out's columns from one to several engines.
 RtlConfiguration drawn_configuration(std::uint64_t seed, std::uint32_t index);
-
-/// The same as an entry of configurations.toml.
-std::string configuration_toml(const std::string& name, const RtlConfiguration& configuration);
 
 }  // namespace dtof

@@ -14,6 +14,7 @@
 #include "dtof/report/table.hpp"
 #include "random/check.hpp"
 #include "random/draw.hpp"
+#include "rtl/settings.hpp"
 
 namespace {
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rtl/settings.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -134,6 +136,17 @@ bool set_rtl_parameter(RtlConfiguration& configuration, std::string_view name, i
   }
   found->set(configuration, value);
   return true;
+}
+
+std::string configuration_toml(const std::string& name, const RtlConfiguration& configuration) {
+  std::string parameters;
+  for (const RtlSetting& setting : rtl_settings(configuration, array_top(configuration.parameters.readout))) {
+    if (setting.name != "READOUT") {
+      parameters += fmt::format("{}{} = {}", parameters.empty() ? "" : ", ", setting.name, setting.value);
+    }
+  }
+  return fmt::format("[configuration.{}]\nreadout = \"{}\"\nparameters = {{ {} }}\n", name,
+                     readout_name(configuration.parameters.readout), parameters);
 }
 
 }  // namespace dtof

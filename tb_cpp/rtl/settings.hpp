@@ -28,6 +28,9 @@ int rtl_readout_number(Readout readout);
 /// the time gate.
 std::vector<RtlSetting> rtl_settings(const RtlConfiguration& configuration, RtlTop top);
 
+/// The array of `configuration` as an entry of configurations.toml.
+std::string configuration_toml(const std::string& name, const RtlConfiguration& configuration);
+
 /// Sets a parameter; false if no top has one of this name. Parameters that change no result are taken.
 bool set_rtl_parameter(RtlConfiguration& configuration, std::string_view name, int value);
 

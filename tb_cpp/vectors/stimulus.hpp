@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "dtof/core/detection.hpp"
@@ -37,5 +38,14 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
 void write_scene_vectors(const ArrayParameters& array, Scene scene, double klux,
                          std::span<const std::uint32_t> frames, std::uint64_t seed,
                          const std::filesystem::path& folder);
+
+/// A frame as text: timestamps.hex and results.hex of write_vectors().
+struct FrameVectors {
+  std::string timestamps;
+  std::string results;
+};
+
+/// The whole frame of a source that has the array's rows and columns.
+FrameVectors source_vectors(const ArrayParameters& array, const StreamSource& source);
 
 }  // namespace dtof
