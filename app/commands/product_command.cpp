@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,18 @@ std::string command_of(const ProductOptions& options) {
   return command;
 }
 
+/// The flow's table without what changes from run to run.
+std::string table_of(const std::string& output) {
+  std::istringstream lines(output);
+  std::string table;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("[") && line.find(" configurations in ") == std::string::npos) {
+      table += line + "\n";
+    }
+  }
+  return table;
+}
+
 /// What `synth/synth.py run` says of the array, as text of the report.
 std::string measured(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_mhz) {
   const char* flow = "synth/synth.py";
@@ -75,11 +88,12 @@ std::string measured(const ReadoutParameters& parameters, const SensorModel& sen
   std::string text;
   if (run && run->exit_code == 0) {
     text = fmt::format(
-        "Area and timing of the array by `make synth`'s flow (generated 40 nm libraries, not sign-off; the "
-        "array "
-        "without the subsystem's registers and buffers; the flow's own clock target, not {:g} MHz); power "
+        "Area and timing of the array by the flow of `make synth`: generated 40 nm libraries, not sign-off; "
+        "without the\n"
+        "registers and buffers of the subsystem; for the flow's clock, not {:g} MHz. The mW are those of an "
+        "assumed activity: power\n"
         "was not measured.\n\n```\n{}```",
-        clock_mhz, run->output);
+        clock_mhz, table_of(run->output));
   }
   std::filesystem::remove_all(folder);
   if (text.empty()) {
