@@ -26,7 +26,7 @@ def examples(document: Path) -> list[str]:
     return EXAMPLE.findall(document.read_text(encoding="utf-8"))
 
 
-@unittest.skipUnless((PROGRAMS / "app" / "dtof").is_file(), "dtof is not built")
+@unittest.skipUnless((PROGRAMS / "bin" / "dtof").is_file(), "dtof is not built")
 class Examples(unittest.TestCase):
     def run_examples(self, document: Path) -> int:
         with tempfile.TemporaryDirectory() as folder:
@@ -57,10 +57,10 @@ class MainJob(unittest.TestCase):
                 for name in MAIN_JOB:
                     self.assertNotIn(f"--out build/{name}", f"{command} ".replace("\n", " "), document.name)
 
-    @unittest.skipUnless((PROGRAMS / "app" / "dtof").is_file(), "dtof is not built")
+    @unittest.skipUnless((PROGRAMS / "bin" / "dtof").is_file(), "dtof is not built")
     def test_no_command_of_the_program_writes_there_by_default(self) -> None:
         for command in ("frame", "replay", "video"):
-            text = subprocess.run([PROGRAMS / "app" / "dtof", command, "--help"], capture_output=True, text=True,
+            text = subprocess.run([PROGRAMS / "bin" / "dtof", command, "--help"], capture_output=True, text=True,
                                   check=True).stdout
             default = re.search(r"--out TEXT(?:=| \[)build/(\w+)", text)  # of CLI11 2.3 and of 2.4
             assert default, text
