@@ -319,7 +319,11 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
       {"MHZ", fmt::format("{:g}", request.budget.clock_hz * 1e-6)},
       {"SCENE", std::string(scene_name(request.scene))},
       {"KLUX", fmt::format("{:g}", request.klux)},
+      {"PAIRS", pool ? "bench/pairs.vlt " : ""},
       {"COMMAND", request.command}};
+  if (pool) {
+    files["bench/pairs.vlt"] = source("tb_cpp/rtl/pairs.vlt");
+  }
   files["rtl/dtof_product.sv"] = top(request);
   files["bench/product_bench.sv"] = filled("product_bench.sv", values);
   files["Makefile"] = filled("Makefile", values);

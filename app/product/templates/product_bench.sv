@@ -69,7 +69,7 @@ module product_bench;
   // A line for each clock of the source; code, fraction and confidence, 16 bits each, for each pixel, row by row.
   logic [4*((COLUMNS*NP+3)/4)-1:0] stimulus[0:LINES-1];
   logic [47:0] expected[0:ROWS*COLUMNS-1];
-  logic [ROWS*COLUMNS-1:0] seen = '0;
+  logic seen[0:ROWS*COLUMNS-1];
 
   int failures = 0;
 
@@ -116,6 +116,7 @@ module product_bench;
     int i;
     $readmemh("vectors/timestamps.hex", stimulus);
     $readmemh("vectors/results.hex", expected);
+    for (i = 0; i < ROWS * COLUMNS; i = i + 1) seen[i] = 1'b0;
     @(posedge rst_n);
     @(posedge clk);
     #0.1;
@@ -149,7 +150,7 @@ module product_bench;
     end else begin
       pixel = row * COLUMNS + column;
       wanted = (int'(expected[pixel][47:32]) << FRACTION_BITS) + int'(expected[pixel][31:16]);
-      if (seen[pixel]) fail("a pixel has two results");
+      if (seen[pixel] === 1'b1) fail("a pixel has two results");
       seen[pixel] = 1'b1;
       if (position != wanted || confidence != int'(expected[pixel][15:0])) begin
         $display("row %0d column %0d: position %0d, not %0d; confidence %0d, not %0d", row, column, position, wanted,
