@@ -6,5 +6,5 @@ FIRST ?= 0
 .PHONY: random-configurations
 random-configurations: configure
 	@ninja -C $(BUILD) dtof-random $(if $(NETLISTS),dtof-vectors)
-	@$(BUILD)/bin/dtof-random --seed $(SEED) --count $(N) --first $(FIRST)
+	@DTOF_CACHE=$(CURDIR)/build/random_configurations/cache $(BUILD)/bin/dtof-random --seed $(SEED) --count $(N) --first $(FIRST)
 	@$(if $(NETLISTS),synth/synth.py --configurations build/random_configurations/configurations.toml sim-netlist --seed $(SEED) $(NETLISTS))
