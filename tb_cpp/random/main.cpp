@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <string>
@@ -54,6 +55,7 @@ int run(int argc, char** argv) {
     fmt::print(
         "{} {}: {}\n", i, configuration.to_string(),
         equal ? fmt::format("{} results of {} frames equal", check.results, check.frames) : check.difference);
+    std::fflush(stdout);  // a log shows how far the program is
     differences += check.difference;
     wrong += equal ? 0 : 1;
   }
