@@ -155,11 +155,16 @@ std::uint64_t array_clocks(const ReadoutParameters& parameters, std::uint64_t ro
   constexpr std::int64_t kInterpolation = 4;  // and a clock for each bit of the quotient
   constexpr std::int64_t kFirstResult = 6;
   constexpr std::int64_t kAfterResults = 5;
+  // FiFH's last histogram is as fine as the rest of the code; what is cleared and scanned before has the bins
+  // of the larger.
+  const std::uint64_t last_bins = parameters.readout == Readout::kFifh
+                                      ? u(1) << static_cast<unsigned>(parameters.np - parameters.nb)
+                                      : bins;
   const bool interpolates = parameters.readout == Readout::kCoarseHistogram;
   const std::int64_t scan =
       is_pointer_readout(parameters.readout)
           ? kPointerScan
-          : static_cast<std::int64_t>(bins) + kScanLatency +
+          : static_cast<std::int64_t>(last_bins) + kScanLatency +
                 (interpolates ? kInterpolation + parameters.np - parameters.nb + parameters.fraction_bits
                               : 0);
   const std::int64_t sending = kFirstResult + sending_clocks(columns);

@@ -23,6 +23,12 @@ TEST(FrameTime, IsThatOfTheThesissArray) {
   EXPECT_EQ(clocks(Readout::kCoarseHistogram), 1'117'814U);
   EXPECT_EQ(clocks(Readout::kPoolPointer2), 1'389'761U);
   EXPECT_EQ(clocks(Readout::kPoolPointer2Lean), 1'399'585U);
+  // A first histogram with more bins than the last: as drawn by make random-configurations SEED=20261126
+  // FIRST=4.
+  ReadoutParameters fifh = ReadoutParameters::defaults(Readout::kFifh, 16);
+  fifh.nb = 10;
+  fifh.slots = 4;
+  EXPECT_EQ(predicted_frame_clocks(fifh, 7, 1, 43), 16'056U);
 }
 
 /// The number before `unit` in a sentence.
