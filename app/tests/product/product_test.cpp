@@ -179,6 +179,19 @@ TEST_F(Product, WritesNothingIfAnythingIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "chip.partial"));
 }
 
+TEST_F(Product, TheSensorCommandSaysWhichFramesFit) {
+  const auto fits = [&](const std::string& arguments) {
+    return shell(fmt::format("{} sensor small.toml {}", DTOF_PROGRAM, arguments));
+  };
+  EXPECT_THAT(fits("--frame-rate 30").output, Not(HasSubstr("does not fit")));
+  const Outcome fast = fits("--frame-rate 300000 --clock-mhz 100");
+  EXPECT_EQ(fast.exit_code, 0);
+  EXPECT_THAT(fast.output, HasSubstr("SiFH: a frame of 60 acquisitions takes "));
+  EXPECT_THAT(fast.output,
+              HasSubstr("at 100 MHz; 300000 frames/s leave 333, so that the frame does not fit."));
+  EXPECT_EQ(fits("--clock-mhz 100").exit_code, 1);
+}
+
 TEST(ProductFiles, RefuseWhatTheSubsystemCannotBe) {
   ProductRequest wide = request(Readout::kSifh);
   wide.sensor.columns = 1025;
