@@ -16,6 +16,7 @@
 # make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer 2 (scripts/wave.mk)
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
 # make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)
+# make random-configurations  N=30 arrays of drawn parameters beside their models (scripts/random.mk)
 # make example    a frame of dtof_subsystem in a small SystemVerilog bench (scripts/example.mk)
 # make bench      speed of RTL, models and photon model; SMALL=1: each once, on less work
 # make test-sanitize, make fuzz: the tests under sanitizers; readers and command line on damaged input (scripts/hostile.mk)
@@ -124,6 +125,7 @@ include scripts/cases.mk
 include scripts/adding.mk
 include scripts/playground.mk
 include scripts/wave.mk
+include scripts/random.mk
 include scripts/example.mk
 include scripts/fpga.mk
 include scripts/sweep.mk

@@ -3,6 +3,7 @@
 # The main job: one frame of the room scene through the RTL of every read-out, each pixel compared with the
 # model; then the TMF8820 captures where they are present. Pictures and tables go to build/.
 set -euo pipefail
+export DTOF_CACHE=off  # the RTL that the program is shipped with, and no more
 dtof=$1
 seed=${SEED:-1}
 data=${SHARED_DATA:-../shared/data}

@@ -16,6 +16,8 @@ Program dtof_program() {
           "  dtof replay recording.csv --readout hispointer --engine rtl --out build/replay\n"
           "  dtof video --scene room --motion pan --frames 8 --out build/pan\n"
           "  dtof sensor thesis                                          a sensor file to start from\n"
+          "  dtof product --sensor mine.toml --readout sifh --out chip    RTL, driver and bench for that "
+          "sensor\n"
           "  dtof list\n"
           "Studies of accuracy and of the photon models: dtof-study --help\n",
       .add_commands = [](CLI::App& app, const std::string& command_line) {
@@ -23,6 +25,7 @@ Program dtof_program() {
         add_replay_command(app, command_line);
         add_video_command(app, command_line);
         add_sensor_command(app);
+        add_product_command(app, command_line);
         add_list_command(app);
       }};
 }

@@ -3,11 +3,16 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "command_line/option_checks.hpp"
 #include "commands/commands.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/core/frame_time.hpp"
 #include "dtof/core/physical_constants.hpp"
 #include "dtof/photon/fast_photon_source.hpp"
+#include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "dtof/sensor/sensor_file.hpp"
 
@@ -31,9 +36,37 @@ std::string consequences(const SensorModel& sensor) {
       FastPhotonSource::supports(sensor) ? "exact, fast, analytic" : "exact");
 }
 
-void run_sensor_command(const std::string& name, bool keys) {
-  if (keys) {
+struct SensorCommand {
+  std::string name = "thesis";
+  bool keys = false;
+  std::optional<double> frame_rate;
+  double clock_mhz = 330.0;
+};
+
+/// A sentence for each read-out that has RTL.
+void print_fits(const SensorModel& sensor, const FrameBudget& budget) {
+  for (const Readout readout : kRtlReadouts) {
+    const ReadoutParameters parameters = default_parameters(readout, sensor);
+    try {
+      parameters.validate();
+    } catch (const InputError& error) {
+      fmt::print("{}: not for this sensor, {}\n", readout_title(readout), error.what());
+      continue;
+    }
+    fmt::print("{}\n",
+               frame_fit(parameters, sensor.rows, sensor.columns, sensor.acquisitions, budget).sentence);
+  }
+}
+
+void run_sensor_command(const SensorCommand& options) {
+  const std::string& name = options.name;
+  if (options.keys) {
     fmt::print("{}", sensor_key_table());
+    return;
+  }
+  if (options.frame_rate) {
+    print_fits(find_described_sensor(name).model,
+               {.clock_hz = options.clock_mhz * 1e6, .frames_per_s = *options.frame_rate});
     return;
   }
   const DescribedSensor sensor = find_described_sensor(name);
@@ -43,14 +76,22 @@ void run_sensor_command(const std::string& name, bool keys) {
 }  // namespace
 
 void add_sensor_command(CLI::App& app) {
-  auto name = std::make_shared<std::string>("thesis");
-  auto keys = std::make_shared<bool>(false);
+  auto options = std::make_shared<SensorCommand>();
   CLI::App* command = app.add_subcommand(
       "sensor", "Checks and prints a sensor file, to start one's own from, and what follows from it");
-  command->add_option("sensor", *name, "a preset of `dtof list`, or a sensor file (TOML)")
+  command->add_option("sensor", options->name, "a preset of `dtof list`, or a sensor file (TOML)")
       ->capture_default_str();
-  command->add_flag("--keys", *keys, "the keys of a sensor file instead, with defaults and limits");
-  command->callback([name, keys] { run_sensor_command(*name, *keys); });
+  command->add_flag("--keys", options->keys, "the keys of a sensor file instead, with defaults and limits");
+  CLI::Option* rate =
+      command
+          ->add_option("--frame-rate", options->frame_rate,
+                       "frames/s: which read-outs' frames fit the clock, and what would, instead")
+          ->check(above_zero());
+  command->add_option("--clock-mhz", options->clock_mhz, "the array's clock")
+      ->check(above_zero())
+      ->needs(rate)
+      ->capture_default_str();
+  command->callback([options] { run_sensor_command(*options); });
 }
 
 }  // namespace dtof

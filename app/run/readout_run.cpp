@@ -18,6 +18,7 @@
 #include "dtof/core/progress.hpp"
 #include "dtof/frame/array_rows.hpp"
 #include "dtof/readout/run_frame.hpp"
+#include "on_demand/on_demand.hpp"
 #include "rtl/error.hpp"
 #include "rtl/run_frame.hpp"
 #include "scoreboard/scoreboard.hpp"
@@ -63,10 +64,16 @@ void check_engine(const StreamSource& source, std::span<const ReadoutParameters>
                                  options.engine, source.acquisitions(), kMostRtlAcquisitions));
   }
   for (const ReadoutParameters& parameters : readouts) {
-    const ArrayRows array = array_rows(source, region.rows, parameters.readout);
+    const ArrayRows array = array_rows(source, region.rows, parameters.readout, options.own_rows);
+    // An array for all of the source's rows serves every region.
+    const int rows = std::max(source.rows(), array.source->rows());
     if (options.subsystem()) {
+      build_missing_subsystems(parameters, rows, source.columns(), region.columns);
       (void)find_subsystems(parameters, array.source->rows(), source.columns(), region.columns);
       continue;
+    }
+    if (options.trace.empty()) {
+      build_missing_arrays(parameters, rows, source.columns(), region.columns);
     }
     (void)find_rtl_configurations(parameters, array.source->rows(), source.columns(), region.columns,
                                   !options.trace.empty());
@@ -81,10 +88,13 @@ std::vector<ReadoutParameters> without_unfit_engines(const StreamSource& source,
       return false;
     }
     try {
-      const ArrayRows array = array_rows(source, region.rows, parameters.readout);
+      const ArrayRows array = array_rows(source, region.rows, parameters.readout, options.own_rows);
       (void)find_rtl_configurations(parameters, array.source->rows(), source.columns(), region.columns);
       return false;
     } catch (const InputError&) {
+      if (options.trace.empty() && obstacle_to_building().empty()) {
+        return false;
+      }
       fmt::print(
           "{} is left out: its RTL is not compiled for {} columns or the pulse (--readout {} says more).\n",
           readout_title(parameters.readout), source.columns(), readout_name(parameters.readout));
@@ -103,13 +113,15 @@ bool reads_samples(Readout readout, const RunSettings& options) {
 ReadoutRun run_readout(const StreamSource& source, const ReadoutParameters& parameters,
                        const RunSettings& options, const Region& region, const std::string& command) {
   if (!options.hardware()) {
-    return ModelEngine({.threads = options.threads, .streams_only = options.streams_only})
+    return ModelEngine({.threads = options.threads,
+                        .streams_only = options.streams_only,
+                        .own_rows = options.own_rows})
         .read(source, parameters, region);
   }
   const auto start = std::chrono::steady_clock::now();
   ReadoutRun run;
   const std::vector<int>& columns = region.columns;
-  const ArrayRows array = array_rows(source, region.rows, parameters.readout);
+  const ArrayRows array = array_rows(source, region.rows, parameters.readout, options.own_rows);
   Progress progress(fmt::format("{} ({})", readout_title(parameters.readout), options.engine),
                     columns.size());
   const auto finish = [&](std::vector<PixelResult> results) {

@@ -18,6 +18,7 @@ struct RunSettings {
   int threads = 0;              ///< 0: all processors
   std::string columns = "all";  ///< as parse_columns has them
   std::string rows = "all";     ///< as parse_rows has them
+  bool own_rows = false;        ///< a pool read-out's array has the source's rows alone
   bool streams_only = false;    ///< read streams even from a source that could be sampled
 
   [[nodiscard]] bool rtl() const { return engine == "rtl"; }

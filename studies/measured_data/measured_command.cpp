@@ -106,7 +106,8 @@ struct Light {
 
 bool is_compiled(const ReadoutParameters& parameters, const MeasuredScene& scene) {
   try {
-    (void)find_rtl_configurations(parameters, scene.rows, scene.columns,
+    const int rows = is_pool_readout(parameters.readout) ? std::max(scene.rows, kArrayRows) : scene.rows;
+    (void)find_rtl_configurations(parameters, rows, scene.columns,
                                   Region::whole(scene.columns, scene.rows).columns);
     return true;
   } catch (const InputError&) {

@@ -188,7 +188,7 @@ std::vector<double> as_distribution(const std::vector<std::uint64_t>& counts) {
 }
 
 /// The worst that was seen of one rival.
-struct Verdict {
+struct SpeedVerdict {
   double bias = 0.0;       // relative to the distance
   double precision = 0.0;  // change of the relative precision
   double outliers = 0.0;   // change of the share
@@ -212,7 +212,7 @@ struct Stopwatch {
 };
 
 /// Least of three runs: what other programs take away is not the model's.
-void time_frame(const std::function<void()>& run, Verdict& verdict) {
+void time_frame(const std::function<void()>& run, SpeedVerdict& verdict) {
   constexpr int kRuns = 3;
   for (int i = 0; i < kRuns; ++i) {
     const Stopwatch watch;
@@ -259,7 +259,7 @@ class SpeedErrorReport {
                                 : (kRivals[i] == PhotonRoute::kFastStream
                                        ? sample_streams(fast, sensor_, options_.run.threads)
                                        : sample_sampler(fast, sensor_, options_.run.threads));
-      Verdict& verdict = verdicts_[i];
+      SpeedVerdict& verdict = verdicts_[i];
       const double total_ratio = as_ratio(reference.codes, sample.codes);
       verdict.codes_p = std::min(verdict.codes_p, two_sample_p(reference.codes, sample.codes, total_ratio));
       verdict.numbers_p = std::min(verdict.numbers_p, two_sample_p(reference.numbers, sample.numbers, 1.0));
@@ -273,7 +273,7 @@ class SpeedErrorReport {
   }
 
   void compare_analytic(double klux, double distance, const PixelRates& rates, const Sample& reference,
-                        Verdict& verdict) {
+                        SpeedVerdict& verdict) {
     verdict.codes_p =
         std::min(verdict.codes_p, one_sample_p(reference.codes, expected_detections(sensor_, rates)));
     for (std::size_t r = 0; r < kReadouts.size(); ++r) {
@@ -297,7 +297,8 @@ class SpeedErrorReport {
   }
 
   void add_point(PhotonRoute rival, Readout readout, double klux, double distance,
-                 const std::vector<double>& reference, const std::vector<double>& other, Verdict& verdict) {
+                 const std::vector<double>& reference, const std::vector<double>& other,
+                 SpeedVerdict& verdict) {
     const ReadoutParameters parameters = default_parameters(readout, sensor_);
     const PredictedErrors a = predict_errors(reference, sensor_, parameters, distance);
     const PredictedErrors b = predict_errors(other, sensor_, parameters, distance);
@@ -383,7 +384,7 @@ class SpeedErrorReport {
     Table table({"model", "frame, CPU ms", "frame, wall ms", "times exact", "1,000 frames, CPU ms", "bias, %",
                  "precision, %", "outliers, %", "p times", "p numbers", "p results"});
     for (std::size_t i = 0; i < kRivals.size(); ++i) {
-      const Verdict& verdict = verdicts_[i];
+      const SpeedVerdict& verdict = verdicts_[i];
       table.add({rival_title(kRivals[i]), fmt::format("{:.0f}", verdict.seconds * 1e3),
                  fmt::format("{:.0f}", verdict.wall_seconds * 1e3),
                  fmt::format("{:.1f}", verdicts_.front().seconds / verdict.seconds),
@@ -452,8 +453,8 @@ class SpeedErrorReport {
 
   const SpeedErrorOptions& options_;
   SensorModel sensor_;
-  std::vector<Verdict> verdicts_;
-  std::array<Verdict, kRivals.size()> point_times_;
+  std::vector<SpeedVerdict> verdicts_;
+  std::array<SpeedVerdict, kRivals.size()> point_times_;
   Table points_{{"model", "read-out", "klux", "distance m", "precision exact", "precision", "bias exact m",
                  "bias m", "outliers exact", "outliers"}};
   std::uint64_t detections_ = 0;

@@ -50,9 +50,11 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     chosen = _select(named, arguments.configuration)
     foreign = arguments.liberty is not None
     build = ROOT / "build" / "synth"
-    everything = all_configurations(named)
-    technology = technologies.prepare(ROOT, build / (arguments.liberty.name if foreign else "generic40"), everything,
-                                      arguments.liberty, arguments.liberty_slow)
+    more = list(chosen.values()) if arguments.configurations else []
+    everything = [] if more else all_configurations(named)
+    kit = arguments.liberty.name if foreign else "generic40"
+    technology = technologies.prepare(ROOT, build / (f"{kit}_more" if more else kit), everything, arguments.liberty, arguments.liberty_slow,
+                                      more=more)
     if foreign and arguments.liberty_slow is None:
         _say("note: no LIBERTY_SLOW: the one library serves both corners")
     full = not foreign and not arguments.configuration
@@ -60,7 +62,7 @@ def _run(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
     jobs = [batch.Job(item) for item in chosen.values()]
     if full:
         jobs += signalled_clear.jobs(named)
-    runs = build / ("runs" if not foreign else f"runs_{technology.typical.name}")
+    runs = build / (("runs" if not foreign else f"runs_{technology.typical.name}") + ("_more" if more else ""))
     results = batch.run_all(jobs, technology, runs, arguments.jobs, _say)
     main = {name: results[name] for name in chosen}
     _say(report.summary(main))
@@ -299,6 +301,7 @@ def _add_liberty(parser: argparse.ArgumentParser) -> None:
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(description="Area, timing and power of the named configurations.")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="runs at the same time")
+    parser.add_argument("--configurations", type=Path, help="a file of more of them, which are then those that are meant")
     commands = parser.add_subparsers(dest="command", required=True)
     run = commands.add_parser("run", help="synthesise, time, report")
     run.add_argument("configuration", nargs="*", help="names from configurations.toml; none: all, with reports")
@@ -350,7 +353,12 @@ def main() -> int:
         print("error: --jobs must be at least 1", file=sys.stderr)
         return 2
     try:
-        return arguments.action(arguments, configuration.load(ROOT / "configurations.toml"))
+        named = configuration.load(ROOT / "configurations.toml")
+        if arguments.configurations:
+            more = configuration.load(arguments.configurations)
+            arguments.configuration = getattr(arguments, "configuration", None) or list(more)
+            named |= more
+        return arguments.action(arguments, named)
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import gzip
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from . import library, sram_kit, sram_model, standard_cells
@@ -43,14 +43,17 @@ def _plain_liberty(path: Path, folder: Path) -> Path:
 
 def prepare(root: Path, build: Path, configurations: list[Configuration],
             liberty: Path | None = None, liberty_slow: Path | None = None,
-            macro_of: Callable[[Size], Macro] = sram_model.macro, target_mhz: float = TARGET_MHZ) -> Technology:
-    """Generated libraries unless `liberty` is given; without `liberty_slow` it serves both corners."""
+            macro_of: Callable[[Size], Macro] = sram_model.macro, target_mhz: float = TARGET_MHZ,
+            more: Sequence[Configuration] = ()) -> Technology:
+    """Generated libraries unless `liberty` is given; without `liberty_slow` it serves both corners. `more`: configurations whose
+    SRAMs are made, too, whether the list of sizes has them or not."""
     build.mkdir(parents=True, exist_ok=True)
     listed = sram_kit.read_sizes(root / SIZES)
     for size, users in needed_sizes(configurations).items():
         if size not in listed:
             raise FlowError(f"{users[0]} needs the SRAM {size.name}, which is not in {SIZES}; "
                             "run make synth-sizes")
+    listed = [*listed, *(size for size in needed_sizes(list(more)) if size not in listed)]
     kit = build / "technology"
     sram_kit.write_kit(kit, listed, macro_of)
     if liberty is None:

@@ -54,7 +54,7 @@ std::string other_cell_shifts(ReadoutParameters wanted, int rows, int columns) {
     const RtlConfiguration& candidate = entry.configuration;
     wanted.pool.cell_shift = candidate.parameters.pool.cell_shift;
     if (compiled_parameters(candidate.parameters).to_string() == compiled_parameters(wanted).to_string() &&
-        candidate.pixels_per_sram >= rows && candidate.sram_num == columns) {
+        candidate.pixels_per_sram == rows && candidate.sram_num == columns) {
       found.insert(wanted.pool.cell_shift);
     }
   }
@@ -79,7 +79,7 @@ InputError no_engine_compiled(const std::string& wanted, int rows, int columns) 
     }
   }
   return InputError{
-      fmt::format("no RTL is compiled for {} with at least {} rows and an engine of just {} columns, which "
+      fmt::format("no RTL is compiled for {} with just {} rows and an engine of just {} columns, which "
                   "hear each other; compiled are: {}",
                   wanted, rows, columns, compiled.empty() ? "none" : compiled)};
 }
@@ -119,7 +119,8 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   for (const auto& [text, entry] : registry()) {
     const RtlConfiguration& candidate = entry.configuration;
     if (compiled_parameters(candidate.parameters).to_string() == wanted &&
-        candidate.pixels_per_sram >= rows && (!whole_engine || candidate.sram_num == columns) &&
+        candidate.pixels_per_sram >= rows &&
+        (!whole_engine || (candidate.sram_num == columns && candidate.pixels_per_sram == rows)) &&
         (candidate.records_waveform || !waveform) && (!best.has_value() || cost(candidate) < cost(*best))) {
       best = candidate;
     }
@@ -142,6 +143,8 @@ RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int
   best->parameters.pool.engine_columns = engine_columns;
   return *best;
 }
+
+bool has_array(const RtlConfiguration& configuration) { return registry().contains(key(configuration)); }
 
 std::unique_ptr<ArrayModel> make_array_model(const RtlConfiguration& configuration,
                                              VerilatedContext& context) {

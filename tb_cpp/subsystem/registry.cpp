@@ -36,7 +36,8 @@ CompiledSubsystem find_subsystem(const ReadoutParameters& parameters, int rows, 
     // All have a time gate, closed to nothing where it is not asked for.
     if (compiled_parameters(entry.configuration.parameters).to_string() == wanted &&
         entry.configuration.pixels_per_sram >= rows &&
-        (columns == 0 || entry.configuration.sram_num == columns)) {
+        (columns == 0 ||
+         (entry.configuration.sram_num == columns && entry.configuration.pixels_per_sram == rows))) {
       entry.configuration.parameters.time_gate = parameters.time_gate;
       entry.configuration.parameters.pool = parameters.pool;
       return entry;

@@ -2,7 +2,7 @@
 
 `include "dtof_macros.svh"
 
-/// dtof_subsystem behind ports whose C++ types are the same for every configuration: 512 bits of lines, APB4 or, with
+/// dtof_subsystem behind ports whose C++ types are the same for every configuration: at least 512 bits of lines, APB4 or, with
 /// AXI_LITE = 1, AXI4-Lite. The probes show what the array takes, and when its frames begin and end.
 module subsystem_testbench #(
     parameter READOUT = 0,
@@ -10,7 +10,8 @@ module subsystem_testbench #(
 `include "dtof_subsystem_declarations.svh"
     parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
     parameter RASTER_ORDER = 0,
-    parameter PARITY = 0
+    parameter PARITY = 0,
+    localparam BUS_WIDTH = SRAM_NUM * NP > 512 ? SRAM_NUM * NP : 512
 ) (
     input  logic         clk_i,
     input  logic         rst_ni,
@@ -45,7 +46,7 @@ module subsystem_testbench #(
     output logic         shot_o,
     input  logic         s_axis_tvalid_i,
     output logic         s_axis_tready_o,
-    input  logic [511:0] s_axis_tdata_i,
+    input  logic [BUS_WIDTH-1:0] s_axis_tdata_i,
     input  logic         s_axis_tlast_i,
     output logic         m_axis_tvalid_o,
     input  logic         m_axis_tready_i,
@@ -61,7 +62,7 @@ module subsystem_testbench #(
     output logic         probe_reseed_o,
     output logic         probe_line_valid_o,
     output logic         probe_line_ready_o,
-    output logic [511:0] probe_line_o
+    output logic [BUS_WIDTH-1:0] probe_line_o
 );
 
   localparam S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8);
@@ -162,7 +163,7 @@ module subsystem_testbench #(
   assign probe_reseed_o = u_subsystem.shot_reseed;
   assign probe_line_valid_o = u_subsystem.tdc_valid;
   assign probe_line_ready_o = u_subsystem.tdc_ready;
-  assign probe_line_o = 512'(u_subsystem.line);
+  assign probe_line_o = BUS_WIDTH'(u_subsystem.line);
 
   // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.
   always_ff @(posedge clk_i) begin

@@ -17,6 +17,7 @@
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/readout/model.hpp"
 #include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/run_frame.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "tests/readout/test_streams.hpp"
 
@@ -61,21 +62,6 @@ ColumnStream adversarial_column(const ArrayParameters& array, std::uint32_t acqu
   return column;
 }
 
-std::vector<ColumnStream> make_columns(const ArrayParameters& array, std::uint32_t acquisitions,
-                                       std::size_t& kind, CounterRandom& random) {
-  if (acquisitions >= kLongFrame) {
-    kind = static_cast<std::size_t>(StreamKind::kConstant);  // counters saturate
-  }
-  const bool pool = is_pool_readout(array.readout.readout);
-  std::vector<ColumnStream> columns;
-  columns.reserve(static_cast<std::size_t>(array.columns));
-  for (int column = 0; column < array.columns; ++column) {
-    columns.push_back(pool && column % 2 == 0 ? surface_column(array, acquisitions, random)
-                                              : adversarial_column(array, acquisitions, kind, random));
-  }
-  return columns;
-}
-
 /// The bus as hexadecimal digits, column 0 in the lowest bits.
 std::string bus_digits(std::span<const Timestamp> timestamps, int np) {
   const std::size_t bits = timestamps.size() * static_cast<std::size_t>(np);
@@ -94,7 +80,9 @@ std::string bus_digits(std::span<const Timestamp> timestamps, int np) {
   return digits;
 }
 
-void write_timestamps(fmt::ostream& file, const ArrayParameters& array, std::span<const ColumnStream> columns,
+/// `print(text)`: writes a line's end, too.
+template <typename Print>
+void write_timestamps(const Print& print, const ArrayParameters& array, std::span<const ColumnStream> columns,
                       std::uint32_t acquisitions) {
   const auto slots = static_cast<std::size_t>(array.readout.slots);
   std::vector<std::size_t> next(columns.size() * static_cast<std::size_t>(array.rows), 0);
@@ -112,8 +100,8 @@ void write_timestamps(fmt::ostream& file, const ArrayParameters& array, std::spa
         }
       }
       for (std::size_t slot = 0; slot < slots; ++slot) {
-        file.print("{}\n", bus_digits(std::span(lines).subspan(slot * columns.size(), columns.size()),
-                                      array.readout.np));
+        print(fmt::format("{}\n", bus_digits(std::span(lines).subspan(slot * columns.size(), columns.size()),
+                                             array.readout.np)));
       }
     }
   }
@@ -137,11 +125,12 @@ Results results_of(const ArrayParameters& array, std::span<const ColumnStream> c
                            pool_pointer2_parameters(array.readout), &priors);
 }
 
-void write_results(fmt::ostream& file, const ArrayParameters& array, const Results& results) {
+template <typename Print>
+void write_results(const Print& print, const ArrayParameters& array, const Results& results) {
   for (int row = 0; row < array.rows; ++row) {
     for (const std::vector<PixelResult>& column : results) {
       const PixelResult& result = column[static_cast<std::size_t>(row)];
-      file.print("{:04x}{:04x}{:04x}\n", result.code, result.fraction, result.confidence);
+      print(fmt::format("{:04x}{:04x}{:04x}\n", result.code, result.fraction, result.confidence));
     }
   }
 }
@@ -165,8 +154,9 @@ class VectorFiles {
              std::span<const ColumnStream> columns, const Results& results) {
     frames_->print("{} {} {} {} {} {} {}\n", acquisitions, settings[0], settings[1], settings[2], pause,
                    stall, reset ? 1 : 0);
-    write_timestamps(*timestamps_, array, columns, acquisitions);
-    write_results(*results_, array, results);
+    write_timestamps([this](const std::string& line) { timestamps_->print("{}", line); }, array, columns,
+                     acquisitions);
+    write_results([this](const std::string& line) { results_->print("{}", line); }, array, results);
   }
 
  private:
@@ -184,6 +174,21 @@ std::array<std::uint32_t, 3> schedule_settings(const ReadoutParameters& readout,
 }
 
 }  // namespace
+
+std::vector<ColumnStream> random_columns(const ArrayParameters& array, std::uint32_t acquisitions,
+                                         std::size_t& kind, CounterRandom& random) {
+  if (acquisitions >= kLongFrame) {
+    kind = static_cast<std::size_t>(StreamKind::kConstant);  // counters saturate
+  }
+  const bool pool = is_pool_readout(array.readout.readout);
+  std::vector<ColumnStream> columns;
+  columns.reserve(static_cast<std::size_t>(array.columns));
+  for (int column = 0; column < array.columns; ++column) {
+    columns.push_back(pool && column % 2 == 0 ? surface_column(array, acquisitions, random)
+                                              : adversarial_column(array, acquisitions, kind, random));
+  }
+  return columns;
+}
 
 void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> frames, std::uint64_t seed,
                    const std::filesystem::path& folder) {
@@ -211,7 +216,7 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
                           : kPauses[1];
     const int stall = kStalls[static_cast<std::size_t>(pick(random, kStalls.size()))];
     bool reset = acquisitions >= kShortestFrameToReset && acquisitions < kLongFrame;
-    const std::vector<ColumnStream> columns = make_columns(frame_array, acquisitions, kind, random);
+    const std::vector<ColumnStream> columns = random_columns(frame_array, acquisitions, kind, random);
     if (!has_prior) {
       files.write(frame_array, acquisitions, settings, pause, stall, reset, columns,
                   results_of(frame_array, columns, acquisitions));
@@ -263,6 +268,24 @@ void write_scene_vectors(const ArrayParameters& array, Scene scene, double klux,
     files.write(array, acquisitions, settings, 0, 0, false, columns,
                 results_of(array, columns, acquisitions));
   }
+}
+
+FrameVectors source_vectors(const ArrayParameters& array, const StreamSource& source) {
+  std::vector<ColumnStream> columns;
+  columns.reserve(static_cast<std::size_t>(array.columns));
+  for (int column = 0; column < array.columns; ++column) {
+    columns.push_back(source.column(column));
+  }
+  const std::vector<PixelResult> frame = run_frame(source, array.readout);
+  Results results(static_cast<std::size_t>(array.columns));
+  for (std::size_t pixel = 0; pixel < frame.size(); ++pixel) {
+    results[pixel % results.size()].push_back(frame[pixel]);
+  }
+  FrameVectors vectors;
+  write_timestamps([&](const std::string& line) { vectors.timestamps += line; }, array, columns,
+                   source.acquisitions());
+  write_results([&](const std::string& line) { vectors.results += line; }, array, results);
+  return vectors;
 }
 
 }  // namespace dtof

@@ -4,11 +4,21 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
+#include "dtof/core/detection.hpp"
+#include "dtof/core/random.hpp"
 #include "dtof/scene/scene.hpp"
 #include "vectors/rtl_parameters.hpp"
 
 namespace dtof {
+
+/// Columns of random streams, each pixel of another kind (tests/readout/test_streams.hpp), from `kind` on;
+/// every second column of a pool read-out sees one surface. Frames of 1,000 acquisitions and more begin with
+/// a constant code, so that counters saturate.
+std::vector<ColumnStream> random_columns(const ArrayParameters& array, std::uint32_t acquisitions,
+                                         std::size_t& kind, CounterRandom& random);
 
 /// Writes what a test bench drives and expects, for one frame after the other:
 ///   frames.txt      a line per frame: acquisitions, three settings (gate begin, gate end, 0, or of
@@ -28,5 +38,14 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
 void write_scene_vectors(const ArrayParameters& array, Scene scene, double klux,
                          std::span<const std::uint32_t> frames, std::uint64_t seed,
                          const std::filesystem::path& folder);
+
+/// A frame as text: timestamps.hex and results.hex of write_vectors().
+struct FrameVectors {
+  std::string timestamps;
+  std::string results;
+};
+
+/// The whole frame of a source that has the array's rows and columns.
+FrameVectors source_vectors(const ArrayParameters& array, const StreamSource& source);
 
 }  // namespace dtof

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -52,6 +53,7 @@ class Programs : public ::testing::Test {
   void SetUp() override {
     folder_ = std::filesystem::temp_directory_path() / fmt::format("dtof_programs_{}", getpid());
     std::filesystem::create_directories(folder_);
+    setenv("DTOF_CACHE", "off", 1);  // what is built on demand has its own test
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

@@ -84,7 +84,7 @@ void PoolPointerParameters::validate(int count_width) const {
   const int half_bits = std::max(2 * word_bits(), group_bits);
   require(!prior || group_bits + labels <= half_bits,
           "a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1", labels);
-  const int line_halves = 8 * count_width < half_bits ? 1 : 2;  // halves of a word that eight bins take
+  const int line_halves = bin_halves(count_width);
   require(8 * count_width < line_halves * half_bits && group_size >= 4 * line_halves,
           "32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows", count_width);
   require(engine_columns >= 2 && engine_columns % 2 == 0,
@@ -108,6 +108,11 @@ int PoolPointerParameters::significance_bits() const {
   const int room = 2 * word_bits() - kPoolCellBits * labels - background_bits() - flags;
   const int bits = std::min(room / labels, kMostPoolSignificanceBits);
   return count_bits == 7 && rival_moves && bits >= 2 ? bits : 0;
+}
+
+int PoolPointerParameters::bin_halves(int count_width) const {
+  const int half_bits = std::max(2 * word_bits(), kPoolCellBits * labels + background_bits());
+  return 8 * count_width < half_bits ? 1 : 2;
 }
 
 PoolSchedule::PoolSchedule(std::uint32_t acquisitions, const PoolPointerParameters& parameters) {

@@ -45,8 +45,11 @@ struct PoolPointerParameters {
   /// beside the candidates.
   [[nodiscard]] int background_bits() const;
   /// Bits of a candidate's significance that a group's word keeps, as many as two pixel words leave: 3, 2 or
-  /// none, and none with an advantage of 4 bits or a rival that rests. Without it a result's confidence is its margin.
+  /// none, and none with an advantage of 4 bits or a rival that rests. Without it a result's confidence is
+  /// its margin.
   [[nodiscard]] int significance_bits() const;
+  /// Halves of a memory word that eight coarse bins of `count_width` bits take, 1 or 2.
+  [[nodiscard]] int bin_halves(int count_width) const;
   bool operator==(const PoolPointerParameters&) const = default;
 };
 

@@ -14,11 +14,11 @@ std::vector<PixelResult> ArrayRows::read(std::vector<PixelResult> frame) const {
   return frame;
 }
 
-ArrayRows array_rows(const StreamSource& source, RowRange region, Readout readout) {
+ArrayRows array_rows(const StreamSource& source, RowRange region, Readout readout, bool own_rows) {
   if (!is_pool_readout(readout)) {
     return {row_region(source, region), region.first, {.first = 0, .count = region.count}};
   }
-  const int rows = std::max(source.rows(), kArrayRows);
+  const int rows = own_rows ? source.rows() : std::max(source.rows(), kArrayRows);
   return {dark_except(source, region, rows), 0, region};
 }
 

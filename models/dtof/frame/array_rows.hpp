@@ -22,8 +22,9 @@ struct ArrayRows {
 };
 
 /// Pixels of a pool read-out look at their neighbours, so its arrays are whole: of as many rows as the
-/// compiled ones (kArrayRows), those outside the region dark. All other pixels are independent, and the
-/// region's rows are enough. `source` must outlive the result. Throws InputError for a region outside it.
-ArrayRows array_rows(const StreamSource& source, RowRange region, Readout readout);
+/// thesis's (kArrayRows) or, with `own_rows`, as the source, those outside the region dark. All other pixels
+/// are independent, and the region's rows are enough. `source` must outlive the result. Throws InputError for
+/// a region outside it.
+ArrayRows array_rows(const StreamSource& source, RowRange region, Readout readout, bool own_rows = false);
 
 }  // namespace dtof

@@ -20,7 +20,7 @@ ReadoutRun ModelEngine::read(const StreamSource& source, const ReadoutParameters
       settings_.observer
           ? std::make_unique<Progress>(columns, settings_.observer)
           : std::make_unique<Progress>(fmt::format("{} (model)", readout_title(parameters.readout)), columns);
-  const ArrayRows array = array_rows(source, region.rows, parameters.readout);
+  const ArrayRows array = array_rows(source, region.rows, parameters.readout, settings_.own_rows);
   const auto* sampled = dynamic_cast<const SampledSource*>(array.source.get());
   ReadoutRun run;
   run.results = array.read(

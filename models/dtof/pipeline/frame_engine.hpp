@@ -42,13 +42,14 @@ class FrameEngine {
                                         const Region& region) const = 0;
 };
 
-/// The bit-exact models. A pool read-out's array has the sensor's rows, at least kArrayRows, and those
-/// outside the region are dark.
+/// The bit-exact models. A pool read-out's array has the sensor's rows, by default at least kArrayRows, and
+/// those outside the region are dark.
 class ModelEngine final : public FrameEngine {
  public:
   struct Settings {
     int threads = 0;            ///< 0: all processors
     bool streams_only = false;  ///< read streams even from a source that could be sampled
+    bool own_rows = false;      ///< a pool read-out's array has the sensor's rows alone, however few
     /// Is told which column of how many is done; none: the progress is on standard error.
     Progress::Observer observer = {};
   };

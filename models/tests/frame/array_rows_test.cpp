@@ -37,6 +37,15 @@ TEST(ArrayRows, IndependentPixelsAreThoseOfTheRegion) {
   EXPECT_EQ(array.read(counted(6)), counted(6));
 }
 
+TEST(ArrayRows, AnArrayOfAPoolReadoutMayHaveTheSensorsRowsAlone) {
+  const PhotonSource source = scene();
+  const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer2, true);
+  EXPECT_EQ(array.source->rows(), 12);
+  const std::vector<PixelResult> read = array.read(counted(12));
+  ASSERT_EQ(read.size(), 12U);
+  EXPECT_EQ(read.front().code, 6);
+}
+
 TEST(ArrayRows, AnArrayOfAPoolReadoutIsWholeAndItsRegionIsRead) {
   const PhotonSource source = scene();
   const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer2);

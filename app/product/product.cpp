@@ -1,0 +1,381 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "product/product.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "dtof/analytic/fidelity.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/frame/flat_calibration.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/photon/photon_source.hpp"
+#include "rtl/settings.hpp"
+#include "sources/sources.hpp"
+#include "vectors/stimulus.hpp"
+
+namespace dtof {
+namespace {
+
+using Files = std::map<std::string, std::string>;
+
+constexpr std::string_view kLicence = "SPDX-License-Identifier: Apache-2.0";
+
+std::string source(std::string_view path) {
+  const auto files = project_sources();
+  const auto found = std::ranges::find(files, path, &SourceFile::path);
+  if (found == files.end()) {
+    throw std::logic_error(fmt::format("no source '{}'", path));
+  }
+  return std::string(found->text);
+}
+
+/// A template with its @NAMES@ replaced.
+std::string filled(std::string_view name, const std::vector<std::pair<std::string, std::string>>& values) {
+  std::string text = source(fmt::format("app/product/templates/{}", name));
+  for (const auto& [key, value] : values) {
+    const std::string mark = "@" + key + "@";
+    for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at + value.size())) {
+      text.replace(at, mark.size(), value);
+    }
+  }
+  return text;
+}
+
+RtlConfiguration configuration_of(const ProductRequest& request) {
+  RtlConfiguration configuration;
+  configuration.parameters = request.parameters;
+  configuration.pixels_per_sram = request.sensor.rows;
+  configuration.sram_num = request.sensor.columns;
+  return configuration;
+}
+
+void check(const ProductRequest& request) {
+  request.parameters.validate();
+  const SensorModel& sensor = request.sensor;
+  constexpr int kMostColumns = 1024;
+  constexpr int kMostRows = 4096;
+  constexpr int kMostLines = 65530;
+  constexpr std::uint32_t kMostAcquisitionsOfRtl = 65535;
+  if (sensor.columns > kMostColumns || sensor.rows > kMostRows || sensor.rows * sensor.slots > kMostLines) {
+    throw InputError(fmt::format(
+        "product: {} x {} pixels of {} slots; dtof_subsystem has at most {} columns, {} rows, and {} "
+        "rows times slots",
+        sensor.columns, sensor.rows, sensor.slots, kMostColumns, kMostRows, kMostLines));
+  }
+  if (sensor.acquisitions > kMostAcquisitionsOfRtl) {
+    throw InputError(fmt::format("product: {} acquisitions; the RTL counts 16 bits of them, to {}",
+                                 sensor.acquisitions, kMostAcquisitionsOfRtl));
+  }
+  const FrameFit fit =
+      frame_fit(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.budget);
+  if (!fit.fits) {
+    throw InputError("product: " + fit.sentence);
+  }
+}
+
+/// The parameters of dtof_subsystem; the time gate only where it is asked for.
+std::vector<RtlSetting> settings_of(const ProductRequest& request) {
+  std::vector<RtlSetting> settings = rtl_settings(configuration_of(request), RtlTop::kSubsystem);
+  std::ranges::find(settings, "TIME_GATE", &RtlSetting::name)->value = request.parameters.time_gate ? 1 : 0;
+  return settings;
+}
+
+std::string top(const ProductRequest& request) {
+  std::string parameters;
+  std::string list;
+  for (const RtlSetting& setting : settings_of(request)) {
+    parameters +=
+        fmt::format("{}      .{}({})", parameters.empty() ? "" : ",\n", setting.name, setting.value);
+  }
+  const int width = 8 * ((request.sensor.columns * request.parameters.np + 7) / 8);
+  struct Port {
+    const char* direction;
+    std::string type;
+    const char* name;
+  };
+  const std::string cfg = "[dtof_pkg::SRAM_CFG_WIDTH-1:0]";
+  const std::vector<Port> ports = {
+      {"input ", "", "clk_i"},           {"input ", "", "rst_ni"},
+      {"input ", "", "scan_mode_i"},     {"input ", cfg, "sram_cfg_i"},
+      {"output", cfg, "sram_cfg_o"},     {"input ", "", "psel_i"},
+      {"input ", "", "penable_i"},       {"input ", "", "pwrite_i"},
+      {"input ", "[11:0]", "paddr_i"},   {"input ", "[31:0]", "pwdata_i"},
+      {"input ", "[3:0]", "pstrb_i"},    {"output", "", "pready_o"},
+      {"output", "[31:0]", "prdata_o"},  {"output", "", "pslverr_o"},
+      {"output", "", "irq_o"},           {"input ", "", "s_axis_tvalid_i"},
+      {"output", "", "s_axis_tready_o"}, {"input ", fmt::format("[{}:0]", width - 1), "s_axis_tdata_i"},
+      {"input ", "", "s_axis_tlast_i"},  {"output", "", "m_axis_tvalid_o"},
+      {"input ", "", "m_axis_tready_i"}, {"output", "[63:0]", "m_axis_tdata_o"},
+      {"output", "", "m_axis_tuser_o"},  {"output", "", "m_axis_tlast_o"}};
+  std::string connections;
+  for (const Port& port : ports) {
+    const char* end = &port == &ports.back() ? "\n" : ",\n";
+    list += fmt::format("    {} logic {}{}{}{}", port.direction, port.type, port.type.empty() ? "" : " ",
+                        port.name, end);
+    connections += fmt::format("      .{0}({0}){1}", port.name, end);
+  }
+  return fmt::format(
+      "// {}\n// {} for the sensor {}: dtof_subsystem with the parameters of that sensor, written by dtof "
+      "product.\n"
+      "// verilator lint_off TIMESCALEMOD\n`default_nettype none\n\nmodule dtof_product (\n{});\n\n  "
+      "dtof_subsystem #(\n{}\n  ) u_subsystem "
+      "(\n{}  );\n\nendmodule\n\n"
+      "`default_nettype wire\n",
+      kLicence, readout_title(request.parameters.readout), request.sensor.name, list, parameters,
+      connections);
+}
+
+/// Paths of hdl/dtof.f, leaf first, and the included files.
+struct RtlFiles {
+  std::vector<std::string> modules;
+  std::vector<std::string> technology;  ///< of modules
+  std::vector<std::string> includes;
+};
+
+RtlFiles rtl_files() {
+  RtlFiles files;
+  const std::string list = source("hdl/dtof.f");
+  for (std::size_t begin = 0; begin < list.size();) {
+    const std::size_t end = std::min(list.find('\n', begin), list.size());
+    const std::string line = list.substr(begin, end - begin);
+    begin = end + 1;
+    if (line.ends_with(".sv") && !line.starts_with("//")) {
+      (line.starts_with("technology/") ? files.technology : files.modules).push_back(line);
+    }
+  }
+  for (const SourceFile& file : project_sources()) {
+    if (file.path.starts_with("hdl/common/") && file.path.ends_with(".svh")) {
+      files.includes.emplace_back(file.path.substr(4));
+    }
+  }
+  return files;
+}
+
+void add_rtl(Files& files) {
+  const RtlFiles rtl = rtl_files();
+  std::string list =
+      fmt::format("// {}\n// Leaf first, relative to this folder.\n+incdir+rtl/hdl/common\n", kLicence);
+  std::string core = fmt::format(
+      "CAPI=2:\n# {}\nname: dtof:product:dtof_product:1.0.0\ndescription: Read-out of a SPAD array for one "
+      "sensor\nfilesets:\n"
+      "  rtl:\n    files:\n",
+      kLicence);
+  std::string technology = "  technology:\n    files:\n";
+  std::string bender = fmt::format(
+      "# {}\npackage:\n  name: dtof_product\n\nexport_include_dirs:\n  - rtl/hdl/common\n\nsources:\n",
+      kLicence);
+  std::string bender_technology = "  - target: not(tech_override)\n    files:\n";
+  std::string bender_rtl = "  - include_dirs: [rtl/hdl/common]\n    files:\n";
+  for (const std::string& path : rtl.includes) {
+    files["rtl/hdl/" + path] = source("hdl/" + path);
+    core +=
+        fmt::format("      - rtl/hdl/{}: {{is_include_file: true, include_path: rtl/hdl/common}}\n", path);
+  }
+  const auto packages = [](const std::string& path) { return path.ends_with("_pkg.sv"); };
+  std::vector<std::string> all = rtl.modules;
+  all.insert(std::stable_partition(all.begin(), all.end(), packages), rtl.technology.begin(),
+             rtl.technology.end());
+  for (const std::string& path : all) {
+    files["rtl/hdl/" + path] = source("hdl/" + path);
+    list += fmt::format("rtl/hdl/{}\n", path);
+    const bool swapped = path.starts_with("technology/");
+    (swapped ? technology : core) += fmt::format("      - rtl/hdl/{}\n", path);
+    (swapped ? bender_technology : bender_rtl) += fmt::format("      - rtl/hdl/{}\n", path);
+  }
+  files["rtl/hdl/lint/verilator.vlt"] = source("hdl/lint/verilator.vlt");
+  files["product.f"] = list + "rtl/dtof_product.sv\n";
+  files["dtof_product.core"] = core + "      - rtl/dtof_product.sv\n    file_type: systemVerilogSource\n" +
+                               technology +
+                               "    file_type: systemVerilogSource\ntargets:\n  default:\n    filesets: "
+                               "[rtl, \"!own_srams? (technology)\"]\n"
+                               "    toplevel: dtof_product\n";
+  files["Bender.yml"] = bender + bender_rtl + "      - rtl/dtof_product.sv\n" + bender_technology;
+}
+
+int result_fraction_bits(const ReadoutParameters& parameters) {
+  const bool has = is_pointer_readout(parameters.readout) || is_pool_readout(parameters.readout) ||
+                   parameters.readout == Readout::kCoarseHistogram;
+  return has ? parameters.fraction_bits : 0;
+}
+
+/// The table from flat targets, as `dtof frame --table flat` fits it.
+std::string driver_header(const ProductRequest& request) {
+  const SensorModel sensor = request.sensor.as_calibrated();
+  const FlatCalibration calibration(sensor);
+  const std::array<ReadoutParameters, 1> readouts = {request.parameters};
+  const std::vector<RangeConverter> tables = calibration.fit(
+      [&](const TargetMap& targets) {
+        return make_source(Fidelity::kExact, PhotonSource(sensor, targets, request.klux, request.seed,
+                                                          FlatCalibration::kFrame));
+      },
+      readouts, request.seed, request.threads);
+  const auto& knots = tables.front().table().knots();
+  std::string points;
+  for (const CalibrationPoint& knot : knots) {
+    points += fmt::format("    {{{:.6f}, {:.4f}}},\n", knot.position, knot.distance_m * 1e3);
+  }
+  const PoolPointerParameters& pool = request.parameters.pool;
+  std::string changes;
+  if (is_pool_readout(request.parameters.readout)) {
+    changes =
+        fmt::format("  settings.coarse_share = {};\n  settings.track_share = {};\n  settings.smooth = {};\n",
+                    pool.coarse_share, pool.track_share, pool.smooth);
+  }
+  if (request.parameters.time_gate) {
+    changes += fmt::format("  settings.gate_begin = {};\n  settings.gate_end = {};\n",
+                           request.parameters.time_gate->begin, request.parameters.time_gate->end);
+  }
+  return fmt::format(
+      "/* {}\n * {} for the sensor {}: its settings, and the look-up table from {} at\n * {:g} klux. Written "
+      "by dtof product. */\n"
+      "#ifndef DTOF_PRODUCT_H\n#define DTOF_PRODUCT_H\n\n#include \"dtof.h\"\n\n"
+      "#define DTOF_PRODUCT_TIMESTAMP_BITS {}\n#define DTOF_PRODUCT_FRACTION_BITS {}\n#define "
+      "DTOF_PRODUCT_ACQUISITIONS {}\n"
+      "#define DTOF_PRODUCT_CODE_PS {:.6f}\n#define DTOF_PRODUCT_FWHM_PS {:.6f}\n#define DTOF_PRODUCT_POINTS "
+      "{}\n\n"
+      "static inline dtof_settings dtof_product_settings(const dtof_device *device) {{\n"
+      "  dtof_settings settings = dtof_default_settings(device, DTOF_PRODUCT_ACQUISITIONS);\n{}  return "
+      "settings;\n}}\n\n"
+      "static const dtof_point dtof_product_table[DTOF_PRODUCT_POINTS] = {{\n{}}};\n\n#endif\n",
+      kLicence, readout_title(request.parameters.readout), request.sensor.name, calibration.description(),
+      request.klux, request.parameters.np, result_fraction_bits(request.parameters),
+      request.sensor.acquisitions, request.sensor.time_resolution_s() * 1e12,
+      request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes, points);
+}
+
+std::uint32_t vector_acquisitions(const ProductRequest& request) {
+  constexpr std::uint64_t kMostDigits = 4U << 20U;
+  const SensorModel& sensor = request.sensor;
+  const std::uint64_t digits = static_cast<std::uint64_t>(sensor.rows) *
+                               static_cast<std::uint64_t>(sensor.slots) *
+                               (static_cast<std::uint64_t>(sensor.columns * sensor.np) / 4 + 2);
+  const std::uint32_t most =
+      request.vector_acquisitions != 0
+          ? request.vector_acquisitions
+          : static_cast<std::uint32_t>(std::max<std::uint64_t>(kMostDigits / digits, 4));
+  return std::min(most, sensor.acquisitions);
+}
+
+std::string report(const ProductRequest& request) {
+  const SensorModel& sensor = request.sensor;
+  std::string parameters;
+  for (const RtlSetting& setting : settings_of(request)) {
+    parameters += fmt::format("| {} | {} |\n", setting.name, setting.value);
+  }
+  return fmt::format(
+      "# Report\n\n{}\n\n{}\n\n| parameter of dtof_subsystem | value |\n|---|---:|\n{}",
+      frame_fit(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions, request.budget)
+          .sentence,
+      request.measurements.empty() ? "Area, timing and power of this configuration were not measured "
+                                     "(`--measure` measures area and timing)."
+                                   : request.measurements,
+      parameters);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> product_files(const ProductRequest& request) {
+  check(request);
+  Files files;
+  add_rtl(files);
+  SensorModel sensor = request.sensor;
+  sensor.acquisitions = vector_acquisitions(request);
+  const TargetMap targets = make_scene(
+      request.scene,
+      {.columns = sensor.columns, .rows = sensor.rows, .reflectivity = sensor.default_reflectivity});
+  const PhotonSource photons(sensor, targets, request.klux, request.seed);
+  const ArrayParameters array{.readout = request.parameters, .rows = sensor.rows, .columns = sensor.columns};
+  FrameVectors vectors = source_vectors(array, photons);
+  const PoolSchedule schedule(sensor.acquisitions, request.parameters.pool);
+  const bool pool = is_pool_readout(request.parameters.readout);
+  const CodeGate gate = request.parameters.time_gate.value_or(CodeGate{0, request.parameters.no_detection()});
+  const std::uint64_t clocks =
+      predicted_frame_clocks(request.parameters, sensor.rows, sensor.columns, sensor.acquisitions);
+  const auto number = [](auto value) { return fmt::format("{}", value); };
+  const std::vector<std::pair<std::string, std::string>> values = {
+      {"TITLE", std::string(readout_title(request.parameters.readout))},
+      {"SENSOR", sensor.name},
+      {"COLUMNS", number(sensor.columns)},
+      {"ROWS", number(sensor.rows)},
+      {"NP", number(request.parameters.np)},
+      {"SLOTS", number(request.parameters.slots)},
+      {"ACQUISITIONS", number(sensor.acquisitions)},
+      {"COARSE_END", number(pool ? schedule.coarse_end : 0)},
+      {"TRACK_END", number(pool ? schedule.track_end : 0)},
+      {"TIME_GATE", number(request.parameters.time_gate ? 1 : 0)},
+      {"GATE_BEGIN", number(gate.begin)},
+      {"GATE_END", number(gate.end)},
+      {"FRACTION_BITS", number(result_fraction_bits(request.parameters))},
+      {"MOST_CLOCKS", fmt::format("{}.0", 2 * clocks + 20000)},
+      {"PERIOD", fmt::format("{:.4f}", 1e9 / request.budget.clock_hz)},
+      {"MHZ", fmt::format("{:g}", request.budget.clock_hz * 1e-6)},
+      {"SCENE", std::string(scene_name(request.scene))},
+      {"KLUX", fmt::format("{:g}", request.klux)},
+      {"PAIRS", pool ? "bench/pairs.vlt " : ""},
+      {"COMMAND", request.command}};
+  if (pool) {
+    files["bench/pairs.vlt"] = source("tb_cpp/rtl/pairs.vlt");
+  }
+  files["rtl/dtof_product.sv"] = top(request);
+  files["bench/product_bench.sv"] = filled("product_bench.sv", values);
+  files["Makefile"] = filled("Makefile", values);
+  files["README.md"] = filled("README.md", values);
+  files["constraints/dtof_product.sdc"] = filled("dtof_product.sdc", values);
+  files["driver/check.c"] = filled("check.c", values);
+  files["driver/dtof_product.h"] = driver_header(request);
+  for (const char* name : {"dtof.c", "dtof.h", "dtof_registers.h"}) {
+    files[fmt::format("driver/{}", name)] = source(fmt::format("driver/{}", name));
+  }
+  files["vectors/timestamps.hex"] = std::move(vectors.timestamps);
+  files["vectors/results.hex"] = std::move(vectors.results);
+  files["sensor.toml"] = request.sensor_text;
+  files["LICENSE"] = source("LICENSE");
+  files["report.md"] = report(request);
+  return files;
+}
+
+void write_product(const std::map<std::string, std::string>& files, const std::filesystem::path& folder) {
+  std::error_code error;
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
+    throw InputError(
+        fmt::format("product: {} is there and not empty; choose another folder", folder.string()));
+  }
+  std::filesystem::path target = std::filesystem::absolute(folder);
+  if (!target.has_filename()) {
+    target = target.parent_path();
+  }
+  const std::filesystem::path partial = target.string() + ".partial";
+  const auto fail = [&](const std::filesystem::path& path) {
+    const std::string reason = error.message();
+    std::filesystem::remove_all(partial, error);
+    throw InputError(fmt::format("{}: cannot write: {}", path.string(), reason));
+  };
+  std::filesystem::remove_all(partial, error);
+  try {
+    for (const auto& [path, text] : files) {
+      std::filesystem::create_directories((partial / path).parent_path(), error);
+      if (error) {
+        fail((partial / path).parent_path());
+      }
+      write_file(partial / path, text);
+    }
+  } catch (...) {
+    std::filesystem::remove_all(partial, error);
+    throw;
+  }
+  std::filesystem::remove(target, error);  // an empty one
+  std::filesystem::rename(partial, target, error);
+  if (error) {
+    fail(target);
+  }
+}
+
+}  // namespace dtof

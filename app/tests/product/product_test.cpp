@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "product/product.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "dtof/core/error.hpp"
+#include "dtof/io/input_file.hpp"
+#include "dtof/sensor/default_parameters.hpp"
+#include "dtof/sensor/sensor_file.hpp"
+
+namespace dtof {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::ThrowsMessage;
+
+constexpr const char* kSensor = R"(name = "small"
+[array]
+columns = 8
+rows = 6
+field_of_view_deg = 40.0
+[tdc]
+range_ns = 45.0
+timestamp_bits = 9
+slots = 2
+[laser]
+acquisitions = 60
+pulse_fwhm_ns = 2.0
+[light]
+signal_events_at_1m = 0.3
+background_events_per_klux = 0.01
+default_reflectivity = 1.0
+)";
+
+ProductRequest request(Readout readout) {
+  ProductRequest request{.sensor_text = kSensor,
+                         .sensor = parse_sensor(kSensor, "small.toml"),
+                         .parameters = {},
+                         .budget = {},
+                         .command = "dtof product",
+                         .measurements = {}};
+  request.parameters = default_parameters(readout, request.sensor);
+  return request;
+}
+
+struct Outcome {
+  int exit_code;
+  std::string output;
+};
+
+class Product : public testing::Test {
+ protected:
+  Product()
+      : folder_(std::filesystem::temp_directory_path() / fmt::format("dtof_product_test_{}", getpid())) {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "small.toml") << kSensor;
+  }
+  ~Product() override { std::filesystem::remove_all(folder_); }
+  Product(const Product&) = delete;
+  Product& operator=(const Product&) = delete;
+  Product(Product&&) = delete;
+  Product& operator=(Product&&) = delete;
+
+  [[nodiscard]] Outcome shell(const std::string& command) const {
+    FILE* pipe = popen(fmt::format("cd {} && ( {} ) 2>&1", folder_.string(), command).c_str(), "r");
+    Outcome outcome{};
+    for (std::array<char, 4096> part{};
+         const std::size_t count = std::fread(part.data(), 1, part.size(), pipe);) {
+      outcome.output.append(part.data(), count);
+    }
+    const int status = pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return outcome;
+  }
+  /// dtof product of the small sensor.
+  [[nodiscard]] Outcome product(const std::string& arguments) const {
+    return shell(fmt::format("{} product --sensor small.toml {}", DTOF_PROGRAM, arguments));
+  }
+  void replace(const std::string& file, const std::string& what, const std::string& by) const {
+    std::string text = read_file(folder_ / file);
+    const std::size_t at = text.find(what);
+    ASSERT_NE(at, std::string::npos) << what;
+    text.replace(at, what.size(), by);
+    std::ofstream(folder_ / file) << text;
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Product, OfAReadoutOfTheThesisPassesItsOwnMake) {
+  const Outcome made = product("--readout sifh --out chip");
+  ASSERT_EQ(made.exit_code, 0) << made.output;
+  const Outcome checked = shell("make -C chip");
+  EXPECT_EQ(checked.exit_code, 0) << checked.output;
+  EXPECT_THAT(checked.output, HasSubstr("PASS: icarus, verilator, driver"));
+  EXPECT_EQ(shell("make -C chip lint").exit_code, 0);
+  EXPECT_THAT(read_file(folder_ / "chip/report.md"), HasSubstr("were not measured"));
+}
+
+TEST_F(Product, OfAPoolReadoutPassesItsOwnMake) {
+  ASSERT_EQ(product("--readout poolpointer2 --code-gate 20 500 --out chip").exit_code, 0);
+  const Outcome checked = shell("make -C chip icarus driver");
+  EXPECT_EQ(checked.exit_code, 0) << checked.output;
+}
+
+TEST_F(Product, ItsBenchSeesWhatIsWrong) {
+  ASSERT_EQ(product("--readout ezpointer --out chip").exit_code, 0);
+  ASSERT_EQ(shell("make -C chip icarus").exit_code, 0);
+  const auto fails = [&](const std::string& file, const std::string& what, const std::string& by) {
+    SCOPED_TRACE(file);
+    const std::string right = read_file(folder_ / file);
+    replace(file, what, by);
+    const Outcome outcome = shell("make -C chip icarus");
+    EXPECT_NE(outcome.exit_code, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("FAIL"));
+    std::ofstream(folder_ / file) << right;
+  };
+  fails("chip/rtl/hdl/thesis/dtof_pointer_update.sv", "left ? down : up", "left ? up : down");
+  fails("chip/rtl/dtof_product.sv", ".POINTER_STEP(1)", ".POINTER_STEP(2)");
+  const std::string first = read_file(folder_ / "chip/vectors/results.hex").substr(0, 12);
+  fails("chip/vectors/results.hex", first, first.substr(0, 11) + (first[11] == '0' ? "1" : "0"));
+  EXPECT_EQ(shell("make -C chip icarus").exit_code, 0);
+  replace("chip/driver/dtof_product.h", "    {", "    {-1e9, -1e9}, {1e9, 1e9}, {");
+  EXPECT_NE(shell("make -C chip driver").exit_code, 0);
+}
+
+TEST_F(Product, TheSameInputsGiveTheSameBytes) {
+  for (const char* folder : {"one", "two"}) {
+    ASSERT_EQ(product(fmt::format("--readout coarsehistogram --out {}", folder)).exit_code, 0);
+  }
+  const Outcome same = shell("diff -r one two");
+  EXPECT_EQ(same.exit_code, 0) << same.output;
+  ASSERT_EQ(product("--readout coarsehistogram --seed 2 --out three").exit_code, 0);
+  EXPECT_NE(shell("diff -rq one/vectors three/vectors").exit_code, 0);
+  // Whatever the number of threads, in the library, too.
+  ProductRequest few = request(Readout::kFifh);
+  few.threads = 1;
+  EXPECT_EQ(product_files(few), product_files(request(Readout::kFifh)));
+}
+
+TEST_F(Product, WritesNothingIfAnythingIsWrong) {
+  const auto refused = [&](const std::string& arguments, const std::string& reason) {
+    SCOPED_TRACE(arguments);
+    const Outcome outcome = product(arguments + " --out chip");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr(reason));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "chip"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "chip.partial"));
+  };
+  refused("--readout sifh,fifh", "a product has one");
+  refused("--readout sifh --nb 12", "NB must be 1 to NP, not 12");
+  refused("--readout sifh --frame-rate 300000", "so that the frame does not fit. What would, one of: ");
+  refused("--readout sifh --measure", "run the command in the project's folder");
+  refused("--readout nothing", "unknown read-out");
+  std::filesystem::create_directories(folder_ / "full");
+  std::ofstream(folder_ / "full" / "file") << "mine";
+  const Outcome there = product("--readout sifh --out full");
+  EXPECT_EQ(there.exit_code, 1);
+  EXPECT_THAT(there.output, HasSubstr("full is there and not empty"));
+  EXPECT_EQ(read_file(folder_ / "full" / "file"), "mine");
+  // A disk that is full.
+  const Outcome full = shell(fmt::format(
+      "trap '' XFSZ; ulimit -f 20; {} product --sensor small.toml --readout sifh --out chip", DTOF_PROGRAM));
+  EXPECT_NE(full.exit_code, 0);
+  EXPECT_THAT(full.output, HasSubstr("cannot write: File too large"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "chip"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "chip.partial"));
+}
+
+TEST_F(Product, TheSensorCommandSaysWhichFramesFit) {
+  const auto fits = [&](const std::string& arguments) {
+    return shell(fmt::format("{} sensor small.toml {}", DTOF_PROGRAM, arguments));
+  };
+  EXPECT_THAT(fits("--frame-rate 30").output, Not(HasSubstr("does not fit")));
+  const Outcome fast = fits("--frame-rate 300000 --clock-mhz 100");
+  EXPECT_EQ(fast.exit_code, 0);
+  EXPECT_THAT(fast.output, HasSubstr("SiFH: a frame of 60 acquisitions takes "));
+  EXPECT_THAT(fast.output,
+              HasSubstr("at 100 MHz; 300000 frames/s leave 333, so that the frame does not fit."));
+  EXPECT_EQ(fits("--clock-mhz 100").exit_code, 1);
+}
+
+TEST(ProductFiles, RefuseWhatTheSubsystemCannotBe) {
+  ProductRequest wide = request(Readout::kSifh);
+  wide.sensor.columns = 1025;
+  EXPECT_THAT([&] { (void)product_files(wide); },
+              ThrowsMessage<InputError>(HasSubstr("at most 1024 columns")));
+  ProductRequest lengthy = request(Readout::kSifh);
+  lengthy.sensor.acquisitions = 65536;
+  EXPECT_THAT([&] { (void)product_files(lengthy); }, ThrowsMessage<InputError>(HasSubstr("to 65535")));
+}
+
+TEST(ProductFiles, NameEachOther) {
+  const std::map<std::string, std::string> files = product_files(request(Readout::kPoolPointer2Lean));
+  for (const char* list : {"product.f", "dtof_product.core", "Bender.yml"}) {
+    SCOPED_TRACE(list);
+    for (const auto& [path, text] : files) {
+      if (path.starts_with("rtl/") && path.ends_with(".sv")) {
+        EXPECT_THAT(files.at(list), HasSubstr(path));
+      }
+    }
+  }
+  for (const auto& [path, text] : files) {
+    if (path != "LICENSE" && !path.starts_with("vectors/") && path != "sensor.toml") {
+      EXPECT_THAT(text, Not(HasSubstr("@COLUMNS@"))) << path;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace dtof

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rtl/configuration.hpp"
+
+namespace dtof {
+
+/// The modules that have an array's parameters.
+enum class RtlTop { kArray, kPoolArray, kSubsystem };
+
+/// dtof_array or dtof_pool_pointer2_array.
+RtlTop array_top(Readout readout);
+
+/// A parameter of a top and its value.
+struct RtlSetting {
+  std::string_view name;
+  int value;
+};
+
+/// Value of READOUT in a top that has it: dtof_pkg::READOUT_*.
+int rtl_readout_number(Readout readout);
+
+/// All parameters of `top`, which holds the array of `configuration`, in one order. A subsystem always has
+/// the time gate.
+std::vector<RtlSetting> rtl_settings(const RtlConfiguration& configuration, RtlTop top);
+
+/// The array of `configuration` as an entry of configurations.toml.
+std::string configuration_toml(const std::string& name, const RtlConfiguration& configuration);
+
+/// Sets a parameter; false if no top has one of this name. Parameters that change no result are taken.
+bool set_rtl_parameter(RtlConfiguration& configuration, std::string_view name, int value);
+
+}  // namespace dtof
