@@ -17,13 +17,14 @@ module significance_offset_properties #(
   (* anyconst *) logic [ACQ_WIDTH-1:0] fewer;
   logic [4:0] offset, smaller;
   logic [1:0] t_q = 2'd0;
-  logic checking, taken_q;
+  logic checking, take_q, taken_q;
 
   assign checking = (t_q != 2'd0);
 
   always_ff @(posedge clk_i) begin
     t_q <= (t_q == 2'd3) ? t_q : t_q + 2'd1;
-    taken_q <= checking && (taken_q || take_i);
+    take_q <= checking && (take_q || take_i);
+    taken_q <= checking && take_q;
   end
 
   dtof_significance_offset #(.ACQ_WIDTH(ACQ_WIDTH)) u_dut (

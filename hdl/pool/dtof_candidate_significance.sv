@@ -41,7 +41,7 @@ module dtof_candidate_significance #(
   localparam int VARIANCE_WIDTH = AROUND_WIDTH + 1;
   localparam int HEIGHT_LOGARITHM_WIDTH = 3 + dtof_pkg::index_width(HEIGHT_WIDTH);
   localparam int VARIANCE_LOGARITHM_WIDTH = 3 + dtof_pkg::index_width(VARIANCE_WIDTH);
-  localparam int SQUARE_WIDTH = 10;
+  localparam int SQUARE_WIDTH = 8;  // costs are at most 127 + 36 + 31 + 16
   localparam logic [4:0] FIRST_WITH_LOW = 5'd5;
   localparam logic [4:0] LAST_WITH_HIGH = 5'd27;
   localparam int LEAST_VARIANCE = 64;

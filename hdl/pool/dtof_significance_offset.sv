@@ -4,7 +4,11 @@
 // Equation (docs/reference/poolpointer2.md, Significance): (lg(A) - lg(3333)) / 2 eighth octaves, lg(3333) = 93, 0 to 17 for A of
 // up to 65,535 acquisitions, 0 for shorter frames; the largest it can say for longer ones.
 //
-// Schedule: offset_o from a clock after take_i until the next one. Cost: 5 flip-flops, a dtof_eighth_octaves, per array.
+// 1. The logarithm of A is registered, for A comes straight from the port.
+// 2. A clock later it is the offset.
+//
+// Schedule: offset_o from two clocks after take_i until two clocks after the next one. Cost: 12 flip-flops, a
+//   dtof_eighth_octaves, per array.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -23,7 +27,7 @@ module dtof_significance_offset #(
   localparam int LEAST = 93;
   localparam int MOST = (1 << OFFSET_WIDTH) - 1;
 
-  logic [LOGARITHM_WIDTH-1:0] logarithm;
+  logic [LOGARITHM_WIDTH-1:0] logarithm, logarithm_q;
   int half;
 
   dtof_eighth_octaves #(
@@ -33,12 +37,13 @@ module dtof_significance_offset #(
       .logarithm_o(logarithm)
   );
 
-  assign half = (32'(logarithm) - LEAST) >>> 1;
+  assign half = (32'(logarithm_q) - LEAST) >>> 1;
 
   always_ff @(posedge clk_i) begin
     if (take_i) begin
-      offset_o <= (32'(logarithm) <= LEAST) ? '0 : (half > MOST) ? OFFSET_WIDTH'(MOST) : OFFSET_WIDTH'(half);
+      logarithm_q <= logarithm;
     end
+    offset_o <= (32'(logarithm_q) <= LEAST) ? '0 : (half > MOST) ? OFFSET_WIDTH'(MOST) : OFFSET_WIDTH'(half);
   end
 
 endmodule
