@@ -15,13 +15,22 @@ module near_significance_properties #(
     input logic [                  6:0] cell_i
 );
 
-  logic checking;
-  assign checking = 1'b1;
+  logic checking = 1'b0;
+  logic [LABELS*7-1:0] cells_q;
+  logic [LABELS*KEPT_WIDTH-1:0] significances_q;
+  logic [6:0] cell_q;
+
+  always_ff @(posedge clk_i) begin
+    checking <= 1'b1;
+    {cells_q, significances_q, cell_q} <= {cells_i, significances_i, cell_i};
+  end
 
   logic [KEPT_WIDTH-1:0] significance;
   logic [LABELS-1:0] near, not_more, equal;
 
   dtof_near_significance #(.LABELS(LABELS), .KEPT_WIDTH(KEPT_WIDTH)) u_dut (
+      .clk_i(clk_i),
+      .take_i(1'b1),
       .cells_i(cells_i),
       .significances_i(significances_i),
       .cell_i(cell_i),
@@ -31,9 +40,9 @@ module near_significance_properties #(
   genvar k;
   generate
     for (k = 0; k < LABELS; k = k + 1) begin : g_label
-      assign near[k] = (32'(cells_i[k*7+:7]) + 4 >= 32'(cell_i)) && (32'(cells_i[k*7+:7]) <= 32'(cell_i) + 4);
-      assign not_more[k] = !near[k] || (significances_i[k*KEPT_WIDTH+:KEPT_WIDTH] <= significance);
-      assign equal[k] = near[k] && (significances_i[k*KEPT_WIDTH+:KEPT_WIDTH] == significance);
+      assign near[k] = (32'(cells_q[k*7+:7]) + 4 >= 32'(cell_q)) && (32'(cells_q[k*7+:7]) <= 32'(cell_q) + 4);
+      assign not_more[k] = !near[k] || (significances_q[k*KEPT_WIDTH+:KEPT_WIDTH] <= significance);
+      assign equal[k] = near[k] && (significances_q[k*KEPT_WIDTH+:KEPT_WIDTH] == significance);
     end
   endgenerate
 

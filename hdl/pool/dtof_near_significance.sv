@@ -4,7 +4,11 @@
 // Equation (docs/reference/poolpointer2.md, Confidence): max of Z[k] over the candidates k with |cell[k] - cell| <= 4, 0 without
 // one.
 //
-// Combinational. Cost: LABELS subtractors and comparisons of 8 bits.
+// 1. Which candidates are near is registered, and all significances.
+// 2. A level is reached if a near candidate reaches it; the highest one is the result.
+//
+// Schedule: significance_o from a clock after take_i until the next one.
+// Cost: LABELS subtractors and comparisons of 8 bits, LABELS (1 + KEPT_WIDTH) flip-flops.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -14,6 +18,8 @@ module dtof_near_significance #(
     parameter int KEPT_WIDTH = 3,  // bits of a significance
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH
 ) (
+    input  logic                         clk_i,
+    input  logic                         take_i,
     input  logic [LABELS*CELL_WIDTH-1:0] cells_i,
     input  logic [LABELS*KEPT_WIDTH-1:0] significances_i,
     input  logic [       CELL_WIDTH-1:0] cell_i,          // of the position
@@ -33,15 +39,43 @@ module dtof_near_significance #(
     end
   endgenerate
 
-  int label;
-  always_comb begin
-    significance_o = '0;
-    for (label = 0; label < LABELS; label = label + 1) begin
-      if (near[label] && significances_i[label*KEPT_WIDTH+:KEPT_WIDTH] > significance_o) begin
-        significance_o = significances_i[label*KEPT_WIDTH+:KEPT_WIDTH];
-      end
+  logic [LABELS-1:0] near_q;
+  logic [LABELS*KEPT_WIDTH-1:0] significances_q;
+
+  always_ff @(posedge clk_i) begin
+    if (take_i) begin
+      near_q <= near;
+      significances_q <= significances_i;
     end
   end
+
+  localparam int LEVELS = 1 << KEPT_WIDTH;
+  logic [LEVELS*LABELS-1:0] reaches;
+  logic [LEVELS:0] reached;  // by level, from 1 on; none is reached above the highest
+
+  genvar l;
+  generate
+    for (l = 1; l < LEVELS; l = l + 1) begin : g_level
+      for (k = 0; k < LABELS; k = k + 1) begin : g_candidate
+        assign reaches[l*LABELS+k] = near_q[k] && (significances_q[k*KEPT_WIDTH+:KEPT_WIDTH] >= KEPT_WIDTH'(l));
+      end
+      assign reached[l] = (reaches[l*LABELS+:LABELS] != '0);
+    end
+  endgenerate
+  assign reached[0] = 1'b1;
+  assign reached[LEVELS] = 1'b0;
+  assign reaches[LABELS-1:0] = '0;
+
+  int level;
+  always_comb begin
+    significance_o = '0;
+    for (level = 1; level < LEVELS; level = level + 1) begin
+      significance_o = significance_o | (KEPT_WIDTH'(level) & {KEPT_WIDTH{reached[level] && !reached[level+1]}});
+    end
+  end
+
+  logic unused;
+  assign unused = ^{reached[0], reaches[LABELS-1:0]};
 
 endmodule
 

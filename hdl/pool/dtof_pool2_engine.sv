@@ -488,12 +488,15 @@ module dtof_pool2_engine #(
       localparam int SKY_WIDTH = dtof_pkg::POOL_SKY_WIDTH;
       localparam int FACTS_WIDTH = 2 * SIGNIFICANCE_WIDTH + 1 + SKY_WIDTH;  // {of the rival, of the leader, tilted, sky}
       logic [SIGNIFICANCE_WIDTH-1:0] leader_significance, rival_significance;
-      logic [FACTS_WIDTH-1:0] prepared_facts_q, next_facts_q, facts_q, last_facts_q;
+      logic [SKY_WIDTH:0] prepared_sky_q;  // {tilted, sky}
+      logic [FACTS_WIDTH-1:0] next_facts_q, facts_q, last_facts_q;
 
       dtof_near_significance #(
           .LABELS    (LABELS),
           .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
       ) u_leader (
+          .clk_i          (clk_i),
+          .take_i         (command.decide.advance),
           .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
           .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
           .cell_i         (captured_q[POINTER_WIDTH-1-:CELL_WIDTH]),
@@ -504,6 +507,8 @@ module dtof_pool2_engine #(
           .LABELS    (LABELS),
           .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
       ) u_rival (
+          .clk_i          (clk_i),
+          .take_i         (command.decide.advance),
           .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
           .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
           .cell_i         (captured_q[POINTER_WIDTH+:CELL_WIDTH]),
@@ -512,9 +517,9 @@ module dtof_pool2_engine #(
 
       always_ff @(posedge clk_i) begin
         if (command.decide.advance) begin
-          prepared_facts_q <= {rival_significance, leader_significance, line_q[EVIDENCE_FIRST],
-                               line_background[BACKGROUND_WIDTH-1-:SKY_WIDTH]};
-          {last_facts_q, facts_q, next_facts_q} <= {facts_q, next_facts_q, prepared_facts_q};
+          prepared_sky_q <= {line_q[EVIDENCE_FIRST], line_background[BACKGROUND_WIDTH-1-:SKY_WIDTH]};
+          {last_facts_q, facts_q, next_facts_q} <= {facts_q, next_facts_q, rival_significance, leader_significance,
+                                                    prepared_sky_q};
         end
       end
 
