@@ -133,8 +133,8 @@ std::vector<int> pool_confidences(std::span<const PoolWinner> winners, std::span
 
 /// Reads an array of `count` columns, column by column from left to right, engine by engine; index: column,
 /// row. With `priors`, one for each engine or none before the first frame, a video's frame that the last one
-/// helps (read_engine), of an array with PRIOR = 1. Throws InputError for illegal parameters, malformed streams, columns of different
-/// lengths or priors of another array.
+/// helps (read_engine), of an array with PRIOR = 1. Throws InputError for illegal parameters, malformed
+/// streams, columns of different lengths or priors of another array.
 std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
                                                         std::uint32_t acquisitions,
                                                         const PoolPointer2Parameters& parameters,

@@ -495,16 +495,5 @@ TEST_F(PhotonSourceTest, RefusesBadPhysics) {
   EXPECT_THAT(message({.depth_m = 1.0, .reflectivity = 1.0}, 14.0), HasSubstr("coincidence window"));
 }
 
-TEST(TargetMap, IsAddressedByColumnAndRow) {
-  TargetMap map(3, 2, {.depth_m = 1.0, .reflectivity = 0.5});
-  map.at(2, 0).depth_m = 7.0;
-  EXPECT_EQ(map.columns(), 3);
-  EXPECT_EQ(map.rows(), 2);
-  EXPECT_EQ(map.at(2, 0).depth_m, 7.0);
-  EXPECT_EQ(map.at(0, 1), (PixelTarget{.depth_m = 1.0, .reflectivity = 0.5}));
-  EXPECT_THAT(refusal([] { TargetMap(0, 2); }), HasSubstr("0 x 2"));
-  EXPECT_THAT(refusal([] { TargetMap(2, -1); }), HasSubstr("2 x -1"));
-}
-
 }  // namespace
 }  // namespace dtof
