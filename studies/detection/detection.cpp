@@ -2,6 +2,7 @@
 #include "detection/detection.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -121,6 +122,31 @@ std::vector<PixelTarget> skies(const DetectionSettings& settings) {
   return targets;
 }
 
+constexpr double kMost = 0.9;
+
+/// "poolPointer 2 to 5 m" of each read-out that detects most pixels of some wall at a light.
+std::string answer(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study) {
+  std::string text;
+  for (const double klux : settings.klux) {
+    std::vector<std::string> found;
+    for (const ReadoutDetection& readout : study) {
+      double farthest = 0.0;
+      for (const DetectionCell& cell : readout.cells) {
+        if (cell.klux == klux && cell.detected.value >= kMost) {
+          farthest = std::max(farthest, cell.distance_m);
+        }
+      }
+      if (farthest > 0.0) {
+        found.push_back(fmt::format("{} to {:g} m", readout_title(readout.readout), farthest));
+      }
+    }
+    text += fmt::format("* At {:g} klux at least {:g} % of a wall's pixels pass and are right: {}.\n", klux,
+                        100.0 * kMost,
+                        found.empty() ? "of no read-out" : fmt::format("{}", fmt::join(found, ", ")));
+  }
+  return text + "\n";
+}
+
 std::string title_of(const ReadoutDetection& readout) { return std::string(readout_title(readout.readout)); }
 
 }  // namespace
@@ -188,6 +214,7 @@ std::string detection_report(const DetectionSettings& settings, const std::vecto
       settings.sensor.name, settings.false_alarms, std::ranges::min(settings.klux),
       std::ranges::max(settings.klux), std::ranges::min(settings.sky_reflectivities),
       std::ranges::max(settings.sky_reflectivities), settings.wall_reflectivity);
+  text += answer(settings, study);
   Table thresholds({"read-out", "threshold", "most false alarms of a held-out sky, in 1e-3"});
   for (const ReadoutDetection& readout : study) {
     thresholds.add({title_of(readout), fmt::format("{}", readout.threshold),

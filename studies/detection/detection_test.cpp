@@ -61,6 +61,11 @@ TEST(Detection, ReportAndPictureHaveEveryCell) {
   const std::string report = detection_report(settings, study, "dtof-study detection");
   EXPECT_THAT(report, HasSubstr("87.50 / 100.00"));
   EXPECT_THAT(report, HasSubstr("25.00 / 100.00"));
+  EXPECT_THAT(
+      report,
+      HasSubstr("At 14 klux at least 90 % of a wall's pixels pass and are right: poolPointer 2 to 3 m."));
+  EXPECT_THAT(report,
+              HasSubstr("At 50 klux at least 90 % of a wall's pixels pass and are right: of no read-out."));
   EXPECT_THAT(report, HasSubstr("0.50"));
   const std::vector<PlotSeries> curves = detection_curves(settings, study);
   ASSERT_EQ(curves.size(), 1U);
