@@ -102,19 +102,31 @@ std::string top(const ProductRequest& request) {
     const char* name;
   };
   const std::string cfg = "[dtof_pkg::SRAM_CFG_WIDTH-1:0]";
-  const std::vector<Port> ports = {
-      {"input ", "", "clk_i"},           {"input ", "", "rst_ni"},
-      {"input ", "", "scan_mode_i"},     {"input ", cfg, "sram_cfg_i"},
-      {"output", cfg, "sram_cfg_o"},     {"input ", "", "psel_i"},
-      {"input ", "", "penable_i"},       {"input ", "", "pwrite_i"},
-      {"input ", "[11:0]", "paddr_i"},   {"input ", "[31:0]", "pwdata_i"},
-      {"input ", "[3:0]", "pstrb_i"},    {"output", "", "pready_o"},
-      {"output", "[31:0]", "prdata_o"},  {"output", "", "pslverr_o"},
-      {"output", "", "irq_o"},           {"input ", "", "s_axis_tvalid_i"},
-      {"output", "", "s_axis_tready_o"}, {"input ", fmt::format("[{}:0]", width - 1), "s_axis_tdata_i"},
-      {"input ", "", "s_axis_tlast_i"},  {"output", "", "m_axis_tvalid_o"},
-      {"input ", "", "m_axis_tready_i"}, {"output", "[63:0]", "m_axis_tdata_o"},
-      {"output", "", "m_axis_tuser_o"},  {"output", "", "m_axis_tlast_o"}};
+  const std::vector<Port> ports = {{"input ", "", "clk_i"},
+                                   {"input ", "", "rst_ni"},
+                                   {"input ", "", "scan_mode_i"},
+                                   {"input ", cfg, "sram_cfg_i"},
+                                   {"output", cfg, "sram_cfg_o"},
+                                   {"input ", "", "psel_i"},
+                                   {"input ", "", "penable_i"},
+                                   {"input ", "", "pwrite_i"},
+                                   {"input ", "[11:0]", "paddr_i"},
+                                   {"input ", "[31:0]", "pwdata_i"},
+                                   {"input ", "[3:0]", "pstrb_i"},
+                                   {"output", "", "pready_o"},
+                                   {"output", "[31:0]", "prdata_o"},
+                                   {"output", "", "pslverr_o"},
+                                   {"output", "", "irq_o"},
+                                   {"output", "", "shot_o"},
+                                   {"input ", "", "s_axis_tvalid_i"},
+                                   {"output", "", "s_axis_tready_o"},
+                                   {"input ", fmt::format("[{}:0]", width - 1), "s_axis_tdata_i"},
+                                   {"input ", "", "s_axis_tlast_i"},
+                                   {"output", "", "m_axis_tvalid_o"},
+                                   {"input ", "", "m_axis_tready_i"},
+                                   {"output", "[63:0]", "m_axis_tdata_o"},
+                                   {"output", "", "m_axis_tuser_o"},
+                                   {"output", "", "m_axis_tlast_o"}};
   std::string connections;
   for (const Port& port : ports) {
     const char* end = &port == &ports.back() ? "\n" : ",\n";

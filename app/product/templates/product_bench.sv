@@ -55,6 +55,7 @@ module product_bench;
       .prdata_o       (prdata),
       .pslverr_o      (pslverr),
       .irq_o          (irq),
+      .shot_o         (),
       .s_axis_tvalid_i(line_valid),
       .s_axis_tready_o(line_ready),
       .s_axis_tdata_i (line),
