@@ -273,10 +273,14 @@ Table detection_csv(const std::vector<ReadoutDetection>& study) {
   return table;
 }
 
+double detection_klux(const DetectionSettings& settings) {
+  return *std::ranges::min_element(settings.klux, {},
+                                   [](double klux) { return std::abs(klux - kShownKlux); });
+}
+
 std::vector<PlotSeries> detection_curves(const DetectionSettings& settings,
                                          const std::vector<ReadoutDetection>& study) {
-  const double shown =
-      *std::ranges::min_element(settings.klux, {}, [](double klux) { return std::abs(klux - kShownKlux); });
+  const double shown = detection_klux(settings);
   std::vector<PlotSeries> curves;
   for (const ReadoutDetection& readout : study) {
     PlotSeries curve{title_of(readout), {}, {}};

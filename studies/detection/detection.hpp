@@ -49,7 +49,9 @@ std::vector<ReadoutDetection> run_detection(const DetectionSettings& settings);
 std::string detection_report(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study,
                              const std::string& command_line);
 Table detection_csv(const std::vector<ReadoutDetection>& study);
-/// Detection over distance at the light nearest to 50 klux.
+/// The light nearest to 50 klux, that of the picture.
+double detection_klux(const DetectionSettings& settings);
+/// Detection over distance at that light.
 std::vector<PlotSeries> detection_curves(const DetectionSettings& settings,
                                          const std::vector<ReadoutDetection>& study);
 

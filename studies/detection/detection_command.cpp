@@ -34,11 +34,13 @@ void run_detection_command(DetectionOptions options) {
   const std::vector<ReadoutDetection> study = run_detection(settings);
   write_file(folder / "detection.md", detection_report(settings, study, options.command_line));
   write_gzip_file(folder / "data/detection.csv.gz", detection_csv(study).csv());
-  write_plot(folder / "detection.svg", detection_curves(settings, study),
-             {.title = fmt::format("Detection of a wall of reflectivity {:g} at {:g} false alarms, sensor {}",
-                                   settings.wall_reflectivity, settings.false_alarms, settings.sensor.name),
-              .x_label = "distance in m",
-              .y_label = "pixels that pass the threshold and are right, in %"});
+  write_plot(
+      folder / "detection.svg", detection_curves(settings, study),
+      {.title = fmt::format(
+           "Detection of a wall of reflectivity {:g}, {:g} klux, {:g} false alarms, sensor {}",
+           settings.wall_reflectivity, detection_klux(settings), settings.false_alarms, settings.sensor.name),
+       .x_label = "distance in m",
+       .y_label = "pixels that pass the threshold and are right, in %"});
   fmt::print("The report is {}\n", (folder / "detection.md").string());
 }
 
