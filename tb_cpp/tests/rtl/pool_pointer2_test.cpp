@@ -74,6 +74,14 @@ INSTANTIATE_TEST_SUITE_P(Compiled, SmallPoolPointer2,
                          })),
                          configuration_test_name);
 
+class ShortPoolPointer2 : public EveryPoolPointer2 {};
+
+INSTANTIATE_TEST_SUITE_P(Compiled, ShortPoolPointer2,
+                         testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
+                           return configuration.pixels_per_sram <= 13;
+                         })),
+                         configuration_test_name);
+
 TEST_P(EveryPoolPointer2, EndsAFrameWithoutDetections) {
   RtlReadout rtl(GetParam());
   for (const std::uint32_t acquisitions : {0U, 1U, 40U}) {
@@ -180,6 +188,31 @@ TEST_P(SmallPoolPointer2, AgreesWithModelInTheFineGears) {
     const int almost_full = (1 << GetParam().parameters.pool.count_bits) - 12;
     EXPECT_GE(largest_margin(GetParam().parameters, columns, kAcquisitions), almost_full);
   }
+}
+
+// A frame so long that its candidates are less significant for its length, of weak pulses, whose
+// significances are neither 0 nor the largest one.
+TEST_P(ShortPoolPointer2, AgreesWithModelInLongFrames) {
+  SCOPED_TRACE(test_seed_message());
+  constexpr std::uint32_t kAcquisitions = 8000;
+  CounterRandom random = test_random(test_seed(), 47);
+  const int codes = GetParam().parameters.no_detection();
+  std::vector<ColumnStream> columns(static_cast<std::size_t>(std::min(GetParam().sram_num, 4)));
+  for (ColumnStream& column : columns) {
+    const int pulse = codes / 4 + pick(random, codes / 2);
+    for (int row = 0; row < GetParam().pixels_per_sram; ++row) {
+      for (std::uint32_t acquisition = 0; acquisition < kAcquisitions; ++acquisition) {
+        const double kind = random.uniform();
+        if (kind < 0.25) {
+          const int code = kind < 0.02 ? pulse + pick(random, 2) : pick(random, codes);
+          column.append({acquisition, static_cast<Timestamp>(code)});
+        }
+      }
+      column.finish_row();
+    }
+  }
+  RtlReadout rtl(GetParam());
+  ASSERT_TRUE(agrees_with_model(rtl, columns, kAcquisitions, default_options(test_seed())));
 }
 
 // Coarse phases so long that bins fill. Light without a pulse lets every bin fill, so that sweeps take a
