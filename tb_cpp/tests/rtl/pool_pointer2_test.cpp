@@ -190,8 +190,8 @@ TEST_P(SmallPoolPointer2, AgreesWithModelInTheFineGears) {
   }
 }
 
-// A frame so long that its candidates are less significant for its length, of weak pulses, whose
-// significances are neither 0 nor the largest one.
+// Weak pulses in a frame that is so long that its candidates lose significance; what is left is neither
+// nothing nor the largest there is.
 TEST_P(ShortPoolPointer2, AgreesWithModelInLongFrames) {
   SCOPED_TRACE(test_seed_message());
   constexpr std::uint32_t kAcquisitions = 8000;
