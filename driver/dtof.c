@@ -176,6 +176,21 @@ dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask)
   return DTOF_OK;
 }
 
+dtof_status dtof_set_template(const dtof_device *device, const uint8_t entries[DTOF_TEMPLATE_ENTRIES]) {
+  if (!device->has_schedule) {
+    return DTOF_ARGUMENT;
+  }
+  for (uint32_t i = 0; i < DTOF_TEMPLATE_ENTRIES; i += 4U) {
+    uint32_t word = (uint32_t)entries[i] | (uint32_t)entries[i + 1U] << 8 | (uint32_t)entries[i + 2U] << 16 |
+                    (uint32_t)entries[i + 3U] << 24;
+    dtof_status status = write_register(device, DTOF_TEMPLATE + i, word);
+    if (status != DTOF_OK) {
+      return status;
+    }
+  }
+  return DTOF_OK;
+}
+
 dtof_status dtof_commit(const dtof_device *device) {
   return write_register(device, DTOF_COMMIT, DTOF_COMMIT_SETTINGS_MASK);
 }

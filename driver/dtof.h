@@ -147,6 +147,13 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
  * setting like those of dtof_configure. */
 dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask);
 
+#define DTOF_TEMPLATE_ENTRIES 32
+
+/* poolPointer 2: what decode takes from each coarse bin, where cover glass and fog send light back; all 0
+ * behind a reset. At once: between frames alone, or the bus refuses it and nothing changes. DTOF_ARGUMENT for
+ * a device without has_schedule. docs/reference/poolpointer2.md, Template, says what the entries are. */
+dtof_status dtof_set_template(const dtof_device *device, const uint8_t entries[DTOF_TEMPLATE_ENTRIES]);
+
 /* Makes all settings that were written valid together, for every frame that begins from now on; for
  * continuous mode. */
 dtof_status dtof_commit(const dtof_device *device);

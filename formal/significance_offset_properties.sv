@@ -9,37 +9,34 @@
 module significance_offset_properties #(
     parameter int ACQ_WIDTH = 16
 ) (
-    input logic clk_i,
-    input logic take_i
+    input logic clk_i
 );
 
   (* anyconst *) logic [ACQ_WIDTH-1:0] acquisitions;
   (* anyconst *) logic [ACQ_WIDTH-1:0] fewer;
   logic [4:0] offset, smaller;
   logic [1:0] t_q = 2'd0;
-  logic checking, take_q, taken_q;
+  logic checking;  // two clocks have passed
 
-  assign checking = (t_q != 2'd0);
+  assign checking = t_q[1];
 
   always_ff @(posedge clk_i) begin
-    t_q <= (t_q == 2'd3) ? t_q : t_q + 2'd1;
-    take_q <= checking && (take_q || take_i);
-    taken_q <= checking && take_q;
+    t_q <= checking ? t_q : t_q + 2'd1;
   end
 
   dtof_significance_offset #(.ACQ_WIDTH(ACQ_WIDTH)) u_dut (
-      .clk_i(clk_i), .take_i(take_i), .acq_num_i(acquisitions), .offset_o(offset)
+      .clk_i(clk_i), .acq_num_i(acquisitions), .offset_o(offset)
   );
   dtof_significance_offset #(.ACQ_WIDTH(ACQ_WIDTH)) u_fewer (
-      .clk_i(clk_i), .take_i(take_i), .acq_num_i(fewer), .offset_o(smaller)
+      .clk_i(clk_i), .acq_num_i(fewer), .offset_o(smaller)
   );
 
   // From the definition: lg(3584) = 94 gives none, lg(4096) = 96 one, each doubling four more.
-  `PROVE(a_short, !taken_q || 32'(acquisitions) >= 3840 || offset == 5'd0)
-  `PROVE(a_first, !taken_q || 32'(acquisitions) < 3840 || 32'(acquisitions) >= 4608 || offset == 5'd1)
-  `PROVE(a_ten_thousand, !taken_q || 32'(acquisitions) != 10000 || offset == 5'd6)
-  `PROVE(a_longest, !taken_q || ACQ_WIDTH != 16 || acquisitions != '1 || offset == 5'd17)
-  `PROVE(a_monotonic, !taken_q || fewer > acquisitions || smaller <= offset)
+  `PROVE(a_short, 32'(acquisitions) >= 3840 || offset == 5'd0)
+  `PROVE(a_first, 32'(acquisitions) < 3840 || 32'(acquisitions) >= 4608 || offset == 5'd1)
+  `PROVE(a_ten_thousand, 32'(acquisitions) != 10000 || offset == 5'd6)
+  `PROVE(a_longest, ACQ_WIDTH != 16 || acquisitions != '1 || offset == 5'd17)
+  `PROVE(a_monotonic, fewer > acquisitions || smaller <= offset)
 
 endmodule
 

@@ -45,6 +45,7 @@ pool/dtof_smoothing.sv
 pool/dtof_eighth_octaves.sv
 pool/dtof_significance_offset.sv
 pool/dtof_candidate_significance.sv
+pool/dtof_coarse_template.sv
 pool/dtof_near_significance.sv
 pool/dtof_pool_confidence.sv
 pool/dtof_pool2_candidate_decoder.sv

@@ -37,7 +37,7 @@ module schedule_bench;
   dtof_pool_pointer2_array #(PARAMETERS) u_array (
       .clk_i(clk), .rst_ni(rst_n), .sram_cfg_i('0), .sram_cfg_o(), .start_i(start), .acq_num_i(ACQ_WIDTH'd0),
       .gate_begin_i('0), .gate_end_i('0), .coarse_end_i(ACQ_WIDTH'd0), .track_end_i(ACQ_WIDTH'd0),
-      .smooth_i(1'b1), .prior_i(1'b1), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),
+      .smooth_i(1'b1), .prior_i(1'b1), .template_i('0), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),
       .tdc_timestamp_i('0), .result_tvalid_o(), .result_tready_i(1'b1), .result_tdata_o(), .result_tlast_o());
   always #1 clk = !clk;
   always @(negedge clk) begin

@@ -11,6 +11,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "dtof/core/error.hpp"
+#include "dtof/frame/empty_frame.hpp"
 #include "dtof/frame/frame_truth.hpp"
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/preset.hpp"
@@ -52,6 +53,9 @@ void ReadoutOptions::add_to(CLI::App& command) {
       ->add_option("--code-gate", code_gate,
                    "TIME_GATE of the read-out: codes BEGIN <= x < END count (--gate is the sensor's own)")
       ->expected(2);
+  group->add_flag(
+      "--template", with_template,
+      "TEMPLATE of the pool read-outs: decode takes away what the sensor's cover glass and fog send back");
 }
 
 std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readout> all,
@@ -98,6 +102,14 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
   if (window_centred) {
     require_owner("--window-centred", "WINDOW_CENTRED");
   }
+  if (with_template) {
+    if (std::ranges::none_of(chosen, is_pool_readout)) {
+      throw InputError(fmt::format("--template has no effect: {} has no TEMPLATE", readouts));
+    }
+    if (!has_own_light(asked)) {
+      throw InputError("--template has no effect: the sensor has neither cover glass nor fog");
+    }
+  }
   std::vector<ReadoutParameters> sets;
   for (const Readout readout : chosen) {
     ReadoutParameters parameters = default_parameters(readout, asked);
@@ -113,6 +125,9 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
     parameters.window_centred = window_centred && has_parameter(readout, "WINDOW_CENTRED");
     if (!code_gate.empty()) {
       parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};
+    }
+    if (with_template && is_pool_readout(readout)) {
+      parameters.pool.coarse_template = template_of(asked, parameters);
     }
     parameters.validate();
     if (std::find(sets.begin(), sets.end(), parameters) == sets.end()) {
@@ -224,11 +239,16 @@ SensorModel SensorOptions::described() const {
   return *read_once;
 }
 
-SensorModel SensorOptions::model(int np, int slots) const {
+SensorModel SensorOptions::with_acquisitions() const {
   SensorModel model = described();
+  override_with(acquisitions, model.acquisitions);
+  return model;
+}
+
+SensorModel SensorOptions::model(int np, int slots) const {
+  SensorModel model = with_acquisitions();
   model.np = np;
   model.slots = slots;
-  override_with(acquisitions, model.acquisitions);
   if (dead_time_ns) {
     model.dead_time_s = *dead_time_ns / kNanosecondsPerSecond;
   }

@@ -29,6 +29,7 @@ struct ReadoutOptions {
   std::optional<int> cell_shift;
   bool window_centred = false;
   std::vector<int> code_gate;
+  bool with_template = false;
 
   void add_to(CLI::App& command);
   /// Whether "all" is all that is asked for.
@@ -70,6 +71,8 @@ struct SensorOptions {
   void add_sensor_to(CLI::App& command);
   /// The sensor as its file describes it. Throws InputError.
   [[nodiscard]] SensorModel described() const;
+  /// The same with --acquisitions.
+  [[nodiscard]] SensorModel with_acquisitions() const;
   /// The same with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
   [[nodiscard]] SensorModel model(int np, int slots) const;
   /// Throws InputError for an option of `command` that changes nothing.

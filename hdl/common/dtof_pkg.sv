@@ -49,6 +49,7 @@ package dtof_pkg;
   localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // dtof_label_chain: from a label's target to its pass_label
   localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // dtof_label_chain: from the last pass_label to the two best beliefs
 
+  localparam int POOL2_DECODER_TEMPLATE_CLOCKS = 1;  // dtof_pool2_candidate_decoder: from capture_above to template_i of bin 0
   localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // dtof_pool2_candidate_decoder: from capture_above to the first pair sum
   localparam int POOL2_DECODER_SIGNIFICANCE_CLOCKS = 3;  // dtof_pool2_candidate_decoder: from a candidate to its significance
   localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // dtof_pool2_candidate_decoder: from capture_above to count_own
@@ -109,6 +110,7 @@ package dtof_pkg;
   localparam int POOL_FEWEST_BACKGROUND_BITS = 4;  // that a group's word keeps
   localparam int POOL_RIVAL_WIDTH = 7;  // a cell
   localparam int POOL_SIGNIFICANCE_WIDTH = 3;         // of a candidate, at most
+  localparam int POOL_TEMPLATE_WIDTH = 8;  // of an entry of TEMPLATE
   localparam int POOL_SIGNIFICANCE_OFFSET_WIDTH = 5;  // of long frames, 0 .. 17
   localparam int POOL_SKY_WIDTH = 4;                  // a background / 4, for which a sky's margins are known
   localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
@@ -166,6 +168,12 @@ package dtof_pkg;
   // Bits of a group's word: candidates and background.
   function automatic int pool_group_width(input int labels, input int pixel_width);
     pool_group_width = POOL_CELL_WIDTH * labels + pool_background_width(labels, pixel_width);
+  endfunction
+
+  // An entry of TEMPLATE counts 2^this of a bin's sum over seven histograms, so that the largest entry takes all of the largest
+  // sum.
+  function automatic int pool_template_shift(input int count_width);
+    pool_template_shift = max_of(count_width - 5, 0);
   endfunction
 
   // Bits of half an SRAM word of a pair of columns: two pixels of a column, or a group.

@@ -2,11 +2,12 @@
 // poolPointer 2: finds the candidate depths of a group of pixels in its coarse histogram and its four neighbours'.
 //
 // Equations (docs/reference/poolpointer2.md, Decode): pair sums w = 3 own + those of the groups above, below, left and
-// right; LABELS times the largest not taken; its cell from its neighbours' tilt; an eighth of its excess over the least
+// right, each bin less its template; LABELS times the largest not taken, which no
+// pair with a hidden bin, or up to two beyond, is; its cell from its neighbours' tilt; an eighth of its excess over the least
 // sum is taken from the pairs two away. B from the least of the own histogram's four octets.
 //
 // 1. The bins of five groups, each captured a clock after the one before it, shift out bin by bin; a bin's sum over the
-//    groups is added up on the way.
+//    groups is added up on the way. It begins at minus the bin's entry of TEMPLATE, and is 0 if it ends below.
 // 2. Sums of two adjacent bins enter a ring of 32: pair -1 first, which holds nothing and counts as taken.
 // 3. The ring turns once a candidate. While it passes its head, the largest pair that is not taken is kept, with its two
 //    neighbours.
@@ -40,6 +41,9 @@ module dtof_pool2_candidate_decoder #(
     // with take_prior: the group's candidates of the last frame, and which of them were used
     input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
     input  logic [           LABELS-1:0] last_used_i,
+    // POOL2_DECODER_TEMPLATE_CLOCKS after capture_above for bin 0, then bin by bin: what is taken from its sum
+    input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,
+    input  logic                         hidden_i,     // with template_i: the bin is hidden
     input  logic                         has_right_i,  // the group has a neighbour to its right
     input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
     // the newest candidate is the last cell; both valid from candidate until the next one
@@ -54,7 +58,7 @@ module dtof_pool2_candidate_decoder #(
   pool2_decode_command_t command;
   assign command = command_i;
 
-  localparam int OWN_WEIGHT = 3;
+  localparam logic signed [2:0] OWN_WEIGHT = 3'sd3;
   localparam int LEAK_SHIFT = 3;
   localparam int LEAST_TILT = 32;
   localparam int PRIOR_WEIGHT = 28;
@@ -63,13 +67,25 @@ module dtof_pool2_candidate_decoder #(
   localparam int ENTRY_WIDTH = SUM_WIDTH + 1;
   localparam int ENTRIES = dtof_pkg::POOL_COARSE_BINS;
   localparam int OCTET_WIDTH = COUNT_WIDTH + 3;
+  localparam int TEMPLATE_SHIFT = dtof_pkg::pool_template_shift(COUNT_WIDTH);
+  localparam int HIDDEN_CLOCKS = 5;  // from a bin's template to its sum
+  localparam int TAKEN_WIDTH = dtof_pkg::max_of(BIN_SUM_WIDTH, dtof_pkg::POOL_TEMPLATE_WIDTH + TEMPLATE_SHIFT);
   localparam logic [5:0] NOWHERE = 6'd48;  // not even two away from a pair
 
   // Bins, one group a clock after the other.
 
   logic [LINE_WIDTH-1:0] above_q, own_q, below_q, left_q, right_q;
   logic [COUNT_WIDTH-1:0] own_bin;
-  logic [BIN_SUM_WIDTH-1:0] above_sum_q, own_sum_q, below_sum_q, left_sum_q, bin_sum_q, last_sum_q;
+  logic signed [TAKEN_WIDTH:0] above_sum_q, own_sum_q, below_sum_q, left_sum_q, bin_sum;
+  logic [BIN_SUM_WIDTH-1:0] bin_sum_q, last_sum_q;
+  logic [HIDDEN_CLOCKS+2:0] hidden_q;  // the newest lowest
+  logic pair_hidden;
+
+  assign bin_sum = left_sum_q + as_sum(right_q[COUNT_WIDTH-1:0]);
+  assign pair_hidden = (hidden_q[HIDDEN_CLOCKS+2-:4] != '0);
+  function automatic logic signed [TAKEN_WIDTH:0] as_sum(input logic [COUNT_WIDTH-1:0] count);
+    as_sum = $signed((TAKEN_WIDTH + 1)'(count));
+  endfunction
 
   assign own_bin = own_q[COUNT_WIDTH-1:0];
 
@@ -80,12 +96,13 @@ module dtof_pool2_candidate_decoder #(
       below_q <= command.capture_below ? line_i : below_q >> COUNT_WIDTH;
       left_q <= command.capture_left ? line_i : left_q >> COUNT_WIDTH;
       right_q <= command.capture_right ? line_i : right_q >> COUNT_WIDTH;
-      above_sum_q <= BIN_SUM_WIDTH'(above_q[COUNT_WIDTH-1:0]);
-      own_sum_q <= above_sum_q + BIN_SUM_WIDTH'(OWN_WEIGHT) * BIN_SUM_WIDTH'(own_bin);
-      below_sum_q <= own_sum_q + BIN_SUM_WIDTH'(below_q[COUNT_WIDTH-1:0]);
-      left_sum_q <= below_sum_q + BIN_SUM_WIDTH'(left_q[COUNT_WIDTH-1:0]);
-      bin_sum_q <= left_sum_q + BIN_SUM_WIDTH'(right_q[COUNT_WIDTH-1:0]);
+      above_sum_q <= as_sum(above_q[COUNT_WIDTH-1:0]) - $signed((TAKEN_WIDTH + 1)'(template_i) << TEMPLATE_SHIFT);
+      own_sum_q <= above_sum_q + OWN_WEIGHT * as_sum(own_bin);
+      below_sum_q <= own_sum_q + as_sum(below_q[COUNT_WIDTH-1:0]);
+      left_sum_q <= below_sum_q + as_sum(left_q[COUNT_WIDTH-1:0]);
+      bin_sum_q <= bin_sum[TAKEN_WIDTH] ? '0 : bin_sum[BIN_SUM_WIDTH-1:0];
       last_sum_q <= bin_sum_q;
+      hidden_q <= {hidden_q[HIDDEN_CLOCKS+1:0], hidden_i};
     end
   end
 
@@ -168,8 +185,12 @@ module dtof_pool2_candidate_decoder #(
   assign pair_sum = SUM_WIDTH'(bin_sum_q) + last_sum;
 
   always_ff @(posedge clk_i) begin
-    if (command.fill && (command.pair == 5'd1 || (command.pair != 5'd0 && pair_sum < least_q))) begin
-      least_q <= pair_sum;
+    if (command.fill) begin
+      if (command.pair == 5'd0) begin
+        least_q <= '1;  // more than any sum
+      end else if (!pair_hidden && pair_sum < least_q) begin
+        least_q <= pair_sum;
+      end
     end
   end
 
@@ -198,7 +219,7 @@ module dtof_pool2_candidate_decoder #(
   assign taken = next_taken || beside;
   assign left_over = !two_away ? next : (next > leak) ? next - leak : '0;
 
-  assign entry = command.fill ? ((command.pair == 5'd0) ? {1'b1, {SUM_WIDTH{1'b0}}} : {1'b0, pair_sum})
+  assign entry = command.fill ? ((command.pair == 5'd0) ? {1'b1, {SUM_WIDTH{1'b0}}} : {pair_hidden, pair_sum})
       : command.search ? {head_taken, head} : '0;
 
   always_ff @(posedge clk_i) begin

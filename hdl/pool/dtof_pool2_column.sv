@@ -106,10 +106,13 @@ module dtof_pool2_column #(
 
   // Which of them counts, at T2: the preferred one, but in the pointer phase the other one if only that is inside.
 
-  logic first_inside, second_inside, odd_q, use_second_q, take_second;
+  // Whether a timestamp is inside comes late; what is known early decides which of the two terms below may count.
+  logic first_inside, second_inside, odd_q, use_second_q, preferred, only_if_inside, unless_first_inside;
   genvar n;
 
-  assign take_second = odd_t1_i ? second_inside || !first_inside : second_inside && !first_inside;
+  assign preferred = has_second && !point_i && odd_t1_i;
+  assign only_if_inside = has_second && point_i;
+  assign unless_first_inside = has_second && point_i && odd_t1_i;
   logic [LABELS-1:0] hits;
 
   generate
@@ -134,7 +137,8 @@ module dtof_pool2_column #(
         assign not_below = pointer_cell_t1_i[3:0] | ~top[3:0];
         assign is_above = above[3] || (not_below[3] && above[2])
             || (not_below[3] && not_below[2] && (above[1] || (not_below[1] && above[0])));
-        assign is_inside[n] = is_above ? (one_less == pointer_high) : (same == pointer_high);
+        // The high part is the timestamp's, or one less: which of them, its lowest bit says. It fits whether the low part is above.
+        assign is_inside[n] = (same == pointer_high || one_less == pointer_high) && ((same[0] ^ pointer_high[0]) == is_above);
       end
     end else begin : g_near_candidates
       assign first_inside = |hits;
@@ -151,7 +155,8 @@ module dtof_pool2_column #(
   always_ff @(posedge clk_i) begin
     odd_q <= odd_t1_i;
     // In the other phases the preferred one counts.
-    use_second_q <= has_second && (point_i ? take_second : odd_t1_i);
+    use_second_q <= preferred || (second_inside ? (only_if_inside && !first_inside) || unless_first_inside
+                                  : unless_first_inside && !first_inside);
   end
 
   // Coarse: of a pair of pixels the first counts in even acquisitions, the second in odd ones, and the other if that one

@@ -57,6 +57,8 @@ module dtof_pool2_engine #(
     input  logic                    smooth_i,       // S1 is on
     input  logic                    has_right_i,    // in choose: the column in work has one to its right; in decode: the pair
     input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
+    input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,  // these two in decode: of the bin whose sum begins
+    input  logic                    hidden_i,
     input  logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_i,  // pool2_engine_command_t
     input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
@@ -153,6 +155,8 @@ module dtof_pool2_engine #(
       .line_i      (line_bins),
       .last_cells_i(line_i[LABELS*CELL_WIDTH-1:0]),
       .last_used_i (last_used),
+      .template_i  (template_i),
+      .hidden_i    (hidden_i),
       .has_right_i (has_right_i),
       .significance_offset_i(significance_offset_i),
       .cells_o     (new_cells),

@@ -65,6 +65,8 @@ module dtof_pool2_sequencer #(
     output logic                    neighbour_o,      // select_o is the pair to the right of the one in work
     // engines, in step with what the columns get
     output logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_o,  // pool2_engine_command_t
+    // a clock before command_o: the bin whose sum the engines begin then
+    output logic [$clog2(dtof_pkg::POOL_COARSE_BINS)-1:0] template_bin_o,
     output logic [   ROW_WIDTH-1:0] scratch_row_o,    // of write_scratch and read_scratch
     output logic [COLUMN_WIDTH-1:0] column_o,         // of a chain: the column in work
     // results of all engines: column e ENGINE_COLUMNS + send_column_o of engine e, column by column, row by row
@@ -94,6 +96,7 @@ module dtof_pool2_sequencer #(
 
   localparam int COUNT_OWN = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_OWN_CLOCKS;
   localparam int FILL = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_FILL_CLOCKS;
+  localparam int TAKE_TEMPLATE = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_TEMPLATE_CLOCKS;
   localparam int SEARCH = FILL + BINS;  // the ring is full; a turn takes BINS clocks
   localparam int FIRST_CANDIDATE = SEARCH + BINS - 1 + dtof_pkg::POOL_DECODER_CANDIDATE_CLOCKS;
   localparam int LAST_CANDIDATE = FIRST_CANDIDATE + BINS * (LABELS - 1);
@@ -450,6 +453,7 @@ module dtof_pool2_sequencer #(
   end
 
   always_ff @(posedge clk_i) begin
+    template_bin_o <= $clog2(BINS)'(t - TAKE_TEMPLATE + 1);
     select_o <= select_d;
     upper_o <= upper_d;
     neighbour_o <= neighbour_d;

@@ -27,6 +27,7 @@ module dtof_pool_controller #(
     output logic                  done_o,
     output logic [           2:0] state_o,
     output logic                  illegal_schedule_o,  // of the frame that has begun; one clock
+    output logic [ ACQ_WIDTH-1:0] acq_num_o,     // acquisitions of the frame that has begun
     // dtof_pair_sequencer
     output logic                  stream_o,
     output logic                  coarse_o,
@@ -164,6 +165,7 @@ module dtof_pool_controller #(
 
   assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
   assign done_o = done_q;
+  assign acq_num_o = acq_num_q;
   assign state_o = state_q;
   assign stream_o = stream_q;
   assign coarse_o = coarse_q;

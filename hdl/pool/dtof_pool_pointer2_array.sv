@@ -59,6 +59,8 @@ module dtof_pool_pointer2_array #(
     input  logic [  ACQ_WIDTH-1:0] coarse_end_i,
     input  logic [  ACQ_WIDTH-1:0] track_end_i,
     input  logic                   smooth_i,  // S1
+    // TEMPLATE, entry 0 lowest: what decode takes from the coarse bins; held while busy_o
+    input  logic [dtof_pkg::POOL_COARSE_BINS*dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,
     input  logic                   prior_i,   // of the frame, with PRIOR = 1; the first frame after reset has none
     output logic                   busy_o,
     output logic                   done_o,
@@ -139,6 +141,7 @@ module dtof_pool_pointer2_array #(
   logic [dtof_pkg::POOL_SWEEP_WIDTH-1:0] acquisition_t1;
   logic decode, choose, decide, engine_done, underrun, illegal_schedule;
   logic [ADDR_WIDTH-1:0] clear_address, stream_address, engine_address;
+  logic [ACQ_WIDTH-1:0] acq_num;
 
   dtof_pool_controller #(
       .CLEAR_WORDS(PIXEL_WORDS),
@@ -155,6 +158,7 @@ module dtof_pool_pointer2_array #(
       .done_o         (done_o),
       .state_o        (state_o),
       .illegal_schedule_o(illegal_schedule),
+      .acq_num_o      (acq_num),
       .stream_o       (stream),
       .coarse_o       (coarse),
       .point_o        (point),
@@ -251,6 +255,7 @@ module dtof_pool_pointer2_array #(
   pool2_engine_command_t command;
   logic [ROW_WIDTH-1:0] scratch_row, send_row;
   logic send, send_last, send_waits, send_busy, prior_q;
+  logic [$clog2(dtof_pkg::POOL_COARSE_BINS)-1:0] template_bin;
 
   dtof_pool2_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
@@ -276,6 +281,7 @@ module dtof_pool_pointer2_array #(
       .upper_o      (engine_upper),
       .neighbour_o  (engine_neighbour),
       .command_o    (command),
+      .template_bin_o(template_bin),
       .scratch_row_o(scratch_row),
       .column_o     (engine_column),
       .send_o       (send),
@@ -300,9 +306,19 @@ module dtof_pool_pointer2_array #(
       .ACQ_WIDTH(ACQ_WIDTH)
   ) u_significance_offset (
       .clk_i    (clk_i),
-      .take_i   (start_i && !busy_o),
-      .acq_num_i(acq_num_i),
+      .acq_num_i(acq_num),
       .offset_o (significance_offset)
+  );
+
+  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_entry, heard_template_entry;
+  logic template_hidden, heard_template_hidden;
+
+  dtof_coarse_template u_coarse_template (
+      .clk_i     (clk_i),
+      .template_i(template_i),
+      .bin_i     (template_bin),
+      .entry_o   (template_entry),
+      .hidden_o  (template_hidden)
   );
 
   // The groups' words are of the last frame only if one has ended since reset.
@@ -334,7 +350,7 @@ module dtof_pool_pointer2_array #(
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
   localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27
-      + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH;
+      + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH + dtof_pkg::POOL_TEMPLATE_WIDTH + 1;
 
   logic told_read, told_write, has_right, last_has_right;
   logic [ADDR_WIDTH-1:0] told_address;
@@ -401,12 +417,12 @@ module dtof_pool_pointer2_array #(
   logic [LAST_PAIRS-1:0] heard_last_select;
   logic [ROW_WIDTH-1:0] heard_scratch_row;
 
-  assign told = {significance_offset, gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
+  assign told = {template_hidden, template_entry, significance_offset, gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
                  second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, sweep, make_room,
                  told_read, told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
                  engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
                  command};
-  assign {heard_significance_offset, heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
+  assign {heard_template_hidden, heard_template_entry, heard_significance_offset, heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
           heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
           heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_sweep, heard_make_room,
           heard_read, heard_write, heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
@@ -605,6 +621,8 @@ module dtof_pool_pointer2_array #(
           .smooth_i     (heard_smooth),
           .has_right_i  (has_right_here),
           .significance_offset_i(heard_significance_offset),
+          .template_i   (heard_template_entry),
+          .hidden_i     (heard_template_hidden),
           .command_i    (heard_command),
           .line_i       (line),
           .word_o       (word),

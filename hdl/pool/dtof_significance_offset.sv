@@ -4,11 +4,10 @@
 // Equation (docs/reference/poolpointer2.md, Significance): (lg(A) - lg(3333)) / 2 eighth octaves, lg(3333) = 93, 0 to 17 for A of
 // up to 65,535 acquisitions, 0 for shorter frames; the largest it can say for longer ones.
 //
-// 1. The logarithm of A is registered, for A comes straight from the port.
+// 1. The logarithm of A is registered.
 // 2. A clock later it is the offset.
 //
-// Schedule: offset_o from two clocks after take_i until two clocks after the next one. Cost: 12 flip-flops, a
-//   dtof_eighth_octaves, per array.
+// Schedule: offset_o is that of acq_num_i two clocks before. Cost: 12 flip-flops, a dtof_eighth_octaves, per array.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
@@ -18,8 +17,7 @@ module dtof_significance_offset #(
     localparam int OFFSET_WIDTH = dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH
 ) (
     input  logic                    clk_i,
-    input  logic                    take_i,
-    input  logic [   ACQ_WIDTH-1:0] acq_num_i,  // A
+    input  logic [   ACQ_WIDTH-1:0] acq_num_i,  // A, from a register
     output logic [OFFSET_WIDTH-1:0] offset_o
 );
 
@@ -40,9 +38,7 @@ module dtof_significance_offset #(
   assign half = (32'(logarithm_q) - LEAST) >>> 1;
 
   always_ff @(posedge clk_i) begin
-    if (take_i) begin
-      logarithm_q <= logarithm;
-    end
+    logarithm_q <= logarithm;
     offset_o <= (32'(logarithm_q) <= LEAST) ? '0 : (half > MOST) ? OFFSET_WIDTH'(MOST) : OFFSET_WIDTH'(half);
   end
 

@@ -79,6 +79,7 @@ module dtof_apb_registers #(
     output logic [ACQ_WIDTH-1:0] coarse_end_o,   // these three are 0 without HAS_SCHEDULE
     output logic [ACQ_WIDTH-1:0] track_end_o,
     output logic                 smooth_o,
+    output logic [        255:0] template_o,     // written, not committed; does not change while busy_i; 0 without HAS_SCHEDULE
     output logic                 prior_o,        // 0 without PRIOR
     output logic [       NP-1:0] gate_begin_o,   // these two are 0 without TIME_GATE
     output logic [       NP-1:0] gate_end_o,
@@ -369,13 +370,45 @@ module dtof_apb_registers #(
     end
   endgenerate
 
+  // TEMPLATE + 4 k has the entries 4 k to 4 k + 3.
+
+  localparam int TEMPLATE_WORDS = 8;
+  logic is_template;
+  assign is_template = (offset >= dtof_registers_pkg::TEMPLATE)
+      && (offset < dtof_registers_pkg::TEMPLATE + 12'(4 * TEMPLATE_WORDS));
+
+  genvar w;
+  generate
+    for (w = 0; w < TEMPLATE_WORDS; w = w + 1) begin : g_template
+      localparam logic [11:0] OFFSET = dtof_registers_pkg::TEMPLATE + 12'(4 * w);
+      if (HAS_SCHEDULE != 0) begin : g_word
+        logic [31:0] word_q;
+        always_ff @(posedge clk_i or negedge rst_ni) begin
+          if (!rst_ni) begin
+            word_q <= '0;
+          end else if (write && offset == OFFSET) begin
+            word_q <= (word_q & ~mask) | written;
+          end
+        end
+        assign template_o[32*w+:32] = word_q;
+      end else begin : g_no_word
+        assign template_o[32*w+:32] = '0;
+      end
+    end
+  endgenerate
+
+  localparam logic [2:0] FIRST_TEMPLATE_WORD = 3'(dtof_registers_pkg::TEMPLATE >> 2);
+  logic [2:0] template_index;
+  logic [31:0] template_word;
+  assign template_index = offset[4:2] - FIRST_TEMPLATE_WORD;
+  assign template_word = template_o[32*template_index+:32];
+
   // The columns: COLUMN_ENABLE + 4 k has those from 32 k on.
 
   localparam int ENABLE_WORDS = (SRAM_NUM + 31) / 32;
   logic [32*ENABLE_WORDS-1:0] enable_words;
   assign enable_words = (32 * ENABLE_WORDS)'(enable_q);
 
-  genvar w;
   generate
     for (w = 0; w < ENABLE_WORDS; w = w + 1) begin : g_enable
       localparam int FIRST = 32 * w;
@@ -457,7 +490,9 @@ module dtof_apb_registers #(
       dtof_registers_pkg::SHOT_SEED: there = 32'h0000ffff;
       dtof_registers_pkg::COMMIT: there = 32'd1 << dtof_registers_pkg::COMMIT_SETTINGS_LSB;
       default:
-      if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
+      if (is_template) begin
+        there = (HAS_SCHEDULE != 0 && !busy_i) ? 32'hffffffff : '0;
+      end else if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
         there = (32'(enable_index) == ENABLE_WORDS - 1) ? LAST_COLUMNS
             : (32'(enable_index) >= ENABLE_WORDS) ? '0 : 32'hffffffff;
       end
@@ -570,7 +605,9 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::RAW_ROWS_LAST_LSB+:12] = raw_last;
       end
       default:
-      if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
+      if (is_template) begin
+        prdata_o = template_word;
+      end else if (offset >= dtof_registers_pkg::COLUMN_ENABLE) begin
         prdata_o = enable_word;
       end
     endcase

@@ -9,7 +9,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00030002;
+  localparam logic [31:0] VERSION_VALUE = 32'h00030003;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -19,7 +19,7 @@ package dtof_registers_pkg;
 
   // of the registers and the result stream
   localparam logic [11:0] VERSION = 12'h004;
-  localparam logic [31:0] VERSION_RESET = 32'h00030002;
+  localparam logic [31:0] VERSION_RESET = 32'h00030003;
   localparam int VERSION_MINOR_LSB = 0;
   localparam int VERSION_MINOR_WIDTH = 16;
   localparam int VERSION_MAJOR_LSB = 16;
@@ -342,6 +342,19 @@ package dtof_registers_pkg;
   localparam int PARITY_ERRORS_VALUE_LSB = 0;
   localparam int PARITY_ERRORS_VALUE_WIDTH = 32;
 
+  // poolPointer 2: what decode takes from each of the 32 coarse bins, where cover glass and fog send light back; at once, and only between frames: a write while STATUS.BUSY is a bus error
+  localparam logic [11:0] TEMPLATE = 12'h124;
+  localparam int TEMPLATE_NUMBER = 8;
+  localparam logic [31:0] TEMPLATE_RESET = 32'h00000000;
+  localparam int TEMPLATE_ENTRY0_LSB = 0;
+  localparam int TEMPLATE_ENTRY0_WIDTH = 8;
+  localparam int TEMPLATE_ENTRY1_LSB = 8;
+  localparam int TEMPLATE_ENTRY1_WIDTH = 8;
+  localparam int TEMPLATE_ENTRY2_LSB = 16;
+  localparam int TEMPLATE_ENTRY2_WIDTH = 8;
+  localparam int TEMPLATE_ENTRY3_LSB = 24;
+  localparam int TEMPLATE_ENTRY3_WIDTH = 8;
+
   // A result.
   localparam int RESULT_WIDTH = 64;
   localparam int RESULT_POSITION_LSB = 0;
@@ -371,14 +384,15 @@ package dtof_registers_pkg;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h120);
+        || (offset >= 12'h040 && offset <= 12'h140);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
     is_writable = offset == 12'h040
         || (offset >= 12'h048 && offset <= 12'h050)
         || (offset >= 12'h05c && offset <= 12'h100)
-        || (offset >= 12'h10c && offset <= 12'h114);
+        || (offset >= 12'h10c && offset <= 12'h114)
+        || (offset >= 12'h124 && offset <= 12'h140);
   endfunction
 
 endpackage

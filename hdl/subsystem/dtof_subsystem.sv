@@ -108,6 +108,7 @@ module dtof_subsystem #(
 
   // Registers and frames.
 
+  logic [255:0] coarse_template;
   logic start, flush, abort, continuous, second, raw, smooth, prior, begin_frame, running, busy, done, frame;
   logic start_ignored, illegal_schedule, underrun, short_acquisition, long_acquisition, overrun, counter_full, aborted;
   logic timeout, stalled, resetting, in_reset, array_rst_n, flushes;
@@ -189,6 +190,7 @@ module dtof_subsystem #(
       .coarse_end_o      (coarse_end),
       .track_end_o       (track_end),
       .smooth_o          (smooth),
+      .template_o        (coarse_template),
       .prior_o           (prior),
       .gate_begin_o      (gate_begin),
       .gate_end_o        (gate_end),
@@ -471,6 +473,7 @@ module dtof_subsystem #(
           .track_end_i    (track_end),
           .smooth_i       (smooth),
           .prior_i        (prior),
+          .template_i     (coarse_template),
           .busy_o         (array_busy),
           .done_o         (done),
           .state_o        (state),
@@ -485,7 +488,7 @@ module dtof_subsystem #(
       );
     end else begin : g_array
       logic unused_settings;
-      assign unused_settings = ^{smooth, prior};
+      assign unused_settings = ^{smooth, prior, coarse_template};
       dtof_array #(
           .READOUT(READOUT),
 `include "dtof_array_parameters.svh"

@@ -57,6 +57,41 @@ std::string error_table(const HostileSettings& settings, const HostileScenes& st
   return table.markdown();
 }
 
+std::string told_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
+  std::vector<std::string> texts = {"condition"};
+  for (const std::string& name : told_estimators(settings)) {
+    texts.push_back(hostile_title(name));
+  }
+  Table table(texts);
+  for (const std::string& condition : told_conditions(settings)) {
+    const HostileReadouts& readouts = study.told.at({condition, klux});
+    std::vector<std::string> row = {condition};
+    for (const std::string& name : told_estimators(settings)) {
+      row.push_back(fmt::format("{} / {}", percent_text(share_above(readouts.at(name), 3).value),
+                                percent_text(share_above(readouts.at(name), 10).value)));
+    }
+    table.add(std::move(row));
+  }
+  return table.markdown();
+}
+
+std::string told_section(const HostileSettings& settings, const HostileScenes& study) {
+  if (told_conditions(settings).empty()) {
+    return "";
+  }
+  std::string text =
+      "\n## Told of glass and fog\n\n"
+      "The pool read-outs have their TEMPLATE registers from a frame in the dark without a target "
+      "(docs/reference/poolpointer2.md, Template); the matched filters subtract that frame's mean scores. "
+      "The other "
+      "read-outs have nothing to be told with but a gate. Pixels with a target above 3 % / above 10 %, in "
+      "%:\n";
+  for (const double klux : settings.klux) {
+    text += fmt::format("\n{:g} klux:\n\n{}", klux, told_table(settings, study, klux));
+  }
+  return text;
+}
+
 std::string alarm_table(const HostileSettings& settings, const HostileScenes& study, double klux) {
   Table table(header(settings));
   std::vector<std::string> thresholds = {"threshold"};
@@ -77,6 +112,20 @@ std::string alarm_table(const HostileSettings& settings, const HostileScenes& st
     table.add(std::move(row));
   }
   return table.markdown();
+}
+
+/// "glass 0.15 / 3.1" of each told condition, above 3 %, over the lights.
+std::string told_sentence(const HostileSettings& settings, const HostileScenes& study,
+                          const std::string& name) {
+  std::vector<std::string> texts;
+  for (const std::string& condition : told_conditions(settings)) {
+    std::vector<std::string> shares;
+    for (const double klux : settings.klux) {
+      shares.push_back(percent_text(share_above(study.told.at({condition, klux}).at(name), 3).value));
+    }
+    texts.push_back(fmt::format("{} {}", condition, fmt::join(shares, " / ")));
+  }
+  return fmt::format("{}", fmt::join(texts, ", "));
 }
 
 /// "poolPointer 2 99 / 80" of each estimator.
@@ -162,6 +211,14 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
           "* {} has more than twice the coarse histogram's errors above 3 %, beyond both intervals, "
           "under: {}.\n",
           hostile_title(name), list_or(behind_coarse_histogram(settings, study, name), "no condition"));
+      if (!told_conditions(settings).empty()) {
+        report += fmt::format(
+            "* {} that is told of glass and fog has above 3 %, in % at {:g} klux: {}; the matched filter "
+            "that is told "
+            "of them: {}.\n",
+            hostile_title(name), fmt::join(settings.klux, " / "), told_sentence(settings, study, name),
+            told_sentence(settings, study, told_estimators(settings).end()[-2]));
+      }
     }
   }
   report += fmt::format(
@@ -175,6 +232,7 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
         fmt::format("\n## Errors at {:g} klux\n\nPixels with a target above 3 % / above 10 %, in %:\n\n{}",
                     klux, error_table(settings, study, klux));
   }
+  report += told_section(settings, study);
   for (const double klux : settings.klux) {
     report += fmt::format(
         "\n## False alarms and detection at {:g} klux\n\n"
@@ -193,7 +251,7 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
       "estimator has "
       "one look-up table for each light, of the sensor in clear conditions, and subtracts the known skew; "
       "nothing "
-      "else is known to it. No host filter.\n\n"
+      "else is known to it, but where a table says so. No host filter.\n\n"
       "The threshold of an estimator is the lowest confidence that at most {:g} % of the pixels of frames of "
       "sky "
       "alone reach, in clear conditions, at each light; other seeds than those of the tables. The sky is as "
@@ -219,35 +277,42 @@ Table hostile_csv(const HostileSettings& settings, const HostileScenes& study) {
                "above_10_percent", "above_10_low", "above_10_high", "threshold", "detected", "detected_low",
                "detected_high", "sky_pixels", "false_alarms", "false_alarms_low", "false_alarms_high"},
               2);
+  const auto add_row = [&](const std::string& name, const std::string& condition, double klux,
+                           const std::vector<HostileCounts>& seeds) {
+    const int threshold = study.thresholds.at(name);
+    std::uint64_t pixels = 0;
+    std::uint64_t sky = 0;
+    for (const HostileCounts& counts : seeds) {
+      pixels += counts.targets();
+      sky += counts.count(Outcome::kSky);
+    }
+    std::vector<std::string> row = {name, condition, fmt::format("{:g}", klux), fmt::format("{}", pixels)};
+    const auto add = [&row](const Estimate& share) {
+      for (const double value : {share.value, share.interval.low, share.interval.high}) {
+        row.push_back(fmt::format("{:.6g}", value));
+      }
+    };
+    add(share_above(seeds, 3));
+    add(share_above(seeds, 10));
+    row.push_back(fmt::format("{}", threshold));
+    add(share_detected(seeds, threshold));
+    row.push_back(fmt::format("{}", sky));
+    if (const std::optional<Estimate> alarms = share_of_false_alarms(seeds, threshold)) {
+      add(*alarms);
+    } else {
+      row.insert(row.end(), 3, "");
+    }
+    table.add(std::move(row));
+  };
   for (const double klux : settings.klux) {
     for (const std::string& condition : settings.conditions) {
       for (const std::string& name : hostile_estimators(settings)) {
-        const std::vector<HostileCounts>& seeds = study.cells.at({condition, klux}).at(name);
-        const int threshold = study.thresholds.at(name);
-        std::uint64_t pixels = 0;
-        std::uint64_t sky = 0;
-        for (const HostileCounts& counts : seeds) {
-          pixels += counts.targets();
-          sky += counts.count(Outcome::kSky);
-        }
-        std::vector<std::string> row = {name, condition, fmt::format("{:g}", klux),
-                                        fmt::format("{}", pixels)};
-        const auto add = [&row](const Estimate& share) {
-          for (const double value : {share.value, share.interval.low, share.interval.high}) {
-            row.push_back(fmt::format("{:.6g}", value));
-          }
-        };
-        add(share_above(seeds, 3));
-        add(share_above(seeds, 10));
-        row.push_back(fmt::format("{}", threshold));
-        add(share_detected(seeds, threshold));
-        row.push_back(fmt::format("{}", sky));
-        if (const std::optional<Estimate> alarms = share_of_false_alarms(seeds, threshold)) {
-          add(*alarms);
-        } else {
-          row.insert(row.end(), 3, "");
-        }
-        table.add(std::move(row));
+        add_row(name, condition, klux, study.cells.at({condition, klux}).at(name));
+      }
+    }
+    for (const std::string& condition : told_conditions(settings)) {
+      for (const std::string& name : told_estimators(settings)) {
+        add_row(name, "told-" + condition, klux, study.told.at({condition, klux}).at(name));
       }
     }
   }

@@ -14,12 +14,14 @@
 #include "dtof/core/error.hpp"
 #include "dtof/core/parallel.hpp"
 #include "dtof/core/progress.hpp"
+#include "dtof/frame/empty_frame.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/host/range_converter.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/csv_table.hpp"
 #include "dtof/io/output_folder.hpp"
 #include "dtof/photon/photon_source.hpp"
+#include "dtof/readout/pool_template.hpp"
 #include "dtof/readout/pooled_matched_filter.hpp"
 #include "dtof/report/table.hpp"
 #include "dtof/sensor/condition.hpp"
@@ -37,15 +39,36 @@ constexpr std::array<const char*, 4> kOutcomes = {"within_3", "within_10", "beyo
 // Seeds of the sky frames that set the thresholds: none of a scene's.
 constexpr std::uint64_t kSkySeeds = 1'000'000;
 
-/// Both references of one column. A measurement's confidence is the score.
+/// What an estimator may be told of a sensor's surroundings (frame/empty_frame.hpp).
+using EmptyColumns = std::vector<ColumnStream>;
+
+/// Mean score of an empty pixel at each position.
+std::vector<double> empty_scores(MatchedFilter& filter, const EmptyColumns& columns, std::size_t bins) {
+  std::vector<double> sum(bins, 0.0);
+  double pixels = 0.0;
+  for (const ColumnStream& column : columns) {
+    for (int row = 0; row < column.rows(); ++row, ++pixels) {
+      std::ranges::transform(filter.scores(column.row(row)), sum, sum.begin(), std::plus<>());
+    }
+  }
+  for (double& score : sum) {
+    score /= std::max(pixels, 1.0);
+  }
+  return sum;
+}
+
+/// Both references of one column. A measurement's confidence is the score. `empty`: what they are told; may
+/// be none.
 std::array<std::vector<Measurement>, 2> read_references(const PhotonSource& source, int column,
-                                                        const ColumnStream& stream) {
+                                                        const ColumnStream& stream,
+                                                        const EmptyColumns& empty = {}) {
   const SensorModel& sensor = source.model();
   const auto bins = (std::size_t{1} << static_cast<unsigned>(sensor.np)) - 1;
   const auto rows = static_cast<std::size_t>(source.rows());
   std::array<std::vector<Measurement>, 2> measurements;
   std::unique_ptr<MatchedFilter> filter;
   double background = -1.0;
+  std::vector<double> taken(bins, 0.0);
   std::vector<std::vector<double>> scores(rows, std::vector<double>(bins, 0.0));
   for (std::size_t row = 0; row < rows; ++row) {
     PixelRates rates = source.rates(column, static_cast<int>(row));
@@ -53,8 +76,12 @@ std::array<std::vector<Measurement>, 2> read_references(const PhotonSource& sour
     if (!filter || rates.background != background) {
       filter = std::make_unique<MatchedFilter>(matched_to(sensor, rates));
       background = rates.background;
+      if (!empty.empty()) {
+        taken = empty_scores(*filter, empty, bins);
+      }
     }
-    std::ranges::copy(filter->scores(stream.row(static_cast<int>(row))), scores[row].begin());
+    std::ranges::transform(filter->scores(stream.row(static_cast<int>(row))), taken, scores[row].begin(),
+                           std::minus<>());
     const auto peak = std::ranges::max_element(scores[row]);
     const auto bin = static_cast<std::size_t>(peak - scores[row].begin());
     measurements[0].push_back({refined_peak(scores[row], bin), *peak});
@@ -104,14 +131,23 @@ Outcome outcome_of(const PixelTarget& target, double metres) {
                                           : Outcome::kBeyond;
 }
 
+/// What is read, with a look-up table of each and of the two references behind them; told of `empty`, if that
+/// is not empty.
+struct Estimators {
+  std::vector<ReadoutParameters> readouts;
+  std::vector<std::string> names;
+  std::vector<RangeConverter> tables;
+  EmptyColumns empty;
+};
+
 /// Adds a frame's pixels to each estimator's counts.
-void count_frame(const HostileSettings& settings, const PhotonSource& source,
-                 const std::vector<RangeConverter>& tables, std::vector<HostileCounts>& counts) {
+void count_frame(const Estimators& estimators, const PhotonSource& source,
+                 std::vector<HostileCounts>& counts) {
   const SensorModel& sensor = source.model();
-  const std::vector<EngineResults> results = read_engine(source, settings.readouts);
-  const std::size_t readouts = settings.readouts.size();
+  const std::vector<EngineResults> results = read_engine(source, estimators.readouts);
+  const std::size_t readouts = estimators.readouts.size();
   for (int column = 0; column < engine_columns_judged(); ++column) {
-    const auto references = read_references(source, column, source.column(column));
+    const auto references = read_references(source, column, source.column(column), estimators.empty);
     for (int row = 0; row < source.rows(); ++row) {
       const PixelTarget& target = source.targets().at(column, row);
       // The host knows the skew.
@@ -123,10 +159,10 @@ void count_frame(const HostileSettings& settings, const PhotonSource& source,
         const Measurement measured = reference
                                          ? references[e - readouts][place]
                                          : to_measurement(results[e][static_cast<std::size_t>(column)][place],
-                                                          settings.readouts[e].fraction_bits);
+                                                          estimators.readouts[e].fraction_bits);
         const double confidence =
             std::clamp(measured.confidence * (reference ? kStepsPerScore : 1.0), 0.0, 1e6);
-        counts[e].add(outcome_of(target, tables[e].distance(measured.position - skew)),
+        counts[e].add(outcome_of(target, estimators.tables[e].distance(measured.position - skew)),
                       static_cast<int>(confidence));
       }
     }
@@ -139,11 +175,28 @@ SensorModel sensor_under(const HostileSettings& settings, const std::string& con
 
 using Tables = std::function<const std::vector<RangeConverter>&(double klux)>;
 
+/// Those that can be told of what surrounds `sensor`, told.
+Estimators told_of(const HostileSettings& settings, const SensorModel& sensor,
+                   const std::vector<RangeConverter>& tables) {
+  Estimators told{.readouts = {}, .names = told_estimators(settings), .tables = {}, .empty = {}};
+  told.empty = empty_columns(sensor, settings.seed);
+  for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
+    if (is_pool_readout(settings.readouts[r].readout)) {
+      told.readouts.push_back(settings.readouts[r]);
+      told.readouts.back().pool.coarse_template =
+          measured_template(told.empty, sensor.acquisitions, settings.readouts[r]);
+      told.tables.push_back(tables[r]);
+    }
+  }
+  told.tables.insert(told.tables.end(), tables.end() - kReferences.size(), tables.end());
+  return told;
+}
+
 /// Each estimator's counts of `maps`, by seed.
-HostileReadouts measure(const HostileSettings& settings, const SensorModel& sensor, double klux,
-                        const std::vector<TargetMap>& maps, std::uint64_t first_seed, const Tables& tables) {
-  const std::vector<RangeConverter>& own_tables = tables(klux);
-  const std::vector<std::string> names = hostile_estimators(settings);
+HostileReadouts measure(const HostileSettings& settings, const Estimators& estimators,
+                        const SensorModel& sensor, double klux, const std::vector<TargetMap>& maps,
+                        std::uint64_t first_seed) {
+  const std::vector<std::string>& names = estimators.names;
   const auto seeds = static_cast<std::size_t>(settings.seeds);
   std::vector<std::vector<HostileCounts>> counts(maps.size() * seeds,
                                                  std::vector<HostileCounts>(names.size()));
@@ -151,7 +204,7 @@ HostileReadouts measure(const HostileSettings& settings, const SensorModel& sens
     const std::size_t map = index / seeds;
     const PhotonSource source(sensor, maps[map], klux, first_seed + index % seeds,
                               scene_frame(static_cast<std::uint32_t>(map)));
-    count_frame(settings, source, own_tables, counts[index]);
+    count_frame(estimators, source, counts[index]);
   });
   HostileReadouts readouts;
   for (std::size_t e = 0; e < names.size(); ++e) {
@@ -264,6 +317,27 @@ std::vector<std::string> hostile_estimators(const HostileSettings& settings) {
   return names;
 }
 
+std::vector<std::string> told_estimators(const HostileSettings& settings) {
+  std::vector<std::string> names;
+  for (const ReadoutParameters& readout : settings.readouts) {
+    if (is_pool_readout(readout.readout)) {
+      names.emplace_back(readout_name(readout.readout));
+    }
+  }
+  names.insert(names.end(), kReferences.begin(), kReferences.end());
+  return names;
+}
+
+std::vector<std::string> told_conditions(const HostileSettings& settings) {
+  std::vector<std::string> names;
+  for (const std::string& condition : settings.conditions) {
+    if (has_own_light(sensor_under(settings, condition))) {
+      names.push_back(condition);
+    }
+  }
+  return names;
+}
+
 std::string hostile_title(const std::string& estimator) {
   if (estimator == kReferences[0]) {
     return "matched filter";
@@ -318,7 +392,8 @@ HostileScenes run_hostile_scenes(const HostileSettings& settings) {
   // As bright as a surface of the sensor's reflectivity, as the sky of the scene is.
   const std::vector<TargetMap> sky = {
       TargetMap(engine_columns_read(), settings.rows, {0.0, settings.sensor.default_reflectivity})};
-  Progress progress("hostile scenes", (settings.conditions.size() + 1) * settings.klux.size());
+  const std::vector<std::string> told = told_conditions(settings);
+  Progress progress("hostile scenes", (settings.conditions.size() + told.size() + 1) * settings.klux.size());
   const auto stored_or = [&](const std::string& name, double klux, const auto& make) {
     const std::filesystem::path file = settings.store / fmt::format("{}_{:g}.csv", name, klux);
     if (!std::filesystem::exists(file)) {
@@ -330,15 +405,28 @@ HostileScenes run_hostile_scenes(const HostileSettings& settings) {
   HostileScenes study;
   std::map<std::string, std::vector<std::vector<HostileCounts>>> skies;
   for (const double klux : settings.klux) {
+    const auto all = [&] {
+      return Estimators{.readouts = settings.readouts,
+                        .names = hostile_estimators(settings),
+                        .tables = tables(klux),
+                        .empty = {}};
+    };
     const HostileReadouts readouts = stored_or("only-sky", klux, [&] {
-      return measure(settings, settings.sensor, klux, sky, settings.seed + kSkySeeds, tables);
+      return measure(settings, all(), settings.sensor, klux, sky, settings.seed + kSkySeeds);
     });
     for (const auto& [name, seeds] : readouts) {
       skies[name].push_back(seeds);
     }
     for (const std::string& condition : settings.conditions) {
       study.cells[{condition, klux}] = stored_or(condition, klux, [&] {
-        return measure(settings, sensor_under(settings, condition), klux, scenes, settings.seed, tables);
+        return measure(settings, all(), sensor_under(settings, condition), klux, scenes, settings.seed);
+      });
+    }
+    for (const std::string& condition : told) {
+      study.told[{condition, klux}] = stored_or("told-" + condition, klux, [&] {
+        const SensorModel sensor = sensor_under(settings, condition);
+        return measure(settings, told_of(settings, sensor, tables(klux)), sensor, klux, scenes,
+                       settings.seed);
       });
     }
   }

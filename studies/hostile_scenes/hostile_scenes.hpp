@@ -66,6 +66,9 @@ using HostileReadouts = std::map<std::string, std::vector<HostileCounts>>;
 
 struct HostileScenes {
   std::map<HostileCell, HostileReadouts> cells;
+  /// The conditions with cover glass or fog, for the estimators that can be told of it: the pool read-outs by
+  /// their TEMPLATE registers, the references by what they subtract from their scores.
+  std::map<HostileCell, HostileReadouts> told;
   std::map<std::string, int> thresholds;  ///< of confidence, of each estimator: one for all lights
 };
 
@@ -74,6 +77,10 @@ struct HostileScenes {
 /// pixel and the one pooled along the column. Their confidence is eight times their score.
 std::vector<std::string> hostile_estimators(const HostileSettings& settings);
 std::string hostile_title(const std::string& estimator);
+/// Those that can be told of glass and fog.
+std::vector<std::string> told_estimators(const HostileSettings& settings);
+/// Conditions of the settings that have cover glass or fog.
+std::vector<std::string> told_conditions(const HostileSettings& settings);
 
 /// The lowest confidence that at most `share` of the pixels of each light's seeds have or exceed; the pixels
 /// are those without a target.

@@ -83,6 +83,9 @@ class HostileReport : public testing::Test {
         study_.thresholds[name] = 5;
       }
     }
+    for (const std::string& name : told_estimators(settings_)) {
+      study_.told[{"fog", 14.0}][name] = seeds(20);
+    }
   }
 
   HostileSettings settings_;
@@ -124,6 +127,22 @@ TEST_F(HostileReport, TablesHoldEveryFigure) {
   const std::vector<PlotSeries> curves = hostile_curves(settings_, study_);
   ASSERT_EQ(curves.size(), 4U);
   EXPECT_THAT(curves[0].x, testing::Contains(testing::DoubleEq(50.0)));
+}
+
+TEST_F(HostileReport, SaysWhatBecomesOfThoseThatAreTold) {
+  EXPECT_THAT(told_conditions(settings_), ElementsAre("fog"));
+  EXPECT_THAT(told_estimators(settings_),
+              ElementsAre("poolpointer2", "matchedfilter", "pooledmatchedfilter"));
+  study_.told[{"fog", 14.0}]["poolpointer2"] = seeds(10, 60);
+  const std::string report = hostile_report(settings_, study_, "");
+  EXPECT_THAT(
+      report,
+      HasSubstr("poolPointer 2 that is told of glass and fog has above 3 %, in % at 14 klux: fog 7; the "
+                "matched filter that is told of them: fog 2."));
+  EXPECT_THAT(report, HasSubstr(" 7 / 6 | "));
+  EXPECT_THAT(hostile_csv(settings_, study_).csv(), HasSubstr("\npoolpointer2,told-fog,14,2000,0.07,"));
+  settings_.conditions = {"clear", "late-laser"};
+  EXPECT_THAT(hostile_report(settings_, study_, ""), Not(HasSubstr("told of glass")));
 }
 
 class HostileScenesTest : public testing::Test {
@@ -170,6 +189,16 @@ TEST_F(HostileScenesTest, GlassFoolsAndSkewIsSubtracted) {
   const HostileCounts& one = study.cells.at({"clear", 2.0}).at("coarsehistogram").front();
   EXPECT_EQ(one.targets() + one.count(Outcome::kSky),
             static_cast<std::uint64_t>(2 * engine_columns_judged() * settings_.rows));
+}
+
+TEST_F(HostileScenesTest, GlassDoesNotFoolThoseThatAreTold) {
+  settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer2)};
+  settings_.conditions = {"clear", "glass"};
+  const HostileScenes study = run_hostile_scenes(settings_);
+  for (const std::string& name : hostile_estimators(settings_)) {
+    EXPECT_GT(share_above(study.cells.at({"glass", 2.0}).at(name), 10).value, 0.4) << name;
+    EXPECT_LT(share_above(study.told.at({"glass", 2.0}).at(name), 10).value, 0.03) << name;
+  }
 }
 
 TEST_F(HostileScenesTest, CellsThatAreDoneAreTaken) {

@@ -199,13 +199,21 @@ def map_to_cells(configuration: Configuration, technology: Technology, folder: P
     return design
 
 
-def _resize_settings(folder: Path, library: Library, shrinkable: Iterable[tuple[str, str]] = (),
-                     dispensable: Iterable[netlist.Dispensable] = ()) -> dict[str, tools.Setting]:
+def _resize_settings(folder: Path, library: Library, guard_ns: float = RESIZE_GUARD_NS,
+                     shrinkable: Iterable[tuple[str, str]] = (), dispensable: Iterable[netlist.Dispensable] = ()) -> dict[str, tools.Setting]:
     """Settings for the step `resize` of synth/sta/timing.tcl."""
     return {**json.loads((folder / timing.BLOCKS).read_text(encoding="utf-8")), "drives": library.drives,
-            "cell_areas": library.area, "guard": f"{RESIZE_GUARD_NS}", "shrinkable": [list(gate) for gate in shrinkable],
+            "cell_areas": library.area, "guard": f"{guard_ns}", "shrinkable": [list(gate) for gate in shrinkable],
             "buffer_pins": [library.buffers[0].input_pin, library.buffers[0].output_pin],
             "dispensable": [list(astuple(one)) for one in dispensable]}
+
+
+@dataclass(frozen=True)
+class Resized:
+    """What resizing came to."""
+
+    changed: bool
+    slack: float  # with margins, of the first engine and its columns, ns
 
 
 STAND_IN_LIBERTY = "stand_in.lib"  # in the folder of a netlist
@@ -304,10 +312,10 @@ class _Netlist:
         """Judges the ends of paths in a report that has the step `check`."""
         return endpoints.judge(self.configuration.name, report.unchecked, self.written, self.technology.slow, self.cut)
 
-    def resize(self, again: bool) -> bool:
+    def resize(self, again: bool, guard_ns: float = RESIZE_GUARD_NS) -> Resized:
         """Gives gates on paths that fail in the slow corner with margins more drive and, but for doing it `again`, others less, and
-        takes out the buffers of mapping that no path needs. Returns whether anything has changed. It looks at the first engine with
-        its columns alone, for each trial is timed anew; what it misses in the others is in the slacks."""
+        takes out the buffers of mapping that no path needs. It looks at the first engine with its columns alone, for each trial is
+        timed anew. `guard_ns`: the slack that it aims at there, for other engines may have less."""
         library = self.technology.slow
         self._write(self._first_columns())
         kinds = self._kinds()
@@ -322,11 +330,11 @@ class _Netlist:
                     module, pin_load, library.wire_ff_per_sink).items()})
                 inside |= {net: max(ff, inside.get(net, 0.0)) for net, ff in nets.items()}
             shrinkable = netlist.shrinkable(self.design, library, [*kinds, netlist.TOP], pin_load, carried)
-        report = self.time("slow", "resize", **_resize_settings(self.folder, library, shrinkable, dispensable))
+        report = self.time("slow", "resize", **_resize_settings(self.folder, library, guard_ns, shrinkable, dispensable))
         netlist.resize(self.design, library, report.resized)
         netlist.drop_buffers(self.design, library, report.dropped)
         self.write()
-        return bool(report.resized or report.dropped)
+        return Resized(bool(report.resized or report.dropped), report.resized_slack)
 
     def early_pins(self, report: timing.Report) -> list[str]:
         """Those of paths that are too early, in all blocks of a kind."""
@@ -414,14 +422,16 @@ class _Attempt:
 def _timed(timed: _Netlist, effort: int) -> _Attempt:
     if timed.technology.fast is None:
         return _Attempt(timed, effort, timed.time("slow", "nominal").slack, None)
+    guard_ns = RESIZE_GUARD_NS
     for number in range(RESIZE_ROUNDS):
-        changed = timed.resize(again=number > 0)
-        if number > 0 and not changed:
+        resized = timed.resize(number > 0, guard_ns)
+        if number > 0 and not resized.changed:
             break
         early = timed.time("fast", "margins", "early")
         report = timed.time("slow", "nominal", "margins", "spare", pins=timed.early_pins(early))
         if report.margin().slack >= 0:
             break
+        guard_ns = RESIZE_GUARD_NS + max(resized.slack - report.margin().slack, 0.0)  # what other engines have less
     return _Attempt(timed, effort, report.slack, report.margin(), early, report.spare)
 
 
@@ -468,7 +478,7 @@ def run(configuration: Configuration, technology: Technology, folder: Path,
         fast = timed.fix_hold(given(best.early, "the fast corner was not timed"), best.spare)
         slow = timed.time("slow", "nominal", "closing", "margins")
         for _ in range(CLOSING_ROUNDS):
-            if slow.margin().slack >= 0 or not timed.resize(again=True):
+            if slow.margin().slack >= 0 or not timed.resize(True, RESIZE_GUARD_NS - slow.margin().slack).changed:
                 break
             fast = timed.fix_hold(timed.time("fast", "margins", "early"), best.spare)
             slow = timed.time("slow", "nominal", "closing", "margins")

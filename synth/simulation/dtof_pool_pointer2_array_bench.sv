@@ -41,6 +41,24 @@ module dtof_pool_pointer2_array_bench #(
   logic [SRAM_NUM*NP-1:0] tdc_timestamp;
   logic [TDATA_WIDTH+12:0] rtl, netlist;  // as stream_bench has them
 
+  // TEMPLATE is held while an array is busy. In frames that ask for it entry i is 255 >> (i / 2).
+  logic with_template_q;
+  logic [dtof_pkg::POOL_COARSE_BINS*dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] coarse_template;
+
+  always_ff @(posedge clk) begin
+    if (start && !rtl[TDATA_WIDTH+7]) begin
+      with_template_q <= settings[2];
+    end
+  end
+
+  genvar i;
+  generate
+    for (i = 0; i < dtof_pkg::POOL_COARSE_BINS; i = i + 1) begin : g_template
+      assign coarse_template[i*dtof_pkg::POOL_TEMPLATE_WIDTH+:dtof_pkg::POOL_TEMPLATE_WIDTH] =
+          with_template_q ? dtof_pkg::POOL_TEMPLATE_WIDTH'(255 >> (i / 2)) : '0;
+    end
+  endgenerate
+
 `ifndef NETLIST_ALONE
   dtof_pool_pointer2_array #(
       .NP               (NP),
@@ -74,6 +92,7 @@ module dtof_pool_pointer2_array_bench #(
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
       .prior_i        (settings[1]),
+      .template_i     (coarse_template),
       .busy_o         (rtl[TDATA_WIDTH+7]),
       .done_o         (rtl[TDATA_WIDTH+6]),
       .state_o        (rtl[TDATA_WIDTH+3+:3]),
@@ -103,6 +122,7 @@ module dtof_pool_pointer2_array_bench #(
       .track_end_i    (track_end),
       .smooth_i       (settings[0]),
       .prior_i        (settings[1]),
+      .template_i     (coarse_template),
       .busy_o         (netlist[TDATA_WIDTH+7]),
       .done_o         (netlist[TDATA_WIDTH+6]),
       .state_o        (netlist[TDATA_WIDTH+3+:3]),

@@ -105,6 +105,7 @@ ReadoutParameters built_parameters(ReadoutParameters parameters) {
   parameters.pool.coarse_share = defaults.coarse_share;
   parameters.pool.track_share = defaults.track_share;
   parameters.pool.smooth = defaults.smooth;
+  parameters.pool.coarse_template = defaults.coarse_template;
   return parameters;
 }
 

@@ -26,6 +26,7 @@ class ArrayModel {
     std::uint16_t* track_end;
     std::uint8_t* smooth;
     std::uint8_t* prior;
+    std::uint32_t* coarse_template;  ///< 8 words, entry 0 in the lowest byte of word 0
     std::uint8_t* tdc_valid;
     std::uint32_t* timestamps;  ///< 16 bits per column, column 0 in the low half of word 0
     std::size_t timestamp_words;

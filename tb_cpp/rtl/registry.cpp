@@ -30,12 +30,13 @@ std::map<std::string, Entry>& registry() {
   return entries;
 }
 
-// The gate's ends, a pool read-out's schedule and S1 are set with every frame.
+// The gate's ends, a pool read-out's schedule, TEMPLATE and S1 are set with every frame.
 ReadoutParameters compiled_parameters(ReadoutParameters parameters) {
   const PoolPointerParameters defaults = PoolPointerParameters::defaults(parameters.readout);
   parameters.pool.coarse_share = defaults.coarse_share;
   parameters.pool.track_share = defaults.track_share;
   parameters.pool.smooth = defaults.smooth;
+  parameters.pool.coarse_template = defaults.coarse_template;
   if (parameters.time_gate) {
     parameters.time_gate = CodeGate{0, parameters.no_detection()};
   }

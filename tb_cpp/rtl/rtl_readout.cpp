@@ -207,6 +207,12 @@ class RtlReadout::Simulation {
       const bool own = acquisitions == acquisitions_;
       *ports_.smooth = configuration_.parameters.pool.smooth == own ? 1 : 0;
       *ports_.prior = options_->prior == own ? 1 : 0;
+      const PoolTemplate& taken = configuration_.parameters.pool.coarse_template;
+      for (std::size_t i = 0; i < taken.size(); ++i) {  // held in the frame
+        std::uint32_t& word = ports_.coarse_template[i / 4];
+        const auto shift = static_cast<unsigned>(8 * (i % 4));
+        word = (word & ~(0xFFU << shift)) | (std::uint32_t{taken[i]} << shift);
+      }
     }
   }
 

@@ -35,7 +35,8 @@ class VerilatedArray : public ArrayModel {
       registers = {.coarse_end = &model_.coarse_end_i,
                    .track_end = &model_.track_end_i,
                    .smooth = &model_.smooth_i,
-                   .prior = &model_.prior_i};
+                   .prior = &model_.prior_i,
+                   .coarse_template = model_.template_i.data()};
     } else {
       registers = {.raw = &model_.raw_i,
                    .raw_first_row = &model_.raw_first_row_i,
@@ -54,6 +55,7 @@ class VerilatedArray : public ArrayModel {
             .track_end = registers.track_end,
             .smooth = registers.smooth,
             .prior = registers.prior,
+            .coarse_template = registers.coarse_template,
             .tdc_valid = &model_.tdc_valid_i,
             .timestamps = model_.tdc_timestamp_i.data(),
             .timestamp_words = sizeof(model_.tdc_timestamp_i) / sizeof(std::uint32_t),
@@ -92,6 +94,7 @@ class VerilatedArray : public ArrayModel {
     std::uint16_t* track_end = nullptr;
     std::uint8_t* smooth = nullptr;
     std::uint8_t* prior = nullptr;
+    std::uint32_t* coarse_template = nullptr;
   };
 
   Model model_;

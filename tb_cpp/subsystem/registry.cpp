@@ -18,12 +18,13 @@ std::vector<CompiledSubsystem>& registry() {
   return entries;
 }
 
-// The gate, a pool read-out's schedule and S1 are set with every frame.
+// The gate, a pool read-out's schedule, TEMPLATE and S1 are set with every frame.
 ReadoutParameters compiled_parameters(ReadoutParameters parameters) {
   const PoolPointerParameters defaults = PoolPointerParameters::defaults(parameters.readout);
   parameters.pool.coarse_share = defaults.coarse_share;
   parameters.pool.track_share = defaults.track_share;
   parameters.pool.smooth = defaults.smooth;
+  parameters.pool.coarse_template = defaults.coarse_template;
   parameters.time_gate.reset();
   return parameters;
 }

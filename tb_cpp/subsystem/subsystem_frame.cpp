@@ -59,6 +59,10 @@ class SubsystemFrame {
     dtof_device device{};
     check(dtof_probe(&device, {this, read, write}), "probe");
     check(dtof_configure(&device, &settings(device, acquisitions)), "configure");
+    if (device.has_schedule) {
+      check(dtof_set_template(&device, configuration_.parameters.pool.coarse_template.data()),
+            "set the template");
+    }
     check(dtof_enable_interrupts(&device, true, false), "enable the interrupt");
 
     timestamps_.assign(static_cast<std::size_t>(configuration_.sram_num + 1) / 2, 0);

@@ -166,6 +166,16 @@ class VectorFiles {
 };
 
 constexpr std::uint32_t kPriorSetting = 2;  // beside S1's switch
+constexpr std::uint32_t kTemplateSetting = 4;
+
+/// What the bench drives where a frame asks for a template.
+PoolTemplate bench_template() {
+  PoolTemplate taken{};
+  for (std::size_t i = 0; i < taken.size(); ++i) {
+    taken[i] = static_cast<std::uint8_t>(255U >> (i / 2));
+  }
+  return taken;
+}
 
 /// The third is S1's switch.
 std::array<std::uint32_t, 3> schedule_settings(const ReadoutParameters& readout, std::uint32_t acquisitions) {
@@ -204,7 +214,10 @@ void write_vectors(const ArrayParameters& array, std::span<const std::uint32_t> 
     std::array<std::uint32_t, 3> settings{};
     if (is_pool_readout(array.readout.readout)) {
       frame_array.readout.pool.smooth = pick(random, 2) != 0;
+      const bool with_template = pick(random, 2) != 0;
+      frame_array.readout.pool.coarse_template = with_template ? bench_template() : PoolTemplate{};
       settings = schedule_settings(frame_array.readout, acquisitions);
+      settings[2] |= with_template ? kTemplateSetting : 0;
     } else if (array.readout.time_gate) {
       const int codes = array.readout.code_count();
       const CodeGate gate{.begin = pick(random, codes), .end = pick(random, codes)};

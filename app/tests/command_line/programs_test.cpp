@@ -158,6 +158,25 @@ TEST_F(Programs, FrameThroughTheSubsystemIsThatOfTheBareArray) {
   EXPECT_THAT(other.output, HasSubstr("no subsystem is compiled for sifh"));
 }
 
+TEST_F(Programs, TemplateTakesTheGlassAway) {
+  const std::string frame =
+      "frame -r poolpointer2 --sensor thesis+glass --array-columns 34 --array-rows 5 --acquisitions 1000 ";
+  ASSERT_EQ(run(DTOF_FULL_PROGRAM, frame + "--out fooled").exit_code, 0);
+  ASSERT_EQ(run(DTOF_FULL_PROGRAM, frame + "--template --out told").exit_code, 0);
+  EXPECT_NE(read_file(path("told/poolpointer2.csv")), read_file(path("fooled/poolpointer2.csv")));
+  const Outcome whole =
+      run(DTOF_FULL_PROGRAM, frame + "--template --verify --engine subsystem --out subsystem");
+  ASSERT_EQ(whole.exit_code, 0) << whole.output;
+  EXPECT_EQ(read_file(path("subsystem/poolpointer2.csv")), read_file(path("told/poolpointer2.csv")));
+  const auto refused = [&](const std::string& options, const char* sentence) {
+    const Outcome outcome = dtof("frame --out refused --template " + options);
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr(sentence));
+  };
+  refused("-r poolpointer2", "--template has no effect: the sensor has neither cover glass nor fog");
+  refused("-r sifh --sensor thesis+fog", "--template has no effect: sifh has no TEMPLATE");
+}
+
 TEST_F(Programs, ThreadsAndChosenColumnsDoNotChangeAResult) {
   ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 1 --out one", kSmallScene)).exit_code, 0);
   ASSERT_EQ(dtof(fmt::format("frame -r fifh {} --threads 2 --out two", kSmallScene)).exit_code, 0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -12,6 +13,12 @@ namespace dtof {
 
 /// Throws InputError naming the legal names.
 Readout parse_readout(std::string_view name);
+
+/// What decode takes from each coarse bin's sum over a group and its neighbours, in units of
+/// pool_template_unit(): the TEMPLATE registers of poolPointer 2 (docs/reference/poolpointer2.md, Template).
+using PoolTemplate = std::array<std::uint8_t, 32>;
+/// 2^(COUNT_WIDTH - 5), at least 1: 255 units are more than the largest sum.
+constexpr int pool_template_unit(int count_width) { return count_width > 5 ? 1 << (count_width - 5) : 1; }
 
 /// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer2.md).
 /// Lengths are fractions of a coarse bin, a 32nd of the range.
@@ -35,6 +42,7 @@ struct PoolPointerParameters {
   int track_share = 20;        ///< 64ths of the frame: track phase
   int engine_columns = 34;     ///< ENGINE_COLUMNS, columns that share an engine and hear each other, even
   bool smooth = true;          ///< S1 is on
+  PoolTemplate coarse_template{};  ///< TEMPLATE registers, of crosstalk and fog; 0: none
 
   static PoolPointerParameters defaults(Readout readout);
   /// Throws InputError; `count_width`: bits of a coarse bin.

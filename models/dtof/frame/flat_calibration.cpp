@@ -131,7 +131,9 @@ std::vector<RangeConverter> FlatCalibration::fit(const Photons& photons,
       pair = {pairs->column(targets_.columns() + column(d)), pairs->column(column(d))};
     }
     for (std::size_t r = 0; r < readouts.size(); ++r) {
-      const auto model = make_readout_model(readouts[r]);
+      ReadoutParameters clear = readouts[r];
+      clear.pool.coarse_template = {};  // nothing stands before these targets
+      const auto model = make_readout_model(clear);
       store(r, d,
             hears_others(readouts[r]) ? model->run_columns(pair, source->acquisitions()).back()
                                       : model->run_column(alone, source->acquisitions()));

@@ -68,6 +68,17 @@ bool group_tilted(const CoarseHistogram& histogram) {
   return 2 * sums[0] > 3 * std::ranges::min(sums) + kLeastTilt;
 }
 
+TakenPairs hidden_pairs(const PoolTemplate& coarse_template) {
+  TakenPairs hidden{};
+  for (std::size_t bin = 0; bin < kMostHiddenBins; ++bin) {
+    if (coarse_template[bin] >= kHiddenFrom) {
+      std::fill(hidden.begin() + static_cast<std::ptrdiff_t>(bin > 0 ? bin - 1 : 0),
+                hidden.begin() + static_cast<std::ptrdiff_t>(bin + kHiddenReach), true);
+    }
+  }
+  return hidden;
+}
+
 std::size_t highest_pair(const PairSums& sums, const TakenPairs& taken) {
   std::size_t best = kCoarsePairs;
   for (std::size_t i = 0; i < kCoarsePairs; ++i) {

@@ -83,6 +83,12 @@ int group_background(const CoarseHistogram& histogram, int count_width);
 /// where
 /// light is so strong that a pixel's two timestamps come early, margins say little.
 bool group_tilted(const CoarseHistogram& histogram);
+/// Pairs that have a hidden bin, or lie up to two beyond: one of the first kMostHiddenBins whose entry of TEMPLATE is
+/// kHiddenFrom or more. They are no candidates: a pointer that starts there would follow the crosstalk.
+inline constexpr std::size_t kMostHiddenBins = 7;  // so that 8 candidates find their pairs
+inline constexpr int kHiddenFrom = 128;
+inline constexpr std::size_t kHiddenReach = 3;  // pairs from a hidden bin's own on
+TakenPairs hidden_pairs(const PoolTemplate& coarse_template);
 /// The largest sum not taken, the lowest on a tie; kCoarsePairs if all are taken.
 std::size_t highest_pair(const PairSums& sums, const TakenPairs& taken);
 void take_pairs(TakenPairs& taken, std::size_t peak);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 
 #include "dtof/core/error.hpp"
@@ -112,13 +113,19 @@ class Groups {
         &histograms_[index(pair + 1 < pairs ? pair + 1 : pair, g)]};
     const int missing =
         (g > 0 ? 0 : 1) + (g + 1 < height_ ? 0 : 1) + (pair > 0 ? 0 : 1) + (pair + 1 < pairs ? 0 : 1);
+    const int unit = pool_template_unit(parameters_.count_width);
+    std::array<int, kCoarseBins> bins{};
+    for (std::size_t i = 0; i < kCoarseBins; ++i) {
+      bins[i] = parameters_.own_weight * own[i];
+      for (const CoarseHistogram* neighbour : neighbours) {
+        bins[i] += (*neighbour)[i];
+      }
+      bins[i] = std::max(bins[i] - unit * parameters_.coarse_template[i], 0);
+    }
     PairSums sums{};
     TakenPairs raised{};
     for (std::size_t i = 0; i < kCoarsePairs; ++i) {
-      sums[i] = parameters_.own_weight * (own[i] + own[i + 1]);
-      for (const CoarseHistogram* neighbour : neighbours) {
-        sums[i] += (*neighbour)[i] + (*neighbour)[i + 1];
-      }
+      sums[i] = bins[i] + bins[i + 1];
       const std::int32_t middle = kCellsPerCoarseBin * (static_cast<std::int32_t>(i) + 1);
       raised[i] = std::ranges::any_of(
           used, [&](std::int32_t cell) { return std::abs(middle - cell) <= parameters_.prior_reach; });
@@ -131,8 +138,11 @@ class Groups {
     group.background = ((group_background(own, parameters_.count_width) >> lost_bits_) << lost_bits_) +
                        ((1 << lost_bits_) >> 1);
     group.tilted = significance_bits_ > 0 && group_tilted(own);
-    const int least = std::ranges::min(sums);
-    TakenPairs taken{};
+    TakenPairs taken = hidden_pairs(parameters_.coarse_template);
+    int least = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < kCoarsePairs; ++i) {
+      least = taken[i] ? least : std::min(least, sums[i]);
+    }
     PairSums before = sums;  // the last candidate took its leakage
     for (int label = 0; label < group.labels; ++label) {
       const std::size_t peak = highest_pair(sums, taken);
@@ -618,6 +628,7 @@ PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& paramet
                                    .track_share = parameters.pool.track_share,
                                    .smooth = parameters.pool.smooth,
                                    .smooth_reach = smooth_reach_of(parameters.pool.cell_shift),
+                                   .coarse_template = parameters.pool.coarse_template,
                                    .keeps_prior = parameters.pool.prior,
                                    .second_target = parameters.pool.second_target};
   own.validate();

@@ -66,6 +66,8 @@ struct PoolPointer2Parameters {
                                      1536};  ///< units: T of dark and of bright groups, S1's and starts'
   int smooth_bright_from = 6;                ///< B from which a group is bright there
 
+  PoolTemplate coarse_template{};  ///< what decode takes from the coarse bins
+
   bool keeps_prior = false;    ///< the array is one with PRIOR = 1, whose group words have less room
   bool second_target = false;  ///< a result has the position of the label that lost, too, without S1
 

@@ -77,8 +77,9 @@ class Reference {
     bool smooth = true;
     bool lean = false;  ///< the numbers of poolPointer 2 lean
     bool second_target = false;
-    int cell = 512;      ///< positions of a settled pointer's cell
-    bool prior = false;  ///< the array has PRIOR = 1
+    int cell = 512;               ///< positions of a settled pointer's cell
+    bool prior = false;           ///< the array has PRIOR = 1
+    std::array<int, 32> taken{};  ///< fours that a bin's sum loses
   };
 
   /// By group, the cells that its pixels chose.
@@ -218,9 +219,13 @@ class Reference {
     for (std::size_t i = 0; i < 32; ++i) {
       octets[i / 8] += own.h[i];
       if (i < 31) {
-        w.push_back(3 * (own.h[i] + own.h[i + 1]));
-        for (const Group* other : beside) {
-          w.back() += other->h[i] + other->h[i + 1];
+        w.push_back(0);
+        for (const std::size_t j : {i, i + 1}) {
+          int sum = 3 * own.h[j];
+          for (const Group* other : beside) {
+            sum += other->h[j];
+          }
+          w.back() += std::max(0, sum - 4 * open_.taken[j]);
         }
         bool wanted = false;
         for (const int cell : before_[place]) {
@@ -234,9 +239,19 @@ class Reference {
     own.b = open_.lean ? own.b / 4 * 4 + 2 : own.b;
     own.tilted = 2 * octets[0] - 32 > *std::min_element(octets.begin(), octets.end()) * 3;
     std::vector<int> earlier = w;
-    const int least = *std::min_element(w.begin(), w.end());
     std::vector<int> free_pairs(31);
     std::iota(free_pairs.begin(), free_pairs.end(), 0);
+    std::erase_if(free_pairs, [&](int i) {
+      bool hidden = false;
+      for (int bin = std::max(i - 2, 0); bin <= std::min(i + 1, 6); ++bin) {
+        hidden = hidden || open_.taken[static_cast<std::size_t>(bin)] > 127;
+      }
+      return hidden;
+    });
+    int least = 1 << 20;
+    for (const int i : free_pairs) {
+      least = std::min(least, w[static_cast<std::size_t>(i)]);
+    }
     const auto value = [&](int i) { return i < 0 || i > 30 ? 0 : w[static_cast<std::size_t>(i)]; };
     for (int k = 0; k < labels(); ++k) {
       const int peak = *std::max_element(free_pairs.begin(), free_pairs.end(),
@@ -678,6 +693,8 @@ void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acq
     parameters.coarse_share = open.coarse;
     parameters.track_share = open.track;
     parameters.second_target = open.second_target;
+    std::ranges::transform(open.taken, parameters.coarse_template.begin(),
+                           [](int entry) { return static_cast<std::uint8_t>(entry); });
     const auto actual = read_array(array, np, static_cast<std::uint32_t>(acquisitions), parameters);
     std::vector<std::vector<PixelResult>> expected;
     for (std::size_t begin = 0; begin < array.size(); begin += static_cast<std::size_t>(engine_columns)) {
@@ -880,6 +897,62 @@ TEST_F(PoolPointer2, OtherCellsAsReference) {
     }
   }
   EXPECT_GT(changed, 40U) << "the cells changed nothing";
+}
+
+TEST_F(PoolPointer2, TemplatesAsReference) {
+  CounterRandom draw = random(12);
+  std::size_t changed = 0;
+  for (int trial = 0; trial < 24; ++trial) {
+    const bool is_lean = trial % 2 == 1;
+    Reference::Open open{
+        .coarse = is_lean ? 10 : 14, .track = is_lean ? 14 : 20, .lean = is_lean, .second_target = true};
+    const auto array = surfaces(10, 2, 1 + pick(draw, 7), 1 + pick(draw, 24), 0.1, 900, draw);
+    const PoolPointer2Parameters usual =
+        with_cells(is_lean ? Readout::kPoolPointer2Lean : Readout::kPoolPointer2, 9);
+    PoolPointer2Parameters told = usual;
+    for (std::size_t i = 0; i < open.taken.size(); ++i) {
+      const std::array<int, 4> kinds = {0, 255, pick(draw, 256), pick(draw, 16)};
+      open.taken[i] = kinds[static_cast<std::size_t>(pick(draw, 4))];
+      told.coarse_template[i] = static_cast<std::uint8_t>(open.taken[i]);
+    }
+    expect_as_reference(array, 10, 900, 4, open);
+    changed += read_array(array, 10, 900, told) != read_array(array, 10, 900, usual) ? 1 : 0;
+  }
+  EXPECT_GT(changed, 12U) << "the templates changed nothing";
+}
+
+// A bin that is filled by what is in front of the sensor alone is no candidate, whatever it counts.
+TEST_F(PoolPointer2, TemplateHidesCrosstalk) {
+  CounterRandom draw = random(13);
+  constexpr int kAcquisitions = 1000;
+  constexpr int kTarget = 600;
+  std::vector<ColumnStream> array(4);
+  for (ColumnStream& column : array) {
+    for (int row = 0; row < 16; ++row) {
+      std::vector<Detection> stream;
+      for (std::uint32_t a = 0; a < kAcquisitions; ++a) {
+        if (draw.uniform() < 0.3) {
+          stream.push_back({a, static_cast<Timestamp>(40 + pick(draw, 20))});
+        }
+        if (draw.uniform() < 0.1) {
+          stream.push_back({a, static_cast<Timestamp>(kTarget + pick(draw, 20))});
+        }
+      }
+      column.append_row(stream);
+    }
+  }
+  PoolPointer2Parameters parameters;
+  const auto share_at_target = [&] {
+    int right = 0;
+    for (const auto& column : read_array(array, 10, kAcquisitions, parameters)) {
+      right += static_cast<int>(std::ranges::count_if(
+          column, [](const PixelResult& result) { return std::abs(result.code - kTarget - 10) < 20; }));
+    }
+    return right;
+  };
+  EXPECT_EQ(share_at_target(), 0);
+  parameters.coarse_template[1] = 255;
+  EXPECT_EQ(share_at_target(), 64);
 }
 
 // The numbers and switches that are still being chosen.

@@ -112,6 +112,24 @@ TEST_P(EveryPoolPointer2, AgreesWithModelWhateverItSees) {
   }
 }
 
+TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheTemplate) {
+  SCOPED_TRACE(test_seed_message());
+  CounterRandom random = test_random(test_seed(), 46);
+  RtlRunOptions options = default_options(test_seed());
+  for (const View view : kViews) {
+    RtlConfiguration configuration = GetParam();
+    for (std::uint8_t& entry : configuration.parameters.pool.coarse_template) {
+      const std::array<int, 4> kinds = {0, 255, pick(random, 256), pick(random, 16)};
+      entry = static_cast<std::uint8_t>(kinds[static_cast<std::size_t>(pick(random, 4))]);
+    }
+    RtlReadout rtl(configuration);
+    SCOPED_TRACE(testing::Message() << view_name(view) << ", " << configuration.parameters.to_string());
+    ASSERT_TRUE(agrees_with_model(rtl, shared_surfaces(configuration, frame_length(), view, random),
+                                  frame_length(), options));
+    options.reset_first = false;
+  }
+}
+
 // Every short frame, and schedules whose ends coincide or leave a phase a single acquisition.
 TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheSchedule) {
   SCOPED_TRACE(test_seed_message());

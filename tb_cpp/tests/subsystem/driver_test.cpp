@@ -98,8 +98,9 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
                          configuration.parameters.np, kPulsePicoseconds * 1e-12);
 
   std::vector<PoolPrior> priors;
+  PoolTemplate chosen_template{};
   for (std::size_t frame = 0; frame < 8; ++frame) {
-    const FrameSettings settings{
+    FrameSettings settings{
         .acquisitions = random() % 30,
         .gate = {pick(random, 4), configuration.parameters.no_detection() - pick(random, 4)},
         .weak_below = random() % 4,
@@ -121,6 +122,11 @@ TEST_P(Driver, ReadsFramesInMillimetres) {
     chosen.second_target = settings.second_target;
     chosen.smooth = settings.smooth;
     chosen.prior = settings.prior;
+    if (device_.has_schedule && frame % 2 == 0) {
+      chosen_template = random_template(random);
+      ASSERT_EQ(dtof_set_template(&device_, chosen_template.data()), DTOF_OK);
+    }
+    settings.coarse_template = chosen_template;
     std::vector<std::uint32_t> mask((columns + 31) / 32);
     for (std::size_t i = 0; i < columns; ++i) {
       mask[i / 32] |= settings.enabled[i] ? 1U << (i % 32) : 0U;

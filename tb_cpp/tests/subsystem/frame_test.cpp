@@ -38,7 +38,9 @@ TEST_P(SubsystemFrames, AreTheModelsUnderGapsAndBackPressure) {
   std::vector<PoolPrior> priors;
   for (std::size_t frame = 0; frame < 30; ++frame) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
-    const FrameSettings settings = random_settings(bench_.configuration(), random);
+    FrameSettings settings = random_settings(bench_.configuration(), random);
+    settings.coarse_template = pick(random, 2) == 0 ? random_template(random) : PoolTemplate{};
+    write_template(bench_, settings.coarse_template);
     // An acquisition that is not whole in the buffer must come without gaps (error_test.cpp has the others).
     bench_.source().gap_probability = whole ? 0.9 * random.uniform() : 0.0;
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
@@ -47,8 +49,13 @@ TEST_P(SubsystemFrames, AreTheModelsUnderGapsAndBackPressure) {
     push_lines(bench_, lines);
     bench_.clocks(random() % 20);
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
-    // Settings are the frame's from here on.
+    // Settings are the frame's from here on, and what is not sampled cannot be written.
     write_settings(bench_, random_settings(bench_.configuration(), random));
+    if (is_pool_readout(bench_.configuration().parameters.readout)) {
+      const bool refused =
+          bench_.write(DTOF_TEMPLATE + 4 * static_cast<std::uint32_t>(pick(random, 8)), random()).error;
+      EXPECT_TRUE(refused || (bench_.get(DTOF_STATUS) & DTOF_STATUS_BUSY_MASK) == 0) << "in the frame";
+    }
     bench_.wait_for_frames(1);
     EXPECT_EQ(bench_.frames().back().lines, lines);
     ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, lines, &priors));

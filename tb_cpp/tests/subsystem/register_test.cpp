@@ -108,6 +108,9 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
   if (offset == DTOF_COARSE_END || offset == DTOF_TRACK_END) {
     return pool ? 0xFFFF : 0;
   }
+  if (offset >= DTOF_TEMPLATE && offset < DTOF_TEMPLATE + 4 * DTOF_TEMPLATE_NUMBER) {
+    return pool ? 0xFFFFFFFFU : 0;
+  }
   if (offset == DTOF_GATE) {
     return parameters.time_gate ? codes << DTOF_GATE_BEGIN_LSB | codes << DTOF_GATE_END_LSB : 0;
   }
@@ -126,6 +129,9 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
                                         DTOF_WATCHDOG,   DTOF_SHOT,         DTOF_SHOT_SEED};
   for (std::uint32_t i = 0; i < DTOF_COLUMN_ENABLE_NUMBER; ++i) {
     offsets.push_back(DTOF_COLUMN_ENABLE + 4 * i);
+  }
+  for (std::uint32_t i = 0; i < DTOF_TEMPLATE_NUMBER; ++i) {
+    offsets.push_back(DTOF_TEMPLATE + 4 * i);
   }
   std::vector<std::uint32_t> values;
   values.reserve(offsets.size());
@@ -179,7 +185,7 @@ TEST_P(Subsystem, ReadsBehindAResetWhatTheMapsSay) {
 }
 
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x124U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x144U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }

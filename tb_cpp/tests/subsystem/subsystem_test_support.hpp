@@ -73,6 +73,7 @@ struct FrameSettings {
   bool prior = false;          ///< likewise
   int raw_first = 0;
   int raw_last = 0;
+  PoolTemplate coarse_template{};  ///< without effect where there is none
 };
 
 /// Bits of OUTPUT that the configuration has.
@@ -117,6 +118,29 @@ inline void write_settings(SubsystemBench& bench, const FrameSettings& settings)
   }
 }
 
+/// Writes TEMPLATE, which is there only for a pool read-out and not while a frame is under way.
+inline void write_template(SubsystemBench& bench, const PoolTemplate& coarse_template) {
+  if (is_pool_readout(bench.configuration().parameters.readout)) {
+    for (std::size_t i = 0; i < coarse_template.size(); i += 4) {
+      std::uint32_t word = 0;
+      for (std::size_t k = 0; k < 4; ++k) {
+        word |= std::uint32_t{coarse_template[i + k]} << (8 * k);
+      }
+      bench.set(static_cast<std::uint32_t>(DTOF_TEMPLATE + i), word);
+    }
+  }
+}
+
+/// Entries of all kinds: nothing, all, much, little.
+inline PoolTemplate random_template(CounterRandom& random) {
+  PoolTemplate coarse_template{};
+  for (std::uint8_t& entry : coarse_template) {
+    const std::array<int, 4> kinds = {0, 255, pick(random, 256), pick(random, 16)};
+    entry = static_cast<std::uint8_t>(kinds[static_cast<std::size_t>(pick(random, 4))]);
+  }
+  return coarse_template;
+}
+
 /// The words of a frame whose array took `lines`: the C++ model's results, and the status. `priors`: what the
 /// array keeps from frame to frame, where a setting has it begin from that.
 inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const FrameSettings& settings,
@@ -128,6 +152,7 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     parameters.time_gate = settings.gate;
   }
   parameters.pool.smooth = settings.smooth;
+  parameters.pool.coarse_template = settings.coarse_template;
   const auto rows = static_cast<std::size_t>(configuration.pixels_per_sram);
   const auto slots = static_cast<std::size_t>(parameters.slots);
   std::vector<ColumnStream> streams;
