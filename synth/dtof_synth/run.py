@@ -51,14 +51,16 @@ _SIZING = "topo;buffer,-c;upsize,{D};dnsize,{D};stime,-p"
 _START = "+strash;ifraig;scorr;dc2"
 _BALANCE = "dch,-f;if,-g;strash"
 _MAP = "dch,-f;map,-B,0.9,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
+_MAP_FROM_SMALL = "dch,-f;map,-B,0.7,{D};topo;strash;dch,-f;map,-B,0.7,{D};topo;strash;dch,-f;map,-B,0.9,{D}"
 _AREA_MAP = "&get,-n;&syn3;&syn3;&dch,-f;&nf;&put"
 _SMALLEST = ";".join([_START, _BALANCE, _AREA_MAP, _SIZING])
 _SMALL = ";".join([_START, _BALANCE, _MAP, _SIZING])
+_PAIR = ";".join([_START, _BALANCE, _MAP_FROM_SMALL, _SIZING])
 _FAST = ";".join([_START, _BALANCE, _BALANCE, _MAP, _SIZING])
 # From small to fast; the first that closes timing with margins is taken. The larger parts of the pool read-outs become slower
 # as well as larger where ABC tries harder: what they miss is left to resizing.
 EFFORTS = (Effort(0.62, _SMALLEST, _FAST), Effort(0.62, _SMALL, _FAST), Effort(0.55, _FAST, _FAST))
-POOL_EFFORTS = (Effort(0.75, _SMALL, _SMALL), Effort(0.72, _SMALL, _SMALL), Effort(0.68, _SMALL, _SMALL))
+POOL_EFFORTS = (Effort(0.68, _PAIR, _SMALL), Effort(0.68, _FAST, _SMALL), Effort(0.68, _SMALL, _SMALL))
 LAYOUT_EFFORT = Effort(0.68, _SMALL, _SMALL)
 
 
