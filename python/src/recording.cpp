@@ -96,7 +96,7 @@ py::dict read_results(const std::filesystem::path& file) {
 void bind_recordings(py::module_& module) {
   py::class_<HeldRecording>(module, "Recording", "A recorded frame.")
       .def_readonly("description", &HeldRecording::description, "A few words on the file.")
-      .def_readonly("format", &HeldRecording::format, "csv, npy, mat, tmf8820 or tmf8829.")
+      .def_readonly("format", &HeldRecording::format, "csv, npy, npz, mat, hdf5, picoquant, tmf8820 or tmf8829.")
       .def_readonly("photons", &HeldRecording::photons)
       .def_property_readonly("true_distance_m", &true_distances,
                              "float64 (rows, columns), m, NaN is unknown; None if the file knows none.");
@@ -105,8 +105,8 @@ void bind_recordings(py::module_& module) {
              "acquisitions"_a = py::none(), "columns"_a = py::none(), "rows"_a = py::none(), "np"_a = 10,
              "slots"_a = 2, "integration_time_s"_a = 45e-9, "time_shift_s"_a = 0.0, "photons"_a = py::none(),
              "background"_a = 0.0, "seed"_a = 1, "frame"_a = 0,
-             "Reads a recording as `dtof replay` does: a TDC stream (CSV), histograms (NPY, TMF8820, "
-             "TMF8829), photon times (MAT).");
+             "Reads a recording as `dtof replay` does: a TDC stream (CSV), histograms (NPY, NPZ, HDF5, MAT, "
+             "TMF8820, TMF8829), photon times (MAT), time tags (PTU, HT3).");
   module.def("read_results", &read_results, "file"_a,
              "Arrays of a result file's lines: column, row, code, fraction, confidence.");
 }

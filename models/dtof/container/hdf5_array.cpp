@@ -150,28 +150,6 @@ void collect_names(hid_t group, const std::string& prefix, int depth, std::vecto
   }
 }
 
-/// An element of an array whose axes are in the opposite order: the last index of `extents` is the fastest
-/// one of the result, the first index that of `values`.
-std::vector<double> with_axes_reversed(const std::vector<double>& values,
-                                       const std::vector<std::size_t>& extents) {
-  std::vector<double> reordered(values.size());
-  std::vector<std::size_t> index(extents.size(), 0);
-  for (double& value : reordered) {
-    std::size_t source = 0;
-    for (std::size_t axis = extents.size(); axis-- > 0;) {
-      source = source * extents[axis] + index[axis];
-    }
-    value = values[source];
-    for (std::size_t axis = extents.size(); axis-- > 0;) {
-      if (++index[axis] < extents[axis]) {
-        break;
-      }
-      index[axis] = 0;
-    }
-  }
-  return reordered;
-}
-
 /// The numbers of a dataset; `name` for refusals.
 NpyArray read_dataset(const std::filesystem::path& path, hid_t dataset, const std::string& name) {
   const auto fail = [&](const std::string& reason) {
@@ -204,7 +182,7 @@ NpyArray read_dataset(const std::filesystem::path& path, hid_t dataset, const st
   }
   if (!matlab_class(dataset).empty()) {
     std::reverse(array.shape.begin(), array.shape.end());
-    array.values = with_axes_reversed(array.values, array.shape);
+    array.values = c_order_of_reversed(array.values, array.shape);
   }
   return array;
 }

@@ -255,6 +255,26 @@ NpyArray parse_npy(const std::filesystem::path& path, std::string_view file) {
   return array;
 }
 
+std::vector<double> c_order_of_reversed(std::span<const double> elements,
+                                        std::span<const std::size_t> shape) {
+  std::vector<double> reordered(elements.size());
+  std::vector<std::size_t> index(shape.size(), 0);
+  for (double& value : reordered) {
+    std::size_t source = 0;
+    for (std::size_t axis = shape.size(); axis-- > 0;) {
+      source = source * shape[axis] + index[axis];
+    }
+    value = elements[source];
+    for (std::size_t axis = shape.size(); axis-- > 0;) {
+      if (++index[axis] < shape[axis]) {
+        break;
+      }
+      index[axis] = 0;
+    }
+  }
+  return reordered;
+}
+
 std::string npy_header(std::string_view dtype, std::span<const std::size_t> shape) {
   std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", dtype,
                                    fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
