@@ -425,10 +425,10 @@ void run_replay_command(const ReplayOptions& options, RecordingFile file) {
 void add_replay_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<ReplayOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand(
-      "replay",
-      "Reads out recorded data: TDC streams (CSV), histograms (NPY, NPZ, HDF5, MAT, TMF8820, TMF8829), photon "
-      "times (MAT), time tags (PTU, HT3)");
+  CLI::App* command = app.add_subcommand("replay",
+                                         "Reads out recorded data: TDC streams (CSV), histograms (NPY, NPZ, "
+                                         "HDF5, MAT, TMF8820, TMF8829), photon "
+                                         "times (MAT), time tags (PTU, HT3)");
   command
       ->add_option("file", options->recording.file,
                    "recording; an array of an archive is file.npz:name, file.h5:/group/name or file.mat:name")

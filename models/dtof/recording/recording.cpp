@@ -101,7 +101,7 @@ std::string left_out_phrase(std::size_t count, std::string_view what) {
   return count == 0 ? "" : fmt::format(", {} {} left out", count, what);
 }
 
-Measurement open_tmf8820(const RecordingOptions& options, const RecordingFile& file) {
+RecordedData open_tmf8820(const RecordingOptions& options, const RecordingFile& file) {
   Tmf8820Log log;
   if (is_tmf8820_log(file.contents)) {
     log = parse_tmf8820_log(options.file, file.contents);
@@ -113,7 +113,7 @@ Measurement open_tmf8820(const RecordingOptions& options, const RecordingFile& f
           .data = tmf8820_cube(log.captures, kTmf8820BinWidth, 0.0, options.file)};
 }
 
-Measurement open_stream(const RecordingOptions& options, const RecordingFile& file) {
+RecordedData open_stream(const RecordingOptions& options, const RecordingFile& file) {
   RecordedStream stream = parse_stream_csv(options.file, file.contents,
                                            {.np = options.resampling.np,
                                             .slots = options.resampling.slots,
@@ -124,7 +124,7 @@ Measurement open_stream(const RecordingOptions& options, const RecordingFile& fi
   return {.description = std::move(description), .data = std::move(stream)};
 }
 
-Measurement from_times(PhotonTimes photons) {
+RecordedData from_times(PhotonTimes photons) {
   std::string description = fmt::format("photon times, {} photons of {} x {} pixels", photons.ticks.size(),
                                         photons.columns, photons.rows);
   return {.description = std::move(description), .data = std::move(photons)};
@@ -171,6 +171,17 @@ double bin_width_of(const RecordingOptions& options, const RecordingFile& file) 
                                file.format == "npy" ? "an NPY histogram" : "a histogram"));
 }
 
+/// What an archive of `dtof convert` holds beside its bin width and the like; empty for another archive.
+std::string own_array(const std::filesystem::path& path, std::string_view contents) {
+  const std::vector<std::string> names = npz_names(path, contents);
+  for (const char* const name : {"histograms", "depth_m"}) {
+    if (std::ranges::find(names, name) != names.end()) {
+      return name;
+    }
+  }
+  return "";
+}
+
 }  // namespace
 
 RecordingFile read_recording(const RecordingOptions& options) {
@@ -207,7 +218,7 @@ NpyArray open_array(const RecordingOptions& options, const RecordingFile& file) 
     return parse_npy(path, file.contents);
   }
   if (file.format == "npz") {
-    return parse_npz(path, file.contents, array);
+    return parse_npz(path, file.contents, array.empty() ? own_array(path, file.contents) : array);
   }
   if (file.format == "mat") {
     return parse_mat_array(path, file.contents, variable_of(options));
@@ -215,7 +226,7 @@ NpyArray open_array(const RecordingOptions& options, const RecordingFile& file) 
   return read_hdf5_array(path, array);
 }
 
-Measurement open_measurement(const RecordingOptions& options, RecordingFile file) {
+RecordedData open_recorded_data(const RecordingOptions& options, RecordingFile file) {
   if (file.format == "csv") {
     return open_stream(options, file);
   }
@@ -252,7 +263,7 @@ Recording open_recording(const RecordingOptions& options, RecordingFile file) {
   if (options.acquisitions) {
     resampling.acquisitions = *options.acquisitions;
   }
-  Measurement measurement = open_measurement(options, std::move(file));
+  RecordedData measurement = open_recorded_data(options, std::move(file));
   Recording recording;
   recording.description = std::move(measurement.description);
   if (auto* const cube = std::get_if<HistogramCube>(&measurement.data)) {

@@ -44,7 +44,7 @@ struct RecordingFile {
 };
 
 /// What a file holds, before photons are drawn from it.
-struct Measurement {
+struct RecordedData {
   std::string description;
   std::variant<HistogramCube, PhotonTimes, RecordedStream> data;
 };
@@ -63,10 +63,11 @@ RecordingFile read_recording(const RecordingOptions& options);
 
 /// What a file that has been read holds; its contents are released. Throws InputError that names the file
 /// (and line) and what is wrong with it.
-Measurement open_measurement(const RecordingOptions& options, RecordingFile file);
+RecordedData open_recorded_data(const RecordingOptions& options, RecordingFile file);
 
-/// The array in a file of format npy, npz, mat or hdf5, as it stands there. A MATLAB variable without a name
-/// in `options.file` is `options.variable`. Throws InputError.
+/// The array in a file of format npy, npz, mat or hdf5, as it stands there. Of an archive without a name in
+/// `options.file` it is "histograms" or "depth_m", as `dtof convert` names them, else the only one. A MATLAB
+/// variable without a name in `options.file` is `options.variable`. Throws InputError.
 NpyArray open_array(const RecordingOptions& options, const RecordingFile& file);
 
 /// The frame of a file that has been read; its contents are released. Throws InputError that names the file

@@ -139,7 +139,7 @@ TEST_F(PicoquantTest, ASampleIsARecording) {
   const RecordingOptions options{.file = sample.string()};
   RecordingFile file = read_recording(options);
   EXPECT_EQ(file.format, "picoquant");
-  const Measurement measurement = open_measurement(options, std::move(file));
+  const RecordedData measurement = open_recorded_data(options, std::move(file));
   EXPECT_EQ(measurement.description, "PicoQuant HydraHarp 400, T3, 44141 photons");
   const auto& cube = std::get<HistogramCube>(measurement.data);
   EXPECT_EQ(cube.columns, 4);
