@@ -289,8 +289,8 @@ PicoquantCount PicoquantFile::read(const std::function<void(const PicoquantEvent
 }
 
 std::string picoquant_description(const PicoquantHeader& header, const PicoquantCount& count) {
-  std::string text =
-      fmt::format("PicoQuant {}, T{}, {} photons", header.instrument, header.mode, count.photons);
+  std::string text = fmt::format("PicoQuant{}{}, T{}, {} photons", header.instrument.empty() ? "" : " ",
+                                 header.instrument, header.mode, count.photons);
   if (count.syncs != 0) {
     text += fmt::format(" and {} syncs", count.syncs);
   }

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files as they are met in the wild: made here, each with the sentence that it gets.
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <string>
+#include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "dtof/container/npz.hpp"
@@ -39,6 +43,24 @@ class MalformedTest : public test::IoTest {
   [[nodiscard]] std::string gzip_of(const std::string& bytes) const {
     write_gzip_file(path("made.gz"), bytes);
     return contents(path("made.gz"));
+  }
+  /// Time tags of a HydraHarp: a header's end and so many records of one photon each.
+  [[nodiscard]] static std::string ptu_of(std::size_t records) {
+    std::string file(
+        "PQTTTR\0\0"
+        "1.0.00\0\0",
+        16);
+    for (const auto& [name, type, value] :
+         {std::tuple{"TTResultFormat_TTTRRecType", 0x10000008U, std::uint64_t{0x01010304}},
+          {"MeasDesc_Resolution", 0x20000008U, std::bit_cast<std::uint64_t>(1e-12)},
+          {"Header_End", 0xFFFF0008U, std::uint64_t{0}}}) {
+      std::string tag(48, '\0');
+      tag.replace(0, std::string_view(name).size(), name);
+      std::memcpy(&tag[36], &type, sizeof type);
+      std::memcpy(&tag[40], &value, sizeof value);
+      file += tag;
+    }
+    return file + std::string(4 * records, '\1');
   }
   [[nodiscard]] std::vector<MalformedFile> table() const;
 };
@@ -90,6 +112,8 @@ std::vector<MalformedFile> MalformedTest::table() const {
       {"JSON cut by a switched-off logger", "a.json", "[{\"hists\": [1, 2", "a.npy",
        " parse error at line 1, column 17: syntax error while parsing array - unexpected end of input; "
        "expected ']'"},
+      {"time tags cut in a record, behind a megabyte of output", "a.ptu", ptu_of(200000) + "x", "a.csv",
+       " the file ends in record 200000"},
       {"time tags cut in the header", "a.ptu",
        std::string("PQTTTR\0\0"
                    "1.0.00\0\0",
@@ -108,9 +132,10 @@ TEST_F(MalformedTest, EachFileHasItsSentenceAndLeavesNoOutput) {
     }
     const ConversionOptions options{.out = path("out" + one.out).string(),
                                     .recording = {.file = file.string()}};
+    const std::size_t files = file_count();
     test::expect_input_error([&] { (void)convert(options, open_conversion(options)); },
                              file.string() + ":" + sentence);
-    EXPECT_FALSE(std::filesystem::exists(options.out));
+    EXPECT_EQ(file_count(), files);
     std::filesystem::remove(file);
   }
 }
