@@ -9,11 +9,13 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "dtof/container/read_apart.hpp"
 #include "dtof/io/input_file.hpp"
 
 namespace dtof {
@@ -187,29 +189,7 @@ NpyArray read_dataset(const std::filesystem::path& path, hid_t dataset, const st
   return array;
 }
 
-/// Opens the dataset; the name may lack the slash in front.
-Handle open_dataset(const std::filesystem::path& path, hid_t file, const std::string& name) {
-  Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!dataset.good()) {
-    const std::vector<std::string> names = hdf5_names(path);
-    fail_in_file(path, fmt::format("the file has no dataset '{}'{}{}", name, names.empty() ? "" : ", but ",
-                                   fmt::join(names, ", ")));
-  }
-  return dataset;
-}
-
-}  // namespace
-
-bool is_hdf5(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    return false;
-  }
-  const QuietHdf5 quiet;
-  return H5Fis_hdf5(path.c_str()) > 0;
-}
-
-std::vector<std::string> hdf5_names(const std::filesystem::path& path) {
+std::vector<std::string> names_in(const std::filesystem::path& path) {
   const QuietHdf5 quiet;
   const Handle file = open_file(path);
   const Handle root(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose);
@@ -221,11 +201,22 @@ std::vector<std::string> hdf5_names(const std::filesystem::path& path) {
   return names;
 }
 
-NpyArray read_hdf5_array(const std::filesystem::path& path, const std::string& name) {
+/// Opens the dataset; the name may lack the slash in front.
+Handle open_dataset(const std::filesystem::path& path, hid_t file, const std::string& name) {
+  Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!dataset.good()) {
+    const std::vector<std::string> names = names_in(path);
+    fail_in_file(path, fmt::format("the file has no dataset '{}'{}{}", name, names.empty() ? "" : ", but ",
+                                   fmt::join(names, ", ")));
+  }
+  return dataset;
+}
+
+NpyArray array_in(const std::filesystem::path& path, const std::string& name) {
   const QuietHdf5 quiet;
   std::string wanted = name;
   if (name.empty()) {
-    const std::vector<std::string> names = hdf5_names(path);
+    const std::vector<std::string> names = names_in(path);
     if (names.empty()) {
       fail_in_file(path, "the file has no dataset of numbers");
     }
@@ -240,14 +231,14 @@ NpyArray read_hdf5_array(const std::filesystem::path& path, const std::string& n
   return read_dataset(path, dataset.id(), wanted);
 }
 
-bool is_hdf5_cell_array(const std::filesystem::path& path, const std::string& name) {
+bool is_cell_array_in(const std::filesystem::path& path, const std::string& name) {
   const QuietHdf5 quiet;
   const Handle file = open_file(path);
   const Handle dataset(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   return dataset.good() && matlab_class(dataset.id()) == "cell";
 }
 
-Hdf5Cells read_hdf5_cells(const std::filesystem::path& path, const std::string& name) {
+Hdf5Cells cells_in(const std::filesystem::path& path, const std::string& name) {
   const QuietHdf5 quiet;
   const Handle file = open_file(path);
   const Handle dataset = open_dataset(path, file.id(), name);
@@ -285,6 +276,65 @@ Hdf5Cells read_hdf5_cells(const std::filesystem::path& path, const std::string& 
     }
   }
   return result;
+}
+
+}  // namespace
+
+bool is_hdf5(const std::filesystem::path& path) {
+  constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) {
+    return false;
+  }
+  // Others may put 512 bytes in front, or a power of two more: MATLAB does.
+  std::ifstream file(path, std::ios::binary);
+  std::string start(kSignature.size(), '\0');
+  for (std::streamoff offset = 0; file; offset = offset == 0 ? 512 : offset * 2) {
+    file.seekg(offset);
+    if (file.read(start.data(), static_cast<std::streamsize>(start.size())) && start == kSignature) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<std::string> hdf5_names(const std::filesystem::path& path) {
+  return read_apart(path, [&] { return ReadAnswer{.names = names_in(path)}; }).names;
+}
+
+NpyArray read_hdf5_array(const std::filesystem::path& path, const std::string& name) {
+  ReadAnswer answer = read_apart(path, [&] {
+    NpyArray array = array_in(path, name);
+    return ReadAnswer{.sizes = std::move(array.shape), .values = std::move(array.values)};
+  });
+  return {.shape = std::move(answer.sizes), .values = std::move(answer.values)};
+}
+
+bool is_hdf5_cell_array(const std::filesystem::path& path, const std::string& name) {
+  return read_apart(path, [&] {
+           return ReadAnswer{.sizes = {is_cell_array_in(path, name) ? 1U : 0U}};
+         }).sizes.at(0) == 1;
+}
+
+Hdf5Cells read_hdf5_cells(const std::filesystem::path& path, const std::string& name) {
+  // The shape, the length of each cell, and all cells' numbers.
+  const ReadAnswer answer = read_apart(path, [&] {
+    const Hdf5Cells cells = cells_in(path, name);
+    ReadAnswer flat{.sizes = cells.shape};
+    for (const std::vector<double>& cell : cells.cells) {
+      flat.sizes.push_back(cell.size());
+      flat.values.insert(flat.values.end(), cell.begin(), cell.end());
+    }
+    return flat;
+  });
+  Hdf5Cells cells{.shape = {answer.sizes.at(0), answer.sizes.at(1)}, .cells = {}};
+  auto next = answer.values.begin();
+  for (std::size_t i = 2; i < answer.sizes.size(); ++i) {
+    const auto end = next + static_cast<std::ptrdiff_t>(answer.sizes[i]);
+    cells.cells.emplace_back(next, end);
+    next = end;
+  }
+  return cells;
 }
 
 }  // namespace dtof

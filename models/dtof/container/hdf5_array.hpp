@@ -10,6 +10,9 @@
 
 namespace dtof {
 
+// libhdf5 trusts what a file says, and a damaged one can bring it down: it works in a process of its own
+// (read_apart.hpp), which is then missed by nobody.
+
 /// Whether a file is HDF5: MATLAB's files of version 7.3 are. A pipe is none, since HDF5 is read here and
 /// there in the file.
 bool is_hdf5(const std::filesystem::path& path);
