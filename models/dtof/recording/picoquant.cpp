@@ -207,8 +207,8 @@ class PicoquantFile::Reader {
     header.instrument = until_zero(std::string_view(text).substr(0x218, 16));
     header.unit_ps = number_at<double>(text, header.mode == 3 ? 0x160 : 0x288);
     layout_ = version == "1.0" ? kFirstHydraHarp : kSecondHydraHarp;
-    // Of each input four settings and a rate; then the sync's rate, two numbers, the length of an image
-    // header in words, and the number of records.
+    // Each input has four settings and a rate; then follow the sync's rate, two numbers, the length of an
+    // image header in words, and the number of records.
     (void)bytes_.take(static_cast<std::size_t>(channels) * 20, "its header");
     const std::string last = bytes_.take(24, "its header");
     header.sync_rate = number_at<std::int32_t>(last, 0);

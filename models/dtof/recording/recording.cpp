@@ -245,7 +245,7 @@ RecordedData open_recorded_data(const RecordingOptions& options, RecordingFile f
     HistogramCube cube = picoquant_cube(path, description);
     return {.description = std::move(description), .data = std::move(cube)};
   }
-  // Of MATLAB's variables a cell array has photon times, another one histograms.
+  // A cell array of MATLAB has photon times, another variable histograms.
   if (file.format == "mat" && !options.bin_width_s) {
     return from_times(parse_photon_times_mat(path, file.contents, variable_of(options)));
   }
