@@ -119,8 +119,8 @@ std::string convert_array(const ConversionOptions& options, const ConversionInpu
 }
 
 /// Histograms (rows, columns, bins).
-std::string convert_to_histograms(const ConversionOptions& options, ConversionInput input) {
-  RecordedData measurement = open_recorded_data(options.recording, std::move(input.file));
+std::string convert_to_histograms(const ConversionOptions& options, const ConversionInput& input) {
+  RecordedData measurement = open_recorded_data(options.recording, input.file);
   const std::string description = measurement.description;
   const CountedHistograms counted = count_histograms(std::move(measurement), options.recording);
   const HistogramCube& cube = counted.cube;
@@ -237,7 +237,7 @@ std::string convert(const ConversionOptions& options, ConversionInput input) {
     return convert_map(options, input);
   }
   return input.kind == InputKind::kArray ? convert_array(options, input)
-                                         : convert_to_histograms(options, std::move(input));
+                                         : convert_to_histograms(options, input);
 }
 
 }  // namespace dtof

@@ -25,7 +25,7 @@ gzFile open_stream(const std::filesystem::path& path) {
   if (std::filesystem::is_character_file(path, error)) {
     fail_in_file(path, "cannot read: it is a device");
   }
-  const gzFile file = gzopen(path.c_str(), "rbe");
+  gzFile file = gzopen(path.c_str(), "rbe");
   if (file == nullptr) {
     fail_in_file(path, fmt::format("cannot read: {}", std::generic_category().message(errno)));
   }

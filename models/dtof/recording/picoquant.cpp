@@ -159,7 +159,7 @@ class PicoquantFile::Reader {
         fail_in_file(path_, "the header has no end");
       }
       const Tag tag = take_tag();
-      const double number = std::bit_cast<double>(tag.bits);
+      const auto number = std::bit_cast<double>(tag.bits);
       if (tag.name == "HW_Type") {
         header.instrument = until_zero(tag.text);
       } else if (tag.name == "TTResultFormat_TTTRRecType") {

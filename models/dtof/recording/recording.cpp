@@ -226,7 +226,7 @@ NpyArray open_array(const RecordingOptions& options, const RecordingFile& file) 
   return read_hdf5_array(path, array);
 }
 
-RecordedData open_recorded_data(const RecordingOptions& options, RecordingFile file) {
+RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file) {
   if (file.format == "csv") {
     return open_stream(options, file);
   }
@@ -263,7 +263,8 @@ Recording open_recording(const RecordingOptions& options, RecordingFile file) {
   if (options.acquisitions) {
     resampling.acquisitions = *options.acquisitions;
   }
-  RecordedData measurement = open_recorded_data(options, std::move(file));
+  RecordedData measurement = open_recorded_data(options, file);
+  file = {};  // its contents
   Recording recording;
   recording.description = std::move(measurement.description);
   if (auto* const cube = std::get_if<HistogramCube>(&measurement.data)) {

@@ -61,9 +61,9 @@ struct Recording {
 /// Throws InputError.
 RecordingFile read_recording(const RecordingOptions& options);
 
-/// What a file that has been read holds; its contents are released. Throws InputError that names the file
+/// What a file that has been read holds. Throws InputError that names the file
 /// (and line) and what is wrong with it.
-RecordedData open_recorded_data(const RecordingOptions& options, RecordingFile file);
+RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file);
 
 /// The array in a file of format npy, npz, mat or hdf5, as it stands there. Of an archive without a name in
 /// `options.file` it is "histograms" or "depth_m", as `dtof convert` names them, else the only one. A MATLAB

@@ -137,9 +137,9 @@ TEST_F(PicoquantTest, ASampleIsARecording) {
   const std::filesystem::path sample = test::shared_data("picoquant/v20.ht3");
   DTOF_SKIP_IF_ABSENT(sample);
   const RecordingOptions options{.file = sample.string()};
-  RecordingFile file = read_recording(options);
+  const RecordingFile file = read_recording(options);
   EXPECT_EQ(file.format, "picoquant");
-  const RecordedData measurement = open_recorded_data(options, std::move(file));
+  const RecordedData measurement = open_recorded_data(options, file);
   EXPECT_EQ(measurement.description, "PicoQuant HydraHarp 400, T3, 44141 photons");
   const auto& cube = std::get<HistogramCube>(measurement.data);
   EXPECT_EQ(cube.columns, 4);
