@@ -61,7 +61,7 @@ TEST_F(ConvertCommand, ADepthMapOfAFrameBecomesAPointCloudWithItsConfidence) {
 }
 
 TEST_F(ConvertCommand, HistogramsAreReplayedFromAnArchiveThatKnowsItsBins) {
-  std::vector<double> counts(2 * 3 * 16, 0.0);
+  std::vector<double> counts(96, 0.0);  // 2 rows, 3 columns, 16 bins
   for (std::size_t pixel = 0; pixel < 6; ++pixel) {
     counts[pixel * 16 + 5] = 40.0;
   }

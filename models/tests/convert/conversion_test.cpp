@@ -22,7 +22,6 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 class ConversionTest : public test::IoTest {
  protected:
