@@ -143,14 +143,16 @@ NpzWriter::NpzWriter(const std::filesystem::path& path)
   }
   const auto write = [](archive* /*archive*/, void* self, const void* bytes,
                         std::size_t count) -> la_ssize_t {
+    // The library frees all it has only where writing never fails: `check` tells of the failure instead.
     auto* const writer = static_cast<NpzWriter*>(self);
     try {
-      writer->file_.append({static_cast<const char*>(bytes), count});
-      return static_cast<la_ssize_t>(count);
+      if (!writer->failure_ && !writer->abandoned_) {
+        writer->file_.append({static_cast<const char*>(bytes), count});
+      }
     } catch (...) {
       writer->failure_ = std::current_exception();
-      return ARCHIVE_FATAL;
     }
+    return static_cast<la_ssize_t>(count);
   };
   check(archive_write_set_format_zip(archive_.get()));
   check(archive_write_zip_set_compression_deflate(archive_.get()));
@@ -158,8 +160,8 @@ NpzWriter::NpzWriter(const std::filesystem::path& path)
   check(archive_write_open(archive_.get(), this, nullptr, write, nullptr));
 }
 
-// What is not committed need not be written any more.
-NpzWriter::~NpzWriter() { (void)archive_write_fail(archive_.get()); }
+// Freeing the archive ends it; what is not committed need not be written any more.
+NpzWriter::~NpzWriter() { abandoned_ = true; }
 
 void NpzWriter::add(const std::string& name, std::span<const std::size_t> shape,
                     std::span<const double> values) {

@@ -53,6 +53,7 @@ class NpzWriter {
   std::filesystem::path path_;
   AtomicFile file_;
   std::exception_ptr failure_;  ///< of the file, which must not leave through the library's code
+  bool abandoned_ = false;      ///< nothing is written any more
   std::unique_ptr<archive, int (*)(archive*)> archive_;
 };
 

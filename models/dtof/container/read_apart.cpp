@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dtof/container/read_apart.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -98,6 +99,10 @@ class Receiver {
     std::signal(signal, SIG_DFL);
   }
   std::signal(SIGPIPE, SIG_IGN);
+  // What a C library says of its own end is nothing for the user.
+  if (const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC); nowhere >= 0) {
+    ::dup2(nowhere, STDERR_FILENO);
+  }
   const Sender sender(descriptor);
   try {
     const ReadAnswer answer = read();

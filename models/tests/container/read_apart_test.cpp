@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -28,16 +29,19 @@ TEST(ReadApart, GivesTheAnswerOfTheOtherProcess) {
 }
 
 TEST(ReadApart, ACrashIsARefusal) {
+  testing::internal::CaptureStderr();
   for (const int signal : {SIGSEGV, SIGABRT, SIGKILL}) {
     test::expect_input_error(
         [&] {
           (void)read_apart("a", [&]() -> ReadAnswer {
+            std::fputs("last words\n", stderr);
             std::raise(signal);
             return {};
           });
         },
         "a: damaged: the library that reads such files ended without an answer");
   }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   test::expect_input_error(
       [] { (void)read_apart("a", []() -> ReadAnswer { throw InputError("a: its own"); }); }, "a: its own");
 }
