@@ -9,7 +9,7 @@
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 
-set(DTOF_MODEL_LIBRARIES core io photon sensor scene readout metrics analytic host frame pipeline recording)
+set(DTOF_MODEL_LIBRARIES core io photon sensor scene readout metrics analytic host frame pipeline container recording convert)
 foreach(library ${DTOF_MODEL_LIBRARIES})
   set_target_properties(dtof_${library} PROPERTIES EXPORT_NAME ${library})
   get_target_property(internal dtof_${library} DTOF_INTERNAL_HEADERS)

@@ -21,7 +21,7 @@ export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=halt_on_error=1:print_stacktrac
 for target in "${targets[@]}"; do
   mkdir -p "$folder/corpus/$target"
   log=$folder/$target.log
-  if ! "$folder/cpp/fuzz/fuzz_$target" -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=4096 \
+  if ! "$folder/cpp/bin/fuzz_$target" -max_total_time="$seconds" -max_len=16384 -timeout=20 -rss_limit_mb=4096 \
       -close_fd_mask=1 -artifact_prefix="$folder/findings/$target-" -print_final_stats=1 \
       "$folder/corpus/$target" "tests/fuzz/corpus/$target" > "$log" 2>&1; then
     tail -40 "$log"

@@ -14,6 +14,8 @@ Program dtof_program() {
           "  dtof frame --scene room --readout all --out build/room      model every read-out on one scene\n"
           "  dtof frame --readout sifh --engine rtl --verify --columns 0-7 --out build/sifh\n"
           "  dtof replay recording.csv --readout hispointer --engine rtl --out build/replay\n"
+          "  dtof convert depth.png cloud.pcd                            a file of one format as one of "
+          "another\n"
           "  dtof video --scene room --motion pan --frames 8 --out build/pan\n"
           "  dtof sensor thesis                                          a sensor file to start from\n"
           "  dtof product --sensor mine.toml --readout sifh --out chip    RTL, driver and bench for that "
@@ -23,6 +25,7 @@ Program dtof_program() {
       .add_commands = [](CLI::App& app, const std::string& command_line) {
         add_frame_command(app, command_line);
         add_replay_command(app, command_line);
+        add_convert_command(app);
         add_video_command(app, command_line);
         add_sensor_command(app);
         add_product_command(app, command_line);

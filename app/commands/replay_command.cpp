@@ -262,14 +262,21 @@ void check_recording_options(const CLI::App& command, const std::string& format)
       refuse_without_effect(command, option, "only a TDC stream (CSV) does not know its array");
     }
   }
-  if (format != "npy") {
-    refuse_without_effect(command, "--bin-width", "only an NPY file does not know it");
+  if (format != "npy" && format != "npz" && format != "mat" && format != "hdf5") {
+    refuse_without_effect(command, "--bin-width", "only arrays (NPY, NPZ, MAT, HDF5) do not know it");
   }
-  if (format != "mat") {
+  if (format != "mat" && format != "hdf5") {
     for (const char* option : {"--tick", "--variable"}) {
       refuse_without_effect(command, option, "only MATLAB files have one");
     }
   }
+}
+
+/// What --format may be.
+std::vector<std::string> recording_formats() {
+  std::vector<std::string> formats = {"auto"};
+  formats.insert(formats.end(), kRecordingFormats.begin(), kRecordingFormats.end());
+  return formats;
 }
 
 /// Distance whose light, there and back, still falls into T_int, m.
@@ -418,12 +425,16 @@ void run_replay_command(const ReplayOptions& options, RecordingFile file) {
 void add_replay_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<ReplayOptions>();
   options->command_line = command_line;
-  CLI::App* command = app.add_subcommand(
-      "replay",
-      "Reads out recorded data: TDC streams (CSV), histograms (NPY, TMF8820, TMF8829), photon times (MAT)");
-  command->add_option("file", options->recording.file, "recording")->required();
+  CLI::App* command = app.add_subcommand("replay",
+                                         "Reads out recorded data: TDC streams (CSV), histograms (NPY, NPZ, "
+                                         "HDF5, MAT, TMF8820, TMF8829), photon "
+                                         "times (MAT), time tags (PTU, HT3)");
+  command
+      ->add_option("file", options->recording.file,
+                   "recording; an array of an archive is file.npz:name, file.h5:/group/name or file.mat:name")
+      ->required();
   command->add_option("--format", options->recording.format, "kind of file")
-      ->check(CLI::IsMember({"auto", "csv", "npy", "mat", "tmf8820", "tmf8829"}))
+      ->check(CLI::IsMember(recording_formats()))
       ->capture_default_str();
   command->add_option("-a,--acquisitions", options->recording.acquisitions,
                       "laser pulses per frame (default: CSV: the last one recorded, else 3333)");
@@ -443,7 +454,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
       ->capture_default_str();
   command->add_option("--t-int", options->t_int_ns, "T_int in ns; T_res = T_int / 2^NP")
       ->capture_default_str();
-  command->add_option("--bin-width", options->bin_width_ps, "NPY: width of a bin in ps");
+  command->add_option("--bin-width", options->bin_width_ps, "histograms in arrays: width of a bin in ps");
   command->add_option("--tick", options->tick_ps, "MAT: duration of a tick in ps")->capture_default_str();
   command->add_option("--variable", options->recording.variable, "MAT: name of the cell array")
       ->capture_default_str();

@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "dtof/convert/conversion.hpp"
+#include "dtof/core/error.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/io/result_csv.hpp"
 #include "src/arrays.hpp"
@@ -91,12 +93,45 @@ py::dict read_results(const std::filesystem::path& file) {
                   "confidence"_a = taken_array(std::move(confidence), {count}));
 }
 
+/// An array of a file, as it stands there.
+py::object read_array(const std::filesystem::path& file, const std::string& variable) {
+  const RecordingOptions options{.file = file.string(), .variable = variable};
+  const NpyArray array = do_work(py::none(), [&](const Progress::Observer& /*observer*/) {
+    const RecordingFile contents = read_recording(options);
+    if (contents.format != "npy" && contents.format != "npz" && contents.format != "mat" &&
+        contents.format != "hdf5") {
+      throw InputError(options.file + ": neither NPY, NPZ, MAT nor HDF5");
+    }
+    return open_array(options, contents);
+  });
+  return taken_array(std::vector<double>(array.values), Shape(array.shape.begin(), array.shape.end()));
+}
+
+std::string convert_file(const std::filesystem::path& source, const std::filesystem::path& target,
+                         const std::string& format, const std::optional<double>& metres_per_unit,
+                         const std::optional<std::filesystem::path>& confidence,
+                         const std::optional<std::filesystem::path>& amplitude, double degrees_per_pixel,
+                         bool text, const std::optional<double>& bin_width_s) {
+  const ConversionOptions options{
+      .out = target.string(),
+      .recording = {.file = source.string(), .format = format, .bin_width_s = bin_width_s},
+      .metres_per_unit = metres_per_unit,
+      .confidence = confidence ? confidence->string() : "",
+      .amplitude = amplitude ? amplitude->string() : "",
+      .degrees_per_pixel = degrees_per_pixel,
+      .text = text};
+  return do_work(py::none(), [&](const Progress::Observer& /*observer*/) {
+    return convert(options, open_conversion(options));
+  });
+}
+
 }  // namespace
 
 void bind_recordings(py::module_& module) {
   py::class_<HeldRecording>(module, "Recording", "A recorded frame.")
       .def_readonly("description", &HeldRecording::description, "A few words on the file.")
-      .def_readonly("format", &HeldRecording::format, "csv, npy, mat, tmf8820 or tmf8829.")
+      .def_readonly("format", &HeldRecording::format,
+                    "csv, npy, npz, mat, hdf5, picoquant, tmf8820 or tmf8829.")
       .def_readonly("photons", &HeldRecording::photons)
       .def_property_readonly("true_distance_m", &true_distances,
                              "float64 (rows, columns), m, NaN is unknown; None if the file knows none.");
@@ -105,8 +140,16 @@ void bind_recordings(py::module_& module) {
              "acquisitions"_a = py::none(), "columns"_a = py::none(), "rows"_a = py::none(), "np"_a = 10,
              "slots"_a = 2, "integration_time_s"_a = 45e-9, "time_shift_s"_a = 0.0, "photons"_a = py::none(),
              "background"_a = 0.0, "seed"_a = 1, "frame"_a = 0,
-             "Reads a recording as `dtof replay` does: a TDC stream (CSV), histograms (NPY, TMF8820, "
-             "TMF8829), photon times (MAT).");
+             "Reads a recording as `dtof replay` does: a TDC stream (CSV), histograms (NPY, NPZ, HDF5, MAT, "
+             "TMF8820, TMF8829), photon times (MAT), time tags (PTU, HT3).");
+  module.def(
+      "read_array", &read_array, "file"_a, py::kw_only(), "variable"_a = "photon_times",
+      "float64: an array of an NPY, NPZ, HDF5 or MAT file (5 and 7.3, axes as in MATLAB). One of several "
+      "is named behind a colon: \"a.npz:depth_m\", \"a.h5:/group/cube\", \"a.mat:counts\".");
+  module.def("convert", &convert_file, "source"_a, "target"_a, py::kw_only(), "format"_a = "auto",
+             "metres_per_unit"_a = py::none(), "confidence"_a = py::none(), "amplitude"_a = py::none(),
+             "degrees_per_pixel"_a = kPixelAngle, "text"_a = false, "bin_width_s"_a = py::none(),
+             "Writes a file of one format as one of another, as `dtof convert` does; returns its sentence.");
   module.def("read_results", &read_results, "file"_a,
              "Arrays of a result file's lines: column, row, code, fraction, confidence.");
 }

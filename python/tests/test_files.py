@@ -39,6 +39,21 @@ class FilesTest(unittest.TestCase):
         points, _ = dtof.point_cloud(np.ones((3, 3)), 1.0)
         self.assertTrue(points[2][0] > 0 > points[2][1] and points[2][2] > 0.9)
 
+    def test_arrays_and_conversions(self) -> None:
+        """What NumPy has saved is read as it was, and becomes what the program makes of it."""
+        cube = np.arange(24.0).reshape(2, 3, 4)
+        np.savez(self.out / "two.npz", cube=cube, depth_m=self.made.depth_m, confidence=self.made.confidence)
+        np.testing.assert_array_equal(dtof.read_array(f"{self.out / 'two.npz'}:cube"), cube)
+        said = dtof.convert(f"{self.out / 'two.npz'}:depth_m", self.out / "converted.pcd", degrees_per_pixel=0.48)
+        rows, columns = self.made.depth_m.shape
+        self.assertTrue(said.startswith(f"{columns} x {rows} pixels, ") and said.endswith(", confidence"), said)
+        dtof.save_pcd(self.out / "saved.pcd", self.made.depth_m, 0.48, confidence=self.made.confidence)
+        saved, converted = ((self.out / name).read_bytes().partition(b"DATA binary\n") for name in ("saved.pcd", "converted.pcd"))
+        self.assertEqual(saved[0], converted[0])
+        np.testing.assert_allclose(np.frombuffer(saved[2], "<f4"), np.frombuffer(converted[2], "<f4"), rtol=1e-6)
+        with self.assertRaisesRegex(ValueError, "two.npz: the archive has no array 'none', but cube, depth_m, confidence"):
+            dtof.read_array(f"{self.out / 'two.npz'}:none")
+
     def test_pcd(self) -> None:
         dtof.save_pcd(self.out / "own.pcd", self.made.depth_m, 0.48, confidence=self.made.confidence, error=self.made.error_m)
         header, _, body = (self.out / "own.pcd").read_bytes().partition(b"DATA binary\n")

@@ -27,6 +27,7 @@
 namespace dtof {
 namespace {
 
+constexpr const char* kDepthMap = "a depth map";  // in refusals
 constexpr int kLargestExtent = 65535;
 
 /// Numbers of a file, row 0 on top.
@@ -113,8 +114,7 @@ NumberMap read_pfm(const std::filesystem::path& path, std::string_view file) {
   return image;
 }
 
-NumberMap read_npy_map(const std::filesystem::path& path, std::string_view file) {
-  NpyArray array = parse_npy(path, file);
+NumberMap map_of_array(const std::filesystem::path& path, NpyArray array) {
   std::vector<std::size_t> shape = array.shape;
   while (shape.size() > 2 && shape.back() == 1) {
     shape.pop_back();
@@ -132,12 +132,16 @@ NumberMap read_npy_map(const std::filesystem::path& path, std::string_view file)
           .values = std::move(array.values)};
 }
 
-/// Tells the kinds of file apart by content.
-NumberMap read_number_map(const std::filesystem::path& path, const char* purpose,
-                          std::optional<double> scale) {
+void check_scale(const std::filesystem::path& path, const char* purpose, std::optional<double> scale) {
   if (scale && (!std::isfinite(*scale) || *scale <= 0.0)) {
     fail_in_file(path, fmt::format("the scale of {} is {}, must be a positive number", purpose, *scale));
   }
+}
+
+/// Tells the kinds of file apart by content.
+NumberMap read_number_map(const std::filesystem::path& path, const char* purpose,
+                          std::optional<double> scale) {
+  check_scale(path, purpose, scale);
   const std::string file = read_file(path);
   const std::string_view start(file);
   if (start.starts_with(kPngSignature)) {
@@ -152,7 +156,7 @@ NumberMap read_number_map(const std::filesystem::path& path, const char* purpose
     return read_pfm(path, file);
   }
   if (start.starts_with("\x93NUMPY")) {
-    return read_npy_map(path, file);
+    return map_of_array(path, parse_npy(path, file));
   }
   fail_in_file(path, "neither a PNG, a PFM nor an NPY file");
 }
@@ -181,10 +185,8 @@ void append_to_string(png_structp png, png_bytep data, std::size_t length) {
 
 void no_flush(png_structp /*png*/) {}
 
-}  // namespace
-
-DepthImage read_depth_image(const std::filesystem::path& path, std::optional<double> metres_per_unit) {
-  const NumberMap map = read_number_map(path, "a depth map", metres_per_unit);
+DepthImage depth_image_of_map(const std::filesystem::path& path, const NumberMap& map,
+                              std::optional<double> metres_per_unit) {
   if (map.png_bits == 8 && !metres_per_unit) {
     fail_in_file(path,
                  "8-bit PNG: a depth map of 8 bits needs its scale, the metres that one unit stands for");
@@ -206,6 +208,18 @@ DepthImage read_depth_image(const std::filesystem::path& path, std::optional<dou
     image.metres.push_back(std::isfinite(metres) ? static_cast<float>(metres) : 0.0F);
   }
   return image;
+}
+
+}  // namespace
+
+DepthImage read_depth_image(const std::filesystem::path& path, std::optional<double> metres_per_unit) {
+  return depth_image_of_map(path, read_number_map(path, kDepthMap, metres_per_unit), metres_per_unit);
+}
+
+DepthImage depth_image_of(const std::filesystem::path& path, NpyArray array,
+                          std::optional<double> metres_per_unit) {
+  check_scale(path, kDepthMap, metres_per_unit);
+  return depth_image_of_map(path, map_of_array(path, std::move(array)), metres_per_unit);
 }
 
 ReflectivityImage read_reflectivity_image(const std::filesystem::path& path, std::optional<double> per_unit) {

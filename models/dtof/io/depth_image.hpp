@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "dtof/io/npy.hpp"
+
 namespace dtof {
 
 /// A map in metres: depth (0 or NaN = unknown) or a signed error (NaN = unknown).
@@ -41,6 +43,10 @@ struct ReflectivityImage {
 /// pixels are unknown and become 0; negative ones are refused.
 DepthImage read_depth_image(const std::filesystem::path& path,
                             std::optional<double> metres_per_unit = std::nullopt);
+
+/// The same of an array that `path` has given.
+DepthImage depth_image_of(const std::filesystem::path& path, NpyArray array,
+                          std::optional<double> metres_per_unit = std::nullopt);
 
 /// The file's numbers times `per_unit`; by default a PNG's full range becomes 0 to 1, and PFM and NPY are
 /// taken as they are. Negative numbers, NaN, infinity and transparent pixels are refused.

@@ -255,12 +255,28 @@ NpyArray parse_npy(const std::filesystem::path& path, std::string_view file) {
   return array;
 }
 
-void write_npy(const std::filesystem::path& path, std::span<const std::size_t> shape,
-               std::span<const double> values) {
-  if (std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) != values.size()) {
-    throw std::logic_error("write_npy: shape and number of values disagree");
+std::vector<double> c_order_of_reversed(std::span<const double> elements,
+                                        std::span<const std::size_t> shape) {
+  std::vector<double> reordered(elements.size());
+  std::vector<std::size_t> index(shape.size(), 0);
+  for (double& value : reordered) {
+    std::size_t source = 0;
+    for (std::size_t axis = shape.size(); axis-- > 0;) {
+      source = source * shape[axis] + index[axis];
+    }
+    value = elements[source];
+    for (std::size_t axis = shape.size(); axis-- > 0;) {
+      if (++index[axis] < shape[axis]) {
+        break;
+      }
+      index[axis] = 0;
+    }
   }
-  std::string header = fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}{}), }}",
+  return reordered;
+}
+
+std::string npy_header(std::string_view dtype, std::span<const std::size_t> shape) {
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}{}), }}", dtype,
                                    fmt::join(shape, ", "), shape.size() == 1 ? "," : "");
   // Data starts at a multiple of 64 bytes; the header ends in a newline.
   constexpr std::size_t kAlignment = 64;
@@ -269,11 +285,19 @@ void write_npy(const std::filesystem::path& path, std::span<const std::size_t> s
   header.resize(total - kPreamble - 1, ' ');
   header += '\n';
   const auto length = static_cast<std::uint16_t>(header.size());
+  std::string file(kMagic);
+  file.append("\x01\x00", 2);
+  file.append(reinterpret_cast<const char*>(&length), sizeof length);
+  return file + header;
+}
+
+void write_npy(const std::filesystem::path& path, std::span<const std::size_t> shape,
+               std::span<const double> values) {
+  if (std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()) != values.size()) {
+    throw std::logic_error("write_npy: shape and number of values disagree");
+  }
   AtomicFile file(path);
-  file.append(kMagic);
-  file.append(std::string_view("\x01\x00", 2));
-  file.append({reinterpret_cast<const char*>(&length), sizeof length});
-  file.append(header);
+  file.append(npy_header("<f8", shape));
   file.append({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   file.commit();
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,15 @@ NpyArray read_npy(const std::filesystem::path& path);
 
 /// The same of contents that `path` has already given.
 NpyArray parse_npy(const std::filesystem::path& path, std::string_view file);
+
+/// Elements of an array of this shape in C order, from elements of which the first axis is the fastest one,
+/// as MATLAB and Fortran have them.
+std::vector<double> c_order_of_reversed(std::span<const double> elements, std::span<const std::size_t> shape);
+
+/// What stands in front of the elements in an NPY file of format 1.0, C order; `dtype` as NumPy names it,
+/// e.g.
+/// "<f4".
+std::string npy_header(std::string_view dtype, std::span<const std::size_t> shape);
 
 /// Writes f8 in C order, format 1.0; the product of `shape` must be values.size() (std::logic_error).
 void write_npy(const std::filesystem::path& path, std::span<const std::size_t> shape,

@@ -266,7 +266,9 @@ std::string find_variable(const std::filesystem::path& path, std::string_view fi
   return found;
 }
 
-Variable read_variable(const std::filesystem::path& path, std::string_view file, const std::string& name) {
+/// A variable of whatever axes that is not sparse.
+Variable read_any_variable(const std::filesystem::path& path, std::string_view file,
+                           const std::string& name) {
   Variable variable{std::make_unique<const std::string>(find_variable(path, file, name)), {}};
   std::string_view rest = *variable.bytes;
   const auto matrix = take_element(rest);
@@ -277,12 +279,17 @@ Variable read_variable(const std::filesystem::path& path, std::string_view file,
   if (array->kind == kSparseClass) {
     fail_sparse(path, name, fmt::format("full({})", name));
   }
-  const std::vector<std::size_t>& extents = array->extents;
+  variable.array = *std::move(array);
+  return variable;
+}
+
+Variable read_variable(const std::filesystem::path& path, std::string_view file, const std::string& name) {
+  Variable variable = read_any_variable(path, file, name);
+  const std::vector<std::size_t>& extents = variable.array.extents;
   if (extents.size() != 2 || extents[0] == 0 || extents[1] == 0 || extents[0] > kLargestExtent ||
       extents[1] > kLargestExtent) {
     fail(path, fmt::format("\"{}\" is not a two-dimensional array of at most 65535 x 65535", name));
   }
-  variable.array = *std::move(array);
   return variable;
 }
 
@@ -339,6 +346,21 @@ PhotonTimes parse_photon_times_mat(const std::filesystem::path& path, std::strin
     photons.begin.push_back(photons.ticks.size());
   }
   return photons;
+}
+
+NpyArray parse_mat_array(const std::filesystem::path& path, std::string_view file,
+                         const std::string& variable) {
+  const Variable read = read_any_variable(path, file, variable);
+  NpyArray array{.shape = read.array.extents, .values = {}};
+  std::vector<double> first_axis_fastest;
+  if (!append_numbers(read.array, first_axis_fastest)) {
+    fail(path, fmt::format("\"{}\" is not a real numeric array, or damaged", variable));
+  }
+  if (first_axis_fastest.empty()) {
+    fail(path, fmt::format("\"{}\" is empty", variable));
+  }
+  array.values = c_order_of_reversed(first_axis_fastest, array.shape);
+  return array;
 }
 
 MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable) {

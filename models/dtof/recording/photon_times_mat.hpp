@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "dtof/io/npy.hpp"
 #include "dtof/recording/resampling.hpp"
 
 namespace dtof {
@@ -42,6 +43,11 @@ PhotonTimes read_photon_times_mat(const std::filesystem::path& path,
 /// The same of contents that `path` has already given.
 PhotonTimes parse_photon_times_mat(const std::filesystem::path& path, std::string_view file,
                                    const std::string& variable = "photon_times");
+
+/// A real numeric variable of any number of axes, in C order, of contents that `path` has already given; at
+/// most 2^27 elements. Throws InputError as above.
+NpyArray parse_mat_array(const std::filesystem::path& path, std::string_view file,
+                         const std::string& variable);
 
 /// Reads a two-dimensional real numeric variable. Throws InputError as above.
 MatMatrix read_mat_matrix(const std::filesystem::path& path, const std::string& variable);

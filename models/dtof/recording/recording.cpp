@@ -6,16 +6,22 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <span>
 #include <string_view>
 #include <utility>
 
+#include "dtof/container/array_address.hpp"
+#include "dtof/container/hdf5_array.hpp"
+#include "dtof/container/npz.hpp"
 #include "dtof/core/error.hpp"
+#include "dtof/io/byte_stream.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/recording/histogram_stream.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
+#include "dtof/recording/picoquant.hpp"
 #include "dtof/recording/stream_csv.hpp"
 #include "dtof/recording/tmf8820_json.hpp"
 #include "dtof/recording/tmf8820_log.hpp"
@@ -37,15 +43,6 @@ void forget_truth_without_photons(const HistogramCube& cube, std::vector<double>
       true_distance[i] = std::numeric_limits<double>::quiet_NaN();
     }
   }
-}
-
-Recording from_cube(HistogramCube cube, const Resampling& resampling, std::string what) {
-  Recording recording;
-  recording.true_distance = cube.true_distance;
-  forget_truth_without_photons(cube, recording.true_distance);
-  recording.description = std::move(what);
-  recording.source = std::make_unique<HistogramStream>(std::move(cube), resampling);
-  return recording;
 }
 
 /// Whether the name ends with `ending`, whatever the case of its letters.
@@ -79,6 +76,9 @@ std::string find_format(const std::string& name, std::string_view contents) {
   if (contents.starts_with("MATLAB")) {
     return "mat";
   }
+  if (is_zip(contents)) {
+    return "npz";
+  }
   if (first == '{') {  // a TMF8829 log is an object, the TMF8820 captures are an array
     return "tmf8829";
   }
@@ -101,33 +101,161 @@ std::string left_out_phrase(std::size_t count, std::string_view what) {
   return count == 0 ? "" : fmt::format(", {} {} left out", count, what);
 }
 
-Recording open_tmf8820(const RecordingOptions& options, const RecordingFile& file,
-                       const Resampling& resampling) {
+RecordedData open_tmf8820(const RecordingOptions& options, const RecordingFile& file) {
   Tmf8820Log log;
   if (is_tmf8820_log(file.contents)) {
     log = parse_tmf8820_log(options.file, file.contents);
   } else {
     log.captures = parse_tmf8820_json(options.file, file.contents);
   }
-  return from_cube(tmf8820_cube(log.captures, kTmf8820BinWidth, 0.0, options.file), resampling,
-                   fmt::format("ams TMF8820, {} captures of 9 zones{}", log.captures.size(),
-                               left_out_phrase(log.incomplete, "incomplete")));
+  return {.description = fmt::format("ams TMF8820, {} captures of 9 zones{}", log.captures.size(),
+                                     left_out_phrase(log.incomplete, "incomplete")),
+          .data = tmf8820_cube(log.captures, kTmf8820BinWidth, 0.0, options.file)};
+}
+
+RecordedData open_stream(const RecordingOptions& options, const RecordingFile& file) {
+  RecordedStream stream = parse_stream_csv(options.file, file.contents,
+                                           {.np = options.resampling.np,
+                                            .slots = options.resampling.slots,
+                                            .columns = options.columns,
+                                            .rows = options.rows,
+                                            .acquisitions = options.acquisitions});
+  std::string description = fmt::format("recorded stream, {} detections", stream.detection_count());
+  return {.description = std::move(description), .data = std::move(stream)};
+}
+
+RecordedData from_times(PhotonTimes photons) {
+  std::string description = fmt::format("photon times, {} photons of {} x {} pixels", photons.ticks.size(),
+                                        photons.columns, photons.rows);
+  return {.description = std::move(description), .data = std::move(photons)};
+}
+
+/// The variable of a MATLAB file: what the file's name names, else the option.
+std::string variable_of(const RecordingOptions& options) {
+  const std::string named = parse_array_address(options.file).array;
+  return named.empty() ? options.variable : named.substr(named.starts_with('/') ? 1 : 0);
+}
+
+/// Cells of MATLAB 7.3 as photon times.
+PhotonTimes times_of_cells(const std::filesystem::path& path, const Hdf5Cells& cells,
+                           const std::string& name) {
+  PhotonTimes photons{.columns = static_cast<int>(cells.shape[1]),
+                      .rows = static_cast<int>(cells.shape[0]),
+                      .ticks = {},
+                      .begin = {0}};
+  for (std::size_t pixel = 0; pixel < cells.cells.size(); ++pixel) {
+    const std::vector<double>& times = cells.cells[pixel];
+    if (!std::all_of(times.begin(), times.end(), [](double tick) { return std::isfinite(tick); })) {
+      fail_in_file(path, fmt::format("\"{}\": column {}, row {} holds a time that is not finite", name,
+                                     pixel % cells.shape[1], pixel / cells.shape[1]));
+    }
+    photons.ticks.insert(photons.ticks.end(), times.begin(), times.end());
+    photons.begin.push_back(photons.ticks.size());
+  }
+  return photons;
+}
+
+/// Width of the bins of an array: as it is given, else as an archive of `dtof convert` says.
+double bin_width_of(const RecordingOptions& options, const RecordingFile& file) {
+  if (options.bin_width_s) {
+    return *options.bin_width_s;
+  }
+  if (file.format == "npz") {
+    const std::filesystem::path path = parse_array_address(options.file).file;
+    const std::vector<std::string> names = npz_names(path, file.contents);
+    if (std::ranges::find(names, kBinWidthName) != names.end()) {
+      return parse_npz(path, file.contents, std::string(kBinWidthName)).values.front() * 1e-12;
+    }
+  }
+  throw InputError(fmt::format("{}: {} needs --bin-width", options.file,
+                               file.format == "npy" ? "an NPY histogram" : "a histogram"));
+}
+
+/// What an archive of `dtof convert` holds beside its bin width and the like; empty for another archive.
+std::string own_array(const std::filesystem::path& path, std::string_view contents) {
+  const std::vector<std::string> names = npz_names(path, contents);
+  for (const char* const name : {"histograms", "depth_m"}) {
+    if (std::ranges::find(names, name) != names.end()) {
+      return name;
+    }
+  }
+  return "";
 }
 
 }  // namespace
 
 RecordingFile read_recording(const RecordingOptions& options) {
   RecordingFile file;
-  std::string packed = read_file(options.file);
+  const std::filesystem::path path = parse_array_address(options.file).file;
+  constexpr std::size_t kMagic = 16;
+  if (options.format == "hdf5" || (options.format == "auto" && is_hdf5(path))) {
+    if (!is_hdf5(path)) {
+      (void)ByteStream(path);  // a file that cannot be read has its own refusal
+      fail_in_file(path, "not an HDF5 file, or a pipe");
+    }
+    file.format = "hdf5";
+    return file;
+  }
+  if (options.format == "picoquant" || (options.format == "auto" && is_picoquant(file_start(path, kMagic)))) {
+    file.format = "picoquant";
+    return file;
+  }
+  std::string packed = read_file(path);
   // A frame as text is longer than what other files may unpack to.
-  const bool stream = options.format == "csv" || name_ends(options.file, ".csv.gz");
+  const bool stream = options.format == "csv" || name_ends(path.string(), ".csv.gz");
   if (packed.starts_with("\x1f\x8b")) {
-    file.contents = unpack_gzip(options.file, std::move(packed), stream ? kLongestFile : kLongestUnpacked);
+    file.contents = unpack_gzip(path, std::move(packed), stream ? kLongestFile : kLongestUnpacked);
   } else {
     file.contents = std::move(packed);
   }
-  file.format = options.format != "auto" ? options.format : find_format(options.file, file.contents);
+  file.format = options.format != "auto" ? options.format : find_format(path.string(), file.contents);
   return file;
+}
+
+NpyArray open_array(const RecordingOptions& options, const RecordingFile& file) {
+  const auto [path, array] = parse_array_address(options.file);
+  if (file.format == "npy") {
+    return parse_npy(path, file.contents);
+  }
+  if (file.format == "npz") {
+    return parse_npz(path, file.contents, array.empty() ? own_array(path, file.contents) : array);
+  }
+  if (file.format == "mat") {
+    return parse_mat_array(path, file.contents, variable_of(options));
+  }
+  return read_hdf5_array(path, array);
+}
+
+RecordedData open_recorded_data(const RecordingOptions& options, const RecordingFile& file) {
+  if (file.format == "csv") {
+    return open_stream(options, file);
+  }
+  if (file.format == "tmf8820") {
+    return open_tmf8820(options, file);
+  }
+  if (file.format == "tmf8829") {
+    const Tmf8829Log log = parse_tmf8829_json(options.file, file.contents);
+    return {.description = fmt::format("ams TMF8829, {} frames{}", log.frames.size(),
+                                       left_out_phrase(log.left_out, "without results or histograms")),
+            .data = tmf8829_cube(log, 0.0, options.file)};
+  }
+  const std::filesystem::path path = parse_array_address(options.file).file;
+  if (file.format == "picoquant") {
+    std::string description;
+    HistogramCube cube = picoquant_cube(path, description);
+    return {.description = std::move(description), .data = std::move(cube)};
+  }
+  // A cell array of MATLAB has photon times, another variable histograms.
+  if (file.format == "mat" && !options.bin_width_s) {
+    return from_times(parse_photon_times_mat(path, file.contents, variable_of(options)));
+  }
+  if (file.format == "hdf5" && is_hdf5_cell_array(path, variable_of(options))) {
+    const std::string name = variable_of(options);
+    return from_times(times_of_cells(path, read_hdf5_cells(path, name), name));
+  }
+  const double bin_width = bin_width_of(options, file);
+  return {.description = "histogram cube",
+          .data = histogram_cube(open_array(options, file), bin_width, 0.0, options.file)};
 }
 
 Recording open_recording(const RecordingOptions& options, RecordingFile file) {
@@ -135,40 +263,20 @@ Recording open_recording(const RecordingOptions& options, RecordingFile file) {
   if (options.acquisitions) {
     resampling.acquisitions = *options.acquisitions;
   }
-  if (file.format == "csv") {
-    auto stream = std::make_unique<RecordedStream>(parse_stream_csv(options.file, file.contents,
-                                                                    {.np = resampling.np,
-                                                                     .slots = resampling.slots,
-                                                                     .columns = options.columns,
-                                                                     .rows = options.rows,
-                                                                     .acquisitions = options.acquisitions}));
-    Recording recording;
-    recording.description = fmt::format("recorded stream, {} detections", stream->detection_count());
-    recording.source = std::move(stream);
-    return recording;
-  }
-  if (file.format == "tmf8820") {
-    return open_tmf8820(options, file, resampling);
-  }
-  if (file.format == "tmf8829") {
-    const Tmf8829Log log = parse_tmf8829_json(options.file, file.contents);
-    return from_cube(tmf8829_cube(log, 0.0, options.file), resampling,
-                     fmt::format("ams TMF8829, {} frames{}", log.frames.size(),
-                                 left_out_phrase(log.left_out, "without results or histograms")));
-  }
-  if (file.format == "npy") {
-    if (!options.bin_width_s) {
-      throw InputError(fmt::format("{}: an NPY histogram needs --bin-width", options.file));
-    }
-    return from_cube(
-        histogram_cube(parse_npy(options.file, file.contents), *options.bin_width_s, 0.0, options.file),
-        resampling, "histogram cube");
-  }
-  PhotonTimes photons = parse_photon_times_mat(options.file, file.contents, options.variable);
+  RecordedData measurement = open_recorded_data(options, file);
+  file = {};  // its contents
   Recording recording;
-  recording.description = fmt::format("photon times, {} photons of {} x {} pixels", photons.ticks.size(),
-                                      photons.columns, photons.rows);
-  recording.source = std::make_unique<PhotonTimesStream>(std::move(photons), options.tick_s, resampling);
+  recording.description = std::move(measurement.description);
+  if (auto* const cube = std::get_if<HistogramCube>(&measurement.data)) {
+    recording.true_distance = cube->true_distance;
+    forget_truth_without_photons(*cube, recording.true_distance);
+    recording.source = std::make_unique<HistogramStream>(std::move(*cube), resampling);
+  } else if (auto* const photons = std::get_if<PhotonTimes>(&measurement.data)) {
+    recording.source = std::make_unique<PhotonTimesStream>(std::move(*photons), options.tick_s, resampling);
+  } else {
+    recording.source =
+        std::make_unique<RecordedStream>(std::get<RecordedStream>(std::move(measurement.data)));
+  }
   return recording;
 }
 

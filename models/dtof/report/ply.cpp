@@ -3,12 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 
 #include "dtof/core/error.hpp"
@@ -16,25 +14,6 @@
 #include "dtof/report/colour_map.hpp"
 
 namespace dtof {
-
-Point point_of_pixel(const DepthImage& image, int column, int row, double degrees_per_pixel) {
-  const double radians = degrees_per_pixel * std::numbers::pi / 180.0;
-  const double azimuth = (column - (image.width - 1) / 2.0) * radians;
-  const double elevation = (row - (image.height - 1) / 2.0) * radians;
-  const double range = image.at(column, row);
-  return {.x = static_cast<float>(range * std::sin(azimuth) * std::cos(elevation)),
-          .y = static_cast<float>(range * std::sin(elevation)),
-          .z = static_cast<float>(range * std::cos(azimuth) * std::cos(elevation))};
-}
-
-std::string ply_obstacle(int width, int height, double degrees_per_pixel) {
-  if (degrees_per_pixel > 0.0 && std::max(width, height) * degrees_per_pixel < 180.0) {
-    return "";
-  }
-  return fmt::format(
-      "a point cloud of {} x {} pixels of {:g} degrees each: its sides must be above 0 and below 180 degrees",
-      width, height, degrees_per_pixel);
-}
 
 void write_ply(const std::filesystem::path& path, const DepthImage& image, const ColourRange& range,
                double degrees_per_pixel) {
@@ -48,7 +27,7 @@ void write_ply(const std::filesystem::path& path, const DepthImage& image, const
   for (int row = 0; row < image.height; ++row) {
     for (int column = 0; column < image.width; ++column) {
       const double depth = image.at(column, row);
-      if (!std::isfinite(depth) || depth <= 0.0) {
+      if (!is_known_distance(depth)) {
         continue;
       }
       const Point point = point_of_pixel(image, column, row, degrees_per_pixel);

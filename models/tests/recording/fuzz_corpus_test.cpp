@@ -8,11 +8,14 @@
 #include <functional>
 #include <string>
 
+#include "dtof/container/npz.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/io/depth_image.hpp"
+#include "dtof/io/input_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/io/result_csv.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
+#include "dtof/recording/picoquant.hpp"
 #include "dtof/recording/tmf8820_json.hpp"
 #include "dtof/recording/tmf8829_json.hpp"
 
@@ -50,7 +53,17 @@ TEST_P(FuzzCorpus, IsReadOrRefusedAtOnce) {
 
 INSTANTIATE_TEST_SUITE_P(
     Readers, FuzzCorpus,
-    testing::Values(Reader{"result_csv", [](const auto& file) { (void)read_result_csv(file); }},
+    testing::Values(Reader{"npz",
+                           [](const auto& file) {
+                             const std::string contents = read_file(file);
+                             (void)parse_npz(file, contents, npz_names(file, contents).front());
+                           }},
+                    Reader{"picoquant",
+                           [](const auto& file) {
+                             std::string description;
+                             (void)picoquant_cube(file, description);
+                           }},
+                    Reader{"result_csv", [](const auto& file) { (void)read_result_csv(file); }},
                     Reader{"histogram_npy", [](const auto& file) { (void)read_npy(file); }},
                     Reader{"photon_times_mat", [](const auto& file) { (void)read_photon_times_mat(file); }},
                     Reader{"tmf8820_json", [](const auto& file) { (void)read_tmf8820_json(file); }},

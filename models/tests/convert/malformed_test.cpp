@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files as they are met in the wild: made here, each with the sentence that it gets.
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "dtof/container/npz.hpp"
+#include "dtof/convert/conversion.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/io/npy.hpp"
+#include "tests/io/io_test_support.hpp"
+
+namespace dtof {
+namespace {
+
+struct MalformedFile {
+  std::string what;
+  std::string name;
+  std::string contents;
+  std::string out;
+  std::string sentence;  ///< behind "<file>: " or "<file>:"
+};
+
+class MalformedTest : public test::IoTest {
+ protected:
+  [[nodiscard]] std::string npz_of(const std::vector<std::string>& names) const {
+    NpzWriter writer(path("made.npz"));
+    for (const std::string& name : names) {
+      writer.add(name, std::vector<std::size_t>{1, 1}, std::vector<double>{1.0});
+    }
+    writer.commit();
+    return contents(path("made.npz"));
+  }
+  [[nodiscard]] std::string npy_of(const std::vector<std::size_t>& shape,
+                                   const std::vector<double>& values) const {
+    write_npy(path("made.npy"), shape, values);
+    return contents(path("made.npy"));
+  }
+  [[nodiscard]] std::string gzip_of(const std::string& bytes) const {
+    write_gzip_file(path("made.gz"), bytes);
+    return contents(path("made.gz"));
+  }
+  /// Time tags of a HydraHarp: a header's end and so many records of one photon each.
+  [[nodiscard]] static std::string ptu_of(std::size_t records) {
+    std::string file(
+        "PQTTTR\0\0"
+        "1.0.00\0\0",
+        16);
+    for (const auto& [name, type, value] :
+         {std::tuple{"TTResultFormat_TTTRRecType", 0x10000008U, std::uint64_t{0x01010304}},
+          {"MeasDesc_Resolution", 0x20000008U, std::bit_cast<std::uint64_t>(1e-12)},
+          {"Header_End", 0xFFFF0008U, std::uint64_t{0}}}) {
+      std::string tag(48, '\0');
+      tag.replace(0, std::string_view(name).size(), name);
+      std::memcpy(&tag[36], &type, sizeof type);
+      std::memcpy(&tag[40], &value, sizeof value);
+      file += tag;
+    }
+    return file + std::string(4 * records, '\1');
+  }
+  [[nodiscard]] std::vector<MalformedFile> table() const;
+};
+
+std::vector<MalformedFile> MalformedTest::table() const {
+  const std::string npz = npz_of({"depth_m"});
+  const std::string npy = npy_of({2, 2}, {1.0, 2.0, 3.0, 4.0});
+  const std::string mat5 =
+      std::string("MATLAB 5.0 MAT-file") + std::string(128 - 19 - 4, ' ') + std::string("\x00\x01IM", 4);
+  return {
+      {"nothing in it", "a.npy", "", "a.npz", " the file is empty"},
+      {"a name that lies", "a.npz", "<html>404 Not Found</html>", "a.npy",
+       " unknown kind of recording; name it with --format"},
+      {"NPY cut by a full disk", "a.npy", npy.substr(0, npy.size() - 3), "a.npz",
+       " shape (2, 2) of f8 needs more than the file's 3 elements: truncated"},
+      {"NPY with a second file behind", "a.npy", npy + npy, "a.npz",
+       " shape (2, 2) of f8 needs 32 bytes, the file has 192"},
+      {"NPY of objects", "a.npy",
+       std::string("\x93NUMPY\x01\x00\x46\x00", 10) +
+           "{'descr': '|O', 'fortran_order': False, 'shape': (1,), }             \n",
+       "a.npz",
+       " dtype '|O' is not one of i1, i2, i4, i8, u1, u2, u4, u8, f2, f4, f8, little- or big-endian"},
+      {"NPZ cut by a lost connection", "a.npz", npz.substr(0, npz.size() / 3), "a.npy",
+       " the NPZ archive is damaged or encrypted"},
+      {"NPZ of nothing", "a.npz", npz_of({}), "a.npy", " the NPZ archive has no array"},
+      {"NPZ of two arrays", "a.npz", npz_of({"a", "b"}), "a.npy",
+       " the archive has 2 arrays (a, b); name one, as FILE:a"},
+      {"HDF5 cut after its signature", "a.h5", std::string("\x89HDF\r\n\x1a\n", 8) + std::string(20, '\0'),
+       "a.npy", " the HDF5 file is damaged or ends early"},
+      {"MAT without variables", "a.mat", mat5, "a.npy",
+       " the variable \"photon_times\" is missing or damaged"},
+      {"MAT cut in a variable", "a.mat", mat5 + std::string("\x0e\x00\x00\x00\xff\x00\x00\x00", 8), "a.npy",
+       " damaged: the variable at byte 128 ends beyond the file"},
+      {"MAT of a big-endian machine", "a.mat", mat5.substr(0, 124) + std::string("\x01\x00MI", 4), "a.npy",
+       " not a little-endian MATLAB 5 file (save with -v7 or -v6)"},
+      {"a map whose unknown pixels are -1", "a.npy", npy_of({1, 2}, {1.0, -1.0}), "a.pcd",
+       " column 1, row 0: negative depth -1 m"},
+      {"histograms where a map is asked for", "a.npy", npy_of({2, 2, 2}, std::vector<double>(8, 1.0)),
+       "a.ply", " NPY shape (2, 2, 2): a map has rows and columns, each 1..65535"},
+      {"PNG cut by a camera", "a.png", "\x89PNG\r\n\x1a\n", "a.pfm", " damaged PNG: the file ends early"},
+      {"PFM of colours", "a.pfm", "PF\n1 1\n-1\n000000000000", "a.npy",
+       " colour PFM: a map must be a greyscale PFM (\"Pf\")"},
+      {"a stream of another program", "a.csv", "acquisition,column,row,time\n0,0,0,1\n", "a.npy",
+       "1: the header must be \"acquisition,column,row,timestamp\""},
+      {"a stream with a fraction", "a.csv", "acquisition,column,row,timestamp\n0,0,0,1.5\n", "a.npy",
+       "2: timestamp \"1.5\" is not a decimal integer"},
+      {"gzip cut by a lost connection", "a.npy.gz", gzip_of(npy).substr(0, 40), "a.npz",
+       " damaged gzip data: the file ends early"},
+      {"JSON cut by a switched-off logger", "a.json", "[{\"hists\": [1, 2", "a.npy",
+       " parse error at line 1, column 17: syntax error while parsing array - unexpected end of input; "
+       "expected ']'"},
+      {"time tags cut in a record, behind a megabyte of output", "a.ptu", ptu_of(200000) + "x", "a.csv",
+       " the file ends in record 200000"},
+      {"time tags cut in the header", "a.ptu",
+       std::string("PQTTTR\0\0"
+                   "1.0.00\0\0",
+                   16),
+       "a.csv", " the file ends in its header"},
+  };
+}
+
+TEST_F(MalformedTest, EachFileHasItsSentenceAndLeavesNoOutput) {
+  for (const MalformedFile& one : table()) {
+    SCOPED_TRACE(one.what);
+    const std::filesystem::path file = write(one.name, one.contents);
+    std::string sentence = one.sentence;
+    if (const std::size_t at = sentence.find("FILE"); at != std::string::npos) {
+      sentence.replace(at, 4, file.string());
+    }
+    const ConversionOptions options{.out = path("out" + one.out).string(),
+                                    .recording = {.file = file.string()}};
+    const std::size_t files = file_count();
+    test::expect_input_error([&] { (void)convert(options, open_conversion(options)); },
+                             file.string() + ":" + sentence);
+    EXPECT_EQ(file_count(), files);
+    std::filesystem::remove(file);
+  }
+}
+
+}  // namespace
+}  // namespace dtof
