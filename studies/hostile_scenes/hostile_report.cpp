@@ -82,7 +82,8 @@ std::string told_section(const HostileSettings& settings, const HostileScenes& s
   std::string text =
       "\n## Told of glass and fog\n\n"
       "The pool read-outs have their TEMPLATE registers from a frame in the dark without a target "
-      "(docs/reference/poolpointer2.md, Template); the matched filters subtract that frame's mean scores. "
+      "(docs/reference/poolpointer2.md, Template); the matched filters count that frame's mean events as "
+      "background. "
       "The other "
       "read-outs have nothing to be told with but a gate. Pixels with a target above 3 % / above 10 %, in "
       "%:\n";

@@ -39,49 +39,48 @@ constexpr std::array<const char*, 4> kOutcomes = {"within_3", "within_10", "beyo
 // Seeds of the sky frames that set the thresholds: none of a scene's.
 constexpr std::uint64_t kSkySeeds = 1'000'000;
 
-/// What an estimator may be told of a sensor's surroundings (frame/empty_frame.hpp).
-using EmptyColumns = std::vector<ColumnStream>;
-
-/// Mean score of an empty pixel at each position.
-std::vector<double> empty_scores(MatchedFilter& filter, const EmptyColumns& columns, std::size_t bins) {
-  std::vector<double> sum(bins, 0.0);
+/// Mean events of each bin that surroundings alone send back to a pixel in an acquisition
+/// (frame/empty_frame.hpp).
+std::vector<double> mean_returns(const std::vector<ColumnStream>& empty, const SensorModel& sensor) {
+  std::vector<double> mean((std::size_t{1} << static_cast<unsigned>(sensor.np)) - 1, 0.0);
   double pixels = 0.0;
-  for (const ColumnStream& column : columns) {
+  for (const ColumnStream& column : empty) {
     for (int row = 0; row < column.rows(); ++row, ++pixels) {
-      std::ranges::transform(filter.scores(column.row(row)), sum, sum.begin(), std::plus<>());
+      for (const Detection& detection : column.row(row)) {
+        if (detection.timestamp < mean.size()) {
+          mean[detection.timestamp] += 1.0;
+        }
+      }
     }
   }
-  for (double& score : sum) {
-    score /= std::max(pixels, 1.0);
+  for (double& events : mean) {
+    events /= pixels * sensor.acquisitions;
   }
-  return sum;
+  return mean;
 }
 
 /// Both references of one column. A measurement's confidence is the score. `empty`: what they are told; may
 /// be none.
 std::array<std::vector<Measurement>, 2> read_references(const PhotonSource& source, int column,
                                                         const ColumnStream& stream,
-                                                        const EmptyColumns& empty = {}) {
+                                                        const std::vector<double>& returns = {}) {
   const SensorModel& sensor = source.model();
   const auto bins = (std::size_t{1} << static_cast<unsigned>(sensor.np)) - 1;
   const auto rows = static_cast<std::size_t>(source.rows());
   std::array<std::vector<Measurement>, 2> measurements;
   std::unique_ptr<MatchedFilter> filter;
   double background = -1.0;
-  std::vector<double> taken(bins, 0.0);
   std::vector<std::vector<double>> scores(rows, std::vector<double>(bins, 0.0));
   for (std::size_t row = 0; row < rows; ++row) {
     PixelRates rates = source.rates(column, static_cast<int>(row));
     rates.signal = sensor.signal_events(kTypicalDistance, sensor.default_reflectivity);
     if (!filter || rates.background != background) {
-      filter = std::make_unique<MatchedFilter>(matched_to(sensor, rates));
+      MatchedFilterParameters parameters = matched_to(sensor, rates);
+      parameters.returns = returns;
+      filter = std::make_unique<MatchedFilter>(parameters);
       background = rates.background;
-      if (!empty.empty()) {
-        taken = empty_scores(*filter, empty, bins);
-      }
     }
-    std::ranges::transform(filter->scores(stream.row(static_cast<int>(row))), taken, scores[row].begin(),
-                           std::minus<>());
+    std::ranges::copy(filter->scores(stream.row(static_cast<int>(row))), scores[row].begin());
     const auto peak = std::ranges::max_element(scores[row]);
     const auto bin = static_cast<std::size_t>(peak - scores[row].begin());
     measurements[0].push_back({refined_peak(scores[row], bin), *peak});
@@ -137,7 +136,7 @@ struct Estimators {
   std::vector<ReadoutParameters> readouts;
   std::vector<std::string> names;
   std::vector<RangeConverter> tables;
-  EmptyColumns empty;
+  std::vector<double> returns;
 };
 
 /// Adds a frame's pixels to each estimator's counts.
@@ -147,7 +146,7 @@ void count_frame(const Estimators& estimators, const PhotonSource& source,
   const std::vector<EngineResults> results = read_engine(source, estimators.readouts);
   const std::size_t readouts = estimators.readouts.size();
   for (int column = 0; column < engine_columns_judged(); ++column) {
-    const auto references = read_references(source, column, source.column(column), estimators.empty);
+    const auto references = read_references(source, column, source.column(column), estimators.returns);
     for (int row = 0; row < source.rows(); ++row) {
       const PixelTarget& target = source.targets().at(column, row);
       // The host knows the skew.
@@ -178,13 +177,14 @@ using Tables = std::function<const std::vector<RangeConverter>&(double klux)>;
 /// Those that can be told of what surrounds `sensor`, told.
 Estimators told_of(const HostileSettings& settings, const SensorModel& sensor,
                    const std::vector<RangeConverter>& tables) {
-  Estimators told{.readouts = {}, .names = told_estimators(settings), .tables = {}, .empty = {}};
-  told.empty = empty_columns(sensor, settings.seed);
+  Estimators told{.readouts = {}, .names = told_estimators(settings), .tables = {}, .returns = {}};
+  const std::vector<ColumnStream> empty = empty_columns(sensor, settings.seed);
+  told.returns = mean_returns(empty, sensor);
   for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
     if (is_pool_readout(settings.readouts[r].readout)) {
       told.readouts.push_back(settings.readouts[r]);
       told.readouts.back().pool.coarse_template =
-          measured_template(told.empty, sensor.acquisitions, settings.readouts[r]);
+          measured_template(empty, sensor.acquisitions, settings.readouts[r]);
       told.tables.push_back(tables[r]);
     }
   }
@@ -409,7 +409,7 @@ HostileScenes run_hostile_scenes(const HostileSettings& settings) {
       return Estimators{.readouts = settings.readouts,
                         .names = hostile_estimators(settings),
                         .tables = tables(klux),
-                        .empty = {}};
+                        .returns = {}};
     };
     const HostileReadouts readouts = stored_or("only-sky", klux, [&] {
       return measure(settings, all(), settings.sensor, klux, sky, settings.seed + kSkySeeds);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string_view>
 
@@ -42,6 +43,7 @@ MatchedFilter::MatchedFilter(const MatchedFilterParameters& parameters) {
                        parameters.sigma_bins /
                        (parameters.background_events / static_cast<double>(code_count)));
   }
+  match_bins(parameters);
   counts_.resize(no_detection_);
   scores_.resize(no_detection_ + 2 * reach_);
 }
@@ -65,6 +67,30 @@ void MatchedFilter::match_response(const PulseResponse& response, double bin_rat
   }
 }
 
+void MatchedFilter::match_bins(const MatchedFilterParameters& parameters) {
+  if (parameters.returns.empty()) {
+    return;
+  }
+  if (parameters.returns.size() != no_detection_) {
+    throw InputError(fmt::format("matched filter: returns of {} bins, but there are {}",
+                                 parameters.returns.size(), no_detection_));
+  }
+  const double background = parameters.background_events / static_cast<double>(no_detection_ + 1);
+  of_bin_.resize(no_detection_);
+  for (std::size_t bin = 0; bin < no_detection_; ++bin) {
+    const double returns = parameters.returns[bin];
+    if (!std::isfinite(returns) || returns < 0.0) {
+      throw InputError(
+          fmt::format("matched filter: returns of bin {} are {}, but must be 0 or more", bin, returns));
+    }
+    if (returns > 0.0) {
+      const double share = background / (background + returns);
+      std::ranges::transform(template_, std::back_inserter(of_bin_[bin]),
+                             [share](double score) { return std::log1p(std::expm1(score) * share); });
+    }
+  }
+}
+
 std::span<const double> MatchedFilter::scores(std::span<const Detection> detections) {
   std::ranges::fill(counts_, 0.0);
   std::ranges::fill(scores_, 0.0);
@@ -78,11 +104,12 @@ std::span<const double> MatchedFilter::scores(std::span<const Detection> detecti
     }
   }
   const std::size_t taps = template_.size();
-  const double* const pulse = template_.data();
   for (std::size_t bin = 0; bin < no_detection_; ++bin) {
     const double count = counts_[bin];
     if (count != 0.0) {
       double* const score = scores_.data() + bin;
+      const double* const pulse =
+          of_bin_.empty() || of_bin_[bin].empty() ? template_.data() : of_bin_[bin].data();
       for (std::size_t i = 0; i < taps; ++i) {
         score[i] += count * pulse[i];
       }

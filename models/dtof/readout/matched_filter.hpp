@@ -19,12 +19,15 @@ struct MatchedFilterParameters {
   double signal_events = 1.0;      ///< mean signal events, > 0
   double background_events = 1.0;  ///< mean background events over all 2^np bins, > 0
   std::shared_ptr<const PulseResponse> response = nullptr;  ///< in bins; none: the Gaussian
+  /// Mean events of each bin 0 .. 2^np - 2 in every pixel, of cover glass and fog: more background, which is
+  /// known; empty: none.
+  std::vector<double> returns = {};
 };
 
 /// Maximum-likelihood arrival time of one pulse from all detections of a frame: argmax over tau of
-/// sum_i log(1 + A g(t_i - tau) / b), A and b known. It needs every photon's time (a full histogram), so it
-/// is no read-out for a large array, but the practical bound for all of them. Pile-up is not modelled: near
-/// targets get a bias that the host's look-up table removes. Codes are taken as equally wide.
+/// sum_i log(1 + A g(t_i - tau) / b(t_i)), A and b known. It needs every photon's time (a full histogram), so
+/// it is no read-out for a large array, but the practical bound for all of them. Pile-up is not modelled:
+/// near targets get a bias that the host's look-up table removes. Codes are taken as equally wide.
 ///
 /// tau is searched on whole bins and refined by the parabola through the best three scores.
 class MatchedFilter {
@@ -50,10 +53,13 @@ class MatchedFilter {
   void match_gaussian(double sigma_bins, double peak_ratio);
   /// `bin_ratio`: all the signal over one bin's background.
   void match_response(const PulseResponse& response, double bin_ratio);
+  /// Templates of the bins in which there is more than the flat background.
+  void match_bins(const MatchedFilterParameters& parameters);
 
   std::size_t no_detection_;
   std::size_t reach_ = 1;         // bins on each side beyond which the template is negligible
   std::vector<double> template_;  // of tau - reach .. tau + reach for an event in bin tau: the pulse reversed
+  std::vector<std::vector<double>> of_bin_;  // like template_, of a bin with returns; empty: template_
   std::vector<double> counts_;
   std::vector<double> scores_;  // with `reach_` bins of margin on both sides
 };

@@ -41,7 +41,8 @@ std::pair<double, double> brute_force(const MatchedFilterParameters& p, std::spa
       if (detection.timestamp < codes - 1) {
         const double z = (detection.timestamp - tau) / p.sigma_bins;
         const double pulse = std::exp(-0.5 * z * z) / (p.sigma_bins * std::sqrt(2.0 * std::numbers::pi));
-        sum += std::log(1.0 + p.signal_events * pulse / (p.background_events / codes));
+        const double more = p.returns.empty() ? 0.0 : p.returns[detection.timestamp];
+        sum += std::log(1.0 + p.signal_events * pulse / (p.background_events / codes + more));
       }
     }
     if (sum > best.second) {
@@ -100,6 +101,26 @@ TEST(MatchedFilter, MaximumOfTheFormula) {
   }
 }
 
+TEST(MatchedFilter, ReturnsAreBackground) {
+  MatchedFilterParameters told = kPulse;
+  told.returns.assign(1023, 0.0);
+  for (std::size_t bin = 20; bin < 60; ++bin) {
+    told.returns[bin] = 0.002 * static_cast<double>(bin - 10);
+  }
+  CounterRandom random(test_seed(), 0, 0, 7);
+  std::vector<Detection> detections = random_frame(random, 500.0, 30, 150);
+  for (Timestamp code = 20; code < 60; ++code) {
+    detections.push_back({0, code});
+    detections.push_back({1, code});
+  }
+  const MatchedFilter::Result result = MatchedFilter(told).estimate(detections);
+  const auto [tau, sum] = brute_force(told, detections, 0.0, 1022.0, 1.0);
+  EXPECT_NEAR(result.position, tau, 1.0);
+  EXPECT_NEAR(result.score, sum, 0.01 * sum);
+  EXPECT_NEAR(result.position, 500.0, 20.0);
+  EXPECT_LT(MatchedFilter(kPulse).estimate(detections).position, 100.0) << "not told, it takes the crosstalk";
+}
+
 TEST(MatchedFilter, ReachesTheSpreadOfTheMeanWithoutBackground) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random(test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), 2, 0);
@@ -139,6 +160,15 @@ TEST(MatchedFilter, Refusals) {
               ThrowsMessage<InputError>(HasSubstr("background")));
   MatchedFilter small({.np = 4, .sigma_bins = 1.0, .signal_events = 1.0, .background_events = 1.0});
   EXPECT_THROW((void)small.estimate(detections_of({16})), InputError);
+}
+
+TEST(MatchedFilter, RefusesReturnsThatItCannotTake) {
+  MatchedFilterParameters told = kPulse;
+  told.returns.assign(1024, 0.0);
+  EXPECT_THAT([&] { MatchedFilter{told}; }, ThrowsMessage<InputError>(HasSubstr("returns of 1024 bins")));
+  told.returns.assign(1023, 0.0);
+  told.returns[7] = -1.0;
+  EXPECT_THAT([&] { MatchedFilter{told}; }, ThrowsMessage<InputError>(HasSubstr("returns of bin 7 are -1")));
 }
 
 TEST(MatchedFilter, MeasuredPulseIsFoundByItsCentroidWhicheverWayItLeans) {
