@@ -6,7 +6,7 @@
 
 #define DTOF_ID_EXPECTED UINT32_C(0x444F4650)
 #define DTOF_VERSION_MAJOR_EXPECTED UINT32_C(3)
-#define DTOF_VERSION_MINOR_EXPECTED UINT32_C(2)
+#define DTOF_VERSION_MINOR_EXPECTED UINT32_C(3)
 
 /* says that this is the subsystem */
 #define DTOF_ID UINT32_C(0x000)
@@ -38,6 +38,10 @@
 #define DTOF_READOUT_PRIOR_MASK UINT32_C(0x00002000)
 #define DTOF_READOUT_PARITY_LSB 14
 #define DTOF_READOUT_PARITY_MASK UINT32_C(0x00004000)
+#define DTOF_READOUT_CLOCK_WAITS_LSB 15
+#define DTOF_READOUT_CLOCK_WAITS_MASK UINT32_C(0x00008000)
+#define DTOF_READOUT_SOURCE_WAITS_LSB 16
+#define DTOF_READOUT_SOURCE_WAITS_MASK UINT32_C(0x00010000)
 
 /* of the array */
 #define DTOF_SIZE UINT32_C(0x00C)
@@ -224,7 +228,7 @@
 #define DTOF_GATE_END_LSB 16
 #define DTOF_GATE_END_MASK UINT32_C(0xFFFF0000)
 
-/* lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller, LINES.BUFFER */
+/* READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have come before the shot of the next one; 0: lines that must be in the buffer before an acquisition begins */
 #define DTOF_RELEASE UINT32_C(0x074)
 #define DTOF_RELEASE_VALUE_LSB 0
 #define DTOF_RELEASE_VALUE_MASK UINT32_C(0x0000FFFF)
@@ -303,8 +307,8 @@
 /* X(offset, registers, value behind a reset, bits of it that no parameter decides) for each of them. */
 #define DTOF_FOR_EACH_REGISTER(X) \
   X(DTOF_ID, 1, UINT32_C(0x444F4650), UINT32_C(0xFFFFFFFF)) \
-  X(DTOF_VERSION, 1, UINT32_C(0x00030002), UINT32_C(0xFFFFFFFF)) \
-  X(DTOF_READOUT, 1, UINT32_C(0x00000000), UINT32_C(0xFFFF8000)) \
+  X(DTOF_VERSION, 1, UINT32_C(0x00030003), UINT32_C(0xFFFFFFFF)) \
+  X(DTOF_READOUT, 1, UINT32_C(0x00000000), UINT32_C(0xFFFE0000)) \
   X(DTOF_SIZE, 1, UINT32_C(0x00000000), UINT32_C(0x00000000)) \
   X(DTOF_WIDTHS, 1, UINT32_C(0x00000000), UINT32_C(0x00000000)) \
   X(DTOF_LINES, 1, UINT32_C(0x00000000), UINT32_C(0x00000000)) \

@@ -9,7 +9,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00030002;
+  localparam logic [31:0] VERSION_VALUE = 32'h00030003;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -19,7 +19,7 @@ package dtof_registers_pkg;
 
   // of the registers and the result stream
   localparam logic [11:0] VERSION = 12'h004;
-  localparam logic [31:0] VERSION_RESET = 32'h00030002;
+  localparam logic [31:0] VERSION_RESET = 32'h00030003;
   localparam int VERSION_MINOR_LSB = 0;
   localparam int VERSION_MINOR_WIDTH = 16;
   localparam int VERSION_MAJOR_LSB = 16;
@@ -44,6 +44,10 @@ package dtof_registers_pkg;
   localparam int READOUT_PRIOR_WIDTH = 1;
   localparam int READOUT_PARITY_LSB = 14;
   localparam int READOUT_PARITY_WIDTH = 1;
+  localparam int READOUT_CLOCK_WAITS_LSB = 15;
+  localparam int READOUT_CLOCK_WAITS_WIDTH = 1;
+  localparam int READOUT_SOURCE_WAITS_LSB = 16;
+  localparam int READOUT_SOURCE_WAITS_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -253,7 +257,7 @@ package dtof_registers_pkg;
   localparam int GATE_END_LSB = 16;
   localparam int GATE_END_WIDTH = 16;
 
-  // lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller, LINES.BUFFER
+  // READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have come before the shot of the next one; 0: lines that must be in the buffer before an acquisition begins
   localparam logic [11:0] RELEASE = 12'h074;
   localparam logic [31:0] RELEASE_RESET = 32'h00000000;
   localparam int RELEASE_VALUE_LSB = 0;
