@@ -660,7 +660,12 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
   if (fault_rounds() >= 300) {
     EXPECT_GT(timeouts, 20U);
     EXPECT_GT(aborted, 10U);
-    EXPECT_GT(underruns, 5U);
+    if (bench_.clock_waits()) {
+      EXPECT_EQ(underruns, 0U);
+      EXPECT_GT(bench_.rests(), 1000U);
+    } else {
+      EXPECT_GT(underruns, 5U);
+    }
     EXPECT_GT(by_itself, 100U);
   }
 }

@@ -82,7 +82,7 @@ TEST_P(Gaps, ChangeNoResult) {
       ASSERT_LT(clocks, kMostClocksOfAFrame) << "the frame does not end";
       // A source that cannot wait begins when the array waits for an acquisition.
       const bool held = !bench_.source_waits() && pushed % bench_.acquisition_lines() == 0 &&
-                        !bench_.reference().starved();
+                        (bench_.reference().inside() || !bench_.reference().starved());
       if (pushed < lines.size() && bench_.source().waiting() == 0 && !held && late-- == 0) {
         bench_.source().push(lines[pushed], (pushed + 1) % bench_.acquisition_lines() == 0);
         ++pushed;
