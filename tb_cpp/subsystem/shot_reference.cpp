@@ -25,8 +25,8 @@ bool ShotReference::clock(const ShotClock& now) {
     owed_ = true;
     due_.reset();
   }
-  const bool wanted = need_ > 0 && queued_ == 0 && !owed_ && !rest_ && !now.early && !now.arrives && !now.begin &&
-                      !now.abort && !now.flush && !now.gave_up;
+  const bool wanted = need_ > 0 && queued_ == 0 && !owed_ && !rest_ && !now.early && !now.arrives &&
+                      !now.begin && !now.abort && !now.flush && !now.gave_up;
   if (!wanted) {
     due_.reset();
   } else if (!due_) {

@@ -300,8 +300,8 @@ void SubsystemBench::observe_lines() {
     reference_.flush();
   }
   // A frame that begins may ask for more lines than the one before, and one that ends takes none any more.
-  array_held_ = offered && !ready && !dropped && *ports_.begin == 0 && *ports_.done == 0 && *ports_.abort == 0 &&
-                *ports_.flush == 0;
+  array_held_ = offered && !ready && !dropped && *ports_.begin == 0 && *ports_.done == 0 &&
+                *ports_.abort == 0 && *ports_.flush == 0;
   if (*ports_.commit != 0) {
     committed_ = written_;
   }

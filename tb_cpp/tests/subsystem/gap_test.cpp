@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines that are late inside acquisitions, and sources that cannot wait. A gap changes no result, whatever its
-// length and place; an acquisition for which there is no room is dropped whole and counted, and the frame goes
-// on. The bench follows each clock (StreamReference).
+// Lines that are late inside acquisitions, and sources that cannot wait. A gap changes no result, whatever
+// its length and place; an acquisition for which there is no room is dropped whole and counted, and the frame
+// goes on. The bench follows each clock (StreamReference).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
