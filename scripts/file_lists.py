@@ -130,7 +130,8 @@ def fusesoc(table: Table, listing: str, includes: list[str]) -> str:
         "    <<: *default",
         f'    filesets: [rtl, "!{OWN_SRAMS}? (srams_fpga)"]',
         "    default_tool: yosys",
-        f"    parameters: [{', '.join(chosen)}]",
+        # Memories and clock gate are those of hdl/technology/fpga, where no clock rests.
+        f"    parameters: [{', '.join('CLOCK_WAITS=0' if name == 'CLOCK_WAITS' else name for name in chosen)}]",
         "    tools:",
         "      yosys:",
         "        arch: ice40",
