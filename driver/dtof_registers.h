@@ -262,12 +262,12 @@
 #define DTOF_RAW_ROWS_LAST_LSB 16
 #define DTOF_RAW_ROWS_LAST_MASK UINT32_C(0x0FFF0000)
 
-/* lines that came and were thrown away since reset: too late behind an underrun or a timeout, or behind a long acquisition; those of FLUSH and ABORT do not count */
+/* lines that came and were thrown away since reset: too late behind an underrun or a timeout, behind a long acquisition, or of a dropped one; those of FLUSH and ABORT do not count */
 #define DTOF_LOST_LINES UINT32_C(0x104)
 #define DTOF_LOST_LINES_VALUE_LSB 0
 #define DTOF_LOST_LINES_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* acquisitions of frames since reset in which a line counted as no detection because it was missing */
+/* acquisitions of frames since reset in which a line counted as no detection because it was missing, and acquisitions that were dropped */
 #define DTOF_LOST_ACQUISITIONS UINT32_C(0x108)
 #define DTOF_LOST_ACQUISITIONS_VALUE_LSB 0
 #define DTOF_LOST_ACQUISITIONS_VALUE_MASK UINT32_C(0xFFFFFFFF)

@@ -296,13 +296,13 @@ package dtof_registers_pkg;
   localparam int RAW_ROWS_LAST_LSB = 16;
   localparam int RAW_ROWS_LAST_WIDTH = 12;
 
-  // lines that came and were thrown away since reset: too late behind an underrun or a timeout, or behind a long acquisition; those of FLUSH and ABORT do not count
+  // lines that came and were thrown away since reset: too late behind an underrun or a timeout, behind a long acquisition, or of a dropped one; those of FLUSH and ABORT do not count
   localparam logic [11:0] LOST_LINES = 12'h104;
   localparam logic [31:0] LOST_LINES_RESET = 32'h00000000;
   localparam int LOST_LINES_VALUE_LSB = 0;
   localparam int LOST_LINES_VALUE_WIDTH = 32;
 
-  // acquisitions of frames since reset in which a line counted as no detection because it was missing
+  // acquisitions of frames since reset in which a line counted as no detection because it was missing, and acquisitions that were dropped
   localparam logic [11:0] LOST_ACQUISITIONS = 12'h108;
   localparam logic [31:0] LOST_ACQUISITIONS_RESET = 32'h00000000;
   localparam int LOST_ACQUISITIONS_VALUE_LSB = 0;
