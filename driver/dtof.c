@@ -15,6 +15,9 @@ static dtof_status write_register(const dtof_device *device, uint32_t offset, ui
 }
 
 static uint32_t most_lines(const dtof_device *device) {
+  if (device->clock_waits) {
+    return device->acquisition_lines;
+  }
   return device->buffer_lines < device->acquisition_lines ? device->buffer_lines : device->acquisition_lines;
 }
 
@@ -65,6 +68,8 @@ dtof_status dtof_probe(dtof_device *device, dtof_bus bus) {
   device->has_second_target = FIELD(values[READOUT], DTOF_READOUT_SECOND_TARGET) != 0;
   device->has_prior = FIELD(values[READOUT], DTOF_READOUT_PRIOR) != 0;
   device->has_parity = FIELD(values[READOUT], DTOF_READOUT_PARITY) != 0;
+  device->clock_waits = FIELD(values[READOUT], DTOF_READOUT_CLOCK_WAITS) != 0;
+  device->source_waits = FIELD(values[READOUT], DTOF_READOUT_SOURCE_WAITS) != 0;
   device->columns = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_COLUMNS);
   device->rows = (uint16_t)FIELD(values[SIZE], DTOF_SIZE_ROWS);
   device->timestamp_bits = (uint8_t)FIELD(values[WIDTHS], DTOF_WIDTHS_TIMESTAMP);

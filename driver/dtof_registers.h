@@ -38,6 +38,10 @@
 #define DTOF_READOUT_PRIOR_MASK UINT32_C(0x00002000)
 #define DTOF_READOUT_PARITY_LSB 14
 #define DTOF_READOUT_PARITY_MASK UINT32_C(0x00004000)
+#define DTOF_READOUT_CLOCK_WAITS_LSB 15
+#define DTOF_READOUT_CLOCK_WAITS_MASK UINT32_C(0x00008000)
+#define DTOF_READOUT_SOURCE_WAITS_LSB 16
+#define DTOF_READOUT_SOURCE_WAITS_MASK UINT32_C(0x00010000)
 
 /* of the array */
 #define DTOF_SIZE UINT32_C(0x00C)
@@ -224,7 +228,7 @@
 #define DTOF_GATE_END_LSB 16
 #define DTOF_GATE_END_MASK UINT32_C(0xFFFF0000)
 
-/* lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller, LINES.BUFFER */
+/* READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have come before the shot of the next one; 0: lines that must be in the buffer before an acquisition begins */
 #define DTOF_RELEASE UINT32_C(0x074)
 #define DTOF_RELEASE_VALUE_LSB 0
 #define DTOF_RELEASE_VALUE_MASK UINT32_C(0x0000FFFF)
@@ -258,12 +262,12 @@
 #define DTOF_RAW_ROWS_LAST_LSB 16
 #define DTOF_RAW_ROWS_LAST_MASK UINT32_C(0x0FFF0000)
 
-/* lines that came and were thrown away since reset: too late behind an underrun or a timeout, or behind a long acquisition; those of FLUSH and ABORT do not count */
+/* lines that came and were thrown away since reset: too late behind an underrun or a timeout, behind a long acquisition, or of a dropped one; those of FLUSH and ABORT do not count */
 #define DTOF_LOST_LINES UINT32_C(0x104)
 #define DTOF_LOST_LINES_VALUE_LSB 0
 #define DTOF_LOST_LINES_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* acquisitions of frames since reset in which a line counted as no detection because it was missing */
+/* acquisitions of frames since reset in which a line counted as no detection because it was missing, and acquisitions that were dropped */
 #define DTOF_LOST_ACQUISITIONS UINT32_C(0x108)
 #define DTOF_LOST_ACQUISITIONS_VALUE_LSB 0
 #define DTOF_LOST_ACQUISITIONS_VALUE_MASK UINT32_C(0xFFFFFFFF)
@@ -316,7 +320,7 @@
 #define DTOF_FOR_EACH_REGISTER(X) \
   X(DTOF_ID, 1, UINT32_C(0x444F4650), UINT32_C(0xFFFFFFFF)) \
   X(DTOF_VERSION, 1, UINT32_C(0x00030003), UINT32_C(0xFFFFFFFF)) \
-  X(DTOF_READOUT, 1, UINT32_C(0x00000000), UINT32_C(0xFFFF8000)) \
+  X(DTOF_READOUT, 1, UINT32_C(0x00000000), UINT32_C(0xFFFE0000)) \
   X(DTOF_SIZE, 1, UINT32_C(0x00000000), UINT32_C(0x00000000)) \
   X(DTOF_WIDTHS, 1, UINT32_C(0x00000000), UINT32_C(0x00000000)) \
   X(DTOF_LINES, 1, UINT32_C(0x00000000), UINT32_C(0x00000000)) \

@@ -2,7 +2,8 @@
 // dtof_shot_dither: in front of any source that answers each shot with one acquisition, and an array that takes any time for each, a
 // frame has one shot for each of its acquisitions and none beside; a shot comes 2 + delay clocks behind its request, the delay
 // being that of a register that makes its steps one by one. FREE = 1: whatever the source, aborts, flushes and timeouts do, a
-// shot is fired only in a frame that needs an acquisition, never while one is owed or waits, and never twice in two clocks.
+// shot is fired only in a frame that needs an acquisition, never while one is owed or waits or it is too early, and never twice in two
+// clocks.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -28,6 +29,7 @@ module shot_dither_properties #(
     input logic                  arrives_i,
     input logic                  taken_i,
     input logic                  inside_i,
+    input logic                  early_i,
     input logic                  rest_ends_i
 );
 
@@ -64,6 +66,7 @@ module shot_dither_properties #(
       .queued_i      (queued_q != '0),
       .taken_i       (taken_i),
       .inside_i      (inside_i),
+      .early_i       (early_i),
       .rest_ends_i   (rest_ends_i),
       .shot_o        (shot),
       .first_state_o (first_state)
@@ -73,18 +76,20 @@ module shot_dither_properties #(
   logic [ACQ_WIDTH:0] shots_q, taken_q, frame_q;  // shots and begun acquisitions of the frame, and how many it has
   logic [BITS_WIDTH-1:0] bits_q;
   logic [UNIT_WIDTH-1:0] unit_q;
-  logic owed_q, running_q, shot_before_q, ends;
+  logic owed_q, running_q, shot_before_q, early_before_q, ends;
   logic needs;  // an acquisition may be asked for
 
   assign ends = abort_i || flush_i || give_up_i;
-  assign needs = running_q && (taken_q != frame_q) && (queued_q == '0) && !owed_q && !shot && !arrives_i && !begin_i && !ends;
+  assign needs = running_q && (taken_q != frame_q) && (queued_q == '0) && !owed_q && !shot && !early_i && !arrives_i
+      && !begin_i && !ends;
 
   always_ff @(posedge clk_i) begin
     if (!rst_n) begin
       {shots_q, taken_q, frame_q, bits_q, unit_q} <= '0;
-      {owed_q, running_q, shot_before_q, queued_q} <= '0;
+      {owed_q, running_q, shot_before_q, early_before_q, queued_q} <= '0;
     end else begin
       shot_before_q <= shot;
+      early_before_q <= early_i;
       if (begin_i) begin
         running_q <= 1'b1;
         shots_q <= '0;
@@ -106,12 +111,13 @@ module shot_dither_properties #(
 
   `ASSUME(m_taken, !taken_i || queued_q != '0)
   `ASSUME(m_queue, !arrives_i || queued_q != '1)
-  `ASSUME(m_command, !ends || (!arrives_i && !taken_i && !begin_i))
+  `ASSUME(m_command, !ends || (!taken_i && !begin_i))
 
   // What holds in front of any source.
   `PROVE(a_in_a_frame, !rst_n || !shot || (running_q && taken_q != frame_q))
   `PROVE(a_none_waits, !rst_n || !shot || queued_q == '0)
   `PROVE(a_none_owed, !rst_n || !shot || !owed_q)
+  `PROVE(a_not_early, !rst_n || !(shot && early_before_q))
   `PROVE(a_one_clock, !rst_n || !(shot && shot_before_q))
 
   generate
@@ -159,6 +165,7 @@ module shot_dither_properties #(
       end
 
       `ASSUME(m_no_command, !ends)
+      `ASSUME(m_early, !early_i || !waits_q)
       `ASSUME(m_answers, !arrives_i || owed_q)
       `ASSUME(m_begin, !begin_i || (taken_q == frame_q && !shot))
       `PROVE(a_first_state, !rst_n || first_state == first_state_q)

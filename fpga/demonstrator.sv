@@ -118,7 +118,8 @@ module demonstrator #(
       .NP             (NP),
       .SRAM_NUM       (COLUMNS),
       .PIXELS_PER_SRAM(ROWS),
-      .SLOTS          (2)
+      .SLOTS          (2),
+      .CLOCK_WAITS    (0)  // hdl/technology/fpga has no clock gate
   ) u_subsystem (
       .clk_i          (clk_i),
       .rst_ni         (rst_n),

@@ -16,9 +16,11 @@ OWN_SRAMS_BENDER = "tech_override"  # the same as a target of Bender
 # Beside the parameters of the arrays, those of dtof_subsystem and of the bench.
 READOUT = "dtof_pkg::READOUT_*: {}"
 SUBSYSTEM = {
+    "CLOCK_WAITS": "1: the array's clock waits for lines, behind a clock gate that works",
+    "SOURCE_WAITS": "0: TDCs that cannot wait; where there is no room, whole acquisitions are dropped",
     "BUFFER_LINES": "lines that the line buffer holds",
     "RASTER_ORDER": "1: results come row by row, for a memory of all of them",
-    "PARITY": "1: words of the line buffer and of the memory for RASTER_ORDER have parity bits",
+    "PARITY": "1: words of the line buffer's SRAM and of the memory for RASTER_ORDER have parity bits",
 }
 BENCH = {"ACQUISITIONS": "of the example's frame"}
 
@@ -128,7 +130,8 @@ def fusesoc(table: Table, listing: str, includes: list[str]) -> str:
         "    <<: *default",
         f'    filesets: [rtl, "!{OWN_SRAMS}? (srams_fpga)"]',
         "    default_tool: yosys",
-        f"    parameters: [{', '.join(chosen)}]",
+        # Memories and clock gate are those of hdl/technology/fpga, where no clock rests.
+        f"    parameters: [{', '.join('CLOCK_WAITS=0' if name == 'CLOCK_WAITS' else name for name in chosen)}]",
         "    tools:",
         "      yosys:",
         "        arch: ice40",

@@ -100,7 +100,9 @@ def run(command: list[str], log: str, folder: Path = BUILD) -> str:
 def synthesise(design: Design) -> dict[str, int]:
     """Cells by type. Writes the netlist for nextpnr and for simulation, and the cells' models beside it."""
     settings = " ".join(f"-set {name} {value}" for name, value in design.settings.items())
-    script = (f"read_verilog -sv -DSYNTHESIS -Icommon {' '.join(sources())}; chparam {settings} {TOP}; synth_ice40 -top {TOP} "
+    # Yosys looks into the modules with their defaults, too, where the FPGA's clock gate would stop it.
+    script = (f"read_verilog -sv -DSYNTHESIS -Icommon {' '.join(sources())}; chparam -set CLOCK_WAITS 0 dtof_subsystem; "
+              f"chparam {settings} {TOP}; synth_ice40 -top {TOP} "
               f"-json {design.file('.json')}; rename -top {TOP}; write_verilog -noattr {design.file('_netlist.v')}; tee -o /dev/stdout stat")  # fmt: skip
     text = run(["yosys", "-Q", "-T", "-p", script], f"{design.name}_yosys.log", HDL)
     share = Path(shutil.which("yosys") or "").resolve().parents[1] / "share/yosys"

@@ -96,7 +96,8 @@ def check_demonstrator() -> list[str]:
     commands = {
         "Verilator": ["verilator", "--lint-only", "-Wall", "-f", "dtof_lint.f", "+incdir+common", *files,
                       "--top-module", DEMONSTRATOR],
-        "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Icommon {' '.join(files)}; hierarchy -check -top {DEMONSTRATOR}; "
+        "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Icommon {' '.join(files)}; "
+                  f"chparam -set CLOCK_WAITS 0 {SUBSYSTEM}; hierarchy -check -top {DEMONSTRATOR}; "  # Yosys looks into the default, too
                   "proc; check -assert"],
         "Icarus Verilog": ["iverilog", "-g2012", "-t", "null", "-Icommon", "-s", DEMONSTRATOR, *files],
     }  # fmt: skip
@@ -111,7 +112,9 @@ def check_demonstrator() -> list[str]:
 def check_subsystem(readout: int) -> list[str]:
     """The subsystem around a read-out, with what is optional and, around one of them, without as much as possible."""
     smallest = {"PIXELS_PER_SRAM": 1, "SRAM_NUM": 1, "BUFFER_LINES": 2, "CONFIDENCE_WIDTH": 0}
-    chosen = [SIZE[SUBSYSTEM] | {"TIME_GATE": 1, "RASTER_ORDER": 1}, *([smallest] if readout == 0 else [])]
+    others = [smallest, {"CLOCK_WAITS": 0}, {"SOURCE_WAITS": 0}, {"SOURCE_WAITS": 0, "BUFFER_LINES": 9}]
+    chosen = [SIZE[SUBSYSTEM] | {"TIME_GATE": 1, "RASTER_ORDER": 1},
+              *([SIZE[SUBSYSTEM] | other for other in others] if readout == 0 else [])]
     return [failure for settings in chosen
             for failure in check_read(f"{SUBSYSTEM} of READOUT {readout}", SUBSYSTEM, {"READOUT": readout} | settings)]
 

@@ -51,7 +51,7 @@ class Diagram:
 
 SOURCE = (Lane("s_axis_tvalid_i", "line_valid"), Lane("s_axis_tready_o", "line_ready"),
           Lane("s_axis_tdata_i", "line", 16, valid="line_valid"), Lane("s_axis_tlast_i", "line_last"))  # fmt: skip
-ARRAY = (Lane("array: tdc_valid_i", f"{BUFFER}.line_valid_o"), Lane("array: tdc_ready_o", f"{BUFFER}.line_ready_i"),
+ARRAY = (Lane("array: clk_i rests", f"{BUFFER}.wait_o"), Lane("array: tdc_valid_i", f"{BUFFER}.line_valid_o"), Lane("array: tdc_ready_o", f"{BUFFER}.line_ready_i"),
          Lane("array: tdc_timestamp_i", f"{BUFFER}.line_o", 16, valid=f"{BUFFER}.line_valid_o"))  # fmt: skip
 LEVEL = Lane("STATUS.LEVEL", f"{BUFFER}.level_o", 3, hexadecimal=False)
 DIAGRAMS = (
@@ -67,8 +67,6 @@ DIAGRAMS = (
         Lane("COLUMN", "result", 12, lsb=44, valid="result_valid", hexadecimal=False),
         Lane("m_axis_tuser_o", "result_first", valid="result_valid"),
         Lane("m_axis_tlast_o", "result_last", valid="result_valid"), Lane("irq_o", "irq"))),
-    Diagram(4, "underrun", "RELEASE = 1: the source pauses inside an acquisition", (
-        *SOURCE, LEVEL, *ARRAY, Lane("ERROR.UNDERRUN", "u_subsystem.u_registers.error_q"), Lane("irq_o", "irq"))),
 )  # fmt: skip
 
 

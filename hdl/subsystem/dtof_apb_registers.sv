@@ -19,6 +19,8 @@ module dtof_apb_registers #(
     parameter int TIME_GATE = 0,
     parameter int RASTER_ORDER = 0,
     parameter int PARITY = 0,
+    parameter int CLOCK_WAITS = 1,
+    parameter int SOURCE_WAITS = 1,
     parameter int SECOND_TARGET = 0,
     parameter int PRIOR = 0,
     parameter int RAW_HISTOGRAM = 0,
@@ -514,6 +516,8 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::READOUT_SECOND_TARGET_LSB] = (SECOND_TARGET != 0);
         prdata_o[dtof_registers_pkg::READOUT_PRIOR_LSB] = (PRIOR != 0);
         prdata_o[dtof_registers_pkg::READOUT_PARITY_LSB] = (PARITY != 0);
+        prdata_o[dtof_registers_pkg::READOUT_CLOCK_WAITS_LSB] = (CLOCK_WAITS != 0);
+        prdata_o[dtof_registers_pkg::READOUT_SOURCE_WAITS_LSB] = (SOURCE_WAITS != 0);
         prdata_o[dtof_registers_pkg::READOUT_RAW_HISTOGRAM_LSB] = (RAW_HISTOGRAM != 0);
       end
       dtof_registers_pkg::SIZE: begin

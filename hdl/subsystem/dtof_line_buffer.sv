@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of timestamps on their way to an array, which takes an acquisition without a pause once it has begun.
+// Lines of timestamps on their way to an array, which takes an acquisition in consecutive clocks of its own once it has begun it.
 //
 // 1. A line, one timestamp of every column, comes whenever the source has one; the source may pause anywhere.
 // 2. s_tlast_i ends an acquisition. One that ends early is short: its missing lines are "no detection". One that does not
 //    end with its ACQUISITION_LINES-th line is long: the lines behind are thrown away, up to and with the next s_tlast_i.
 //    Either way the next acquisition begins behind s_tlast_i.
-// 3. An acquisition is offered to the array when its last line is in the buffer, or release_i lines are. With
-//    release_i = ACQUISITION_LINES it is whole then, and cannot be interrupted.
-// 4. With less, the buffer may run empty inside an acquisition (underrun_o). Its other lines then are "no detection",
-//    and those that the source still delivers for it are thrown away.
-// 5. Behind expire_i every line is "no detection", without a pause, until done_i. Lines that come meanwhile are kept for
+// 3. CLOCK_WAITS = 1: an acquisition is offered to the array when its first line is here. While a line is late inside an acquisition
+//    wait_o is high, and the array's clock rests: what takes lines and what comes back from the array is without effect then.
+// 4. CLOCK_WAITS = 0, where the array's clock cannot rest: an acquisition is offered when its last line is in the buffer, or
+//    release_i lines are. With release_i = ACQUISITION_LINES it is whole then, and cannot be interrupted. With less, the buffer may
+//    run empty inside an acquisition (underrun_o). Its other lines then are "no detection", and those that the source still delivers
+//    for it are thrown away.
+// 5. SOURCE_WAITS = 0, where the source cannot wait: s_tready_o is high but in reset. A line for which there is no room takes its whole
+//    acquisition with it (dropped_o), which the array has not begun then. SOURCE_WAITS = 1: the source waits.
+// 6. Behind expire_i every line is "no detection", without a pause, until done_i. Lines that come meanwhile are kept for
 //    the next frame.
-// 6. flush_i, abort_i and expire_i empty the buffer. Behind abort_i and expire_i the rest of the acquisition that the source
+// 7. flush_i, abort_i and expire_i empty the buffer. Behind abort_i and expire_i the rest of the acquisition that the source
 //    is in is thrown away, up to and with its s_tlast_i; behind flush_i the next line begins an acquisition.
 //
-// Latency: two clocks from a line's acceptance to its offer. A line a clock goes in and out at the same time.
-// Cost: an SRAM of LINES x (WIDTH + 1 + PARITY) bits, two addresses, five counters.
+// Latency: from a line's acceptance to its offer a clock with REGISTERS = 1, else two. A line a clock goes in and out at the same time.
+// Cost: LINES x (WIDTH + 1) flip-flops and a multiplexer of LINES lines, or an SRAM of LINES x (WIDTH + 1 + PARITY) bits; two
+// addresses, five counters.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -23,9 +28,12 @@
 
 module dtof_line_buffer #(
     parameter int ACQUISITION_LINES = 320,  // of an acquisition
-    parameter int LINES = 324,              // that the memory holds; one more waits at its output
+    parameter int LINES = 2,                // that the memory holds; of an SRAM one more waits at its output
     parameter int WIDTH = 2000,             // bits of a line
-    parameter int PARITY = 0,               // 1: each word of the memory has a parity bit
+    parameter int REGISTERS = 1,            // 1: lines are in registers, 0: in an SRAM
+    parameter int CLOCK_WAITS = 1,          // 1: the array's clock rests with wait_o
+    parameter int SOURCE_WAITS = 1,         // 0: a line that finds no room is lost, and its acquisition with it
+    parameter int PARITY = 0,               // 1: each word of an SRAM has a parity bit
     localparam int LEVEL_WIDTH = $clog2(LINES + 2)
 ) (
     input  logic                   clk_i,
@@ -37,29 +45,33 @@ module dtof_line_buffer #(
     input  logic                   abort_i,      // the array's frame ends here
     input  logic                   expire_i,     // without effect where starved_o is low
     input  logic                   done_i,       // the array's frame ends by itself
-    input  logic [LEVEL_WIDTH-1:0] release_i,    // 1 to the smaller of ACQUISITION_LINES and LINES
+    input  logic [           15:0] release_i,    // 1 to ACQUISITION_LINES; CLOCK_WAITS = 0: at most LINES
     output logic [LEVEL_WIDTH-1:0] level_o,      // lines in the buffer
-    output logic                   starved_o,    // the array waits for an acquisition
+    output logic                   starved_o,    // the array waits for an acquisition or for a line inside one
+    output logic                   wait_o,       // the array's clock is to rest: a line is late inside an acquisition
     output logic                   queued_o,     // an acquisition is here of which the array has no line yet
-    output logic                   inside_o,     // the source is inside an acquisition
+    output logic                   inside_o,     // the source is inside an acquisition behind this clock
+    output logic                   early_o,      // CLOCK_WAITS = 1: the source is not to be asked for an acquisition: fewer than release_i
+                                                 // lines of the last one have come or, if those are all, the array does not wait
     // these for one clock
-    output logic                   kept_o,       // a line was accepted and is no rest of a long acquisition
-    output logic                   arrives_o,    // likewise, the first of an acquisition
+    output logic                   kept_o,       // a line was accepted and stored
+    output logic                   arrives_o,    // the first line of an acquisition was accepted
     output logic                   rest_ends_o,  // the last line of a rest that is thrown away was accepted
     output logic                   taken_o,      // the array takes the first line of an acquisition
     output logic                   underrun_o,   // the array needs a line that is not here: once an acquisition
     output logic                   short_o,      // s_tlast_i came before an acquisition's last line
     output logic                   long_o,       // s_tlast_i did not come with it
-    output logic [LEVEL_WIDTH-1:0] lost_lines_o, // so many lines of the source are thrown away by themselves
+    output logic                   dropped_o,    // an acquisition found no room
+    output logic [  LEVEL_WIDTH:0] lost_lines_o, // so many lines of the source are thrown away by themselves
     output logic                   parity_error_o,      // a line that was read two clocks ago is damaged
-    output logic                   lost_acquisition_o,  // the array has taken an acquisition with lines that are missing
+    output logic [            1:0] lost_acquisitions_o, // one was dropped, and the array has taken one with lines that are missing
     // from the source, AXI4-Stream
     input  logic                   s_tvalid_i,
     output logic                   s_tready_o,   // low in reset
     input  logic [      WIDTH-1:0] s_tdata_i,
     input  logic                   s_tlast_i,    // the last line of an acquisition
     // to the array
-    output logic                   line_valid_o,  // high for a whole acquisition
+    output logic                   line_valid_o,  // high for a whole acquisition, with wait_o, too
     input  logic                   line_ready_i,
     output logic [      WIDTH-1:0] line_o
 );
@@ -71,6 +83,8 @@ module dtof_line_buffer #(
 
   `DTOF_REQUIRE(g_illegal_acquisition, ACQUISITION_LINES >= 1, "dtof_line_buffer: ACQUISITION_LINES must be at least 1")
   `DTOF_REQUIRE(g_illegal_lines, LINES >= 2, "dtof_line_buffer: LINES must be at least 2")
+  `DTOF_REQUIRE(g_illegal_room, SOURCE_WAITS != 0 || REGISTERS != 0 || LINES >= 3,
+                "dtof_line_buffer: LINES of an SRAM must be at least 3 with SOURCE_WAITS = 0")
 
   // The source's side. A line is stored with whether its acquisition ends with it.
 
@@ -81,86 +95,168 @@ module dtof_line_buffer #(
   logic [INDEX_WIDTH-1:0] source_line_q;
   logic live_q;    // not in reset
   logic behind_q;  // what comes up to s_tlast_i belongs to an acquisition that is over
+  logic rest_q;    // likewise, and neither an abort nor a timeout has ended it
   logic drain_q;   // the rest of the frame is "no detection" for the array
-  logic accepted, write, ends, read, take, head_q, head_ends, empties, expires;
+  logic accepted, write, ends, read, take, head_here, head_ends, empties, expires;
+  logic begun, drops;  // begun: the array has begun the source's acquisition; 1 where nothing is dropped
+  logic room;          // registers take a line where one leaves
+  logic [ADDR_WIDTH-1:0] first_address_q;  // of the source's acquisition
+  logic [ADDR_WIDTH-1:0] following_read;
+  logic [LEVEL_WIDTH-1:0] kept;  // lines that stay behind this clock where its acquisition is dropped
 
   assign empties = flush_i || abort_i || expires;
-  assign s_tready_o = live_q && (behind_q || stored_q != LEVEL_WIDTH'(LINES)) && !flush_i && !abort_i && !expire_i;
   assign accepted = s_tvalid_i && s_tready_o;
-  assign write = accepted && !behind_q;
+  // An SRAM is not written where it is read. Of a source that cannot wait it keeps a place for the acquisition that the array has begun.
+  assign room = (REGISTERS != 0) ? (stored_q != LEVEL_WIDTH'(LINES) || take)
+      : (SOURCE_WAITS != 0) ? (stored_q != LEVEL_WIDTH'(LINES)) : (stored_q < LEVEL_WIDTH'(LINES - 1) || begun);
+  assign write = accepted && !behind_q && !empties && !drops;
+
+  generate
+    if (SOURCE_WAITS != 0) begin : g_source_waits
+      assign s_tready_o = live_q && (behind_q || room) && !flush_i && !abort_i && !expire_i;
+      assign {begun, drops} = 2'b10;
+    end else begin : g_source_goes_on
+      assign s_tready_o = live_q;
+      assign begun = (source_line_q != '0) && (queued_q == LEVEL_WIDTH'(taken_o && !drain_q));
+      assign drops = accepted && !behind_q && !room && !empties;
+    end
+  endgenerate
+
+  assign following_read = !read ? read_address_q : (read_address_q == LAST_ADDRESS) ? '0 : read_address_q + 1'b1;
+  assign dropped_o = drops;
+  assign kept = level_o - LEVEL_WIDTH'(source_line_q) - LEVEL_WIDTH'(take);
   assign ends = s_tlast_i || (source_line_q == LAST_LINE);
   assign short_o = write && s_tlast_i && (source_line_q != LAST_LINE);
   assign long_o = write && !s_tlast_i && (source_line_q == LAST_LINE);
   assign kept_o = write;
-  assign arrives_o = write && (source_line_q == '0);
+  assign arrives_o = accepted && !behind_q && (source_line_q == '0);
   assign rest_ends_o = accepted && behind_q && s_tlast_i;
   assign queued_o = (queued_q != '0);
-  assign inside_o = behind_q || (source_line_q != '0);
-
-  // The line at the memory's output (head_q) stays there until the next is read.
-  assign read = (stored_q != '0) && (!head_q || take);
+  assign inside_o = accepted ? !s_tlast_i : behind_q || (source_line_q != '0);
+  assign early_o = (CLOCK_WAITS != 0) && (rest_q
+      || ((source_line_q != '0) ? 16'(source_line_q) < release_i : 32'(release_i) == ACQUISITION_LINES && !starved_o));
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
       live_q <= 1'b0;
       behind_q <= 1'b0;
+      rest_q <= 1'b0;
       write_address_q <= '0;
       read_address_q <= '0;
       stored_q <= '0;
       complete_q <= '0;
       queued_q <= '0;
       source_line_q <= '0;
-      head_q <= 1'b0;
+      first_address_q <= '0;
     end else begin
       live_q <= 1'b1;
       if (empties) begin
-        behind_q <= !flush_i && (behind_q || source_line_q != '0);
+        behind_q <= !flush_i && (accepted ? !s_tlast_i : behind_q || source_line_q != '0);
+        rest_q <= 1'b0;
         write_address_q <= '0;
         read_address_q <= '0;
         stored_q <= '0;
         complete_q <= '0;
         queued_q <= '0;
         source_line_q <= '0;
-        head_q <= 1'b0;
+        first_address_q <= '0;
       end else begin
         if (accepted) begin
-          behind_q <= !s_tlast_i && (behind_q || long_o);
+          behind_q <= !s_tlast_i && (behind_q || long_o || drops);
+          rest_q <= !s_tlast_i && (rest_q || long_o || drops);
+        end
+        if (write && source_line_q == '0) begin
+          first_address_q <= write_address_q;
         end
         if (write) begin
           write_address_q <= (write_address_q == LAST_ADDRESS) ? '0 : write_address_q + 1'b1;
           source_line_q <= ends ? '0 : source_line_q + 1'b1;
         end
-        if (read) begin
-          read_address_q <= (read_address_q == LAST_ADDRESS) ? '0 : read_address_q + 1'b1;
-        end
+        read_address_q <= following_read;
         stored_q <= stored_q + LEVEL_WIDTH'(write) - LEVEL_WIDTH'(read);
+        if (drops) begin
+          source_line_q <= '0;
+          stored_q <= kept - LEVEL_WIDTH'(REGISTERS == 0 && kept != '0);
+          if (source_line_q != '0) begin
+            write_address_q <= first_address_q;
+            read_address_q <= (kept == '0) ? first_address_q : following_read;
+          end
+        end
         complete_q <= complete_q + LEVEL_WIDTH'(write && ends) - LEVEL_WIDTH'(take && head_ends);
-        queued_q <= queued_q + LEVEL_WIDTH'(arrives_o) - LEVEL_WIDTH'(taken_o && !drain_q);
-        head_q <= read || (head_q && !take);
+        queued_q <= queued_q + LEVEL_WIDTH'(arrives_o && write) - LEVEL_WIDTH'(taken_o && !drain_q)
+            - LEVEL_WIDTH'(drops && source_line_q != '0);
       end
     end
   end
 
+  // The line at the head stays there until the array takes it, or it is thrown away.
+
   logic [WIDTH-1:0] head;
 
-  dtof_parity_sram #(
-      .PORTS (2),
-      .DEPTH (LINES),
-      .WIDTH (WIDTH + 1),
-      .PARITY(PARITY)
-  ) u_lines (
-      .clk_i       (clk_i),
-      .rst_ni      (rst_ni),
-      .cfg_i       (sram_cfg_i),
-      .cfg_o       (sram_cfg_o),
-      .read_en_i   (read),
-      .read_addr_i (read_address_q),
-      .read_data_o ({head_ends, head}),
-      .error_o     (parity_error_o),
-      .write_en_i  (write),
-      .write_addr_i(write_address_q),
-      .write_data_i({ends, s_tdata_i})
-  );
+  generate
+    if (REGISTERS != 0) begin : g_registers
+      logic [LINES*(WIDTH+1)-1:0] lines_q;
+
+      assign head_here = (stored_q != '0);
+      assign read = take;
+      assign level_o = stored_q;
+      assign parity_error_o = 1'b0;
+      assign sram_cfg_o = '1;
+
+      integer i;
+      always_ff @(posedge clk_i) begin
+        for (i = 0; i < LINES; i = i + 1) begin
+          if (write && write_address_q == ADDR_WIDTH'(i)) begin
+            lines_q[i*(WIDTH+1)+:WIDTH+1] <= {ends, s_tdata_i};
+          end
+        end
+      end
+
+      integer j;
+      always_comb begin
+        {head_ends, head} = '0;
+        for (j = 0; j < LINES; j = j + 1) begin
+          {head_ends, head} = {head_ends, head} | (lines_q[j*(WIDTH+1)+:WIDTH+1] & {(WIDTH + 1) {read_address_q == ADDR_WIDTH'(j)}});
+        end
+      end
+
+      logic unused_cfg;
+      assign unused_cfg = ^sram_cfg_i;
+    end else begin : g_sram
+      logic head_q;  // the line at the memory's output
+
+      assign head_here = head_q;
+      assign read = (stored_q != '0) && (!head_q || take);
+      assign level_o = stored_q + LEVEL_WIDTH'(head_q);
+
+      always_ff @(posedge clk_i or negedge rst_ni) begin
+        if (!rst_ni) begin
+          head_q <= 1'b0;
+        end else begin
+          head_q <= !empties && (drops ? (kept != '0) : read || (head_q && !take));
+        end
+      end
+
+      dtof_parity_sram #(
+          .PORTS (2),
+          .DEPTH (LINES),
+          .WIDTH (WIDTH + 1),
+          .PARITY(PARITY)
+      ) u_lines (
+          .clk_i       (clk_i),
+          .rst_ni      (rst_ni),
+          .cfg_i       (sram_cfg_i),
+          .cfg_o       (sram_cfg_o),
+          .read_en_i   (read),
+          .read_addr_i (read_address_q),
+          .read_data_o ({head_ends, head}),
+          .error_o     (parity_error_o),
+          .write_en_i  (write),
+          .write_addr_i(write_address_q),
+          .write_data_i({ends, s_tdata_i})
+      );
+    end
+  endgenerate
 
   // The array's side.
 
@@ -169,21 +265,26 @@ module dtof_line_buffer #(
   logic discard_q;  // the lines at the head up to their acquisition's end are too late
   logic [INDEX_WIDTH-1:0] line_q;  // of the acquisition
   logic begin_allowed, step, last_line, missing;
+  logic [LEVEL_WIDTH-1:0] lost_stored, lost_here;  // lines that were in the buffer, and at its ends
 
-  assign level_o = stored_q + LEVEL_WIDTH'(head_q);
-  assign begin_allowed = drain_q || (head_q && !discard_q && (complete_q != '0 || level_o >= release_i));
+  assign begin_allowed = drain_q
+      || (head_here && !discard_q && (CLOCK_WAITS != 0 || complete_q != '0 || 16'(level_o) >= release_i));
   assign line_valid_o = inside_q || begin_allowed;
-  assign step = line_valid_o && line_ready_i;
+  assign wait_o = (CLOCK_WAITS != 0) && inside_q && !head_here && !fill_q && !drain_q;
+  assign step = line_valid_o && line_ready_i && !wait_o;
   assign last_line = (line_q == LAST_LINE);
   assign taken_o = step && (line_q == '0);
-  assign missing = drain_q || fill_q || (inside_q && !head_q);
-  assign underrun_o = step && inside_q && !head_q && !fill_q && !drain_q;
+  assign missing = drain_q || fill_q || (inside_q && !head_here);
+  assign underrun_o = step && inside_q && !head_here && !fill_q && !drain_q;
   assign line_o = missing ? '1 : head;
-  assign take = head_q && ((step && !missing) || discard_q);
-  assign starved_o = (starved_q || line_ready_i) && !line_valid_o;
+  assign take = head_here && ((step && !missing) || discard_q);
+  // A line that is on its way through an SRAM is here.
+  assign starved_o = ((starved_q || line_ready_i) && !line_valid_o) || (wait_o && stored_q == '0);
   assign expires = expire_i && starved_o;
-  assign lost_lines_o = expires ? level_o : LEVEL_WIDTH'(accepted && behind_q) + LEVEL_WIDTH'(take && discard_q);
-  assign lost_acquisition_o = step && last_line && missing;
+  assign lost_stored = expires ? level_o : drops ? LEVEL_WIDTH'(source_line_q) : '0;
+  assign lost_here = LEVEL_WIDTH'(take && discard_q && !expires) + LEVEL_WIDTH'(accepted && (behind_q || drops || expires));
+  assign lost_lines_o = (LEVEL_WIDTH + 1)'(lost_stored) + (LEVEL_WIDTH + 1)'(lost_here);
+  assign lost_acquisitions_o = 2'(drops) + 2'(step && last_line && missing);
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -220,6 +321,8 @@ module dtof_line_buffer #(
 
   `DTOF_ASSERT(a_queued, !taken_o || drain_q || queued_o, "the array takes an acquisition that has not arrived")
   `DTOF_ASSERT(a_release, release_i != '0, "release_i is 0")
+  `DTOF_ASSERT(a_room, !write || read || stored_q != LEVEL_WIDTH'(LINES), "a line is written where there is no room")
+  `DTOF_ASSERT(a_dropped_whole, !drops || !begun, "an acquisition is dropped that the array has begun")
   `DTOF_ASSERT(a_flush_between, !flush_i || abort_i || !inside_q, "the buffer is flushed inside an acquisition")
 
 endmodule

@@ -44,6 +44,10 @@ package dtof_registers_pkg;
   localparam int READOUT_PRIOR_WIDTH = 1;
   localparam int READOUT_PARITY_LSB = 14;
   localparam int READOUT_PARITY_WIDTH = 1;
+  localparam int READOUT_CLOCK_WAITS_LSB = 15;
+  localparam int READOUT_CLOCK_WAITS_WIDTH = 1;
+  localparam int READOUT_SOURCE_WAITS_LSB = 16;
+  localparam int READOUT_SOURCE_WAITS_WIDTH = 1;
 
   // of the array
   localparam logic [11:0] SIZE = 12'h00c;
@@ -253,7 +257,7 @@ package dtof_registers_pkg;
   localparam int GATE_END_LSB = 16;
   localparam int GATE_END_WIDTH = 16;
 
-  // lines that must be in the buffer before an acquisition begins; at reset LINES.ACQUISITION or, if smaller, LINES.BUFFER
+  // READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have come before the shot of the next one; 0: lines that must be in the buffer before an acquisition begins
   localparam logic [11:0] RELEASE = 12'h074;
   localparam logic [31:0] RELEASE_RESET = 32'h00000000;
   localparam int RELEASE_VALUE_LSB = 0;
@@ -292,13 +296,13 @@ package dtof_registers_pkg;
   localparam int RAW_ROWS_LAST_LSB = 16;
   localparam int RAW_ROWS_LAST_WIDTH = 12;
 
-  // lines that came and were thrown away since reset: too late behind an underrun or a timeout, or behind a long acquisition; those of FLUSH and ABORT do not count
+  // lines that came and were thrown away since reset: too late behind an underrun or a timeout, behind a long acquisition, or of a dropped one; those of FLUSH and ABORT do not count
   localparam logic [11:0] LOST_LINES = 12'h104;
   localparam logic [31:0] LOST_LINES_RESET = 32'h00000000;
   localparam int LOST_LINES_VALUE_LSB = 0;
   localparam int LOST_LINES_VALUE_WIDTH = 32;
 
-  // acquisitions of frames since reset in which a line counted as no detection because it was missing
+  // acquisitions of frames since reset in which a line counted as no detection because it was missing, and acquisitions that were dropped
   localparam logic [11:0] LOST_ACQUISITIONS = 12'h108;
   localparam logic [31:0] LOST_ACQUISITIONS_RESET = 32'h00000000;
   localparam int LOST_ACQUISITIONS_VALUE_LSB = 0;

@@ -43,6 +43,7 @@ module dtof_shot_dither #(
     input  logic                   queued_i,        // an acquisition is there that the array has not begun
     input  logic                   taken_i,         // the array begins an acquisition
     input  logic                   inside_i,        // the source is inside an acquisition
+    input  logic                   early_i,         // it is not to be asked for the next one yet
     input  logic                   rest_ends_i,     // the end of an acquisition that is thrown away is accepted
     output logic                   shot_o,          // fires the laser and starts the TDCs, for one clock
     output logic [STATE_WIDTH-1:0] first_state_o    // the state when the last frame began
@@ -77,7 +78,7 @@ module dtof_shot_dither #(
   logic ends, wanted, request, fires;
 
   assign ends = abort_i || flush_i || give_up_i;
-  assign wanted = (left_q != '0) && !queued_i && !owed_q && !rest_q && !arrives_i && !begin_i && !ends;
+  assign wanted = (left_q != '0) && !queued_i && !owed_q && !rest_q && !early_i && !arrives_i && !begin_i && !ends;
   assign request = wanted && !waits_q;
   assign fires = wanted && waits_q && (units_q == '0);
   assign drawn = (unit_q == '0) ? '0 : state_q[UNITS_WIDTH-1:0] & ~({UNITS_WIDTH{1'b1}} << bits_q);

@@ -3,8 +3,9 @@
 // AXI4-Streams of whole bytes, an interrupt (docs/user/integration.md). AXI4-Lite: dtof_axi_lite_to_apb in front.
 //
 // 1. Software writes the registers and CONTROL.START. A frame uses the settings that were committed last when it begins.
-// 2. Lines of timestamps come from the source at its own pace, before and during frames. The line buffer offers an
-//    acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
+// 2. Lines of timestamps come from the source at its own pace, before and during frames. The array takes them as they come: its
+//    clock rests while a line is late inside an acquisition (CLOCK_WAITS = 1). Where a clock cannot rest (CLOCK_WAITS = 0), the line
+//    buffer offers an acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
 // 3. Columns that are not enabled and timestamps outside the time gate count as no detection.
 // 4. Results leave as words of 64 bits with a status, in the array's order or row by row; the array waits for a sink that
 //    waits. With SECOND_TARGET = 1 a frame may have a word for each pixel's second target, too; with RAW_HISTOGRAM = 1
@@ -18,8 +19,8 @@
 //
 // READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is dtof_pool_pointer2_array. The parameters
 // that follow (common/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
-// Latency: two clocks from a line to the array, one from the array to a result.
-// Cost: beside the array, BUFFER_LINES lines of SRAM, two bits a column, and the parts' (reports/fpga_check.md).
+// Latency: one clock from a line to the array (two where the line buffer is an SRAM), one from the array to a result.
+// Cost: beside the array, BUFFER_LINES lines, two bits a column, and the parts' (reports/fpga_check.md).
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -28,8 +29,11 @@
 module dtof_subsystem #(
     parameter int READOUT = dtof_pkg::READOUT_EZPOINTER,
 `include "dtof_subsystem_declarations.svh"
-    // Lines that the line buffer holds: at least two. Those of an acquisition and four hold a whole one while it is taken.
-    parameter int BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
+    parameter int CLOCK_WAITS = 1,   // 1: the array's clock waits for lines, behind a gate that works; 0: it goes on between them
+    parameter int SOURCE_WAITS = 1,  // 0: TDCs that cannot wait; where there is no room, whole acquisitions are dropped
+    // Lines that the line buffer holds, at least two, in registers up to eight. CLOCK_WAITS = 1: one, and those that come in the array's
+    // longest wait for its raster, SLOTS - 1 clocks. CLOCK_WAITS = 0: those of an acquisition and four hold a whole one while it is taken.
+    parameter int BUFFER_LINES = (CLOCK_WAITS != 0) ? dtof_pkg::max_of(SLOTS, 2) : PIXELS_PER_SRAM * SLOTS + 4,
     parameter int RASTER_ORDER = 0,  // 1: a memory of all results brings them into the order of rows and columns
     parameter int PARITY = 0,        // 1: the words of the subsystem's own memories have parity bits; the array's have none
     localparam int S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8),
@@ -68,7 +72,8 @@ module dtof_subsystem #(
 
   localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 1 : 0;
   localparam int ACQUISITION_LINES = PIXELS_PER_SRAM * SLOTS;
-  localparam int MOST_RELEASE = dtof_pkg::min_of(ACQUISITION_LINES, BUFFER_LINES);
+  localparam int MOST_RELEASE = (CLOCK_WAITS != 0) ? ACQUISITION_LINES : dtof_pkg::min_of(ACQUISITION_LINES, BUFFER_LINES);
+  localparam int MOST_REGISTERS = 8;  // lines; more of them are in an SRAM
   localparam int LEVEL_WIDTH = $clog2(BUFFER_LINES + 2);
   localparam int COLUMN_WIDTH = dtof_pkg::index_width(SRAM_NUM);
   localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM);
@@ -104,6 +109,8 @@ module dtof_subsystem #(
                 "dtof_subsystem: PIXELS_PER_SRAM times SLOTS must be at most 65535")
   `DTOF_REQUIRE(g_illegal_buffer, BUFFER_LINES >= 2 && BUFFER_LINES <= 65534,
                 "dtof_subsystem: BUFFER_LINES must be 2 to 65534")
+  `DTOF_REQUIRE(g_illegal_clock, CLOCK_WAITS == 0 || CLOCK_WAITS == 1, "dtof_subsystem: CLOCK_WAITS must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_source, SOURCE_WAITS == 0 || SOURCE_WAITS == 1, "dtof_subsystem: SOURCE_WAITS must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_parity, PARITY == 0 || PARITY == 1, "dtof_subsystem: PARITY must be 0 or 1")
 
   // Registers and frames.
@@ -134,6 +141,8 @@ module dtof_subsystem #(
       .TIME_GATE       (TIME_GATE),
       .RASTER_ORDER    (RASTER_ORDER),
       .PARITY          (PARITY),
+      .CLOCK_WAITS     (CLOCK_WAITS),
+      .SOURCE_WAITS    (SOURCE_WAITS),
       .SECOND_TARGET   (SECOND_TARGET),
       .PRIOR           (PRIOR),
       .RAW_HISTOGRAM   (RAW_HISTOGRAM),
@@ -271,14 +280,14 @@ module dtof_subsystem #(
 
   logic [SRAM_NUM-1:0] frame_enable_q;
   logic [NP-1:0] frame_gate_begin_q, frame_gate_end_q;
-  logic [LEVEL_WIDTH-1:0] frame_release_q;
+  logic [15:0] frame_release_q;
   logic [15:0] frame_weak_below_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      frame_release_q <= LEVEL_WIDTH'(MOST_RELEASE);
+      frame_release_q <= 16'(MOST_RELEASE);
     end else if (begin_frame) begin
-      frame_release_q <= LEVEL_WIDTH'(release_lines);
+      frame_release_q <= release_lines;
     end
   end
 
@@ -297,14 +306,19 @@ module dtof_subsystem #(
 
   // Lines in.
 
-  logic tdc_valid, tdc_ready, starved, kept, expired, lost_acquisition, queued, source_inside, arrives, rest_ends, taken;
-  logic [LEVEL_WIDTH-1:0] lost;
+  logic tdc_valid, tdc_ready, starved, kept, expired, queued, source_inside, source_early, arrives, rest_ends, taken, dropped;
+  logic array_waits;  // the array's clock rests, because a line is late
+  logic [1:0] lost_acquisition;
+  logic [LEVEL_WIDTH:0] lost;
   logic [SRAM_NUM*NP-1:0] line, timestamps;
 
   dtof_line_buffer #(
       .ACQUISITION_LINES(ACQUISITION_LINES),
       .LINES            (BUFFER_LINES),
       .WIDTH            (SRAM_NUM * NP),
+      .REGISTERS        ((BUFFER_LINES <= MOST_REGISTERS) ? 1 : 0),
+      .CLOCK_WAITS      (CLOCK_WAITS),
+      .SOURCE_WAITS     (SOURCE_WAITS),
       .PARITY           (PARITY)
   ) u_line_buffer (
       .clk_i       (clk_i),
@@ -318,8 +332,10 @@ module dtof_subsystem #(
       .release_i   (frame_release_q),
       .level_o     (level),
       .starved_o   (starved),
+      .wait_o      (array_waits),
       .queued_o    (queued),
       .inside_o    (source_inside),
+      .early_o     (source_early),
       .kept_o      (kept),
       .arrives_o   (arrives),
       .rest_ends_o (rest_ends),
@@ -327,9 +343,10 @@ module dtof_subsystem #(
       .underrun_o  (underrun),
       .short_o     (short_acquisition),
       .long_o      (long_acquisition),
+      .dropped_o   (dropped),
       .lost_lines_o(lost),
       .parity_error_o(line_parity_error),
-      .lost_acquisition_o(lost_acquisition),
+      .lost_acquisitions_o(lost_acquisition),
       .s_tvalid_i  (s_axis_tvalid_i),
       .s_tready_o  (s_axis_tready_o),
       .s_tdata_i   (s_axis_tdata_i[SRAM_NUM*NP-1:0]),
@@ -371,6 +388,7 @@ module dtof_subsystem #(
       .queued_i      (queued),
       .taken_i       (taken),
       .inside_i      (source_inside),
+      .early_i       (source_early),
       .rest_ends_i   (rest_ends),
       .shot_o        (shot_o),
       .first_state_o (shot_state)
@@ -387,7 +405,7 @@ module dtof_subsystem #(
   );
 
   dtof_saturating_counter #(
-      .STEP_WIDTH(LEVEL_WIDTH)
+      .STEP_WIDTH(LEVEL_WIDTH + 1)
   ) u_lost_lines (
       .clk_i  (clk_i),
       .rst_ni (rst_ni),
@@ -395,7 +413,9 @@ module dtof_subsystem #(
       .count_o(lost_lines)
   );
 
-  dtof_saturating_counter u_lost_acquisitions (
+  dtof_saturating_counter #(
+      .STEP_WIDTH(2)
+  ) u_lost_acquisitions (
       .clk_i  (clk_i),
       .rst_ni (rst_ni),
       .step_i (lost_acquisition),
@@ -430,10 +450,11 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-  // The array. Its clock rests between frames. In and behind a reset it runs for as long as what had no reset takes to leave the
-  // array's pipelines.
+  // The array. Its clock rests between frames, and while a line is late inside an acquisition. In and behind a reset it runs for as
+  // long as what had no reset takes to leave the array's pipelines. What the array says in a clock that it does not see the end of is
+  // without effect: it says so again in the next one. A gate that does not work meets the array's a_contiguous_acquisition.
 
-  logic array_clk, array_busy;
+  logic array_clk, array_busy, array_done, array_counter_full;
   logic [7:0] settling_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
@@ -444,20 +465,26 @@ module dtof_subsystem #(
     end
   end
 
-  dtof_clock_gate u_array_clock (
+  dtof_clock_gate #(
+      .NEEDED(CLOCK_WAITS)
+  ) u_array_clock (
       .clk_i      (clk_i),
-      .enable_i   (begin_frame || array_busy || in_reset || settling_q[7]),
+      .enable_i   (((begin_frame || array_busy) && !array_waits) || in_reset || settling_q[7]),
       .scan_mode_i(scan_mode_i),
       .clk_o      (array_clk)
   );
 
-  logic result_tvalid, result_tready, result_tlast;
+  logic array_tvalid, result_tvalid, result_tready, result_tlast;
   logic [RESULT_WIDTH-1:0] result_tdata;
+
+  assign done = array_done && !array_waits;
+  assign counter_full = array_counter_full && !array_waits;
+  assign result_tvalid = array_tvalid && !array_waits;
   logic [dtof_pkg::ERROR_WIDTH-1:0] array_error;
 
   generate
     if (POOL != 0) begin : g_pool
-      assign counter_full = 1'b0;  // its coarse bins make room
+      assign array_counter_full = 1'b0;  // its coarse bins make room
       dtof_pool_pointer2_array #(
 `include "dtof_pool_pointer2_array_parameters.svh"
       ) u_array (
@@ -475,13 +502,13 @@ module dtof_subsystem #(
           .prior_i        (prior),
           .template_i     (coarse_template),
           .busy_o         (array_busy),
-          .done_o         (done),
+          .done_o         (array_done),
           .state_o        (state),
           .error_o        (array_error),
-          .tdc_valid_i    (tdc_valid),
+          .tdc_valid_i    (tdc_valid && !array_waits),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
-          .result_tvalid_o(result_tvalid),
+          .result_tvalid_o(array_tvalid),
           .result_tready_i(result_tready),
           .result_tdata_o (result_tdata),
           .result_tlast_o (result_tlast)
@@ -505,14 +532,14 @@ module dtof_subsystem #(
           .raw_first_row_i(ROW_WIDTH'(raw_first)),
           .raw_last_row_i (ROW_WIDTH'(raw_last)),
           .busy_o         (array_busy),
-          .done_o         (done),
+          .done_o         (array_done),
           .state_o        (state),
           .error_o        (array_error),
-          .counter_full_o (counter_full),
-          .tdc_valid_i    (tdc_valid),
+          .counter_full_o (array_counter_full),
+          .tdc_valid_i    (tdc_valid && !array_waits),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
-          .result_tvalid_o(result_tvalid),
+          .result_tvalid_o(array_tvalid),
           .result_tready_i(result_tready),
           .result_tdata_o (result_tdata),
           .result_tlast_o (result_tlast)
@@ -521,7 +548,7 @@ module dtof_subsystem #(
   endgenerate
 
   // The registers tell of errors: line buffer and frame control see them before they could reach the array.
-  `DTOF_ASSERT(a_no_array_error, array_error == '0, "the array met a master's error that should have been kept from it")
+  `DTOF_ASSERT(a_no_array_error, array_error == '0 || array_waits, "the array met a master's error that should have been kept from it")
 
   `DTOF_ASSERT(a_begin_when_idle, !(begin_frame && array_busy), "a frame begins while another is under way")
 
@@ -714,7 +741,7 @@ module dtof_subsystem #(
   );
 
   assign frame = m_axis_tvalid_o && m_axis_tready_i && m_axis_tlast_o && !aborted_word;
-  assign overrun = s_axis_tvalid_i && !s_axis_tready_o && m_axis_tvalid_o && !m_axis_tready_i;
+  assign overrun = ((s_axis_tvalid_i && !s_axis_tready_o) || dropped) && m_axis_tvalid_o && !m_axis_tready_i;
 
 endmodule
 

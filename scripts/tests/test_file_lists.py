@@ -72,7 +72,7 @@ class Target:
     def lint(self) -> subprocess.CompletedProcess:
         return self.run("verilator", "--lint-only", *self.target["tools"]["verilator"]["verilator_options"], *self.waivers,
                         *(f"-I{folder}" for folder in self.includes), *self.files, "--top-module", self.target["toplevel"],
-                        "-GSRAM_NUM=2", "-GPIXELS_PER_SRAM=4")  # fmt: skip
+                        "-GSRAM_NUM=2", "-GPIXELS_PER_SRAM=4", *(f"-G{entry}" for entry in self.target["parameters"] if "=" in entry))  # fmt: skip
 
 
 class FuseSoc(unittest.TestCase):
@@ -89,7 +89,7 @@ class FuseSoc(unittest.TestCase):
     def test_what_a_target_names_is_there(self):
         self.assertEqual(set(CORE["targets"]), {"default", "lint", "sim", "synth"})
         for name, target in CORE["targets"].items():
-            self.assertLessEqual(set(target.get("parameters", [])), CORE["parameters"].keys(), name)
+            self.assertLessEqual({entry.split("=")[0] for entry in target.get("parameters", [])}, CORE["parameters"].keys(), name)
             for flags in (set(), {file_lists.OWN_SRAMS}):
                 self.assertLessEqual(set(resolved(target["filesets"], flags)), CORE["filesets"].keys(), name)
             self.assertEqual("tools" in target, name != "default")
@@ -114,6 +114,8 @@ class FuseSoc(unittest.TestCase):
             for file in OWN_SRAMS:
                 target.add(file)
                 target.files.append(file)
+            self.assertNotEqual(target.lint().returncode, 0)  # these have no clock gate
+            target.target["parameters"].append("CLOCK_WAITS=0")
             self.assertEqual(target.lint().returncode, 0)
 
     def test_sim_simulates_a_frame(self):
@@ -133,7 +135,8 @@ class FuseSoc(unittest.TestCase):
             target = Target("synth", folder)
             self.assertIn("hdl/technology/fpga/dtof_sram_1rw.sv", target.files)
             result = target.run("yosys", "-q", "-p", f"read_verilog -sv {' '.join(f'-I{name}' for name in target.includes)} "
-                                f"{' '.join(target.files)}; chparam -set SRAM_NUM 2 -set PIXELS_PER_SRAM 4 dtof_subsystem; "
+                                f"{' '.join(target.files)}; chparam -set SRAM_NUM 2 -set PIXELS_PER_SRAM 4 "
+                                f"{' '.join('-set ' + entry.replace('=', ' ') for entry in target.target['parameters'] if '=' in entry)} dtof_subsystem; "
                                 f"hierarchy -check -top {target.target['toplevel']}; proc; check -assert")  # fmt: skip
             self.assertEqual(result.returncode, 0, result.stdout)
 
@@ -153,7 +156,7 @@ class Lists(unittest.TestCase):
     def test_the_list_without_srams_reads_as_its_head_says(self):
         text = (HDL / "dtof_no_srams.f").read_text(encoding="utf-8")
         command = re.search(r"^// +(verilator .*)$", text, re.MULTILINE).group(1)
-        command = command.replace("my_srams/", "technology/fpga/") + " -GSRAM_NUM=2 -GPIXELS_PER_SRAM=4"
+        command = command.replace("my_srams/", "technology/fpga/") + " -GSRAM_NUM=2 -GPIXELS_PER_SRAM=4 -GCLOCK_WAITS=0"
         for name, there in (("dtof_sram_1rw.sv", True), ("sram_9.sv", False)):
             result = subprocess.run(command.replace("dtof_sram_1rw.sv", name).split(), cwd=HDL, text=True, stdout=subprocess.PIPE,
                                     stderr=subprocess.STDOUT, check=False)  # fmt: skip

@@ -11,8 +11,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from . import batch, budgets, check, configuration, corner_ratios, gates, goals, growth, namings, part_costs, report, report_inputs, \
-    scene_power, signalled_clear, simulation, sram_kit, sram_report
+from . import area_parts, batch, budgets, check, configuration, corner_ratios, gates, goals, growth, line_buffer, namings, part_costs, \
+    report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
@@ -88,7 +88,9 @@ def _write_reports(arguments: argparse.Namespace, named: dict[str, Configuration
     reports.mkdir(exist_ok=True)
     main = {name: results[name] for name in named}
     found = goals.check(main)
-    extra = "\n".join([signalled_clear.section(named, results), report.goals_section(found, gates.read(ROOT / gates.FILE)),
+    arrays = [(result, area_parts.parts(result).total) for result in main.values() if not result.configuration.variant_of]
+    buffers = line_buffer.areas((result for result, _ in arrays), technology, ROOT / "build" / "synth" / "line_buffer")
+    extra = "\n".join([line_buffer.section(arrays, buffers), signalled_clear.section(named, results), report.goals_section(found, gates.read(ROOT / gates.FILE)),
                        "How cost grows (`make synth-growth`): [growth.csv](growth.csv)\n\n![growth](growth.png)\n"])
     (reports / "area.md").write_text(report.area(main, extra, technology.typical.name, digest), encoding="utf-8")
     (reports / "timing.md").write_text(report.timing(main, technology.typical.name, digest), encoding="utf-8")

@@ -204,7 +204,7 @@ void build_missing_subsystems(const ReadoutParameters& parameters, int rows, int
     return;
   }
   require_buildable(missing);
-  constexpr int kMostLines = 65531;  // of dtof_subsystem's line buffer: an acquisition and four lines
+  constexpr int kMostLines = 65535;  // of an acquisition in dtof_subsystem
   constexpr int kMostRows = 4096;
   if (rows > kMostRows || rows * parameters.slots > kMostLines) {
     throw InputError(

@@ -25,8 +25,8 @@ bool ShotReference::clock(const ShotClock& now) {
     owed_ = true;
     due_.reset();
   }
-  const bool wanted = need_ > 0 && queued_ == 0 && !owed_ && !rest_ && !now.arrives && !now.begin &&
-                      !now.abort && !now.flush && !now.gave_up;
+  const bool wanted = need_ > 0 && queued_ == 0 && !owed_ && !rest_ && !now.early && !now.arrives &&
+                      !now.begin && !now.abort && !now.flush && !now.gave_up;
   if (!wanted) {
     due_.reset();
   } else if (!due_) {
@@ -47,6 +47,9 @@ bool ShotReference::clock(const ShotClock& now) {
   if (now.arrives) {
     owed_ = false;
     ++queued_;
+  }
+  if (now.dropped) {
+    --queued_;
   }
   if (now.rest_ends) {
     rest_ = false;

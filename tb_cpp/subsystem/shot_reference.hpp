@@ -17,6 +17,8 @@ struct ShotClock {
   bool arrives = false;    ///< an acquisition's first line is accepted
   bool rest_ends = false;  ///< a line with tlast is thrown away
   bool inside = false;     ///< the source is inside an acquisition
+  bool early = false;      ///< the source is not to be asked yet
+  bool dropped = false;    ///< the acquisition that arrives is thrown away
   bool taken = false;      ///< the array takes an acquisition's first line
 };
 

@@ -19,8 +19,11 @@ constexpr std::uint32_t kLongestWay = 8;   // clocks from a line's acceptance to
 void StreamReference::reset() {
   const std::size_t release = release_;
   const std::size_t lines = acquisition_lines_;
+  const bool clock_waits = clock_waits_;
+  const bool source_waits = source_waits_;
   *this = StreamReference(lines, none_);
   release_ = release;
+  set_waits(clock_waits, source_waits);
 }
 
 bool StreamReference::dark(const Line& line) const {
@@ -41,7 +44,7 @@ void StreamReference::take(const Line& line) {
       throw refuse("comes from nowhere");
     }
     Acquisition& acquisition = acquisitions_.front();
-    if (index_ == 0 && !acquisition.ended && waiting_ < release_) {
+    if (index_ == 0 && !acquisition.ended && !clock_waits_ && waiting_ < release_) {
       throw refuse("is offered too early");
     }
     const bool here = index_ < acquisition.lines.size();
@@ -52,6 +55,9 @@ void StreamReference::take(const Line& line) {
     } else if (!missing_ && !here && acquisition.ended) {
       missing_ = true;
     } else if (!missing_) {
+      if (clock_waits_) {
+        throw refuse("is not waited for");
+      }
       if (index_ == 0 || acquisition.lines.size() > index_ + kOnItsWay) {
         throw refuse("is dark although it is here");
       }
@@ -76,11 +82,27 @@ void StreamReference::take(const Line& line) {
   }
 }
 
-void StreamReference::wait(bool array_ready, bool array_valid, bool sink_refuses, bool line_accepted,
-                           bool aborts) {
-  starved_ = (starved_ || array_ready) && !array_valid;
-  const bool here = !acquisitions_.empty() && (acquisitions_.front().ended || waiting_ >= release_);
-  withheld_ = starved_ && here ? withheld_ + 1 : 0;
+void StreamReference::expect_rest(bool here) const {
+  if (!clock_waits_ || index_ == 0 || missing_ || draining_) {
+    throw RtlError("the array's clock rests although no line is late");
+  }
+  if (here && waiting_ > kOnItsWay) {
+    throw RtlError(fmt::format("the array's clock rests although {} lines are here", waiting_));
+  }
+}
+
+void StreamReference::wait(const Waits& now) {
+  const bool sink_refuses = now.sink_refuses;
+  const bool aborts = now.aborts;
+  if (now.array_rests) {
+    expect_rest(!acquisitions_.empty() && acquisitions_.front().lines.size() > index_);
+  }
+  starved_ = ((starved_ || now.array_ready) && !now.array_valid) || (now.array_rests && waiting_ == 0);
+  const bool here =
+      !acquisitions_.empty() &&
+      (now.array_rests ? acquisitions_.front().ended || acquisitions_.front().lines.size() > index_
+                       : acquisitions_.front().ended || clock_waits_ || waiting_ >= release_);
+  withheld_ = (starved_ || now.array_rests) && here ? withheld_ + 1 : 0;
   if (withheld_ > kLongestWay) {
     throw RtlError(fmt::format("an acquisition is here and not offered, {} lines wait", waiting_));
   }
@@ -89,11 +111,12 @@ void StreamReference::wait(bool array_ready, bool array_valid, bool sink_refuses
     events_.timeout = events_.timeout || !aborts;
     lost_lines_ += waiting_;
     hunting_ = hunting_ || source_index_ > 0;
+    rest_ = false;
     empty();
     draining_ = true;
   }
   expires_ = false;
-  waited_ = watchdog_ > 0 && starved_ && running_ && !(line_accepted && !hunting_) ? waited_ + 1 : 0;
+  waited_ = watchdog_ > 0 && starved_ && running_ && !(now.line_stored && !hunting_) ? waited_ + 1 : 0;
   if (watchdog_ > 0 && waited_ >= watchdog_) {
     expires_ = true;
     waited_ = 0;
@@ -104,10 +127,30 @@ void StreamReference::wait(bool array_ready, bool array_valid, bool sink_refuses
   refused_ = stalls_ ? 0 : refused_;
 }
 
-void StreamReference::accept(const Line& line, bool last) {
-  if (hunting_) {
-    ++lost_lines_;
+void StreamReference::drop(bool last, std::size_t buffer_lines) {
+  const bool begun = source_index_ > 0 && !draining_ && index_ > 0 && acquisitions_.size() == 1;
+  if (source_waits_ || hunting_ || begun || waiting_ + 1 < buffer_lines) {
+    throw RtlError(fmt::format("an acquisition is dropped, {} of {} lines wait", waiting_, buffer_lines));
+  }
+  lost_lines_ += source_index_ + 1;
+  ++lost_acquisitions_;
+  waiting_ -= source_index_;
+  if (source_index_ > 0) {
+    acquisitions_.pop_back();
+  }
+  source_index_ = 0;
+  hunting_ = !last;
+  rest_ = !last;
+}
+
+void StreamReference::accept(const Line& line, bool last, bool thrown) {
+  if (hunting_ || thrown || gave_up_) {
+    lost_lines_ += hunting_ || gave_up_ ? 1 : 0;
     hunting_ = !last;
+    rest_ = rest_ && !last;
+    if (thrown) {
+      source_index_ = 0;
+    }
     return;
   }
   ++source_index_;
@@ -126,6 +169,7 @@ void StreamReference::accept(const Line& line, bool last) {
   events_.long_acquisition = events_.long_acquisition || (full && !last);
   if (full || last) {
     hunting_ = !last;
+    rest_ = !last;
     late_ = false;
     source_index_ = 0;
   }
@@ -153,6 +197,7 @@ void StreamReference::abort() {
   events_.aborted = events_.aborted || running_;
   doubtful_lines_ += exact_ ? 0 : kOnTheWayOut;
   hunting_ = hunting_ || source_index_ > 0;
+  rest_ = false;
   empty();
   index_ = 0;
   missing_ = false;
@@ -165,6 +210,7 @@ void StreamReference::flush() {
   doubtful_lines_ += exact_ ? 0 : kOnTheWayOut;
   empty();
   hunting_ = false;
+  rest_ = false;
 }
 
 }  // namespace dtof

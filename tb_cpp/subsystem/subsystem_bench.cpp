@@ -44,7 +44,11 @@ SubsystemBench::SubsystemBench(const CompiledSubsystem& subsystem, std::uint64_t
       reference_(acquisition_lines_, static_cast<Timestamp>(configuration_.parameters.no_detection())) {
   reset();
   buffer_lines_ = (get(DTOF_LINES) & DTOF_LINES_BUFFER_MASK) >> DTOF_LINES_BUFFER_LSB;
-  written_.release = std::min(buffer_lines_, acquisition_lines_);
+  const std::uint32_t readout = get(DTOF_READOUT);
+  clock_waits_ = (readout & DTOF_READOUT_CLOCK_WAITS_MASK) != 0;
+  source_waits_ = (readout & DTOF_READOUT_SOURCE_WAITS_MASK) != 0;
+  reference_.set_waits(clock_waits_, source_waits_);
+  written_.release = most_release();
   committed_ = written_;
 }
 
@@ -64,7 +68,7 @@ void SubsystemBench::reset(bool source_too) {
   shot_ = false;
   array_held_ = false;
   behind_reset_ = true;
-  written_ = {.release = std::min(buffer_lines_, acquisition_lines_)};
+  written_ = {.release = most_release()};
   committed_ = written_;
   *ports_.reset_n = 0;
   for (int i = 0; i < 2; ++i) {
@@ -231,12 +235,14 @@ void SubsystemBench::observe_lines() {
   const bool commanded = *ports_.abort != 0 || *ports_.flush != 0 || reference_.expires() || behind_reset_;
   const bool offered = *ports_.array_line_valid != 0;
   const bool ready = *ports_.array_line_ready != 0;
+  const bool rests = *ports_.array_waits != 0;
+  rests_ += rests ? 1 : 0;
   if (!offered && (array_held_ || reference_.inside())) {
     throw RtlError("an acquisition was interrupted");
   }
   ShotClock now{.inside = reference_.hunting() || reference_.source_index() > 0,
-                .taken = offered && ready && !reference_.inside()};
-  if (offered && ready) {
+                .taken = offered && ready && !rests && !reference_.inside()};
+  if (offered && ready && !rests) {
     take_array_line();
   }
   const bool refused = *ports_.line_valid != 0 && *ports_.line_ready == 0;
@@ -245,15 +251,35 @@ void SubsystemBench::observe_lines() {
     throw RtlError(fmt::format("a line is refused with {} of {} lines in the buffer", reference_.waiting(),
                                buffer_lines_));
   }
-  events().overrun = events().overrun || (refused && sink_refuses);
+  if (refused && !source_waits_ && !behind_reset_) {
+    throw RtlError("a line of a source that cannot wait is refused");
+  }
+  const bool dropped = *ports_.dropped != 0;
+  dropped_ += dropped ? 1 : 0;
+  events().overrun = events().overrun || ((refused || dropped) && sink_refuses);
   bool last = false;
   const Line* line = source_.observe(&last);
+  const bool thrown = *ports_.abort != 0 || *ports_.flush != 0;
   reference_.set_watchdog(*ports_.watchdog);
-  reference_.wait(ready, offered, sink_refuses, line != nullptr, *ports_.abort != 0);
+  reference_.wait({.array_ready = ready,
+                   .array_valid = offered,
+                   .array_rests = rests,
+                   .sink_refuses = sink_refuses,
+                   .line_stored = line != nullptr && !dropped && !thrown,
+                   .aborts = *ports_.abort != 0});
+  now.early = reference_.early();
   if (line != nullptr) {
     now.arrives = !reference_.hunting() && reference_.source_index() == 0;
     now.rest_ends = reference_.hunting() && last;
-    reference_.accept(*line, last);
+    now.inside = !last;
+    now.dropped = dropped;
+    if (dropped) {
+      reference_.drop(last, buffer_lines_);
+    } else {
+      reference_.accept(*line, last, thrown);
+    }
+  } else if (dropped) {
+    throw RtlError("an acquisition is dropped although no line comes");
   }
   observe_shot(now);
   if (*ports_.done != 0) {
@@ -274,8 +300,8 @@ void SubsystemBench::observe_lines() {
     reference_.flush();
   }
   // A frame that begins may ask for more lines than the one before, and one that ends takes none any more.
-  array_held_ = offered && !ready && *ports_.begin == 0 && *ports_.done == 0 && *ports_.abort == 0 &&
-                *ports_.flush == 0;
+  array_held_ = offered && !ready && !dropped && *ports_.begin == 0 && *ports_.done == 0 &&
+                *ports_.abort == 0 && *ports_.flush == 0;
   if (*ports_.commit != 0) {
     committed_ = written_;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -27,8 +28,10 @@ struct ArrayFrame {
 /// A subsystem with masters at all its ports, which checks in every clock that
 /// - the results keep their stream's protocol (ResultSink);
 /// - an acquisition begins when it is allowed to, and is never interrupted;
+/// - the array's clock rests while a line is late inside an acquisition, and no longer;
 /// - each line reaches the array in its place, or as no detection where StreamReference says so;
-/// - a line is refused only when the buffer is full, or in the clock of a command;
+/// - a line is refused only when the buffer is full, or in the clock of a command, and never where the source
+///   cannot wait; an acquisition is dropped only there, and only when the buffer is full;
 /// - a shot is fired when ShotReference says so, and not otherwise.
 class SubsystemBench {
  public:
@@ -54,6 +57,14 @@ class SubsystemBench {
   [[nodiscard]] bool shot() const { return shot_; }
   [[nodiscard]] const ShotReference& shot_reference() const { return shot_reference_; }
   [[nodiscard]] bool interrupt() const { return *ports_.irq != 0; }
+  /// What it was built with: the array waits for a late line inside an acquisition; a source that cannot wait
+  /// loses whole acquisitions.
+  [[nodiscard]] bool clock_waits() const { return clock_waits_; }
+  [[nodiscard]] bool source_waits() const { return source_waits_; }
+  /// Clocks in which the array waited for a line inside an acquisition, and acquisitions that were dropped.
+  [[nodiscard]] std::uint64_t rests() const { return rests_; }
+  [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+  [[nodiscard]] std::size_t buffer_lines() const { return buffer_lines_; }
   [[nodiscard]] bool axi_lite() const { return *ports_.axi_lite != 0; }
 
   /// Two clocks of reset; the source forgets its lines, or is in another reset domain and keeps them.
@@ -89,6 +100,10 @@ class SubsystemBench {
   };
   /// Words of the frame that begins.
   [[nodiscard]] std::size_t words() const;
+  /// RELEASE at reset, which is its largest value.
+  [[nodiscard]] std::size_t most_release() const {
+    return clock_waits_ ? acquisition_lines_ : std::min(buffer_lines_, acquisition_lines_);
+  }
 
   RtlConfiguration configuration_;
   std::unique_ptr<VerilatedContext> context_;
@@ -99,6 +114,10 @@ class SubsystemBench {
   ResultSink sink_;
   std::size_t acquisition_lines_;
   std::size_t buffer_lines_ = 0;
+  bool clock_waits_ = false;
+  bool source_waits_ = true;
+  std::uint64_t rests_ = 0;
+  std::uint64_t dropped_ = 0;
   Settings written_;
   Settings committed_;
   StreamReference reference_;

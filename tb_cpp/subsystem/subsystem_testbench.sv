@@ -8,7 +8,9 @@ module subsystem_testbench #(
     parameter READOUT = 0,
     parameter AXI_LITE = 0,
 `include "dtof_subsystem_declarations.svh"
-    parameter BUFFER_LINES = PIXELS_PER_SRAM * SLOTS + 4,
+    parameter CLOCK_WAITS = 1,
+    parameter SOURCE_WAITS = 1,
+    parameter BUFFER_LINES = 0,  // 0: the subsystem's default
     parameter RASTER_ORDER = 0,
     parameter PARITY = 0,
     localparam BUS_WIDTH = SRAM_NUM * NP > 512 ? SRAM_NUM * NP : 512
@@ -60,11 +62,15 @@ module subsystem_testbench #(
     output logic [ 31:0] probe_watchdog_o,
     output logic         probe_commit_o,
     output logic         probe_reseed_o,
+    output logic         probe_waits_o,
+    output logic         probe_dropped_o,
     output logic         probe_line_valid_o,
     output logic         probe_line_ready_o,
     output logic [BUS_WIDTH-1:0] probe_line_o
 );
 
+  localparam LINES = BUFFER_LINES != 0 ? BUFFER_LINES : CLOCK_WAITS == 0 ? PIXELS_PER_SRAM * SLOTS + 4
+      : dtof_pkg::max_of(SLOTS, 2);
   localparam S_TDATA_WIDTH = 8 * ((SRAM_NUM * NP + 7) / 8);
 
   logic psel, penable, pwrite, pready, pslverr;
@@ -121,7 +127,9 @@ module subsystem_testbench #(
 
   dtof_subsystem #(
       .READOUT(READOUT),
-      .BUFFER_LINES(BUFFER_LINES),
+      .CLOCK_WAITS(CLOCK_WAITS),
+      .SOURCE_WAITS(SOURCE_WAITS),
+      .BUFFER_LINES(LINES),
       .RASTER_ORDER(RASTER_ORDER),
       .PARITY(PARITY),
 `include "dtof_subsystem_parameters.svh"
@@ -161,6 +169,8 @@ module subsystem_testbench #(
   assign probe_watchdog_o = 32'(u_subsystem.watchdog);
   assign probe_commit_o = u_subsystem.u_registers.commit;
   assign probe_reseed_o = u_subsystem.shot_reseed;
+  assign probe_waits_o = u_subsystem.array_waits;
+  assign probe_dropped_o = u_subsystem.dropped;
   assign probe_line_valid_o = u_subsystem.tdc_valid;
   assign probe_line_ready_o = u_subsystem.tdc_ready;
   assign probe_line_o = BUS_WIDTH'(u_subsystem.line);

@@ -64,6 +64,8 @@ class VerilatedSubsystem : public SubsystemModel {
             .watchdog = &model_.probe_watchdog_o,
             .commit = &model_.probe_commit_o,
             .reseed = &model_.probe_reseed_o,
+            .array_waits = &model_.probe_waits_o,
+            .dropped = &model_.probe_dropped_o,
             .array_line_valid = &model_.probe_line_valid_o,
             .array_line_ready = &model_.probe_line_ready_o,
             .array_line = model_.probe_line_o.data()};

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // Clock gate for FPGAs: none. A gated clock would leave the global clock tree, and what rests does so without it, too. A
-// module of the same ports as the one in technology/behavioural, which it takes the place of.
+// module of the same ports as the one in technology/behavioural, which it takes the place of. Where the gate is needed (dtof_subsystem
+// with CLOCK_WAITS = 1), elaboration stops: use CLOCK_WAITS = 0, or put the family's clock buffer with an enable here (BUFGCE of
+// AMD, DCCA of Lattice's ECP5).
+`include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_clock_gate (
+module dtof_clock_gate #(
+    parameter int NEEDED = 0  // 1: what the clock drives is wrong without the gate; 0: the gate saves power, and nothing else
+) (
     input  logic clk_i,
     input  logic enable_i,
     input  logic scan_mode_i,
     output logic clk_o
 );
+
+  `DTOF_REQUIRE(g_needed, NEEDED == 0, "dtof_clock_gate: this technology has no clock gate: CLOCK_WAITS must be 0")
 
   assign clk_o = clk_i;
 

@@ -26,7 +26,10 @@ bool bench_write(void* context, std::uint32_t offset, std::uint32_t value) {
 
 class Driver : public Subsystem {
  protected:
-  void SetUp() override { ASSERT_EQ(dtof_probe(&device_, {&bench_, bench_read, bench_write}), DTOF_OK); }
+  void SetUp() override {
+    Subsystem::SetUp();
+    ASSERT_EQ(dtof_probe(&device_, {&bench_, bench_read, bench_write}), DTOF_OK);
+  }
 
   dtof_device device_{};
 };
@@ -48,6 +51,8 @@ TEST_P(Driver, FindsWhatIsThere) {
   EXPECT_EQ(device_.has_prior, configuration.parameters.pool.prior);
   EXPECT_EQ(device_.has_raw_histogram, configuration.raw_histogram);
   EXPECT_EQ(device_.has_parity, (bench_.get(DTOF_READOUT) & DTOF_READOUT_PARITY_MASK) != 0);
+  EXPECT_EQ(device_.clock_waits, bench_.clock_waits());
+  EXPECT_EQ(device_.source_waits, bench_.source_waits());
   EXPECT_EQ(device_.has_raster_order, (bench_.get(DTOF_READOUT) & DTOF_READOUT_RASTER_ORDER_MASK) != 0);
   EXPECT_EQ(device_.count_width, configuration.parameters.count_width);
   EXPECT_EQ(device_.nb, configuration.parameters.nb);

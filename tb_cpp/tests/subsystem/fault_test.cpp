@@ -219,11 +219,13 @@ TEST_P(StreamFaults, TheWatchdogEndsTheFrameOfADeadSource) {
     EXPECT_EQ(bench_.get(DTOF_ERROR) & DTOF_ERROR_TIMEOUT_MASK, DTOF_ERROR_TIMEOUT_MASK);
     ASSERT_NO_FATAL_FAILURE(expect_the_models(settings));
     if (most_release_ == bench_.acquisition_lines()) {
-      lines.resize(lines_of(2));
-      const std::vector<Line> dark = dark_lines(bench_.configuration(), 4);
-      lines.insert(lines.end(), dark.begin(), dark.end());
-      EXPECT_EQ(bench_.frames().back().lines, lines) << "an acquisition that never began is dark";
-      EXPECT_EQ(bench_.get(DTOF_LOST_LINES), lines_before + more);
+      // The array has taken what came of the third acquisition, or has not begun it.
+      const std::size_t taken = bench_.clock_waits() ? more : 0;
+      lines.resize(lines_of(2) + taken);
+      const Line dark = dark_lines(bench_.configuration(), 1)[0];
+      lines.insert(lines.end(), lines_of(4) - taken, dark);
+      EXPECT_EQ(bench_.frames().back().lines, lines) << "what did not come, or never began, is dark";
+      EXPECT_EQ(bench_.get(DTOF_LOST_LINES), lines_before + more - taken);
       EXPECT_EQ(bench_.get(DTOF_LOST_ACQUISITIONS), acquisitions_before + 4);
     }
     expect_registers();
@@ -658,7 +660,12 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
   if (fault_rounds() >= 300) {
     EXPECT_GT(timeouts, 20U);
     EXPECT_GT(aborted, 10U);
-    EXPECT_GT(underruns, 5U);
+    if (bench_.clock_waits()) {
+      EXPECT_EQ(underruns, 0U);
+      EXPECT_GT(bench_.rests(), 1000U);
+    } else {
+      EXPECT_GT(underruns, 5U);
+    }
     EXPECT_GT(by_itself, 100U);
   }
 }

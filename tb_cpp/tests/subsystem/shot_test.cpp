@@ -23,6 +23,9 @@ std::uint32_t shot_register(std::uint32_t bits, std::uint32_t unit) {
 
 class Shots : public Subsystem {
  protected:
+  // Shots hold every source.
+  void SetUp() override {}
+
   // A sensor with one acquisition at a time: its lines come `latency` clocks behind the shot.
   struct Sensor {
     std::uint64_t latency = 1;
@@ -106,8 +109,8 @@ class Shots : public Subsystem {
   }
 
   // Otherwise an acquisition begins before it is whole, and gaps in it are underruns.
-  bool holds_an_acquisition() {
-    return bench_.get(DTOF_LINES) >> DTOF_LINES_BUFFER_LSB >= bench_.acquisition_lines();
+  bool takes_gaps() {
+    return bench_.clock_waits() || bench_.get(DTOF_LINES) >> DTOF_LINES_BUFFER_LSB >= bench_.acquisition_lines();
   }
 
   Sensor sensor_;
@@ -130,7 +133,7 @@ TEST_P(Shots, AreAsManyAsAcquisitions) {
       bench_.set(DTOF_SHOT_SEED, round == 0 ? 0 : random() % 0x10000);
     }
     sensor_.latency = random() % 40;
-    const bool gaps = pick(random, 2) == 0 && holds_an_acquisition();
+    const bool gaps = pick(random, 2) == 0 && takes_gaps();
     bench_.source().gap_probability = gaps ? 0.7 * random.uniform() : 0.0;
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.7 * random.uniform();
     const std::vector<Line> lines = make_lines(bench_.configuration(), acquisitions, random);
@@ -267,7 +270,7 @@ TEST_P(Shots, CostNothingWhereTheyHideBehindLines) {
   constexpr std::uint64_t kUnit = 2;  // a multiple of the array's raster
   constexpr std::uint32_t kBits = 2;
   const std::uint64_t lines = bench_.acquisition_lines();
-  if (bench_.configuration().parameters.slots != 2 || lines < 14 || !holds_an_acquisition()) {
+  if (bench_.configuration().parameters.slots != 2 || lines < 14 || !takes_gaps() || !bench_.source_waits()) {
     return;  // too short to hide six clocks behind a request
   }
   CounterRandom random = this->random(57);

@@ -285,9 +285,15 @@ inline void push_lines(SubsystemBench& bench, const std::vector<Line>& lines) {
   }
 }
 
-/// Each compiled subsystem.
+/// Each compiled subsystem whose source can wait.
 class Subsystem : public testing::TestWithParam<CompiledSubsystem> {
  protected:
+  void SetUp() override {
+    if (!bench_.source_waits()) {
+      GTEST_SKIP() << "a source that cannot wait has tests of its own";
+    }
+  }
+
   [[nodiscard]] CounterRandom random(std::uint32_t which) const {
     return {test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), which, 0};
   }

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Area of dtof_subsystem's line buffer beside its array: dtof_line_buffer of the default number of lines, in registers, mapped alone."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+
+from . import tools
+from .configuration import Configuration
+from .errors import FlowError
+from .run import Result, Technology, rtl_files
+
+GOAL = 0.03  # of the array
+Size = tuple[int, int, int]  # lines of an acquisition, of the buffer, bits of a line
+
+
+def size(configuration: Configuration) -> Size:
+    """As dtof_subsystem's BUFFER_LINES with CLOCK_WAITS = 1."""
+    slots = configuration["SLOTS"]
+    return configuration["PIXELS_PER_SRAM"] * slots, max(slots, 2), configuration["SRAM_NUM"] * configuration["NP"]
+
+
+def area(of: Size, technology: Technology, folder: Path) -> float:
+    """um2; FlowError if a step fails."""
+    folder.mkdir(parents=True, exist_ok=True)
+    acquisition_lines, lines, width = of
+    settings, log = folder / "line_buffer_settings.tcl", folder / "line_buffer.log"
+    tools.write_settings(settings, {
+        "rtl_files": rtl_files(technology.root), "rtl_include": technology.root / "hdl" / "common", "liberty": technology.typical.path,
+        "acquisition_lines": acquisition_lines, "lines": lines, "width": width})
+    tools.run_yosys(technology.root / "synth" / "yosys" / "line_buffer.tcl", settings, log, "dtof_line_buffer")
+    found = re.findall(r"Chip area for .*: ([0-9.]+)", log.read_text(encoding="utf-8"))
+    if not found:
+        raise FlowError(f"dtof_line_buffer: Yosys counts no area (see {log})")
+    return float(found[-1])
+
+
+def areas(results: Iterable[Result], technology: Technology, folder: Path) -> dict[str, float]:
+    """um2 by the names of configurations; equal sizes are mapped once."""
+    kept: dict[Size, float] = {}
+    found = {}
+    for result in results:
+        of = size(result.configuration)
+        if of not in kept:
+            kept[of] = area(of, technology, folder)
+        found[result.configuration.name] = kept[of]
+    return found
+
+
+def section(results: Iterable[tuple[Result, float]], found: dict[str, float]) -> str:
+    """A part of area.md: `results` with the um2 of their arrays."""
+    rows = []
+    for result, total in results:
+        _, lines, width = size(result.configuration)
+        share = found[result.configuration.name] / total
+        rows.append(f"| {result.configuration.title} | {lines} | {lines * (width + 1)} | {found[result.configuration.name] / 1e6:.4f} "
+                    f"| {share:.2%} | {'yes' if share <= GOAL else 'no'} |")
+    return "\n".join([
+        "## Line buffer of the subsystem", "",
+        "`dtof_subsystem` holds BUFFER_LINES lines in front of the array, by default as many as the array's raster needs. "
+        f"dtof_line_buffer is mapped alone, without the margins of the arrays' logic; its goal is {GOAL:.0%} of the array. "
+        "No total above has the line buffer.", "",
+        "| read-out | lines | bits | mm2 | of the array | goal |", "|---|---:|---:|---:|---:|---|", *rows, ""])
