@@ -70,10 +70,13 @@ void run_design_command(const DesignOptions& options) {
              design_recommendation(request, result), design_consequences(request, result));
   std::string confirmed;
   if (options.confirm) {
-    confirmed = measured_by_flow("--confirm", chosen.candidate.array.parameters, request.bench.sensor,
-                                 options.clock_mhz) +
-                fmt::format("\nEstimated: {:.3f} mm2, fmax {:.0f} MHz in the slow corner.\n",
-                            chosen.candidate.cost.mm2, chosen.candidate.cost.fmax_mhz);
+    SensorModel sensor = request.bench.sensor;
+    sensor.columns = chosen.candidate.array.columns;
+    const CostEstimate& cost = chosen.candidate.cost;
+    confirmed = measured_by_flow("--confirm", chosen.candidate.array.parameters, sensor, options.clock_mhz) +
+                fmt::format("\nEstimated: {:.3f} mm2{}, fmax {:.0f} MHz in the slow corner.\n",
+                            cost.mm2 / chosen.candidate.array.arrays,
+                            chosen.candidate.array.arrays > 1 ? " for each array" : "", cost.fmax_mhz);
     fmt::print("\n{}", confirmed);
   }
   const std::filesystem::path folder(options.out);
@@ -83,9 +86,8 @@ void run_design_command(const DesignOptions& options) {
   write_file(folder / "design.csv", design_csv(request, result));
   write_optional(folder / "design.svg", plot_obstacle(),
                  [&] { write_design_picture(folder / "design.svg", request, result); });
-  fmt::print("\nProduct: dtof product --sensor {} {} --out chip\nPage, picture and table are in {}\n",
-             options.sensor, command_options(chosen.candidate.array.parameters, request.bench.sensor),
-             options.out);
+  fmt::print("\nProduct: {}\nPage, picture and table are in {}\n",
+             design_product(request, result, options.sensor), options.out);
 }
 
 }  // namespace

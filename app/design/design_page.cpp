@@ -71,10 +71,28 @@ std::string errors_text() {
 std::string name_of_choice(const DesignRequest& request, const DesignOption& option) {
   const std::string options = command_options(option.candidate.array.parameters, request.bench.sensor);
   const std::size_t end = options.find(' ', std::string("--readout ").size());
-  return end == std::string::npos ? title_of(option) : title_of(option) + options.substr(end);
+  const ArrayChoice& array = option.candidate.array;
+  return title_of(option) + (end == std::string::npos ? "" : options.substr(end)) +
+         (array.arrays > 1 ? fmt::format(", {} arrays of {} columns", array.arrays, array.columns) : "");
+}
+
+/// What the sensor of a product has to be where it is not the whole one.
+std::string product_note(const DesignOption& option) {
+  const ArrayChoice& array = option.candidate.array;
+  return array.arrays > 1
+             ? fmt::format("  # with columns = {} in the sensor file, {} times", array.columns, array.arrays)
+             : "";
 }
 
 }  // namespace
+
+std::string design_product(const DesignRequest& request, const DesignResult& result,
+                           const std::string& sensor_name) {
+  const DesignOption& chosen = result.options[*result.recommendation.chosen];
+  return fmt::format("dtof product --sensor {} {} --out chip{}", sensor_name,
+                     command_options(chosen.candidate.array.parameters, request.bench.sensor),
+                     product_note(chosen));
+}
 
 std::string design_table(const DesignRequest& request, const DesignResult& result) {
   const double clock_hz = request.limits.budget.clock_hz;
@@ -130,7 +148,7 @@ std::string design_consequences(const DesignRequest& request, const DesignResult
   for (const DesignResult::Consequence& one : result.consequences) {
     text += fmt::format("* {}: ", one.change.name);
     if (!one.recommendation.chosen) {
-      text += "no read-out keeps the limits\n";
+      text += one.needed + "\n";
     } else if (*one.recommendation.chosen == *result.recommendation.chosen) {
       text += "the same\n";
     } else {
@@ -187,7 +205,7 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
     text += "\n## Confirmed\n\n" + confirmed;
   }
   text += fmt::format(
-      "\n## The product\n\n    dtof product --sensor {} {} --out chip\n\n## How it was found\n\n{} sets of "
+      "\n## The product\n\n    {}\n\n## How it was found\n\n{} sets of "
       "parameters "
       "were estimated; {} that keep the limits, or a limit that is 10 % looser, were read in one frame of "
       "each scene and "
@@ -196,9 +214,9 @@ std::string design_page(const DesignRequest& request, const DesignResult& result
       "range; lights: {} klux; models, exact photons, look-up tables from flat targets, seed {}. Equally "
       "good arrays: "
       "the smaller one is taken.\n\nCommand: `{}`\n",
-      sensor_name, command_options(chosen.candidate.array.parameters, sensor), result.searched,
-      result.options.size(), request.frames, chosen.best_known().pixels, fmt::join(scenes, ", "),
-      fmt::join(request.bench.klux, ", "), request.bench.seed, command_line);
+      design_product(request, result, sensor_name), result.searched, result.options.size(), result.frames,
+      chosen.best_known().pixels, fmt::join(scenes, ", "), fmt::join(request.bench.klux, ", "),
+      request.bench.seed, command_line);
   return text;
 }
 
@@ -259,7 +277,7 @@ std::string design_csv(const DesignRequest& request, const DesignResult& result)
            fmt::format("{:.2f}", option.candidate.mw(request.limits.budget.clock_hz)),
            fmt::format("{:.1f}", option.candidate.cost.fmax_mhz), fmt::format("{}", option.candidate.clocks),
            fmt::format("{:g}", option.candidate.cost.bits_per_pixel),
-           fmt::format("{}", option.score ? request.frames : 1)});
+           fmt::format("{}", option.score ? result.frames : 1)});
     }
   }
   return table.csv();

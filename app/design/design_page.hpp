@@ -14,6 +14,10 @@ std::string design_table(const DesignRequest& request, const DesignResult& resul
 /// What is recommended, why, and the nearest competitor, in sentences.
 std::string design_recommendation(const DesignRequest& request, const DesignResult& result);
 
+/// The command that makes what is recommended.
+std::string design_product(const DesignRequest& request, const DesignResult& result,
+                           const std::string& sensor_name);
+
 /// What 10 % more or less of each limit brings, a line each.
 std::string design_consequences(const DesignRequest& request, const DesignResult& result);
 

@@ -210,10 +210,11 @@ class Error:
 
 
 def _of(model: Model, point: Measured, kind: str) -> list[Error]:
+    """Power is fitted to no other array than the defaults: that of every point is held out."""
     name = point.configuration.name
     found = [Error(name, "area", kind, point.total_mm2, model.total_mm2(point.configuration)),
              Error(name, "fmax", kind, point.fmax_mhz, model.fmax_mhz(point.configuration))]
-    return found + [Error(f"{name}, {light}", "power", kind, sum(parts.values()), model.mw(point.configuration, light))
+    return found + [Error(f"{name}, {light}", "power", HELD_OUT, sum(parts.values()), model.mw(point.configuration, light))
                     for light, parts in point.power.items()]
 
 
@@ -226,6 +227,14 @@ def errors(points: list[Measured]) -> list[Error]:
             found += _of(model, point, HELD_OUT)
         elif model.references[point.configuration.readout].configuration is not point.configuration:
             found += _of(fit([other for other in points if other is not point]), point, "left out")
+    return found
+
+
+def checked(found: list[Error]) -> list[Error]:
+    """FlowError if a figure would have no error because nothing is held out for it."""
+    for figure in ("area", "power", "fmax"):
+        if not any(one.figure == figure and one.kind == HELD_OUT for one in found):
+            raise FlowError(f"estimate: nothing is held out for the {figure}, so that its error is not known")
     return found
 
 
@@ -344,7 +353,7 @@ def report(root: Path, found: list[Error]) -> str:
 def write(root: Path) -> list[Error]:
     """Coefficients and report from the figures that lie here."""
     points = read(root)
-    found = errors(points)
+    found = checked(errors(points))
     (root / COEFFICIENTS).write_text(coefficients(root, fit(points), found), encoding="utf-8")
     (root / REPORT).write_text(report(root, found), encoding="utf-8")
     return found

@@ -8,11 +8,12 @@
 
 namespace dtof {
 
-/// A read-out's array of a sensor.
+/// A read-out's array of a sensor, or several equal ones side by side.
 struct ArrayChoice {
   ReadoutParameters parameters;
   int rows = kArrayRows;  ///< PIXELS_PER_SRAM
-  int columns = 200;      ///< SRAM_NUM
+  int columns = 200;      ///< SRAM_NUM, of each
+  int arrays = 1;
   int pointer_ports = 2;  ///< POINTER_PORTS
 
   /// Columns that share a memory: four of a pool read-out, two where engines are as small, else one.

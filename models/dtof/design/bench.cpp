@@ -19,8 +19,9 @@ namespace dtof {
 namespace {
 
 // Frames of the sky: those that set thresholds, and those that are held out.
-constexpr std::uint32_t kSkyFrame = 1000;
-constexpr std::uint32_t kHeldOutSky = 1001;
+constexpr std::uint32_t kSkyFrame = 1'000'000;
+constexpr std::uint32_t kHeldOutSky = 2'000'000;
+constexpr double kSkyPixelsPassing = 10.0;  // at least, in the mean, at the threshold
 constexpr double kRight = 0.10;
 
 double range_s(const SensorModel& sensor) { return sensor.integration_time_s - sensor.pulse_fwhm_s; }
@@ -134,24 +135,34 @@ class SlotsBench {
   }
 
  private:
-  void advance() {
+  void advance(std::size_t steps = 1) {
     if (progress_ != nullptr) {
-      progress_->advance();
+      progress_->advance(steps);
     }
     check_interruption();
   }
 
-  void look_at_sky(double klux, std::uint32_t frame, std::vector<Sky>& skies,
+  /// So many frames that the share of false alarms shows.
+  [[nodiscard]] std::uint32_t sky_frames() const {
+    const double pixels = static_cast<double>(region_.columns.size()) * sensor_.rows;
+    return static_cast<std::uint32_t>(std::ceil(kSkyPixelsPassing / settings_.false_alarms / pixels));
+  }
+
+  void look_at_sky(double klux, std::uint32_t first_frame, std::vector<Sky>& skies,
                    std::map<int, std::uint64_t> Sky::*counts) {
     const TargetMap sky(sensor_.columns, sensor_.rows, {0.0, sensor_.default_reflectivity});
-    const FramePipeline pipeline(PhotonSource(sensor_, sky, klux, settings_.seed, frame), engine_,
-                                 {.region = region_, .seed = settings_.seed, .threads = settings_.threads});
-    for (std::size_t r = 0; r < readouts_.size(); ++r) {
-      for (const PixelResult& result : pipeline.measure({readouts_[r], std::nullopt}).run.results) {
-        ++(skies[r].*counts)[result.confidence];
+    for (std::uint32_t frame = 0; frame < sky_frames(); ++frame) {
+      const FramePipeline pipeline(PhotonSource(sensor_, sky, klux, settings_.seed, first_frame + frame),
+                                   engine_,
+                                   {.region = region_, .seed = settings_.seed, .threads = settings_.threads});
+      for (std::size_t r = 0; r < readouts_.size(); ++r) {
+        for (const PixelResult& result : pipeline.measure({readouts_[r], std::nullopt}).run.results) {
+          ++(skies[r].*counts)[result.confidence];
+        }
       }
-      advance();
+      check_interruption();
     }
+    advance(readouts_.size());
   }
 
   void add_light(double klux, const std::vector<Sky>& skies, std::vector<ReadoutScore>& scores) {

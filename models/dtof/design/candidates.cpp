@@ -13,6 +13,8 @@
 namespace dtof {
 namespace {
 
+constexpr double kMegahertz = 1e-6;
+
 using Setter = std::function<void(ReadoutParameters&, int)>;
 
 bool is_legal(const ReadoutParameters& parameters) {
@@ -70,13 +72,11 @@ std::vector<ReadoutParameters> searched_of(Readout readout, const SensorModel& s
 }  // namespace
 
 double DesignCandidate::mw(double clock_hz) const {
-  constexpr double kMegahertz = 1e-6;
   return estimate_mw(array, slots_taken, clock_hz * kMegahertz);
 }
 
 LimitsKept limits_kept(const DesignCandidate& candidate, const DesignLimits& limits) {
   const double clock_hz = limits.budget.clock_hz;
-  constexpr double kMegahertz = 1e-6;
   return {.area = candidate.cost.mm2 <= limits.most_mm2,
           .power = candidate.mw(clock_hz) <= limits.most_mw,
           .frame = candidate.frames_per_s(clock_hz) >= limits.budget.frames_per_s,
@@ -90,6 +90,16 @@ std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor) {
     found.insert(found.end(), sets.begin(), sets.end());
   }
   return found;
+}
+
+ArrayChoice array_for(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_hz) {
+  ArrayChoice array{.parameters = parameters, .rows = sensor.rows, .columns = sensor.columns};
+  const int widest = EstimateCoefficients::built_in().of(parameters.readout).reference.columns;
+  while (array.columns > widest && estimate_cost(array).fmax_mhz < clock_hz * kMegahertz) {
+    ++array.arrays;
+    array.columns = (sensor.columns + array.arrays - 1) / array.arrays;
+  }
+  return array;
 }
 
 SensorModel with_slots(SensorModel sensor, int slots) {

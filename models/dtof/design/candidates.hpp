@@ -49,6 +49,10 @@ LimitsKept limits_kept(const DesignCandidate& candidate, const DesignLimits& lim
 /// FRACTION_BITS, WINDOW_CENTRED and CELL_SHIFT around default_parameters, each from fewest to most SLOTS.
 std::vector<ReadoutParameters> searched_parameters(const SensorModel& sensor);
 
+/// The sensor's array; where it is too wide for the clock, as few arrays side by side as are fast enough, but
+/// none narrower than the synthesised arrays that the estimates start from.
+ArrayChoice array_for(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_hz);
+
 /// The sensor as a read-out of so many SLOTS sees it.
 SensorModel with_slots(SensorModel sensor, int slots);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -30,12 +31,12 @@ std::vector<DesignCandidate> estimated(const DesignRequest& request) {
       }
       known = slots_taken.emplace(parameters.slots, sum / static_cast<double>(bench.scenes.size())).first;
     }
-    DesignCandidate candidate{
-        .array = {.parameters = parameters, .rows = bench.sensor.rows, .columns = bench.sensor.columns},
-        .cost = {},
-        .slots_taken = known->second,
-        .clocks = predicted_frame_clocks(parameters, bench.sensor.rows, bench.sensor.columns,
-                                         bench.sensor.acquisitions)};
+    DesignCandidate candidate{.array = array_for(parameters, bench.sensor, request.limits.budget.clock_hz),
+                              .cost = {},
+                              .slots_taken = known->second,
+                              .clocks = 0};
+    candidate.clocks = predicted_frame_clocks(parameters, candidate.array.rows, candidate.array.columns,
+                                              bench.sensor.acquisitions);
     candidate.cost = estimate_cost(candidate.array);
     candidates.push_back(std::move(candidate));
   }
@@ -68,6 +69,15 @@ double pixels_of(double work, std::size_t readouts, const DesignRequest& request
   const BenchSettings& bench = request.bench;
   return work / bench.sensor.acquisitions / static_cast<double>(readouts) /
          static_cast<double>(bench.klux.size() * bench.scenes.size()) / frames;
+}
+
+/// As many as were asked for, and of a small array so many that their pixels show a per cent.
+int frames_of(const DesignRequest& request) {
+  constexpr double kFewestPixels = 4000.0;
+  const SensorModel& sensor = request.bench.sensor;
+  const double of_a_frame =
+      static_cast<double>(sensor.rows) * sensor.columns * static_cast<double>(request.bench.scenes.size());
+  return std::max(request.frames, static_cast<int>(std::ceil(kFewestPixels / of_a_frame)));
 }
 
 std::vector<ReadoutParameters> parameters_of(const std::vector<DesignOption>& options,
@@ -118,6 +128,7 @@ DesignResult run_design(const DesignRequest& request) {
   }
   DesignResult result;
   result.searched = candidates.size();
+  result.frames = frames_of(request);
   const std::vector<LimitChange> changes = limit_changes(request.limits);
   std::set<std::size_t> wanted = worth_reading(candidates, request.limits);
   for (const LimitChange& change : changes) {
@@ -148,8 +159,8 @@ DesignResult run_design(const DesignRequest& request) {
   const std::vector<std::size_t> best(chosen.begin(), chosen.end());
   std::vector<ReadoutScore> scores =
       read(request, result.options, best,
-           {.pixels = pixels_of(request.final_work, best.size(), request, request.frames),
-            .frames = request.frames,
+           {.pixels = pixels_of(request.final_work, best.size(), request, result.frames),
+            .frames = result.frames,
             .detection = true},
            "read-outs");
   for (std::size_t i = 0; i < best.size(); ++i) {
@@ -158,7 +169,9 @@ DesignResult run_design(const DesignRequest& request) {
   result.recommendation = recommend(result.options, request.limits);
   result.left_out = left_out(candidates, request.limits);
   for (const LimitChange& change : changes) {
-    result.consequences.push_back({change, recommend(result.options, change.limits)});
+    Recommendation other = recommend(result.options, change.limits);
+    std::string needed = other.chosen ? "" : what_would_be_needed(candidates, change.limits);
+    result.consequences.push_back({change, std::move(other), std::move(needed)});
   }
   return result;
 }

@@ -14,7 +14,7 @@ namespace dtof {
 struct DesignRequest {
   BenchSettings bench;
   DesignLimits limits;
-  int frames = 4;  ///< that compare the read-outs, at least 2
+  int frames = 4;  ///< that compare the read-outs, at least 2; more of a small array
   /// Acquisitions of pixels that may be read for all parameters, and for the frames that compare read-outs,
   /// which decides how many pixels a frame has.
   double screening_work = 4e10;
@@ -34,8 +34,10 @@ struct DesignResult {
   struct Consequence {
     LimitChange change;
     Recommendation recommendation;
+    std::string needed;  ///< where no read-out keeps the limits
   };
   std::vector<Consequence> consequences;  ///< of each change of a limit
+  int frames = 0;                         ///< that have compared the read-outs
   std::size_t searched = 0;               ///< sets of parameters whose costs were estimated
 };
 

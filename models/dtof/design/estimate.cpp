@@ -94,7 +94,7 @@ CostEstimate estimate_cost(const ArrayChoice& array, const EstimateCoefficients&
   const ReadoutCoefficients& of = coefficients.of(array.parameters.readout);
   constexpr double kMegahertz = 1e3;  // 1 / ns
   const int beyond = std::max(array.columns - of.reference.columns, 0);
-  return {.mm2 = (Logic(array, coefficients).whole + Memories(array).area_um2) * 1e-6,
+  return {.mm2 = array.arrays * (Logic(array, coefficients).whole + Memories(array).area_um2) * 1e-6,
           .fmax_mhz = kMegahertz / (kMegahertz / of.fmax_mhz + beyond * coefficients.period_slope_ns),
           .bits_per_pixel = bits_per_pixel(array)};
 }
@@ -136,8 +136,8 @@ double estimate_mw(const ArrayChoice& array, double slots_taken, double clock_mh
           (base.control + base.engines) +
       between(of.dusk.sram, of.day.sram, share) * columns * memories.access_pj / base_memories.access_pj +
       between(of.dusk.clock, of.day.clock, share) * whole;
-  return dynamic * clock_mhz / kReferenceMhz + (of.day.leakage - base_memories.leakage_mw) * whole +
-         memories.leakage_mw;
+  return array.arrays * (dynamic * clock_mhz / kReferenceMhz +
+                         (of.day.leakage - base_memories.leakage_mw) * whole + memories.leakage_mw);
 }
 
 }  // namespace dtof

@@ -8,7 +8,8 @@
 
 namespace dtof {
 
-/// Area, clock and memory of an array, by models fitted to synthesised configurations.
+/// Area, clock and memory of an array, of all of them if there are several, by models fitted to synthesised
+/// configurations.
 struct CostEstimate {
   double mm2 = 0.0;
   double fmax_mhz = 0.0;  ///< in the slow corner

@@ -58,6 +58,21 @@ TEST(Design, OptionsAskForTheParametersThatDiffer) {
   EXPECT_EQ(command_options(parameters, sensor), "--readout sifh --nb 5 --slots 1 --window-centred");
 }
 
+TEST(Design, AnArrayThatIsTooWideForTheClockIsCut) {
+  SensorModel sensor = parse_preset("thesis");
+  const ReadoutParameters parameters = default_parameters(Readout::kSifh, sensor);
+  EXPECT_EQ(array_for(parameters, sensor, 330e6).arrays, 1);
+  const double whole = estimate_cost(array_for(parameters, sensor, 330e6)).mm2;
+  sensor.columns = 600;
+  const ArrayChoice cut = array_for(parameters, sensor, 330e6);
+  EXPECT_GT(cut.arrays, 1);
+  EXPECT_GE(cut.arrays * cut.columns, 600);
+  EXPECT_GE(estimate_cost(cut).fmax_mhz, 330.0);
+  EXPECT_NEAR(estimate_cost(cut).mm2 / whole, 3.0, 0.05);
+  EXPECT_EQ(array_for(parameters, sensor, 1e6).arrays, 1) << "a slow clock takes any width";
+  EXPECT_EQ(array_for(parameters, sensor, 1e9).columns, 200) << "no array is fast enough";
+}
+
 TEST(Design, ATighterLimitChangesTheWinner) {
   DesignRequest request = small_request();
   const DesignResult free = run_design(request);
