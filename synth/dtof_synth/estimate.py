@@ -5,7 +5,7 @@ Memories are no model: the sizes that the RTL asks for and the figures of sram_m
 around the configuration of each read-out's defaults: a column costs what that one does, and so many um2 for each bit or
 doubling that a parameter differs by; what the columns share grows with the columns and the engines. Power: that of the
 defaults on the scene of `make power`, in each part scaled by what the part is made of. Fitted are the configurations of
-configurations.toml (reports/area.csv, timing.csv, power.csv) and some of synth/estimate_points.toml; the others are held
+configurations.toml (reports/area.csv, timing.csv, power.csv), steps of NP and NB (growth.csv) and some of synth/estimate_points.toml; the others are held
 out. The C++ program has the same formulas (models/dtof/design/estimate.cpp) and reads the coefficients that are written here.
 """
 
@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from . import configuration as configurations
-from . import sram_model
+from . import growth, sram_model
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError, given
 
@@ -29,12 +29,14 @@ POINTS = "synth/estimate_points.toml"
 MEASURED = "synth/estimate_points.csv"
 COEFFICIENTS = "models/dtof/design/coefficients.toml"
 REPORT = "reports/estimate.md"
-SOURCES = ("reports/area.csv", "reports/timing.csv", "reports/power.csv", MEASURED)
+GROWTH = "reports/growth.csv"
+SOURCES = ("reports/area.csv", "reports/timing.csv", "reports/power.csv", GROWTH, MEASURED)
 HELD_OUT = "held out"
 LIGHTS = ("day", "dusk")
 POWER_PARTS = ("columns", "shared", "sram", "clock", "leakage")
-# Of which parameters a column's logic is linear, for dtof_array and for poolPointer 2.
-FEATURES = ("NP", "NB", "COUNT_WIDTH", "FRACTION_BITS", "CONFIDENCE_WIDTH", "POINTER_PORTS", "TIME_GATE", "ROWS", "COLUMNS")
+# Of which parameters a column's logic is linear; of the pixels: of their doublings. Small arrays need fewer hold buffers.
+FEATURES = ("NP", "NB", "COUNT_WIDTH", "FRACTION_BITS", "CONFIDENCE_WIDTH", "POINTER_PORTS", "TIME_GATE", "PIXELS")
+FAMILIES = ("pointer", "histogram", "pool")
 RIDGE = 0.05
 GOALS = {"area": 0.05, "power": 0.10}
 
@@ -57,17 +59,15 @@ class Measured:
 
 
 def family(configuration: Configuration) -> str:
-    return "pool" if configuration.is_pool else "array"
+    """Of read-outs whose columns are alike: without a histogram, with one, poolPointer 2."""
+    return "pool" if configuration.is_pool else "histogram" if "histogram" in memories(configuration) else "pointer"
 
 
 def features(configuration: Configuration, reference: Configuration) -> list[float]:
     def difference(name: str) -> float:
         return configuration.parameters.get(name, 0) - reference.parameters.get(name, 0)
 
-    def doublings(name: str) -> float:
-        return math.log2(configuration[name] / reference[name])
-
-    return [*(float(difference(name)) for name in FEATURES[:-2]), doublings("PIXELS_PER_SRAM"), doublings("SRAM_NUM")]
+    return [*(float(difference(name)) for name in FEATURES[:-1]), math.log2(configuration.pixels / reference.pixels)]
 
 
 def _macro_area(sizes: dict) -> float:
@@ -104,6 +104,7 @@ class Model:
     slopes: dict[str, list[float]]  # of a family's columns, um2
     control_slopes: dict[str, float]  # um2 a column
     period_slope_ns: float  # a column beyond the reference's
+    data_exponent: float  # of NP, to which a column's data power is proportional
 
     def _reference(self, configuration: Configuration) -> Reference:
         return given(self.references.get(configuration.readout), f"no estimate of {configuration.readout}")
@@ -133,12 +134,14 @@ class Model:
         part = one.power[light]
         base = one.configuration
         columns = item["SRAM_NUM"] / base["SRAM_NUM"]
-        logic = columns * self.column_um2(item) / one.column
         shared = (self.control_um2(item) + item.engines * one.engine) / (one.control + base.engines * one.engine)
-        whole, whole_base = self._logic_um2(item), self._logic_um2(base)
-        leakage = (part["leakage"] - _macro_leakage_mw(base)) * whole / whole_base + _macro_leakage_mw(item)
-        return (part["columns"] * logic + part["shared"] * shared + part["sram"] * columns * _access_pj(item) / _access_pj(base)
-                + part["clock"] * whole / whole_base + leakage)
+        # Hold buffers are not clocked.
+        clocked = ((one.column * item["SRAM_NUM"] + self.control_um2(item) + item.engines * one.engine)
+                   / (one.column * base["SRAM_NUM"] + one.control + base.engines * one.engine))
+        leakage = ((part["leakage"] - _macro_leakage_mw(base)) * self._logic_um2(item) / self._logic_um2(base)
+                   + _macro_leakage_mw(item))
+        return (part["columns"] * columns * (item["NP"] / base["NP"]) ** self.data_exponent + part["shared"] * shared
+                + part["sram"] * columns * _access_pj(item) / _access_pj(base) + part["clock"] * clocked + leakage)
 
     def _logic_um2(self, item: Configuration) -> float:
         return (self.column_um2(item) * item["SRAM_NUM"] + self.control_um2(item)
@@ -147,12 +150,21 @@ class Model:
 
 def _solve(rows: list[list[float]], wanted: list[float]) -> list[float]:
     """Least squares with a ridge, so that a parameter that no point changes costs nothing."""
-    matrix = np.array(rows)
+    matrix = np.array(rows).reshape(-1, len(FEATURES))
     square = matrix.T @ matrix
     return [float(value) for value in np.linalg.solve(square + RIDGE * np.eye(len(square)), matrix.T @ np.array(wanted))]
 
 
-def fit(points: list[Measured]) -> Model:
+@dataclass(frozen=True)
+class Step:
+    """What a column's logic grows by between two configurations, before hold buffers."""
+
+    configuration: Configuration
+    base: Configuration
+    um2: float
+
+
+def fit(points: list[Measured], steps: list[Step]) -> Model:
     """Held-out points are not looked at."""
     used = [point for point in points if not point.held_out]
     bases = {point.configuration.readout: point for point in used if point.power and not point.configuration.variant_of
@@ -162,21 +174,24 @@ def fit(points: list[Measured]) -> Model:
         raise FlowError(f"estimate: there is no power of {sorted(missing)[0]}'s defaults")
     slopes: dict[str, list[float]] = {}
     control: dict[str, float] = {}
-    for name in ("array", "pool"):
+    for name in FAMILIES:
         mine = [point for point in used if family(point.configuration) == name]
         rows = [features(point.configuration, bases[point.configuration.readout].configuration) for point in mine]
-        slopes[name] = _solve(rows, [point.column - bases[point.configuration.readout].column for point in mine])
-        apart = [point for point in mine if name == "array" or point.engines is not None]
-        if name == "array":
-            steps = [(point.configuration["SRAM_NUM"] - bases[point.configuration.readout].configuration["SRAM_NUM"],
+        wanted = [point.column - bases[point.configuration.readout].column for point in mine]
+        grown = [step for step in steps if family(step.configuration) == name]
+        slopes[name] = _solve([*rows, *(features(step.configuration, step.base) for step in grown)],
+                              [*wanted, *(step.um2 for step in grown)])
+        apart = [point for point in mine if name != "pool" or point.engines is not None]
+        if name != "pool":
+            wider = [(point.configuration["SRAM_NUM"] - bases[point.configuration.readout].configuration["SRAM_NUM"],
                       point.shared - bases[point.configuration.readout].shared) for point in apart]
-            control[name] = sum(x * y for x, y in steps) / max(sum(x * x for x, _ in steps), 1)
+            control[name] = sum(x * y for x, y in wider) / max(sum(x * x for x, _ in wider), 1)
         else:
             lines = [(point.configuration["SRAM_NUM"], point.shared - given(point.engines, "engines")) for point in apart]
             mean_x, mean_y = (sum(values) / max(len(lines), 1) for values in zip(*(lines or [(0, 0.0)])))
             spread = sum((x - mean_x) ** 2 for x, _ in lines)
             # Of one point nothing is known but its height: broadcast and results are alike in both arrays.
-            control[name] = sum((x - mean_x) * (y - mean_y) for x, y in lines) / spread if spread else control["array"]
+            control[name] = sum((x - mean_x) * (y - mean_y) for x, y in lines) / spread if spread else control["histogram"]
             offset = mean_y - control[name] * mean_x
     references = {}
     for readout, base in bases.items():
@@ -191,7 +206,19 @@ def fit(points: list[Measured]) -> Model:
              1e3 / point.fmax_mhz - 1e3 / bases[point.configuration.readout].fmax_mhz) for point in used]
     beyond = [(columns, late) for columns, late in wide if columns > 0]
     period = max(sum(x * y for x, y in beyond) / max(sum(x * x for x, _ in beyond), 1), 0.0)
-    return Model(references, slopes, control, period)
+    return Model(references, slopes, control, period, _data_exponent(used, references))
+
+
+def _data_exponent(used: list[Measured], references: dict[str, Reference]) -> float:
+    """Of NP, by the data power of fitted points a column."""
+    pairs = []
+    for point in used:
+        base = references[point.configuration.readout]
+        bits = math.log(point.configuration["NP"] / base.configuration["NP"])
+        for light, parts in point.power.items():
+            columns = point.configuration["SRAM_NUM"] / base.configuration["SRAM_NUM"]
+            pairs.append((bits, math.log(parts["columns"] / columns / base.power[light]["columns"])))
+    return sum(x * y for x, y in pairs) / max(sum(x * x for x, _ in pairs), 1e-9)
 
 
 @dataclass(frozen=True)
@@ -218,15 +245,15 @@ def _of(model: Model, point: Measured, kind: str) -> list[Error]:
                     for light, parts in point.power.items()]
 
 
-def errors(points: list[Measured]) -> list[Error]:
+def errors(points: list[Measured], steps: list[Step]) -> list[Error]:
     """Held-out points by the model of the others; each point that is no read-out's defaults by a model without it."""
-    model = fit(points)
+    model = fit(points, steps)
     found: list[Error] = []
     for point in points:
         if point.held_out:
             found += _of(model, point, HELD_OUT)
         elif model.references[point.configuration.readout].configuration is not point.configuration:
-            found += _of(fit([other for other in points if other is not point]), point, "left out")
+            found += _of(fit([other for other in points if other is not point], steps), point, "left out")
     return found
 
 
@@ -284,6 +311,16 @@ def read(root: Path) -> list[Measured]:
     return points
 
 
+def read_steps(root: Path) -> list[Step]:
+    """NP and NB of the sweeps of make synth-growth."""
+    named = configurations.load(root / "configurations.toml")
+    rows = [row for row in _table(root, GROWTH) if row["parameter"] in ("NP", "NB")]
+    column = {(row["readout"], row["parameter"], int(row["value"])): float(row["logic_column_um2"]) for row in rows}
+    return [Step(growth.point(named[readout], parameter, value), named[readout],
+                 um2 - column[readout, parameter, named[readout][parameter]])
+            for (readout, parameter, value), um2 in column.items() if value != named[readout][parameter]]
+
+
 def write_points(root: Path, points: list[Measured]) -> None:
     columns = [f"{light}_{part}_mw" for light in LIGHTS for part in POWER_PARTS]
     with (root / MEASURED).open("w", newline="", encoding="utf-8") as file:
@@ -308,7 +345,8 @@ def coefficients(root: Path, model: Model, found: list[Error]) -> str:
     lines = ["# SPDX-License-Identifier: Apache-2.0",
              "# Written by `synth/synth.py estimate` from synthesised configurations; the formulas are those of",
              "# models/dtof/design/estimate.cpp and synth/dtof_synth/estimate.py. um2, mW at 330 MHz, MHz in the slow corner.",
-             f'digest = "{digest(root)}"', f"period_slope_ns = {model.period_slope_ns:.6f}", "",
+             f'digest = "{digest(root)}"', f"period_slope_ns = {model.period_slope_ns:.6f}",
+             f"data_exponent = {model.data_exponent:.4f}", "",
              "# Largest and root mean square error, relative, of the configurations that are held out.", "[error]"]
     for figure in ("area", "power", "fmax"):
         lines += [f"{figure} = {worst(found, figure):.4f}", f"{figure}_rms = {rms(found, figure):.4f}"]
@@ -317,7 +355,7 @@ def coefficients(root: Path, model: Model, found: list[Error]) -> str:
                   *(f"{feature} = {slope:.4f}" for feature, slope in zip(FEATURES, slopes))]
     for readout, one in model.references.items():
         item = one.configuration
-        kept = ", ".join(f"{name} = {item.parameters[name]}" for name in (*FEATURES[:-2], "PIXELS_PER_SRAM", "SRAM_NUM",
+        kept = ", ".join(f"{name} = {item.parameters[name]}" for name in (*FEATURES[:-1], "PIXELS_PER_SRAM", "SRAM_NUM",
                                                                           "ENGINE_COLUMNS") if name in item.parameters)
         lines += ["", f"[readout.{readout}]", f"reference = {{ {kept} }}", f"column_um2 = {one.column:.1f}",
                   f"control_um2 = {one.control:.1f}", f"engine_um2 = {one.engine:.1f}", f"fmax_mhz = {one.fmax_mhz:.1f}"]
@@ -352,8 +390,8 @@ def report(root: Path, found: list[Error]) -> str:
 
 def write(root: Path) -> list[Error]:
     """Coefficients and report from the figures that lie here."""
-    points = read(root)
-    found = checked(errors(points))
-    (root / COEFFICIENTS).write_text(coefficients(root, fit(points), found), encoding="utf-8")
+    points, steps = read(root), read_steps(root)
+    found = checked(errors(points, steps))
+    (root / COEFFICIENTS).write_text(coefficients(root, fit(points, steps), found), encoding="utf-8")
     (root / REPORT).write_text(report(root, found), encoding="utf-8")
     return found

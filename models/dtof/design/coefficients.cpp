@@ -39,8 +39,7 @@ FamilySlopes read_slopes(const Part& part) {
           .confidence_width = part.number("CONFIDENCE_WIDTH"),
           .pointer_ports = part.number("POINTER_PORTS"),
           .time_gate = part.number("TIME_GATE"),
-          .rows = part.number("ROWS"),
-          .columns = part.number("COLUMNS"),
+          .pixels = part.number("PIXELS"),
           .control_um2_a_column = part.number("control_um2_a_column")};
 }
 
@@ -87,7 +86,9 @@ EstimateCoefficients EstimateCoefficients::parse(std::string_view toml) {
   found.period_slope_ns = all.number("period_slope_ns");
   const Part errors = all.part("error");
   found.errors = {errors.number("area"), errors.number("power"), errors.number("fmax")};
-  found.array = read_slopes(all.part("family").part("array"));
+  found.data_exponent = all.number("data_exponent");
+  found.pointer = read_slopes(all.part("family").part("pointer"));
+  found.histogram = read_slopes(all.part("family").part("histogram"));
   found.pool = read_slopes(all.part("family").part("pool"));
   const Part readouts = all.part("readout");
   for (const auto& [key, node] : readouts.table) {

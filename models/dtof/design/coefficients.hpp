@@ -44,8 +44,7 @@ struct FamilySlopes {
   double confidence_width = 0.0;
   double pointer_ports = 0.0;
   double time_gate = 0.0;
-  double rows = 0.0;     ///< of a doubling
-  double columns = 0.0;  ///< of a doubling
+  double pixels = 0.0;  ///< of a doubling of the array's
   double control_um2_a_column = 0.0;
 };
 
@@ -61,7 +60,9 @@ struct EstimateCoefficients {
   std::string digest;
   double period_slope_ns = 0.0;  ///< of each column beyond the reference's
   EstimateErrors errors;
-  FamilySlopes array;
+  double data_exponent = 0.0;  ///< of NP, to which a column's data power is proportional
+  FamilySlopes pointer;        ///< read-outs without a histogram
+  FamilySlopes histogram;
   FamilySlopes pool;
   std::map<Readout, ReadoutCoefficients> readouts;
 
@@ -71,7 +72,7 @@ struct EstimateCoefficients {
   static const EstimateCoefficients& built_in();
 
   [[nodiscard]] const FamilySlopes& slopes(Readout readout) const {
-    return is_pool_readout(readout) ? pool : array;
+    return is_pool_readout(readout) ? pool : readout == Readout::kEzPointer ? pointer : histogram;
   }
   /// Throws InputError for a read-out that has none.
   [[nodiscard]] const ReadoutCoefficients& of(Readout readout) const;

@@ -22,8 +22,8 @@ double column_um2(const ArrayChoice& array, const ReadoutCoefficients& of, const
   double area = of.column_um2 + slopes.np * (p.np - base.np) +
                 slopes.count_width * (p.count_width - base.count_width) +
                 slopes.time_gate * (p.time_gate ? 1.0 : 0.0) +
-                slopes.rows * std::log2(static_cast<double>(array.rows) / of.reference.rows) +
-                slopes.columns * std::log2(static_cast<double>(array.columns) / of.reference.columns);
+                slopes.pixels * std::log2(static_cast<double>(array.rows) * array.columns /
+                                          of.reference.rows / of.reference.columns);
   if (!pool) {
     area += slopes.nb * (p.nb - base.nb) + slopes.fraction_bits * (p.fraction_bits - base.fraction_bits) +
             slopes.confidence_width * (p.confidence_width - base.confidence_width) +
@@ -43,6 +43,7 @@ struct Logic {
   double control;
   double engines;
   double whole;
+  double clocked;  // hold buffers are not: as if all columns were the reference's
 
   Logic(const ArrayChoice& array, const EstimateCoefficients& coefficients) {
     const ReadoutCoefficients& of = coefficients.of(array.parameters.readout);
@@ -51,6 +52,7 @@ struct Logic {
     control = control_um2(array, of, slopes);
     engines = array.engines() * of.engine_um2;
     whole = column * array.columns + control + engines;
+    clocked = of.column_um2 * array.columns + control + engines;
   }
 };
 
@@ -130,12 +132,14 @@ double estimate_mw(const ArrayChoice& array, double slots_taken, double clock_mh
   const Memories base_memories(of.reference);
   const double columns = static_cast<double>(array.columns) / of.reference.columns;
   const double whole = logic.whole / base.whole;
+  const double bits = std::pow(static_cast<double>(array.parameters.np) / of.reference.parameters.np,
+                               coefficients.data_exponent);
   const double dynamic =
-      between(of.dusk.columns, of.day.columns, share) * columns * logic.column / base.column +
+      between(of.dusk.columns, of.day.columns, share) * columns * bits +
       between(of.dusk.shared, of.day.shared, share) * (logic.control + logic.engines) /
           (base.control + base.engines) +
       between(of.dusk.sram, of.day.sram, share) * columns * memories.access_pj / base_memories.access_pj +
-      between(of.dusk.clock, of.day.clock, share) * whole;
+      between(of.dusk.clock, of.day.clock, share) * logic.clocked / base.clocked;
   return array.arrays * (dynamic * clock_mhz / kReferenceMhz +
                          (of.day.leakage - base_memories.leakage_mw) * whole + memories.leakage_mw);
 }
