@@ -5,8 +5,8 @@ Memories are no model: the sizes that the RTL asks for and the figures of sram_m
 around the configuration of each read-out's defaults: a column costs what that one does, and so many um2 for each bit or
 doubling that a parameter differs by; what the columns share grows with the columns and the engines. Power: that of the
 defaults on the scene of `make power`, in each part scaled by what the part is made of. Fitted are the configurations of
-configurations.toml (reports/area.csv, timing.csv, power.csv), steps of NP and NB (growth.csv) and some of synth/estimate_points.toml; the others are held
-out. The C++ program has the same formulas (models/dtof/design/estimate.cpp) and reads the coefficients that are written here.
+configurations.toml (reports/area.csv, timing.csv, power.csv), steps of NP and NB (growth.csv) and some of
+models/dtof/design/estimate_points.toml; the others are held out. The C++ program has the same formulas (models/dtof/design/estimate.cpp) and reads the coefficients that are written here.
 """
 
 from __future__ import annotations
@@ -25,8 +25,8 @@ from . import growth, sram_model
 from .configuration import Configuration, engine_memories, memories
 from .errors import FlowError, given
 
-POINTS = "synth/estimate_points.toml"
-MEASURED = "synth/estimate_points.csv"
+POINTS = "models/dtof/design/estimate_points.toml"
+MEASURED = "models/dtof/design/estimate_points.csv"
 COEFFICIENTS = "models/dtof/design/coefficients.toml"
 REPORT = "reports/estimate.md"
 GROWTH = "reports/growth.csv"
@@ -34,7 +34,7 @@ SOURCES = ("reports/area.csv", "reports/timing.csv", "reports/power.csv", GROWTH
 HELD_OUT = "held out"
 LIGHTS = ("day", "dusk")
 POWER_PARTS = ("columns", "shared", "sram", "clock", "leakage")
-# Of which parameters a column's logic is linear; of the pixels: of their doublings. Small arrays need fewer hold buffers.
+# A column's logic is linear in these; in the doublings of the pixels: small arrays need fewer hold buffers.
 FEATURES = ("NP", "NB", "COUNT_WIDTH", "FRACTION_BITS", "CONFIDENCE_WIDTH", "POINTER_PORTS", "TIME_GATE", "PIXELS")
 FAMILIES = ("pointer", "histogram", "pool")
 RIDGE = 0.05
@@ -59,7 +59,7 @@ class Measured:
 
 
 def family(configuration: Configuration) -> str:
-    """Of read-outs whose columns are alike: without a histogram, with one, poolPointer 2."""
+    """The read-outs whose columns are alike: without a histogram, with one, poolPointer 2."""
     return "pool" if configuration.is_pool else "histogram" if "histogram" in memories(configuration) else "pointer"
 
 
@@ -81,7 +81,7 @@ def _macro_leakage_mw(configuration: Configuration) -> float:
 
 
 def _access_pj(configuration: Configuration) -> float:
-    """Of a read and a write of each memory of a column."""
+    """A read and a write of each memory of a column."""
     return sum(sram_model.macro(size).read_energy + sram_model.macro(size).write_energy
                for size in memories(configuration).values()) / configuration.module_columns
 
@@ -190,7 +190,7 @@ def fit(points: list[Measured], steps: list[Step]) -> Model:
             lines = [(point.configuration["SRAM_NUM"], point.shared - given(point.engines, "engines")) for point in apart]
             mean_x, mean_y = (sum(values) / max(len(lines), 1) for values in zip(*(lines or [(0, 0.0)])))
             spread = sum((x - mean_x) ** 2 for x, _ in lines)
-            # Of one point nothing is known but its height: broadcast and results are alike in both arrays.
+            # One point alone says nothing but its height: broadcast and results are alike in both arrays.
             control[name] = sum((x - mean_x) * (y - mean_y) for x, y in lines) / spread if spread else control["histogram"]
             offset = mean_y - control[name] * mean_x
     references = {}
@@ -210,7 +210,7 @@ def fit(points: list[Measured], steps: list[Step]) -> Model:
 
 
 def _data_exponent(used: list[Measured], references: dict[str, Reference]) -> float:
-    """Of NP, by the data power of fitted points a column."""
+    """The exponent of NP, by the data power of fitted points a column."""
     pairs = []
     for point in used:
         base = references[point.configuration.readout]
@@ -333,7 +333,7 @@ def write_points(root: Path, points: list[Measured]) -> None:
 
 
 def digest(root: Path) -> str:
-    """Of the figures that the coefficients follow from."""
+    """The digest of the figures that the coefficients follow from."""
     text = hashlib.sha256()
     for name in SOURCES:
         text.update((root / name).read_bytes())
@@ -369,7 +369,7 @@ def report(root: Path, found: list[Error]) -> str:
     lines = ["# Estimates of `dtof design`", "",
              "Written by `synth/synth.py estimate`: area, power and clock of configurations as the models of `dtof design` have them, "
              "beside the synthesis flow's figures. Held out: the configuration is in no fit. Left out: the model was fitted without "
-             "this one. Memories follow the physical model of [sram.md](sram.md) exactly; power is that of the acquisitions on the "
+             "this one. The forms of the models, not their coefficients, were chosen with errors of held-out points in view. Memories follow the physical model of [sram.md](sram.md) exactly; power is that of the acquisitions on the "
              f"scene of `make power`. Digest of the figures: `{digest(root)}`.", "",
              "| figure | kind | configurations | root mean square | largest | goal | met |", "|---|---|---:|---:|---:|---:|---|"]
     for figure in ("area", "power", "fmax"):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Measures the points of synth/estimate_points.toml: area and clock of all, power of some."""
+"""Measures the points of models/dtof/design/estimate_points.toml: area and clock of all, power of some."""
 
 from __future__ import annotations
 

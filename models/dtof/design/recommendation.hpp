@@ -32,7 +32,7 @@ std::vector<LimitChange> limit_changes(const DesignLimits& limits);
 /// Whether no more pixels are off in the first than in the second, as far as their intervals can tell.
 bool as_good(const LightScore& one, const LightScore& other);
 
-/// Of each read-out that has an option within the limits, the best parameters: those with fewest pixels that
+/// The best parameters of each read-out that has an option within the limits: those with fewest pixels that
 /// are more than 3 % off in the worst light; the smallest array of those that are as good.
 std::vector<std::size_t> representatives(std::span<const DesignOption> options, const DesignLimits& limits);
 
