@@ -351,8 +351,8 @@ def coefficients(root: Path, model: Model, found: list[Error]) -> str:
     for figure in ("area", "power", "fmax"):
         lines += [f"{figure} = {worst(found, figure):.4f}", f"{figure}_rms = {rms(found, figure):.4f}"]
     for name, slopes in model.slopes.items():
-        lines += ["", f"[family.{name}]", f"control_um2_a_column = {model.control_slopes[name]:.4f}",
-                  *(f"{feature} = {slope:.4f}" for feature, slope in zip(FEATURES, slopes))]
+        lines += ["", f"[family.{name}]", f"control_um2_a_column = {model.control_slopes[name]:.3f}",
+                  *(f"{feature} = {slope:.2f}" for feature, slope in zip(FEATURES, slopes))]
     for readout, one in model.references.items():
         item = one.configuration
         kept = ", ".join(f"{name} = {item.parameters[name]}" for name in (*FEATURES[:-1], "PIXELS_PER_SRAM", "SRAM_NUM",

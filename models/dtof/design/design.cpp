@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -15,6 +16,24 @@
 
 namespace dtof {
 namespace {
+
+/// None if the array needs a memory that cannot be made.
+std::optional<DesignCandidate> estimated_one(const DesignRequest& request,
+                                             const ReadoutParameters& parameters, double slots_taken) {
+  const SensorModel& sensor = request.bench.sensor;
+  try {
+    DesignCandidate candidate{.array = array_for(parameters, sensor, request.limits.budget.clock_hz),
+                              .cost = {},
+                              .slots_taken = slots_taken,
+                              .clocks = 0};
+    candidate.clocks = predicted_frame_clocks(parameters, candidate.array.rows, candidate.array.columns,
+                                              sensor.acquisitions);
+    candidate.cost = estimate_cost(candidate.array);
+    return candidate;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
 
 std::vector<DesignCandidate> estimated(const DesignRequest& request) {
   const BenchSettings& bench = request.bench;
@@ -31,14 +50,9 @@ std::vector<DesignCandidate> estimated(const DesignRequest& request) {
       }
       known = slots_taken.emplace(parameters.slots, sum / static_cast<double>(bench.scenes.size())).first;
     }
-    DesignCandidate candidate{.array = array_for(parameters, bench.sensor, request.limits.budget.clock_hz),
-                              .cost = {},
-                              .slots_taken = known->second,
-                              .clocks = 0};
-    candidate.clocks = predicted_frame_clocks(parameters, candidate.array.rows, candidate.array.columns,
-                                              bench.sensor.acquisitions);
-    candidate.cost = estimate_cost(candidate.array);
-    candidates.push_back(std::move(candidate));
+    if (const auto candidate = estimated_one(request, parameters, known->second)) {
+      candidates.push_back(*candidate);
+    }
   }
   return candidates;
 }
@@ -108,8 +122,9 @@ std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const
     std::ranges::copy_if(candidates, std::back_inserter(mine),
                          [&](const DesignCandidate& c) { return c.readout() == readout; });
     if (std::ranges::none_of(mine, [&](const DesignCandidate& c) { return limits_kept(c, limits).all(); })) {
-      found.push_back(
-          {readout, mine.empty() ? "not legal for this sensor" : what_would_be_needed(mine, limits)});
+      found.push_back({readout, mine.empty()
+                                    ? "not legal for this sensor, or with memories that cannot be made"
+                                    : what_would_be_needed(mine, limits)});
     }
   }
   return found;

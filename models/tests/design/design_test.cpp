@@ -109,6 +109,19 @@ TEST(Design, EveryOptionThatIsRecommendedHasItsFinalScore) {
   }
 }
 
+TEST(Design, AReadoutWhoseMemoryCannotBeMadeIsLeftOut) {
+  DesignRequest request = small_request();
+  request.bench.sensor.np = 16;
+  request.bench.sensor.rows = 400;
+  request.bench.sensor.columns = 2;
+  request.bench.sensor.acquisitions = 20;
+  request.limits.most_mm2 = 0.05;
+  const DesignResult found = run_design(request);
+  const auto histogram = std::ranges::find(found.left_out, Readout::kHistogram, &LeftOut::readout);
+  ASSERT_NE(histogram, found.left_out.end());
+  EXPECT_THAT(histogram->reason, HasSubstr("memories that cannot be made"));
+}
+
 TEST(Design, LimitsThatNobodyKeepsAreOneLine) {
   DesignRequest request = small_request();
   request.limits.most_mm2 = 1e-3;
