@@ -6,7 +6,8 @@ around the configuration of each read-out's defaults: a column costs what that o
 doubling that a parameter differs by; what the columns share grows with the columns and the engines. Power: that of the
 defaults on the scene of `make power`, in each part scaled by what the part is made of. Fitted are the configurations of
 configurations.toml (reports/area.csv, timing.csv, power.csv), steps of NP and NB (growth.csv) and some of
-models/dtof/design/estimate_points.toml; the others are held out. The C++ program has the same formulas (models/dtof/design/estimate.cpp) and reads the coefficients that are written here.
+models/dtof/design/estimate_points.toml; the others are held out. The C++ program has the same formulas
+(models/dtof/design/estimate.cpp) and reads the coefficients that are written here.
 """
 
 from __future__ import annotations
@@ -369,7 +370,8 @@ def report(root: Path, found: list[Error]) -> str:
     lines = ["# Estimates of `dtof design`", "",
              "Written by `synth/synth.py estimate`: area, power and clock of configurations as the models of `dtof design` have them, "
              "beside the synthesis flow's figures. Held out: the configuration is in no fit. Left out: the model was fitted without "
-             "this one. The forms of the models, not their coefficients, were chosen with errors of held-out points in view. Memories follow the physical model of [sram.md](sram.md) exactly; power is that of the acquisitions on the "
+             "this one. The forms of the models, not their coefficients, were chosen with errors of held-out points in "
+             "view. Memories follow the physical model of [sram.md](sram.md) exactly; power is that of the acquisitions on the "
              f"scene of `make power`. Digest of the figures: `{digest(root)}`.", "",
              "| figure | kind | configurations | root mean square | largest | goal | met |", "|---|---|---:|---:|---:|---:|---|"]
     for figure in ("area", "power", "fmax"):
