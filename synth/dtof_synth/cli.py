@@ -238,8 +238,9 @@ def _estimate(arguments: argparse.Namespace, _: dict[str, Configuration]) -> int
         estimate_points.run(ROOT, arguments.seed, arguments.jobs, _say)
     found = estimate.write(ROOT)
     for figure, goal in estimate.GOALS.items():
-        _say(f"{figure}, held out: at most {estimate.worst(found, figure):.1%}, root mean square {estimate.rms(found, figure):.1%}; "
-             f"goal {goal:.0%}")
+        for kind in estimate.UNSEEN:
+            _say(f"{figure}, {kind}: at most {estimate.worst(found, figure, (kind,)):.1%}, root mean square "
+                 f"{estimate.rms(found, figure, (kind,)):.1%}; goal {goal:.0%}")
     _say(f"{estimate.COEFFICIENTS}, {estimate.REPORT} written")
     return 0
 
