@@ -238,7 +238,7 @@ def _estimate(arguments: argparse.Namespace, _: dict[str, Configuration]) -> int
         estimate_points.run(ROOT, arguments.seed, arguments.jobs, _say)
     found = estimate.write(ROOT)
     for figure, goal in estimate.GOALS.items():
-        for kind in estimate.UNSEEN:
+        for kind in sorted({one.kind for one in found if one.figure == figure}):
             _say(f"{figure}, {kind}: at most {estimate.worst(found, figure, (kind,)):.1%}, root mean square "
                  f"{estimate.rms(found, figure, (kind,)):.1%}; goal {goal:.0%}")
     _say(f"{estimate.COEFFICIENTS}, {estimate.REPORT} written")
