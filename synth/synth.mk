@@ -6,6 +6,8 @@
 # make synth-check     the generated library against Nangate 45 (../shared/pdk) and Debian's OSU 0.18 um; IHP 130 nm with
 #                      its own SRAM macros (../shared/pdk)
 # make synth-budgets   proposes new budgets (synth/budgets.csv)
+# make synth-estimate  fits the models of area and power of `dtof design` to what lies in reports/ (seconds)
+#                      POINTS=1                                        measures the models' own points first (half an hour)
 # make synth-sizes     writes the list of SRAM sizes in use (synth/sram_sizes.csv)
 # make synth-flat      the slack with every column real beside that with stand-ins; CONFIGURATIONS= as above
 # make synth-corners   the slack if gates and SRAMs are slowed by one ratio; CONFIGURATIONS= as above
@@ -15,7 +17,7 @@
 #                      CONFIGURATIONS="sifh fifh" SEED=2               some configurations, other random frames
 # make sim-netlist-full  netlists of 200 columns (ezPointer, hisPointer, poolPointer) in Verilator against the model
 # make power           power from the activity of netlists on a scene: reports/power.md (minutes)
-.PHONY: synth power synth-growth synth-flat synth-corners synth-namings synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
+.PHONY: synth power synth-growth synth-estimate synth-flat synth-corners synth-namings synth-check synth-budgets synth-sizes synth-test sim-icarus sim-netlist sim-netlist-full vectors
 
 synth:
 	@synth/synth.py run $(CONFIGURATIONS) $(if $(LIBERTY),--liberty $(LIBERTY)) \
@@ -36,6 +38,11 @@ synth-growth:
 	@synth/synth.py growth
 	@scripts/growth_plot.py
 	@scripts/reports.py record growth
+
+synth-estimate: $(if $(POINTS),vectors)
+	@scripts/reports.py begin estimate
+	@synth/synth.py estimate $(if $(POINTS),--points)
+	@scripts/reports.py record estimate
 
 synth-test: vectors
 	@cd synth && /usr/bin/python3 -m unittest discover -q -s tests -t .

@@ -20,6 +20,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line);
 void add_convert_command(CLI::App& app);
 void add_video_command(CLI::App& app, const std::string& command_line);
 void add_sensor_command(CLI::App& app);
+void add_design_command(CLI::App& app, const std::string& command_line);
 void add_product_command(CLI::App& app, const std::string& command_line);
 void add_list_command(CLI::App& app);
 

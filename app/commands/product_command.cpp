@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <memory>
-#include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "commands/commands.hpp"
+#include "commands/flow_measurement.hpp"
 #include "dtof/core/error.hpp"
-#include "dtof/io/atomic_file.hpp"
 #include "dtof/sensor/preset.hpp"
-#include "on_demand/tool_run.hpp"
 #include "product/product.hpp"
-#include "rtl/settings.hpp"
 
 namespace dtof {
 namespace {
@@ -49,61 +43,6 @@ std::string command_of(const ProductOptions& options) {
   return command;
 }
 
-/// The flow's table without what changes from run to run.
-std::string table_of(const std::string& output) {
-  std::istringstream lines(output);
-  std::string table;
-  for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with("[") && line.find(" configurations in ") == std::string::npos) {
-      table += line + "\n";
-    }
-  }
-  return table;
-}
-
-/// What `synth/synth.py run` says of the array, as text of the report.
-std::string measured(const ReadoutParameters& parameters, const SensorModel& sensor, double clock_mhz) {
-  const char* flow = "synth/synth.py";
-  if (!std::filesystem::exists(flow)) {
-    throw InputError(
-        "--measure needs the project's flow, synth/synth.py: run the command in the project's folder");
-  }
-  RtlConfiguration configuration;
-  configuration.parameters = parameters;
-  configuration.pixels_per_sram = sensor.rows;
-  configuration.sram_num = sensor.columns;
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / fmt::format("dtof_product_{}", getpid());
-  std::filesystem::create_directories(folder);
-  write_file(folder / "configurations.toml", configuration_toml("product", configuration));
-  const std::vector<std::string> command = {flow,
-                                            "--configurations",
-                                            (folder / "configurations.toml").string(),
-                                            "run",
-                                            "product",
-                                            "--csv",
-                                            (folder / "areas.csv").string()};
-  fmt::print("Measures area and timing of the array: {} run\n", flow);
-  const std::optional<ToolRun> run = run_tool(command, {});
-  std::string text;
-  if (run && run->exit_code == 0) {
-    text = fmt::format(
-        "Area and timing of the array by the flow of `make synth`: generated 40 nm libraries, not sign-off; "
-        "without the\n"
-        "registers and buffers of the subsystem; for the flow's clock, not {:g} MHz. The mW are those of an "
-        "assumed activity: power\n"
-        "was not measured.\n\n```\n{}```",
-        clock_mhz, table_of(run->output));
-  }
-  std::filesystem::remove_all(folder);
-  if (text.empty()) {
-    throw InputError(fmt::format(
-        "--measure: {} failed: {}", flow,
-        run ? run->output.substr(run->output.rfind('\n', run->output.size() - 2) + 1) : "it does not run"));
-  }
-  return text;
-}
-
 void run_product_command(const ProductOptions& options) {
   const DescribedSensor described = find_described_sensor(options.sensor);
   const std::vector<ReadoutParameters> readouts = options.readout.parameters(kRtlReadouts, described.model);
@@ -128,7 +67,9 @@ void run_product_command(const ProductOptions& options) {
   request.sensor.slots = request.parameters.slots;
   request.sensor.validate();
   if (options.measure) {
-    request.measurements = measured(request.parameters, request.sensor, options.clock_mhz);
+    check_flow("--measure");
+    request.measurements =
+        measured_by_flow("--measure", request.parameters, request.sensor, options.clock_mhz);
   }
   const auto files = product_files(request);
   write_product(files, options.out);

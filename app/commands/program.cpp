@@ -18,6 +18,8 @@ Program dtof_program() {
           "another\n"
           "  dtof video --scene room --motion pan --frames 8 --out build/pan\n"
           "  dtof sensor thesis                                          a sensor file to start from\n"
+          "  dtof design --sensor mine.toml --max-mm2 1.0 --out build/d   the read-out that suits that "
+          "sensor\n"
           "  dtof product --sensor mine.toml --readout sifh --out chip    RTL, driver and bench for that "
           "sensor\n"
           "  dtof list\n"
@@ -28,6 +30,7 @@ Program dtof_program() {
         add_convert_command(app);
         add_video_command(app, command_line);
         add_sensor_command(app);
+        add_design_command(app, command_line);
         add_product_command(app, command_line);
         add_list_command(app);
       }};

@@ -11,8 +11,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from . import area_parts, batch, budgets, check, configuration, corner_ratios, gates, goals, growth, line_buffer, namings, part_costs, \
-    report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report
+from . import area_parts, batch, budgets, check, configuration, corner_ratios, estimate, estimate_points, gates, goals, growth, \
+    line_buffer, namings, part_costs, report, report_inputs, scene_power, signalled_clear, simulation, sram_kit, sram_report
 from . import technology as technologies
 from .configuration import Configuration
 from .errors import FlowError
@@ -234,6 +234,19 @@ def _part_costs(arguments: argparse.Namespace, named: dict[str, Configuration]) 
     return 0
 
 
+def _estimate(arguments: argparse.Namespace, _: dict[str, Configuration]) -> int:
+    """The models of `dtof design`, from the figures of make synth, make power and the points of their own."""
+    if arguments.points:
+        estimate_points.run(ROOT, arguments.seed, arguments.jobs, _say)
+    found = estimate.write(ROOT)
+    for figure, goal in estimate.GOALS.items():
+        for kind in sorted({one.kind for one in found if one.figure == figure}):
+            _say(f"{figure}, {kind}: at most {estimate.worst(found, figure, (kind,)):.1%}, root mean square "
+                 f"{estimate.rms(found, figure, (kind,)):.1%}; goal {goal:.0%}")
+    _say(f"{estimate.COEFFICIENTS}, {estimate.REPORT} written")
+    return 0
+
+
 def _simulation_folder(kind: str, case: simulation.Case) -> Path:
     return SIMULATION / kind / "_".join([case.name, *case.part.split()])
 
@@ -332,6 +345,10 @@ def _parser() -> argparse.ArgumentParser:
     parts.add_argument("csv", type=Path, help="file to write")
     parts.add_argument("--seed", type=int, default=1, help="of the photons")
     parts.set_defaults(action=_part_costs)
+    models = commands.add_parser("estimate", help="fit the models of area and power of `dtof design`")
+    models.add_argument("--points", action="store_true", help=f"measure the points of {estimate.POINTS} anew first")
+    models.add_argument("--seed", type=int, default=1, help="of the photons")
+    models.set_defaults(action=_estimate)
     all_real = commands.add_parser("flat", help="the slack with every column real beside that with stand-ins")
     all_real.add_argument("configuration", nargs="*", help=f"names from configurations.toml; none: {', '.join(FLAT)}")
     all_real.set_defaults(action=_flat)

@@ -163,6 +163,8 @@ TEST(MatchedFilter, Refusals) {
 }
 
 TEST(MatchedFilter, RefusesReturnsThatItCannotTake) {
+  using testing::HasSubstr;
+  using testing::ThrowsMessage;
   MatchedFilterParameters told = kPulse;
   told.returns.assign(1024, 0.0);
   EXPECT_THAT([&] { MatchedFilter{told}; }, ThrowsMessage<InputError>(HasSubstr("returns of 1024 bins")));

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command_line/option_checks.hpp"
+#include "command_line/options.hpp"
+#include "commands/commands.hpp"
+#include "commands/flow_measurement.hpp"
+#include "commands/optional_output.hpp"
+#include "design/design_page.hpp"
+#include "dtof/core/error.hpp"
+#include "dtof/design/design.hpp"
+#include "dtof/io/atomic_file.hpp"
+#include "dtof/io/output_folder.hpp"
+#include "dtof/report/plot.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+struct DesignOptions {
+  std::string sensor = "thesis";
+  std::optional<double> most_mm2;
+  std::optional<double> most_mw;
+  std::vector<double> klux = {2.0, 50.0};
+  std::vector<std::string> scenes = {"room", "poles"};
+  double frame_rate = 30.0;
+  double clock_mhz = 330.0;
+  int frames = 4;
+  std::uint64_t seed = 1;
+  int threads = 0;
+  bool confirm = false;
+  std::string out = "build/design";
+  std::string command_line;
+};
+
+DesignRequest request_of(const DesignOptions& options) {
+  DesignRequest request;
+  request.bench.sensor = find_sensor(options.sensor);
+  request.bench.scenes.clear();
+  for (const std::string& scene : options.scenes) {
+    request.bench.scenes.push_back(parse_scene(scene));
+  }
+  request.bench.klux = options.klux;
+  request.bench.seed = options.seed;
+  request.bench.threads = options.threads;
+  request.limits.most_mm2 = options.most_mm2.value_or(request.limits.most_mm2);
+  request.limits.most_mw = options.most_mw.value_or(request.limits.most_mw);
+  request.limits.budget = {.clock_hz = options.clock_mhz * 1e6, .frames_per_s = options.frame_rate};
+  request.frames = options.frames;
+  return request;
+}
+
+void run_design_command(const DesignOptions& options) {
+  const DesignRequest request = request_of(options);
+  if (options.confirm) {
+    check_flow("--confirm");
+  }
+  const DesignResult result = run_design(request);
+  const DesignOption& chosen = result.options[*result.recommendation.chosen];
+  fmt::print("{}\n{}\nWhat 10 % more or less would bring:\n{}", design_table(request, result),
+             design_recommendation(request, result), design_consequences(request, result));
+  std::string confirmed;
+  if (options.confirm) {
+    SensorModel sensor = request.bench.sensor;
+    sensor.columns = chosen.candidate.array.columns;
+    const CostEstimate& cost = chosen.candidate.cost;
+    confirmed = measured_by_flow("--confirm", chosen.candidate.array.parameters, sensor, options.clock_mhz) +
+                fmt::format("\nEstimated: {:.3f} mm2{}, fmax {:.0f} MHz in the slow corner.\n",
+                            cost.mm2 / chosen.candidate.array.arrays,
+                            chosen.candidate.array.arrays > 1 ? " for each array" : "", cost.fmax_mhz);
+    fmt::print("\n{}", confirmed);
+  }
+  const std::filesystem::path folder(options.out);
+  create_output_folder(folder);
+  write_file(folder / "design.md",
+             design_page(request, result, options.sensor, options.command_line, confirmed));
+  write_file(folder / "design.csv", design_csv(request, result));
+  write_optional(folder / "design.svg", plot_obstacle(),
+                 [&] { write_design_picture(folder / "design.svg", request, result); });
+  fmt::print("\nProduct: {}\nPage, picture and table are in {}\n",
+             design_product(request, result, options.sensor), options.out);
+}
+
+}  // namespace
+
+void add_design_command(CLI::App& app, const std::string& command_line) {
+  auto options = std::make_shared<DesignOptions>();
+  options->command_line = command_line;
+  CLI::App* command = app.add_subcommand(
+      "design",
+      "The read-out for a sensor: parameters searched, accuracy by the models, area and power by estimates");
+  add_sensor_option(*command, options->sensor);
+  command->add_option("--max-mm2", options->most_mm2, "largest array in mm2 (none: any)")
+      ->check(above_zero());
+  command->add_option("--max-mw", options->most_mw, "most mW while acquisitions stream in (none: any)")
+      ->check(above_zero());
+  command->add_option("-k,--klux", options->klux, "background light in klux, one or several")
+      ->check(sensible_klux())
+      ->capture_default_str();
+  command
+      ->add_option("--scenes", options->scenes, "scenes of `dtof list`, one or several, scaled to the range")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--frame-rate", options->frame_rate, "frames/s that a frame has to fit")
+      ->check(above_zero())
+      ->capture_default_str();
+  command->add_option("--clock-mhz", options->clock_mhz, "the clock")
+      ->check(above_zero())
+      ->capture_default_str();
+  command->add_option("--frames", options->frames, "frames that compare the read-outs")
+      ->check(within(2, 1000, "to 1000: an interval needs two"))
+      ->capture_default_str();
+  add_study_options(*command, options->seed, options->threads, options->out);
+  command->add_flag("--confirm", options->confirm,
+                    "synthesises the recommended array by the project's flow, in its folder (minutes)");
+  command->callback([options] { run_design_command(*options); });
+}
+
+}  // namespace dtof

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "design/design_page.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+DesignOption option(Readout readout, double share, double mm2) {
+  DesignOption made;
+  made.candidate.array.parameters = ReadoutParameters::defaults(readout);
+  made.candidate.cost = {.mm2 = mm2, .fmax_mhz = 350.0, .bits_per_pixel = 14.0};
+  made.candidate.slots_taken = 0.2;
+  made.candidate.clocks = 1'100'000;
+  LightScore light;
+  light.klux = 50.0;
+  light.above_3_percent = {share, {share - 0.005, share + 0.005}};
+  light.above_10_percent = {share / 2, {}};
+  light.detected = Estimate{0.875, {0.87, 0.88}};
+  light.false_alarms = Estimate{0.0005, {}};
+  made.screened.lights = {light};
+  made.score = made.screened;
+  return made;
+}
+
+DesignRequest request() {
+  DesignRequest made;
+  made.bench.sensor = parse_preset("thesis");
+  made.limits.most_mm2 = 2.0;
+  return made;
+}
+
+DesignResult result(const DesignRequest& request, std::vector<DesignOption> options) {
+  DesignResult made;
+  made.options = std::move(options);
+  made.frames = 4;
+  made.recommendation = recommend(made.options, request.limits);
+  for (const LimitChange& change : limit_changes(request.limits)) {
+    made.consequences.push_back({change, recommend(made.options, change.limits), "--max-mm2 would do"});
+  }
+  return made;
+}
+
+std::vector<DesignOption> two_options() {
+  return {option(Readout::kPoolPointer2, 0.01, 1.9), option(Readout::kEzPointer, 0.50, 1.0)};
+}
+
+TEST(DesignPage, TheTableHasAReadoutALineBestFirst) {
+  const std::string text = design_table(request(), result(request(), two_options()));
+  EXPECT_THAT(text, HasSubstr("1.00 [0.50, 1.50]"));
+  EXPECT_THAT(text, HasSubstr("87.5"));
+  EXPECT_THAT(text, HasSubstr("0.05"));
+  EXPECT_LT(text.find("poolPointer 2"), text.find("ezPointer"));
+  EXPECT_EQ(std::ranges::count(text, '\n'), 4);
+}
+
+TEST(DesignPage, TheRecommendationHasItsReasonAndItsCompetitor) {
+  const std::string text = design_recommendation(request(), result(request(), two_options()));
+  EXPECT_THAT(text, HasSubstr("Recommended: poolPointer 2, 1.90 mm2"));
+  EXPECT_THAT(text, HasSubstr("the fewest of the 2 read-outs"));
+  EXPECT_THAT(text, HasSubstr("Nearest competitor: ezPointer, 1.00 mm2"));
+  const std::string alone = design_recommendation(request(), result(request(), {two_options()[1]}));
+  EXPECT_THAT(alone, HasSubstr("No other read-out keeps the limits"));
+}
+
+TEST(DesignPage, ASmallerArrayThatIsAsGoodIsTheReason) {
+  const std::string text =
+      design_recommendation(request(), result(request(), {option(Readout::kPoolPointer2, 0.100, 1.9),
+                                                          option(Readout::kPoolPointer2Lean, 0.103, 0.7)}));
+  EXPECT_THAT(text, HasSubstr("Recommended: poolPointer 2 lean"));
+  EXPECT_THAT(text, HasSubstr("do not tell from poolPointer 2's"));
+  EXPECT_THAT(text, HasSubstr("smaller array (0.70 of 1.90 mm2)"));
+}
+
+TEST(DesignPage, AnEstimateNearTheLimitAsksToBeConfirmed) {
+  DesignRequest tight = request();
+  EXPECT_THAT(design_recommendation(tight, result(tight, {option(Readout::kSifh, 0.01, 1.0)})),
+              Not(HasSubstr("--confirm")));
+  EXPECT_THAT(design_recommendation(tight, result(tight, {option(Readout::kSifh, 0.01, 1.9999)})),
+              HasSubstr("--confirm"));
+}
+
+TEST(DesignPage, ConsequencesNameTheOtherWinnerOrWhatWouldDo) {
+  const DesignRequest made = request();
+  const std::string text = design_consequences(made, result(made, two_options()));
+  EXPECT_THAT(text, HasSubstr("* area 10 % less: ezPointer, 1.00 mm2"));
+  EXPECT_THAT(text, HasSubstr("50.00 [49.50, 50.50] % instead of 1.00 [0.50, 1.50] %"));
+  EXPECT_THAT(text, HasSubstr("* area 10 % more: the same"));
+  EXPECT_THAT(text, HasSubstr("* clock 10 % more: --max-mm2 would do"));
+}
+
+TEST(DesignPage, SeveralArraysAreSaidEverywhere) {
+  DesignOption wide = option(Readout::kSifh, 0.01, 1.0);
+  wide.candidate.array.columns = 160;
+  wide.candidate.array.arrays = 2;
+  const DesignRequest made = request();
+  const DesignResult found = result(made, {wide});
+  EXPECT_THAT(design_table(made, found), HasSubstr("SiFH, 2 arrays of 160 columns"));
+  EXPECT_EQ(design_product(made, found, "mine.toml"),
+            "dtof product --sensor mine.toml --readout sifh --out chip  # with columns = 160 in the sensor "
+            "file, 2 times");
+}
+
+TEST(DesignPage, ThePageSaysHowAndWithWhatError) {
+  const DesignRequest made = request();
+  DesignResult found = result(made, two_options());
+  found.left_out.push_back({Readout::kSifh, "--max-mm2 15"});
+  const std::string page =
+      design_page(made, found, "mine.toml", "dtof design --sensor mine.toml", "MEASURED");
+  for (const char* part : {"# A read-out for thesis", "at most 2 mm2", "## Left out", "* SiFH: --max-mm2 15",
+                           "## Confirmed", "MEASURED", "they were off by at most",
+                           "dtof product --sensor mine.toml --readout poolpointer2 --out chip",
+                           "Command: `dtof design --sensor mine.toml`", "so that the frame fits"}) {
+    EXPECT_THAT(page, HasSubstr(part));
+  }
+  EXPECT_EQ(std::ranges::count(design_csv(made, found), '\n'), 3);
+}
+
+}  // namespace
+}  // namespace dtof

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/design/design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+
+#include "dtof/core/error.hpp"
+#include "dtof/core/frame_time.hpp"
+
+namespace dtof {
+namespace {
+
+/// None if the array needs a memory that cannot be made.
+std::optional<DesignCandidate> estimated_one(const DesignRequest& request,
+                                             const ReadoutParameters& parameters, double slots_taken) {
+  const SensorModel& sensor = request.bench.sensor;
+  try {
+    DesignCandidate candidate{.array = array_for(parameters, sensor, request.limits.budget.clock_hz),
+                              .cost = {},
+                              .slots_taken = slots_taken,
+                              .clocks = 0};
+    candidate.clocks = predicted_frame_clocks(parameters, candidate.array.rows, candidate.array.columns,
+                                              sensor.acquisitions);
+    candidate.cost = estimate_cost(candidate.array);
+    return candidate;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+std::vector<DesignCandidate> estimated(const DesignRequest& request) {
+  const BenchSettings& bench = request.bench;
+  const double brightest = std::ranges::max(bench.klux);
+  std::map<int, double> slots_taken;
+  std::vector<DesignCandidate> candidates;
+  for (const ReadoutParameters& parameters : searched_parameters(bench.sensor)) {
+    auto known = slots_taken.find(parameters.slots);
+    if (known == slots_taken.end()) {
+      const SensorModel sensor = with_slots(bench.sensor, parameters.slots);
+      double sum = 0.0;
+      for (const Scene scene : bench.scenes) {
+        sum += slot_rate(sensor, scaled_scene(scene, sensor, bench.seed), brightest);
+      }
+      known = slots_taken.emplace(parameters.slots, sum / static_cast<double>(bench.scenes.size())).first;
+    }
+    if (const auto candidate = estimated_one(request, parameters, known->second)) {
+      candidates.push_back(*candidate);
+    }
+  }
+  return candidates;
+}
+
+/// Within the limits, and with as many SLOTS as are: fewer see less light.
+std::set<std::size_t> worth_reading(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
+  std::map<std::string, std::size_t> most_slots;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (!limits_kept(candidates[i], limits).all()) {
+      continue;
+    }
+    ReadoutParameters parameters = candidates[i].array.parameters;
+    parameters.slots = 0;
+    const auto [place, is_new] = most_slots.emplace(parameters.to_string(), i);
+    if (!is_new && candidates[i].array.parameters.slots > candidates[place->second].array.parameters.slots) {
+      place->second = i;
+    }
+  }
+  std::set<std::size_t> found;
+  for (const auto& [parameters, i] : most_slots) {
+    found.insert(i);
+  }
+  return found;
+}
+
+/// Pixels that a frame of each may have.
+double pixels_of(double work, std::size_t readouts, const DesignRequest& request, int frames) {
+  const BenchSettings& bench = request.bench;
+  return work / bench.sensor.acquisitions / static_cast<double>(readouts) /
+         static_cast<double>(bench.klux.size() * bench.scenes.size()) / frames;
+}
+
+/// As many as were asked for, and of a small array so many that their pixels show a per cent.
+int frames_of(const DesignRequest& request) {
+  constexpr double kFewestPixels = 4000.0;
+  const SensorModel& sensor = request.bench.sensor;
+  const double of_a_frame =
+      static_cast<double>(sensor.rows) * sensor.columns * static_cast<double>(request.bench.scenes.size());
+  return std::max(request.frames, static_cast<int>(std::ceil(kFewestPixels / of_a_frame)));
+}
+
+std::vector<ReadoutParameters> parameters_of(const std::vector<DesignOption>& options,
+                                             const std::vector<std::size_t>& places) {
+  std::vector<ReadoutParameters> parameters;
+  for (const std::size_t place : places) {
+    parameters.push_back(options[place].candidate.array.parameters);
+  }
+  return parameters;
+}
+
+/// Scores of the options at these places.
+std::vector<ReadoutScore> read(const DesignRequest& request, const std::vector<DesignOption>& options,
+                               const std::vector<std::size_t>& places, const BenchEffort& effort,
+                               const std::string& title) {
+  const BenchSettings& bench = request.bench;
+  const std::size_t lights = bench.klux.size();
+  Progress progress(title, places.size() * lights *
+                               (bench.scenes.size() * static_cast<std::size_t>(effort.frames) +
+                                (effort.detection ? 2 : 0)));
+  return run_bench(bench, parameters_of(options, places), effort, &progress);
+}
+
+std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
+  std::vector<LeftOut> found;
+  for (const Readout readout : kRtlReadouts) {
+    std::vector<DesignCandidate> mine;
+    std::ranges::copy_if(candidates, std::back_inserter(mine),
+                         [&](const DesignCandidate& c) { return c.readout() == readout; });
+    if (std::ranges::none_of(mine, [&](const DesignCandidate& c) { return limits_kept(c, limits).all(); })) {
+      found.push_back({readout, mine.empty()
+                                    ? "not legal for this sensor, or with memories that cannot be made"
+                                    : what_would_be_needed(mine, limits)});
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+DesignResult run_design(const DesignRequest& request) {
+  if (request.frames < 2 || request.bench.klux.empty() || request.bench.scenes.empty()) {
+    throw InputError("design: needs a scene, a light and at least 2 frames");
+  }
+  const std::vector<DesignCandidate> candidates = estimated(request);
+  if (std::ranges::none_of(candidates,
+                           [&](const DesignCandidate& c) { return limits_kept(c, request.limits).all(); })) {
+    throw InputError("design: " + what_would_be_needed(candidates, request.limits));
+  }
+  DesignResult result;
+  result.searched = candidates.size();
+  result.frames = frames_of(request);
+  const std::vector<LimitChange> changes = limit_changes(request.limits);
+  std::set<std::size_t> wanted = worth_reading(candidates, request.limits);
+  for (const LimitChange& change : changes) {
+    wanted.merge(worth_reading(candidates, change.limits));
+  }
+  for (const std::size_t i : wanted) {
+    result.options.push_back({.candidate = candidates[i], .screened = {}, .score = std::nullopt});
+  }
+  std::vector<std::size_t> all(result.options.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = i;
+  }
+  std::vector<ReadoutScore> screened =
+      read(request, result.options, all,
+           {.pixels = pixels_of(request.screening_work, all.size(), request, 1)}, "parameters");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    result.options[i].screened = std::move(screened[i]);
+  }
+  std::set<std::size_t> chosen;
+  for (const std::size_t i : representatives(result.options, request.limits)) {
+    chosen.insert(i);
+  }
+  for (const LimitChange& change : changes) {
+    for (const std::size_t i : representatives(result.options, change.limits)) {
+      chosen.insert(i);
+    }
+  }
+  const std::vector<std::size_t> best(chosen.begin(), chosen.end());
+  std::vector<ReadoutScore> scores =
+      read(request, result.options, best,
+           {.pixels = pixels_of(request.final_work, best.size(), request, result.frames),
+            .frames = result.frames,
+            .detection = true},
+           "read-outs");
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    result.options[best[i]].score = std::move(scores[i]);
+  }
+  result.recommendation = recommend(result.options, request.limits);
+  result.left_out = left_out(candidates, request.limits);
+  for (const LimitChange& change : changes) {
+    Recommendation other = recommend(result.options, change.limits);
+    std::string needed = other.chosen ? "" : what_would_be_needed(candidates, change.limits);
+    result.consequences.push_back({change, std::move(other), std::move(needed)});
+  }
+  return result;
+}
+
+}  // namespace dtof

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace dtof {
+
+/// A memory that an array asks for. ports: 1 (1RW) or 2 (1R1W).
+struct MacroSize {
+  int ports = 1;
+  int words = 0;
+  int bits = 0;
+
+  [[nodiscard]] long capacity() const { return static_cast<long>(words) * bits; }
+  bool operator==(const MacroSize&) const = default;
+};
+
+/// Figures of a macro.
+struct SramMacro {
+  double area_um2;
+  double access_slow_ns;
+  double read_pj;
+  double write_pj;
+  double leakage_uw;
+};
+
+/// The synthesis flow's physical model of a 40 nm macro (synth/dtof_synth/sram_model.py), once more: the
+/// organisation of least area, and laws of words and bits. Throws InputError for a size that has none.
+SramMacro sram_macro(const MacroSize& size);
+
+}  // namespace dtof

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/design/bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "dtof/sensor/default_parameters.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+SensorModel small_sensor() {
+  SensorModel sensor = parse_preset("thesis");
+  sensor.columns = 36;
+  sensor.rows = 16;
+  sensor.acquisitions = 600;
+  return sensor;
+}
+
+double farthest(const TargetMap& targets) {
+  double most = 0.0;
+  for (int column = 0; column < targets.columns(); ++column) {
+    for (int row = 0; row < targets.rows(); ++row) {
+      most = std::max(most, targets.at(column, row).depth_m);
+    }
+  }
+  return most;
+}
+
+TEST(Bench, DistancesAreInProportionToTheRange) {
+  SensorModel sensor = small_sensor();
+  const double thesis = farthest(scaled_scene(Scene::kRoom, sensor, 1));
+  sensor.integration_time_s = sensor.pulse_fwhm_s + 3.0 * (sensor.integration_time_s - sensor.pulse_fwhm_s);
+  EXPECT_NEAR(farthest(scaled_scene(Scene::kRoom, sensor, 1)), 3.0 * thesis, 1e-9);
+  EXPECT_NEAR(thesis, farthest(make_scene(Scene::kRoom, {.columns = 36, .rows = 16})), 1e-9);
+}
+
+TEST(Bench, ColumnsAreAllOrThoseOfThreeParts) {
+  SensorModel sensor = small_sensor();
+  EXPECT_EQ(bench_columns(sensor, 1e9).size(), 36U);
+  const std::vector<int> columns = bench_columns(sensor, 16 * 6);
+  EXPECT_EQ(columns, (std::vector<int>{5, 6, 17, 18, 29, 30}));
+  sensor.columns = 2;
+  EXPECT_EQ(bench_columns(sensor, 1).size(), 2U);
+}
+
+TEST(Bench, MeasuresWhatIsKnownOfTheReadouts) {
+  const BenchSettings settings{.sensor = small_sensor(), .scenes = {Scene::kRoom}, .klux = {2.0, 50.0}};
+  const std::vector<ReadoutParameters> readouts = {
+      default_parameters(Readout::kPoolPointer2, settings.sensor),
+      default_parameters(Readout::kEzPointer, settings.sensor)};
+  const std::vector<ReadoutScore> scores =
+      run_bench(settings, readouts, {.pixels = 1e9, .frames = 3, .detection = true});
+  ASSERT_EQ(scores.size(), 2U);
+  const LightScore& pool = scores[0].worst();
+  const LightScore& pointer = scores[1].worst();
+  EXPECT_DOUBLE_EQ(pool.klux, 50.0);
+  EXPECT_LT(pool.above_3_percent.value, pointer.above_3_percent.value);
+  EXPECT_LE(pool.above_10_percent.value, pool.above_3_percent.value);
+  EXPECT_LE(pool.above_3_percent.interval.low, pool.above_3_percent.value);
+  EXPECT_GE(pool.above_3_percent.interval.high, pool.above_3_percent.value);
+  ASSERT_TRUE(pool.detected && pool.false_alarms);
+  EXPECT_GT(pool.detected->value, 0.2);
+  EXPECT_LE(pool.detected->value, 1.0 - pool.above_10_percent.value + 1e-9);
+  EXPECT_LT(pool.false_alarms->value, 0.02) << "the threshold lets 0.1 % pass of another sky";
+  EXPECT_GT(*scores[0].threshold, 0);
+}
+
+TEST(Bench, SameSeedSameScores) {
+  BenchSettings settings{.sensor = small_sensor(), .scenes = {Scene::kPoles}, .klux = {14.0}};
+  const std::vector<ReadoutParameters> readouts = {default_parameters(Readout::kSifh, settings.sensor)};
+  const auto above = [&] { return run_bench(settings, readouts, {}).front().worst().above_3_percent.value; };
+  const double first = above();
+  EXPECT_DOUBLE_EQ(above(), first);
+  settings.seed = 2;
+  EXPECT_NE(above(), first);
+}
+
+}  // namespace
+}  // namespace dtof

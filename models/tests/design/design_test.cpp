@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/design/design.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "dtof/core/error.hpp"
+#include "dtof/sensor/default_parameters.hpp"
+#include "dtof/sensor/preset.hpp"
+
+namespace dtof {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+DesignRequest small_request() {
+  DesignRequest request;
+  request.bench.sensor = parse_preset("thesis");
+  request.bench.sensor.columns = 36;
+  request.bench.sensor.rows = 16;
+  request.bench.sensor.acquisitions = 300;
+  request.bench.scenes = {Scene::kRoom};
+  request.bench.klux = {20.0};
+  request.frames = 2;
+  return request;
+}
+
+TEST(Design, SearchesLegalParametersOfEveryReadoutWithTheDefaultsAmongThem) {
+  const SensorModel sensor = parse_preset("thesis");
+  const std::vector<ReadoutParameters> found = searched_parameters(sensor);
+  for (const ReadoutParameters& one : found) {
+    EXPECT_NO_THROW(one.validate());
+    EXPECT_EQ(one.np, sensor.np);
+    EXPECT_EQ(std::ranges::count(found, one), 1) << one.to_string();
+  }
+  for (const Readout readout : kRtlReadouts) {
+    EXPECT_EQ(std::ranges::count(found, default_parameters(readout, sensor)), 1) << readout_name(readout);
+  }
+}
+
+TEST(Design, NoPoolReadoutForASensorOfTooFewBits) {
+  SensorModel sensor = parse_preset("thesis");
+  sensor.np = 6;
+  for (const ReadoutParameters& one : searched_parameters(sensor)) {
+    EXPECT_FALSE(is_pool_readout(one.readout));
+  }
+}
+
+TEST(Design, OptionsAskForTheParametersThatDiffer) {
+  const SensorModel sensor = parse_preset("thesis");
+  ReadoutParameters parameters = default_parameters(Readout::kSifh, sensor);
+  EXPECT_EQ(command_options(parameters, sensor), "--readout sifh");
+  parameters.nb = 5;
+  parameters.slots = 1;
+  parameters.window_centred = true;
+  EXPECT_EQ(command_options(parameters, sensor), "--readout sifh --nb 5 --slots 1 --window-centred");
+}
+
+TEST(Design, AnArrayThatIsTooWideForTheClockIsCut) {
+  SensorModel sensor = parse_preset("thesis");
+  const ReadoutParameters parameters = default_parameters(Readout::kSifh, sensor);
+  EXPECT_EQ(array_for(parameters, sensor, 330e6).arrays, 1);
+  const double whole = estimate_cost(array_for(parameters, sensor, 330e6)).mm2;
+  sensor.columns = 600;
+  const ArrayChoice cut = array_for(parameters, sensor, 330e6);
+  EXPECT_GT(cut.arrays, 1);
+  EXPECT_GE(cut.arrays * cut.columns, 600);
+  EXPECT_GE(estimate_cost(cut).fmax_mhz, 330.0);
+  EXPECT_NEAR(estimate_cost(cut).mm2 / whole, 3.0, 0.05);
+  EXPECT_EQ(array_for(parameters, sensor, 1e6).arrays, 1) << "a slow clock takes any width";
+  EXPECT_EQ(array_for(parameters, sensor, 1e9).columns, 200) << "no array is fast enough";
+}
+
+TEST(Design, ATighterLimitChangesTheWinner) {
+  DesignRequest request = small_request();
+  const DesignResult free = run_design(request);
+  ASSERT_TRUE(free.recommendation.chosen);
+  const DesignOption& first = free.options[*free.recommendation.chosen];
+  EXPECT_TRUE(is_pool_readout(first.candidate.readout()) ||
+              first.candidate.readout() == Readout::kCoarseHistogram);
+  double least = first.candidate.cost.mm2;
+  for (const DesignOption& option : free.options) {
+    least = std::min(least, option.candidate.cost.mm2);
+  }
+  ASSERT_LT(least, first.candidate.cost.mm2);
+  request.limits.most_mm2 = 1.0001 * least;
+  const DesignResult tight = run_design(request);
+  ASSERT_TRUE(tight.recommendation.chosen);
+  EXPECT_LE(tight.options[*tight.recommendation.chosen].candidate.cost.mm2, request.limits.most_mm2);
+  EXPECT_FALSE(tight.left_out.empty());
+  EXPECT_EQ(tight.consequences.size(), 6U);
+  EXPECT_EQ(tight.consequences[0].recommendation.chosen, std::nullopt) << "nothing is smaller still";
+}
+
+TEST(Design, EveryOptionThatIsRecommendedHasItsFinalScore) {
+  DesignRequest request = small_request();
+  request.limits.most_mm2 = 0.3;
+  const DesignResult found = run_design(request);
+  for (const std::size_t i : found.recommendation.within) {
+    ASSERT_TRUE(found.options[i].score);
+    EXPECT_LE(found.options[i].candidate.cost.mm2, 0.3);
+  }
+  for (const DesignResult::Consequence& one : found.consequences) {
+    for (const std::size_t i : one.recommendation.within) {
+      EXPECT_TRUE(found.options[i].score) << one.change.name;
+    }
+  }
+}
+
+TEST(Design, AReadoutWhoseMemoryCannotBeMadeIsLeftOut) {
+  DesignRequest request = small_request();
+  request.bench.sensor.np = 16;
+  request.bench.sensor.rows = 400;
+  request.bench.sensor.columns = 2;
+  request.bench.sensor.acquisitions = 20;
+  request.limits.most_mm2 = 0.05;
+  const DesignResult found = run_design(request);
+  const auto histogram = std::ranges::find(found.left_out, Readout::kHistogram, &LeftOut::readout);
+  ASSERT_NE(histogram, found.left_out.end());
+  EXPECT_THAT(histogram->reason, HasSubstr("memories that cannot be made"));
+}
+
+TEST(Design, LimitsThatNobodyKeepsAreOneLine) {
+  DesignRequest request = small_request();
+  request.limits.most_mm2 = 1e-3;
+  EXPECT_THAT([&] { run_design(request); },
+              ThrowsMessage<InputError>(HasSubstr("one of these would do: --max-mm2")));
+}
+
+TEST(Design, FewerSlotsAreTakenOnlyWhereMoreDoNotFit) {
+  DesignRequest request = small_request();
+  for (const DesignOption& option : run_design(request).options) {
+    EXPECT_EQ(option.candidate.array.parameters.slots, 2);
+  }
+  request.limits.budget.frames_per_s = 40'000.0;  // of 330 MHz: two SLOTS leave no read-out as many
+  const DesignResult found = run_design(request);
+  for (const std::size_t i : found.recommendation.within) {
+    EXPECT_EQ(found.options[i].candidate.array.parameters.slots, 1);
+    EXPECT_GE(found.options[i].candidate.frames_per_s(330e6), 40'000.0);
+  }
+  EXPECT_TRUE(found.recommendation.chosen);
+}
+
+}  // namespace
+}  // namespace dtof

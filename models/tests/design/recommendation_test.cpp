@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dtof/design/recommendation.hpp"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+namespace dtof {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// An option of made-up worth: share of pixels off, area, frame's clocks.
+DesignOption option(Readout readout, double share, double mm2, std::uint64_t clocks = 1'000'000) {
+  DesignOption made;
+  made.candidate.array.parameters = ReadoutParameters::defaults(readout);
+  made.candidate.array.rows = 16;
+  made.candidate.array.columns = 16;
+  made.candidate.cost = {.mm2 = mm2, .fmax_mhz = 350.0, .bits_per_pixel = 1.0};
+  made.candidate.clocks = clocks;
+  LightScore light;
+  light.klux = 50.0;
+  light.above_3_percent = {share, {share - 0.005, share + 0.005}};
+  made.screened.lights = {light};
+  return made;
+}
+
+TEST(Recommendation, TheLimitOfAreaDecidesTheWinner) {
+  const std::vector<DesignOption> options = {option(Readout::kPoolPointer2, 0.01, 1.0),
+                                             option(Readout::kEzPointer, 0.30, 0.5),
+                                             option(Readout::kSifh, 0.20, 4.0)};
+  DesignLimits limits;
+  EXPECT_EQ(recommend(options, limits).chosen, 0U);
+  EXPECT_EQ(recommend(options, limits).competitor, 2U);
+  limits.most_mm2 = 0.9;
+  EXPECT_EQ(recommend(options, limits).chosen, 1U);
+  EXPECT_EQ(recommend(options, limits).competitor, std::nullopt);
+  limits.most_mm2 = 0.4;
+  EXPECT_EQ(recommend(options, limits).chosen, std::nullopt);
+}
+
+TEST(Recommendation, TheLimitsOfPowerFrameAndClockDecideToo) {
+  const std::vector<DesignOption> options = {option(Readout::kSifh, 0.01, 1.0, 12'000'000),
+                                             option(Readout::kEzPointer, 0.30, 0.5)};
+  DesignLimits limits;
+  EXPECT_EQ(recommend(options, limits).chosen, 1U) << "27.5 frames/s are fewer than 30";
+  limits.budget.frames_per_s = 27.0;
+  EXPECT_EQ(recommend(options, limits).chosen, 0U);
+  limits.most_mw = options[0].candidate.mw(limits.budget.clock_hz) * 0.99;
+  EXPECT_EQ(recommend(options, limits).chosen, 1U);
+  limits = {};
+  limits.budget.clock_hz = 351e6;
+  EXPECT_EQ(recommend(options, limits).chosen, std::nullopt);
+}
+
+TEST(Recommendation, OfReadoutsThatAreAsGoodTheSmallestIsTaken) {
+  const std::vector<DesignOption> options = {option(Readout::kPoolPointer2, 0.100, 1.0),
+                                             option(Readout::kPoolPointer2Lean, 0.103, 0.7),
+                                             option(Readout::kSifh, 0.110, 0.6)};
+  const Recommendation found = recommend(options, {});
+  EXPECT_EQ(found.chosen, 1U);
+  EXPECT_EQ(found.competitor, 0U);
+  EXPECT_THAT(found.within, ElementsAre(0, 1, 2));
+}
+
+TEST(Recommendation, FinalScoresDecideBetweenReadoutsAndScreenedOnesBetweenParameters) {
+  std::vector<DesignOption> options = {option(Readout::kSifh, 0.20, 2.0), option(Readout::kSifh, 0.30, 1.0),
+                                       option(Readout::kFifh, 0.25, 1.0)};
+  EXPECT_THAT(representatives(options, {}), ElementsAre(0, 2));
+  options[0].score = option(Readout::kSifh, 0.40, 2.0).screened;
+  EXPECT_EQ(recommend(options, {}).chosen, 2U);
+  EXPECT_THAT(representatives(options, {}), ElementsAre(0, 2));
+}
+
+TEST(Recommendation, EachLimitChangesByTenPerCentToBothSides) {
+  DesignLimits limits;
+  EXPECT_EQ(limit_changes(limits).size(), 4U) << "frame rate and clock: there is always one";
+  limits.most_mm2 = 2.0;
+  const std::vector<LimitChange> changes = limit_changes(limits);
+  ASSERT_EQ(changes.size(), 6U);
+  EXPECT_EQ(changes[0].name, "area 10 % less");
+  EXPECT_DOUBLE_EQ(changes[0].limits.most_mm2, 1.8);
+  EXPECT_EQ(changes[1].name, "area 10 % more");
+  EXPECT_DOUBLE_EQ(changes[1].limits.most_mm2, 2.2);
+  EXPECT_DOUBLE_EQ(changes[1].limits.budget.clock_hz, limits.budget.clock_hz);
+}
+
+TEST(Recommendation, TenPerCentMoreAreaBringsAnotherWinner) {
+  const std::vector<DesignOption> options = {option(Readout::kPoolPointer2, 0.01, 1.05),
+                                             option(Readout::kEzPointer, 0.30, 0.95)};
+  DesignLimits limits;
+  limits.most_mm2 = 1.0;
+  EXPECT_EQ(recommend(options, limits).chosen, 1U);
+  const std::vector<LimitChange> changes = limit_changes(limits);
+  EXPECT_EQ(recommend(options, changes[0].limits).chosen, std::nullopt);
+  EXPECT_EQ(recommend(options, changes[1].limits).chosen, 0U);
+}
+
+TEST(Recommendation, SaysWhichSingleLimitWouldDo) {
+  const std::vector<DesignCandidate> candidates = {option(Readout::kPoolPointer2, 0.01, 1.181).candidate,
+                                                   option(Readout::kSifh, 0.01, 4.0).candidate};
+  DesignLimits limits;
+  limits.most_mm2 = 0.5;
+  EXPECT_EQ(what_would_be_needed(candidates, limits),
+            "no read-out keeps the limits; one of these would do: --max-mm2 1.19 (poolPointer 2)");
+  limits.budget.frames_per_s = 1e6;
+  EXPECT_THAT(what_would_be_needed(candidates, limits),
+              HasSubstr("each alone would have to be at --max-mm2 1.19"));
+  EXPECT_THAT(what_would_be_needed(candidates, limits), HasSubstr("--frame-rate 330 "));
+}
+
+}  // namespace
+}  // namespace dtof
