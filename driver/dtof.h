@@ -94,8 +94,8 @@ typedef struct {
   bool raw; /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
   uint16_t raw_first_row;
   uint16_t raw_last_row;
-  uint16_t release;  /* clock_waits: lines of an acquisition that come before the shot of the next; else: lines in
-                        the buffer before an acquisition begins; 0: as many as possible */
+  uint16_t release; /* clock_waits: lines of an acquisition that come before the shot of the next; else: lines
+                       in the buffer before an acquisition begins; 0: as many as possible */
   uint8_t shot_bits; /* start dither: shot_o waits 0 to 2^shot_bits - 1 units, at most 7; 0: no wait */
   uint8_t shot_unit; /* clocks of a unit */
 } dtof_settings;

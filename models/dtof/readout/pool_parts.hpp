@@ -83,8 +83,9 @@ int group_background(const CoarseHistogram& histogram, int count_width);
 /// where
 /// light is so strong that a pixel's two timestamps come early, margins say little.
 bool group_tilted(const CoarseHistogram& histogram);
-/// Pairs that have a hidden bin, or lie up to two beyond: one of the first kMostHiddenBins whose entry of TEMPLATE is
-/// kHiddenFrom or more. They are no candidates: a pointer that starts there would follow the crosstalk.
+/// Pairs that have a hidden bin, or lie up to two beyond: one of the first kMostHiddenBins whose entry of
+/// TEMPLATE is kHiddenFrom or more. They are no candidates: a pointer that starts there would follow the
+/// crosstalk.
 inline constexpr std::size_t kMostHiddenBins = 7;  // so that 8 candidates find their pairs
 inline constexpr int kHiddenFrom = 128;
 inline constexpr std::size_t kHiddenReach = 3;  // pairs from a hidden bin's own on

@@ -110,7 +110,8 @@ class Shots : public Subsystem {
 
   // Otherwise an acquisition begins before it is whole, and gaps in it are underruns.
   bool takes_gaps() {
-    return bench_.clock_waits() || bench_.get(DTOF_LINES) >> DTOF_LINES_BUFFER_LSB >= bench_.acquisition_lines();
+    return bench_.clock_waits() ||
+           bench_.get(DTOF_LINES) >> DTOF_LINES_BUFFER_LSB >= bench_.acquisition_lines();
   }
 
   Sensor sensor_;
