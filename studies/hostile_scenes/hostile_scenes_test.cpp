@@ -196,8 +196,9 @@ TEST_F(HostileScenesTest, GlassDoesNotFoolThoseThatAreTold) {
   settings_.conditions = {"clear", "glass"};
   const HostileScenes study = run_hostile_scenes(settings_);
   for (const std::string& name : hostile_estimators(settings_)) {
-    EXPECT_GT(share_above(study.cells.at({"glass", 2.0}).at(name), 10).value, 0.4) << name;
-    EXPECT_LT(share_above(study.told.at({"glass", 2.0}).at(name), 10).value, 0.03) << name;
+    const double untold = share_above(study.cells.at({"glass", 2.0}).at(name), 10).value;
+    EXPECT_GT(untold, 0.4) << name;
+    EXPECT_LT(share_above(study.told.at({"glass", 2.0}).at(name), 10).value, 0.2 * untold) << name;
   }
 }
 
