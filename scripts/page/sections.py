@@ -58,6 +58,8 @@ OTHERS = (
            "what many points cost beside their own computing"),
     Report("sram", "SRAM macros", "synth", "sram.md", says="sizes, area, access time and energy"),
     Report("timing", "Timing", "synth", "timing.md", says="clock, slacks and slowest paths in each corner"),
+    Report("estimate", "Estimates of dtof design", "synth-estimate", "estimate.md",
+           says="area, power and clock by models, beside the flow's figures"),
     Report("layout", "Layout", "layout", "layout.md",
            says="columns placed and routed in OSU 0.18 um, their wires beside the wire-load model"),
     Report("fpga", "FPGA demonstrator", "fpga", "fpga.md", says="an iCE40 with hisPointer and with poolPointer 2"),

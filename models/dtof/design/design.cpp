@@ -2,6 +2,7 @@
 #include "dtof/design/design.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -115,6 +116,18 @@ std::vector<ReadoutScore> read(const DesignRequest& request, const std::vector<D
   return run_bench(bench, parameters_of(options, places), effort, &progress);
 }
 
+/// Why one read-out is left out.
+std::string reason_of(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
+  if (candidates.empty()) {
+    return "not legal for this sensor, or with memories that cannot be made";
+  }
+  std::vector<std::string> options;
+  for (const SingleWay& way : single_ways(candidates, limits)) {
+    options.push_back(way.option);
+  }
+  return options.empty() ? "misses several limits" : fmt::format("needs {}", fmt::join(options, " or "));
+}
+
 std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
   std::vector<LeftOut> found;
   for (const Readout readout : kRtlReadouts) {
@@ -122,9 +135,7 @@ std::vector<LeftOut> left_out(std::span<const DesignCandidate> candidates, const
     std::ranges::copy_if(candidates, std::back_inserter(mine),
                          [&](const DesignCandidate& c) { return c.readout() == readout; });
     if (std::ranges::none_of(mine, [&](const DesignCandidate& c) { return limits_kept(c, limits).all(); })) {
-      found.push_back({readout, mine.empty()
-                                    ? "not legal for this sensor, or with memories that cannot be made"
-                                    : what_would_be_needed(mine, limits)});
+      found.push_back({readout, reason_of(mine, limits)});
     }
   }
   return found;

@@ -118,8 +118,8 @@ Recommendation recommend(std::span<const DesignOption> options, const DesignLimi
   return found;
 }
 
-std::string what_would_be_needed(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
-  std::vector<std::string> ways;
+std::vector<SingleWay> single_ways(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
+  std::vector<SingleWay> ways;
   for (const Need& need : needs(limits)) {
     const DesignCandidate* nearest = nullptr;
     for (const DesignCandidate& candidate : candidates) {
@@ -135,9 +135,17 @@ std::string what_would_be_needed(std::span<const DesignCandidate> candidates, co
       }
     }
     if (nearest != nullptr) {
-      ways.push_back(fmt::format("{} {} ({})", need.option, rounded(need.value(*nearest), need.most),
-                                 readout_title(nearest->readout())));
+      ways.push_back(
+          {fmt::format("{} {}", need.option, rounded(need.value(*nearest), need.most)), nearest->readout()});
     }
+  }
+  return ways;
+}
+
+std::string what_would_be_needed(std::span<const DesignCandidate> candidates, const DesignLimits& limits) {
+  std::vector<std::string> ways;
+  for (const SingleWay& way : single_ways(candidates, limits)) {
+    ways.push_back(fmt::format("{} ({})", way.option, readout_title(way.readout)));
   }
   if (!ways.empty()) {
     return fmt::format("no read-out keeps the limits; one of these would do: {}", fmt::join(ways, ", "));

@@ -45,6 +45,13 @@ struct Recommendation {
 /// By the same rule between read-outs.
 Recommendation recommend(std::span<const DesignOption> options, const DesignLimits& limits);
 
+/// A limit that alone would have to become another, e.g. "--max-mm2 1.19", so that this read-out keeps all.
+struct SingleWay {
+  std::string option;
+  Readout readout;
+};
+std::vector<SingleWay> single_ways(std::span<const DesignCandidate> candidates, const DesignLimits& limits);
+
 /// One line that says which single limit would have to become what, and for which read-out; if no single one
 /// suffices, the least of each that any read-out needs. For limits that no candidate keeps.
 std::string what_would_be_needed(std::span<const DesignCandidate> candidates, const DesignLimits& limits);

@@ -89,7 +89,8 @@ TEST(Design, ATighterLimitChangesTheWinner) {
   const DesignResult tight = run_design(request);
   ASSERT_TRUE(tight.recommendation.chosen);
   EXPECT_LE(tight.options[*tight.recommendation.chosen].candidate.cost.mm2, request.limits.most_mm2);
-  EXPECT_FALSE(tight.left_out.empty());
+  ASSERT_FALSE(tight.left_out.empty());
+  EXPECT_THAT(tight.left_out.front().reason, HasSubstr("needs --max-mm2 "));
   EXPECT_EQ(tight.consequences.size(), 6U);
   EXPECT_EQ(tight.consequences[0].recommendation.chosen, std::nullopt) << "nothing is smaller still";
 }
