@@ -59,8 +59,8 @@ std::vector<double> mean_returns(const std::vector<ColumnStream>& empty, const S
   return mean;
 }
 
-/// Both references of one column. A measurement's confidence is the score. `empty`: what they are told; may
-/// be none.
+/// Both references of one column. A measurement's confidence is the score. `returns`: what they are told; may
+/// be empty.
 std::array<std::vector<Measurement>, 2> read_references(const PhotonSource& source, int column,
                                                         const ColumnStream& stream,
                                                         const std::vector<double>& returns = {}) {
