@@ -2,6 +2,7 @@
 #include "product/product.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -219,6 +220,26 @@ int result_fraction_bits(const ReadoutParameters& parameters) {
 }
 
 /// The table from flat targets, as `dtof frame --table flat` fits it.
+/// The entries of TEMPLATE as a C array, with a sentence of how to write them; nothing without a template.
+std::string template_array(const PoolTemplate& coarse_template) {
+  if (coarse_template == PoolTemplate{}) {
+    return "";
+  }
+  return fmt::format(
+      "/* What decode takes from the coarse bins, for dtof_set_template between frames. */\n"
+      "static const uint8_t dtof_product_template[DTOF_TEMPLATE_ENTRIES] = {{{}}};\n\n",
+      fmt::join(coarse_template, ", "));
+}
+
+/// The same as a number in hexadecimal digits, entry 0 lowest.
+std::string template_digits(const PoolTemplate& coarse_template) {
+  std::string digits;
+  for (auto entry = coarse_template.rbegin(); entry != coarse_template.rend(); ++entry) {
+    digits += fmt::format("{:02x}", *entry);
+  }
+  return digits;
+}
+
 std::string driver_header(const ProductRequest& request) {
   const SensorModel sensor = request.sensor.as_calibrated();
   const FlatCalibration calibration(sensor);
@@ -255,12 +276,13 @@ std::string driver_header(const ProductRequest& request) {
       "{}\n\n"
       "static inline dtof_settings dtof_product_settings(const dtof_device *device) {{\n"
       "  dtof_settings settings = dtof_default_settings(device, DTOF_PRODUCT_ACQUISITIONS);\n{}  return "
-      "settings;\n}}\n\n"
+      "settings;\n}}\n\n{}"
       "static const dtof_point dtof_product_table[DTOF_PRODUCT_POINTS] = {{\n{}}};\n\n#endif\n",
       kLicence, readout_title(request.parameters.readout), request.sensor.name, calibration.description(),
       request.klux, request.parameters.np, result_fraction_bits(request.parameters),
       request.sensor.acquisitions, request.sensor.time_resolution_s() * 1e12,
-      request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes, points);
+      request.sensor.pulse_fwhm_s * 1e12, knots.size(), changes, template_array(pool.coarse_template),
+      points);
 }
 
 std::uint32_t vector_acquisitions(const ProductRequest& request) {
@@ -320,6 +342,7 @@ std::map<std::string, std::string> product_files(const ProductRequest& request) 
       {"NP", number(request.parameters.np)},
       {"SLOTS", number(request.parameters.slots)},
       {"ACQUISITIONS", number(sensor.acquisitions)},
+      {"TEMPLATE", template_digits(request.parameters.pool.coarse_template)},
       {"COARSE_END", number(pool ? schedule.coarse_end : 0)},
       {"TRACK_END", number(pool ? schedule.track_end : 0)},
       {"TIME_GATE", number(request.parameters.time_gate ? 1 : 0)},

@@ -13,6 +13,7 @@ module product_bench;
   localparam int ROWS = @ROWS@;
   localparam int SLOTS = @SLOTS@;
   localparam int ACQUISITIONS = @ACQUISITIONS@;  // of the vectors
+  localparam logic [255:0] TEMPLATE = 256'h@TEMPLATE@;  // 0: none
   localparam int COARSE_END = @COARSE_END@;  // 0: the read-out has no schedule
   localparam int TRACK_END = @TRACK_END@;
   localparam int TIME_GATE = @TIME_GATE@;
@@ -184,6 +185,9 @@ module product_bench;
     if (TRACK_END != 0) begin
       write(dtof_registers_pkg::COARSE_END, COARSE_END);
       write(dtof_registers_pkg::TRACK_END, TRACK_END);
+    end
+    for (int i = 0; TEMPLATE != 0 && i < 8; ++i) begin
+      write(dtof_registers_pkg::TEMPLATE + 12'(4 * i), TEMPLATE[32*i+:32]);
     end
     if (TIME_GATE != 0) write(dtof_registers_pkg::GATE, {GATE_END[15:0], GATE_BEGIN[15:0]});
     write(dtof_registers_pkg::IRQ_ENABLE, 32'd1 << dtof_registers_pkg::IRQ_ENABLE_FRAME_LSB);

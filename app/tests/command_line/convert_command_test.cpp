@@ -1,43 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // `dtof convert` as a user runs it.
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "dtof/io/depth_image.hpp"
 #include "dtof/io/npy.hpp"
 #include "tests/io/io_test_support.hpp"
+#include "tests/run_shell.hpp"
 
 namespace dtof {
 namespace {
+
+using test::Outcome;
+using test::run_shell;
 
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 class ConvertCommand : public test::IoTest {
  protected:
-  struct Outcome {
-    int exit_code;
-    std::string output;
-  };
-
   [[nodiscard]] Outcome dtof(const std::string& arguments) const {
-    const std::string command =
-        fmt::format("cd '{}' && {} {} 2>&1", path("").string(), DTOF_PROGRAM, arguments);
-    std::FILE* pipe = popen(command.c_str(), "r");
-    Outcome outcome{-1, ""};
-    std::array<char, 4096> buffer{};
-    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-      outcome.output.append(buffer.data(), n);
-    }
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+    return run_shell(fmt::format("cd '{}' && {} {}", path("").string(), DTOF_PROGRAM, arguments));
   }
   /// Exit code 1, one line that ends with the reason, and no further file.
   void expect_refused(const std::string& arguments, const std::string& reason) const {

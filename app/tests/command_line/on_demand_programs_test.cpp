@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -16,18 +13,17 @@
 #include <vector>
 
 #include "dtof/io/input_file.hpp"
+#include "tests/run_shell.hpp"
 
 namespace dtof {
 namespace {
 
+using test::Outcome;
+using test::run_shell;
+
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Outcome {
-  int exit_code;
-  std::string output;
-};
 
 constexpr const char* kSensor = R"(name = "small"
 [array]
@@ -64,15 +60,7 @@ class OnDemandPrograms : public testing::Test {
     return shell(fmt::format("{} {} frame --table none {}", before, DTOF_PROGRAM, arguments));
   }
   [[nodiscard]] Outcome shell(const std::string& command) const {
-    FILE* pipe = popen(fmt::format("cd {} && ( {} ) 2>&1", folder_.string(), command).c_str(), "r");
-    Outcome outcome{};
-    for (std::array<char, 4096> part{};
-         const std::size_t count = std::fread(part.data(), 1, part.size(), pipe);) {
-      outcome.output.append(part.data(), count);
-    }
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+    return run_shell(fmt::format("cd '{}' && ( {} )", folder_.string(), command));
   }
   [[nodiscard]] std::string file(const std::string& name) const { return read_file(folder_ / name); }
   /// Names in the cache, without locks.

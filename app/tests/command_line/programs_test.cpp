@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,7 +10,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -27,17 +25,16 @@
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/scene/scene.hpp"
+#include "tests/run_shell.hpp"
 
 namespace dtof {
 namespace {
 
+using test::Outcome;
+using test::run_shell;
+
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-struct Outcome {
-  int exit_code;
-  std::string output;  ///< standard output and standard error
-};
 
 /// The program that has the command with which the arguments begin.
 std::string_view program_of(std::string_view arguments) {
@@ -69,16 +66,7 @@ class Programs : public ::testing::Test {
   }
 
   [[nodiscard]] Outcome run(std::string_view program, const std::string& arguments) const {
-    const std::string command = fmt::format("cd '{}' && {} {} 2>&1", folder_.string(), program, arguments);
-    std::FILE* pipe = popen(command.c_str(), "r");
-    Outcome outcome{-1, ""};
-    std::array<char, 4096> buffer{};
-    for (std::size_t n = 0; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) {
-      outcome.output.append(buffer.data(), n);
-    }
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+    return run_shell(fmt::format("cd '{}' && {} {}", folder_.string(), program, arguments));
   }
 
   // Bad input: exit code 1 and exactly one line, which holds `reason`; no output folder is filled.

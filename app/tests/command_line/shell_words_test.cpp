@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/run_shell.hpp"
 
 namespace dtof {
 namespace {
@@ -32,12 +33,7 @@ TEST(ShellCommand, AShellTakesTheWordsBack) {
   const std::filesystem::path script = std::filesystem::path(::testing::TempDir()) / "dtof_shell_words.sh";
   std::ofstream(script, std::ios::binary)
       << shell_command("printf", std::array{"%s\\0"}) << shell_command("", words);
-  std::FILE* const pipe = popen(("bash " + shell_word(script.string())).c_str(), "r");
-  std::string output;
-  for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;) {
-    output += static_cast<char>(letter);
-  }
-  pclose(pipe);
+  const std::string output = test::run_shell("bash " + shell_word(script.string())).output;
   std::filesystem::remove(script);
   std::string expected;
   for (const char* word : words) {

@@ -4,11 +4,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -18,9 +15,13 @@
 #include "dtof/io/input_file.hpp"
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/sensor_file.hpp"
+#include "tests/run_shell.hpp"
 
 namespace dtof {
 namespace {
+
+using test::Outcome;
+using test::run_shell;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -55,11 +56,6 @@ ProductRequest request(Readout readout) {
   return request;
 }
 
-struct Outcome {
-  int exit_code;
-  std::string output;
-};
-
 class Product : public testing::Test {
  protected:
   Product()
@@ -74,15 +70,7 @@ class Product : public testing::Test {
   Product& operator=(Product&&) = delete;
 
   [[nodiscard]] Outcome shell(const std::string& command) const {
-    FILE* pipe = popen(fmt::format("cd {} && ( {} ) 2>&1", folder_.string(), command).c_str(), "r");
-    Outcome outcome{};
-    for (std::array<char, 4096> part{};
-         const std::size_t count = std::fread(part.data(), 1, part.size(), pipe);) {
-      outcome.output.append(part.data(), count);
-    }
-    const int status = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return outcome;
+    return run_shell(fmt::format("cd '{}' && ( {} )", folder_.string(), command));
   }
   /// dtof product of the small sensor.
   [[nodiscard]] Outcome product(const std::string& arguments) const {
@@ -113,6 +101,20 @@ TEST_F(Product, OfAPoolReadoutPassesItsOwnMake) {
   ASSERT_EQ(product("--readout poolpointer2 --code-gate 20 500 --out chip").exit_code, 0);
   const Outcome checked = shell("make -C chip icarus driver");
   EXPECT_EQ(checked.exit_code, 0) << checked.output;
+}
+
+TEST_F(Product, ThatIsToldOfFogHasItsTemplate) {
+  std::ofstream(folder_ / "fog.toml") << kSensor << "\n[fog]\nextinction_per_m = 0.1\n";
+  ASSERT_EQ(shell(fmt::format("{} product --sensor fog.toml --readout poolpointer2 --template --out chip",
+                              DTOF_PROGRAM))
+                .exit_code,
+            0);
+  EXPECT_THAT(read_file(folder_ / "chip/driver/dtof_product.h"), HasSubstr("dtof_product_template"));
+  const Outcome checked = shell("make -C chip icarus driver");
+  EXPECT_EQ(checked.exit_code, 0) << checked.output;
+  replace("chip/bench/product_bench.sv", "TEMPLATE = 256'h", "TEMPLATE = 256'h0 & 256'h");
+  EXPECT_THAT(shell("make -C chip icarus").output, HasSubstr("FAIL"))
+      << "the frame does not depend on the template";
 }
 
 TEST_F(Product, ItsBenchSeesWhatIsWrong) {

@@ -41,16 +41,6 @@ class StreamFaults : public Subsystem {
             .prior = false};
   }
 
-  // Lines of which none is dark, so that the bench can tell each from one that is missing.
-  std::vector<Line> bright_lines(std::uint32_t acquisitions, CounterRandom& random) {
-    std::vector<Line> lines = make_lines(bench_.configuration(), acquisitions, random);
-    const int codes = bench_.configuration().parameters.code_count();
-    for (Line& line : lines) {
-      line.back() = static_cast<Timestamp>(pick(random, codes - 1));
-    }
-    return lines;
-  }
-
   [[nodiscard]] std::vector<Beat> beats_of(const std::vector<Line>& lines) const {
     std::vector<Beat> beats;
     for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -125,7 +115,7 @@ class StreamFaults : public Subsystem {
   void expect_a_good_frame(const FrameSettings& settings, CounterRandom& random) {
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, static_cast<std::uint32_t>(most_release_));
-    const std::vector<Line> lines = bright_lines(settings.acquisitions, random);
+    const std::vector<Line> lines = bright_lines(bench_.configuration(), settings.acquisitions, random);
     push(beats_of(lines));
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     ASSERT_NO_FATAL_FAILURE(wait_until_idle());
@@ -144,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(All, StreamFaults, testing::ValuesIn(compiled_subsystem
 
 TEST_P(StreamFaults, ALostLineDamagesItsAcquisitionAlone) {
   CounterRandom random = this->random(30);
-  const std::vector<Line> lines = bright_lines(5, random);
+  const std::vector<Line> lines = bright_lines(bench_.configuration(), 5, random);
   std::vector<Beat> beats = beats_of(lines);
   beats.erase(beats.begin() + static_cast<std::ptrdiff_t>(lines_of(1)));  // the second acquisition's first
   const FrameSettings settings = everything_counts(5);
@@ -176,7 +166,7 @@ TEST_P(StreamFaults, ALostLineDamagesItsAcquisitionAlone) {
 
 TEST_P(StreamFaults, LinesThatAreTooManyAreThrownAway) {
   CounterRandom random = this->random(31);
-  const std::vector<Line> lines = bright_lines(4, random);
+  const std::vector<Line> lines = bright_lines(bench_.configuration(), 4, random);
   std::vector<Beat> beats = beats_of(lines);
   beats[lines_of(1) - 1].last = false;
   beats.insert(beats.begin() + static_cast<std::ptrdiff_t>(lines_of(1)),
@@ -204,7 +194,7 @@ TEST_P(StreamFaults, TheWatchdogEndsTheFrameOfADeadSource) {
     const FrameSettings settings = everything_counts(6);
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, static_cast<std::uint32_t>(most_release_));
-    std::vector<Line> lines = bright_lines(3, random);
+    std::vector<Line> lines = bright_lines(bench_.configuration(), 3, random);
     lines.resize(lines_of(2) + more);
     push(beats_of(lines));
     bench_.set(DTOF_WATCHDOG, kNoWatchdog);
@@ -230,7 +220,7 @@ TEST_P(StreamFaults, TheWatchdogEndsTheFrameOfADeadSource) {
     }
     expect_registers();
     // The source goes on where it was; what is left of its acquisition belongs to none.
-    std::vector<Line> rest = bright_lines(1, random);
+    std::vector<Line> rest = bright_lines(bench_.configuration(), 1, random);
     rest.erase(rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(more));
     if (more > 0) {
       for (std::size_t i = 0; i < rest.size(); ++i) {
@@ -247,7 +237,7 @@ TEST_P(StreamFaults, ASourceWithoutTlastIsTimedOut) {
   const FrameSettings settings = everything_counts(3);
   write_settings(bench_, settings);
   bench_.set(DTOF_WATCHDOG, 300);
-  std::vector<Beat> beats = beats_of(bright_lines(400, random));
+  std::vector<Beat> beats = beats_of(bright_lines(bench_.configuration(), 400, random));
   for (Beat& beat : beats) {
     beat.last = false;
   }
@@ -270,7 +260,7 @@ TEST_P(StreamFaults, ASinkThatStopsIsToldAndAborted) {
     const FrameSettings settings = everything_counts(3);
     write_settings(bench_, settings);
     bench_.set(DTOF_WATCHDOG, 100);
-    push(beats_of(bright_lines(3, random)));
+    push(beats_of(bright_lines(bench_.configuration(), 3, random)));
     bench_.sink().blocked = at_once;
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     while (bench_.sink().current().size() < 3 && !at_once) {
@@ -300,7 +290,7 @@ TEST_P(StreamFaults, AnAbortEndsAFrameInAnyClock) {
   // From the start of a frame to its last word.
   std::uint64_t frame_clocks = 0;
   write_settings(bench_, everything_counts(2));
-  push(beats_of(bright_lines(2, random)));
+  push(beats_of(bright_lines(bench_.configuration(), 2, random)));
   bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
   for (; bench_.sink().frames().empty(); ++frame_clocks) {
     bench_.clock();
@@ -311,7 +301,7 @@ TEST_P(StreamFaults, AnAbortEndsAFrameInAnyClock) {
     settings.second_target = pick(random, 2) == 0;
     settings.prior = pick(random, 2) == 0;
     write_settings(bench_, settings);
-    push(beats_of(bright_lines(4, random)));
+    push(beats_of(bright_lines(bench_.configuration(), 4, random)));
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.5;
     const bool continuous = pick(random, 2) == 0;
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | (continuous ? DTOF_CONTROL_CONTINUOUS_MASK : 0U));
@@ -371,7 +361,7 @@ TEST_P(StreamFaults, AnAbortDropsTheNextFrameBehindALastWordThatWaits) {
   const auto words = static_cast<std::size_t>(configuration.pixels_per_sram * configuration.sram_num);
   const FrameSettings settings = everything_counts(2);
   write_settings(bench_, settings);
-  push(beats_of(bright_lines(8, random)));
+  push(beats_of(bright_lines(bench_.configuration(), 8, random)));
   bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
   while (bench_.sink().current().size() + 1 < words) {
     bench_.clock();
@@ -403,7 +393,7 @@ TEST_P(StreamFaults, AStartWithAnAbortIsIgnored) {
 
 TEST_P(StreamFaults, ASourceInAnotherResetDomainIsFoundAtItsNextAcquisition) {
   CounterRandom random = this->random(37);
-  const std::vector<Line> lines = bright_lines(8, random);
+  const std::vector<Line> lines = bright_lines(bench_.configuration(), 8, random);
   push(beats_of(lines));
   // Two acquisitions fit before the buffer refuses, or a part of one.
   bench_.clocks(bench_.acquisition_lines() / 2 + 1);
@@ -441,7 +431,7 @@ TEST_P(StreamFaults, SettingsBecomeValidTogether) {
   few.raw = many.raw = bench_.configuration().raw_histogram;
   write_settings(bench_, few);
   bench_.source().gap_probability = 0.0;
-  const std::vector<Line> lines = bright_lines(1500, random);
+  const std::vector<Line> lines = bright_lines(bench_.configuration(), 1500, random);
   push(beats_of(lines));
   bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
   const FrameSettings* valid = &few;
@@ -575,8 +565,8 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
     const bool continuous = pick(random, 4) == 0;
     const int frames = continuous ? 1 + pick(random, 3) : 1;
-    std::vector<Beat> beats =
-        beats_of(bright_lines(static_cast<std::uint32_t>(frames) * settings.acquisitions, random));
+    std::vector<Beat> beats = beats_of(bright_lines(
+        bench_.configuration(), static_cast<std::uint32_t>(frames) * settings.acquisitions, random));
     for (int faults = pick(random, 4); faults > 0 && !beats.empty(); --faults) {
       const auto fault = static_cast<Fault>(pick(random, static_cast<int>(Fault::kNumber)));
       story += ", " + damage(beats, fault, bench_.acquisition_lines(), random);
@@ -635,7 +625,7 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
     ++by_itself;
     constexpr std::uint32_t kDamaged = 16;
     const std::uint32_t acquisitions = settings.acquisitions;
-    const std::vector<Line> lines = bright_lines(kDamaged + acquisitions + 3, random);
+    const std::vector<Line> lines = bright_lines(bench_.configuration(), kDamaged + acquisitions + 3, random);
     push(beats_of(lines));
     for (const std::uint32_t number : {kDamaged, acquisitions}) {
       settings.acquisitions = number;

@@ -39,16 +39,6 @@ class Gaps : public Subsystem {
     return settings;
   }
 
-  // Lines of which none is dark, so that the bench can tell each from one that is missing.
-  std::vector<Line> bright_lines(std::uint32_t acquisitions, CounterRandom& random) {
-    std::vector<Line> lines = make_lines(bench_.configuration(), acquisitions, random);
-    const int codes = bench_.configuration().parameters.code_count();
-    for (Line& line : lines) {
-      line.back() = static_cast<Timestamp>(pick(random, codes - 1));
-    }
-    return lines;
-  }
-
   void expect_counters() {
     EXPECT_EQ(bench_.get(DTOF_LOST_LINES), bench_.reference().lost_lines());
     EXPECT_EQ(bench_.get(DTOF_LOST_ACQUISITIONS), bench_.reference().lost_acquisitions());
@@ -73,7 +63,7 @@ TEST_P(Gaps, ChangeNoResult) {
     bench_.set(DTOF_RELEASE, 1 + random() % static_cast<std::uint32_t>(bench_.acquisition_lines()));
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
     const std::uint32_t longest = 1U << static_cast<std::uint32_t>(pick(random, 7));
-    const std::vector<Line> lines = bright_lines(settings.acquisitions, random);
+    const std::vector<Line> lines = bright_lines(bench_.configuration(), settings.acquisitions, random);
     const std::size_t before = bench_.sink().frames().size();
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     std::size_t pushed = 0;
@@ -111,7 +101,7 @@ TEST_P(Gaps, CostTheirOwnClocksAlone) {
   settings.raw = false;
   settings.prior = false;
   write_settings(bench_, settings);
-  const std::vector<Line> lines = bright_lines(settings.acquisitions, random);
+  const std::vector<Line> lines = bright_lines(bench_.configuration(), settings.acquisitions, random);
   std::uint64_t quick = 0;
   std::vector<ResultFields> results;
   for (const bool gaps : {false, true}) {
@@ -168,7 +158,7 @@ TEST_P(Gaps, EndWithAnAbortOrATimeout) {
       while (!bench_.reference().starved()) {
         bench_.clock();
       }
-      const std::vector<Line> lines = bright_lines(1, random);
+      const std::vector<Line> lines = bright_lines(bench_.configuration(), 1, random);
       for (std::size_t i = 0; i < line; ++i) {
         bench_.source().push(lines[i], false);
       }
@@ -239,7 +229,7 @@ TEST_P(DroppedAcquisitions, AreWholeAndCounted) {
     bench_.source().gap_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
     constexpr std::uint32_t kAcquisitions = 400;
-    const std::vector<Line> lines = bright_lines(kAcquisitions, random);
+    const std::vector<Line> lines = bright_lines(bench_.configuration(), kAcquisitions, random);
     push_lines(bench_, lines);
     bench_.clocks(random() % 40);
     const bool continuous = pick(random, 3) == 0;

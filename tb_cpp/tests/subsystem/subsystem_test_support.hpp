@@ -279,6 +279,17 @@ inline std::vector<Line> make_lines(const RtlConfiguration& configuration, std::
   return lines;
 }
 
+/// Lines of which none is dark, so that the bench can tell each from one that is missing.
+inline std::vector<Line> bright_lines(const RtlConfiguration& configuration, std::uint32_t acquisitions,
+                                      CounterRandom& random) {
+  std::vector<Line> lines = make_lines(configuration, acquisitions, random);
+  const int codes = configuration.parameters.code_count();
+  for (Line& line : lines) {
+    line.back() = static_cast<Timestamp>(pick(random, codes - 1));
+  }
+  return lines;
+}
+
 inline void push_lines(SubsystemBench& bench, const std::vector<Line>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     bench.source().push(lines[i], i % bench.acquisition_lines() == bench.acquisition_lines() - 1);
