@@ -145,6 +145,13 @@ void add_sensor_option(CLI::App& command, std::string& sensor) {
       ->capture_default_str();
 }
 
+void add_budget_options(CLI::App& command, double& frame_rate, double& clock_mhz) {
+  command.add_option("--frame-rate", frame_rate, "frames/s that a frame has to fit")
+      ->check(above_zero())
+      ->capture_default_str();
+  command.add_option("--clock-mhz", clock_mhz, "the clock")->check(above_zero())->capture_default_str();
+}
+
 void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out) {
   command.add_option("-s,--seed", seed, "seed of everything random")->capture_default_str();
   command.add_option("-j,--threads", threads, "threads, 0 = all processors")

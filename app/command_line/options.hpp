@@ -44,6 +44,9 @@ struct ReadoutOptions {
 
 /// --sensor with its synonyms: a preset's name or a sensor file.
 void add_sensor_option(CLI::App& command, std::string& sensor);
+/// --frame-rate and --clock-mhz, which say how many clocks a frame may take.
+void add_budget_options(CLI::App& command, double& frame_rate, double& clock_mhz);
+
 /// --seed of everything random, --threads and --out: what every study has.
 void add_study_options(CLI::App& command, std::uint64_t& seed, int& threads, std::string& out);
 

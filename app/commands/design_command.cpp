@@ -110,12 +110,7 @@ void add_design_command(CLI::App& app, const std::string& command_line) {
       ->add_option("--scenes", options->scenes, "scenes of `dtof list`, one or several, scaled to the range")
       ->delimiter(',')
       ->capture_default_str();
-  command->add_option("--frame-rate", options->frame_rate, "frames/s that a frame has to fit")
-      ->check(above_zero())
-      ->capture_default_str();
-  command->add_option("--clock-mhz", options->clock_mhz, "the clock")
-      ->check(above_zero())
-      ->capture_default_str();
+  add_budget_options(*command, options->frame_rate, options->clock_mhz);
   command->add_option("--frames", options->frames, "frames that compare the read-outs")
       ->check(within(2, 1000, "to 1000: an interval needs two"))
       ->capture_default_str();

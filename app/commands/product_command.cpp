@@ -99,12 +99,7 @@ void add_product_command(CLI::App& app, const std::string& command_line) {
   command->add_option(
       "--vector-acquisitions", options->vector_acquisitions,
       "acquisitions of the test vectors (default: as many of the sensor's as fit some megabytes)");
-  command->add_option("--frame-rate", options->frame_rate, "frames/s that a frame has to fit")
-      ->check(above_zero())
-      ->capture_default_str();
-  command->add_option("--clock-mhz", options->clock_mhz, "the clock")
-      ->check(above_zero())
-      ->capture_default_str();
+  add_budget_options(*command, options->frame_rate, options->clock_mhz);
   command->add_flag("--measure", options->measure,
                     "area and timing of the array by the project's synthesis flow, in its folder (minutes)");
   command->add_option("-o,--out", options->out, "folder to make")->required();

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 
 #include "common/engine_frame.hpp"
 #include "common/percent_text.hpp"
@@ -16,6 +15,7 @@
 #include "dtof/core/physical_constants.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/host/range_converter.hpp"
+#include "dtof/metrics/confidence_counts.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/photon/target_map.hpp"
 
@@ -29,17 +29,9 @@ constexpr std::uint64_t kHeldOutSeeds = 3'000'000;
 constexpr double kShownKlux = 50.0;
 
 struct PixelCounts {
-  std::map<int, std::uint64_t> right;  // by confidence
-  std::map<int, std::uint64_t> wrong;
+  ConfidenceCounts right;
+  ConfidenceCounts wrong;
 };
-
-std::uint64_t at_least(const std::map<int, std::uint64_t>& counts, int confidence) {
-  std::uint64_t sum = 0;
-  for (auto place = counts.lower_bound(confidence); place != counts.end(); ++place) {
-    sum += place->second;
-  }
-  return sum;
-}
 
 /// Each read-out's counts of one frame that looks at one target everywhere.
 std::vector<PixelCounts> count_pixels(const DetectionSettings& settings, PixelTarget target, double klux,
@@ -62,19 +54,6 @@ std::vector<PixelCounts> count_pixels(const DetectionSettings& settings, PixelTa
     }
   }
   return counts;
-}
-
-/// The lowest confidence that at most `share` of the pixels reach.
-int threshold_of(const std::map<int, std::uint64_t>& counts, double share) {
-  const double allowed = share * static_cast<double>(at_least(counts, 0));
-  std::uint64_t passing = 0;
-  for (auto place = counts.rbegin(); place != counts.rend(); ++place) {
-    passing += place->second;
-    if (static_cast<double>(passing) > allowed) {
-      return place->first + 1;
-    }
-  }
-  return 0;
 }
 
 void validate(const DetectionSettings& settings) {
@@ -168,7 +147,7 @@ std::vector<ReadoutDetection> run_detection(const DetectionSettings& settings) {
     ReadoutDetection readout;
     readout.readout = settings.readouts[r].readout;
     const auto pooled = [&](const std::vector<std::vector<PixelCounts>>& seeds) {
-      std::map<int, std::uint64_t> sum;
+      ConfidenceCounts sum;
       for (const std::vector<PixelCounts>& counts : seeds) {
         for (const auto& [confidence, pixels] : counts[r].wrong) {
           sum[confidence] += pixels;
@@ -177,22 +156,22 @@ std::vector<ReadoutDetection> run_detection(const DetectionSettings& settings) {
       return sum;
     };
     for (const auto& seeds : sky) {
-      readout.threshold = std::max(readout.threshold, threshold_of(pooled(seeds), settings.false_alarms));
+      readout.threshold = std::max(readout.threshold, lowest_threshold(pooled(seeds), settings.false_alarms));
     }
     for (const auto& seeds : held_out) {
       const auto counts = pooled(seeds);
-      readout.held_out_alarms.push_back(static_cast<double>(at_least(counts, readout.threshold)) /
-                                        static_cast<double>(at_least(counts, 0)));
+      readout.held_out_alarms.push_back(static_cast<double>(count_from(counts, readout.threshold)) /
+                                        static_cast<double>(count_from(counts, 0)));
     }
     for (std::size_t cell = 0; cell < wall.size(); ++cell) {
       std::vector<double> detected;
       std::vector<double> right;
       std::uint64_t pixels = 0;
       for (const std::vector<PixelCounts>& counts : wall[cell]) {
-        pixels = at_least(counts[r].right, 0) + at_least(counts[r].wrong, 0);
-        detected.push_back(static_cast<double>(at_least(counts[r].right, readout.threshold)) /
+        pixels = count_from(counts[r].right, 0) + count_from(counts[r].wrong, 0);
+        detected.push_back(static_cast<double>(count_from(counts[r].right, readout.threshold)) /
                            static_cast<double>(pixels));
-        right.push_back(static_cast<double>(at_least(counts[r].right, 0)) / static_cast<double>(pixels));
+        right.push_back(static_cast<double>(count_from(counts[r].right, 0)) / static_cast<double>(pixels));
       }
       readout.cells.push_back({.klux = settings.klux[cell / walls.size()],
                                .distance_m = walls[cell % walls.size()].depth_m,

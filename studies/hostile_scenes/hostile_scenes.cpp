@@ -296,12 +296,7 @@ Estimate share_of(const std::vector<HostileCounts>& seeds,
 }  // namespace
 
 std::uint64_t HostileCounts::count(Outcome outcome, int least_confidence) const {
-  const std::map<int, std::uint64_t>& own = by_confidence.at(static_cast<std::size_t>(outcome));
-  std::uint64_t sum = 0;
-  for (auto place = own.lower_bound(least_confidence); place != own.end(); ++place) {
-    sum += place->second;
-  }
-  return sum;
+  return count_from(by_confidence.at(static_cast<std::size_t>(outcome)), least_confidence);
 }
 
 std::uint64_t HostileCounts::targets() const {
@@ -351,24 +346,14 @@ std::string hostile_title(const std::string& estimator) {
 int least_confidence(const std::vector<std::vector<HostileCounts>>& skies, double share) {
   int least = 0;
   for (const std::vector<HostileCounts>& seeds : skies) {
-    std::map<int, std::uint64_t> sum;
-    std::uint64_t pixels = 0;
+    ConfidenceCounts sum;
     for (const HostileCounts& counts : seeds) {
       for (const auto& [confidence, count] :
            counts.by_confidence.at(static_cast<std::size_t>(Outcome::kSky))) {
         sum[confidence] += count;
-        pixels += count;
       }
     }
-    const double allowed = share * static_cast<double>(pixels);
-    std::uint64_t passing = 0;
-    for (auto place = sum.rbegin(); place != sum.rend(); ++place) {
-      passing += place->second;
-      if (static_cast<double>(passing) > allowed) {
-        least = std::max(least, place->first + 1);
-        break;
-      }
-    }
+    least = std::max(least, lowest_threshold(sum, share));
   }
   return least;
 }

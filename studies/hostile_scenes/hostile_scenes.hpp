@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dtof/core/parameters.hpp"
+#include "dtof/metrics/confidence_counts.hpp"
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/scene/scene.hpp"
@@ -42,7 +43,7 @@ enum class Outcome : std::size_t { kWithin3, kWithin10, kBeyond, kSky };
 
 /// Pixels of one seed's frames, all scenes together, by outcome and confidence.
 struct HostileCounts {
-  std::array<std::map<int, std::uint64_t>, 4> by_confidence;
+  std::array<ConfidenceCounts, 4> by_confidence;
 
   bool operator==(const HostileCounts&) const = default;
   void add(Outcome outcome, int confidence) {

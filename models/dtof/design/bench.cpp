@@ -11,6 +11,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/design/candidates.hpp"
 #include "dtof/frame/frame_truth.hpp"
+#include "dtof/metrics/confidence_counts.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/pipeline/frame_pipeline.hpp"
 #include "dtof/sensor/preset.hpp"
@@ -36,30 +37,9 @@ struct Counts {
 };
 
 struct Sky {
-  std::map<int, std::uint64_t> set_by;  // pixels by confidence
-  std::map<int, std::uint64_t> held_out;
+  ConfidenceCounts set_by;
+  ConfidenceCounts held_out;
 };
-
-std::uint64_t passing(const std::map<int, std::uint64_t>& pixels, int threshold) {
-  std::uint64_t sum = 0;
-  for (auto place = pixels.lower_bound(threshold); place != pixels.end(); ++place) {
-    sum += place->second;
-  }
-  return sum;
-}
-
-/// The lowest confidence that at most `share` of the pixels reach.
-int threshold_of(const std::map<int, std::uint64_t>& pixels, double share) {
-  const double allowed = share * static_cast<double>(passing(pixels, 0));
-  std::uint64_t sum = 0;
-  for (auto place = pixels.rbegin(); place != pixels.rend(); ++place) {
-    sum += place->second;
-    if (static_cast<double>(sum) > allowed) {
-      return place->first + 1;
-    }
-  }
-  return 0;
-}
 
 bool has_confidence(const ReadoutParameters& parameters) {
   return !is_pointer_readout(parameters.readout) || parameters.confidence_width > 0;
@@ -124,7 +104,7 @@ class SlotsBench {
       for (std::size_t r = 0; r < readouts_.size(); ++r) {
         for (std::size_t light = 0; has_confidence(readouts_[r]) && light < skies.size(); ++light) {
           scores[r].threshold = std::max(scores[r].threshold.value_or(1),
-                                         threshold_of(skies[light][r].set_by, settings_.false_alarms));
+                                         lowest_threshold(skies[light][r].set_by, settings_.false_alarms));
         }
       }
     }
@@ -149,7 +129,7 @@ class SlotsBench {
   }
 
   void look_at_sky(double klux, std::uint32_t first_frame, std::vector<Sky>& skies,
-                   std::map<int, std::uint64_t> Sky::*counts) {
+                   ConfidenceCounts Sky::*counts) {
     const TargetMap sky(sensor_.columns, sensor_.rows, {0.0, sensor_.default_reflectivity});
     for (std::uint32_t frame = 0; frame < sky_frames(); ++frame) {
       const FramePipeline pipeline(PhotonSource(sensor_, sky, klux, settings_.seed, first_frame + frame),
@@ -216,7 +196,7 @@ class SlotsBench {
     if (score.threshold) {
       light.detected = share(counts.detected);
       light.false_alarms =
-          estimate_rare_share(passing(sky.held_out, *score.threshold), passing(sky.held_out, 0));
+          estimate_rare_share(count_from(sky.held_out, *score.threshold), count_from(sky.held_out, 0));
     }
     return light;
   }
