@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from . import tools
 from .configuration import Configuration
 from .errors import FlowError
+from .goals import Goal
 from .run import Result, Technology, rtl_files
 
 GOAL = 0.03  # of the array
@@ -49,14 +50,20 @@ def areas(results: Iterable[Result], technology: Technology, folder: Path) -> di
     return found
 
 
-def section(results: Iterable[tuple[Result, float]], found: dict[str, float]) -> str:
+def goals(results: Sequence[tuple[Result, float]], found: dict[str, float]) -> list[Goal]:
+    """A line buffer is at most a share of its array; `results` with the um2 of their arrays."""
+    return [Goal(f"{result.configuration.title}: line buffer at most {100 * GOAL:g} % of the array",
+                 f"{found[result.configuration.name] / total:.2%}", found[result.configuration.name] / total <= GOAL)
+            for result, total in results]
+
+
+def section(results: Sequence[tuple[Result, float]], found: dict[str, float]) -> str:
     """A part of area.md: `results` with the um2 of their arrays."""
     rows = []
-    for result, total in results:
+    for (result, _), goal in zip(results, goals(results, found)):
         _, lines, width = size(result.configuration)
-        share = found[result.configuration.name] / total
         rows.append(f"| {result.configuration.title} | {lines} | {lines * (width + 1)} | {found[result.configuration.name] / 1e6:.4f} "
-                    f"| {share:.2%} | {'yes' if share <= GOAL else 'no'} |")
+                    f"| {goal.value} | {'yes' if goal.met else 'no'} |")
     return "\n".join([
         "## Line buffer of the subsystem", "",
         "`dtof_subsystem` holds BUFFER_LINES lines in front of the array, by default as many as the array's raster needs. "

@@ -47,6 +47,10 @@ class Section(unittest.TestCase):
         text = line_buffer.section(arrays, {"ezpointer": 30000.0, "poolpointer2": 30001.0})
         self.assertIn("| ezPointer | 2 | 4002 | 0.0300 | 3.00% | yes |", text)
         self.assertIn("| poolPointer 2 | 2 | 4002 | 0.0300 | 3.00% | no |", text)
+        met, missed = line_buffer.goals(arrays, {"ezpointer": 30000.0, "poolpointer2": 30001.0})
+        self.assertTrue(met.met)
+        self.assertFalse(missed.met)
+        self.assertEqual(missed.text, "poolPointer 2: line buffer at most 3 % of the array")
 
 
 if __name__ == "__main__":
