@@ -81,12 +81,12 @@ module dtof_pool2_candidate_decoder #(
   logic [HIDDEN_CLOCKS+2:0] hidden_q;  // the newest lowest
   logic pair_hidden;
 
-  assign bin_sum = left_sum_q + as_sum(right_q[COUNT_WIDTH-1:0]);
-  assign pair_hidden = (hidden_q[HIDDEN_CLOCKS+2-:4] != '0);
   function automatic logic signed [TAKEN_WIDTH:0] as_sum(input logic [COUNT_WIDTH-1:0] count);
     as_sum = $signed((TAKEN_WIDTH + 1)'(count));
   endfunction
 
+  assign bin_sum = left_sum_q + as_sum(right_q[COUNT_WIDTH-1:0]);
+  assign pair_hidden = (hidden_q[HIDDEN_CLOCKS+2-:4] != '0);
   assign own_bin = own_q[COUNT_WIDTH-1:0];
 
   always_ff @(posedge clk_i) begin
