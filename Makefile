@@ -13,7 +13,7 @@
 # make lint       RTL in three tools, C++ format and static analysis; make lint-slang: RTL in slang, a strict front end from npm
 # make formal     proofs of the RTL (ten minutes)
 # make coverage   what the tests reach (scripts/faults.mk)
-# make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer 2 (scripts/wave.mk)
+# make wave       READOUT's waveform; make full: dtof with subsystems and the RTL of poolPointer (scripts/wave.mk)
 # make fpga-check what a small subsystem takes on four FPGA families, by Yosys (scripts/fpga.mk)
 # make fpga       a demonstrator for an iCE40: bitstream, utilisation, its netlist simulated (scripts/fpga.mk)
 # make random-configurations  N=30 arrays of drawn parameters beside their models (scripts/random.mk)

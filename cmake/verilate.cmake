@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 #
-# Verilated models of dtof_array and dtof_pool_pointer2_array.
+# Verilated models of dtof_array and dtof_pool_pointer_array.
 #
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
 #                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [RAW_HISTOGRAM 0|1] [PROBE]
 #                 [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
-#   dtof_verilate(<name> READOUT poolpointer2|poolpointer2-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
+#   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
 #                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
 #                 [RIVAL_MOVES 0|1] [CELL_SHIFT n] [SECOND_TARGET 0|1] [PRIOR 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n]
 #                 [TRACK_SHARE n]
@@ -101,7 +101,7 @@ function(dtof_verilate name)
   set(overrides "")
   if(P_SUBSYSTEM)
     set(top subsystem_testbench)
-    set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_dtof_pool_pointer2_array} COARSE_SHARE TRACK_SHARE)
+    set(top_parameters ${DTOF_PARAMETERS_dtof_array} ${DTOF_PARAMETERS_dtof_pool_pointer_array} COARSE_SHARE TRACK_SHARE)
     set(overrides -GREADOUT=${DTOF_SUBSYSTEM_NUMBER_${P_READOUT}})
     foreach(parameter CLOCK_WAITS SOURCE_WAITS BUFFER_LINES RASTER_ORDER AXI_LITE PARITY)
       if(DEFINED P_${parameter})
@@ -112,7 +112,7 @@ function(dtof_verilate name)
     set(top dtof_array_testbench)
     set(overrides -GREADOUT=${DTOF_NUMBER_${P_READOUT}})
   else()
-    set(top pool_pointer2_testbench)
+    set(top pool_pointer_testbench)
   endif()
 
   if(NOT DEFINED P_NP)

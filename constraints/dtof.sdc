@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Timing constraints of dtof_array and dtof_pool_pointer2_array. The flow sets `period` (ns) and reads this file anew for each period.
+# Timing constraints of dtof_array and dtof_pool_pointer_array. The flow sets `period` (ns) and reads this file anew for each period.
 #
 # Ports: every budget is the share of the clock period that the outside uses. The TDC's timestamps and the
 # result stream come from and go to registers; the handshakes have some logic outside.

@@ -47,7 +47,7 @@ typedef struct {
   uint8_t fraction_bits;   /* of a position */
   uint8_t confidence_bits; /* 0: the read-out has none */
   uint8_t acquisition_bits;
-  bool has_schedule; /* poolPointer 2 */
+  bool has_schedule; /* poolPointer */
   bool has_gate;
   bool has_raster_order; /* results come row by row */
   bool has_second_target;
@@ -65,7 +65,7 @@ typedef struct {
   bool window_centred;
   uint16_t pointer_step;
   uint32_t guard;
-  /* Those of poolPointer 2, by which lean is another product; 0 where has_schedule is false. */
+  /* Those of poolPointer, by which lean is another product; 0 where has_schedule is false. */
   uint8_t group_size;
   uint8_t labels;
   uint8_t score_bits;
@@ -82,14 +82,14 @@ typedef struct {
 /* What a frame uses. */
 typedef struct {
   uint32_t acquisitions;
-  uint8_t coarse_share; /* poolPointer 2: 64ths of the frame for the coarse and the track phase, at most 64
+  uint8_t coarse_share; /* poolPointer: 64ths of the frame for the coarse and the track phase, at most 64
                            together */
   uint8_t track_share;
   uint16_t gate_begin; /* a timestamp from begin to below end counts; ignored where there is no gate */
   uint16_t gate_end;
   uint16_t weak_below; /* a confidence below is weak */
   bool second_target;  /* each pixel's second target, too; DTOF_ARGUMENT where has_second_target is false */
-  bool smooth;         /* poolPointer 2: neighbours on one surface are drawn together; ignored elsewhere */
+  bool smooth;         /* poolPointer: neighbours on one surface are drawn together; ignored elsewhere */
   bool prior;          /* candidates begin from the last frame's; DTOF_ARGUMENT where has_prior is false */
   bool raw; /* histograms of these rows instead of results; DTOF_ARGUMENT without has_raw_histogram */
   uint16_t raw_first_row;
@@ -138,7 +138,7 @@ typedef struct {
 /* Finds the subsystem and reads what it is. */
 dtof_status dtof_probe(dtof_device *device, dtof_bus bus);
 
-/* What suits the device, whatever the number of acquisitions: everything counts, poolPointer 2 smooths, and
+/* What suits the device, whatever the number of acquisitions: everything counts, poolPointer smooths, and
  * its shares of the frame are those that the device recommends. */
 dtof_settings dtof_default_settings(const dtof_device *device, uint32_t acquisitions);
 
@@ -152,9 +152,9 @@ dtof_status dtof_enable_columns(const dtof_device *device, const uint32_t *mask)
 
 #define DTOF_TEMPLATE_ENTRIES 32
 
-/* poolPointer 2: what decode takes from each coarse bin, where cover glass and fog send light back; all 0
+/* poolPointer: what decode takes from each coarse bin, where cover glass and fog send light back; all 0
  * behind a reset. At once: between frames alone, or the bus refuses it and nothing changes. DTOF_ARGUMENT for
- * a device without has_schedule. docs/reference/poolpointer2.md, Template, says what the entries are. */
+ * a device without has_schedule. docs/reference/poolpointer.md, Template, says what the entries are. */
 dtof_status dtof_set_template(const dtof_device *device, const uint8_t entries[DTOF_TEMPLATE_ENTRIES]);
 
 /* Makes all settings that were written valid together, for every frame that begins from now on; for

@@ -94,7 +94,7 @@
 #define DTOF_POINTER_GUARD_LSB 15
 #define DTOF_POINTER_GUARD_MASK UINT32_C(0xFFFF8000)
 
-/* parameters of poolPointer 2, which tell it from poolPointer 2 lean; 0 without READOUT.SCHEDULE */
+/* parameters of poolPointer, which tell it from poolPointer lean; 0 without READOUT.SCHEDULE */
 #define DTOF_POOL UINT32_C(0x028)
 #define DTOF_POOL_GROUP_SIZE_LSB 0
 #define DTOF_POOL_GROUP_SIZE_MASK UINT32_C(0x000000FF)
@@ -111,14 +111,14 @@
 #define DTOF_POOL_CELL_SHIFT_LSB 28
 #define DTOF_POOL_CELL_SHIFT_MASK UINT32_C(0xF0000000)
 
-/* more parameters of poolPointer 2; 0 without READOUT.SCHEDULE */
+/* more parameters of poolPointer; 0 without READOUT.SCHEDULE */
 #define DTOF_ENGINES UINT32_C(0x02C)
 #define DTOF_ENGINES_COLUMNS_LSB 0
 #define DTOF_ENGINES_COLUMNS_MASK UINT32_C(0x0000FFFF)
 #define DTOF_ENGINES_RIVAL_MOVES_LSB 16
 #define DTOF_ENGINES_RIVAL_MOVES_MASK UINT32_C(0x00010000)
 
-/* the recommended schedule of poolPointer 2 in 64ths of a frame; 0 without READOUT.SCHEDULE */
+/* the recommended schedule of poolPointer in 64ths of a frame; 0 without READOUT.SCHEDULE */
 #define DTOF_SHARES UINT32_C(0x030)
 #define DTOF_SHARES_COARSE_LSB 0
 #define DTOF_SHARES_COARSE_MASK UINT32_C(0x000000FF)
@@ -206,12 +206,12 @@
 #define DTOF_ACQUISITIONS_VALUE_LSB 0
 #define DTOF_ACQUISITIONS_VALUE_MASK UINT32_C(0x00FFFFFF)
 
-/* poolPointer 2: the coarse phase ends before this acquisition */
+/* poolPointer: the coarse phase ends before this acquisition */
 #define DTOF_COARSE_END UINT32_C(0x064)
 #define DTOF_COARSE_END_VALUE_LSB 0
 #define DTOF_COARSE_END_VALUE_MASK UINT32_C(0x00FFFFFF)
 
-/* poolPointer 2: the track phase ends before this acquisition */
+/* poolPointer: the track phase ends before this acquisition */
 #define DTOF_TRACK_END UINT32_C(0x068)
 #define DTOF_TRACK_END_VALUE_LSB 0
 #define DTOF_TRACK_END_VALUE_MASK UINT32_C(0x00FFFFFF)
@@ -304,7 +304,7 @@
 #define DTOF_PARITY_ERRORS_VALUE_LSB 0
 #define DTOF_PARITY_ERRORS_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* poolPointer 2: what decode takes from each of the 32 coarse bins, where cover glass and fog send light back; at once, and only between frames: a write while STATUS.BUSY is a bus error */
+/* poolPointer: what decode takes from each of the 32 coarse bins, where cover glass and fog send light back; at once, and only between frames: a write while STATUS.BUSY is a bus error */
 #define DTOF_TEMPLATE UINT32_C(0x124)
 #define DTOF_TEMPLATE_NUMBER 8
 #define DTOF_TEMPLATE_ENTRY0_LSB 0

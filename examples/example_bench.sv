@@ -216,8 +216,8 @@ module example_bench #(
     fraction_bits = int'(value[dtof_registers_pkg::WIDTHS_FRACTION_LSB+:dtof_registers_pkg::WIDTHS_FRACTION_WIDTH]);
 
     write(dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    // poolPointer 2's schedule: 14/64 of the frame for the coarse phase, 20/64 for the track phase.
-    if (READOUT == dtof_pkg::READOUT_POOLPOINTER2) begin
+    // poolPointer's schedule: 14/64 of the frame for the coarse phase, 20/64 for the track phase.
+    if (READOUT == dtof_pkg::READOUT_POOLPOINTER) begin
       write(dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
       write(dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
     end

@@ -153,7 +153,7 @@ module timing_bench #(
   task automatic frame;
     int index;
     transfer(1'b1, dtof_registers_pkg::ACQUISITIONS, ACQUISITIONS);
-    if (READOUT == dtof_pkg::READOUT_POOLPOINTER2) begin
+    if (READOUT == dtof_pkg::READOUT_POOLPOINTER) begin
       transfer(1'b1, dtof_registers_pkg::COARSE_END, ACQUISITIONS * 14 / 64);
       transfer(1'b1, dtof_registers_pkg::TRACK_END, ACQUISITIONS * 34 / 64);
     end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The significance of a pair whose sums around it are constants: docs/reference/poolpointer2.md, Significance, step by step on
+// The significance of a pair whose sums around it are constants: docs/reference/poolpointer.md, Significance, step by step on
 // integers. Another pair, which is not better, comes after it; what was in the registers before is free.
 `include "properties.svh"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two labels, three pixels, driven by dtof_pool2_sequencer and with the messages in an SRAM, as in dtof_pool2_engine: label and
+// Two labels, three pixels, driven by dtof_pool_sequencer and with the messages in an SRAM, as in dtof_pool_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
-// of the one that is farther from the pixel in question (docs/reference/poolpointer2.md, Chain: the sender's lambda).
+// of the one that is farther from the pixel in question (docs/reference/poolpointer.md, Chain: the sender's lambda).
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -30,15 +30,15 @@ module label_chain_properties #(
   (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
   (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
 
-  `include "dtof_pool2_command.svh"
-  pool2_engine_command_t command;
+  `include "dtof_pool_command.svh"
+  pool_engine_command_t command;
   logic [1:0] scratch_row;
   logic unused_done, unused_select, unused_read, unused_write, unused_upper, unused_neighbour, unused_column, unused_send,
       unused_send_column, unused_last;
   logic [1:0] unused_row;
   logic [1:0] unused_address;
 
-  dtof_pool2_sequencer #(
+  dtof_pool_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .GROUP_SIZE     (4),
       .LABELS         (LABELS),

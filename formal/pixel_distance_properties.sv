@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far a timestamp is from where a pixel's word points: docs/reference/poolpointer2.md, Track and Point, on integers.
+// How far a timestamp is from where a pixel's word points: docs/reference/poolpointer.md, Track and Point, on integers.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

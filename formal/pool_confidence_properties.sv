@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The confidence of the middle one of three rows: docs/reference/poolpointer2.md, Confidence, on integers. What the rows have
+// The confidence of the middle one of three rows: docs/reference/poolpointer.md, Confidence, on integers. What the rows have
 // is constant; what was in the registers before is free.
 `include "properties.svh"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The control of dtof_pool_pointer2_array with the columns of one SRAM: dtof_pool_controller, dtof_pair_sequencer, the registers between
-// them and the columns, dtof_pool2_quad. The engines are replaced by anything that keeps to what
-// pool2_sequencer_properties proves of dtof_pool2_sequencer. That the single-port SRAM has one access a clock, and in
+// The control of dtof_pool_pointer_array with the columns of one SRAM: dtof_pool_controller, dtof_pair_sequencer, the registers between
+// them and the columns, dtof_pool_quad. The engines are replaced by anything that keeps to what
+// pool_sequencer_properties proves of dtof_pool_sequencer. That the single-port SRAM has one access a clock, and in
 // range, are assertions of dtof_sram.
 //
 // Every frame ends, as in control_properties; clocks in which the engine works are left out here, for the operations of
-// dtof_pool2_sequencer end in time.
+// dtof_pool_sequencer end in time.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
@@ -26,10 +26,10 @@ module pool_control_properties #(
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int WORDS = PIXEL_WORDS + (GROUPS + 1) / 2,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(WORDS),
-    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(2, 1, 0, 4, 0, 1),
-    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int HALF_WIDTH = dtof_pkg::pool_half_width(2, 1, 0, 4, 0, 1),
+    localparam int LINE_HALVES = dtof_pkg::pool_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
-    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES)
+    localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES)
 ) (
     input logic                  clk_i,
     input logic                  start_i,
@@ -133,7 +133,7 @@ module pool_control_properties #(
       .group_upper_d_o  (group_upper)
   );
 
-  // As in dtof_pool_pointer2_array.
+  // As in dtof_pool_pointer_array.
   logic coarse_q, point_q, engine_q, read_q, write_q, group_load_q, group_upper_q;
   logic [ADDR_WIDTH-1:0] address_q;
 
@@ -158,7 +158,7 @@ module pool_control_properties #(
 
   logic [2*LINE_WIDTH-1:0] unused_words;
 
-  dtof_pool2_quad #(
+  dtof_pool_quad #(
       .COLUMNS        (COLUMNS),
       .NP             (NP),
       .PIXELS_PER_SRAM(PIXELS),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Starts, S1 and the result word of three positions in a row and one to the left, any of which may be missing but the
-// middle one: docs/reference/poolpointer2.md, Choose and Decide, step by step on integers. The positions are constants; what
+// middle one: docs/reference/poolpointer.md, Choose and Decide, step by step on integers. The positions are constants; what
 // was in the registers before is not.
 `include "properties.svh"
 

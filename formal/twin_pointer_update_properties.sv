@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's pointer word after one timestamp: docs/reference/poolpointer2.md, Point, on integers, from timestamp and
+// A pixel's pointer word after one timestamp: docs/reference/poolpointer.md, Point, on integers, from timestamp and
 // word to the next word. Distances come from dtof_pixel_distance and dtof_label_match, so that the three are proved together.
 `include "properties.svh"
 

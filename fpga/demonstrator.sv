@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The very top of an FPGA that shows dtof_subsystem without a sensor (make fpga, docs/user/integration.md): photons are made
-// on the chip, hisPointer or poolPointer 2 reads them out, results leave through a serial line, over which targets can be
+// on the chip, hisPointer or poolPointer reads them out, results leave through a serial line, over which targets can be
 // changed.
 //
 //   rx_i -> uart_receiver -> target_command -> photon_generator -> dtof_subsystem -> word_sender -> uart_transmitter -> tx_o
@@ -14,7 +14,7 @@
 `default_nettype none
 
 module demonstrator #(
-    parameter int READOUT = dtof_pkg::READOUT_HISPOINTER,  // or dtof_pkg::READOUT_POOLPOINTER2
+    parameter int READOUT = dtof_pkg::READOUT_HISPOINTER,  // or dtof_pkg::READOUT_POOLPOINTER
     parameter int NP = 10,
     parameter int COLUMNS = 8,
     parameter int ROWS = 8,
@@ -95,7 +95,7 @@ module demonstrator #(
   );
 
   register_writer #(
-      .HAS_SCHEDULE((READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 1 : 0),
+      .HAS_SCHEDULE((READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0),
       .ACQUISITIONS(ACQUISITIONS)
   ) u_software (
       .clk_i    (clk_i),

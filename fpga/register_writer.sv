@@ -2,7 +2,7 @@
 // In the place of a processor: writes the registers of dtof_subsystem once behind the reset, so that it reads frames without
 // an end.
 //
-// Order: ACQUISITIONS, WEAK_BELOW, poolPointer 2's schedule (COARSE_END, TRACK_END, as dtof_pool_pointer2_array recommends)
+// Order: ACQUISITIONS, WEAK_BELOW, poolPointer's schedule (COARSE_END, TRACK_END, as dtof_pool_pointer_array recommends)
 // where there is one, CONTROL with START and CONTINUOUS.
 // Schedule: a write takes APB's two clocks and what the slave waits.
 // Cost: five state bits.

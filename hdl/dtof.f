@@ -24,7 +24,7 @@ thesis/dtof_result_output.sv
 pool/dtof_pair_sequencer.sv
 pool/dtof_pool_controller.sv
 pool/dtof_pool_result_output.sv
-pool/dtof_pool2_sequencer.sv
+pool/dtof_pool_sequencer.sv
 thesis/dtof_data_filter.sv
 thesis/dtof_full_counter_link.sv
 thesis/dtof_histogram_builder.sv
@@ -40,10 +40,10 @@ thesis/dtof_status_bits.sv
 pool/dtof_label_match.sv
 pool/dtof_minimum.sv
 pool/dtof_pixel_distance.sv
-pool/dtof_pool2_track_update.sv
+pool/dtof_pool_track_update.sv
 common/dtof_timestamp_input.sv
 pool/dtof_twin_pointer_update.sv
-pool/dtof_pool2_pixel_update.sv
+pool/dtof_pool_pixel_update.sv
 pool/dtof_label_chain.sv
 pool/dtof_beside_evidence.sv
 pool/dtof_smoothing.sv
@@ -53,9 +53,9 @@ pool/dtof_candidate_significance.sv
 pool/dtof_coarse_template.sv
 pool/dtof_near_significance.sv
 pool/dtof_pool_confidence.sv
-pool/dtof_pool2_candidate_decoder.sv
-pool/dtof_pool2_line.sv
-pool/dtof_pool2_engine.sv
+pool/dtof_pool_candidate_decoder.sv
+pool/dtof_pool_line.sv
+pool/dtof_pool_engine.sv
 // Columns of dtof_array: written by scripts/generate.py
 thesis/dtof_ez_pointer_column.sv
 thesis/dtof_his_pointer_column.sv
@@ -63,11 +63,11 @@ thesis/dtof_interframe_histogram_column.sv
 thesis/dtof_partitioned_histogram_column.sv
 thesis/dtof_coarse_histogram_column.sv
 // end of columns
-pool/dtof_pool2_column.sv
-pool/dtof_pool2_pair.sv
-pool/dtof_pool2_quad.sv
+pool/dtof_pool_column.sv
+pool/dtof_pool_pair.sv
+pool/dtof_pool_quad.sv
 thesis/dtof_array.sv
-pool/dtof_pool_pointer2_array.sv
+pool/dtof_pool_pointer_array.sv
 subsystem/dtof_line_buffer.sv
 subsystem/dtof_watchdog.sv
 subsystem/dtof_saturating_counter.sv

@@ -288,8 +288,8 @@ def sensor_dead(case: Case) -> None:
     maps = sorted((case.work / "out").glob("*_depth_mm.png"))
     require(len(maps) > 5, f"{len(maps)} depth maps")
     for path in maps:
-        # docs/reference/poolpointer2.md: without detections only an engine's first column has the confidence 0.
-        columns = 1 if path.name.startswith("poolpointer2") else None
+        # docs/reference/poolpointer.md: without detections only an engine's first column has the confidence 0.
+        columns = 1 if path.name.startswith("poolpointer") else None
         require(not any(any(row[:columns]) for row in tools.png(path)[3]), f"{path.name}: a dead pixel has a distance")
         cloud = path.with_name(path.name.replace("_depth_mm.png", ".ply"))
         require(columns == 1 or b"\nelement vertex 0\n" in cloud.read_bytes()[:400], f"{cloud.name} has a point")

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # make example        a frame of dtof_subsystem in a small SystemVerilog bench (examples), with Icarus Verilog
-#                     EXAMPLE=poolpointer2 of another read-out
+#                     EXAMPLE=poolpointer of another read-out
 # make timing-diagrams  the diagrams and the clocks of a frame in docs/user/integration.md, from simulations (scripts/timing_diagrams.py)
 EXAMPLE ?= hispointer
 

@@ -48,7 +48,7 @@ class Design:
 
 DESIGNS = (
     Design("demonstrator", "hisPointer", {}),
-    Design("demonstrator_pool", "poolPointer 2", {"READOUT": 64, "COLUMNS": 2}),
+    Design("demonstrator_pool", "poolPointer", {"READOUT": 64, "COLUMNS": 2}),
 )
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Area against accuracy of every read-out and variant, and poolPointer 2's goals beside what was measured.
+"""Area against accuracy of every read-out and variant, and poolPointer's goals beside what was measured.
 
 Areas, clock and bits are those of `make synth` (reports/area.csv, timing.csv), accuracies those of `dtof-study scenes`
 (reports/scenes.csv, and scenes_variants.csv for variants that change results). Writes reports/pareto.md, .csv, .svg
@@ -26,7 +26,7 @@ import plot_style  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 from dtof_synth.goals import ARRAY_MM2  # noqa: E402
 
-POOL_CONFIGURATIONS = {"poolpointer2": "poolPointer 2", "poolpointer2_lean": "poolPointer 2 lean"}
+POOL_CONFIGURATIONS = {"poolpointer": "poolPointer", "poolpointer_lean": "poolPointer lean"}
 PRESET = "thesis"
 LIGHTS = {"indoor": "14", "outdoor": "50"}
 ARRAY_PIXELS = 32000
@@ -132,7 +132,7 @@ def goals(scenes: Scenes) -> list[tuple[str, str, str]]:
     def ratio(goal: str, klux: str, names: list[str], column: str, limit: float) -> None:
         parts, met = [], True
         for scene in names:
-            pool = scenes.figure(klux, scene, "poolPointer 2", column)
+            pool = scenes.figure(klux, scene, "poolPointer", column)
             single = scenes.figure(klux, scene, "hisPointer", column)
             if pool is None or single is None:
                 parts.append(f"{scene} not measured")
@@ -154,13 +154,13 @@ def goals(scenes: Scenes) -> list[tuple[str, str, str]]:
               over_bound: bool = False) -> None:
         parts, met = [], True
         for distance in metres:
-            value = scenes.figure(klux, f"flat {distance} m", "poolPointer 2", column, preset)
+            value = scenes.figure(klux, f"flat {distance} m", "poolPointer", column, preset)
             if value is None:
                 parts.append(f"{distance} m not measured")
                 met = False
                 continue
             if over_bound:
-                value /= scenes.figure(klux, f"flat {distance} m", "poolPointer 2", "relative_bound", preset)
+                value /= scenes.figure(klux, f"flat {distance} m", "poolPointer", "relative_bound", preset)
             met = met and value <= limit
             parts.append(f"{distance} m {value:.2f}" if over_bound else f"{distance} m {100 * value:.2f} %")
         add(goal, "; ".join(parts), met)
@@ -176,10 +176,10 @@ def goals(scenes: Scenes) -> list[tuple[str, str, str]]:
         ratio(f"{klux} klux, clutter: outliers above 10 %, no more than hisPointer's", klux, ["clutter", "held clutter"],
               "above_10_percent", 1.0)
     pool, single = (scenes.figure("14", "isolated", name, "single_above_10_percent") for name in
-                    ("poolPointer 2", "hisPointer"))
+                    ("poolPointer", "hisPointer"))
     add("14 klux, isolated pixels at 3 m: kept as often as by hisPointer",
         f"lost: {100 * pool:.2f} % (hisPointer {100 * single:.2f} %)", pool <= single)
-    for name, bits, aim in (("poolpointer2", 40, " (aim 1.15)"), ("poolpointer2_lean", 20, "")):
+    for name, bits, aim in (("poolpointer", 40, " (aim 1.15)"), ("poolpointer_lean", 20, "")):
         title = POOL_CONFIGURATIONS[name]
         if name not in area:
             add(f"{title}: memory, area, clock", "not in reports/area.csv", None)

@@ -153,13 +153,13 @@ class Playground(unittest.TestCase):
     def test_other_settings(self) -> None:
         self.browser.open(PAGE)
         self.wait()
-        few = ["hispointer", "threesteps", "poolpointer2-lean"]
+        few = ["hispointer", "threesteps", "poolpointer-lean"]
         # So near and bright that photons are drawn one after the other; an array with fewer rows than the pools'.
         self.set({"scene": "staircase", "near": 0.1, "far": 6.5, "steps": 5, "klux": 120, "reflectivity": 2,
                   "acquisitions": 800, "size": "50 40", "seed": 9007199254740991}, few)
         self.assert_equal_to_native()
         self.assertEqual(sorted(self.shown().pixels), sorted(few))
-        self.set({"sensor": "phone", "scene": "poles", "klux": 40, "seed": 12, "size": "100 80"}, ["poolpointer2", "pifh"])
+        self.set({"sensor": "phone", "scene": "poles", "klux": 40, "seed": 12, "size": "100 80"}, ["poolpointer", "pifh"])
         self.assert_equal_to_native()
         self.assertIn("--reflectivity 0.5 --acquisitions 3333", self.command())
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""What each part of poolPointer 2 costs beside what it brings: build/pool_parts/pool_parts.md and .csv.
+"""What each part of poolPointer costs beside what it brings: build/pool_parts/pool_parts.md and .csv.
 
 `pool_parts.py DTOF_STUDY [--seed N]`: area and power of the parts are those of `synth/synth.py part-costs`, errors those of
 `dtof-study pool` with a number changed that takes a part's effect away.
@@ -20,7 +20,7 @@ FOLDER = written_root(ROOT) / "build" / "pool_parts"
 SCENES = ("room", "isolated") if is_small() else ("room", "planes", "clutter", "poles", "isolated")
 LIGHTS = ("14", "50")
 SEEDS = "2"
-WHOLE = "poolPointer 2"
+WHOLE = "poolPointer"
 NO_S1 = ", no S1"
 
 
@@ -91,7 +91,7 @@ def accuracy_rows() -> list[tuple[str, str, str]]:
 
 def report(found: dict[tuple[str, str], dict[str, float]], shares: dict[tuple[str, str], tuple[float, float]], seed: int) -> str:
     total = {name: sum(figures[name] for figures in found.values()) for name in ("area_um2", "day_mw", "dusk_mw")}
-    lines = ["# What the parts of poolPointer 2 cost and bring", "",
+    lines = ["# What the parts of poolPointer cost and bring", "",
              f"Written by `make pool-parts`, seed {seed}. Area and power while acquisitions stream in, of the whole array of 200 columns: "
              "an engine and the four columns of an SRAM mapped with their modules kept, simulated on the scene `room` by day (50 klux) and "
              "at dusk (2 klux) as in [power.md](power.md). Logic is not shared across the modules' borders, and trees, repeaters, "

@@ -3,7 +3,7 @@
 """Read-outs beside the matched filter for pulses of other widths: build/pulse_widths/pulse_widths.md, .csv and .svg.
 
 `pulse_widths.py DTOF_STUDY [OPTION ...]`: the preset thesis with each width of FWHM_BINS and the same energy per pulse; options
-are those of `dtof-study scenes`, such as --seed. poolPointer 2 is read twice, with windows that follow the pulse and with those
+are those of `dtof-study scenes`, such as --seed. poolPointer is read twice, with windows that follow the pulse and with those
 for 45 bins.
 """
 
@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PRESET = ROOT / "models" / "dtof" / "sensor" / "presets" / "thesis.toml"
 FOLDER = written_root(ROOT) / "build" / "pulse_widths"
 FWHM_BINS = (8, 45) if is_small() else (8, 12, 20, 45, 90)
-POOLED = ("poolpointer2", "poolpointer2-lean")
+POOLED = ("poolpointer", "poolpointer-lean")
 READOUTS = ("hispointer", *POOLED)
 WINDOWS_FOR_45 = " CELL_SHIFT=9"
 FIXED = " (windows for 45 bins)"
@@ -66,7 +66,7 @@ def rows_of(estimator: str, titles: set[str]) -> list[str]:
     title, changed, _ = estimator.partition(WINDOWS_FOR_45)
     if changed:
         return [title + FIXED]
-    return [title, title + FIXED] if title.startswith("poolPointer 2") and title + WINDOWS_FOR_45 not in titles else [title]
+    return [title, title + FIXED] if title.startswith("poolPointer") and title + WINDOWS_FOR_45 not in titles else [title]
 
 
 def read(path: Path) -> dict[tuple[str, int, str], Figures]:
@@ -152,7 +152,7 @@ def main() -> None:
 
 The preset thesis with pulses of {FWHM_BINS[0]} to {FWHM_BINS[-1]} bins (FWHM) of the same energy; {COLUMNS} columns of each scene
 ({', '.join(SCENES[1:])}), one seed, look-up tables of each read-out for its pulse. hisPointer's GUARD follows the
-pulse; the matched filters know it. poolPointer 2's CELL_SHIFT follows it, too: the windows of a pointer that has settled,
+pulse; the matched filters know it. poolPointer's CELL_SHIFT follows it, too: the windows of a pointer that has settled,
 and for 90 bins S1's reach. Other rows have the windows for 45 bins whatever the pulse. The candidates' windows are coarse
 bins, which do not follow: they let more background in than a short pulse must have.
 

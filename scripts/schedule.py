@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the engine's schedule into docs/reference/blocks/pool_control.md: in which clocks of a step each command is
 given, found by simulating both products' arrays in Icarus Verilog, and what the command means, taken from
-hdl/common/dtof_pool2_command.svh. --check only says whether the page is stale."""
+hdl/common/dtof_pool_command.svh. --check only says whether the page is stale."""
 
 import re
 import subprocess
@@ -17,13 +17,13 @@ sys.path.insert(0, str(ROOT / "synth"))
 
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 
-COMMANDS = HDL / "common" / "dtof_pool2_command.svh"
+COMMANDS = HDL / "common" / "dtof_pool_command.svh"
 PAGE = ROOT / "docs" / "reference" / "blocks" / "pool_control.md"
 BEGIN = "<!-- schedule: written by scripts/schedule.py -->\n"
 END = "<!-- end of schedule -->\n"
-PRODUCTS = ("poolpointer2", "poolpointer2_lean")
-PRIOR = "poolpointer2_prior"  # as the first product, with some commands more
-STRUCTS = ("pool2_column_command_t", "pool2_engine_command_t")  # in the order in which the bench prints them
+PRODUCTS = ("poolpointer", "poolpointer_lean")
+PRIOR = "poolpointer_prior"  # as the first product, with some commands more
+STRUCTS = ("pool_column_command_t", "pool_engine_command_t")  # in the order in which the bench prints them
 OPERATIONS = {"decode": "a group", "choose": "a pixel", "decide": "a pixel"}  # and what a step is
 STRUCT = re.compile(r"typedef struct packed \{\n(.*?)\} (\w+);", re.DOTALL)
 FIELD = re.compile(r"^  (\w+)(?: \[(\d+):0\])? (\w+);(?: +// (.*))?$")
@@ -34,7 +34,7 @@ BENCH = """
 module schedule_bench;
   logic clk = 1'b0, rst_n = 1'b0, start = 1'b0;
   wire done;
-  dtof_pool_pointer2_array #(PARAMETERS) u_array (
+  dtof_pool_pointer_array #(PARAMETERS) u_array (
       .clk_i(clk), .rst_ni(rst_n), .sram_cfg_i('0), .sram_cfg_o(), .start_i(start), .acq_num_i(ACQ_WIDTH'd0),
       .gate_begin_i('0), .gate_end_i('0), .coarse_end_i(ACQ_WIDTH'd0), .track_end_i(ACQ_WIDTH'd0),
       .smooth_i(1'b1), .prior_i(1'b1), .template_i('0), .busy_o(), .done_o(done), .state_o(), .error_o(), .tdc_ready_o(), .tdc_valid_i(1'b0),

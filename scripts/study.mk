@@ -89,7 +89,7 @@ endif
 
 hostile-scenes: study-program
 ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) hostile-scenes --condition clear glass late-laser --readout coarsehistogram,poolpointer2 --klux 14 \
+	@$(DTOF_STUDY) hostile-scenes --condition clear glass late-laser --readout coarsehistogram,poolpointer --klux 14 \
 	  --rows 16 --seeds 2 --seed $(SEED) --out build/hostile_scenes_small
 else
 	@scripts/reports.py begin hostile_scenes
@@ -99,7 +99,7 @@ endif
 
 detection: study-program
 ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) detection --readout ezpointer,poolpointer2 --klux 14 50 --distance 4 --seeds 2 --seed $(SEED) \
+	@$(DTOF_STUDY) detection --readout ezpointer,poolpointer --klux 14 50 --distance 4 --seeds 2 --seed $(SEED) \
 	  --out build/detection_small
 else
 	@scripts/reports.py begin detection
@@ -109,11 +109,11 @@ endif
 
 frames: study-program
 ifeq ($(SMALL),1)
-	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer2-lean --frames 2 \
+	@$(DTOF_STUDY) frames --sensors thesis --readout ezpointer,coarsehistogram,poolpointer-lean --frames 2 \
 	  --rtl ezpointer --seed $(SEED) --out build/frames_small
 else
 	@scripts/reports.py begin frames
-	@$(DTOF_STUDY) frames --rtl poolpointer2 --seed $(SEED) --out $(OUT)/frames
+	@$(DTOF_STUDY) frames --rtl poolpointer --seed $(SEED) --out $(OUT)/frames
 	@scripts/publish.py frames
 endif
 

@@ -215,7 +215,7 @@ def frame_clocks() -> str:
         if not readout.top:
             continue
         number = readout.number if readout.number is not None else table.tops[readout.top].readout
-        if name not in (table.tops[readout.top].name, "poolpointer2") and readout.number is None:
+        if name not in (table.tops[readout.top].name, "poolpointer") and readout.number is None:
             continue  # a variant of the same hardware
         with tempfile.TemporaryDirectory() as folder:
             text = simulated(folder, FRAME | {"DIAGRAMS": 0, "READOUT": number})

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""poolPointer 2's goals that collide, as curves: how the frame is shared among its phases, and how many candidates a
+"""poolPointer's goals that collide, as curves: how the frame is shared among its phases, and how many candidates a
 group keeps at what area.
 
 `trade.py DTOF`: runs `DTOF scenes` with the variants, takes the areas of `make synth-growth` (reports/growth.csv),
@@ -109,9 +109,9 @@ def areas() -> dict[str, float]:
     if path.is_file():
         with path.open(newline="", encoding="utf-8") as file:
             found = {row["value"]: float(row["total_mm2"]) for row in csv.DictReader(file)
-                     if row["readout"] == "poolpointer2" and row["parameter"] == "LABELS"}
+                     if row["readout"] == "poolpointer" and row["parameter"] == "LABELS"}
     if not found:
-        raise SystemExit("error: reports/growth.csv has no areas of poolpointer2: run `make synth-growth` first")
+        raise SystemExit("error: reports/growth.csv has no areas of poolpointer: run `make synth-growth` first")
     return found
 
 
@@ -119,7 +119,7 @@ def plot(schedules: list[Point], candidates: list[Point], limit: float, path: Pa
     def block(name: str, data: list[tuple[float, float, str]]) -> list[str]:
         return [f"${name} << EOD", *(f'{x} {y} "{label}"' for x, y, label in data), "EOD"]
 
-    style = plot_style.style("poolPointer 2", plot_style.load())
+    style = plot_style.style("poolPointer", plot_style.load())
 
     def points(name: str, title: str, marker: int = style.marker) -> str:
         return (f"${name} using 1:2 with points pt {marker} lc rgb '{style.colour}' title '{title}', "
@@ -214,25 +214,25 @@ def main() -> int:
     if len(sys.argv) != 2:
         print(__doc__, file=sys.stderr)
         return 2
-    base = load(ROOT / "configurations.toml")["poolpointer2"]
+    base = load(ROOT / "configurations.toml")["poolpointer"]
     area = areas()
-    schedules = [Point(f"{coarse}/{track}", f"poolpointer2:COARSE_SHARE={coarse},TRACK_SHARE={track}", {})
+    schedules = [Point(f"{coarse}/{track}", f"poolpointer:COARSE_SHARE={coarse},TRACK_SHARE={track}", {})
                  for coarse, track in SCHEDULES]
-    candidates = [Point(f"{labels}x{bits}", f"poolpointer2:LABELS={labels},SCORE_BITS={bits}", {}, area[f"{labels}x{bits}"])
+    candidates = [Point(f"{labels}x{bits}", f"poolpointer:LABELS={labels},SCORE_BITS={bits}", {}, area[f"{labels}x{bits}"])
                   for labels, bits in growth.CANDIDATES]
     if sys.argv[1] == "--draw":
         read(schedules + candidates)
-        plot(schedules, candidates, ARRAY_MM2["poolpointer2"], WRITTEN / "trade.svg")
+        plot(schedules, candidates, ARRAY_MM2["poolpointer"], WRITTEN / "trade.svg")
         return 0
     try:
         measure(sys.argv[1], schedules + candidates)
     except subprocess.CalledProcessError as error:
         print(f"error: dtof-study scenes ended with exit code {error.returncode}", file=sys.stderr)
         return 1
-    limit = ARRAY_MM2["poolpointer2"]
+    limit = ARRAY_MM2["poolpointer"]
     BUILD.mkdir(parents=True, exist_ok=True)
     plot(schedules, candidates, limit, WRITTEN / "trade.svg")
-    lines = ["# Goals of poolPointer 2 that collide", "",
+    lines = ["# Goals of poolPointer that collide", "",
              f"Written by `make trade`: preset `thesis`, seed {SEED}, {COLUMNS} columns of the scenes "
              f"{', '.join(SCENES[1:])} ({SINGLE_COLUMNS} of isolated for the single pixels), 14 and 50 klux; areas of "
              "`make synth-growth`.", "", "![trade](trade.svg)", "", "## Shares of the frame", "",

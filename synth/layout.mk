@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# make layout          columns of ezPointer, hisPointer and poolPointer 2's pair placed and routed in OSU 0.18 um, design rules
+# make layout          columns of ezPointer, hisPointer and poolPointer's pair placed and routed in OSU 0.18 um, design rules
 #                      and netlist checked, GDS in build/layout/; reports/layout.md (seven minutes)
 #                      CONFIGURATIONS="fifh"  others, build/layout/layout.md
 # make orfs            config.mk, constraints, LEF and Liberty of the SRAMs for OpenROAD-flow-scripts, into build/orfs/

@@ -193,12 +193,12 @@ void add_run_options(CLI::App& command, RunSettings& settings, bool with_subsyst
       ->add_option(
           "--rows", settings.rows,
           "rows to read out: all, or one range, e.g. 40-79: with --columns a region of interest; others\n"
-          "are off and cost nothing. poolPointer 2's array has at least 160 rows unless --own-rows is\n"
+          "are off and cost nothing. poolPointer's array has at least 160 rows unless --own-rows is\n"
           "given; those that are off, and those beyond the sensor's, are dark neighbours")
       ->take_last()
       ->capture_default_str();
   group->add_flag("--own-rows", settings.own_rows,
-                  "poolPointer 2's array has the sensor's rows alone, as a chip for the sensor would");
+                  "poolPointer's array has the sensor's rows alone, as a chip for the sensor would");
 }
 
 void check_run_options(const RunSettings& settings) {
@@ -229,7 +229,7 @@ void SensorOptions::add_sensor_to(CLI::App& command) {
           "--fidelity", fidelity,
           "photon model: exact (event by event), fast (times from tables), analytic (expected\n"
           "detections, no noise; frame only), auto (the cheapest with noise that keeps --tolerance;\n"
-          "streams for the RTL, poolPointer 2, accuracy and recordings are always drawn exactly)")
+          "streams for the RTL, poolPointer, accuracy and recordings are always drawn exactly)")
       ->check(CLI::IsMember({"exact", "fast", "analytic", "auto"}))
       ->capture_default_str();
   group

@@ -358,8 +358,8 @@ void run_video_command(const VideoOptions& options) {
     tables += fmt::format("\n## What the prior changes\n\n{}",
                           prior_table(videos, *without, estimators.size() - 1).markdown());
     report +=
-        "; with the prior poolPointer 2 begins a frame from the candidates that were used in the last one "
-        "(`docs/reference/poolpointer2.md`)";
+        "; with the prior poolPointer begins a frame from the candidates that were used in the last one "
+        "(`docs/reference/poolpointer.md`)";
   }
   if (options.seeds > 1) {
     report +=
@@ -387,7 +387,7 @@ void run_video_command(const VideoOptions& options) {
 void add_video_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<VideoOptions>();
   options->command_line = command_line;
-  options->readout.readouts = "hispointer,coarsehistogram,poolpointer2";
+  options->readout.readouts = "hispointer,coarsehistogram,poolpointer";
   CLI::App* command = app.add_subcommand("video",
                                          "Read videos out with the models: accuracy from frame to frame, and "
                                          "what the last frame tells the next");

@@ -26,11 +26,11 @@ VideoReader::VideoReader(SensorModel sensor, std::span<const ReadoutParameters> 
   for (const ReadoutParameters& readout : readouts_) {
     titles_.emplace_back(readout_title(readout.readout));
   }
-  const auto pool2 = std::ranges::find(readouts_, Readout::kPoolPointer2, &ReadoutParameters::readout);
-  if (pool2 != readouts_.end()) {
-    pool2_ = static_cast<std::size_t>(pool2 - readouts_.begin());
-    titles_.push_back(titles_[*pool2_] + ", prior");
-    tables_.push_back(tables_[*pool2_]);
+  const auto pool = std::ranges::find(readouts_, Readout::kPoolPointer, &ReadoutParameters::readout);
+  if (pool != readouts_.end()) {
+    pool_ = static_cast<std::size_t>(pool - readouts_.begin());
+    titles_.push_back(titles_[*pool_] + ", prior");
+    tables_.push_back(tables_[*pool_]);
   }
 }
 
@@ -74,13 +74,13 @@ void VideoReader::read_block(const Block& block, int first, const PhotonSource& 
   for (const std::size_t r : block.readouts) {
     store(r, readouts_[r].fraction_bits,
           make_readout_model(readouts_[r])->run_columns(streams, sensor_.acquisitions));
-    if (r == pool2_) {
+    if (r == pool_) {
       const auto column = [&](int index) -> const ColumnStream& {
         return streams[static_cast<std::size_t>(index)];
       };
       store(readouts_.size(), readouts_[r].fraction_bits,
-            run_pool_pointer2(static_cast<int>(streams.size()), column, sensor_.np, sensor_.acquisitions,
-                              pool_pointer2_parameters(readouts_[r]), &prior));
+            run_pool_pointer(static_cast<int>(streams.size()), column, sensor_.np, sensor_.acquisitions,
+                             pool_pointer_parameters(readouts_[r]), &prior));
     }
   }
 }

@@ -16,7 +16,7 @@
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/photon/target_map.hpp"
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 #include "dtof/scene/sequence.hpp"
 
 namespace dtof {
@@ -28,19 +28,19 @@ struct VideoFrame {
   std::vector<ErrorShares> shares;              ///< of each estimator, over all pixels that have a target
 };
 
-/// Reads videos out with the models of several read-outs, each frame on its own; and, if poolPointer 2 is
+/// Reads videos out with the models of several read-outs, each frame on its own; and, if poolPointer is
 /// among them, once more with one that begins each frame from what the last one left
-/// (`readout/pool_pointer2.hpp`, PoolPrior). All see the same photons, other ones in each frame. Distances
+/// (`readout/pool_pointer.hpp`, PoolPrior). All see the same photons, other ones in each frame. Distances
 /// come from look-up tables by FlatCalibration at one light.
 class VideoReader {
  public:
   VideoReader(SensorModel sensor, std::span<const ReadoutParameters> readouts, double table_klux,
               std::uint64_t seed, int threads);
 
-  /// Titles of the read-outs; poolPointer 2 with its prior comes last.
+  /// Titles of the read-outs; poolPointer with its prior comes last.
   [[nodiscard]] const std::vector<std::string>& estimators() const { return titles_; }
-  /// Which of the estimators is poolPointer 2 without its prior; none if it is not read.
-  [[nodiscard]] std::optional<std::size_t> without_prior() const { return pool2_; }
+  /// Which of the estimators is poolPointer without its prior; none if it is not read.
+  [[nodiscard]] std::optional<std::size_t> without_prior() const { return pool_; }
 
   using Watcher = std::function<void(int frame, const VideoFrame& seen)>;
   /// Error shares; index: frame, estimator. Each frame is shown to `watch` as soon as it is read.
@@ -55,13 +55,13 @@ class VideoReader {
     std::vector<std::size_t> readouts;
   };
   [[nodiscard]] std::vector<Block> blocks() const;
-  /// The columns from `first` on. `prior` is poolPointer 2's, before and after the frame.
+  /// The columns from `first` on. `prior` is poolPointer's, before and after the frame.
   void read_block(const Block& block, int first, const PhotonSource& source, std::vector<PoolPrior>& prior,
                   VideoFrame& seen) const;
 
   SensorModel sensor_;
   std::vector<ReadoutParameters> readouts_;
-  std::optional<std::size_t> pool2_;
+  std::optional<std::size_t> pool_;
   std::vector<std::string> titles_;
   std::vector<RangeConverter> tables_;  ///< of each estimator
   std::uint64_t seed_;

@@ -31,7 +31,7 @@ out.mkdir(parents=True, exist_ok=True)
 # bit-exact models, and makes distances of the codes by a look-up table that a flat target gave.
 
 # %%
-frame = dtof.frame("room", "thesis", ["sifh", "hispointer", "poolpointer2"], klux=14.0, seed=1)
+frame = dtof.frame("room", "thesis", ["sifh", "hispointer", "poolpointer"], klux=14.0, seed=1)
 for name in frame:
     made = frame[name]
     print(f"{made.readout.title:14} rmse {made.figures['rmse_m'] * 1e3:4.0f} mm, "

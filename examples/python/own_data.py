@@ -109,8 +109,8 @@ dtof.save_ply(out / "own_data.ply", depth_m, 0.5, photons=counts.sum(axis=2))
 dtof.save_pcd(out / "own_data.pcd", depth_m, 0.5, photons=counts.sum(axis=2))
 np.savez_compressed(out / "own_data.npz", depth_m=depth_m, counts=counts)
 with np.load(out / "own_data.npz") as archive:  # and an archive's map is a scene again
-    frame = dtof.frame(dtof.Scene.from_depth(archive["depth_m"]), "thesis", "poolpointer2")
-print(f"the map, seen by the thesis's sensor: {frame['poolpointer2'].figures['share_above_3_percent']:.2%} off by more than 3 %")
+    frame = dtof.frame(dtof.Scene.from_depth(archive["depth_m"]), "thesis", "poolpointer")
+print(f"the map, seen by the thesis's sensor: {frame['poolpointer'].figures['share_above_3_percent']:.2%} off by more than 3 %")
 
 # %%
 if pyplot is not None:

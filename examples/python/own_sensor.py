@@ -65,7 +65,7 @@ print(f"range {sensor.range_m:.2f} m, a bin is {sensor.time_resolution_s * 1e12:
 # the frames. Four frames of three lights.
 
 # %%
-READOUTS = ["ezpointer", "hispointer", "sifh", "coarsehistogram", "poolpointer2", "poolpointer2-lean"]
+READOUTS = ["ezpointer", "hispointer", "sifh", "coarsehistogram", "poolpointer", "poolpointer-lean"]
 LIGHTS = [2.0, 14.0, 50.0]
 FRAMES = 4
 scene = dtof.Scene("room", sensor)

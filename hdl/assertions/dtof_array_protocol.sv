@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ports of an array (dtof_array, dtof_pool_pointer2_array) as concurrent assertions and covers, for simulators that have them.
+// The ports of an array (dtof_array, dtof_pool_pointer_array) as concurrent assertions and covers, for simulators that have them.
 // Synthesis does not read this folder.
 //
 // Assertions: a start in an idle array makes it busy in the next clock; it stays busy until done; done is one clock within busy; an

@@ -24,11 +24,11 @@ bind dtof_array dtof_stream_protocol #(.WIDTH(TDATA_WIDTH), .WHOSE("the array"))
     .clk_i, .rst_ni, .tvalid_i(result_tvalid_o), .tready_i(result_tready_i), .tdata_i(result_tdata_o), .tlast_i(result_tlast_o)
 );
 
-bind dtof_pool_pointer2_array dtof_array_protocol #(.LINES(PIXELS_PER_SRAM * SLOTS)) u_array_protocol (
+bind dtof_pool_pointer_array dtof_array_protocol #(.LINES(PIXELS_PER_SRAM * SLOTS)) u_array_protocol (
     .clk_i, .rst_ni, .start_i, .busy_i(busy_o), .done_i(done_o), .tdc_valid_i, .tdc_ready_i(tdc_ready_o)
 );
 
-bind dtof_pool_pointer2_array dtof_stream_protocol #(.WIDTH(TDATA_WIDTH), .WHOSE("the array")) u_result_protocol (
+bind dtof_pool_pointer_array dtof_stream_protocol #(.WIDTH(TDATA_WIDTH), .WHOSE("the array")) u_result_protocol (
     .clk_i, .rst_ni, .tvalid_i(result_tvalid_o), .tready_i(result_tready_i), .tdata_i(result_tdata_o), .tlast_i(result_tlast_o)
 );
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What dtof_pixel_distance says about a timestamp and a pixel's word. All are 0 without a timestamp.
 //
-// A module includes this file in its body; dtof_pool2_command.svh says why.
+// A module includes this file in its body; dtof_pool_command.svh says why.
 
 typedef struct packed {
   logic       offset_up;

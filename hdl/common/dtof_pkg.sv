@@ -16,7 +16,7 @@ package dtof_pkg;
   localparam logic [2:0] STATE_M4 = 3'd6;
   localparam logic [2:0] STATE_M5 = 3'd7;
 
-  // Values of state_o of dtof_pool_pointer2_array beside IDLE and RESET.
+  // Values of state_o of dtof_pool_pointer_array beside IDLE and RESET.
   localparam logic [2:0] POOL_STATE_COARSE = STATE_M0;
   localparam logic [2:0] POOL_STATE_DECODE = STATE_M1;
   localparam logic [2:0] POOL_STATE_TRACK = STATE_M2;
@@ -39,22 +39,22 @@ package dtof_pkg;
 
   // Clocks that a module takes, port to port, for the sequencer that drives it. Each is the named module's own.
   localparam int HISTOGRAM_WRITE_STAGE = 5;          // dtof_histogram_builder: a timestamp of T0 is written at T5
-  localparam int POOL_PAIR_READ_CLOCKS = 2;          // dtof_pool2_pair: from read_i to word_o, and to a write with it
-  localparam int POOL_LINE_CLOCKS = 1;               // dtof_pool2_line: from the pairs' words to the engine's line_i
-  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // dtof_pool2_engine: from line_i to what its commands find on the line, but for decode
-  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // dtof_pool2_engine: from read_scratch to the message
-  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // dtof_pool2_engine: from take_result to result_o
-  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // dtof_pool2_candidate_decoder: from a turn's last pair to its candidate
+  localparam int POOL_PAIR_READ_CLOCKS = 2;          // dtof_pool_pair: from read_i to word_o, and to a write with it
+  localparam int POOL_LINE_CLOCKS = 1;               // dtof_pool_line: from the pairs' words to the engine's line_i
+  localparam int POOL_ENGINE_LINE_CLOCKS = 1;        // dtof_pool_engine: from line_i to what its commands find on the line, but for decode
+  localparam int POOL_ENGINE_MESSAGE_CLOCKS = 1;     // dtof_pool_engine: from read_scratch to the message
+  localparam int POOL_ENGINE_RESULT_CLOCKS = 1;      // dtof_pool_engine: from take_result to result_o
+  localparam int POOL_DECODER_CANDIDATE_CLOCKS = 2;  // dtof_pool_candidate_decoder: from a turn's last pair to its candidate
   localparam int POOL_CHAIN_SPREAD_CLOCKS = 3;       // dtof_label_chain: from begin_step to spread; then the labels pass
   localparam int POOL_CHAIN_TARGET_CLOCKS = 2;       // dtof_label_chain: from a label's target to its pass_label
   localparam int POOL_CHAIN_BELIEF_CLOCKS = 2;       // dtof_label_chain: from the last pass_label to the two best beliefs
 
-  localparam int POOL2_DECODER_TEMPLATE_CLOCKS = 1;  // dtof_pool2_candidate_decoder: from capture_above to template_i of bin 0
-  localparam int POOL2_DECODER_FILL_CLOCKS = 6;      // dtof_pool2_candidate_decoder: from capture_above to the first pair sum
-  localparam int POOL2_DECODER_SIGNIFICANCE_CLOCKS = 3;  // dtof_pool2_candidate_decoder: from a candidate to its significance
-  localparam int POOL2_DECODER_OWN_CLOCKS = 2;       // dtof_pool2_candidate_decoder: from capture_above to count_own
-  localparam int POOL2_ENGINE_DISTANCE_CLOCKS = 1;   // dtof_pool2_engine: from take_position to take_distances
-  localparam int POOL2_ENGINE_SMOOTH_CLOCKS = 2;     // dtof_pool2_engine: from take_distances to take_word and take_result
+  localparam int POOL_DECODER_TEMPLATE_CLOCKS = 1;  // dtof_pool_candidate_decoder: from capture_above to template_i of bin 0
+  localparam int POOL_DECODER_FILL_CLOCKS = 6;      // dtof_pool_candidate_decoder: from capture_above to the first pair sum
+  localparam int POOL_DECODER_SIGNIFICANCE_CLOCKS = 3;  // dtof_pool_candidate_decoder: from a candidate to its significance
+  localparam int POOL_DECODER_OWN_CLOCKS = 2;       // dtof_pool_candidate_decoder: from capture_above to count_own
+  localparam int POOL_ENGINE_DISTANCE_CLOCKS = 1;   // dtof_pool_engine: from take_position to take_distances
+  localparam int POOL_ENGINE_SMOOTH_CLOCKS = 2;     // dtof_pool_engine: from take_distances to take_word and take_result
 
   function automatic int max_of(input int a, input int b);
     max_of = (a > b) ? a : b;
@@ -103,7 +103,7 @@ package dtof_pkg;
         + confidence_width(readout, count_width, pointer_confidence_width);
   endfunction
 
-  // poolPointer 2 (docs/reference/poolpointer2.md). Positions have 16 bits for the whole range; a cell is 512 of them.
+  // poolPointer (docs/reference/poolpointer.md). Positions have 16 bits for the whole range; a cell is 512 of them.
   localparam int POOL_COARSE_BINS = 32;
   localparam int POOL_CELL_WIDTH = 7;
   localparam int POOL_BACKGROUND_WIDTH = 6;  // 0 .. 39
@@ -113,17 +113,17 @@ package dtof_pkg;
   localparam int POOL_TEMPLATE_WIDTH = 8;  // of an entry of TEMPLATE
   localparam int POOL_SIGNIFICANCE_OFFSET_WIDTH = 5;  // of long frames, 0 .. 17
   localparam int POOL_SKY_WIDTH = 4;                  // a background / 4, for which a sky's margins are known
-  localparam int POOL2_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
-  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (dtof_pool2_line)
+  localparam int POOL_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
+  localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (dtof_pool_line)
   localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
-  // Bits of the types in dtof_pool2_command.svh and dtof_pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
+  // Bits of the types in dtof_pool_command.svh and dtof_pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
   // of these types. Every lint finds a wrong number.
-  localparam int POOL2_COMMAND_WIDTH = 65;         // pool2_engine_command_t
-  localparam int POOL2_DECODE_COMMAND_WIDTH = 23;  // pool2_decode_command_t
-  localparam int POOL2_CHAIN_COMMAND_WIDTH = 8;    // chain_command_t
-  localparam int POOL2_BESIDE_COMMAND_WIDTH = 8;   // beside_command_t
-  localparam int POOL2_DISTANCE_WIDTH = 15;        // pixel_distance_t
-  localparam int POOL2_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
+  localparam int POOL_COMMAND_WIDTH = 65;         // pool_engine_command_t
+  localparam int POOL_DECODE_COMMAND_WIDTH = 23;  // pool_decode_command_t
+  localparam int POOL_CHAIN_COMMAND_WIDTH = 8;    // chain_command_t
+  localparam int POOL_BESIDE_COMMAND_WIDTH = 8;   // beside_command_t
+  localparam int POOL_DISTANCE_WIDTH = 15;        // pixel_distance_t
+  localparam int POOL_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.
   function automatic int pool_pointer_width(input int pointer_shift, input int rival_moves);
@@ -143,9 +143,9 @@ package dtof_pkg;
   endfunction
 
   // Bits of a pixel's word.
-  function automatic int pool2_pixel_width(input int labels, input int score_bits, input int offset_bits,
+  function automatic int pool_pixel_width(input int labels, input int score_bits, input int offset_bits,
                                            input int advantage_width, input int pointer_shift, input int rival_moves);
-    pool2_pixel_width = max_of(pool_track_width(labels, score_bits, offset_bits),
+    pool_pixel_width = max_of(pool_track_width(labels, score_bits, offset_bits),
                                pool_point_width(labels, advantage_width, pointer_shift, rival_moves));
   endfunction
 
@@ -177,20 +177,20 @@ package dtof_pkg;
   endfunction
 
   // Bits of half an SRAM word of a pair of columns: two pixels of a column, or a group.
-  function automatic int pool2_half_width(input int labels, input int score_bits, input int offset_bits,
+  function automatic int pool_half_width(input int labels, input int score_bits, input int offset_bits,
                                           input int advantage_width, input int pointer_shift, input int rival_moves);
-    pool2_half_width = pool2_pixel_width(labels, score_bits, offset_bits, advantage_width, pointer_shift, rival_moves);
-    pool2_half_width = max_of(2 * pool2_half_width, pool_group_width(labels, pool2_half_width));
+    pool_half_width = pool_pixel_width(labels, score_bits, offset_bits, advantage_width, pointer_shift, rival_moves);
+    pool_half_width = max_of(2 * pool_half_width, pool_group_width(labels, pool_half_width));
   endfunction
 
-  // Halves of such a word that POOL2_BINS_PER_LINE coarse bins and one bit more need, 1 or 2.
-  function automatic int pool2_line_halves(input int half_width, input int count_width);
-    pool2_line_halves = (POOL2_BINS_PER_LINE * count_width < half_width) ? 1 : 2;
+  // Halves of such a word that POOL_BINS_PER_LINE coarse bins and one bit more need, 1 or 2.
+  function automatic int pool_line_halves(input int half_width, input int count_width);
+    pool_line_halves = (POOL_BINS_PER_LINE * count_width < half_width) ? 1 : 2;
   endfunction
 
   // log2 of the parts in which a group's coarse bins are counted, a word each.
-  function automatic int pool2_part_width(input int line_halves);
-    pool2_part_width = (line_halves == 1) ? 1 : 2;
+  function automatic int pool_part_width(input int line_halves);
+    pool_part_width = (line_halves == 1) ? 1 : 2;
   endfunction
 
   // Bits of a result's confidence: the advantage and both neighbours' penalties.

@@ -11,7 +11,7 @@
   localparam int READOUT_PIFH = 6;
   localparam int READOUT_HISTOGRAM = 7;
   localparam int READOUT_COARSEHISTOGRAM = 8;
-  localparam int READOUT_POOLPOINTER2 = 64;  // of dtof_subsystem alone: dtof_pool_pointer2_array
+  localparam int READOUT_POOLPOINTER = 64;  // of dtof_subsystem alone: dtof_pool_pointer_array
 
   function automatic bit is_readout(input int readout);
     is_readout = readout >= 0 && readout < 9;

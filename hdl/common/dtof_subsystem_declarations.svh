@@ -15,7 +15,7 @@
     // timestamps per pixel and acquisition
     parameter int SLOTS = 2,
     // bits of a histogram bin, a counter that never wraps
-    parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 7
+    parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 7
         : 10,
     // bins a pointer moves per timestamp
     parameter int POINTER_STEP = 1,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: what speaks for each candidate of a pixel: its score, and what the columns beside say.
+// poolPointer: what speaks for each candidate of a pixel: its score, and what the columns beside say.
 //
-// Equations (docs/reference/poolpointer2.md, Choose): E(k) = score[k] - (k >= 2 ? B >> 3 : 0) - from_left - from_right.
+// Equations (docs/reference/poolpointer.md, Choose): E(k) = score[k] - (k >= 2 ? B >> 3 : 0) - from_left - from_right.
 // A candidate more than four cells from the one chosen in the column to the left pays 2 + (3 B >> 4). One more than four
 // cells from the best candidate of the pixel to the right pays 1 + (3 B >> 4), but no more than the best one of that
 // pixel is ahead of its second one if it is near the second one.
@@ -10,7 +10,7 @@
 // 2. The pixel itself is taken with advance_i.
 // 3. Its candidates pass, one a clock, are compared with the three cells, and leave their evidence in the next clock.
 //
-// Schedule: the table of dtof_pool2_sequencer; evidence_o and cells_o hold from the clock after the last comparison until
+// Schedule: the table of dtof_pool_sequencer; evidence_o and cells_o hold from the clock after the last comparison until
 //   advance_i, which may come in that clock.
 // Cost: three comparators of cells, some 150 flip-flops at the defaults, per engine.
 
@@ -23,10 +23,10 @@ module dtof_beside_evidence #(
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
     localparam int GROUP_WIDTH = LABELS * CELL_WIDTH + BACKGROUND_WIDTH,  // candidates and the whole background
-    localparam int EVIDENCE_WIDTH = dtof_pkg::POOL2_EVIDENCE_WIDTH
+    localparam int EVIDENCE_WIDTH = dtof_pkg::POOL_EVIDENCE_WIDTH
 ) (
     input  logic                             clk_i,
-    input  logic [dtof_pkg::POOL2_BESIDE_COMMAND_WIDTH-1:0] command_i,  // beside_command_t
+    input  logic [dtof_pkg::POOL_BESIDE_COMMAND_WIDTH-1:0] command_i,  // beside_command_t
     // the pixel to the right: its scores with take_right_pixel, its group's word with first_rank
     input  logic [    LABELS*SCORE_BITS-1:0] right_scores_i,
     input  logic                             has_right_i,     // there is a column to the right
@@ -40,7 +40,7 @@ module dtof_beside_evidence #(
     output logic [     BACKGROUND_WIDTH-1:0] background_o
 );
 
-  `include "dtof_pool2_command.svh"
+  `include "dtof_pool_command.svh"
   beside_command_t command;
   assign command = command_i;
 

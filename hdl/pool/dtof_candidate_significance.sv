@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: how far a candidate stands out from the sums around it, 0 to 7.
+// poolPointer: how far a candidate stands out from the sums around it, 0 to 7.
 //
-// Equation (docs/reference/poolpointer2.md, Significance): S is the sum of the pair sums three and four pairs below and above
+// Equation (docs/reference/poolpointer.md, Significance): S is the sum of the pair sums three and four pairs below and above
 // the candidate's, D = 4 w - S, V = S + S / 8 + 64; Z = (2 lg(D) - lg(V) - 36 - offset - 4 missing) / 4, 0 to 7. Where the
 // range ends, the other side's two sums stand for both, an eighth larger below, where light tilts the background.
 //

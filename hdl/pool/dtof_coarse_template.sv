@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: the entry of TEMPLATE for the bin that the engines add up, and whether it hides the bin; for all engines.
+// poolPointer: the entry of TEMPLATE for the bin that the engines add up, and whether it hides the bin; for all engines.
 //
-// Equation (docs/reference/poolpointer2.md, Template): bin i's sum over a group and its neighbours falls by TEMPLATE[i] units. One of the
+// Equation (docs/reference/poolpointer.md, Template): bin i's sum over a group and its neighbours falls by TEMPLATE[i] units. One of the
 // first 7 bins is hidden if its entry is 128 or more.
 //
 // Schedule: both are those of bin_i a clock before. Cost: a multiplexer of 32 entries, 9 flip-flops, per array.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Eight times the logarithm to base 2: lg(x) = 8 e + m for x = 2^e (1 + m / 8 + ...), 0 for x = 0.
 //
-// Equation (docs/reference/poolpointer2.md, Significance): Mitchell's approximation with three bits of the mantissa, at most
+// Equation (docs/reference/poolpointer.md, Significance): Mitchell's approximation with three bits of the mantissa, at most
 // 1.69 below 8 log2(x).
 //
 // Combinational: x's highest one selects its place and the three bits behind it. Cost: two levels of gates a bit.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Max-product messages along a chain of pixels, each with a few labels: one engine's arithmetic.
 //
-// Equations (docs/reference/poolpointer2.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
+// Equations (docs/reference/poolpointer.md, Chain): T(k) = evidence(k) - u(k), u >= 0 the message received; message to
 // label l of the next pixel: min(penalty, min over its near k of max T - T(k)). belief(k) = T(k) - u'(k), u' the
 // message from the other side. Near: positions at most REACH apart.
 //
@@ -12,7 +12,7 @@
 //    the same number its belief, which is ranked a clock later.
 // 4. The chain advances: the next pixel becomes this one, the one at the port the next.
 //
-// Schedule: the table of dtof_pool2_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
+// Schedule: the table of dtof_pool_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
 // Cost: LABELS comparators of positions and of differences.
 
 // verilator lint_off TIMESCALEMOD
@@ -29,7 +29,7 @@ module dtof_label_chain #(
 ) (
     input  logic                             clk_i,
     input  logic                             active_i,   // in all of the operation; otherwise nothing moves
-    input  logic [dtof_pkg::POOL2_CHAIN_COMMAND_WIDTH-1:0] command_i,  // chain_command_t
+    input  logic [dtof_pkg::POOL_CHAIN_COMMAND_WIDTH-1:0] command_i,  // chain_command_t
     // the pixel prepared, taken with advance
     input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
     input  logic [LABELS*POSITION_WIDTH-1:0] position_i,
@@ -46,7 +46,7 @@ module dtof_label_chain #(
     output logic [         BELIEF_WIDTH-1:0] margin_o          // unsigned
 );
 
-  `include "dtof_pool2_command.svh"
+  `include "dtof_pool_command.svh"
   chain_command_t command;
   assign command = command_i;
 

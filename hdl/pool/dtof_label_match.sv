@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which candidates of a group a timestamp supports. Combinational.
 //
-// Equation (docs/reference/poolpointer2.md, Track): hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW).
+// Equation (docs/reference/poolpointer.md, Track): hit[k] = (-WINDOW <= (X >> 9) - cell[k] < WINDOW).
 // Cost: a 7-bit subtractor and a range check a candidate.
 
 // verilator lint_off TIMESCALEMOD

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: the largest significance of a group's candidates within a coarse bin of a position.
+// poolPointer: the largest significance of a group's candidates within a coarse bin of a position.
 //
-// Equation (docs/reference/poolpointer2.md, Confidence): max of Z[k] over the candidates k with |cell[k] - cell| <= 4, 0 without
+// Equation (docs/reference/poolpointer.md, Confidence): max of Z[k] over the candidates k with |cell[k] - cell| <= 4, 0 without
 // one.
 //
 // 1. Which candidates are near is registered, and all significances.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: counts the timestamps of an acquisition, handshakes with the TDC stream and schedules the columns'
+// poolPointer: counts the timestamps of an acquisition, handshakes with the TDC stream and schedules the columns'
 // single-port SRAMs, two pixels a word, once per array.
 //
 // Acquisitions start on a raster of SLOTS clocks, so that the SRAM accesses of one fall between those of the one
@@ -31,7 +31,7 @@ module dtof_pair_sequencer #(
     parameter int SLOTS = 2,
     parameter int GROUP_SIZE = 8,
     parameter int LINE_HALVES = 1,  // halves of a word that eight bins take, 1 or 2
-    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES),
+    localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES),
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2),
     localparam int GROUP_WORDS = (GROUPS + 1) / 2,  // of two groups each

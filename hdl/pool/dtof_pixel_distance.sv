@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The distance from a timestamp to the place where a pixel's word points, as the word's update needs it. Combinational.
 //
-// Equations (docs/reference/poolpointer2.md, Track and Point), distances floored to cells of 512 positions, those to a settled
+// Equations (docs/reference/poolpointer.md, Track and Point), distances floored to cells of 512 positions, those to a settled
 // pointer (n >= 16, or 12 of 15) to cells of 2^CELL_SHIFT:
 //   track  d = (X - C[leader] - 64 offset) >> 9: the offset goes up for 1 <= d < 8, down for -8 <= d < -1
 //   point  d = (X - leader's position) >> 9 (or CELL_SHIFT): in reach for -8 <= d < 8, a hit for -5 <= d < 5; otherwise the
@@ -29,7 +29,7 @@ module dtof_pixel_distance #(
     input  logic [                     PIXEL_WIDTH-1:0] word_i,
     input  logic [       dtof_pkg::POOL_CELL_WIDTH-1:0] leader_cell_i,   // of the candidate that the word leans on
     input  logic [                          LABELS-1:0] hits_i,
-    output logic [  dtof_pkg::POOL2_DISTANCE_WIDTH-1:0] distance_o       // pixel_distance_t; 0 without a timestamp
+    output logic [  dtof_pkg::POOL_DISTANCE_WIDTH-1:0] distance_o       // pixel_distance_t; 0 without a timestamp
 );
 
   `include "dtof_pixel_distance.svh"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: a result's confidence, how much speaks for a target, in eighths of a standard deviation.
+// poolPointer: a result's confidence, how much speaks for a target, in eighths of a standard deviation.
 //
-// Equation (docs/reference/poolpointer2.md, Confidence): the weight of the winner's significance, but at most four times the
+// Equation (docs/reference/poolpointer.md, Confidence): the weight of the winner's significance, but at most four times the
 // pixel's own margin; and what the margins of the pixel and of its near neighbours above, below and to the left have
 // together above those of a sky with that background, divided by the sky's spread. A tilted background has no second part.
 //

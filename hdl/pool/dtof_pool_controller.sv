@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: the state machine of a frame and its acquisition counter, once per array.
+// poolPointer: the state machine of a frame and its acquisition counter, once per array.
 //
 // IDLE -> RESET -> COARSE -> DECODE -> RESET -> TRACK -> CHOOSE -> POINT -> DECIDE -> IDLE
 //   RESET clears the pixels' words, one address a clock. COARSE, TRACK and POINT take timestamps. DECODE, CHOOSE and

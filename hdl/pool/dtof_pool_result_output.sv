@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: AXI4-Stream from the engines, one beat an engine for the pixel that all have just decided.
+// poolPointer: AXI4-Stream from the engines, one beat an engine for the pixel that all have just decided.
 //
 // The way to the engines takes LATENCY clocks, and so their results are here LATENCY clocks after send_i. They are taken
 // side by side and shifted out, engine 0 first; the last engine may have fewer columns. Two more sets have a place behind

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: by how much candidates of a long frame are less significant, for its sweeps hide part of the background.
+// poolPointer: by how much candidates of a long frame are less significant, for its sweeps hide part of the background.
 //
-// Equation (docs/reference/poolpointer2.md, Significance): (lg(A) - lg(3333)) / 2 eighth octaves, lg(3333) = 93, 0 to 17 for A of
+// Equation (docs/reference/poolpointer.md, Significance): (lg(A) - lg(3333)) / 2 eighth octaves, lg(3333) = 93, 0 to 17 for A of
 // up to 65,535 acquisitions, 0 for shorter frames; the largest it can say for longer ones.
 //
 // 1. The logarithm of A is registered.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: moves a column's positions closer together: in choose where the leaders' pointers start, in decide the
+// poolPointer: moves a column's positions closer together: in choose where the leaders' pointers start, in decide the
 // winners (S1), of which it also makes the result word, with a confidence
 // from outside (dtof_pool_confidence, or start_margin_o).
 //
-// Equations (docs/reference/poolpointer2.md, Choose and Decide): with c the position in a row and x, y, z those in the rows
+// Equations (docs/reference/poolpointer.md, Choose and Decide): with c the position in a row and x, y, z those in the rows
 // above and below and in the column to the left, c + ((|x - c| <= T ? x - c : 0) + (|y - c| <= T ? y - c : 0)
 // + (|z - c| <= T ? z - c : 0)) / 4, rounded towards zero. T is 1024 in dark groups, 1536 in bright ones, 2048 for long
 // pulses. A winner's result is that less half a bin, limited to what a code and a fraction can say.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's pointer word after one timestamp: leader's and rival's pointers, advantage. Combinational.
 //
-// Equation (docs/reference/poolpointer2.md, Point): in reach the pointer moves by (2^gear weight + dither) >> 2 units
+// Equation (docs/reference/poolpointer.md, Point): in reach the pointer moves by (2^gear weight + dither) >> 2 units
 // of 2^-11 coarse bin towards the timestamp, rounded down to the pointer's unit u; dither = (a mod 4) u +
 // (a >> 2) mod u. Hits raise the advantage n, the rival's hits lower it and at n = 0 change roles.
 // RIVAL_MOVES = 1: both pointers are absolute and the rival follows its hits in cells, quarters of a coarse bin.

@@ -107,7 +107,7 @@ package dtof_registers_pkg;
   localparam int POINTER_GUARD_LSB = 15;
   localparam int POINTER_GUARD_WIDTH = 17;
 
-  // parameters of poolPointer 2, which tell it from poolPointer 2 lean; 0 without READOUT.SCHEDULE
+  // parameters of poolPointer, which tell it from poolPointer lean; 0 without READOUT.SCHEDULE
   localparam logic [11:0] POOL = 12'h028;
   localparam logic [31:0] POOL_RESET = 32'h00000000;
   localparam int POOL_GROUP_SIZE_LSB = 0;
@@ -125,7 +125,7 @@ package dtof_registers_pkg;
   localparam int POOL_CELL_SHIFT_LSB = 28;
   localparam int POOL_CELL_SHIFT_WIDTH = 4;
 
-  // more parameters of poolPointer 2; 0 without READOUT.SCHEDULE
+  // more parameters of poolPointer; 0 without READOUT.SCHEDULE
   localparam logic [11:0] ENGINES = 12'h02c;
   localparam logic [31:0] ENGINES_RESET = 32'h00000000;
   localparam int ENGINES_COLUMNS_LSB = 0;
@@ -133,7 +133,7 @@ package dtof_registers_pkg;
   localparam int ENGINES_RIVAL_MOVES_LSB = 16;
   localparam int ENGINES_RIVAL_MOVES_WIDTH = 1;
 
-  // the recommended schedule of poolPointer 2 in 64ths of a frame; 0 without READOUT.SCHEDULE
+  // the recommended schedule of poolPointer in 64ths of a frame; 0 without READOUT.SCHEDULE
   localparam logic [11:0] SHARES = 12'h030;
   localparam logic [31:0] SHARES_RESET = 32'h00000000;
   localparam int SHARES_COARSE_LSB = 0;
@@ -231,13 +231,13 @@ package dtof_registers_pkg;
   localparam int ACQUISITIONS_VALUE_LSB = 0;
   localparam int ACQUISITIONS_VALUE_WIDTH = 24;
 
-  // poolPointer 2: the coarse phase ends before this acquisition
+  // poolPointer: the coarse phase ends before this acquisition
   localparam logic [11:0] COARSE_END = 12'h064;
   localparam logic [31:0] COARSE_END_RESET = 32'h00000000;
   localparam int COARSE_END_VALUE_LSB = 0;
   localparam int COARSE_END_VALUE_WIDTH = 24;
 
-  // poolPointer 2: the track phase ends before this acquisition
+  // poolPointer: the track phase ends before this acquisition
   localparam logic [11:0] TRACK_END = 12'h068;
   localparam logic [31:0] TRACK_END_RESET = 32'h00000000;
   localparam int TRACK_END_VALUE_LSB = 0;
@@ -346,7 +346,7 @@ package dtof_registers_pkg;
   localparam int PARITY_ERRORS_VALUE_LSB = 0;
   localparam int PARITY_ERRORS_VALUE_WIDTH = 32;
 
-  // poolPointer 2: what decode takes from each of the 32 coarse bins, where cover glass and fog send light back; at once, and only between frames: a write while STATUS.BUSY is a bus error
+  // poolPointer: what decode takes from each of the 32 coarse bins, where cover glass and fog send light back; at once, and only between frames: a write while STATUS.BUSY is a bus error
   localparam logic [11:0] TEMPLATE = 12'h124;
   localparam int TEMPLATE_NUMBER = 8;
   localparam logic [31:0] TEMPLATE_RESET = 32'h00000000;

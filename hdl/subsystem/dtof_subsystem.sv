@@ -17,7 +17,7 @@
 // 8. shot_o fires the laser and starts the TDCs, once for each acquisition that a frame needs, on request with a pseudo-random
 //    delay (dtof_shot_dither). A source whose laser runs freely leaves shot_o open.
 //
-// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER2 is dtof_pool_pointer2_array. The parameters
+// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER is dtof_pool_pointer_array. The parameters
 // that follow (common/dtof_subsystem_declarations.svh) are the arrays'; each has the default of the read-out.
 // Latency: one clock from a line to the array (two where the line buffer is an SRAM), one from the array to a result.
 // Cost: beside the array, BUFFER_LINES lines, two bits a column, and the parts' (reports/fpga_check.md).
@@ -70,7 +70,7 @@ module dtof_subsystem #(
     output logic                     m_axis_tlast_o    // a frame's last
 );
 
-  localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER2) ? 1 : 0;
+  localparam int POOL = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 1 : 0;
   localparam int ACQUISITION_LINES = PIXELS_PER_SRAM * SLOTS;
   localparam int MOST_RELEASE = (CLOCK_WAITS != 0) ? ACQUISITION_LINES : dtof_pkg::min_of(ACQUISITION_LINES, BUFFER_LINES);
   localparam int MOST_REGISTERS = 8;  // lines; more of them are in an SRAM
@@ -94,11 +94,11 @@ module dtof_subsystem #(
   `DTOF_REQUIRE(g_illegal_readout, dtof_pkg::is_readout(READOUT) || POOL != 0,
                 "dtof_subsystem: READOUT must be one of dtof_pkg::READOUT_*")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || POOL != 0,
-                "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER2")
+                "dtof_subsystem: SECOND_TARGET must be 0, or READOUT must be READOUT_POOLPOINTER")
   `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || POOL != 0,
-                "dtof_subsystem: PRIOR must be 0, or READOUT must be READOUT_POOLPOINTER2")
+                "dtof_subsystem: PRIOR must be 0, or READOUT must be READOUT_POOLPOINTER")
   `DTOF_REQUIRE(g_illegal_raw, RAW_HISTOGRAM == 0 || (POOL == 0 && RASTER_ORDER == 0),
-                "dtof_subsystem: RAW_HISTOGRAM must be 0 for READOUT_POOLPOINTER2, and where RASTER_ORDER is 1")
+                "dtof_subsystem: RAW_HISTOGRAM must be 0 for READOUT_POOLPOINTER, and where RASTER_ORDER is 1")
   `DTOF_REQUIRE(g_illegal_coarse, COARSE_SHARE >= 1 && COARSE_SHARE <= 62, "dtof_subsystem: COARSE_SHARE must be 1 to 62")
   `DTOF_REQUIRE(g_illegal_track, TRACK_SHARE >= 1 && COARSE_SHARE + TRACK_SHARE <= 63,
                 "dtof_subsystem: TRACK_SHARE must be at least 1, and at most 63 together with COARSE_SHARE")
@@ -485,8 +485,8 @@ module dtof_subsystem #(
   generate
     if (POOL != 0) begin : g_pool
       assign array_counter_full = 1'b0;  // its coarse bins make room
-      dtof_pool_pointer2_array #(
-`include "dtof_pool_pointer2_array_parameters.svh"
+      dtof_pool_pointer_array #(
+`include "dtof_pool_pointer_array_parameters.svh"
       ) u_array (
           .clk_i          (array_clk),
           .rst_ni         (array_rst_n),

@@ -2,7 +2,7 @@
 """On-chip read-outs for large SPAD arrays: sensors, scenes, photon streams, bit-exact read-out models, rivals, tables and metrics.
 
     import dtof
-    frame = dtof.frame("room", "thesis", ["hispointer", "poolpointer2"])
+    frame = dtof.frame("room", "thesis", ["hispointer", "poolpointer"])
     print(frame["hispointer"].figures["rmse_m"])
 
 Results are those of the program `dtof`, code for code. Arrays are NumPy arrays (rows, columns); those that are marked "no copy" show the

@@ -166,7 +166,7 @@ void bind_engine(py::module_& module) {
           "uint16; 0 is none, the scale is the read-out's own. No copy.")
       .def_property_readonly(
           "second", [](const Results& r) { return r.field(&PixelResult::second); },
-          "uint16: second target of poolPointer 2, else 0. No copy.")
+          "uint16: second target of poolPointer, else 0. No copy.")
       .def_property_readonly("position", &Results::positions, "float64, bins: code and fraction.")
       .def_property_readonly("has_distance", &distance_mask, "bool: whether the pixel has a distance.")
       .def_property_readonly("readout", &Results::parameters)

@@ -76,7 +76,7 @@ class ArrayTest(unittest.TestCase):
         first_of_acquisition = np.argsort(np.random.default_rng(1).permutation(keys.max() + 1)[keys], kind="stable")
         mixed = {name: array[first_of_acquisition] for name, array in events.items()}
         own = dtof.event_list(**mixed, columns=5, rows=4, acquisitions=3333)
-        for name in ("sifh", "hispointer", "poolpointer2"):
+        for name in ("sifh", "hispointer", "poolpointer"):
             np.testing.assert_array_equal(dtof.read_out(own, name).code, dtof.read_out(photons, name).code)
 
     def test_events_that_are_none(self) -> None:

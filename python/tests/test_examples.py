@@ -51,7 +51,7 @@ class ExamplesTest(unittest.TestCase):
         said = self.try_example("first_picture")
         shares = [float(share) for share in re.findall(r"([\d.]+)% of the pixels", said)]
         self.assertEqual(len(shares), 3)
-        self.assertEqual(shares, sorted(shares, reverse=True))  # SiFH, hisPointer, poolPointer 2
+        self.assertEqual(shares, sorted(shares, reverse=True))  # SiFH, hisPointer, poolPointer
 
     def test_own_sensor(self) -> None:
         said = self.try_example("own_sensor")

@@ -11,8 +11,8 @@ import dtof
 
 import programs
 
-COLUMNS, ROWS = 34, 24  # an engine of poolPointer 2
-READOUTS = ["hispointer", "sifh", "coarsehistogram", "poolpointer2", "poolpointer2-lean"]
+COLUMNS, ROWS = 34, 24  # an engine of poolPointer
+READOUTS = ["hispointer", "sifh", "coarsehistogram", "poolpointer", "poolpointer-lean"]
 
 
 class ProgramTest(unittest.TestCase):
@@ -61,7 +61,7 @@ class ProgramTest(unittest.TestCase):
 
     def test_fast_photons_until_a_precision(self) -> None:
         scene = dtof.Scene("room", dtof.Sensor("phone"), columns=COLUMNS, rows=ROWS)
-        frame = dtof.frame(scene, "phone", ["hispointer", "poolpointer2"], klux=40.0, fidelity="fast", precision_percent=1.0, max_frames=5)
+        frame = dtof.frame(scene, "phone", ["hispointer", "poolpointer"], klux=40.0, fidelity="fast", precision_percent=1.0, max_frames=5)
         self.compare(frame, "--sensor", "phone", "--array-columns", COLUMNS, "--array-rows", ROWS, "--klux", 40, "--fidelity", "fast",
                      "--precision", 1, "--max-frames", 5)
         self.assertGreaterEqual(frame["hispointer"].frames, 4)
@@ -126,9 +126,9 @@ class ProgramTest(unittest.TestCase):
 
     def test_tables_can_be_used_again(self) -> None:
         scene = dtof.Scene("room", columns=COLUMNS, rows=ROWS)
-        first = dtof.frame(scene, readouts=["sifh", "poolpointer2"])
+        first = dtof.frame(scene, readouts=["sifh", "poolpointer"])
         tables = {name: first[name].table for name in first}
-        for readouts in (["sifh", "poolpointer2"], ["poolpointer2"]):
+        for readouts in (["sifh", "poolpointer"], ["poolpointer"]):
             again = dtof.frame(scene, readouts=readouts, table=tables)
             for name in again:
                 np.testing.assert_array_equal(again[name].depth_m, first[name].depth_m)

@@ -29,7 +29,7 @@ print(dtof.frame(dtof.Scene("flat", columns=2, rows=2), readouts=["sifh"])["sifh
 class WorkTest(unittest.TestCase):
     def test_progress_grows_and_ends_at_the_whole(self) -> None:
         told: list[tuple[int, int]] = []
-        dtof.frame(SCENE, SENSOR, ["sifh", "poolpointer2"], table="none", progress=lambda done, total: told.append((done, total)))
+        dtof.frame(SCENE, SENSOR, ["sifh", "poolpointer"], table="none", progress=lambda done, total: told.append((done, total)))
         self.assertGreater(len(told), 3)
         self.assertEqual(told, sorted(set(told)))
         self.assertEqual(told[-1], (400, 400))
@@ -91,7 +91,7 @@ class WorkTest(unittest.TestCase):
         self.assertEqual(done.stderr, "")
 
     def test_nothing_is_written_to_standard_error(self) -> None:
-        done = subprocess.run([sys.executable, "-c", "import dtof; dtof.frame('room', readouts=['sifh', 'poolpointer2'])"],
+        done = subprocess.run([sys.executable, "-c", "import dtof; dtof.frame('room', readouts=['sifh', 'poolpointer'])"],
                               capture_output=True, text=True, check=True, env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)})
         self.assertEqual((done.stdout, done.stderr), ("", ""))
 

@@ -58,7 +58,7 @@ MORE_PARAMETERS = {
         {"NP": 8, "PIXELS_PER_SRAM": 9, "SRAM_NUM": 2, "SLOTS": 2, "COUNT_WIDTH": 4},
         {"NP": 8, "PIXELS_PER_SRAM": 3, "SRAM_NUM": 3, "SLOTS": 2, "COUNT_WIDTH": 5, "RAW_HISTOGRAM": 1},
     ],
-    "poolpointer2": [
+    "poolpointer": [
         {"PIXELS_PER_SRAM": 11, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2, "SLOTS": 3, "LABELS": 6, "SCORE_BITS": 3,
          "OFFSET_BITS": 0, "POINTER_SHIFT": 2},
         {"PIXELS_PER_SRAM": 3, "SRAM_NUM": 6, "ENGINE_COLUMNS": 4},  # the last engine has fewer columns
@@ -71,13 +71,13 @@ LONG_FRAME = {
     "ezpointer": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2},
     "hispointer": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2},
     "sifh": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2},
-    "poolpointer2": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
-    "poolpointer2_lean": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
+    "poolpointer": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
+    "poolpointer_lean": {"SRAM_NUM": 2, "PIXELS_PER_SRAM": 2, "ENGINE_COLUMNS": 2},
 }
-# A frame that ends while poolPointer 2's pointers have steps that only the dither makes whole.
+# A frame that ends while poolPointer's pointers have steps that only the dither makes whole.
 DITHERED_FRAME = 900
 # Quick frames of the pool read-outs, tried first: a group and a pixel, one engine.
-FIRST_POOL = {"poolpointer2": 5, "poolpointer2_lean": 9}
+FIRST_POOL = {"poolpointer": 5, "poolpointer_lean": 9}
 
 
 def cases(seed: int) -> list[simulation.Case]:
@@ -91,7 +91,7 @@ def cases(seed: int) -> list[simulation.Case]:
         for number, parameters in enumerate(variants, 1):
             other = named[name].with_parameters(name, **{**SMALLEST_GUARD.get(named[name].top, {}), **parameters})
             found.append(simulation.Case(other, (60, 0, 1, 2, 90), seed, part=f"other parameters {number}"))
-    dithered = named["poolpointer2"].with_parameters("poolpointer2", SRAM_NUM=2, PIXELS_PER_SRAM=3, ENGINE_COLUMNS=2)
+    dithered = named["poolpointer"].with_parameters("poolpointer", SRAM_NUM=2, PIXELS_PER_SRAM=3, ENGINE_COLUMNS=2)
     found.append(simulation.Case(dithered, (DITHERED_FRAME,), seed, part="dithered steps"))
     for name, size in LONG_FRAME.items():
         long = named[name].with_parameters(name, **size)

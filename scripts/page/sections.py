@@ -62,7 +62,7 @@ OTHERS = (
            says="area, power and clock by models, beside the flow's figures"),
     Report("layout", "Layout", "layout", "layout.md",
            says="columns placed and routed in OSU 0.18 um, their wires beside the wire-load model"),
-    Report("fpga", "FPGA demonstrator", "fpga", "fpga.md", says="an iCE40 with hisPointer and with poolPointer 2"),
+    Report("fpga", "FPGA demonstrator", "fpga", "fpga.md", says="an iCE40 with hisPointer and with poolPointer"),
     Report("fpga_check", "Small subsystems on FPGAs", "fpga-check", "fpga_check.md",
            says="block RAMs, look-up tables and flip-flops on four families"),
     Report("mutants", "Mutants", "mutate", "mutants.md", says="whether the tests notice small changes"),

@@ -431,15 +431,15 @@ class HandTyped(unittest.TestCase):
 
     def test_planted_figures(self) -> None:
         for text, line, figure in (
-                ("poolPointer 2 has 1.14 mm2.", 1, "1.14 mm2"),
+                ("poolPointer has 1.14 mm2.", 1, "1.14 mm2"),
                 ("Text.\nThe array of\nhisPointer takes 104 mW.", 2, "104 mW"),
                 ("one port halves ezPointer's array (0.584 instead of 1.291 mm2)", 1, "0.584 instead of 1.291 mm2"),
                 ("* lean: 43 % of the pixels", 1, "43 %"), ("SiFH runs at 351 MHz.", 1, "351 MHz"), ("FiFH misses by 3.4 per cent", 1, "3.4 per cent"),
-                ("gains 12.1 +-0.6 % with poolPointer 2", 1, "12.1 +-0.6 %"),
+                ("gains 12.1 +-0.6 % with poolPointer", 1, "12.1 +-0.6 %"),
                 ("| read-out | mm2 |\n|---|---:|\n| ezPointer | 1.3 |", 3, "1.3 (mm2)"),
                 ("| a | read-out |\n|---|---|\n| 1.2 mm2 | PiFH |", 3, "1.2 mm2"),
                 ("Of the array, in mm2 unless said otherwise.\n\n| change | from |\n|---|---|\n| ezPointer, one port | 1.3 |", 5, "1.3 (from)"),
-                ("# poolPointer 2\n\nIt takes 5 % more.", 3, "5 %"), ("## The three steps\n\n| x | mW |\n|---|---|\n| a | 3 |", 5, "3 (mW)")):
+                ("# poolPointer\n\nIt takes 5 % more.", 3, "5 %"), ("## The three steps\n\n| x | mW |\n|---|---|\n| a | 3 |", 5, "3 (mW)")):
             with self.subTest(text=text):
                 self.assertEqual(self.found(text), [(line, figure)])
 
@@ -448,9 +448,9 @@ class HandTyped(unittest.TestCase):
         self.assertEqual(self.found("**Cost.** 493 um2 of logic.", of_readouts=True), [(1, "493 um2")])
 
     def test_what_is_none(self) -> None:
-        for text in ("poolPointer 2 has <!--=area.poolpointer2.array_mm2:.2f-->1.14<!--/--> mm2.", "The cell has 0.7 mm2. ezPointer is small.",
+        for text in ("poolPointer has <!--=area.poolpointer.array_mm2:.2f-->1.14<!--/--> mm2.", "The cell has 0.7 mm2. ezPointer is small.",
                      "Pixels of hisPointer that are off by more than 3 % and 10 %, at 95 %, 330 MHz", "SiFH has 3 bins.",
-                     "the histogram's 10 mm2", "    poolPointer 2 printed 1.14 mm2\n", "```\nSiFH 3 mm2\n```\n",
+                     "the histogram's 10 mm2", "    poolPointer printed 1.14 mm2\n", "```\nSiFH 3 mm2\n```\n",
                      "<!-- results: written by scripts/x.py -->\n| SiFH | 3 mm2 |\n<!-- end of results -->",
                      "`make x` of SiFH says `3 mm2`", "## SiFH\n\ntext\n\n## Other\n\n3 mm2"):
             with self.subTest(text=text):
@@ -459,7 +459,7 @@ class HandTyped(unittest.TestCase):
     def test_this_project_has_none_but_in_dated_notes(self) -> None:
         tree = SourceTree(ROOT)
         self.assertEqual(hand_typed.check(ROOT, tree), [])
-        self.assertTrue(hand_typed.in_page(tree.text("docs/notes/poolpointer2.md"), self.NAMES))
+        self.assertTrue(hand_typed.in_page(tree.text("docs/notes/poolpointer.md"), self.NAMES))
 
 
 if __name__ == "__main__":

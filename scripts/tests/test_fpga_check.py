@@ -49,7 +49,7 @@ class FpgaCheck(unittest.TestCase):
         subsystems = fpga_check.subsystems()
         for name, (_, parameters) in subsystems.items():
             self.assertIsInstance(parameters["READOUT"], int, name)
-        self.assertEqual(subsystems["poolpointer2-lean"][1]["GROUP_SIZE"], 8)
+        self.assertEqual(subsystems["poolpointer-lean"][1]["GROUP_SIZE"], 8)
         self.assertEqual(sorted(fpga_check.memories(subsystems["ezpointer"][1])),
                          ["16 words x 14 bits", "16 words x 14 bits", "36 words x 21 bits"])
 

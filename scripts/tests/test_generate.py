@@ -45,7 +45,7 @@ class Descriptions(unittest.TestCase):
         self.assertIn("thesis/first_photon_column.sv\n", generate.column_files((ROOT / "hdl/dtof.f").read_text(), table))
         self.assertIn("case Readout::kFirstPhoton:\n      return make_first_photon(parameters);",
                       generate.model_table(table))
-        self.assertIn("partitioned_histogram coarse_histogram pool_pointer2 first_photon)", generate.cmake(table))
+        self.assertIn("partitioned_histogram coarse_histogram pool_pointer first_photon)", generate.cmake(table))
         self.assertIn("kFirstPhoton = 11,", generate.cpp_header(table))
         self.assertIn('"first photon"', generate.cpp_source(table))
         self.assertIn("set(DTOF_NUMBER_firstphoton 9)", generate.cmake(table))
@@ -76,7 +76,7 @@ class Descriptions(unittest.TestCase):
             (("number = 6", "number = 9"), "numbers must be"),
             (('kind = "pool"', 'kind = "puddle"'), "kind 'puddle'"),
             (('choices = ["COUNT_WIDTH"]', 'choices = ["COUNTS"]'), "unknown parameter COUNTS"),
-            (('top = "dtof_pool_pointer2_array"', 'top = "nowhere"'), "no top 'nowhere'"),
+            (('top = "dtof_pool_pointer_array"', 'top = "nowhere"'), "no top 'nowhere'"),
             (('column = "dtof_ez_pointer_column"\n', ""), "have a number and a column"),
             (("number = 0\n", ""), "have a number and a column"),
             (('word = "moved"', 'word = "stirred"'), "the word 'stirred'"),

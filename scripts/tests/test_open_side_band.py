@@ -26,7 +26,7 @@ endmodule
 GATE = ", .gate_begin_i(10'd0), .gate_end_i(10'd1023)"
 OTHERS = {
     "dtof_array": GATE + ", .raw_i(1'b0), .raw_first_row_i(3'd0), .raw_last_row_i(3'd0)",
-    "dtof_pool_pointer2_array": GATE + ", .coarse_end_i(16'd0), .track_end_i(16'd0), .smooth_i(1'b1), .prior_i(1'b0), .template_i(256'd0)",
+    "dtof_pool_pointer_array": GATE + ", .coarse_end_i(16'd0), .track_end_i(16'd0), .smooth_i(1'b1), .prior_i(1'b0), .template_i(256'd0)",
 }
 
 

@@ -14,7 +14,7 @@ class EstimatorTitle(unittest.TestCase):
         self.assertEqual(titles["hispointer"], "hisPointer")
         self.assertEqual(titles["hispointer_gate"], "hisPointer")  # a parameter that changes no result
         self.assertEqual(titles["hispointer_count8"], "hisPointer COUNT_WIDTH=8")
-        self.assertEqual(titles["poolpointer2"], "poolPointer 2")
+        self.assertEqual(titles["poolpointer"], "poolPointer")
 
 
 if __name__ == "__main__":

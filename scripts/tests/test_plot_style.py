@@ -44,7 +44,7 @@ class Styles(unittest.TestCase):
     def test_a_label_has_the_style_of_the_longest_title(self) -> None:
         for label, title in {"hisPointer v1": "hisPointer v1", "hisPointer": "hisPointer",
                              "hisPointer, corrected": "hisPointer", "hisPointer FRACTION_BITS=4": "hisPointer",
-                             "poolPointer 2 lean: rmse": "poolPointer 2 lean",
+                             "poolPointer lean: rmse": "poolPointer lean",
                              "matched filter (single pixel)": "matched filter"}.items():
             self.assertEqual(plot_style.style(label, self.styles).title, title)
         for label in ("hisPointers", "exact", ""):

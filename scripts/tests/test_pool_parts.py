@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The table of poolPointer 2's parts: shares weighted by pixels, parts that nobody describes, and every named number legal."""
+"""The table of poolPointer's parts: shares weighted by pixels, parts that nobody describes, and every named number legal."""
 
 import tempfile
 import unittest

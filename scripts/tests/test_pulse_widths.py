@@ -25,13 +25,13 @@ class PulseWidths(unittest.TestCase):
         self.assertEqual(sensor, thesis)
 
     def test_read_outs_that_follow_the_pulse_have_rows_of_their_own(self) -> None:
-        short = {"poolPointer 2", "poolPointer 2 CELL_SHIFT=9", "poolPointer 2 lean", "poolPointer 2 lean CELL_SHIFT=9"}
-        self.assertEqual(pulse_widths.rows_of("poolPointer 2", short), ["poolPointer 2"])
-        self.assertEqual(pulse_widths.rows_of("poolPointer 2 CELL_SHIFT=9", short), ["poolPointer 2" + pulse_widths.FIXED])
-        self.assertEqual(pulse_widths.rows_of("poolPointer 2 lean", short), ["poolPointer 2 lean"])
+        short = {"poolPointer", "poolPointer CELL_SHIFT=9", "poolPointer lean", "poolPointer lean CELL_SHIFT=9"}
+        self.assertEqual(pulse_widths.rows_of("poolPointer", short), ["poolPointer"])
+        self.assertEqual(pulse_widths.rows_of("poolPointer CELL_SHIFT=9", short), ["poolPointer" + pulse_widths.FIXED])
+        self.assertEqual(pulse_widths.rows_of("poolPointer lean", short), ["poolPointer lean"])
         # Where the pulse asks for them, both are the same.
-        self.assertEqual(pulse_widths.rows_of("poolPointer 2", {"poolPointer 2", "poolPointer 2 lean CELL_SHIFT=9"}),
-                         ["poolPointer 2", "poolPointer 2" + pulse_widths.FIXED])
+        self.assertEqual(pulse_widths.rows_of("poolPointer", {"poolPointer", "poolPointer lean CELL_SHIFT=9"}),
+                         ["poolPointer", "poolPointer" + pulse_widths.FIXED])
         self.assertEqual(pulse_widths.rows_of("hisPointer", short), ["hisPointer"])
 
     def test_figures_are_of_all_pixels_but_the_flats(self) -> None:

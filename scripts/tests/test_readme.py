@@ -81,21 +81,21 @@ class Results(unittest.TestCase):
 
     def test_power_is_that_of_the_activity_by_day(self) -> None:
         figures = store.load(ROOT)
-        row, = [line for line in update_readme.Results(ROOT).table().splitlines() if line.startswith("| poolPointer 2 |")]
+        row, = [line for line in update_readme.Results(ROOT).table().splitlines() if line.startswith("| poolPointer |")]
         cells = [cell.strip() for cell in row.strip("|").split("|")]
-        self.assertEqual(cells[4], store.text("power.poolpointer2.day_mw:.0f", figures))
-        self.assertEqual(cells[2], store.text("area.poolpointer2.placed_with_scan_and_clock_tree_mm2:.2f", figures))
+        self.assertEqual(cells[4], store.text("power.poolpointer.day_mw:.0f", figures))
+        self.assertEqual(cells[2], store.text("area.poolpointer.placed_with_scan_and_clock_tree_mm2:.2f", figures))
         self.assertEqual(update_readme.quoted_reports(ROOT) - {"frame", "frames"}, {"synth", "power"})
 
     def test_standard_frames_stand_beside_each_other_once_they_are_measured(self) -> None:
         measured = {name: one for name, one in store.load(ROOT).items() if one.report != "frames"}
-        for readout, share in (("ezpointer", "53.95"), ("poolpointer2", "0.16")):
+        for readout, share in (("ezpointer", "53.95"), ("poolpointer", "0.16")):
             for sensor in ("thesis", "thesis_1mhz"):
                 measured[f"frames.{readout}.{sensor}_above_3_percent"] = store.Figure(share, "%", report="frames")
         with mock.patch.object(store, "load", lambda root: measured):
             lines = update_readme.Results(ROOT).table().splitlines()
         self.assertTrue(lines[0].endswith("| pixels off by > 3 %: thesis | pixels off by > 3 %: thesis_1mhz |"), lines[0])
-        self.assertTrue(next(line for line in lines if "| poolPointer 2 |" in line).endswith("| 0.16 % | 0.16 % |"))
+        self.assertTrue(next(line for line in lines if "| poolPointer |" in line).endswith("| 0.16 % | 0.16 % |"))
         self.assertTrue(next(line for line in lines if "| SiFH |" in line).endswith("| - | - |"))
 
 

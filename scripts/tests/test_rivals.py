@@ -44,8 +44,8 @@ class Picture(unittest.TestCase):
     def test_bits_are_those_of_the_readouts_own_configurations(self) -> None:
         area = Path(self.folder.name) / "area.csv"
         area.write_text("configuration,readout,bits_per_pixel\nhispointer,hispointer,339\nhispointer_wide,hispointer,400\n"
-                        "poolpointer2_lean,poolpointer2-lean,19\n", encoding="utf-8")
-        self.assertEqual(rivals.known_bits(area), {"hispointer": "339", "poolpointer2-lean": "19"})
+                        "poolpointer_lean,poolpointer-lean,19\n", encoding="utf-8")
+        self.assertEqual(rivals.known_bits(area), {"hispointer": "339", "poolpointer-lean": "19"})
         self.assertEqual(rivals.known_bits(area.with_name("none.csv")), {})
 
     def with_hardware(self) -> list[rivals.Point]:

@@ -22,7 +22,7 @@ typedef struct packed {
 class Commands(unittest.TestCase):
     def test_fields_have_their_places(self) -> None:
         known = schedule.structs(TWO)
-        fields = schedule.all_fields({"pool2_column_command_t": known["inner_t"], "pool2_engine_command_t": known["outer_t"],
+        fields = schedule.all_fields({"pool_column_command_t": known["inner_t"], "pool_engine_command_t": known["outer_t"],
                                       "inner_t": known["inner_t"]})
         self.assertEqual([(field.name, field.place) for field in fields],
                          [("begin_step", 0), ("target", 1), ("read", 4), ("begin_step", 5), ("target", 6),

@@ -97,7 +97,7 @@ void StudySettings::validate() const {
   }
   if (run.hardware() && std::ranges::any_of(readouts, hears_other_columns)) {
     throw InputError(
-        fmt::format("accuracy: --engine {}: an engine of poolPointer 2 is one pixel's here, so that only its "
+        fmt::format("accuracy: --engine {}: an engine of poolPointer is one pixel's here, so that only its "
                     "model reads it",
                     run.engine));
   }

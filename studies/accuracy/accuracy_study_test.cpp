@@ -167,7 +167,7 @@ TEST(AccuracyStudy, PooledPixelsAreIndependent) {
   settings.klux = 50.0;
   settings.frames = 8;
   settings.lookup_table = false;
-  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer2)};
+  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
   int columns = 0;
   int rows = 0;
   settings.make_source = [&](const SensorModel& sensor, const TargetMap& targets, double klux,
@@ -218,9 +218,9 @@ TEST(AccuracyStudy, AnEngineOfColumnsIsOnePixelsAlone) {
   settings.calibration_frames = 8;
   settings.calibration_step_m = 0.5;
   settings.matched_filter = false;
-  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer2Lean)};
+  settings.readouts = {ReadoutParameters::defaults(Readout::kPoolPointerLean)};
   const AccuracyStudy alone = run_accuracy_study(settings);
-  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer2));
+  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer));
   const AccuracyStudy both = run_accuracy_study(settings);
   ASSERT_EQ(both.points.size(), 2U);
   EXPECT_EQ(both.points[0].rmse_m, alone.points[0].rmse_m) << "the same photons";

@@ -11,9 +11,9 @@
 
 namespace dtof {
 
-int engine_columns_judged() { return ReadoutParameters::defaults(Readout::kPoolPointer2).columns_together(); }
+int engine_columns_judged() { return ReadoutParameters::defaults(Readout::kPoolPointer).columns_together(); }
 int engine_columns_read() {
-  return ReadoutParameters::defaults(Readout::kPoolPointer2Lean).columns_together();
+  return ReadoutParameters::defaults(Readout::kPoolPointerLean).columns_together();
 }
 
 TargetMap middle_of(Scene scene, const SensorModel& sensor, int rows) {

@@ -16,7 +16,7 @@ namespace dtof {
 // Frames of one engine of the pool read-outs, cut out of the middle of a scene: the smallest array on which
 // every read-out is at home.
 
-/// Columns judged: an engine of poolPointer 2.
+/// Columns judged: an engine of poolPointer.
 int engine_columns_judged();
 /// Columns read, so that the lean form's engine is whole, too; what it makes of the further ones is not
 /// judged.

@@ -9,7 +9,7 @@
 namespace dtof {
 
 /// A read-out with some parameters changed, written READOUT:PARAMETER=NUMBER,...: "hispointer:COUNT_WIDTH=8",
-/// "poolpointer2:COARSE_SHARE=12,TRACK_SHARE=14". Throws InputError for anything else, for a parameter that
+/// "poolpointer:COARSE_SHARE=12,TRACK_SHARE=14". Throws InputError for anything else, for a parameter that
 /// the read-out does not have and for a value that ReadoutParameters::validate refuses. What the text does
 /// not name is that of default_parameters (app/options.hpp).
 ReadoutParameters parse_variant(const std::string& text, const SensorModel& sensor = {});

@@ -129,7 +129,7 @@ DepthImage read_surface(const SceneChoice& options) {
   return image;
 }
 
-/// Scenes that poolPointer 2's parameters were not chosen on.
+/// Scenes that poolPointer's parameters were not chosen on.
 void add_held_out(const SceneChoice& options, const SensorModel& sensor, SceneList& list) {
   constexpr std::uint64_t kOtherShapes = 1000;
   SceneParameters parameters;

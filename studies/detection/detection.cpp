@@ -103,7 +103,7 @@ std::vector<PixelTarget> skies(const DetectionSettings& settings) {
 
 constexpr double kMost = 0.9;
 
-/// "poolPointer 2 to 5 m" of each read-out that detects most pixels of some wall at a light.
+/// "poolPointer to 5 m" of each read-out that detects most pixels of some wall at a light.
 std::string answer(const DetectionSettings& settings, const std::vector<ReadoutDetection>& study) {
   std::string text;
   for (const double klux : settings.klux) {

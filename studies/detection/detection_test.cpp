@@ -21,7 +21,7 @@ DetectionSettings small_settings() {
   settings.sensor = find_sensor("thesis");
   settings.sensor.rows = 24;
   settings.readouts = {ReadoutParameters::defaults(Readout::kEzPointer),
-                       ReadoutParameters::defaults(Readout::kPoolPointer2)};
+                       ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings.klux = {14.0, 50.0};
   settings.distances_m = {3.0, 4.0};
   settings.false_alarms = 0.01;
@@ -29,7 +29,7 @@ DetectionSettings small_settings() {
   return settings;
 }
 
-TEST(Detection, PoolPointer2TellsAWallFromASkyWithOneThreshold) {
+TEST(Detection, PoolPointerTellsAWallFromASkyWithOneThreshold) {
   const std::vector<ReadoutDetection> study = run_detection(small_settings());
   ASSERT_EQ(study.size(), 2U);
   for (const ReadoutDetection& readout : study) {
@@ -50,7 +50,7 @@ TEST(Detection, PoolPointer2TellsAWallFromASkyWithOneThreshold) {
 TEST(Detection, ReportAndPictureHaveEveryCell) {
   const DetectionSettings settings = small_settings();
   const std::vector<ReadoutDetection> study = {
-      {.readout = Readout::kPoolPointer2,
+      {.readout = Readout::kPoolPointer,
        .threshold = 40,
        .held_out_alarms = {0.0, 0.0005, 0.0, 0.0, 0.0, 0.0},
        .cells = {
@@ -63,7 +63,7 @@ TEST(Detection, ReportAndPictureHaveEveryCell) {
   EXPECT_THAT(report, HasSubstr("25.00 / 100.00"));
   EXPECT_THAT(
       report,
-      HasSubstr("At 14 klux at least 90 % of a wall's pixels pass and are right: poolPointer 2 to 3 m."));
+      HasSubstr("At 14 klux at least 90 % of a wall's pixels pass and are right: poolPointer to 3 m."));
   EXPECT_THAT(report,
               HasSubstr("At 50 klux at least 90 % of a wall's pixels pass and are right: of no read-out."));
   EXPECT_THAT(report, HasSubstr("0.50"));
@@ -71,7 +71,7 @@ TEST(Detection, ReportAndPictureHaveEveryCell) {
   ASSERT_EQ(curves.size(), 1U);
   EXPECT_EQ(curves[0].x, (std::vector<double>{3.0, 4.0}));
   EXPECT_EQ(curves[0].y, (std::vector<double>{50.0, 25.0}));
-  EXPECT_THAT(detection_csv(study).csv(), HasSubstr("poolpointer2,40,14,4,0.875000,0.800000,0.900000"));
+  EXPECT_THAT(detection_csv(study).csv(), HasSubstr("poolpointer,40,14,4,0.875000,0.800000,0.900000"));
 }
 
 TEST(Detection, RefusesSettingsOutOfRange) {

@@ -18,7 +18,7 @@ namespace {
 
 /// A page stays short; the data has every cell.
 constexpr std::size_t kMostListed = 20;
-constexpr std::array kShown = {Readout::kPoolPointer2, Readout::kPoolPointer2Lean, Readout::kCoarseHistogram,
+constexpr std::array kShown = {Readout::kPoolPointer, Readout::kPoolPointerLean, Readout::kCoarseHistogram,
                                Readout::kHisPointer, Readout::kEzPointer};
 
 std::string title_of(const std::string& name) { return std::string(readout_title(parse_readout(name))); }
@@ -190,7 +190,7 @@ std::string better_signal(const RangeFinding& finding) {
 }
 std::string better_readout(const RangeFinding& finding) { return title_of(finding.better_readout); }
 
-/// "poolPointer 2 3, lean 0".
+/// "poolPointer 3, lean 0".
 std::string of_each(const RangeSettings& settings, const std::vector<RangeFinding>& findings) {
   std::vector<std::string> texts;
   for (const ReadoutParameters& readout : settings.readouts) {
@@ -315,7 +315,7 @@ std::string dynamic_range_report(const RangeSettings& settings, const DynamicRan
       "\n## How it was measured\n\n"
       "Models, exact photons. Scenes {}: the {} columns and {} rows around the centre of the sensor's {} x "
       "{} pixels; {} "
-      "columns, an engine of poolPointer 2, are judged. {} seeds from {} on; {} pixels a cell. Each read-out "
+      "columns, an engine of poolPointer, are judged. {} seeds from {} on; {} pixels a cell. Each read-out "
       "has a look-up "
       "table of its own for each cell (`frame/flat_calibration.hpp`, 32 pixels a distance). Intervals come "
       "from the "

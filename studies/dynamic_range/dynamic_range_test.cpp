@@ -56,12 +56,12 @@ class DynamicRangeTest : public testing::Test {
 
 TEST(DynamicRangeLists, ListsACellThatMoreAcquisitionsMadeWorse) {
   RangeResults results;
-  results[{1.0, 14.0, 100}]["poolpointer2"] = seeds(500);
-  results[{1.0, 14.0, 1000}]["poolpointer2"] = seeds(10);
-  results[{1.0, 14.0, 10'000}]["poolpointer2"] = seeds(12);
-  results[{1.0, 14.0, 33'333}]["poolpointer2"] = seeds(300, 40);
-  results[{1.0, 50.0, 65'535}]["poolpointer2"] = seeds(900, 900);   // nothing to compare with
-  results[{10.0, 14.0, 65'535}]["poolpointer2"] = seeds(900, 900);  // another signal
+  results[{1.0, 14.0, 100}]["poolpointer"] = seeds(500);
+  results[{1.0, 14.0, 1000}]["poolpointer"] = seeds(10);
+  results[{1.0, 14.0, 10'000}]["poolpointer"] = seeds(12);
+  results[{1.0, 14.0, 33'333}]["poolpointer"] = seeds(300, 40);
+  results[{1.0, 50.0, 65'535}]["poolpointer"] = seeds(900, 900);   // nothing to compare with
+  results[{10.0, 14.0, 65'535}]["poolpointer"] = seeds(900, 900);  // another signal
   const std::vector<RangeFinding> findings = worse_with_more(results, Grown::kAcquisitions);
   ASSERT_EQ(findings.size(), 2U) << "12 in 1,000 is no worse than 10, beyond the intervals";
   EXPECT_EQ(findings[0].limit_percent, 3);
@@ -92,13 +92,13 @@ TEST(DynamicRangeLists, ComparesPoolReadoutsWithTheCoarseHistogramInLongFrames) 
   for (const std::uint32_t acquisitions : {3333U, 33'333U}) {
     RangeReadouts& readouts = results[{1.0, 14.0, acquisitions}];
     readouts["coarsehistogram"] = seeds(10, 5);
-    readouts["poolpointer2"] = seeds(100, 6);
-    readouts["poolpointer2-lean"] = seeds(11, 5);
+    readouts["poolpointer"] = seeds(100, 6);
+    readouts["poolpointer-lean"] = seeds(11, 5);
     readouts["ezpointer"] = seeds(500, 500);
   }
   const std::vector<RangeFinding> findings = behind_coarse_histogram(results, kManyAcquisitions);
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].readout, "poolpointer2");
+  EXPECT_EQ(findings[0].readout, "poolpointer");
   EXPECT_EQ(findings[0].better_readout, "coarsehistogram");
   EXPECT_EQ(findings[0].limit_percent, 3);
   EXPECT_EQ(findings[0].cell.acquisitions, 33'333U);
@@ -108,16 +108,16 @@ TEST(DynamicRangeLists, ComparesPoolReadoutsWithTheCoarseHistogramInLongFrames) 
 TEST(DynamicRangeLists, KeepsWhatOtherPhotonsShowAgain) {
   RangeResults results;
   for (const double klux : {2.0, 14.0}) {
-    results[{1.0, klux, 1000}]["poolpointer2"] = seeds(10);
-    results[{1.0, klux, 10'000}]["poolpointer2"] = seeds(100);
+    results[{1.0, klux, 1000}]["poolpointer"] = seeds(10);
+    results[{1.0, klux, 10'000}]["poolpointer"] = seeds(100);
   }
   const std::vector<RangeFinding> findings = worse_with_more(results, Grown::kAcquisitions);
   ASSERT_EQ(findings.size(), 2U);
   RangeResults again;
-  again[{1.0, 2.0, 1000, 1}]["poolpointer2"] = seeds(10);
-  again[{1.0, 2.0, 10'000, 1}]["poolpointer2"] = seeds(90);
-  again[{1.0, 14.0, 1000, 1}]["poolpointer2"] = seeds(30);
-  again[{1.0, 14.0, 10'000, 1}]["poolpointer2"] = seeds(33);
+  again[{1.0, 2.0, 1000, 1}]["poolpointer"] = seeds(10);
+  again[{1.0, 2.0, 10'000, 1}]["poolpointer"] = seeds(90);
+  again[{1.0, 14.0, 1000, 1}]["poolpointer"] = seeds(30);
+  again[{1.0, 14.0, 10'000, 1}]["poolpointer"] = seeds(33);
   const std::vector<RangeFinding> kept = confirmed(findings, again);
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_EQ(kept[0].cell.klux, 2.0);
@@ -180,8 +180,8 @@ TEST_F(DynamicRangeTest, TakesCellsThatAreDone) {
 TEST_F(DynamicRangeTest, DependsNeitherOnThreadsNorOnTheOtherReadouts) {
   RangeSettings settings = small_study();
   settings.readouts = {ReadoutParameters::defaults(Readout::kHisPointer),
-                       ReadoutParameters::defaults(Readout::kPoolPointer2),
-                       ReadoutParameters::defaults(Readout::kPoolPointer2Lean)};
+                       ReadoutParameters::defaults(Readout::kPoolPointer),
+                       ReadoutParameters::defaults(Readout::kPoolPointerLean)};
   settings.threads = 1;
   const RangeCell cell = {10.0, 14.0, 300};
   const RangeReadouts one = measure_range_cell(settings, cell);
@@ -230,30 +230,30 @@ TEST(DynamicRangeLists, ReportListsTheEntriesOfPoolReadouts) {
   RangeSettings settings;
   settings.sensor = parse_preset("thesis");
   settings.readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
-                       ReadoutParameters::defaults(Readout::kPoolPointer2)};
+                       ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings.acquisitions = {3333, 33'333};
   settings.klux = {14.0};
   settings.signals = {1.0};
   DynamicRange study;
   for (const auto& [acquisitions, above] : {std::pair{3333U, 1U}, std::pair{33'333U, 543U}}) {
-    study.grid[{1.0, 14.0, acquisitions}]["poolpointer2"] = seeds(above);
+    study.grid[{1.0, 14.0, acquisitions}]["poolpointer"] = seeds(above);
     study.grid[{1.0, 14.0, acquisitions}]["coarsehistogram"] = seeds(6);
   }
   study.more_acquisitions = worse_with_more(study.grid, Grown::kAcquisitions);
   study.behind = behind_coarse_histogram(study.grid, kManyAcquisitions);
   EXPECT_EQ(pool_findings(study), 2U);
   const std::string report = dynamic_range_report(settings, study, "the command");
-  EXPECT_THAT(report, HasSubstr("More acquisitions made a pool read-out worse: poolPointer 2: 1 entry."));
-  EXPECT_THAT(report, HasSubstr("More signal made a pool read-out worse: poolPointer 2: 0 entries."));
+  EXPECT_THAT(report, HasSubstr("More acquisitions made a pool read-out worse: poolPointer: 1 entry."));
+  EXPECT_THAT(report, HasSubstr("More signal made a pool read-out worse: poolPointer: 0 entries."));
   EXPECT_THAT(report, HasSubstr("54.30 ("));
   EXPECT_THAT(report, HasSubstr("3333 acquisitions"));
   EXPECT_THAT(report, HasSubstr("0.1 / 0"));
   EXPECT_THAT(report, HasSubstr("Command: `the command`"));
   EXPECT_THAT(report, Not(HasSubstr("Full counters")));
-  EXPECT_THAT(dynamic_range_csv(study).csv(), HasSubstr("poolpointer2,grid,1,14,33333,2000,0.543,"));
+  EXPECT_THAT(dynamic_range_csv(study).csv(), HasSubstr("poolpointer,grid,1,14,33333,2000,0.543,"));
   const std::vector<PlotSeries> curves = dynamic_range_curves(settings, study);
   ASSERT_EQ(curves.size(), 2U);
-  EXPECT_EQ(curves[1].label, "poolPointer 2");
+  EXPECT_EQ(curves[1].label, "poolPointer");
   EXPECT_NEAR(curves[1].y.back(), 54.3, 1e-9);
 }
 

@@ -25,12 +25,12 @@ constexpr double kOthers = kFaultEngineColumns * kFaultRows - 1;  // pixels besi
 // Columns, rows, acquisitions, command, seed, conclusions, and the tables.
 constexpr std::string_view kReport = R"(# Faults
 
-What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels (poolPointer 2: six
+What one fault does to a frame, in the Verilated RTL of every read-out: {} columns of {} pixels (poolPointer: six
 columns per engine) that see a part of the scene `room`, preset `thesis`, 14 klux, {} acquisitions per frame.
 Command: `{}`, seed {}.
 
 {}
-A fault is compared with the frame without it. A frame holds several faults, at most one per column (poolPointer 2: one per engine, whose columns hear each other;
+A fault is compared with the frame without it. A frame holds several faults, at most one per column (poolPointer: one per engine, whose columns hear each other;
 an SRAM that serves columns of two engines is heard by both),
 and a third of the columns (or engines) has none; "other columns" counts the pixels that changed there. A pixel is spoilt if its depth moved by more than 3 % of its distance. In brackets: 95 % intervals (shares of
 faults: Wilson's; means over faults: Student's).

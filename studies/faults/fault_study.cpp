@@ -25,7 +25,7 @@ constexpr int kFlipsPerScratchFlip = 6;
 constexpr int kFlipsPerColumnFault = 12;
 constexpr int kResetsPerState = 3;
 constexpr int kFramesPerJob = 6;
-/// poolPointer 2's engines decode, choose and decide in these.
+/// poolPointer's engines decode, choose and decide in these.
 constexpr std::array kEngineStates = {RtlState::kM1, RtlState::kM3, RtlState::kM5};
 
 int pick(CounterRandom& random, int count) {

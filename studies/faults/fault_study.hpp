@@ -16,7 +16,7 @@ namespace dtof {
 
 enum class FaultKind {
   kFlippedBit,          ///< one bit of an SRAM at one moment of the frame
-  kFlippedBitAtWork,    ///< the same, at a moment in which poolPointer 2's engines work
+  kFlippedBitAtWork,    ///< the same, at a moment in which poolPointer's engines work
   kStuckBit,            ///< one bit of every word of an SRAM reads the same all the frame
   kStuckTimestamps,     ///< a column's TDCs deliver one code, in every slot
   kHotPixelFixedCode,   ///< a pixel fires once more in every acquisition, at one code

@@ -145,7 +145,7 @@ std::vector<CheckedFrame> check_standard_frames(const StandardFramesSettings& se
     const PhotonSource source(sensor, targets_of(settings, sensor), settings.klux, settings.seed,
                               scene_frame(0));
     Region region = Region::whole(sensor.columns, sensor.rows);
-    const int engine = ReadoutParameters::defaults(Readout::kPoolPointer2).columns_together();
+    const int engine = ReadoutParameters::defaults(Readout::kPoolPointer).columns_together();
     region.columns.resize(
         static_cast<std::size_t>(std::min(sensor.columns, std::max(engine, parameters.columns_together()))));
     check_engine(source, std::vector{parameters}, run, region);

@@ -29,7 +29,7 @@ SensorModel small_sensor(const char* preset, std::uint32_t acquisitions) {
 StandardFramesSettings small_frames() {
   StandardFramesSettings settings;
   settings.sensors = {small_sensor("thesis", 100), small_sensor("thesis_full", 1000)};
-  settings.readouts = {Readout::kHisPointer, Readout::kPoolPointer2};
+  settings.readouts = {Readout::kHisPointer, Readout::kPoolPointer};
   settings.frames = 2;
   return settings;
 }
@@ -38,11 +38,11 @@ TEST(StandardFrames, FiguresAreThoseOfTheSceneStudysFrames) {
   const StandardFramesSettings settings = small_frames();
   const std::vector<StandardFrame> frames = run_standard_frames(settings);
   ASSERT_EQ(frames.size(), 4U);
-  EXPECT_EQ(frames[1].readout, Readout::kPoolPointer2);
+  EXPECT_EQ(frames[1].readout, Readout::kPoolPointer);
   EXPECT_EQ(frames[2].sensor, "thesis_full");
   EXPECT_EQ(frames[2].pixels, 2U * 34U * 16U);
   const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kHisPointer),
-                                                   ReadoutParameters::defaults(Readout::kPoolPointer2)};
+                                                   ReadoutParameters::defaults(Readout::kPoolPointer)};
   SceneParameters parameters;
   parameters.columns = 34;
   parameters.rows = 16;
@@ -77,15 +77,15 @@ TEST(StandardFrames, ReportHasTheSensorsBesideEachOther) {
     frames[i].found_by_confidence = i == 0 ? std::nan("") : 0.25;
   }
   const std::string report = standard_frames_report(
-      settings, frames, {{"thesis_full", Readout::kPoolPointer2, 34, 16, 1000, 4711}}, "the command");
+      settings, frames, {{"thesis_full", Readout::kPoolPointer, 34, 16, 1000, 4711}}, "the command");
   EXPECT_THAT(report, HasSubstr("Scene room: 34 x 16 pixels, 14 klux, sensor thesis (100 acquisitions"));
   EXPECT_THAT(report, HasSubstr("thesis_full (1000 acquisitions, 0.3 / R^2 signal events a pulse)"));
   EXPECT_THAT(report, HasSubstr("30.00 ("));
   EXPECT_THAT(
       report,
-      HasSubstr("RTL with thesis_full: poolPointer 2, 34 columns of 16 rows, 1000 acquisitions, seed 1: "
+      HasSubstr("RTL with thesis_full: poolPointer, 34 columns of 16 rows, 1000 acquisitions, seed 1: "
                 "every pixel equal to the model, 4711 clocks."));
-  EXPECT_THAT(standard_frames_csv(frames).csv(), HasSubstr("\nthesis,poolpointer2,poolPointer 2,"));
+  EXPECT_THAT(standard_frames_csv(frames).csv(), HasSubstr("\nthesis,poolpointer,poolPointer,"));
 }
 
 TEST(StandardFrames, RefusesWhatGivesNoInterval) {

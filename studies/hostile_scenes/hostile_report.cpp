@@ -82,7 +82,7 @@ std::string told_section(const HostileSettings& settings, const HostileScenes& s
   std::string text =
       "\n## Told of glass and fog\n\n"
       "The pool read-outs have their TEMPLATE registers from a frame in the dark without a target "
-      "(docs/reference/poolpointer2.md, Template); the matched filters count that frame's mean events as "
+      "(docs/reference/poolpointer.md, Template); the matched filters count that frame's mean events as "
       "background. They are no bound here: they expect the signal of a target at 3 m, and a fainter one is "
       "less likely to them than strong crosstalk. The other read-outs have nothing to be told with but a "
       "gate. Pixels with a target above 3 % / above 10 %, in %:\n";
@@ -128,7 +128,7 @@ std::string told_sentence(const HostileSettings& settings, const HostileScenes& 
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// "poolPointer 2 99 / 80" of each estimator.
+/// "poolPointer 99 / 80" of each estimator.
 std::string detected_sentence(const HostileSettings& settings, const HostileScenes& study) {
   std::vector<std::string> texts;
   for (const std::string& name : hostile_estimators(settings)) {
@@ -242,7 +242,7 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
   report += fmt::format(
       "\n## Conditions\n\n{}\n"
       "## How it was measured\n\n"
-      "Models, exact photons. Scenes {}: {} rows of the {} columns (an engine of poolPointer 2) around the "
+      "Models, exact photons. Scenes {}: {} rows of the {} columns (an engine of poolPointer) around the "
       "centre of "
       "the sensor's pixels. {} seeds from {} on, each with {} pixels with a target and {} without. Each "
       "estimator has "

@@ -73,7 +73,7 @@ class HostileReport : public testing::Test {
   HostileReport() {
     settings_.sensor = parse_preset("thesis");
     settings_.readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
-                          ReadoutParameters::defaults(Readout::kPoolPointer2)};
+                          ReadoutParameters::defaults(Readout::kPoolPointer)};
     settings_.conditions = {"clear", "fog", "late-laser"};
     settings_.klux = {14.0};
     for (const std::string& condition : settings_.conditions) {
@@ -93,23 +93,22 @@ class HostileReport : public testing::Test {
 };
 
 TEST_F(HostileReport, NamesTheConditionsThatAPoolReadoutDoesNotSurvive) {
-  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer2"), IsEmpty());
-  study_.cells[{"late-laser", 14.0}]["poolpointer2"] = seeds(0, 400);
-  study_.cells[{"fog", 14.0}]["poolpointer2"] = seeds(40);  // twice, within the intervals
-  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer2"),
-              ElementsAre("late-laser (14 klux)"));
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer"), IsEmpty());
+  study_.cells[{"late-laser", 14.0}]["poolpointer"] = seeds(0, 400);
+  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(40);  // twice, within the intervals
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer"), ElementsAre("late-laser (14 klux)"));
   const std::string report = hostile_report(settings_, study_, "the command");
   EXPECT_THAT(report,
-              HasSubstr("poolPointer 2 has more than twice the coarse histogram's errors above 3 %, beyond "
+              HasSubstr("poolPointer has more than twice the coarse histogram's errors above 3 %, beyond "
                         "both intervals, under: late-laser (14 klux)."));
   EXPECT_THAT(report, HasSubstr("the best one's share named, under: no condition."));
-  EXPECT_THAT(report, HasSubstr("coarse histogram 98, poolPointer 2 98, matched filter 98"));
+  EXPECT_THAT(report, HasSubstr("coarse histogram 98, poolPointer 98, matched filter 98"));
   EXPECT_THAT(report, HasSubstr("* fog: fog of 39 m visibility"));
   EXPECT_THAT(report, HasSubstr("Command: `the command`"));
 }
 
 TEST_F(HostileReport, NamesWhatFoolsEveryReadout) {
-  study_.cells[{"fog", 14.0}]["poolpointer2"] = seeds(0, 300);
+  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(0, 300);
   EXPECT_THAT(fooled_together(settings_, study_), IsEmpty()) << "the coarse histogram is not";
   study_.cells[{"fog", 14.0}]["coarsehistogram"] = seeds(0, 250);
   EXPECT_THAT(fooled_together(settings_, study_), ElementsAre("fog (25 % at 14 klux)"))
@@ -117,9 +116,9 @@ TEST_F(HostileReport, NamesWhatFoolsEveryReadout) {
 }
 
 TEST_F(HostileReport, TablesHoldEveryFigure) {
-  study_.cells[{"fog", 14.0}]["poolpointer2"] = seeds(100, 150);
+  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(100, 150);
   const std::string csv = hostile_csv(settings_, study_).csv();
-  EXPECT_THAT(csv, HasSubstr("\npoolpointer2,fog,14,2000,0.25,"));
+  EXPECT_THAT(csv, HasSubstr("\npoolpointer,fog,14,2000,0.25,"));
   EXPECT_THAT(csv, HasSubstr(",5,0.75,"));
   EXPECT_THAT(csv, HasSubstr(",200,0.5,"));
   EXPECT_THAT(hostile_report(settings_, study_, ""), HasSubstr(" 25 / 15 |"));
@@ -131,15 +130,14 @@ TEST_F(HostileReport, TablesHoldEveryFigure) {
 
 TEST_F(HostileReport, SaysWhatBecomesOfThoseThatAreTold) {
   EXPECT_THAT(told_conditions(settings_), ElementsAre("fog"));
-  EXPECT_THAT(told_estimators(settings_),
-              ElementsAre("poolpointer2", "matchedfilter", "pooledmatchedfilter"));
-  study_.told[{"fog", 14.0}]["poolpointer2"] = seeds(10, 60);
+  EXPECT_THAT(told_estimators(settings_), ElementsAre("poolpointer", "matchedfilter", "pooledmatchedfilter"));
+  study_.told[{"fog", 14.0}]["poolpointer"] = seeds(10, 60);
   const std::string report = hostile_report(settings_, study_, "");
   EXPECT_THAT(
       report,
-      HasSubstr("poolPointer 2 that is told of glass and fog has above 3 %, in % at 14 klux: fog 7.\n"));
+      HasSubstr("poolPointer that is told of glass and fog has above 3 %, in % at 14 klux: fog 7.\n"));
   EXPECT_THAT(report, HasSubstr(" 7 / 6 | "));
-  EXPECT_THAT(hostile_csv(settings_, study_).csv(), HasSubstr("\npoolpointer2,told-fog,14,2000,0.07,"));
+  EXPECT_THAT(hostile_csv(settings_, study_).csv(), HasSubstr("\npoolpointer,told-fog,14,2000,0.07,"));
   settings_.conditions = {"clear", "late-laser"};
   EXPECT_THAT(hostile_report(settings_, study_, ""), Not(HasSubstr("told of glass")));
 }
@@ -191,7 +189,7 @@ TEST_F(HostileScenesTest, GlassFoolsAndSkewIsSubtracted) {
 }
 
 TEST_F(HostileScenesTest, GlassDoesNotFoolThoseThatAreTold) {
-  settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer2)};
+  settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
   settings_.conditions = {"clear", "glass"};
   const HostileScenes study = run_hostile_scenes(settings_);
   for (const std::string& name : hostile_estimators(settings_)) {

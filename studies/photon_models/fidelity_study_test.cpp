@@ -133,9 +133,9 @@ TEST(FidelityReport, CsvHasEveryToleranceOfEveryCell) {
 
 TEST(FidelityStudy, Refusals) {
   FidelitySettings settings = small_settings();
-  settings.readouts = {Readout::kPoolPointer2};
+  settings.readouts = {Readout::kPoolPointer};
   EXPECT_THAT([&] { run_fidelity_study(settings); },
-              testing::ThrowsMessage<InputError>(HasSubstr("poolpointer2 reads streams")));
+              testing::ThrowsMessage<InputError>(HasSubstr("poolpointer reads streams")));
   settings = small_settings();
   settings.frames = 0;
   EXPECT_THROW(run_fidelity_study(settings), InputError);

@@ -183,8 +183,8 @@ struct Goal {
   double factor;
   const char* of;
 };
-constexpr const char* kWith = "poolPointer 2";
-constexpr const char* kWithout = "poolPointer 2, no S1";
+constexpr const char* kWith = "poolPointer";
+constexpr const char* kWithout = "poolPointer, no S1";
 constexpr std::array<Goal, 11> kGoals = {{{50.0, kWith, 0, 0.020, ""},
                                           {50.0, kWithout, 0, 0.028, ""},
                                           {50.0, kWith, 1, 0.009, ""},
@@ -294,12 +294,12 @@ void run_pool_command(PoolOptions options) {
     }
   }
   std::string report = fmt::format(
-      "# poolPointer 2 on scenes\n\nPer cent of pixels with a relative error above 3 % and above 10 %, "
+      "# poolPointer on scenes\n\nPer cent of pixels with a relative error above 3 % and above 10 %, "
       "sensor {}, maps read "
       "whole, seeds {} to {} (photons and random shapes). +- is half of the 95 % interval, from the spread "
       "of the "
       "seeds, at least that of independent pixels. S1: the last smoothing "
-      "([definition](../docs/reference/poolpointer2.md#decide)); the matched filter's uses the same T. "
+      "([definition](../docs/reference/poolpointer.md#decide)); the matched filter's uses the same T. "
       "Edges: pixels with "
       "a neighbour that differs by more than 10 %; single pixels: those unlike all their neighbours. Scenes "
       "\"held\": no "
@@ -350,7 +350,7 @@ void add_pool_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<PoolOptions>();
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
-      "pool", "poolPointer 2 with and without S1 beside the matched filters, over several seeds");
+      "pool", "poolPointer with and without S1 beside the matched filters, over several seeds");
   command->add_option("--sensor,-p,--preset", options->sensor, "a preset of `dtof list` or a sensor file")
       ->capture_default_str();
   command->add_option("-k,--klux", options->klux, "background light in klux, one or more")

@@ -46,7 +46,7 @@ StudyScene middle(const StudyScene& scene, int columns, SceneTruth& truth) {
 using Logarithms = std::array<double, 4>;
 
 Logarithms score_frame(const DepthScale& scale, const SensorModel& sensor, const TrainingFrame& frame,
-                       const PoolPointer2Parameters& design) {
+                       const PoolNumbers& design) {
   SceneMeasurement raw;
   SceneMeasurement smooth;
   const std::size_t pixels = frame.truth.distance_m.size();
@@ -102,7 +102,7 @@ double DesignScore::objective() const {
 }
 
 DesignScore score_design(const SensorModel& sensor, const std::vector<TrainingFrame>& frames,
-                         const PoolPointer2Parameters& design, int threads) {
+                         const PoolNumbers& design, int threads) {
   const DepthScale scale(sensor.integration_time_s, sensor.np, sensor.pulse_fwhm_s);
   std::vector<Logarithms> scores(frames.size());
   parallel_for(frames.size(), threads,

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "dtof/photon/sensor_model.hpp"
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 #include "pool/pool_study.hpp"
 #include "scenes/scene_study.hpp"
 
 namespace dtof {
 
-/// A frame that designs of poolPointer 2 are tried on: one engine's columns of a scene at one light.
+/// A frame that designs of poolPointer are tried on: one engine's columns of a scene at one light.
 struct TrainingFrame {
   std::string scene;
   double klux = 0.0;
@@ -42,6 +42,6 @@ inline constexpr double kLeastShare = 0.05;  // per cent
 
 /// Distances are those of Eq. 3.11.
 DesignScore score_design(const SensorModel& sensor, const std::vector<TrainingFrame>& frames,
-                         const PoolPointer2Parameters& design, int threads);
+                         const PoolNumbers& design, int threads);
 
 }  // namespace dtof

@@ -66,7 +66,7 @@ Axis parse_axis(const std::string& text) {
 
 void run_search(const SearchOptions& options) {
   const SensorModel sensor = find_sensor(options.sensor);
-  PoolPointer2Parameters best = parse_pool_design(options.design);
+  PoolNumbers best = parse_pool_design(options.design);
   std::vector<Axis> axes;
   for (const std::string& text : options.vary) {
     axes.push_back(parse_axis(text));
@@ -116,13 +116,13 @@ void run_search(const SearchOptions& options) {
       const int start = pool_design_number(best, axis.name);
       const std::vector<int> values =
           axis.values.empty() ? std::vector<int>{start - 1, start + 1} : axis.values;
-      PoolPointer2Parameters leader = best;
+      PoolNumbers leader = best;
       DesignScore leading = score;
       for (const int value : values) {
         if (value == start) {
           continue;
         }
-        const PoolPointer2Parameters design = with_pool_design_number(best, axis.name, value);
+        const PoolNumbers design = with_pool_design_number(best, axis.name, value);
         try {
           design.validate();
         } catch (const InputError&) {
@@ -148,7 +148,7 @@ void run_search(const SearchOptions& options) {
   write_file(
       folder / "pool_search.md",
       fmt::format(
-          "# Search for poolPointer 2's numbers\n\nOne number at a time, kept if the objective falls: the "
+          "# Search for poolPointer's numbers\n\nOne number at a time, kept if the objective falls: the "
           "geometric mean over scenes, lights and four figures (pixels above 3 % without and with S1, above "
           "10 %, and depth edges above 3 % with S1, each in per cent, + {}). Change: against the design "
           "before. Training scenes: {} with shapes and photons of seeds from {} on{}; {} columns of each. "
@@ -169,7 +169,7 @@ void add_pool_search_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<SearchOptions>();
   options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
-      "pool-search", "searches poolPointer 2's numbers on training scenes, which no report of accuracy uses");
+      "pool-search", "searches poolPointer's numbers on training scenes, which no report of accuracy uses");
   command->add_option("--sensor,-p,--preset", options->sensor, "a preset of `dtof list` or a sensor file")
       ->capture_default_str();
   command->add_option("--scene", options->scenes, "scenes whose shapes depend on the seed, one or more")

@@ -25,7 +25,7 @@
 namespace dtof {
 namespace {
 
-using Design = PoolPointer2Parameters;
+using Design = PoolNumbers;
 
 struct Number {
   std::string_view name;
@@ -79,7 +79,7 @@ constexpr std::array kNumbers = std::to_array<Number>({
 int& number_of(Design& design, std::string_view name) {
   const auto found = std::ranges::find(kNumbers, name, &Number::name);
   if (found == kNumbers.end()) {
-    throw InputError(fmt::format("poolPointer 2 has no {} to change; known are {}", name,
+    throw InputError(fmt::format("poolPointer has no {} to change; known are {}", name,
                                  fmt::join(pool_design_names(), ", ")));
   }
   return found->of(design);
@@ -149,18 +149,17 @@ std::vector<std::string> pool_design_names() {
   return names;
 }
 
-int pool_design_number(const PoolPointer2Parameters& design, const std::string& name) {
+int pool_design_number(const PoolNumbers& design, const std::string& name) {
   Design copy = design;
   return number_of(copy, name);
 }
 
-PoolPointer2Parameters with_pool_design_number(PoolPointer2Parameters design, const std::string& name,
-                                               int number) {
+PoolNumbers with_pool_design_number(PoolNumbers design, const std::string& name, int number) {
   number_of(design, name) = number;
   return design;
 }
 
-PoolPointer2Parameters parse_pool_design(const std::string& text) {
+PoolNumbers parse_pool_design(const std::string& text) {
   Design design;
   std::string_view rest = text;
   while (!rest.empty()) {
@@ -209,7 +208,7 @@ PoolStudy::PoolStudy(SensorModel sensor, double klux, std::span<const std::strin
   }
   for (const std::string& text : designs) {
     designs_.push_back(parse_pool_design(text));
-    const std::string title = text.empty() ? "poolPointer 2" : "poolPointer 2 " + text;
+    const std::string title = text.empty() ? "poolPointer" : "poolPointer " + text;
     titles_.push_back(title + ", no S1");
     titles_.push_back(title);
   }
@@ -304,7 +303,7 @@ PoolStudy::Positions PoolStudy::read(const TargetMap& targets, std::uint32_t fra
 
 std::vector<SceneMeasurement> PoolStudy::measure(const StudyScene& scene) const {
   if (scene.columns != scene.targets.columns()) {
-    throw InputError(fmt::format("{}: poolPointer 2 reads all {} columns of a map, not {}", scene.name,
+    throw InputError(fmt::format("{}: poolPointer reads all {} columns of a map, not {}", scene.name,
                                  scene.targets.columns(), scene.columns));
   }
   const Positions positions = read(scene.targets, scene_frame(0), designs_.front().engine_columns);

@@ -10,20 +10,19 @@
 #include "dtof/host/range_converter.hpp"
 #include "dtof/metrics/depth.hpp"
 #include "dtof/photon/sensor_model.hpp"
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 #include "scenes/scene_study.hpp"
 
 namespace dtof {
 
-/// poolPointer 2 with some numbers changed, written NAME=NUMBER,...: "LEAK_SHIFT=2,SMOOTH_DARK=768"; nothing
+/// poolPointer with some numbers changed, written NAME=NUMBER,...: "LEAK_SHIFT=2,SMOOTH_DARK=768"; nothing
 /// changed if `text` is empty. Throws InputError for an unknown name or an illegal value.
-PoolPointer2Parameters parse_pool_design(const std::string& text);
+PoolNumbers parse_pool_design(const std::string& text);
 /// The names that parse_pool_design knows.
 std::vector<std::string> pool_design_names();
 /// A number of a design by its name, and the design with another number; not validated.
-int pool_design_number(const PoolPointer2Parameters& design, const std::string& name);
-PoolPointer2Parameters with_pool_design_number(PoolPointer2Parameters design, const std::string& name,
-                                               int number);
+int pool_design_number(const PoolNumbers& design, const std::string& name);
+PoolNumbers with_pool_design_number(PoolNumbers design, const std::string& name, int number);
 
 /// Events of a whole map's columns, engine by engine, from left to right.
 struct PoolFrame {
@@ -33,7 +32,7 @@ struct PoolFrame {
 PoolFrame draw_pool_frame(const SensorModel& sensor, const TargetMap& targets, double klux,
                           std::uint64_t seed, std::uint32_t frame, int engine_columns, int threads);
 
-/// Reads whole maps out with designs of poolPointer 2, each with and without S1, and with the matched filters
+/// Reads whole maps out with designs of poolPointer, each with and without S1, and with the matched filters
 /// of SceneStudy, the single pixel's also with S1. All see the same photons.
 class PoolStudy {
  public:
@@ -52,7 +51,7 @@ class PoolStudy {
 
   SensorModel sensor_;
   double klux_;
-  std::vector<PoolPointer2Parameters> designs_;
+  std::vector<PoolNumbers> designs_;
   bool references_;
   std::vector<std::string> titles_;
   std::uint64_t seed_;

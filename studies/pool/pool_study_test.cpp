@@ -47,7 +47,7 @@ double share_near(const SceneTruth& truth, const SceneMeasurement& measurement) 
 }
 
 TEST(PoolDesign, ChangesTheNamedNumbersOnly) {
-  PoolPointer2Parameters expected;
+  PoolNumbers expected;
   EXPECT_EQ(parse_pool_design(""), expected);
   expected.leak_shift = 2;
   expected.left_cost.slope = 7;
@@ -55,14 +55,14 @@ TEST(PoolDesign, ChangesTheNamedNumbersOnly) {
   EXPECT_EQ(pool_design_number(expected, "LEFT_COST_SLOPE"), 7);
   EXPECT_EQ(with_pool_design_number({}, "LEAK_SHIFT", 2).leak_shift, 2);
   for (const std::string& name : pool_design_names()) {
-    EXPECT_NE(with_pool_design_number({}, name, 99), PoolPointer2Parameters()) << name;
+    EXPECT_NE(with_pool_design_number({}, name, 99), PoolNumbers()) << name;
   }
 }
 
 TEST(PoolDesign, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(
       [] { (void)parse_pool_design("LEAK=2"); },
-      ThrowsMessage<InputError>(HasSubstr("poolPointer 2 has no LEAK to change; known are COUNT_WIDTH,")));
+      ThrowsMessage<InputError>(HasSubstr("poolPointer has no LEAK to change; known are COUNT_WIDTH,")));
   for (const char* text : {"LEAK_SHIFT", "LEAK_SHIFT=", "LEAK_SHIFT=x", "LEAK_SHIFT=2;"}) {
     EXPECT_THAT([&] { (void)parse_pool_design(text); },
                 ThrowsMessage<InputError>(HasSubstr("expected NAME=NUMBER,...")))
@@ -80,8 +80,8 @@ TEST(PoolStudy, EveryEstimatorFindsTwoWalls) {
                           table);
     EXPECT_THAT(study.estimators(),
                 ElementsAre("matched filter (single pixel)", "matched filter, S1", "pooled matched filter",
-                            "poolPointer 2, no S1", "poolPointer 2", "poolPointer 2 SMOOTH_DARK=0, no S1",
-                            "poolPointer 2 SMOOTH_DARK=0"));
+                            "poolPointer, no S1", "poolPointer", "poolPointer SMOOTH_DARK=0, no S1",
+                            "poolPointer SMOOTH_DARK=0"));
     const std::vector<SceneMeasurement> measured = study.measure(scene);
     ASSERT_EQ(measured.size(), study.estimators().size());
     for (std::size_t e = 0; e < measured.size(); ++e) {
@@ -127,7 +127,7 @@ TEST(PoolStudy, ReadsWholeMapsOnly) {
   const PoolStudy study(short_frames(), 2.0, std::vector<std::string>{""}, false, 5, 1, TableRule::kNone);
   EXPECT_THAT(
       [&] { (void)study.measure(scene); },
-      ThrowsMessage<InputError>(HasSubstr("two walls: poolPointer 2 reads all 6 columns of a map, not 3")));
+      ThrowsMessage<InputError>(HasSubstr("two walls: poolPointer reads all 6 columns of a map, not 3")));
 }
 
 TEST(PoolSearch, ScoresADesignOnTheMiddleOfAScene) {

@@ -34,7 +34,7 @@ struct RivalsOptions : SceneChoice {
   std::string sensor = "thesis";
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
   std::string readouts =
-      "ezpointer,hispointer,sifh,fifh,threesteps,coarsehistogram,poolpointer2,poolpointer2-lean";
+      "ezpointer,hispointer,sifh,fifh,threesteps,coarsehistogram,poolpointer,poolpointer-lean";
   std::vector<std::string> rivals;
   std::vector<std::string> bits;
   bool pooled = false;
@@ -188,7 +188,7 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
       "pixels with "
       "a neighbour that differs by more than 10 %; single pixels: those unlike all their neighbours. Scenes "
       "\"held\": no "
-      "parameter of poolPointer 2 was chosen on them. Bits are those of the pixel's memory alone. "
+      "parameter of poolPointer was chosen on them. Bits are those of the pixel's memory alone. "
       "\"pooled\": "
       "the host "
       "lets the pixels of a column help each other. References have full histograms, which no chip could "
@@ -201,7 +201,7 @@ std::string report_of(const RivalsOptions& options, const SensorModel& sensor, s
   report +=
       "\n## Beside each other\n\nAll scenes but the flats together; rivals on the front of some light.\n";
   for (const std::string& title : rivals_on_a_front(lights)) {
-    for (const Readout other : {Readout::kHisPointer, Readout::kPoolPointer2}) {
+    for (const Readout other : {Readout::kHisPointer, Readout::kPoolPointer}) {
       const std::string sentence = comparison_sentence(lights, title, std::string(readout_title(other)));
       report += sentence.empty() ? "" : fmt::format("\n* {}", sentence);
     }
@@ -326,7 +326,7 @@ void add_rivals_command(CLI::App& app, const std::string& command_line) {
   command
       ->add_option(
           "--columns", options->columns,
-          "columns of a scene that are judged, evenly spread; poolPointer 2 reads all of their engines")
+          "columns of a scene that are judged, evenly spread; poolPointer reads all of their engines")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command->add_option("-s,--seed", options->seed, "first seed of photons and random shapes")

@@ -70,7 +70,7 @@ double median_error_over_bound(const SceneTruth& truth, std::span<const double> 
 /// Reads scenes out with the models of several read-outs and, unless `references` is false, hisPointer with
 /// paired coarse bins and two references on full histograms that know each pixel's signal and background: the
 /// matched filter of the single pixel, and the pooled one (readout/pooled_matched_filter.hpp). All see the
-/// same photons; poolPointer 2 also those of the other columns of its engines. With TableRule::kFlat each has
+/// same photons; poolPointer also those of the other columns of its engines. With TableRule::kFlat each has
 /// a look-up table by FlatCalibration, else distances are those of Eq. 3.11.
 class SceneStudy {
  public:

@@ -132,7 +132,7 @@ TEST(SceneStudy, RanksEstimatorsTheSameWhateverTheThreads) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 1000;
   const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kHisPointer),
-                                                   ReadoutParameters::defaults(Readout::kPoolPointer2)};
+                                                   ReadoutParameters::defaults(Readout::kPoolPointer)};
   const StudyScene scene{"wall", TargetMap(4, 40, {3.0, 1.0}), 4};
   const SceneTruth truth = scene_truth(scene);
   const SceneStudy one(sensor, 14.0, readouts, 3, 1);
@@ -154,7 +154,7 @@ TEST(SceneStudy, ReadsWholeEnginesOfColumnsThatHearEachOther) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;
   const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kFifh);
-  ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer);
   together.pool.engine_columns = 4;
   TargetMap targets(10, 24, {2.0, 0.6});
   targets.at(5, 5).depth_m = 3.0;
@@ -200,7 +200,7 @@ TEST(SceneStudy, TablesAreThoseOfTheSensorInClearConditions) {
   SensorModel sensor = parse_preset("thesis");
   sensor.surroundings.settling = {.delay_s = 1e-9, .time_share = 100.0};
   const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
-                                                   ReadoutParameters::defaults(Readout::kPoolPointer2)};
+                                                   ReadoutParameters::defaults(Readout::kPoolPointer)};
   const SceneStudy study(sensor, 2.0, readouts, 3, 0);
   const std::vector<SceneMeasurement> measured = study.measure({"wall", TargetMap(34, 8, {2.0, 1.0}), 4});
   ASSERT_EQ(measured.size(), 5U);

@@ -41,8 +41,8 @@ struct ScenesOptions : SceneChoice {
   std::vector<std::string> sensors = {"thesis", "phone"};
   std::vector<double> klux = {2.0, 14.0, 50.0, 100.0};
   std::string readouts =
-      "ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,coarsehistogram,poolpointer2,"
-      "poolpointer2-lean";
+      "ezpointer,hispointer1,hispointer,sifh,fifh,threesteps,pifh,histogram,coarsehistogram,poolpointer,"
+      "poolpointer-lean";
   std::vector<std::string> variants;
   std::string table = "flat";
   int threads = 0;
@@ -144,19 +144,19 @@ double root_mean_square(const std::vector<double>& values) {
   return count == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(count));
 }
 
-/// hisPointer beside poolPointer 2 on flats and on slanted planes: a pool of pixels must not need a flat
+/// hisPointer beside poolPointer on flats and on slanted planes: a pool of pixels must not need a flat
 /// wall.
 std::string gain_by_pooling(const std::vector<SceneResult>& results,
                             const std::vector<std::string>& estimators) {
   const auto alone = std::ranges::find(estimators, readout_title(Readout::kHisPointer)) - estimators.begin();
   const auto pooled =
-      std::ranges::find(estimators, readout_title(Readout::kPoolPointer2)) - estimators.begin();
+      std::ranges::find(estimators, readout_title(Readout::kPoolPointer)) - estimators.begin();
   const auto count = static_cast<std::ptrdiff_t>(estimators.size());
   if (alone == count || pooled == count) {
     return "";
   }
-  Table table({"scene", "above 3 %, hisPointer / poolPointer 2", "above 10 %", "rmse",
-               "median error over bound: hisPointer", "poolPointer 2"});
+  Table table({"scene", "above 3 %, hisPointer / poolPointer", "above 10 %", "rmse",
+               "median error over bound: hisPointer", "poolPointer"});
   const auto ratio = [](double a, double b, double least) {
     return b > 0.0 ? fmt::format("{:.1f}", a / b) : a > 0.0 ? fmt::format(">{:.0f}", a / least) : kNoFigure;
   };
@@ -232,7 +232,7 @@ void run_scenes_command(const ScenesOptions& options) {
       "peak over pairs of adjacent bins; the matched filter has the full histogram and knows signal and "
       "background. Edges: pixels with a "
       "neighbour that differs by more than 10 %. Bound: Cramer-Rao bound of the pixel alone; the median of "
-      "|error| is\ndivided by a normal variable's. Scenes \"held\": no parameter of poolPointer 2 was chosen "
+      "|error| is\ndivided by a normal variable's. Scenes \"held\": no parameter of poolPointer was chosen "
       "on "
       "them.\n\nCommand: `{}`\n",
       options.seed, options.columns, options.command_line);

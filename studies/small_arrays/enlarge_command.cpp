@@ -36,7 +36,7 @@ struct EnlargeOptions : SceneChoice {
   std::string sensor = "thesis";
   std::vector<double> klux = {14.0, 50.0};
   std::vector<std::string> arrays = {"100x80", "80x64", "50x40"};
-  std::vector<std::string> readouts = {"hispointer", "histogram32", "poolpointer2"};
+  std::vector<std::string> readouts = {"hispointer", "histogram32", "poolpointer"};
   std::string weights;
   std::string pictured_scene;
   std::string pictured_array = "100x80";
@@ -109,7 +109,7 @@ void run_enlarge_command(EnlargeOptions options) {
   if (std::ranges::find(settings.arrays, settings.pictured_array) == settings.arrays.end() ||
       std::ranges::find(settings.readouts, settings.large_readout) == settings.readouts.end()) {
     throw InputError(
-        "--picture-array: the picture needs this array among --array and poolpointer2 among --readout");
+        "--picture-array: the picture needs this array among --array and poolpointer among --readout");
   }
   const std::vector<EnlargeScene> scenes = all_scenes(options, sensor);
   settings.pictured_scene = options.pictured_scene.empty() ? scenes.back().name : options.pictured_scene;
@@ -136,13 +136,13 @@ void run_enlarge_command(EnlargeOptions options) {
       "## Answer\n\n"
       "{}\n"
       "## What is compared\n\n"
-      "* Large array: {} x {} pixels, poolPointer 2, sensor {}. Small arrays: the same laser power, so that "
+      "* Large array: {} x {} pixels, poolPointer, sensor {}. Small arrays: the same laser power, so that "
       "each of n times fewer pixels has n times the signal. They cover the same field: each looks at the "
       "spot of one pixel of the large array, in the middle of its share, and the laser lights these spots "
       "alone. Hence a pixel's background is that of the large array. A lens that gave each small pixel its "
       "whole share of the field would multiply background as well as signal.\n"
       "* Photons: the fast model (bright pixels are slow with the exact one). Each array and read-out has a "
-      "look-up table of its own for its light (flat targets, seed {}). poolPointer 2 keeps its parameters, "
+      "look-up table of its own for its light (flat targets, seed {}). poolPointer keeps its parameters, "
       "which were chosen for the large array. \"{}\": the true distances of the spots, so that only the "
       "enlarger errs.\n"
       "* Enlargers: nearest spot; bilinear; joint bilateral (Kopf et al., SIGGRAPH 2007); a network that "
@@ -163,7 +163,7 @@ void run_enlarge_command(EnlargeOptions options) {
       options.seed + static_cast<std::uint64_t>(options.seeds) - 1);
   const std::string picture = fmt::format("enlarge_{:g}klux.png", lights.back().klux);
   const std::string title =
-      fmt::format("{}, {:g} klux, sensor {}, poolPointer 2: large array, and a small one enlarged",
+      fmt::format("{}, {:g} klux, sensor {}, poolPointer: large array, and a small one enlarged",
                   settings.pictured_scene, lights.back().klux, options.sensor);
   report += fmt::format("![{}]({})\n\n{}Command: `{}`\n", title, picture, enlarge_tables(lights),
                         options.command_line);

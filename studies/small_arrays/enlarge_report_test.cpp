@@ -37,7 +37,7 @@ EnlargeStudy made_up() {
   EnlargeStudy study;
   const ArraySize large{8, 8};
   for (const std::string scene : {"hill", "town"}) {
-    study.rows.push_back(row(scene, large, "poolPointer 2", kNotEnlarged, {0.10, 0.11, 0.09, 0.10}));
+    study.rows.push_back(row(scene, large, "poolPointer", kNotEnlarged, {0.10, 0.11, 0.09, 0.10}));
     const auto add = [&](const ArraySize& array, const std::string& readout, double nearest, double learned,
                          double spread) {
       for (const std::string& enlarger : enlarger_titles()) {
@@ -47,7 +47,7 @@ EnlargeStudy made_up() {
       }
     };
     add({4, 4}, "hisPointer", 0.09, 0.05, 0.01);
-    add({4, 4}, "poolPointer 2", 0.12, 0.06, 0.01);
+    add({4, 4}, "poolPointer", 0.12, 0.06, 0.01);
     add({4, 4}, kNoError, 0.02, 0.01, 0.0);
     add({2, 2}, "hisPointer", 0.20, 0.30, 0.01);
     add({2, 2}, kNoError, 0.15, 0.16, 0.0);
@@ -125,11 +125,11 @@ TEST(EnlargeReport, TablesAndCsvHaveEveryRow) {
   const std::string csv = enlarge_csv(lights);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (1 + 7 * 4));
   EXPECT_THAT(csv, HasSubstr("klux,scene,array,readout,enlarger,pixels,rmse,rmse_low,rmse_high"));
-  EXPECT_THAT(csv, HasSubstr("50,hill,8 x 8,poolPointer 2,-,1000,0.300000,"));
+  EXPECT_THAT(csv, HasSubstr("50,hill,8 x 8,poolPointer,-,1000,0.300000,"));
   const std::string tables = enlarge_tables(lights);
   EXPECT_THAT(tables, HasSubstr("## 50 klux"));
   const std::string by_map = tables.substr(tables.find("### Map by map"));
-  EXPECT_THAT(by_map, HasSubstr("6.00 / 3.00"));      // poolPointer 2, as the large array
+  EXPECT_THAT(by_map, HasSubstr("6.00 / 3.00"));      // poolPointer, as the large array
   EXPECT_THAT(by_map, Not(HasSubstr("hisPointer")));  // another read-out
 }
 

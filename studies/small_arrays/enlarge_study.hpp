@@ -38,7 +38,7 @@ struct EnlargeSettings {
   double klux = 50.0;
   std::vector<ArraySize> arrays;
   std::vector<std::string> readouts;  ///< of the small arrays, as SmallArray takes them
-  std::string large_readout = "poolpointer2";
+  std::string large_readout = "poolpointer";
   EnlargerWeights weights;  ///< of the learned enlarger and the joint bilateral filter
   std::uint64_t seed = 1;   ///< first one; also names the calibration run
   int seeds = 4;

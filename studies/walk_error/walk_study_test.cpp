@@ -51,7 +51,7 @@ TEST(WalkStudy, DimTargetsSeemFartherThanTheTablesBrightOnes) {
 
 TEST(WalkStudy, DoesNotDependOnTheThreads) {
   WalkSettings settings = small_study();
-  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer2));
+  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer));
   settings.threads = 1;
   const std::vector<WalkReadout> one = run_walk_study(settings);
   settings.threads = 3;
@@ -67,7 +67,7 @@ TEST(WalkStudy, DoesNotDependOnTheThreads) {
 TEST(WalkStudy, ColumnsThatHearEachOtherAreReadInPairs) {
   WalkSettings settings = small_study();
   const std::vector<WalkReadout> alone = run_walk_study(settings);
-  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer2));
+  settings.readouts.push_back(ReadoutParameters::defaults(Readout::kPoolPointer));
   const std::vector<WalkReadout> both = run_walk_study(settings);
   for (std::size_t i = 0; i < alone[0].points.size(); ++i) {
     EXPECT_EQ(both[0].points[i].before.bias_m, alone[0].points[i].before.bias_m) << "the same photons";

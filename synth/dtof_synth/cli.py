@@ -22,7 +22,7 @@ ROOT = Path(__file__).resolve().parents[2]
 BUDGETS = ROOT / "synth" / "budgets.csv"
 PDK = ROOT.parent / "shared" / "pdk"
 SIMULATION = ROOT / "build" / "simulation"
-FLAT = ("ezpointer", "poolpointer2", "poolpointer2_lean")
+FLAT = ("ezpointer", "poolpointer", "poolpointer_lean")
 FLAT_TOLERANCE_NS = 0.005
 Action = Callable[[argparse.Namespace, dict[str, Configuration]], int]
 
@@ -226,7 +226,7 @@ def _power(arguments: argparse.Namespace, named: dict[str, Configuration]) -> in
 
 
 def _part_costs(arguments: argparse.Namespace, named: dict[str, Configuration]) -> int:
-    """Area and power of the parts of poolPointer 2."""
+    """Area and power of the parts of poolPointer."""
     build = ROOT / "build" / "synth"
     technology = technologies.prepare(ROOT, build / "generic40", all_configurations(named))
     parts = part_costs.measure(named[part_costs.CONFIGURATION], technology, build / "part_costs", arguments.seed, _say)

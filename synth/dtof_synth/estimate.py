@@ -61,7 +61,7 @@ class Measured:
 
 
 def family(configuration: Configuration) -> str:
-    """The read-outs whose columns are alike: without a histogram, with one, poolPointer 2."""
+    """The read-outs whose columns are alike: without a histogram, with one, poolPointer."""
     return "pool" if configuration.is_pool else "histogram" if "histogram" in memories(configuration) else "pointer"
 
 

@@ -29,9 +29,9 @@ LIGHT_FF = 4.0  # a pin that needs no buffer of its own
 COPY_UM = 400.0  # the buffers that a copy of a register serves
 TIMESTAMP_PORT = "tdc_timestamp_i"
 # Ports whose way is shorter than an engine is wide, and has gates on it: the words of an engine's pairs are combined by OR from
-# pair to pair on the way to it (docs/reference/poolpointer2.md).
+# pair to pair on the way to it (docs/reference/poolpointer.md).
 GATED_PORTS = {"line_i", "first_beside_i", "second_beside_i"}
-# Registers that stand where their inputs come from: those of the segments of an engine's line (hdl/pool/dtof_pool2_line.sv).
+# Registers that stand where their inputs come from: those of the segments of an engine's line (hdl/pool/dtof_pool_line.sv).
 BESIDE_COLUMNS = re.compile(r"\bu_line\.words_q\b")
 UNTIMED_PORTS = {"clk_i", "rst_ni", "sram_cfg_i"}
 

@@ -10,7 +10,7 @@ from .timing import FAST_MHZ
 
 COLUMN_UM2 = {"ezpointer": 700.0}
 COLUMN_UM2_OTHERS = 1200.0
-ARRAY_MM2 = {"poolpointer2": 1.15, "poolpointer2_lean": 0.81}
+ARRAY_MM2 = {"poolpointer": 1.15, "poolpointer_lean": 0.81}
 ONE_PORT_EZPOINTER_MM2 = 0.65
 # Table 1 of the thesis: rank by area, equal where alike. It ranks SiFH apart from FiFH at a ratio of 1.35 and
 # FiFH with hisPointer, which differ by 0.2 %; areas within this ratio count as alike.

@@ -17,14 +17,14 @@ SWEEPS = {"NP": (8, 9, 10, 11, 12), "NB": (4, 5, 6, 7), "PIXELS_PER_SRAM": (40, 
           "SRAM_NUM": (50, 100, 200, 400)}
 FWHM_NS, RANGE_NS = 2.0, 45.0
 
-# poolPointer 2's candidates: labels and bits of a score. Their accuracy: scripts/trade.py.
+# poolPointer's candidates: labels and bits of a score. Their accuracy: scripts/trade.py.
 CANDIDATES = ((4, 4), (5, 4), (6, 3), (6, 4), (7, 3), (8, 3))
 ENGINE_CLOCKS = 333_440 - 220  # of a frame of 33,333 acquisitions in 11.0e6 clocks, less clears and pauses
 
 
 def engine_columns(configuration: Configuration) -> int:
-    """Columns that one engine of poolPointer 2 has time for, evenly shared among the engines
-    (docs/reference/poolpointer2.md, Cycle budget)."""
+    """Columns that one engine of poolPointer has time for, evenly shared among the engines
+    (docs/reference/poolpointer.md, Cycle budget)."""
     columns, labels = configuration["SRAM_NUM"], configuration["LABELS"]
     groups = -(-configuration["PIXELS_PER_SRAM"] // configuration["GROUP_SIZE"])
     rows = configuration["PIXELS_PER_SRAM"]
@@ -70,7 +70,7 @@ def sweep(configurations: dict[str, Configuration]) -> list[tuple[str, int | str
             for value in values:
                 at_base = base[parameter] == value
                 points.append((parameter, value, base if at_base else point(base, parameter, value)))
-    return points + candidates(configurations["poolpointer2"])
+    return points + candidates(configurations["poolpointer"])
 
 
 def jobs(configurations: dict[str, Configuration]) -> list[Job]:

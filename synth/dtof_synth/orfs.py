@@ -22,7 +22,7 @@ from .standard_cells import SLOW, TYPICAL
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "orfs"
-DEFAULT = ("ezpointer", "hispointer", "poolpointer2")
+DEFAULT = ("ezpointer", "hispointer", "poolpointer")
 PLATFORM = "nangate45"
 SITE_UM = (0.19, 1.4)
 # Supplies are vertical stripes of metal4, clear of the pins, which are metal4 on the lower edge.

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What each part of poolPointer 2 takes: the flow with the parts' modules kept, counted in area and simulated for power.
+"""What each part of poolPointer takes: the flow with the parts' modules kept, counted in area and simulated for power.
 
 An engine of two columns and one pair go through the flow as in scene_power.py, but the modules in them are not flattened, so
 that each has cells and transitions of its own. Logic is no longer shared across the parts' borders, so that the sum is
@@ -19,9 +19,9 @@ from .activity import STREAMING
 from .configuration import Configuration, engine_memories, memories
 from .run import TARGET_MHZ, Technology, efforts, elaborate, map_to_cells
 
-CONFIGURATION = "poolpointer2"
-KEPT_MODULES = ("dtof_pool2_column", "dtof_timestamp_input", "dtof_label_match", "dtof_pool2_pixel_update", "dtof_pixel_distance", "dtof_pool2_track_update",
-                "dtof_twin_pointer_update", "dtof_pool2_candidate_decoder", "dtof_beside_evidence", "dtof_label_chain", "dtof_smoothing")
+CONFIGURATION = "poolpointer"
+KEPT_MODULES = ("dtof_pool_column", "dtof_timestamp_input", "dtof_label_match", "dtof_pool_pixel_update", "dtof_pixel_distance", "dtof_pool_track_update",
+                "dtof_twin_pointer_update", "dtof_pool_candidate_decoder", "dtof_beside_evidence", "dtof_label_chain", "dtof_smoothing")
 SRAM = "SRAM"
 
 

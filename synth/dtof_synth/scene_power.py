@@ -29,13 +29,13 @@ from .library import Library
 from .run import FINISHED_COLUMN, TARGET_MHZ, Result, Technology, efforts, elaborate, map_to_cells
 
 CONFIGURATIONS = ("ezpointer", "ezpointer_one_port", "hispointer1", "hispointer", "sifh", "fifh", "threesteps", "pifh",
-                  "histogram", "coarsehistogram", "poolpointer2", "poolpointer2_lean")
+                  "histogram", "coarsehistogram", "poolpointer", "poolpointer_lean")
 KLUX = {"day": 50.0, "dusk": 2.0}
 SCENE = "room"
 ACQUISITIONS = 64
 FRAME_ACQUISITIONS = 33_333
 FRAMES_PER_S = 30
-GOALS_MW = {"poolpointer2": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
+GOALS_MW = {"poolpointer": 200.0, "ezpointer_one_port": 70.0, "hispointer": 150.0}
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ BEHAVIOURAL = Path("hdl/technology/behavioural")
 SHORT_FRAMES = (30, 160)  # acquisitions of a random frame
 LONG_FRAME = 3333
 FULL_FRAME = 96
-FULL_WIDTH = ("ezpointer", "hispointer", "poolpointer2")
+FULL_WIDTH = ("ezpointer", "hispointer", "poolpointer")
 LONGEST_RUN_S = 1200
 NETLIST_SUFFIX = "_netlist"
 

@@ -23,12 +23,12 @@ def result(name: str, engines: Counts) -> Result:
 
 class Parts(unittest.TestCase):
     def test_they_sum_to_the_total(self):
-        for name, engines in (("ezpointer", NONE), ("hispointer", NONE), ("poolpointer2", ENGINES)):
+        for name, engines in (("ezpointer", NONE), ("hispointer", NONE), ("poolpointer", ENGINES)):
             one = result(name, engines)
             self.assertAlmostEqual(area_parts.parts(one).total, one.total_mm2 * 1e6, places=3)
 
     def test_each_part(self):
-        parts = area_parts.parts(result("poolpointer2", ENGINES))
+        parts = area_parts.parts(result("poolpointer", ENGINES))
         self.assertAlmostEqual(parts.column_logic, 50 * 2400.0)  # a column module has four columns
         self.assertAlmostEqual(parts.column_sram, 50 * sram_model.macro(Size(1, 100, 232)).area)
         self.assertAlmostEqual(parts.engines, 6000.0 - 120.0)
@@ -48,7 +48,7 @@ class Parts(unittest.TestCase):
                                places=3)
 
     def test_macros_that_the_points_do_not_cover(self):
-        plain, pool = result("ezpointer", NONE), result("poolpointer2", ENGINES)
+        plain, pool = result("ezpointer", NONE), result("poolpointer", ENGINES)
         self.assertEqual(area_parts.doubtful_macros([plain]), [])
         self.assertEqual(area_parts.doubtful_macros([plain, pool]), [Size(1, 100, 232)])
         self.assertAlmostEqual(area_parts.total_with_other_mux(plain), plain.total_mm2 * 1e6, places=3)
@@ -60,9 +60,9 @@ class Parts(unittest.TestCase):
 class Report(unittest.TestCase):
     def test_sentences_follow_the_figures(self):
         self.assertIn("No macro lacks", report._doubtful_section([result("ezpointer", NONE)]))
-        text = report._doubtful_section([result("ezpointer", NONE), result("poolpointer2", ENGINES)])
+        text = report._doubtful_section([result("ezpointer", NONE), result("poolpointer", ENGINES)])
         self.assertIn("| sram_1rw_100x232 | 1 | 11737 | 15123 | yes |", text)
-        self.assertRegex(text, r"With a multiplexer of 2: poolPointer 2 [0-9.]+ instead of [0-9.]+ mm2\.")
+        self.assertRegex(text, r"With a multiplexer of 2: poolPointer [0-9.]+ instead of [0-9.]+ mm2\.")
 
 
 @unittest.skipUnless(NANGATE.exists(), f"{NANGATE} is not here")

@@ -35,9 +35,9 @@ class Configurations(unittest.TestCase):
         self.assertEqual(memories(self.named["hispointer"])["pointer"], Size(2, 160, 19))
 
     def test_engines_have_time(self):
-        for name, columns in (("poolpointer2", 34), ("poolpointer2_lean", 50)):
+        for name, columns in (("poolpointer", 34), ("poolpointer_lean", 50)):
             self.assertEqual(growth.engine_columns(self.named[name]), columns)
-        by_labels = {point["LABELS"]: point for _, _, point in growth.candidates(self.named["poolpointer2"])}
+        by_labels = {point["LABELS"]: point for _, _, point in growth.candidates(self.named["poolpointer"])}
         shares = [by_labels[labels]["ENGINE_COLUMNS"] for labels in sorted(by_labels)]
         self.assertEqual(shares, sorted(shares, reverse=True))
         self.assertTrue(all(share % 2 == 0 for share in shares))

@@ -29,9 +29,9 @@ def points() -> list[estimate.Measured]:
             point("sifh_count12", "sifh", 2100.0, power=False, COUNT_WIDTH=12),
             point("sifh_count8", "sifh", 1900.0, power=False, COUNT_WIDTH=8),
             point("wide", "sifh", 2000.0, "fitted", power=False, SRAM_NUM=400),
-            point("poolpointer2", "poolpointer2", 1800.0),
-            point("small", "poolpointer2", 1800.0, "fitted", power=False, SRAM_NUM=68),
-            point("larger", "poolpointer2", 1800.0, "fitted", power=False, SRAM_NUM=136),
+            point("poolpointer", "poolpointer", 1800.0),
+            point("small", "poolpointer", 1800.0, "fitted", power=False, SRAM_NUM=68),
+            point("larger", "poolpointer", 1800.0, "fitted", power=False, SRAM_NUM=136),
             point("held", "sifh", 2050.0, estimate.HELD_OUT, power=False, COUNT_WIDTH=11, SRAM_NUM=100)]
 
 
@@ -48,7 +48,7 @@ class Estimate(unittest.TestCase):
         self.assertAlmostEqual(model.slopes["histogram"][estimate.FEATURES.index("COUNT_WIDTH")], 50.0, delta=2.0)
         self.assertAlmostEqual(model.control_slopes["histogram"], 50.0, places=6)
         self.assertAlmostEqual(model.control_slopes["pool"], 50.0, places=6)
-        self.assertAlmostEqual(model.references["poolpointer2"].engine, 5000.0, places=3)
+        self.assertAlmostEqual(model.references["poolpointer"].engine, 5000.0, places=3)
 
     def test_a_step_of_the_sweeps_is_followed(self):
         base = points()[0].configuration

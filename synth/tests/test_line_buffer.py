@@ -43,14 +43,14 @@ class Section(unittest.TestCase):
         self.assertEqual(line_buffer.size(result("ezpointer").configuration), (320, 2, 2000))
 
     def test_the_goal_is_judged(self):
-        arrays = [(result("ezpointer"), 1e6), (result("poolpointer2"), 1e6)]
-        text = line_buffer.section(arrays, {"ezpointer": 30000.0, "poolpointer2": 30001.0})
+        arrays = [(result("ezpointer"), 1e6), (result("poolpointer"), 1e6)]
+        text = line_buffer.section(arrays, {"ezpointer": 30000.0, "poolpointer": 30001.0})
         self.assertIn("| ezPointer | 2 | 4002 | 0.0300 | 3.00% | yes |", text)
-        self.assertIn("| poolPointer 2 | 2 | 4002 | 0.0300 | 3.00% | no |", text)
-        met, missed = line_buffer.goals(arrays, {"ezpointer": 30000.0, "poolpointer2": 30001.0})
+        self.assertIn("| poolPointer | 2 | 4002 | 0.0300 | 3.00% | no |", text)
+        met, missed = line_buffer.goals(arrays, {"ezpointer": 30000.0, "poolpointer": 30001.0})
         self.assertTrue(met.met)
         self.assertFalse(missed.met)
-        self.assertEqual(missed.text, "poolPointer 2: line buffer at most 3 % of the array")
+        self.assertEqual(missed.text, "poolPointer: line buffer at most 3 % of the array")
 
 
 if __name__ == "__main__":

@@ -30,7 +30,7 @@ class Efforts(unittest.TestCase):
         return tried
 
     def test_efforts_are_tried_until_one_closes(self):
-        for name in ("ezpointer", "poolpointer2"):
+        for name in ("ezpointer", "poolpointer"):
             self.assertEqual(self.efforts_tried({0}, name=name), [(0, 0)])
             self.assertEqual(self.efforts_tried({1}, name=name), [(0, 0), (1, 0)])
 

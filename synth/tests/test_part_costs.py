@@ -14,10 +14,10 @@ def module(**cells: str) -> dict:
 def design() -> dict:
     """An array of a pair, in which an SRAM stands before a column of two parts, and an engine with a part of the same kind."""
     return {"modules": {
-        "array": module(u_gate="INV", **{"g[0].u_quad": "dtof_pool2_quad", "g[0].u_engine": "dtof_pool2_engine"}) | {"attributes": {"top": "1"}},
-        "dtof_pool2_quad": module(u_sram="sram_1rw_4x4", u_rest="INV", **{"g_column[0].u_column": "column"}),
+        "array": module(u_gate="INV", **{"g[0].u_quad": "dtof_pool_quad", "g[0].u_engine": "dtof_pool_engine"}) | {"attributes": {"top": "1"}},
+        "dtof_pool_quad": module(u_sram="sram_1rw_4x4", u_rest="INV", **{"g_column[0].u_column": "column"}),
         "column": module(u_match="match", u_distance="distance", u_own="INV"),
-        "dtof_pool2_engine": module(u_match="match"), "match": module(u_a="INV"), "distance": module(u_b="INV")}}
+        "dtof_pool_engine": module(u_match="match"), "match": module(u_a="INV"), "distance": module(u_b="INV")}}
 
 
 class PartCosts(unittest.TestCase):

@@ -17,9 +17,9 @@ class WideWords(unittest.TestCase):
         return scene_power.ScenePower(NAMED[name], "day", 0.1, 0.0, parts, parts, 0.0, 0.0, 1, 1)
 
     def test_reads_alone_cost_more(self):
-        lines = scene_power.wide_word_lines([self.one("poolpointer2")])
+        lines = scene_power.wide_word_lines([self.one("poolpointer")])
         title, light, bits, reads, total, factor, more = lines[-1].strip("| ").split(" | ")
-        self.assertEqual((title, light, bits, reads, total), ("poolPointer 2", "day", "232", "50.0", "181.0"))
+        self.assertEqual((title, light, bits, reads, total), ("poolPointer", "day", "232", "50.0", "181.0"))
         self.assertAlmostEqual(float(more), 181.0 + 50.0 * (wide_words.read_factor(232) - 1), delta=0.05)
         self.assertEqual(factor, f"x {wide_words.read_factor(232):.2f}")
 
@@ -88,14 +88,14 @@ class Accesses(unittest.TestCase):
     def test_rates(self):
         for name, rates in (
                 # Words of two rows: a word in four clocks, in three quarters of the frame; two parts of each in the first.
-                ("poolpointer2", {"pixels and groups": (0.25 * 2 * 0.25 + 0.75 * 0.25,) * 2}),
+                ("poolpointer", {"pixels and groups": (0.25 * 2 * 0.25 + 0.75 * 0.25,) * 2}),
                 ("ezpointer", {"pointer": (0.5, 0.5)}),
                 # The histogram is counted in for half of the frame, a quarter of the slots hold a detection.
                 ("hispointer", {"histogram": (0.125, 0.125), "pointer": (0.25, 0.25)}),
                 ("sifh", {"histogram": (0.25, 0.25)})):
             found = power.access_rates(NAMED[name])
             self.assertEqual({use: found[use] for use in rates}, rates, name)
-        self.assertEqual(power.access_rates(NAMED["poolpointer2"])["pixels and groups"], (0.3125, 0.3125))
+        self.assertEqual(power.access_rates(NAMED["poolpointer"])["pixels and groups"], (0.3125, 0.3125))
 
     def test_an_array_takes_its_accesses_and_leakage(self):
         # ezPointer: 200 SRAMs, each read and written in every second clock of 330 MHz.

@@ -7,7 +7,7 @@
 # multiplexed adder saves some area but puts the comparison in front of the adder.
 # In a pool read-out four columns share an SRAM: there the four columns are the module.
 setattr -mod -set keep_hierarchy 1 *_column *_quad *_engine
-setattr -mod -unset keep_hierarchy *dtof_pool2_column
+setattr -mod -unset keep_hierarchy *dtof_pool_column
 if {[llength $kept_modules]} { setattr -mod -set keep_hierarchy 1 {*}$kept_modules }
 synth -flatten -noshare -top $top -run coarse:fine
 opt -fast -undriven -fine

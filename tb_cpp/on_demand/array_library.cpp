@@ -31,7 +31,7 @@ struct Harness {
 const Harness& harness(RtlTop top) {
   static constexpr std::array<Harness, 3> kHarnesses = {{
       {"dtof_array_testbench", "rtl", "rtl/verilated_array.hpp", "VerilatedArray", "ArrayModel"},
-      {"pool_pointer2_testbench", "rtl", "rtl/verilated_array.hpp", "VerilatedArray", "ArrayModel"},
+      {"pool_pointer_testbench", "rtl", "rtl/verilated_array.hpp", "VerilatedArray", "ArrayModel"},
       {"subsystem_testbench", "subsystem", "subsystem/verilated_subsystem.hpp", "VerilatedSubsystem",
        "SubsystemModel"},
   }};
@@ -204,7 +204,7 @@ void ArrayLibrary::build(const std::filesystem::path& folder, const std::string&
     verilate.emplace_back(word);
   }
   const bool pool = std::ranges::any_of(settings_, [](const RtlSetting& setting) {
-    return setting.name == "READOUT" && setting.value == rtl_readout_number(Readout::kPoolPointer2);
+    return setting.name == "READOUT" && setting.value == rtl_readout_number(Readout::kPoolPointer);
   });
   if (top_ == RtlTop::kPoolArray || pool) {
     verilate.emplace_back("tb_cpp/rtl/pairs.vlt");

@@ -45,7 +45,7 @@ class ArrayModel {
     const std::uint16_t* result_code;
     const std::uint16_t* result_fraction;
     const std::uint16_t* result_confidence;
-    const std::uint16_t* result_second;  ///< of dtof_pool_pointer2_array only, else null
+    const std::uint16_t* result_second;  ///< of dtof_pool_pointer_array only, else null
 
     const std::uint8_t*
         probe_write;  ///< column 0's histogram or pointer SRAM; silent unless built with PROBE

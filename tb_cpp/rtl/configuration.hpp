@@ -17,7 +17,7 @@ struct ResultAddress {
   bool begins_row = false;  ///< the first result of a row (in an engine's turn)
 };
 
-/// Parameters of one compiled array: dtof_pool_pointer2_array for the pool read-outs, dtof_array for the
+/// Parameters of one compiled array: dtof_pool_pointer_array for the pool read-outs, dtof_array for the
 /// others.
 struct RtlConfiguration {
   ReadoutParameters

@@ -23,7 +23,7 @@ std::vector<RtlConfiguration> compiled_rtl_configurations();
 
 /// Configuration to read out `columns` columns of `rows` rows: of those with these parameters (parameters
 /// that the read-out does not use are not compared) and enough rows, the one that simulates least; the
-/// thesis's variant (two-port pointer SRAM, plain clear) before others. Of poolPointer 2 the columns are
+/// thesis's variant (two-port pointer SRAM, plain clear) before others. Of poolPointer the columns are
 /// those of one engine, and the array has just as many rows and columns: one more would be heard. A pool
 /// read-out's shares are those of `parameters`. With `waveform` only those that record one count. Throws
 /// InputError listing what is compiled.

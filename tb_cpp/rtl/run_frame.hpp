@@ -27,14 +27,14 @@ struct RtlSourceFrame {
 };
 
 /// The compiled arrays that read the columns `selected` of a source of `source_columns` columns and `rows`
-/// rows: of poolPointer 2 one for each engine that has one of them, in their order, else one for all. With
+/// rows: of poolPointer one for each engine that has one of them, in their order, else one for all. With
 /// `waveform` it records one of all of them, or InputError is thrown; it also is for what is not compiled.
 std::vector<RtlConfiguration> find_rtl_configurations(const ReadoutParameters& parameters, int rows,
                                                       int source_columns, std::span<const int> selected,
                                                       bool waveform = false);
 
 /// Reads out a frame with the RTL of find_rtl_configurations(): the chosen columns in groups of SRAM_NUM, one
-/// model instance each, on at most `threads` threads (0 = all processors); of poolPointer 2 whole engines.
+/// model instance each, on at most `threads` threads (0 = all processors); of poolPointer whole engines.
 ///
 /// `columns` lists the columns to read, in the order of the result; empty means all; columns not read cost
 /// nothing, but for those of an engine. Where pixels are independent, short columns share a column of the

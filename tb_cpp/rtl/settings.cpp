@@ -111,8 +111,8 @@ unsigned bit_of(RtlTop top) {
 RtlTop array_top(Readout readout) { return is_pool_readout(readout) ? RtlTop::kPoolArray : RtlTop::kArray; }
 
 int rtl_readout_number(Readout readout) {
-  constexpr int kPoolPointer2 = 64;
-  return is_pool_readout(readout) ? kPoolPointer2 : static_cast<int>(readout);
+  constexpr int kPoolPointer = 64;
+  return is_pool_readout(readout) ? kPoolPointer : static_cast<int>(readout);
 }
 
 std::vector<RtlSetting> rtl_settings(const RtlConfiguration& configuration, RtlTop top) {

@@ -12,7 +12,7 @@ namespace dtof {
 /// The modules that have an array's parameters.
 enum class RtlTop { kArray, kPoolArray, kSubsystem };
 
-/// dtof_array or dtof_pool_pointer2_array.
+/// dtof_array or dtof_pool_pointer_array.
 RtlTop array_top(Readout readout);
 
 /// A parameter of a top and its value.

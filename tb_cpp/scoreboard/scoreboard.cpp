@@ -107,7 +107,7 @@ std::string columns_to_trace(std::span<const int> columns, std::size_t index,
   return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
 }
 
-/// The arrays of `dtof` record no waveforms, those of `dtof-wave` do, and those of poolPointer 2 in
+/// The arrays of `dtof` record no waveforms, those of `dtof-wave` do, and those of poolPointer in
 /// `dtof-full`.
 std::string waveform_command(std::string command, const ReadoutParameters& parameters) {
   constexpr std::string_view kProgram = "dtof ";

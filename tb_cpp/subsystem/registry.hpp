@@ -28,7 +28,7 @@ bool register_subsystem(const RtlConfiguration& configuration, SubsystemModelFac
 std::vector<CompiledSubsystem> compiled_subsystems();
 
 /// Those with these parameters (parameters that the read-out does not use are not compared) and at least so
-/// many rows that read the columns `selected` of a source of `source_columns`: of poolPointer 2 one for each
+/// many rows that read the columns `selected` of a source of `source_columns`: of poolPointer one for each
 /// engine that has one of them, with just so many rows and columns, in their order, else one for all. Their
 /// configurations have the gate, the shares and S1 of `parameters`. Throws InputError naming what is
 /// compiled.

@@ -16,7 +16,7 @@
 #include "dtof/core/random.hpp"
 #include "dtof/photon/photon_source.hpp"
 #include "dtof/readout/model.hpp"
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "tests/readout/test_streams.hpp"
@@ -28,7 +28,7 @@ constexpr std::uint32_t kLongFrame = 1000;
 constexpr std::uint32_t kShortestFrameToReset = 2;
 constexpr int kBitsPerDigit = 4;
 
-/// One depth for the whole column in strong light: what lets poolPointer 2's advantages grow to their end.
+/// One depth for the whole column in strong light: what lets poolPointer's advantages grow to their end.
 /// Every third acquisition, more or less, detects nothing.
 ColumnStream surface_column(const ArrayParameters& array, std::uint32_t acquisitions, CounterRandom& random) {
   const int codes = array.readout.code_count();
@@ -121,8 +121,8 @@ Results results_of(const ArrayParameters& array, std::span<const ColumnStream> c
   const auto column = [&](int index) -> const ColumnStream& {
     return columns[static_cast<std::size_t>(index)];
   };
-  return run_pool_pointer2(array.columns, column, array.readout.np, acquisitions,
-                           pool_pointer2_parameters(array.readout), &priors);
+  return run_pool_pointer(array.columns, column, array.readout.np, acquisitions,
+                          pool_pointer_parameters(array.readout), &priors);
 }
 
 template <typename Print>

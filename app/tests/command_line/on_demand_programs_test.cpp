@@ -90,17 +90,17 @@ class OnDemandPrograms : public testing::Test {
 TEST_F(OnDemandPrograms, ASmallSensorsRtlIsBuiltOnceAndGivesTheModelsFiles) {
   for (const int bits : {8, 12}) {
     SCOPED_TRACE(bits);
-    const std::string what = fmt::format("--sensor bits{}.toml -r sifh,poolpointer2 --own-rows ", bits);
+    const std::string what = fmt::format("--sensor bits{}.toml -r sifh,poolpointer --own-rows ", bits);
     ASSERT_EQ(frame(what + "--out model").exit_code, 0);
     const Outcome first = frame(what + "--engine rtl --verify --out first");
     ASSERT_EQ(first.exit_code, 0) << first.output;
     EXPECT_THAT(first.output,
-                AllOf(HasSubstr("Builds the RTL of sifh"), HasSubstr("Builds the RTL of poolpointer2"),
+                AllOf(HasSubstr("Builds the RTL of sifh"), HasSubstr("Builds the RTL of poolpointer"),
                       HasSubstr("every pixel equal to the model")));
     const Outcome second = frame(what + "--engine rtl --out second");
     ASSERT_EQ(second.exit_code, 0) << second.output;
     EXPECT_THAT(second.output, Not(HasSubstr("Builds")));
-    for (const char* name : {"sifh.csv", "poolpointer2.csv"}) {
+    for (const char* name : {"sifh.csv", "poolpointer.csv"}) {
       EXPECT_EQ(file(fmt::format("first/{}", name)), file(fmt::format("model/{}", name)));
       EXPECT_EQ(file(fmt::format("second/{}", name)), file(fmt::format("model/{}", name)));
     }

@@ -127,14 +127,14 @@ TEST_F(Programs, FrameThroughTheRtlEqualsTheModelAndIsWritten) {
 
 TEST_F(Programs, FrameThroughTheSubsystemIsThatOfTheBareArray) {
   const std::string frame =
-      "frame -r ezpointer,hispointer,poolpointer2 --verify --array-columns 34 --array-rows 5 --acquisitions "
+      "frame -r ezpointer,hispointer,poolpointer --verify --array-columns 34 --array-rows 5 --acquisitions "
       "300 ";
   for (const char* engine : {"rtl", "subsystem"}) {
     const Outcome outcome = run(DTOF_FULL_PROGRAM, frame + fmt::format("--engine {0} --out {0}", engine));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
     EXPECT_THAT(outcome.output, HasSubstr(fmt::format("engine {} (every pixel equal to the model)", engine)));
   }
-  for (const char* name : {"ezpointer", "hispointer", "poolpointer2"}) {
+  for (const char* name : {"ezpointer", "hispointer", "poolpointer"}) {
     EXPECT_EQ(read_file(path("subsystem") + "/" + name + ".csv"),
               read_file(path("rtl") + "/" + name + ".csv"));
   }
@@ -148,20 +148,20 @@ TEST_F(Programs, FrameThroughTheSubsystemIsThatOfTheBareArray) {
 
 TEST_F(Programs, TemplateTakesTheGlassAway) {
   const std::string frame =
-      "frame -r poolpointer2 --sensor thesis+glass --array-columns 34 --array-rows 5 --acquisitions 1000 ";
+      "frame -r poolpointer --sensor thesis+glass --array-columns 34 --array-rows 5 --acquisitions 1000 ";
   ASSERT_EQ(run(DTOF_FULL_PROGRAM, frame + "--out fooled").exit_code, 0);
   ASSERT_EQ(run(DTOF_FULL_PROGRAM, frame + "--template --out told").exit_code, 0);
-  EXPECT_NE(read_file(path("told/poolpointer2.csv")), read_file(path("fooled/poolpointer2.csv")));
+  EXPECT_NE(read_file(path("told/poolpointer.csv")), read_file(path("fooled/poolpointer.csv")));
   const Outcome whole =
       run(DTOF_FULL_PROGRAM, frame + "--template --verify --engine subsystem --out subsystem");
   ASSERT_EQ(whole.exit_code, 0) << whole.output;
-  EXPECT_EQ(read_file(path("subsystem/poolpointer2.csv")), read_file(path("told/poolpointer2.csv")));
+  EXPECT_EQ(read_file(path("subsystem/poolpointer.csv")), read_file(path("told/poolpointer.csv")));
   const auto refused = [&](const std::string& options, const char* sentence) {
     const Outcome outcome = dtof("frame --out refused --template " + options);
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_THAT(outcome.output, HasSubstr(sentence));
   };
-  refused("-r poolpointer2", "--template has no effect: the sensor has neither cover glass nor fog");
+  refused("-r poolpointer", "--template has no effect: the sensor has neither cover glass nor fog");
   refused("-r sifh --sensor thesis+fog", "--template has no effect: sifh has no TEMPLATE");
 }
 
@@ -234,7 +234,7 @@ TEST_F(Programs, ARegionThroughTheRtlEqualsTheModelAndTheWholeFrame) {
   const std::string frame = "frame --scene plane --array-columns 3 --array-rows 40 --acquisitions 200 ";
   ASSERT_EQ(dtof(frame + "-r sifh,ezpointer --out whole").exit_code, 0);
   const Outcome outcome =
-      dtof(frame + "-r sifh,ezpointer,poolpointer2 --rows 17-28 --engine rtl --verify --out part");
+      dtof(frame + "-r sifh,ezpointer,poolpointer --rows 17-28 --engine rtl --verify --out part");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output, HasSubstr("3 x 12 pixels"));
   EXPECT_THAT(outcome.output, HasSubstr("every pixel equal to the model"));
@@ -355,7 +355,7 @@ TEST_F(Programs, FidelityAutoTakesTheCheapestModelWithNoiseThatKeepsTheTolerance
   EXPECT_THAT(photons("-r hispointer --tolerance 0.001"), HasSubstr("exact photons"));
   EXPECT_THAT(photons("-r hispointer"), HasSubstr("fast photons"));
   EXPECT_THAT(photons("-r hispointer --tolerance 9 --precision 50"), HasSubstr("fast photons"));
-  EXPECT_THAT(photons("-r poolpointer2 --tolerance 9"), HasSubstr("exact photons")) << "it reads streams";
+  EXPECT_THAT(photons("-r poolpointer --tolerance 9"), HasSubstr("exact photons")) << "it reads streams";
   EXPECT_THAT(photons("-r hispointer --tolerance 9 --record recording.csv"), HasSubstr("exact photons"));
   EXPECT_THAT(photons("-r hispointer --tolerance 9 --acquisitions 100"), HasSubstr("exact photons"))
       << "beyond what was measured";
@@ -447,11 +447,11 @@ TEST_F(Programs, RefusesBadImages) {
 
 TEST_F(Programs, ScenesComparesReadoutsAndVariants) {
   const Outcome outcome = dtof(
-      "scenes --preset thesis --klux 14 --scene planes --columns 2 -r poolpointer2,hispointer "
+      "scenes --preset thesis --klux 14 --scene planes --columns 2 -r poolpointer,hispointer "
       "--variant hispointer:COUNT_WIDTH=8 --out out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string table = read_file(path("out/scenes.csv"));
-  for (const char* estimator : {"poolPointer 2", "hisPointer", "COUNT_WIDTH=8", "matched filter"}) {
+  for (const char* estimator : {"poolPointer", "hisPointer", "COUNT_WIDTH=8", "matched filter"}) {
     EXPECT_THAT(table, HasSubstr(estimator));
   }
   EXPECT_GT(std::filesystem::file_size(path("out/planes_14klux_thesis.png")), 0U);
@@ -487,14 +487,14 @@ TEST_F(Programs, EnlargeComparesSmallArraysWithTheLargeOne) {
   write_png8(path("photograph.png"), 24, 20, 3, photograph);
   const std::string command = "enlarge --sensor " + file("small.toml", kSmallSensor) +
                               " --scene staircase -k 1 --photographed hut=disparity.png,photograph.png "
-                              "--array 12x10 6x5 --picture-array 12x10 -r poolpointer2 hispointer --seeds 2 ";
+                              "--array 12x10 6x5 --picture-array 12x10 -r poolpointer hispointer --seeds 2 ";
   const Outcome outcome = dtof(command + "--out out");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   EXPECT_THAT(outcome.output,
               HasSubstr("has fewer pixels above 3 % than the map of the large array: **1 klux: "));
   const std::string csv = read_file(path("out/enlarge.csv"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 2 * (1 + 2 * 3 * 4));
-  EXPECT_THAT(csv, HasSubstr("1,staircase,24 x 20,poolPointer 2,-,480,"));
+  EXPECT_THAT(csv, HasSubstr("1,staircase,24 x 20,poolPointer,-,480,"));
   EXPECT_THAT(csv, HasSubstr("1,hut,12 x 10,hisPointer,learned,440,"));  // 40 pixels are not known
   const std::string report = read_file(path("out/enlarge.md"));
   EXPECT_THAT(report, HasSubstr("](enlarge_1klux.png)"));
@@ -518,7 +518,7 @@ TEST_F(Programs, EnlargeRefusesWhatDoesNotFit) {
   expect_refused(sensor + arrays + "--weights none.txt", "none.txt: cannot read");
   expect_refused(sensor + arrays + "--weights " + file("w.txt", "dtof-enlarger 1\njoint_bilateral 1 x\n"),
                  "w.txt, line 2: a width of the joint bilateral filter is 'x', which is no number");
-  expect_refused(sensor + arrays + "-r poolpointer2 hispinter", "hispinter");
+  expect_refused(sensor + arrays + "-r poolpointer hispinter", "hispinter");
   expect_refused(sensor + arrays + "--seeds 1", "--seeds");
   write_png8(path("dark.png"), 4, 4, 1, std::vector<std::uint8_t>(16));
   expect_refused(sensor + arrays + "--photographed dark=dark.png,dark.png", "dark.png: no known depth");
@@ -587,8 +587,8 @@ TEST_F(Programs, CyclesAreThoseOfTheWholeArrayWhateverIsRead) {
   EXPECT_LT(std::stoi(cycles("-r ezpointer --array-columns 20 --columns 7", "ezPointer")),
             std::stoi(one) - 160 * 170);
   // A pool read-out's last engine is narrower: its clocks are not those of the other engines.
-  EXPECT_NE(cycles("-r poolpointer2 --columns 0", "poolPointer 2"), "-");
-  EXPECT_EQ(cycles("-r poolpointer2 --columns 199", "poolPointer 2"), "-");
+  EXPECT_NE(cycles("-r poolpointer --columns 0", "poolPointer"), "-");
+  EXPECT_EQ(cycles("-r poolpointer --columns 199", "poolPointer"), "-");
 }
 
 TEST_F(Programs, FrameSaysHowLongTheLookUpTableTook) {
@@ -706,7 +706,7 @@ TEST_F(Programs, WalkWritesItsReportAndPicture) {
 
 TEST_F(Programs, DynamicRangeWritesItsReportAndTakesCellsThatAreDone) {
   const std::string command =
-      "dynamic-range -r coarsehistogram,poolpointer2 --count-width 4 -a 30 3000 -k 2 --signals 1 --seeds 2 "
+      "dynamic-range -r coarsehistogram,poolpointer --count-width 4 -a 30 3000 -k 2 --signals 1 --seeds 2 "
       "--rows 8 "
       "--scene room --out range";
   const Outcome outcome = dtof(command);
@@ -716,7 +716,7 @@ TEST_F(Programs, DynamicRangeWritesItsReportAndTakesCellsThatAreDone) {
   EXPECT_THAT(report, HasSubstr("More acquisitions made a pool read-out worse"));
   EXPECT_THAT(report, HasSubstr("## Full counters"));
   EXPECT_THAT(read_file_or_gzip(path("range/data/dynamic_range.csv.gz")),
-              HasSubstr("\npoolpointer2,grid,1,2,3000,544,"));
+              HasSubstr("\npoolpointer,grid,1,2,3000,544,"));
   EXPECT_GT(std::filesystem::file_size(path("range/dynamic_range.svg")), 0U);
 
   std::filesystem::path cells;
@@ -793,16 +793,16 @@ TEST_F(Programs, FramesAreReadSideBySideAndCheckedInRtl) {
                     name, acquisitions));
   };
   const std::string sensors = sensor("short", 40) + " " + sensor("long", 400);
-  const Outcome outcome = dtof("frames --sensors " + sensors +
-                               " -r fifh,poolpointer2 --frames 2 --rtl poolpointer2 --out frames");
+  const Outcome outcome =
+      dtof("frames --sensors " + sensors + " -r fifh,poolpointer --frames 2 --rtl poolpointer --out frames");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.output;
   const std::string report = read_file(path("frames/frames.md"));
   EXPECT_THAT(report, HasSubstr("Scene room: 34 x 16 pixels, 14 klux"));
-  EXPECT_THAT(report, HasSubstr("RTL with long: poolPointer 2, "));
+  EXPECT_THAT(report, HasSubstr("RTL with long: poolPointer, "));
   EXPECT_THAT(report, HasSubstr("every pixel equal to the model"));
   const std::string csv = read_file(path("frames/frames.csv"));
   EXPECT_THAT(csv, HasSubstr("\nshort,fifh,FiFH,40,1088,"));
-  EXPECT_THAT(csv, HasSubstr("\nlong,poolpointer2,poolPointer 2,400,1088,"));
+  EXPECT_THAT(csv, HasSubstr("\nlong,poolpointer,poolPointer,400,1088,"));
   expect_refused("frames --frames 1 --out out", "frames");
   expect_refused("frames --sensors nosensor --out out", "nosensor");
   expect_refused("frames --rtl nothing --out out", "nothing");
@@ -812,7 +812,7 @@ TEST_F(Programs, VideoReadsItsDefaultReadoutsAndWritesItsReportAndPictures) {
   const Outcome outcome = dtof(
       "video --motion still light --frames 2 --array-columns 34 --array-rows 8 --acquisitions 300 --out out");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.output;
-  EXPECT_THAT(outcome.output, HasSubstr("poolPointer 2, prior"));
+  EXPECT_THAT(outcome.output, HasSubstr("poolPointer, prior"));
   for (const char* file : {"video.csv", "video.md", "room_still.svg", "room_light.svg",
                            "room_still_depth.png", "room_light_depth.png"}) {
     EXPECT_TRUE(std::filesystem::exists(path("out") + "/" + file)) << file;
@@ -1007,10 +1007,10 @@ TEST_F(Programs, MemoryIsRefusedBeforeItIsSpent) {
 }
 
 TEST_F(Programs, APartOfAPoolReadoutsColumnsIsReadAsInTheWholeArray) {
-  ASSERT_EQ(dtof("frame -r poolpointer2 --columns 32-35 -a 200 --out whole").exit_code, 0);
-  ASSERT_EQ(dtof("frame -r poolpointer2 --columns 35,33 -a 200 --out part").exit_code, 0);
-  const std::string whole = read_file(path("whole/poolpointer2.csv"));
-  std::ifstream part(path("part/poolpointer2.csv"));
+  ASSERT_EQ(dtof("frame -r poolpointer --columns 32-35 -a 200 --out whole").exit_code, 0);
+  ASSERT_EQ(dtof("frame -r poolpointer --columns 35,33 -a 200 --out part").exit_code, 0);
+  const std::string whole = read_file(path("whole/poolpointer.csv"));
+  std::ifstream part(path("part/poolpointer.csv"));
   std::string line;
   int lines = 0;
   for (std::getline(part, line); std::getline(part, line); ++lines) {
@@ -1021,12 +1021,12 @@ TEST_F(Programs, APartOfAPoolReadoutsColumnsIsReadAsInTheWholeArray) {
 
 TEST_F(Programs, APoolReadoutsRtlNeedsAnEngineOfTheColumns) {
   const std::string frame = "frame --array-columns 7 --array-rows 9 -a 20 --engine rtl --out out ";
-  expect_refused(frame + "-r poolpointer2",
-                 "an engine of just 7 columns, which hear each other; compiled are: poolpointer2");
+  expect_refused(frame + "-r poolpointer",
+                 "an engine of just 7 columns, which hear each other; compiled are: poolpointer");
   const Outcome all = dtof(frame + "-r all");
   ASSERT_EQ(all.exit_code, 0) << all.output;
-  EXPECT_THAT(all.output, HasSubstr("poolPointer 2 is left out: its RTL is not compiled for 7 columns"));
-  EXPECT_FALSE(std::filesystem::exists(path("out/poolpointer2.csv")));
+  EXPECT_THAT(all.output, HasSubstr("poolPointer is left out: its RTL is not compiled for 7 columns"));
+  EXPECT_FALSE(std::filesystem::exists(path("out/poolpointer.csv")));
   EXPECT_TRUE(std::filesystem::exists(path("out/coarsehistogram.csv")));
 }
 
@@ -1125,9 +1125,9 @@ signal_events_at_1m = 0.3
 background_events_per_klux = 0.01
 default_reflectivity = 1.0
 )");
-  const std::string frame = "frame -r poolpointer2 --sensor " + sensor + " --scene room --out out ";
+  const std::string frame = "frame -r poolpointer --sensor " + sensor + " --scene room --out out ";
   expect_refused(frame + "--engine rtl",
-                 "no RTL of poolpointer2 is compiled for CELL_SHIFT=8, the windows that the pulse asks for; "
+                 "no RTL of poolpointer is compiled for CELL_SHIFT=8, the windows that the pulse asks for; "
                  "compiled: 9");
   expect_refused(frame + "--cell-shift 7", "CELL_SHIFT must be 8 to 10, not 7");
   EXPECT_EQ(dtof(frame).exit_code, 0);
@@ -1265,7 +1265,7 @@ TEST_F(Programs, OptionsWithoutEffectAreErrors) {
   expect_refused("frame --nb 5 -r ezpointer", "--nb has no effect: ezpointer has no NB");
   expect_refused("frame --window-centred -r ezpointer,fifh",
                  "--window-centred has no effect: ezpointer,fifh");
-  expect_refused("frame --pointer-step 2 -r poolpointer2", "--pointer-step has no effect");
+  expect_refused("frame --pointer-step 2 -r poolpointer", "--pointer-step has no effect");
   expect_refused("frame --distance 3 --scene room", "--distance has no effect: only --scene flat");
   expect_refused("frame --near 1 --scene flat", "--near has no effect");
   expect_refused("frame --steps 3 --scene plane", "--steps has no effect");

@@ -49,7 +49,7 @@ DesignResult result(const DesignRequest& request, std::vector<DesignOption> opti
 }
 
 std::vector<DesignOption> two_options() {
-  return {option(Readout::kPoolPointer2, 0.01, 1.9), option(Readout::kEzPointer, 0.50, 1.0)};
+  return {option(Readout::kPoolPointer, 0.01, 1.9), option(Readout::kEzPointer, 0.50, 1.0)};
 }
 
 TEST(DesignPage, TheTableHasAReadoutALineBestFirst) {
@@ -57,13 +57,13 @@ TEST(DesignPage, TheTableHasAReadoutALineBestFirst) {
   EXPECT_THAT(text, HasSubstr("1.00 [0.50, 1.50]"));
   EXPECT_THAT(text, HasSubstr("87.5"));
   EXPECT_THAT(text, HasSubstr("0.05"));
-  EXPECT_LT(text.find("poolPointer 2"), text.find("ezPointer"));
+  EXPECT_LT(text.find("poolPointer"), text.find("ezPointer"));
   EXPECT_EQ(std::ranges::count(text, '\n'), 4);
 }
 
 TEST(DesignPage, TheRecommendationHasItsReasonAndItsCompetitor) {
   const std::string text = design_recommendation(request(), result(request(), two_options()));
-  EXPECT_THAT(text, HasSubstr("Recommended: poolPointer 2, 1.90 mm2"));
+  EXPECT_THAT(text, HasSubstr("Recommended: poolPointer, 1.90 mm2"));
   EXPECT_THAT(text, HasSubstr("the fewest of the 2 read-outs"));
   EXPECT_THAT(text, HasSubstr("Nearest competitor: ezPointer, 1.00 mm2"));
   const std::string alone = design_recommendation(request(), result(request(), {two_options()[1]}));
@@ -72,10 +72,10 @@ TEST(DesignPage, TheRecommendationHasItsReasonAndItsCompetitor) {
 
 TEST(DesignPage, ASmallerArrayThatIsAsGoodIsTheReason) {
   const std::string text =
-      design_recommendation(request(), result(request(), {option(Readout::kPoolPointer2, 0.100, 1.9),
-                                                          option(Readout::kPoolPointer2Lean, 0.103, 0.7)}));
-  EXPECT_THAT(text, HasSubstr("Recommended: poolPointer 2 lean"));
-  EXPECT_THAT(text, HasSubstr("do not tell from poolPointer 2's"));
+      design_recommendation(request(), result(request(), {option(Readout::kPoolPointer, 0.100, 1.9),
+                                                          option(Readout::kPoolPointerLean, 0.103, 0.7)}));
+  EXPECT_THAT(text, HasSubstr("Recommended: poolPointer lean"));
+  EXPECT_THAT(text, HasSubstr("do not tell from poolPointer's"));
   EXPECT_THAT(text, HasSubstr("smaller array (0.70 of 1.90 mm2)"));
 }
 
@@ -116,7 +116,7 @@ TEST(DesignPage, ThePageSaysHowAndWithWhatError) {
       design_page(made, found, "mine.toml", "dtof design --sensor mine.toml", "MEASURED");
   for (const char* part : {"# A read-out for thesis", "at most 2 mm2", "## Left out", "* SiFH: --max-mm2 15",
                            "## Confirmed", "MEASURED", "they were off by at most",
-                           "dtof product --sensor mine.toml --readout poolpointer2 --out chip",
+                           "dtof product --sensor mine.toml --readout poolpointer --out chip",
                            "Command: `dtof design --sensor mine.toml`", "so that the frame fits"}) {
     EXPECT_THAT(page, HasSubstr(part));
   }

@@ -15,7 +15,7 @@ using testing::StartsWith;
 TEST(PlaygroundCatalogue, NamesWhatThereIs) {
   const std::string text = playground_catalogue();
   EXPECT_THAT(text, StartsWith("readout\tezpointer\tezPointer\t"));
-  EXPECT_THAT(text, HasSubstr("\nreadout\tpoolpointer2-lean\tpoolPointer 2 lean\t"));
+  EXPECT_THAT(text, HasSubstr("\nreadout\tpoolpointer-lean\tpoolPointer lean\t"));
   EXPECT_THAT(text, HasSubstr("\nscene\troom\t"));
   EXPECT_THAT(text, HasSubstr("\nsensor\tphone\t200\t160\t0.5\t3333\t6.75\n"));
   EXPECT_THAT(text, HasSubstr("\nfigure\tabove 3 %\n"));

@@ -24,7 +24,7 @@ PlaygroundRequest small_plane() {
   request.rows = 8;
   request.acquisitions = 800;
   request.seed = 3;
-  request.readouts = {"poolpointer2", "sifh"};
+  request.readouts = {"poolpointer", "sifh"};
   return request;
 }
 

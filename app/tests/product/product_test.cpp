@@ -98,14 +98,14 @@ TEST_F(Product, OfAReadoutOfTheThesisPassesItsOwnMake) {
 }
 
 TEST_F(Product, OfAPoolReadoutPassesItsOwnMake) {
-  ASSERT_EQ(product("--readout poolpointer2 --code-gate 20 500 --out chip").exit_code, 0);
+  ASSERT_EQ(product("--readout poolpointer --code-gate 20 500 --out chip").exit_code, 0);
   const Outcome checked = shell("make -C chip icarus driver");
   EXPECT_EQ(checked.exit_code, 0) << checked.output;
 }
 
 TEST_F(Product, ThatIsToldOfFogHasItsTemplate) {
   std::ofstream(folder_ / "fog.toml") << kSensor << "\n[fog]\nextinction_per_m = 0.1\n";
-  ASSERT_EQ(shell(fmt::format("{} product --sensor fog.toml --readout poolpointer2 --template --out chip",
+  ASSERT_EQ(shell(fmt::format("{} product --sensor fog.toml --readout poolpointer --template --out chip",
                               DTOF_PROGRAM))
                 .exit_code,
             0);
@@ -205,7 +205,7 @@ TEST(ProductFiles, RefuseWhatTheSubsystemCannotBe) {
 }
 
 TEST(ProductFiles, NameEachOther) {
-  const std::map<std::string, std::string> files = product_files(request(Readout::kPoolPointer2Lean));
+  const std::map<std::string, std::string> files = product_files(request(Readout::kPoolPointerLean));
   for (const char* list : {"product.f", "dtof_product.core", "Bender.yml"}) {
     SCOPED_TRACE(list);
     for (const auto& [path, text] : files) {

@@ -75,7 +75,7 @@ TEST(ReadoutRun, APoolReadoutsArrayIsWholeAndDarkOutsideTheRegion) {
                                                                              : std::span<const Detection>());
     }
   }
-  for (const Readout readout : {Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
+  for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
     const ReadoutParameters parameters = ReadoutParameters::defaults(readout);
     const std::vector<PixelResult> whole = make_readout_model(parameters)->run_columns(array, 500)[2];
     const std::vector<PixelResult> expected(whole.begin() + 3, whole.begin() + 9);

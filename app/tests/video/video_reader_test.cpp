@@ -26,7 +26,7 @@ SensorModel short_sensor() {
 
 std::vector<ReadoutParameters> readouts(const SensorModel& sensor) {
   return {default_parameters(Readout::kHisPointer, sensor),
-          default_parameters(Readout::kPoolPointer2, sensor)};
+          default_parameters(Readout::kPoolPointer, sensor)};
 }
 
 Sequence sequence(Motion motion) {
@@ -43,7 +43,7 @@ TEST(VideoReader, OnlyThePriorRemembersTheLastFrame) {
   const SensorModel sensor = short_sensor();
   const VideoReader reader(sensor, readouts(sensor), 30.0, 1, 2);
   ASSERT_EQ(reader.estimators().size(), 3U);
-  EXPECT_EQ(reader.estimators().back(), "poolPointer 2, prior");
+  EXPECT_EQ(reader.estimators().back(), "poolPointer, prior");
   const auto still = reader.read(sequence(Motion::kStill));
   const auto cut = reader.read(sequence(Motion::kCut));
   ASSERT_EQ(still.size(), 4U);
@@ -83,8 +83,8 @@ TEST(VideoReader, EachFrameIsTheModelsOwn) {
 
 TEST(VideoReader, ReadOutsThatHearOtherColumnsReadWholeEngines) {
   const SensorModel sensor = short_sensor();
-  const std::vector<ReadoutParameters> all = {default_parameters(Readout::kPoolPointer2, sensor),
-                                              default_parameters(Readout::kPoolPointer2Lean, sensor)};
+  const std::vector<ReadoutParameters> all = {default_parameters(Readout::kPoolPointer, sensor),
+                                              default_parameters(Readout::kPoolPointerLean, sensor)};
   Sequence video = sequence(Motion::kStill);
   video.frames = 2;
   video.parameters.columns = 60;  // engines of 34 and 26 columns, lean: of 50 and 10

@@ -159,8 +159,8 @@ class ReadoutDistribution {
       case Readout::kHistogram:
         partitioned();
         break;
-      case Readout::kPoolPointer2:
-      case Readout::kPoolPointer2Lean:
+      case Readout::kPoolPointer:
+      case Readout::kPoolPointerLean:
         throw InputError("the analytic model knows no read-out that pools pixels");
       default:
         throw InputError(

@@ -24,7 +24,7 @@ std::string_view fidelity_name(Fidelity fidelity);
 
 /// How a read-out takes its photons.
 enum class PhotonUse {
-  kStream,   ///< acquisition by acquisition: the RTL, poolPointer 2, recordings
+  kStream,   ///< acquisition by acquisition: the RTL, poolPointer, recordings
   kSampler,  ///< measurement by measurement: the models of all other read-outs
 };
 

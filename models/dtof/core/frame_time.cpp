@@ -16,8 +16,8 @@ constexpr std::uint64_t kIdle = 2;      // start_i to the first state
 constexpr std::uint64_t kClearEnd = 2;  // behind the last address that is cleared
 constexpr std::uint64_t kScanEnd = 4;   // behind the last address that a coarse scan reads
 
-/// Clocks of decide in dtof_pool_pointer2_array until the last result is sent, clock by clock: all engines
-/// decide in lockstep (dtof_pool2_sequencer), and dtof_pool_result_output sends a set of results, one of each
+/// Clocks of decide in dtof_pool_pointer_array until the last result is sent, clock by clock: all engines
+/// decide in lockstep (dtof_pool_sequencer), and dtof_pool_result_output sends a set of results, one of each
 /// engine that has the column, while two more sets wait. A step that gives results begins when there is a
 /// place for them.
 class Decide {

@@ -11,7 +11,7 @@ namespace dtof {
 /// Clocks of dtof_array from the first result of a pixel to that of the last of so many columns.
 std::int64_t sending_clocks(int columns);
 
-/// Clocks of dtof_pool_pointer2_array from the first step of decide until the last result is sent.
+/// Clocks of dtof_pool_pointer_array from the first step of decide until the last result is sent.
 std::int64_t pool_decide_clocks(int rows, int columns, int engine_columns);
 
 /// Clocks of a frame, start to done, of an array of so many rows and columns with BROADCAST_STAGES = 2, a

@@ -15,12 +15,12 @@ namespace dtof {
 Readout parse_readout(std::string_view name);
 
 /// What decode takes from each coarse bin's sum over a group and its neighbours, in units of
-/// pool_template_unit(): the TEMPLATE registers of poolPointer 2 (docs/reference/poolpointer2.md, Template).
+/// pool_template_unit(): the TEMPLATE registers of poolPointer (docs/reference/poolpointer.md, Template).
 using PoolTemplate = std::array<std::uint8_t, 32>;
 /// 2^(COUNT_WIDTH - 5), at least 1: 255 units are more than the largest sum.
 constexpr int pool_template_unit(int count_width) { return count_width > 5 ? 1 << (count_width - 5) : 1; }
 
-/// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer2.md).
+/// Parameters of the pool read-outs beyond those they share with the others (docs/reference/poolpointer.md).
 /// Lengths are fractions of a coarse bin, a 32nd of the range.
 struct PoolPointerParameters {
   int group_size =

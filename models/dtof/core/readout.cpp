@@ -57,12 +57,12 @@ constexpr std::array<Description, kAllReadouts.size()> kDescriptions = {{
      "one coarse histogram for the whole frame; its highest pair of bins and their neighbours hold the place",
      false, false, true, true,
      {"NB", "COUNT_WIDTH", "FRACTION_BITS"}},
-    {"poolpointer2", "poolPointer 2",
+    {"poolpointer", "poolPointer",
      "neighbours in two dimensions share coarse histograms; each pixel picks and refines a candidate",
      false, true, false, true,
      {"COUNT_WIDTH", "CELL_SHIFT"}},
-    {"poolpointer2-lean", "poolPointer 2 lean",
-     "poolPointer 2 in half the memory: larger groups, shorter words",
+    {"poolpointer-lean", "poolPointer lean",
+     "poolPointer in half the memory: larger groups, shorter words",
      false, true, false, true,
      {"COUNT_WIDTH", "CELL_SHIFT"}},
 }};
@@ -100,49 +100,49 @@ int default_value(Readout readout, std::string_view parameter, int np) {
   if (readout == Readout::kCoarseHistogram && parameter == "FRACTION_BITS") {
     return std::min(2, (16 - np));
   }
-  if (readout == Readout::kPoolPointer2 && parameter == "NB") {
+  if (readout == Readout::kPoolPointer && parameter == "NB") {
     return 5;
   }
-  if (readout == Readout::kPoolPointer2 && parameter == "COUNT_WIDTH") {
+  if (readout == Readout::kPoolPointer && parameter == "COUNT_WIDTH") {
     return 7;
   }
-  if (readout == Readout::kPoolPointer2 && parameter == "FRACTION_BITS") {
+  if (readout == Readout::kPoolPointer && parameter == "FRACTION_BITS") {
     return 16 - np;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "NB") {
+  if (readout == Readout::kPoolPointerLean && parameter == "NB") {
     return 5;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "COUNT_WIDTH") {
+  if (readout == Readout::kPoolPointerLean && parameter == "COUNT_WIDTH") {
     return 7;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "FRACTION_BITS") {
+  if (readout == Readout::kPoolPointerLean && parameter == "FRACTION_BITS") {
     return 16 - np;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "GROUP_SIZE") {
+  if (readout == Readout::kPoolPointerLean && parameter == "GROUP_SIZE") {
     return 8;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "LABELS") {
+  if (readout == Readout::kPoolPointerLean && parameter == "LABELS") {
     return 4;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "OFFSET_BITS") {
+  if (readout == Readout::kPoolPointerLean && parameter == "OFFSET_BITS") {
     return 0;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "ADVANTAGE_WIDTH") {
+  if (readout == Readout::kPoolPointerLean && parameter == "ADVANTAGE_WIDTH") {
     return 4;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "POINTER_SHIFT") {
+  if (readout == Readout::kPoolPointerLean && parameter == "POINTER_SHIFT") {
     return 4;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "RIVAL_MOVES") {
+  if (readout == Readout::kPoolPointerLean && parameter == "RIVAL_MOVES") {
     return 0;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "ENGINE_COLUMNS") {
+  if (readout == Readout::kPoolPointerLean && parameter == "ENGINE_COLUMNS") {
     return 50;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "COARSE_SHARE") {
+  if (readout == Readout::kPoolPointerLean && parameter == "COARSE_SHARE") {
     return 10;
   }
-  if (readout == Readout::kPoolPointer2Lean && parameter == "TRACK_SHARE") {
+  if (readout == Readout::kPoolPointerLean && parameter == "TRACK_SHARE") {
     return 14;
   }
   if (parameter == "NP") {

@@ -19,8 +19,8 @@ enum class Readout : int {
   kPifh = 6,
   kHistogram = 7,
   kCoarseHistogram = 8,
-  kPoolPointer2 = 9,
-  kPoolPointer2Lean = 10,
+  kPoolPointer = 9,
+  kPoolPointerLean = 10,
 };
 
 /// All.
@@ -34,8 +34,8 @@ inline constexpr std::array<Readout, 11> kAllReadouts = {
     Readout::kPifh,
     Readout::kHistogram,
     Readout::kCoarseHistogram,
-    Readout::kPoolPointer2,
-    Readout::kPoolPointer2Lean};
+    Readout::kPoolPointer,
+    Readout::kPoolPointerLean};
 
 /// Those of the thesis.
 inline constexpr std::array<Readout, 8> kThesisReadouts = {
@@ -59,10 +59,10 @@ inline constexpr std::array<Readout, 11> kRtlReadouts = {
     Readout::kPifh,
     Readout::kHistogram,
     Readout::kCoarseHistogram,
-    Readout::kPoolPointer2,
-    Readout::kPoolPointer2Lean};
+    Readout::kPoolPointer,
+    Readout::kPoolPointerLean};
 
-/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram, coarsehistogram, poolpointer2, poolpointer2-lean.
+/// Command-line name: ezpointer, hispointer1, hispointer, sifh, fifh, threesteps, pifh, histogram, coarsehistogram, poolpointer, poolpointer-lean.
 std::string_view readout_name(Readout readout);
 /// Display name as the thesis writes it, e.g. "hisPointer v1".
 std::string_view readout_title(Readout readout);

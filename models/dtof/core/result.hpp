@@ -10,7 +10,7 @@ struct PixelResult {
   std::uint16_t code = 0;        ///< integer bins, 0 .. 2^NP - 1
   std::uint16_t fraction = 0;    ///< units of 2^-FRACTION_BITS bin
   std::uint16_t confidence = 0;  ///< 0 = none; the scale depends on the read-out (docs/reference/readouts.md)
-  /// Position of the label that lost, code and fraction as one number; 0 unless poolPointer 2's
+  /// Position of the label that lost, code and fraction as one number; 0 unless poolPointer's
   /// SECOND_TARGET.
   std::uint16_t second = 0;
 

@@ -74,8 +74,8 @@ std::vector<MacroSize> column_memories(const ArrayChoice& array) {
       return {histogram(p.np)};
     case Readout::kCoarseHistogram:
       return {histogram(p.nb)};
-    case Readout::kPoolPointer2:
-    case Readout::kPoolPointer2Lean: {
+    case Readout::kPoolPointer:
+    case Readout::kPoolPointerLean: {
       const int groups = ceiling(rows, p.pool.group_size);
       const int pairs = ceiling(array.module_columns(), 2);
       return {

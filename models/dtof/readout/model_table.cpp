@@ -10,7 +10,7 @@ std::unique_ptr<ReadoutModel> make_pointer_readouts(const ReadoutParameters& par
 std::unique_ptr<ReadoutModel> make_interframe_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_partitioned_histogram(const ReadoutParameters& parameters);
 std::unique_ptr<ReadoutModel> make_coarse_histogram(const ReadoutParameters& parameters);
-std::unique_ptr<ReadoutModel> make_pool_pointer2(const ReadoutParameters& parameters);
+std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters);
 
 std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parameters) {
   switch (parameters.readout) {
@@ -27,9 +27,9 @@ std::unique_ptr<ReadoutModel> make_ungated_model(const ReadoutParameters& parame
       return make_partitioned_histogram(parameters);
     case Readout::kCoarseHistogram:
       return make_coarse_histogram(parameters);
-    case Readout::kPoolPointer2:
-    case Readout::kPoolPointer2Lean:
-      return make_pool_pointer2(parameters);
+    case Readout::kPoolPointer:
+    case Readout::kPoolPointerLean:
+      return make_pool_pointer(parameters);
   }
   throw InputError("unknown read-out number");
 }

@@ -8,7 +8,7 @@
 
 namespace dtof {
 
-// How much speaks for a target in a result of poolPointer 2 (docs/reference/poolpointer2.md, Significance and
+// How much speaks for a target in a result of poolPointer (docs/reference/poolpointer.md, Significance and
 // Confidence, which have the same names).
 
 inline constexpr int kMostSignificance = 7;

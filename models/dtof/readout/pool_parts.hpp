@@ -12,7 +12,7 @@
 
 namespace dtof {
 
-// The parts of poolPointer 2 below the level of its phases (docs/reference/poolpointer2.md, which has the
+// The parts of poolPointer below the level of its phases (docs/reference/poolpointer.md, which has the
 // same names). Positions are in units of 2^-11 coarse bin: 16 bits for the range, whatever NP. A cell is a
 // quarter of a coarse bin, 512 units; only around a pointer that has settled cells are as large as the pulse
 // asks.

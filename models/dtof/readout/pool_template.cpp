@@ -8,7 +8,7 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/readout/pool_parts.hpp"
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 
 namespace dtof {
 namespace {

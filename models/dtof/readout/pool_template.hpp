@@ -9,7 +9,7 @@
 
 namespace dtof {
 
-/// The TEMPLATE registers of poolPointer 2 for what surrounds a sensor (docs/reference/poolpointer2.md,
+/// The TEMPLATE registers of poolPointer for what surrounds a sensor (docs/reference/poolpointer.md,
 /// Template), from columns of frames in the dark without a target: three times what a bin's sum over a group
 /// and its neighbours counts there, at most 255 units. Throws InputError for timestamps that
 /// pool_column_events() refuses, or without a pair of rows.

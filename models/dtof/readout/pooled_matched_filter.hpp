@@ -10,7 +10,7 @@ namespace dtof {
 
 /// How much neighbouring pixels of a column are believed to share a surface.
 struct PoolingPrior {
-  /// Neighbours at most this many bins apart are on one surface; poolPointer 2's coarse bin, 1/32 of the
+  /// Neighbours at most this many bins apart are on one surface; poolPointer's coarse bin, 1/32 of the
   /// range.
   int reach_bins = 32;
   /// Natural logarithm of the odds against a depth edge between two neighbours, >= 0 and finite.
@@ -21,7 +21,7 @@ struct PoolingPrior {
 };
 
 /// The yardstick for read-outs that pool: every pixel's full histogram, and the same chain along the column
-/// that poolPointer 2 has (docs/reference/poolpointer2.md, "Chain"), but with every bin as a label and the
+/// that poolPointer has (docs/reference/poolpointer.md, "Chain"), but with every bin as a label and the
 /// matched filter's log-likelihood ratio as its evidence. Max-product on a chain is exact: its positions have
 /// the largest
 ///

@@ -13,7 +13,7 @@
 namespace dtof {
 
 /// Reads out a frame with the model on at most `threads` threads (0 = all processors), column by column;
-/// poolPointer 2 engine by engine (ReadoutParameters::columns_together), of which it reads all columns.
+/// poolPointer engine by engine (ReadoutParameters::columns_together), of which it reads all columns.
 ///
 /// `columns` lists the columns to read, in the order of the result; empty means all. The result is
 /// row-major: index = row * n + i for the i-th of n columns read. `progress`, if given, advances by one a

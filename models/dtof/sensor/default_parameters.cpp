@@ -8,7 +8,7 @@ namespace dtof {
 namespace {
 
 // Beyond these FWHM, in coarse bins, the other windows read training scenes better
-// (docs/reference/poolpointer2.md).
+// (docs/reference/poolpointer.md).
 constexpr double kShortPulse = 0.75;
 constexpr double kLongPulse = 2.25;
 

@@ -98,7 +98,7 @@ TEST(PredictedErrors, AreThoseOfTheSameDrawnErrors) {
 
 TEST(CodeDistributionRefusals, ReadoutsThatPoolPixels) {
   EXPECT_THROW(
-      code_distribution(parse_preset("thesis"), {}, ReadoutParameters::defaults(Readout::kPoolPointer2)),
+      code_distribution(parse_preset("thesis"), {}, ReadoutParameters::defaults(Readout::kPoolPointer)),
       InputError);
 }
 

@@ -48,7 +48,7 @@ TEST(Fidelity, AutoKeepsTheToleranceForEveryReadoutOfTheFrame) {
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(largest, kThesisReadouts)), Fidelity::kFast);
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(0.999 * largest, kThesisReadouts)), Fidelity::kExact);
   EXPECT_EQ(choose_fidelity(flat(1.0), sampled(1.0, kAllReadouts)), Fidelity::kExact)
-      << "poolPointer 2's differences were not measured";
+      << "poolPointer's differences were not measured";
 }
 
 TEST(Fidelity, OneDearReadoutDoesNotSpoilAFrameOfCheapOnes) {

@@ -21,8 +21,8 @@ TEST(FrameTime, IsThatOfTheThesissArray) {
   EXPECT_EQ(clocks(Readout::kSifh), 1'133'207U);
   EXPECT_EQ(clocks(Readout::kPifh), 1'276'735U);
   EXPECT_EQ(clocks(Readout::kCoarseHistogram), 1'117'814U);
-  EXPECT_EQ(clocks(Readout::kPoolPointer2), 1'391'801U);
-  EXPECT_EQ(clocks(Readout::kPoolPointer2Lean), 1'399'585U);
+  EXPECT_EQ(clocks(Readout::kPoolPointer), 1'391'801U);
+  EXPECT_EQ(clocks(Readout::kPoolPointerLean), 1'399'585U);
   // A first histogram with more bins than the last: as drawn by make random-configurations SEED=20261126
   // FIRST=4.
   ReadoutParameters fifh = ReadoutParameters::defaults(Readout::kFifh, 16);

@@ -73,7 +73,7 @@ const std::map<std::string, int PoolPointerParameters::*> kOfPoolReadouts = {
 ReadoutParameters of_model(const Row& row) {
   const bool pool = row.top != "dtof_array";
   ReadoutParameters parameters =
-      ReadoutParameters::defaults(pool ? Readout::kPoolPointer2 : Readout::kEzPointer);
+      ReadoutParameters::defaults(pool ? Readout::kPoolPointer : Readout::kEzPointer);
   for (const auto& [name, value] : row.settings) {
     if (name == "READOUT") {
       // A number of dtof_array is the read-out's place in C++.
@@ -135,7 +135,7 @@ TEST(ParameterLimits, ARefusalNamesTheValue) {
   ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kSifh);
   parameters.nb = 11;
   EXPECT_EQ(refusal(parameters), "NB must be 1 to NP, not 11");
-  parameters = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
   parameters.pool.group_size = 5;
   EXPECT_EQ(refusal(parameters), "GROUP_SIZE must be a power of two from 4 to 32, not 5");
 }

@@ -31,7 +31,7 @@ TEST(ParameterDefaults, AreThoseOfTheRtl) {
   EXPECT_FALSE(readout.window_centred);
   EXPECT_FALSE(readout.time_gate);
   const PoolPointerParameters pool;
-  EXPECT_EQ(pool, PoolPointerParameters::defaults(Readout::kPoolPointer2));
+  EXPECT_EQ(pool, PoolPointerParameters::defaults(Readout::kPoolPointer));
   EXPECT_EQ(pool.group_size, 4);
   EXPECT_EQ(pool.labels, 5);
   EXPECT_EQ(pool.score_bits, 4);
@@ -82,8 +82,8 @@ TEST(ReadoutNames, EveryReadoutHasItsOwn) {
     EXPECT_FALSE(is_pool_readout(readout) && is_pointer_readout(readout));
   }
   EXPECT_EQ(names.size(), kAllReadouts.size());
-  EXPECT_EQ(parse_readout("poolpointer2"), Readout::kPoolPointer2);
-  EXPECT_EQ(parse_readout("poolpointer2-lean"), Readout::kPoolPointer2Lean);
+  EXPECT_EQ(parse_readout("poolpointer"), Readout::kPoolPointer);
+  EXPECT_EQ(parse_readout("poolpointer-lean"), Readout::kPoolPointerLean);
 }
 
 TEST(ReadoutParameters, DefaultsOfTheSpecification) {

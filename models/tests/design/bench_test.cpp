@@ -48,9 +48,8 @@ TEST(Bench, ColumnsAreAllOrThoseOfThreeParts) {
 
 TEST(Bench, MeasuresWhatIsKnownOfTheReadouts) {
   const BenchSettings settings{.sensor = small_sensor(), .scenes = {Scene::kRoom}, .klux = {2.0, 50.0}};
-  const std::vector<ReadoutParameters> readouts = {
-      default_parameters(Readout::kPoolPointer2, settings.sensor),
-      default_parameters(Readout::kEzPointer, settings.sensor)};
+  const std::vector<ReadoutParameters> readouts = {default_parameters(Readout::kPoolPointer, settings.sensor),
+                                                   default_parameters(Readout::kEzPointer, settings.sensor)};
   const std::vector<ReadoutScore> scores =
       run_bench(settings, readouts, {.pixels = 1e9, .frames = 3, .detection = true});
   ASSERT_EQ(scores.size(), 2U);

@@ -27,7 +27,7 @@ DesignOption option(Readout readout, double share, double mm2, std::uint64_t clo
 }
 
 TEST(Recommendation, TheLimitOfAreaDecidesTheWinner) {
-  const std::vector<DesignOption> options = {option(Readout::kPoolPointer2, 0.01, 1.0),
+  const std::vector<DesignOption> options = {option(Readout::kPoolPointer, 0.01, 1.0),
                                              option(Readout::kEzPointer, 0.30, 0.5),
                                              option(Readout::kSifh, 0.20, 4.0)};
   DesignLimits limits;
@@ -55,8 +55,8 @@ TEST(Recommendation, TheLimitsOfPowerFrameAndClockDecideToo) {
 }
 
 TEST(Recommendation, OfReadoutsThatAreAsGoodTheSmallestIsTaken) {
-  const std::vector<DesignOption> options = {option(Readout::kPoolPointer2, 0.100, 1.0),
-                                             option(Readout::kPoolPointer2Lean, 0.103, 0.7),
+  const std::vector<DesignOption> options = {option(Readout::kPoolPointer, 0.100, 1.0),
+                                             option(Readout::kPoolPointerLean, 0.103, 0.7),
                                              option(Readout::kSifh, 0.110, 0.6)};
   const Recommendation found = recommend(options, {});
   EXPECT_EQ(found.chosen, 1U);
@@ -87,7 +87,7 @@ TEST(Recommendation, EachLimitChangesByTenPerCentToBothSides) {
 }
 
 TEST(Recommendation, TenPerCentMoreAreaBringsAnotherWinner) {
-  const std::vector<DesignOption> options = {option(Readout::kPoolPointer2, 0.01, 1.05),
+  const std::vector<DesignOption> options = {option(Readout::kPoolPointer, 0.01, 1.05),
                                              option(Readout::kEzPointer, 0.30, 0.95)};
   DesignLimits limits;
   limits.most_mm2 = 1.0;
@@ -98,12 +98,12 @@ TEST(Recommendation, TenPerCentMoreAreaBringsAnotherWinner) {
 }
 
 TEST(Recommendation, SaysWhichSingleLimitWouldDo) {
-  const std::vector<DesignCandidate> candidates = {option(Readout::kPoolPointer2, 0.01, 1.181).candidate,
+  const std::vector<DesignCandidate> candidates = {option(Readout::kPoolPointer, 0.01, 1.181).candidate,
                                                    option(Readout::kSifh, 0.01, 4.0).candidate};
   DesignLimits limits;
   limits.most_mm2 = 0.5;
   EXPECT_EQ(what_would_be_needed(candidates, limits),
-            "no read-out keeps the limits; one of these would do: --max-mm2 1.19 (poolPointer 2)");
+            "no read-out keeps the limits; one of these would do: --max-mm2 1.19 (poolPointer)");
   limits.budget.frames_per_s = 1e6;
   EXPECT_THAT(what_would_be_needed(candidates, limits),
               HasSubstr("each alone would have to be at --max-mm2 1.19"));

@@ -39,7 +39,7 @@ TEST(ArrayRows, IndependentPixelsAreThoseOfTheRegion) {
 
 TEST(ArrayRows, AnArrayOfAPoolReadoutMayHaveTheSensorsRowsAlone) {
   const PhotonSource source = scene();
-  const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer2, true);
+  const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer, true);
   EXPECT_EQ(array.source->rows(), 12);
   const std::vector<PixelResult> read = array.read(counted(12));
   ASSERT_EQ(read.size(), 12U);
@@ -48,7 +48,7 @@ TEST(ArrayRows, AnArrayOfAPoolReadoutMayHaveTheSensorsRowsAlone) {
 
 TEST(ArrayRows, AnArrayOfAPoolReadoutIsWholeAndItsRegionIsRead) {
   const PhotonSource source = scene();
-  const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer2);
+  const ArrayRows array = array_rows(source, kRegion, Readout::kPoolPointer);
   EXPECT_EQ(array.source->rows(), kArrayRows);
   EXPECT_EQ(array.first, 0);
   const std::vector<PixelResult> read = array.read(counted(kArrayRows));

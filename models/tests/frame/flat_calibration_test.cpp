@@ -121,7 +121,7 @@ TEST(FlatCalibration, FrameAndScenesFitTheSameTable) {
   SensorModel sensor = parse_preset("thesis");
   sensor.acquisitions = 400;
   const std::vector<ReadoutParameters> readouts = {ReadoutParameters::defaults(Readout::kSifh),
-                                                   ReadoutParameters::defaults(Readout::kPoolPointer2Lean)};
+                                                   ReadoutParameters::defaults(Readout::kPoolPointerLean)};
   TargetMap targets(3, 160, {2.0, 0.6});
   targets.at(1, 5).depth_m = 3.0;
   const SceneStudy study(sensor, 14.0, readouts, 5, 1);
@@ -158,7 +158,7 @@ TEST(FlatCalibration, ColumnsThatHearEachOtherAreFittedInPairs) {
   sensor.acquisitions = 400;
   const FlatCalibration calibration(sensor);
   const ReadoutParameters alone = ReadoutParameters::defaults(Readout::kFifh);
-  const ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  const ReadoutParameters together = ReadoutParameters::defaults(Readout::kPoolPointer);
   const auto photons = [&](const TargetMap& targets) {
     return std::make_unique<PhotonSource>(sensor, targets, 14.0, 5, FlatCalibration::kFrame);
   };

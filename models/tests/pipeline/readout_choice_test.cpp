@@ -27,7 +27,7 @@ std::string refusal(Readout readout, std::string_view name, int value) {
 TEST(ReadoutChoice, NamesAreThoseOfReadoutsToml) {
   EXPECT_THAT(parameter_names(Readout::kSifh),
               ElementsAre("NP", "SLOTS", "NB", "COUNT_WIDTH", "WINDOW_CENTRED"));
-  EXPECT_THAT(parameter_names(Readout::kPoolPointer2),
+  EXPECT_THAT(parameter_names(Readout::kPoolPointer),
               ElementsAre("NP", "SLOTS", "COUNT_WIDTH", "CELL_SHIFT"));
 }
 

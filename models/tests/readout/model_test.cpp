@@ -422,7 +422,7 @@ TEST(RawHistogram, OnlyOfReadoutsThatHoldAWholeOne) {
     EXPECT_GT(ReadoutParameters::defaults(readout).raw_bins(), 0) << readout_name(readout);
   }
   for (const Readout readout :
-       {Readout::kEzPointer, Readout::kPifh, Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
+       {Readout::kEzPointer, Readout::kPifh, Readout::kPoolPointer, Readout::kPoolPointerLean}) {
     EXPECT_EQ(ReadoutParameters::defaults(readout).raw_bins(), 0) << readout_name(readout);
   }
   for (const Readout readout : kAllReadouts) {

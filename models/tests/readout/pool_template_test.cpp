@@ -29,7 +29,7 @@ std::vector<ColumnStream> columns_with(std::uint32_t acquisitions, std::uint32_t
 // 14 / 64 of 1280 acquisitions are coarse: 280, and 63, 127, 191 and 255 are sweeps. A group has 4 pairs of
 // rows, a sum 7 groups; three times what they count is taken, in units of 4.
 TEST(PoolTemplate, ThreeTimesWhatASumCounts) {
-  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
   const auto array = columns_with(1280, 56, 3, 8);  // 0, 56, 112, 168, 224
   PoolTemplate expected{};
   expected[3] = 105;  // 3 * 7 * 4 * 5 / 4
@@ -37,7 +37,7 @@ TEST(PoolTemplate, ThreeTimesWhatASumCounts) {
 }
 
 TEST(PoolTemplate, SweepsDoNotCountAndEntriesSaturate) {
-  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  const ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
   EXPECT_EQ(measured_template(columns_with(1280, 85, 2, 4), 1280, parameters)[3], 63);  // 0, 85, 170, not 255
   PoolTemplate expected{};
   expected[3] = 255;
@@ -45,7 +45,7 @@ TEST(PoolTemplate, SweepsDoNotCountAndEntriesSaturate) {
 }
 
 TEST(PoolTemplate, UnitFollowsTheWidthOfABin) {
-  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer);
   parameters.count_width = 8;
   EXPECT_EQ(measured_template(columns_with(1280, 56, 1, 2), 1280, parameters)[3], 53);  // 52.5
   EXPECT_EQ(pool_template_unit(4), 1);
@@ -55,7 +55,7 @@ TEST(PoolTemplate, UnitFollowsTheWidthOfABin) {
 }
 
 TEST(PoolTemplate, NeedsTwoRows) {
-  EXPECT_THAT([] { (void)measured_template({}, 10, ReadoutParameters::defaults(Readout::kPoolPointer2)); },
+  EXPECT_THAT([] { (void)measured_template({}, 10, ReadoutParameters::defaults(Readout::kPoolPointer)); },
               testing::ThrowsMessage<InputError>(testing::HasSubstr("at least two rows")));
 }
 

@@ -144,7 +144,7 @@ TEST_P(AgainstReference, FullBins) {
   }
 }
 
-/// pool_pointer2_test has what pools pixels.
+/// pool_pointer_test has what pools pixels.
 std::vector<Readout> single_pixel_readouts() {
   std::vector<Readout> readouts;
   std::ranges::copy_if(kAllReadouts, std::back_inserter(readouts), has_reference);

@@ -63,7 +63,7 @@ TEST(RunFrame, RowMajorAndTheSameForEveryThreadCount) {
 // Columns of an engine hear each other, so that a part of a frame needs whole engines.
 TEST(RunFrame, ColumnsThatHearEachOtherAreReadTogether) {
   SCOPED_TRACE(test_seed_message());
-  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer2, 10);
+  ReadoutParameters parameters = ReadoutParameters::defaults(Readout::kPoolPointer, 10);
   parameters.pool.engine_columns = 4;
   const RandomSource source(parameters);
   std::vector<ColumnStream> columns(7);

@@ -60,7 +60,7 @@ TEST(Plot, EveryReadoutHasAStyleOfItsOwn) {
 TEST(Plot, ALabelHasTheStyleOfTheLongestTitle) {
   EXPECT_EQ(plot_style("hisPointer, corrected")->title, "hisPointer");
   EXPECT_EQ(plot_style("hisPointer v1")->title, "hisPointer v1");
-  EXPECT_EQ(plot_style("poolPointer 2 lean: rmse")->title, "poolPointer 2 lean");
+  EXPECT_EQ(plot_style("poolPointer lean: rmse")->title, "poolPointer lean");
   EXPECT_EQ(plot_style("matched filter (single pixel)")->title, "matched filter");
   EXPECT_FALSE(plot_style("hisPointers"));
   EXPECT_FALSE(plot_style("exact"));

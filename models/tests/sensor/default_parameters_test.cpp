@@ -11,7 +11,7 @@ namespace {
 TEST(DefaultParameters, PoolReadoutsFollowThePulse) {
   SensorModel sensor = parse_preset("thesis");
   const double bin = sensor.time_resolution_s();
-  for (const Readout readout : {Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
+  for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
     EXPECT_EQ(default_parameters(readout, parse_preset("thesis")).pool,
               PoolPointerParameters::defaults(readout));
     for (const auto& [bins, shift] : {std::pair(8, 8), std::pair(23, 8), std::pair(25, 9), std::pair(45, 9),
@@ -29,7 +29,7 @@ TEST(DefaultParameters, CellsDoNotDependOnNp) {
   sensor.pulse_fwhm_s = 12 * sensor.time_resolution_s();
   for (const int np : {8, 12, 16}) {
     sensor.np = np;
-    EXPECT_EQ(default_parameters(Readout::kPoolPointer2, sensor).pool.cell_shift, 8) << np;
+    EXPECT_EQ(default_parameters(Readout::kPoolPointer, sensor).pool.cell_shift, 8) << np;
   }
 }
 

@@ -12,12 +12,12 @@ using testing::Not;
 
 std::vector<FaultCaseResult> harmless() {
   FaultCaseResult flips;
-  flips.fault = {Readout::kPoolPointer2, FaultKind::kFlippedBit, SramKind::kPoolQuad, std::nullopt};
+  flips.fault = {Readout::kPoolPointer, FaultKind::kFlippedBit, SramKind::kPoolQuad, std::nullopt};
   flips.frames = flips.next_frames = 3;
   flips.effects.push_back({.pixels = 64, .changed = 4, .moved = 3, .beyond = 2, .largest_m = 0.5});
   flips.effects.push_back({.pixels = 64, .changed = 0, .moved = 0, .beyond = 0, .largest_m = 0.0});
   FaultCaseResult hot;
-  hot.fault = {Readout::kPoolPointer2, FaultKind::kHotPixelFixedCode, std::nullopt, std::nullopt};
+  hot.fault = {Readout::kPoolPointer, FaultKind::kHotPixelFixedCode, std::nullopt, std::nullopt};
   hot.frames = hot.next_frames = 2;
   hot.effects.push_back({.pixels = 63, .changed = 9, .moved = 8, .beyond = 5, .largest_m = 1.0});
   return {flips, hot};
@@ -32,7 +32,7 @@ TEST(FaultReport, StatesWhatTheFiguresSay) {
       report.conclusions,
       HasSubstr("1 of 2 flipped bits moved a depth, 1 beyond 3 %; the most pixels that one moved: 3"));
   EXPECT_THAT(report.conclusions, HasSubstr("changed 9 others on average and spoilt 5, at most 5"));
-  EXPECT_THAT(report.csv, HasSubstr("poolpointer2,flipped_bit,four columns,-,3,0,0,2,128,1,1,1,500,500,500"));
+  EXPECT_THAT(report.csv, HasSubstr("poolpointer,flipped_bit,four columns,-,3,0,0,2,128,1,1,1,500,500,500"));
 }
 
 TEST(FaultReport, SaysWhatWentWrong) {

@@ -134,7 +134,7 @@ TEST_P(PlantedHistogramFlip, MovesThePeakOfItsPixel) {
 
 class PlantedPoolFlip : public PlantedFlip {};
 INSTANTIATE_TEST_SUITE_P(Pools, PlantedPoolFlip,
-                         testing::Values(Readout::kPoolPointer2, Readout::kPoolPointer2Lean),
+                         testing::Values(Readout::kPoolPointer, Readout::kPoolPointerLean),
                          readout_test_name);
 
 // Each bit of a word with two pixels' pointers, one after the other: some change their column, and through S1

@@ -128,7 +128,7 @@ struct LitArray {
 };
 
 std::vector<LitArray> make_arrays(const Settings& settings) {
-  const std::vector<std::string> readouts = {"hispointer", "histogram32", "poolpointer2"};
+  const std::vector<std::string> readouts = {"hispointer", "histogram32", "poolpointer"};
   const SensorModel sensor = find_sensor("thesis");
   std::vector<LitArray> arrays;
   Progress progress("look-up tables", kArrays.size() * kLights.size());

@@ -25,7 +25,7 @@ from .tools import Cells
 ROOT = Path(__file__).resolve().parents[3]
 BUILD = ROOT / "build" / "layout"
 SYNTH = ROOT / "build" / "synth"
-DEFAULT = ("ezpointer", "hispointer", "poolpointer2")
+DEFAULT = ("ezpointer", "hispointer", "poolpointer")
 
 
 def _say(text: str) -> None:

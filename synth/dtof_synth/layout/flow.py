@@ -26,7 +26,7 @@ SEEDS = (1, 2, 3)  # of the placement: another one where a net cannot be routed
 REPAIRS = 2
 POOL_DENSITY = 0.5  # at 0.6 the router found no way for a net of a pair of columns
 ARRAY_COLUMNS = 4  # of the array that is elaborated around the column
-PAIR = "dtof_pool2_pair"
+PAIR = "dtof_pool_pair"
 
 
 @dataclass

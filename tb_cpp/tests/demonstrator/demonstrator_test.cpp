@@ -171,7 +171,7 @@ TEST_F(Demonstrator, DepthsAreTheModels) {
     SCOPED_TRACE(testing::Message() << "frame " << frame);
     const std::vector<Pixel> pixels = receive_pixels();
     ASSERT_EQ(pixels, expected_pixels());
-    // Behind the reset each pixel has a depth of its own, more than poolPointer 2 has candidates for a group.
+    // Behind the reset each pixel has a depth of its own, more than poolPointer has candidates for a group.
     const std::size_t missed = is_pool_readout(parameters_.readout) ? pixel_count() / 2 : pixel_count() / 16;
     EXPECT_GE(near_targets(pixels, 8), pixel_count() - missed);
   }

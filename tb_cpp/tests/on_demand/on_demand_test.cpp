@@ -67,8 +67,8 @@ TEST_F(OnDemand, ArraysOfAnySizeAndBitsAgreeWithTheModel) {
     int rows;
     int np;
   };
-  for (const Case& c : {Case{Readout::kSifh, 8, 6, 8}, Case{Readout::kPoolPointer2, 8, 6, 8},
-                        Case{Readout::kHisPointer, 5, 7, 12}, Case{Readout::kPoolPointer2Lean, 7, 9, 12},
+  for (const Case& c : {Case{Readout::kSifh, 8, 6, 8}, Case{Readout::kPoolPointer, 8, 6, 8},
+                        Case{Readout::kHisPointer, 5, 7, 12}, Case{Readout::kPoolPointerLean, 7, 9, 12},
                         Case{Readout::kEzPointer, 13, 3, 3}}) {
     SCOPED_TRACE(fmt::format("{} {} x {}, {} bits", readout_name(c.readout), c.columns, c.rows, c.np));
     const PhotonSource source = small_scene(c.columns, c.rows, c.np);
@@ -81,7 +81,7 @@ TEST_F(OnDemand, ArraysOfAnySizeAndBitsAgreeWithTheModel) {
 }
 
 TEST_F(OnDemand, SubsystemsAgreeWithTheModel) {
-  for (const Readout readout : {Readout::kFifh, Readout::kPoolPointer2}) {
+  for (const Readout readout : {Readout::kFifh, Readout::kPoolPointer}) {
     SCOPED_TRACE(readout_name(readout));
     const PhotonSource source = small_scene(6, 5, 9);
     const ReadoutParameters parameters = default_parameters(readout, source.model());

@@ -10,7 +10,7 @@ namespace {
 class Disturbance : public testing::TestWithParam<Readout> {
  protected:
   static RtlConfiguration full_size(const ReadoutParameters& parameters) {
-    constexpr int kEngine = 10;  // columns of poolPointer 2's that the tests have
+    constexpr int kEngine = 10;  // columns of poolPointer's that the tests have
     return find_rtl_configuration(parameters, 160, parameters.columns_together() > 1 ? kEngine : 200);
   }
   RtlConfiguration configuration_ = full_size(ReadoutParameters::defaults(GetParam()));

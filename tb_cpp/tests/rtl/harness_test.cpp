@@ -112,7 +112,7 @@ TEST(RtlConfiguration, ResultsComeRowByRowOrEngineByEngine) {
     return text;
   };
   EXPECT_EQ(order(Readout::kSifh), "|00 01 02 03 04 |10 11 12 13 14 ");
-  EXPECT_EQ(order(Readout::kPoolPointer2), "|00 02 04 |10 12 14 |01 03 |11 13 ");
+  EXPECT_EQ(order(Readout::kPoolPointer), "|00 02 04 |10 12 14 |01 03 |11 13 ");
 }
 
 TEST(RtlReadout, RefusesStreamsThatDoNotFit) {

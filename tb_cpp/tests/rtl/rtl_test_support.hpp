@@ -47,7 +47,7 @@ inline std::string readout_test_name(const testing::TestParamInfo<Readout>& read
   return test_name(readout_name(readout.param));
 }
 
-/// Those of dtof_array. pool_pointer2_test has dtof_pool_pointer2_array's.
+/// Those of dtof_array. pool_pointer_test has dtof_pool_pointer_array's.
 inline std::vector<Readout> array_readouts() {
   std::vector<Readout> readouts;
   std::ranges::remove_copy_if(kRtlReadouts, std::back_inserter(readouts), is_pool_readout);

@@ -113,7 +113,7 @@ const ExampleFrame& frame_of(const CompiledSubsystem& subsystem, std::uint32_t a
                                : frames.emplace(key, example_frame(subsystem, acquisitions)).first->second;
 }
 
-/// One subsystem of either product of poolPointer 2, with several groups in a column.
+/// One subsystem of either product of poolPointer, with several groups in a column.
 std::vector<CompiledSubsystem> both_products() {
   constexpr int kFewestRows = 8;
   std::vector<CompiledSubsystem> products = compiled_subsystems();
@@ -159,7 +159,7 @@ TEST(DriverExampleProducts, AreBoth) {
   for (const CompiledSubsystem& subsystem : both_products()) {
     readouts.push_back(subsystem.configuration.parameters.readout);
   }
-  EXPECT_EQ(readouts, (std::vector<Readout>{Readout::kPoolPointer2, Readout::kPoolPointer2Lean}));
+  EXPECT_EQ(readouts, (std::vector<Readout>{Readout::kPoolPointer, Readout::kPoolPointerLean}));
 }
 
 TEST_P(DriverExampleOfBothProducts, IsTheModelBitForBit) {

@@ -427,7 +427,7 @@ TEST(DriverAlone, TellsWhatItDoesNotFind) {
 }
 
 TEST(DriverAlone, TakesTheScheduleFromTheRegistersAtAnyNumberOfAcquisitions) {
-  for (const Readout readout : {Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
+  for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
     const PoolPointerParameters pool = PoolPointerParameters::defaults(readout);
     Memory memory;
     memory.accesses_left = 1000000;

@@ -13,7 +13,7 @@
 
 #include "dtof/core/random.hpp"
 #include "dtof/readout/model.hpp"
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 #include "dtof_registers.h"
 #include "subsystem/subsystem_bench.hpp"
 #include "tests/core/test_seed.hpp"
@@ -204,8 +204,8 @@ inline std::vector<ResultFields> expected_results(SubsystemBench& bench, const F
     if (!settings.prior) {
       priors->clear();
     }
-    results = run_pool_pointer2(configuration.sram_num, reader_of(streams), parameters.np,
-                                settings.acquisitions, pool_pointer2_parameters(parameters), priors);
+    results = run_pool_pointer(configuration.sram_num, reader_of(streams), parameters.np,
+                               settings.acquisitions, pool_pointer_parameters(parameters), priors);
   } else {
     results = make_readout_model(parameters)->run_columns(streams, settings.acquisitions);
   }

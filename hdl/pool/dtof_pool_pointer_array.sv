@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2 for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
-// (docs/reference/poolpointer2.md). Four columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and
+// poolPointer for a SPAD array: SRAM_NUM columns of PIXELS_PER_SRAM pixels, TDC timestamps in, depth codes out
+// (docs/reference/poolpointer.md). Four columns share an SRAM, ENGINE_COLUMNS an engine, which decodes, chooses and
 // decides for one after the other.
 //
 // Frame: start_i samples acq_num_i and the schedule, 0 <= coarse_end_i <= track_end_i <= acq_num_i; busy_o until done_o.
@@ -14,15 +14,15 @@
 //   the confidence belongs as well.
 // Borders: every signal between the shared logic and columns or engines goes from a register to a register (dtof_broadcast.sv),
 //   timestamps from the port, which stands for the TDC's register, to those of their column (dtof_timestamp_input.sv). The words
-//   of an engine's pairs are combined by OR on the way to it (dtof_pool2_line.sv).
-// Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS + what docs/reference/poolpointer2.md's
+//   of an engine's pairs are combined by OR on the way to it (dtof_pool_line.sv).
+// Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS + what docs/reference/poolpointer.md's
 //   cycle budget says.
 `include "dtof_macros.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool_pointer2_array #(
+module dtof_pool_pointer_array #(
     parameter int NP = 10,                // bits of a timestamp, 8 to 16
     parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
     parameter int SRAM_NUM = 200,         // columns
@@ -75,12 +75,12 @@ module dtof_pool_pointer2_array #(
     output logic                   result_tlast_o
 );
 
-  localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+  localparam int HALF_WIDTH = dtof_pkg::pool_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                          POINTER_SHIFT, RIVAL_MOVES);
-  localparam int PIXEL_WIDTH = dtof_pkg::pool2_pixel_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+  localparam int PIXEL_WIDTH = dtof_pkg::pool_pixel_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES);
   localparam int SIGNIFICANCE_WIDTH = dtof_pkg::pool_significance_width(LABELS, PIXEL_WIDTH, ADVANTAGE_WIDTH, RIVAL_MOVES, PRIOR);
-  localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH);
+  localparam int LINE_HALVES = dtof_pkg::pool_line_halves(HALF_WIDTH, COUNT_WIDTH);
   localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH;
   localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE;
   localparam int PIXEL_WORDS = GROUPS * (GROUP_SIZE / 2);
@@ -94,46 +94,46 @@ module dtof_pool_pointer2_array #(
   localparam int SRAM_COLUMNS = (ENGINES > 1 && STEP_PAIRS == 1) ? 2 : 4;
   localparam int SRAM_PAIRS = SRAM_COLUMNS / 2;
   localparam int QUADS = (SRAM_NUM + SRAM_COLUMNS - 1) / SRAM_COLUMNS;
-  localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES);
+  localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES);
   localparam int LAST_COLUMNS = SRAM_NUM - (ENGINES - 1) * STEPS;  // of the last engine
   localparam int LAST_PAIRS = (LAST_COLUMNS + 1) / 2;
 
-  `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "dtof_pool_pointer2_array: NP must be 8 to 16")
-  `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "dtof_pool_pointer2_array: PIXELS_PER_SRAM must be at least 1")
-  `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1, "dtof_pool_pointer2_array: SRAM_NUM must be at least 1")
-  `DTOF_REQUIRE(g_illegal_slots, SLOTS >= 2 && SLOTS <= 4, "dtof_pool_pointer2_array: SLOTS must be 2 to 4")
+  `DTOF_REQUIRE(g_illegal_np, NP >= 8 && NP <= 16, "dtof_pool_pointer_array: NP must be 8 to 16")
+  `DTOF_REQUIRE(g_illegal_pixels, PIXELS_PER_SRAM >= 1, "dtof_pool_pointer_array: PIXELS_PER_SRAM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_srams, SRAM_NUM >= 1, "dtof_pool_pointer_array: SRAM_NUM must be at least 1")
+  `DTOF_REQUIRE(g_illegal_slots, SLOTS >= 2 && SLOTS <= 4, "dtof_pool_pointer_array: SLOTS must be 2 to 4")
   `DTOF_REQUIRE(g_illegal_count, COUNT_WIDTH >= 4 && COUNT_WIDTH <= 8,
-                "dtof_pool_pointer2_array: COUNT_WIDTH must be 4 to 8")
+                "dtof_pool_pointer_array: COUNT_WIDTH must be 4 to 8")
   `DTOF_REQUIRE(g_illegal_group, GROUP_SIZE >= 4 && GROUP_SIZE <= 32 && (1 << $clog2(GROUP_SIZE)) == GROUP_SIZE,
-                "dtof_pool_pointer2_array: GROUP_SIZE must be a power of two from 4 to 32")
-  `DTOF_REQUIRE(g_illegal_labels, LABELS >= 2 && LABELS <= 8, "dtof_pool_pointer2_array: LABELS must be 2 to 8")
-  `DTOF_REQUIRE(g_illegal_score, SCORE_BITS >= 1 && SCORE_BITS <= 4, "dtof_pool_pointer2_array: SCORE_BITS must be 1 to 4")
+                "dtof_pool_pointer_array: GROUP_SIZE must be a power of two from 4 to 32")
+  `DTOF_REQUIRE(g_illegal_labels, LABELS >= 2 && LABELS <= 8, "dtof_pool_pointer_array: LABELS must be 2 to 8")
+  `DTOF_REQUIRE(g_illegal_score, SCORE_BITS >= 1 && SCORE_BITS <= 4, "dtof_pool_pointer_array: SCORE_BITS must be 1 to 4")
   `DTOF_REQUIRE(g_illegal_offset, OFFSET_BITS == 0 || (OFFSET_BITS >= 2 && OFFSET_BITS <= 6),
-                "dtof_pool_pointer2_array: OFFSET_BITS must be 0 or 2 to 6")
+                "dtof_pool_pointer_array: OFFSET_BITS must be 0 or 2 to 6")
   `DTOF_REQUIRE(g_illegal_advantage, ADVANTAGE_WIDTH == 4 || ADVANTAGE_WIDTH == 7,
-                "dtof_pool_pointer2_array: ADVANTAGE_WIDTH must be 4 or 7")
+                "dtof_pool_pointer_array: ADVANTAGE_WIDTH must be 4 or 7")
   `DTOF_REQUIRE(g_illegal_shift, POINTER_SHIFT >= 0 && POINTER_SHIFT <= ((ADVANTAGE_WIDTH == 4) ? 4 : 2),
-                "dtof_pool_pointer2_array: POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4")
+                "dtof_pool_pointer_array: POINTER_SHIFT must be 0 to 2, or 0 to 4 if ADVANTAGE_WIDTH is 4")
   `DTOF_REQUIRE(g_illegal_rival, RIVAL_MOVES == 0 || RIVAL_MOVES == 1,
-                "dtof_pool_pointer2_array: RIVAL_MOVES must be 0 or 1")
+                "dtof_pool_pointer_array: RIVAL_MOVES must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_resting, RIVAL_MOVES == 1 || OFFSET_BITS == 0,
-                "dtof_pool_pointer2_array: OFFSET_BITS must be 0 if RIVAL_MOVES is 0")
+                "dtof_pool_pointer_array: OFFSET_BITS must be 0 if RIVAL_MOVES is 0")
   `DTOF_REQUIRE(g_illegal_cell_shift, CELL_SHIFT >= 8 && CELL_SHIFT <= 10,
-                "dtof_pool_pointer2_array: CELL_SHIFT must be 8 to 10")
+                "dtof_pool_pointer_array: CELL_SHIFT must be 8 to 10")
   `DTOF_REQUIRE(g_illegal_second, SECOND_TARGET == 0 || SECOND_TARGET == 1,
-                "dtof_pool_pointer2_array: SECOND_TARGET must be 0 or 1")
-  `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || PRIOR == 1, "dtof_pool_pointer2_array: PRIOR must be 0 or 1")
+                "dtof_pool_pointer_array: SECOND_TARGET must be 0 or 1")
+  `DTOF_REQUIRE(g_illegal_prior, PRIOR == 0 || PRIOR == 1, "dtof_pool_pointer_array: PRIOR must be 0 or 1")
   `DTOF_REQUIRE(g_illegal_used, PRIOR == 0 || dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH) + LABELS <= HALF_WIDTH,
-                "dtof_pool_pointer2_array: a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1")
+                "dtof_pool_pointer_array: a group's word and a bit for each candidate must fit two pixel words if PRIOR is 1")
   `DTOF_REQUIRE(g_illegal_histogram,
-                dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH < LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,
-                "dtof_pool_pointer2_array: 32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows")
+                dtof_pkg::POOL_BINS_PER_LINE * COUNT_WIDTH < LINE_WIDTH && GROUP_SIZE >= 4 * LINE_HALVES,
+                "dtof_pool_pointer_array: 32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows")
   `DTOF_REQUIRE(g_illegal_engine, ENGINE_COLUMNS >= 2 && ENGINE_COLUMNS % 2 == 0,
-                "dtof_pool_pointer2_array: ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM")
+                "dtof_pool_pointer_array: ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM")
   `DTOF_REQUIRE(g_illegal_acq_width, ACQ_WIDTH >= 4 && ACQ_WIDTH <= 24,
-                "dtof_pool_pointer2_array: ACQ_WIDTH must be 4 to 24")
+                "dtof_pool_pointer_array: ACQ_WIDTH must be 4 to 24")
   `DTOF_REQUIRE(g_illegal_broadcast, BROADCAST_STAGES >= 1 && BROADCAST_STAGES <= 8,
-                "dtof_pool_pointer2_array: BROADCAST_STAGES must be 1 to 8")
+                "dtof_pool_pointer_array: BROADCAST_STAGES must be 1 to 8")
 
   // Control, once per array.
 
@@ -251,13 +251,13 @@ module dtof_pool_pointer2_array #(
   logic [STEP_WIDTH-1:0] engine_column, send_column;
   logic [STEP_PAIRS-1:0] engine_select;
   logic engine_read, engine_write, engine_upper, engine_neighbour;
-  `include "dtof_pool2_command.svh"
-  pool2_engine_command_t command;
+  `include "dtof_pool_command.svh"
+  pool_engine_command_t command;
   logic [ROW_WIDTH-1:0] scratch_row, send_row;
   logic send, send_last, send_waits, send_busy, prior_q;
   logic [$clog2(dtof_pkg::POOL_COARSE_BINS)-1:0] template_bin;
 
-  dtof_pool2_sequencer #(
+  dtof_pool_sequencer #(
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (LABELS),
@@ -348,7 +348,7 @@ module dtof_pool_pointer2_array #(
   // What pairs and engines are told, on its way to them. The last engine may have fewer columns: its last pair is then its
   // own missing neighbour.
 
-  localparam int COMMAND_WIDTH = dtof_pkg::POOL2_COMMAND_WIDTH;
+  localparam int COMMAND_WIDTH = dtof_pkg::POOL_COMMAND_WIDTH;
   localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27
       + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH + dtof_pkg::POOL_TEMPLATE_WIDTH + 1;
 
@@ -479,7 +479,7 @@ module dtof_pool_pointer2_array #(
         localparam int ENGINE = (FIRST + p) / STEP_PAIRS;
         localparam int PLACE = (FIRST + p) % STEP_PAIRS;  // of the engine's pairs
         localparam int PAIRS = (ENGINE == ENGINES - 1) ? LAST_PAIRS : STEP_PAIRS;
-        // The next pair of its segment gives its word to this one, and the first pair gives the OR of all to dtof_pool2_line.
+        // The next pair of its segment gives its word to this one, and the first pair gives the OR of all to dtof_pool_line.
         localparam int NEXT = PLACE + 1;
         logic [LINE_WIDTH-1:0] beside_word;
         if (p < QUAD_PAIRS && NEXT % dtof_pkg::POOL_LINE_PAIRS != 0 && NEXT < PAIRS) begin : g_beyond
@@ -489,7 +489,7 @@ module dtof_pool_pointer2_array #(
         end
       end
 
-      dtof_pool2_quad #(
+      dtof_pool_quad #(
           .COLUMNS         (QUAD_COLUMNS),
           .NP              (NP),
           .PIXELS_PER_SRAM (PIXELS_PER_SRAM),
@@ -579,7 +579,7 @@ module dtof_pool_pointer2_array #(
         assign segment_words[s*LINE_WIDTH+:LINE_WIDTH] = pair_words[(FIRST+s*dtof_pkg::POOL_LINE_PAIRS)*LINE_WIDTH+:LINE_WIDTH];
       end
 
-      dtof_pool2_line #(
+      dtof_pool_line #(
           .SEGMENTS(SEGMENTS),
           .WIDTH   (LINE_WIDTH)
       ) u_line (
@@ -600,7 +600,7 @@ module dtof_pool_pointer2_array #(
 
       `DTOF_ASSERT(a_clear_with_zeros, !heard_clear || word == '0, "words are cleared while an engine gives another one")
 
-      dtof_pool2_engine #(
+      dtof_pool_engine #(
           .NP             (NP),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
           .COUNT_WIDTH    (COUNT_WIDTH),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_pool2_sequencer with dtof_pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
+// dtof_pool_sequencer with dtof_pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
 // in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module pool2_sequencer_properties #(
+module pool_sequencer_properties #(
     parameter int PIXELS = 3,
     parameter int GROUP_SIZE = 4,
     parameter int LABELS = 2,
@@ -34,8 +34,8 @@ module pool2_sequencer_properties #(
     checking <= 1'b1;
   end
 
-  `include "dtof_pool2_command.svh"
-  pool2_engine_command_t command;
+  `include "dtof_pool_command.svh"
+  pool_engine_command_t command;
   logic done, read, write, upper, neighbour, send, send_last, waits, busy;
   logic [PAIRS-1:0] select;
   logic [ADDR_WIDTH-1:0] address;
@@ -44,7 +44,7 @@ module pool2_sequencer_properties #(
   logic tvalid, tlast;
   logic [COLUMN_WIDTH+ROW_WIDTH:0] tdata;
 
-  dtof_pool2_sequencer #(
+  dtof_pool_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .GROUP_SIZE     (GROUP_SIZE),
       .LABELS         (LABELS),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's track word after one timestamp: scores of the candidates, leader, its offset. Combinational.
 //
-// Equation (docs/reference/poolpointer2.md, Track): the lowest candidate hit gains a point, or the others lose one if its
+// Equation (docs/reference/poolpointer.md, Track): the lowest candidate hit gains a point, or the others lose one if its
 // score is full; it leads if it is now ahead of the leader. The leader's offset follows the timestamp by 4, 2 or 1, as
 // the leader's score grows, and starts anew with a new leader.
 // Cost: an incrementer or decrementer per score, an adder of the offset; about 20 gate delays.
@@ -9,7 +9,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_track_update #(
+module dtof_pool_track_update #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,  // 0: neither offset nor leader

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: up to four columns, in pairs, and the single-port SRAM that they share. A word has a part of each pair
-// (dtof_pool2_pair), and all accesses are common to the pairs, so that one wide macro does the work of two.
+// poolPointer: up to four columns, in pairs, and the single-port SRAM that they share. A word has a part of each pair
+// (dtof_pool_pair), and all accesses are common to the pairs, so that one wide macro does the work of two.
 //
 // An engine asks for one pair and replaces a half of its part; the pair beside is read and written with it. So the pairs may
 // belong to two engines, which never ask at once: all engines work on the same one of their pairs.
@@ -11,7 +11,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_quad #(
+module dtof_pool_quad #(
     parameter int COLUMNS = 4,  // fewer for the last ones
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
@@ -29,12 +29,12 @@ module dtof_pool2_quad #(
     parameter int PRIOR = 0,
     parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
     localparam int PAIRS = (COLUMNS + 1) / 2,
-    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+    localparam int HALF_WIDTH = dtof_pkg::pool_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES),
-    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_HALVES = dtof_pkg::pool_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int WORD_WIDTH = 2 * HALF_WIDTH,
-    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES),
+    localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES),
     localparam int GROUPS = (PIXELS_PER_SRAM + GROUP_SIZE - 1) / GROUP_SIZE,
     localparam int DEPTH = GROUPS * (GROUP_SIZE / 2) + (GROUPS + 1) / 2,
     localparam int ADDR_WIDTH = dtof_pkg::index_width(DEPTH)
@@ -49,7 +49,7 @@ module dtof_pool2_quad #(
     input  logic                        read_i,
     input  logic                        write_i,
     input  logic [      ADDR_WIDTH-1:0] address_i,
-    // to each pair, as dtof_pool2_pair says
+    // to each pair, as dtof_pool_pair says
     input  logic [              NP-1:0] gate_begin_i,
     input  logic [              NP-1:0] gate_end_i,
     input  logic                        coarse_i,
@@ -128,7 +128,7 @@ module dtof_pool2_quad #(
       localparam int PAIR_COLUMNS = (2 * p + 1 < COLUMNS) ? 2 : 1;
       logic [LINE_WIDTH-1:0] word;
 
-      dtof_pool2_pair #(
+      dtof_pool_pair #(
           .COLUMNS         (PAIR_COLUMNS),
           .NP              (NP),
           .SLOTS           (SLOTS),

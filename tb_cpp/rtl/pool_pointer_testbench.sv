@@ -2,9 +2,9 @@
 
 `include "dtof_macros.svh"
 
-/// dtof_pool_pointer2_array behind the ports of dtof_array_testbench and the schedule's: 16 bits per column of timestamp
+/// dtof_pool_pointer_array behind the ports of dtof_array_testbench and the schedule's: 16 bits per column of timestamp
 /// on a bus of at least 128 bits, each field of the result on its own 16-bit port.
-module pool_pointer2_testbench #(
+module pool_pointer_testbench #(
     parameter NP = 10,
     parameter PIXELS_PER_SRAM = 160,
     parameter SRAM_NUM = 8,
@@ -78,7 +78,7 @@ module pool_pointer2_testbench #(
     assign timestamp[column*NP+:NP] = tdc_timestamp_i[column*16+:NP];
   end
 
-  dtof_pool_pointer2_array #(
+  dtof_pool_pointer_array #(
       .NP(NP),
       .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
       .SRAM_NUM(SRAM_NUM),

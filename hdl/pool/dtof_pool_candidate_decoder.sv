@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: finds the candidate depths of a group of pixels in its coarse histogram and its four neighbours'.
+// poolPointer: finds the candidate depths of a group of pixels in its coarse histogram and its four neighbours'.
 //
-// Equations (docs/reference/poolpointer2.md, Decode): pair sums w = 3 own + those of the groups above, below, left and
+// Equations (docs/reference/poolpointer.md, Decode): pair sums w = 3 own + those of the groups above, below, left and
 // right, each bin less its template; LABELS times the largest not taken, which no
 // pair with a hidden bin, or up to two beyond, is; its cell from its neighbours' tilt; an eighth of its excess over the least
 // sum is taken from the pairs two away. B from the least of the own histogram's four octets.
@@ -14,7 +14,7 @@
 // 4. In the next turn's first two clocks the candidate's tilt and then its cell are found; during that turn what it
 //    takes away leaves the pairs on their way to the head.
 //
-// Schedule: the table of dtof_pool2_sequencer, with this module's POOL2_DECODER_*_CLOCKS (dtof_pkg).
+// Schedule: the table of dtof_pool_sequencer, with this module's POOL_DECODER_*_CLOCKS (dtof_pkg).
 // 5. With SIGNIFICANCE_WIDTH each candidate's significance follows (dtof_candidate_significance), and whether the first octet
 //    has more than one and a half times the least one's counts, and 16.
 //
@@ -24,7 +24,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_candidate_decoder #(
+module dtof_pool_candidate_decoder #(
     parameter int COUNT_WIDTH = 7,    // bits of a coarse bin
     parameter int LABELS = 5,         // candidates of a group
     parameter int PRIOR = 0,          // 1: candidates begin from those that were used in the last frame
@@ -32,30 +32,30 @@ module dtof_pool2_candidate_decoder #(
     localparam int SIGNIFICANCES_WIDTH = dtof_pkg::max_of(LABELS * SIGNIFICANCE_WIDTH, 1),
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
     localparam int BACKGROUND_WIDTH = dtof_pkg::POOL_BACKGROUND_WIDTH,
-    localparam int LINE_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH
+    localparam int LINE_WIDTH = dtof_pkg::POOL_BINS_PER_LINE * COUNT_WIDTH
 ) (
     input  logic                         clk_i,
     input  logic                         active_i,     // in all of decode; otherwise nothing moves
-    input  logic [dtof_pkg::POOL2_DECODE_COMMAND_WIDTH-1:0] command_i,  // pool2_decode_command_t
+    input  logic [dtof_pkg::POOL_DECODE_COMMAND_WIDTH-1:0] command_i,  // pool_decode_command_t
     input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture: an octet of bins, lowest first
     // with take_prior: the group's candidates of the last frame, and which of them were used
     input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
     input  logic [           LABELS-1:0] last_used_i,
-    // POOL2_DECODER_TEMPLATE_CLOCKS after capture_above for bin 0, then bin by bin: what is taken from its sum
+    // POOL_DECODER_TEMPLATE_CLOCKS after capture_above for bin 0, then bin by bin: what is taken from its sum
     input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,
     input  logic                         hidden_i,     // with template_i: the bin is hidden
     input  logic                         has_right_i,  // the group has a neighbour to its right
     input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
     // the newest candidate is the last cell; both valid from candidate until the next one
     output logic [LABELS*CELL_WIDTH-1:0] cells_o,
-    // the newest one is the last; valid POOL2_DECODER_SIGNIFICANCE_CLOCKS after candidate, until the next one
+    // the newest one is the last; valid POOL_DECODER_SIGNIFICANCE_CLOCKS after candidate, until the next one
     output logic [SIGNIFICANCES_WIDTH-1:0] significances_o,
     output logic                         tilted_o,     // with background_o: the background falls towards late bins
     output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group's bins are counted
 );
 
-  `include "dtof_pool2_command.svh"
-  pool2_decode_command_t command;
+  `include "dtof_pool_command.svh"
+  pool_decode_command_t command;
   assign command = command_i;
 
   localparam logic signed [2:0] OWN_WEIGHT = 3'sd3;
@@ -311,7 +311,7 @@ module dtof_pool2_candidate_decoder #(
         if (active_i && better && command.pair != 5'd0) begin
           best_raised_q <= raised;
         end
-        if (command.search && !command.first_label && command.pair == 5'(dtof_pkg::POOL2_DECODER_SIGNIFICANCE_CLOCKS)) begin
+        if (command.search && !command.first_label && command.pair == 5'(dtof_pkg::POOL_DECODER_SIGNIFICANCE_CLOCKS)) begin
           significances_q <= {significance, significances_q[SIGNIFICANCES_WIDTH-1:SIGNIFICANCE_WIDTH]};
         end
       end

@@ -13,8 +13,8 @@
 
 namespace dtof {
 
-// poolPointer 2: pools over two columns and four rows, and from column to column within an engine
-// (docs/reference/poolpointer2.md, which has the same names).
+// poolPointer: pools over two columns and four rows, and from column to column within an engine
+// (docs/reference/poolpointer.md, which has the same names).
 
 /// base + (slope * B >> 4), B the background of a group.
 struct PoolCost {
@@ -25,8 +25,8 @@ struct PoolCost {
   bool operator==(const PoolCost&) const = default;
 };
 
-/// Numbers of poolPointer 2. Lengths in cells are a quarter of a coarse bin, units 2^-11 of one.
-struct PoolPointer2Parameters {
+/// Numbers of poolPointer. Lengths in cells are a quarter of a coarse bin, units 2^-11 of one.
+struct PoolNumbers {
   int count_width = 7;      ///< bits of a coarse bin
   int group_rows = 4;       ///< of two columns
   int labels = 5;           ///< candidates of a group
@@ -75,14 +75,14 @@ struct PoolPointer2Parameters {
   void validate() const;
   /// Those that other read-outs have, too.
   [[nodiscard]] PoolPointerParameters common() const;
-  bool operator==(const PoolPointer2Parameters&) const = default;
+  bool operator==(const PoolNumbers&) const = default;
 };
 
 /// T in dark and in bright groups, longer for long pulses.
 std::array<int, 2> smooth_reach_of(int cell_shift);
 /// Those of a read-out as every other is described, with the numbers that have no description at their
 /// defaults. Throws InputError for illegal ones.
-PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& parameters);
+PoolNumbers pool_pointer_parameters(const ReadoutParameters& parameters);
 
 /// What a pixel had in an acquisition: the timestamp it prefers and its other one, the same if it has none.
 /// The first two of an acquisition count; the first is preferred in even ones, the second in odd ones.
@@ -119,27 +119,26 @@ using PoolPrior = std::vector<UsedCells>;
 /// Reads the columns of one engine, left to right, all with the same number of rows; index: column, row.
 /// With `prior`, candidates begin from what the last frame left there, and this frame leaves its own.
 std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::uint32_t acquisitions,
-                                     const PoolPointer2Parameters& parameters, PoolPrior* prior = nullptr);
+                                     const PoolNumbers& parameters, PoolPrior* prior = nullptr);
 
 /// Positions of a column's winners after S1: each moves by a quarter of the sum of its neighbours' distances,
 /// as far as these are within T: those above and below and the one to the left, all before they have moved.
 /// `left`: the winners of the column to the left, empty for an engine's first column.
 std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners,
-                                             std::span<const PoolWinner> left,
-                                             const PoolPointer2Parameters& parameters);
+                                             std::span<const PoolWinner> left, const PoolNumbers& parameters);
 
 /// Confidences of a column's winners: how much speaks for a target, or their margins where the parameters
 /// keep no significance.
 std::vector<int> pool_confidences(std::span<const PoolWinner> winners, std::span<const PoolWinner> left,
-                                  const PoolPointer2Parameters& parameters);
+                                  const PoolNumbers& parameters);
 
 /// Reads an array of `count` columns, column by column from left to right, engine by engine; index: column,
 /// row. With `priors`, one for each engine or none before the first frame, a video's frame that the last one
 /// helps (read_engine), of an array with PRIOR = 1. Throws InputError for illegal parameters, malformed
 /// streams, columns of different lengths or priors of another array.
-std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
-                                                        std::uint32_t acquisitions,
-                                                        const PoolPointer2Parameters& parameters,
-                                                        std::vector<PoolPrior>* priors = nullptr);
+std::vector<std::vector<PixelResult>> run_pool_pointer(int count, const ColumnReader& column, int np,
+                                                       std::uint32_t acquisitions,
+                                                       const PoolNumbers& parameters,
+                                                       std::vector<PoolPrior>* priors = nullptr);
 
 }  // namespace dtof

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_pool_pointer2_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
+// dtof_pool_pointer_array under stream_bench; with the macro NETLIST beside its netlist, with NETLIST_ALONE, too, the
 // netlist only.
-module dtof_pool_pointer2_array_bench #(
+module dtof_pool_pointer_array_bench #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 12,
     parameter int SRAM_NUM = 4,
@@ -60,7 +60,7 @@ module dtof_pool_pointer2_array_bench #(
   endgenerate
 
 `ifndef NETLIST_ALONE
-  dtof_pool_pointer2_array #(
+  dtof_pool_pointer_array #(
       .NP               (NP),
       .PIXELS_PER_SRAM  (PIXELS_PER_SRAM),
       .SRAM_NUM         (SRAM_NUM),
@@ -110,7 +110,7 @@ module dtof_pool_pointer2_array_bench #(
 `endif
 
 `ifdef NETLIST
-  dtof_pool_pointer2_array_netlist u_netlist (
+  dtof_pool_pointer_array_netlist u_netlist (
       .clk_i          (clk),
       .rst_ni         (rst_n),
       .sram_cfg_i     (start),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's track word after one timestamp: docs/reference/poolpointer2.md, Track, step by step on integers.
+// A pixel's track word after one timestamp: docs/reference/poolpointer.md, Track, step by step on integers.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module pool2_track_update_properties #(
+module pool_track_update_properties #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
@@ -32,7 +32,7 @@ module pool2_track_update_properties #(
   assign full_before = FULL_WIDTH'(word_i);
   assign full_after = FULL_WIDTH'(word);
 
-  dtof_pool2_track_update #(
+  dtof_pool_track_update #(
       .LABELS     (LABELS),
       .SCORE_BITS (SCORE_BITS),
       .OFFSET_BITS(OFFSET_BITS)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: one or two columns with their part of an SRAM's word, which they share with the pair beside (dtof_pool2_quad). The
+// poolPointer: one or two columns with their part of an SRAM's word, which they share with the pair beside (dtof_pool_quad). The
 // part has two halves: those of the two columns, each with two pixels; or two groups; or, in the coarse phase, a part of a
 // group's bins, for both columns count in one histogram.
 //
@@ -17,7 +17,7 @@
 // second visit, if a bin was full, every bin falls by a quarter of its range, or, if a bin was below that, every part gets
 // its frozen bit, with which nothing counts in the group until the next clear.
 //
-// In the other phases the columns' pixels of a row are worked on one after the other by one dtof_pool2_pixel_update:
+// In the other phases the columns' pixels of a row are worked on one after the other by one dtof_pool_pixel_update:
 //   clock (T0: last slot of a row)   T2               T3                  T4
 //   first column                     distance         next word
 //   second column                                     distance            next word
@@ -25,7 +25,7 @@
 // The next word's first pixel has a register of its own, for its turn may come while this word is written.
 //
 // Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
-// of neighbouring pairs are combined by OR from pair to pair (beside_word_i, dtof_pool2_line). The low half
+// of neighbouring pairs are combined by OR from pair to pair (beside_word_i, dtof_pool_line). The low half
 // is the half that was asked for. Where eight bins need both halves, its high half is the word's. The engine writes one half;
 // the other half, and the part of the pair beside, are written with it:
 //   clock after read_i   1                                               2
@@ -41,7 +41,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_pair #(
+module dtof_pool_pair #(
     parameter int COLUMNS = 2,  // 1 for the last one of an odd number
     parameter int NP = 10,
     parameter int SLOTS = 2,
@@ -56,12 +56,12 @@ module dtof_pool2_pair #(
     parameter int TIME_GATE = 0,
     parameter int PRIOR = 0,
     parameter int BROADCAST_STAGES = 2,  // clocks that a command is on its way, for which timestamps wait
-    localparam int HALF_WIDTH = dtof_pkg::pool2_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
+    localparam int HALF_WIDTH = dtof_pkg::pool_half_width(LABELS, SCORE_BITS, OFFSET_BITS, ADVANTAGE_WIDTH,
                                                            POINTER_SHIFT, RIVAL_MOVES),
-    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_HALVES = dtof_pkg::pool_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int WORD_WIDTH = 2 * HALF_WIDTH,
-    localparam int PART_WIDTH = dtof_pkg::pool2_part_width(LINE_HALVES)
+    localparam int PART_WIDTH = dtof_pkg::pool_part_width(LINE_HALVES)
 ) (
     input  logic                  clk_i,
     input  logic [COLUMNS*NP-1:0] timestamp_i,
@@ -110,7 +110,7 @@ module dtof_pool2_pair #(
 );
 
   localparam int COARSE_WIDTH = $clog2(dtof_pkg::POOL_COARSE_BINS);
-  localparam int HALF_BINS = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES;
+  localparam int HALF_BINS = dtof_pkg::POOL_BINS_PER_LINE / LINE_HALVES;
   localparam int PLACE_WIDTH = COARSE_WIDTH - PART_WIDTH;  // of a bin in a word
   localparam int LAST = COLUMNS - 1;
   localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH;
@@ -395,7 +395,7 @@ module dtof_pool2_pair #(
     end
   end
 
-  dtof_pool2_pixel_update #(
+  dtof_pool_pixel_update #(
       .NP             (NP),
       .LABELS         (LABELS),
       .SCORE_BITS     (SCORE_BITS),
@@ -444,7 +444,7 @@ module dtof_pool2_pair #(
             | (word_q[c*HALF_WIDTH+PIXEL_WIDTH+CELL_FIRST+:CELL_WIDTH] & {CELL_WIDTH{compares && !is_read && second_row_t1_q}})
             | (first_row_cell & {CELL_WIDTH{compares && !is_read && !second_row_t1_q}});
 
-        dtof_pool2_column #(
+        dtof_pool_column #(
             .NP              (NP),
             .SLOTS           (SLOTS),
             .LABELS          (LABELS),

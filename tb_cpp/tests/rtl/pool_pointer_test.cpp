@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2's RTL against its model where pixels belong together: surfaces, light, phases, schedules,
+// poolPointer's RTL against its model where pixels belong together: surfaces, light, phases, schedules,
 // engines' borders. What every read-out must stand is in every_configuration_test and disturbance_test.
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -49,7 +49,7 @@ int largest_margin(const ReadoutParameters& parameters, const std::vector<Column
     events.push_back(pool_column_events(column, parameters.np, acquisitions));
   }
   int largest = 0;
-  for (const PoolWinners& winners : read_engine(events, acquisitions, pool_pointer2_parameters(parameters))) {
+  for (const PoolWinners& winners : read_engine(events, acquisitions, pool_pointer_parameters(parameters))) {
     for (const PoolWinner& winner : winners) {
       largest = std::max(largest, winner.margin);
     }
@@ -57,32 +57,32 @@ int largest_margin(const ReadoutParameters& parameters, const std::vector<Column
   return largest;
 }
 
-class EveryPoolPointer2 : public testing::TestWithParam<RtlConfiguration> {
+class EveryPoolPointer : public testing::TestWithParam<RtlConfiguration> {
  protected:
   // Acquisitions so many that no phase is empty and every gear of the smallest array turns.
   static std::uint32_t frame_length() { return GetParam().pixels_per_sram > 100 ? 70 : 260; }
 };
 
-INSTANTIATE_TEST_SUITE_P(Compiled, EveryPoolPointer2, testing::ValuesIn(compiled_rtl_configurations()),
+INSTANTIATE_TEST_SUITE_P(Compiled, EveryPoolPointer, testing::ValuesIn(compiled_rtl_configurations()),
                          configuration_test_name);
 
-class SmallPoolPointer2 : public EveryPoolPointer2 {};
+class SmallPoolPointer : public EveryPoolPointer {};
 
-INSTANTIATE_TEST_SUITE_P(Compiled, SmallPoolPointer2,
+INSTANTIATE_TEST_SUITE_P(Compiled, SmallPoolPointer,
                          testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
                            return configuration.pixels_per_sram <= 40;
                          })),
                          configuration_test_name);
 
-class ShortPoolPointer2 : public EveryPoolPointer2 {};
+class ShortPoolPointer : public EveryPoolPointer {};
 
-INSTANTIATE_TEST_SUITE_P(Compiled, ShortPoolPointer2,
+INSTANTIATE_TEST_SUITE_P(Compiled, ShortPoolPointer,
                          testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
                            return configuration.pixels_per_sram <= 13;
                          })),
                          configuration_test_name);
 
-TEST_P(EveryPoolPointer2, EndsAFrameWithoutDetections) {
+TEST_P(EveryPoolPointer, EndsAFrameWithoutDetections) {
   RtlReadout rtl(GetParam());
   for (const std::uint32_t acquisitions : {0U, 1U, 40U}) {
     SCOPED_TRACE(testing::Message() << acquisitions << " acquisitions");
@@ -92,7 +92,7 @@ TEST_P(EveryPoolPointer2, EndsAFrameWithoutDetections) {
   }
 }
 
-TEST_P(EveryPoolPointer2, AgreesWithModelWhateverItSees) {
+TEST_P(EveryPoolPointer, AgreesWithModelWhateverItSees) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 41);
   RtlRunOptions options = default_options(test_seed());
@@ -112,7 +112,7 @@ TEST_P(EveryPoolPointer2, AgreesWithModelWhateverItSees) {
   }
 }
 
-TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheTemplate) {
+TEST_P(EveryPoolPointer, AgreesWithModelWhateverTheTemplate) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 46);
   RtlRunOptions options = default_options(test_seed());
@@ -131,7 +131,7 @@ TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheTemplate) {
 }
 
 // Every short frame, and schedules whose ends coincide or leave a phase a single acquisition.
-TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheSchedule) {
+TEST_P(EveryPoolPointer, AgreesWithModelWhateverTheSchedule) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 42);
   RtlRunOptions options = default_options(test_seed());
@@ -154,7 +154,7 @@ TEST_P(EveryPoolPointer2, AgreesWithModelWhateverTheSchedule) {
 
 // Surfaces at both ends of the range and pointer phases so short that the steps are still coarse: the last
 // one often goes beyond the end, for which a pointer that is kept beside a candidate stands.
-TEST_P(SmallPoolPointer2, AgreesWithModelBeyondTheEndsOfTheRange) {
+TEST_P(SmallPoolPointer, AgreesWithModelBeyondTheEndsOfTheRange) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 44);
   const int codes = GetParam().parameters.code_count();
@@ -182,7 +182,7 @@ TEST_P(SmallPoolPointer2, AgreesWithModelBeyondTheEndsOfTheRange) {
 
 // Frames as long as a sensor's in strong light, so that pointers settle and move by the fine gears' dithered
 // steps.
-TEST_P(SmallPoolPointer2, AgreesWithModelInTheFineGears) {
+TEST_P(SmallPoolPointer, AgreesWithModelInTheFineGears) {
   SCOPED_TRACE(test_seed_message());
   constexpr std::uint32_t kAcquisitions = 3333;
   CounterRandom random = test_random(test_seed(), 43);
@@ -210,7 +210,7 @@ TEST_P(SmallPoolPointer2, AgreesWithModelInTheFineGears) {
 
 // Weak pulses in a frame that is so long that its candidates lose significance; what is left is neither
 // nothing nor the largest there is.
-TEST_P(ShortPoolPointer2, AgreesWithModelInLongFrames) {
+TEST_P(ShortPoolPointer, AgreesWithModelInLongFrames) {
   SCOPED_TRACE(test_seed_message());
   constexpr std::uint32_t kAcquisitions = 8000;
   CounterRandom random = test_random(test_seed(), 47);
@@ -235,7 +235,7 @@ TEST_P(ShortPoolPointer2, AgreesWithModelInLongFrames) {
 
 // Coarse phases so long that bins fill. Light without a pulse lets every bin fill, so that sweeps take a
 // quarter of the range from all; a strong pulse fills its own bins alone, so that a sweep freezes the group.
-TEST_P(SmallPoolPointer2, AgreesWithModelInFullBins) {
+TEST_P(SmallPoolPointer, AgreesWithModelInFullBins) {
   SCOPED_TRACE(test_seed_message());
   constexpr std::uint32_t kAcquisitions = 900;
   CounterRandom random = test_random(test_seed(), 46);
@@ -264,7 +264,7 @@ TEST_P(SmallPoolPointer2, AgreesWithModelInFullBins) {
 }
 
 // The sweep in CMakeLists.txt holds every promised value.
-TEST(PoolPointer2Sweep, EveryValueOccurs) {
+TEST(PoolPointerSweep, EveryValueOccurs) {
   using C = RtlConfiguration;
   using testing::IsSupersetOf;
   const auto values = [](const std::function<int(const C&)>& field) {
@@ -291,7 +291,7 @@ TEST(PoolPointer2Sweep, EveryValueOccurs) {
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.pointer_shift; }),
               IsSupersetOf({0, 1, 2, 3, 4}));
   EXPECT_THAT(values([](const C& c) { return c.parameters.pool.rival_moves ? 1 : 0; }), IsSupersetOf({0, 1}));
-  for (const Readout readout : {Readout::kPoolPointer2, Readout::kPoolPointer2Lean}) {
+  for (const Readout readout : {Readout::kPoolPointer, Readout::kPoolPointerLean}) {
     EXPECT_THAT(values([&](const C& c) {
                   return c.parameters.readout == readout ? c.parameters.pool.cell_shift : 0;
                 }),
@@ -322,10 +322,10 @@ class Video {
   testing::AssertionResult agrees(const std::vector<ColumnStream>& columns, std::uint32_t acquisitions,
                                   const RtlRunOptions& options) {
     const RtlConfiguration& configuration = rtl_.configuration();
-    const PoolPointer2Parameters parameters = pool_pointer2_parameters(configuration.parameters);
+    const PoolNumbers parameters = pool_pointer_parameters(configuration.parameters);
     const auto model = [&](std::vector<PoolPrior>* priors) {
-      return run_pool_pointer2(configuration.sram_num, reader_of(std::span(columns)),
-                               configuration.parameters.np, acquisitions, parameters, priors);
+      return run_pool_pointer(configuration.sram_num, reader_of(std::span(columns)),
+                              configuration.parameters.np, acquisitions, parameters, priors);
     };
     if (!options.prior || options.reset_first || options.reset_at || first_) {
       priors_.clear();
@@ -408,15 +408,15 @@ class World {
   std::array<double, 101> depths_{};
 };
 
-class PoolPointer2Prior : public testing::TestWithParam<RtlConfiguration> {};
+class PoolPointerPrior : public testing::TestWithParam<RtlConfiguration> {};
 
-INSTANTIATE_TEST_SUITE_P(Compiled, PoolPointer2Prior,
+INSTANTIATE_TEST_SUITE_P(Compiled, PoolPointerPrior,
                          testing::ValuesIn(configurations_with([](const RtlConfiguration& configuration) {
                            return configuration.parameters.pool.prior && configuration.pixels_per_sram <= 40;
                          })),
                          configuration_test_name);
 
-TEST_P(PoolPointer2Prior, VideosAgreeWithModel) {
+TEST_P(PoolPointerPrior, VideosAgreeWithModel) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 45);
   Video video(GetParam());
@@ -437,7 +437,7 @@ TEST_P(PoolPointer2Prior, VideosAgreeWithModel) {
   EXPECT_GT(video.changed(), 0) << "the prior changed nothing";
 }
 
-TEST_P(PoolPointer2Prior, IsSwitchedFromFrameToFrame) {
+TEST_P(PoolPointerPrior, IsSwitchedFromFrameToFrame) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 46);
   Video video(GetParam());
@@ -456,7 +456,7 @@ TEST_P(PoolPointer2Prior, IsSwitchedFromFrameToFrame) {
 }
 
 // Light in which short bins are full: the largest sums that a prior raises.
-TEST_P(PoolPointer2Prior, AgreesWithModelWhereBinsAreFull) {
+TEST_P(PoolPointerPrior, AgreesWithModelWhereBinsAreFull) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 49);
   Video video(GetParam());
@@ -481,7 +481,7 @@ TEST_P(PoolPointer2Prior, AgreesWithModelWhereBinsAreFull) {
 }
 
 // Frames cut off in any state leave nothing, whatever their words have in them.
-TEST_P(PoolPointer2Prior, IsForgottenAtReset) {
+TEST_P(PoolPointerPrior, IsForgottenAtReset) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 47);
   Video video(GetParam());
@@ -504,7 +504,7 @@ TEST_P(PoolPointer2Prior, IsForgottenAtReset) {
   }
 }
 
-TEST_P(PoolPointer2Prior, AgreesWithModelWhateverSourceAndSinkDo) {
+TEST_P(PoolPointerPrior, AgreesWithModelWhateverSourceAndSinkDo) {
   SCOPED_TRACE(test_seed_message());
   CounterRandom random = test_random(test_seed(), 48);
   Video video(GetParam());
@@ -533,15 +533,15 @@ struct Product {
   const char* name;
 };
 
-class PoolPointer2Cycles : public testing::TestWithParam<Product> {};
+class PoolPointerCycles : public testing::TestWithParam<Product> {};
 
-INSTANTIATE_TEST_SUITE_P(All, PoolPointer2Cycles,
-                         testing::Values(Product{Readout::kPoolPointer2, false, "whole"},
-                                         Product{Readout::kPoolPointer2, true, "prior"},
-                                         Product{Readout::kPoolPointer2Lean, false, "lean"}),
+INSTANTIATE_TEST_SUITE_P(All, PoolPointerCycles,
+                         testing::Values(Product{Readout::kPoolPointer, false, "whole"},
+                                         Product{Readout::kPoolPointer, true, "prior"},
+                                         Product{Readout::kPoolPointerLean, false, "lean"}),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST_P(PoolPointer2Cycles, AFrameStaysBelowTheLimit) {
+TEST_P(PoolPointerCycles, AFrameStaysBelowTheLimit) {
   constexpr int kRows = 160;
   constexpr int kColumns = 200;
   constexpr std::uint64_t kAcquisitions = 33'333;
@@ -607,12 +607,12 @@ class TenColumnsOfTheRoom : public testing::Test {
   }
 };
 
-class PoolPointer2Photons : public TenColumnsOfTheRoom, public testing::WithParamInterface<Readout> {};
+class PoolPointerPhotons : public TenColumnsOfTheRoom, public testing::WithParamInterface<Readout> {};
 
-INSTANTIATE_TEST_SUITE_P(Both, PoolPointer2Photons,
-                         testing::Values(Readout::kPoolPointer2, Readout::kPoolPointer2Lean));
+INSTANTIATE_TEST_SUITE_P(Both, PoolPointerPhotons,
+                         testing::Values(Readout::kPoolPointer, Readout::kPoolPointerLean));
 
-TEST_P(PoolPointer2Photons, AgreeWithModel) {
+TEST_P(PoolPointerPhotons, AgreeWithModel) {
   SCOPED_TRACE(test_seed_message());
   const std::vector<RtlConfiguration> found = ten_columns(GetParam(), false);
   ASSERT_EQ(found.size(), 1U);
@@ -626,7 +626,7 @@ TEST_P(PoolPointer2Photons, AgreeWithModel) {
 
 TEST_F(TenColumnsOfTheRoom, AgreeWithModelInAVideo) {
   SCOPED_TRACE(test_seed_message());
-  const std::vector<RtlConfiguration> found = ten_columns(Readout::kPoolPointer2, true);
+  const std::vector<RtlConfiguration> found = ten_columns(Readout::kPoolPointer, true);
   ASSERT_EQ(found.size(), 1U);
   Video video(found.front());
   RtlRunOptions options = default_options(test_seed());
@@ -642,12 +642,12 @@ TEST_F(TenColumnsOfTheRoom, AgreeWithModelInAVideo) {
 }
 
 // A frame by engines: two of four columns and a last one of two, each an array of its own.
-class PoolPointer2Frame : public testing::Test {
+class PoolPointerFrame : public testing::Test {
  protected:
   static constexpr int kColumns = 10;
   static constexpr int kRows = 16;
 
-  PoolPointer2Frame() {
+  PoolPointerFrame() {
     const std::vector<RtlConfiguration> found =
         configurations_with([](const RtlConfiguration& configuration) {
           return configuration.pixels_per_sram == kRows && configuration.sram_num == 4 &&
@@ -669,7 +669,7 @@ class PoolPointer2Frame : public testing::Test {
   std::unique_ptr<PhotonSource> source_;
 };
 
-TEST_F(PoolPointer2Frame, AgreesWithTheModelInAnyColumns) {
+TEST_F(PoolPointerFrame, AgreesWithTheModelInAnyColumns) {
   SCOPED_TRACE(test_seed_message());
   EXPECT_EQ(run_frame_rtl(*source_, parameters_, 2).results, run_frame(*source_, parameters_));
   const std::vector<int> some = {9, 2, 7};
@@ -680,7 +680,7 @@ TEST_F(PoolPointer2Frame, AgreesWithTheModelInAnyColumns) {
   EXPECT_GT(part.result_cycles.back(), 0U);
 }
 
-TEST_F(PoolPointer2Frame, RefusesEnginesThatAreNotCompiled) {
+TEST_F(PoolPointerFrame, RefusesEnginesThatAreNotCompiled) {
   using ::testing::AllOf;
   using ::testing::HasSubstr;
   using ::testing::ThrowsMessage;
@@ -689,10 +689,10 @@ TEST_F(PoolPointer2Frame, RefusesEnginesThatAreNotCompiled) {
   };
   read(10)();
   EXPECT_THAT(read(9), ThrowsMessage<InputError>(AllOf(HasSubstr("an engine of just 1 columns"),
-                                                       HasSubstr("compiled are: poolpointer2"))));
+                                                       HasSubstr("compiled are: poolpointer"))));
 }
 
-TEST_F(PoolPointer2Frame, AWaveformHoldsOneEngine) {
+TEST_F(PoolPointerFrame, AWaveformHoldsOneEngine) {
   using ::testing::HasSubstr;
   using ::testing::ThrowsMessage;
   const auto arrays = [&](const std::vector<int>& columns) {
@@ -707,7 +707,7 @@ TEST_F(PoolPointer2Frame, AWaveformHoldsOneEngine) {
           HasSubstr("a waveform holds at most SRAM_NUM = 4 columns, those of one engine, not 2")));
 }
 
-TEST_F(PoolPointer2Frame, AMismatchNamesItsEngine) {
+TEST_F(PoolPointerFrame, AMismatchNamesItsEngine) {
   using ::testing::HasSubstr;
   const std::vector<int> columns = {1, 4, 5, 7, 8};
   RtlSourceFrame frame = run_frame_rtl(*source_, parameters_, 2, columns);
@@ -716,7 +716,7 @@ TEST_F(PoolPointer2Frame, AMismatchNamesItsEngine) {
   EXPECT_EQ(check_source_frame(*source_, parameters_, columns, frame, context), "");
   frame.results[2].code ^= 1;
   EXPECT_THAT(check_source_frame(*source_, parameters_, columns, frame, context),
-              HasSubstr("dtof-full frame --engine rtl --readout poolpointer2 --columns 4,5,7 --trace"));
+              HasSubstr("dtof-full frame --engine rtl --readout poolpointer --columns 4,5,7 --trace"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: tells all engines and their columns what to do in each clock, in lockstep, once per array.
+// poolPointer: tells all engines and their columns what to do in each clock, in lockstep, once per array.
 //
 // 1. The controller starts one of three operations. The engines take their pairs of columns (decode) or their columns
 //    (choose, decide) one after the other; each has as many steps as it needs, and every step takes the same number of
@@ -30,7 +30,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_sequencer #(
+module dtof_pool_sequencer #(
     parameter int PIXELS_PER_SRAM = 160,  // rows of a column
     parameter int GROUP_SIZE = 4,         // rows of a group
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
@@ -64,7 +64,7 @@ module dtof_pool2_sequencer #(
     output logic                    upper_o,          // the upper half of the word
     output logic                    neighbour_o,      // select_o is the pair to the right of the one in work
     // engines, in step with what the columns get
-    output logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_o,  // pool2_engine_command_t
+    output logic [dtof_pkg::POOL_COMMAND_WIDTH-1:0] command_o,  // pool_engine_command_t
     // a clock before command_o: the bin whose sum the engines begin then
     output logic [$clog2(dtof_pkg::POOL_COARSE_BINS)-1:0] template_bin_o,
     output logic [   ROW_WIDTH-1:0] scratch_row_o,    // of write_scratch and read_scratch
@@ -81,7 +81,7 @@ module dtof_pool2_sequencer #(
   localparam int DECIDE_LABELS = 2;
   localparam int LEAD = 3;  // steps a pixel is fetched ahead
   localparam int BINS = dtof_pkg::POOL_COARSE_BINS;
-  localparam int OCTET = dtof_pkg::POOL2_BINS_PER_LINE;
+  localparam int OCTET = dtof_pkg::POOL_BINS_PER_LINE;
   localparam int OCTETS = BINS / OCTET;
   localparam int OCTETS_WIDTH = $clog2(OCTETS);
   localparam int GROUP_PAIRS = GROUP_SIZE / 2;
@@ -94,13 +94,13 @@ module dtof_pool2_sequencer #(
   localparam int DECODE_LINE_CLOCKS = READ_CLOCKS + dtof_pkg::POOL_LINE_CLOCKS;
   localparam int LINE_CLOCKS = DECODE_LINE_CLOCKS + dtof_pkg::POOL_ENGINE_LINE_CLOCKS;
 
-  localparam int COUNT_OWN = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_OWN_CLOCKS;
-  localparam int FILL = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_FILL_CLOCKS;
-  localparam int TAKE_TEMPLATE = DECODE_LINE_CLOCKS + dtof_pkg::POOL2_DECODER_TEMPLATE_CLOCKS;
+  localparam int COUNT_OWN = DECODE_LINE_CLOCKS + dtof_pkg::POOL_DECODER_OWN_CLOCKS;
+  localparam int FILL = DECODE_LINE_CLOCKS + dtof_pkg::POOL_DECODER_FILL_CLOCKS;
+  localparam int TAKE_TEMPLATE = DECODE_LINE_CLOCKS + dtof_pkg::POOL_DECODER_TEMPLATE_CLOCKS;
   localparam int SEARCH = FILL + BINS;  // the ring is full; a turn takes BINS clocks
   localparam int FIRST_CANDIDATE = SEARCH + BINS - 1 + dtof_pkg::POOL_DECODER_CANDIDATE_CLOCKS;
   localparam int LAST_CANDIDATE = FIRST_CANDIDATE + BINS * (LABELS - 1);
-  localparam int LAST_SIGNIFICANCE = LAST_CANDIDATE + ((SIGNIFICANCE_WIDTH != 0) ? dtof_pkg::POOL2_DECODER_SIGNIFICANCE_CLOCKS : 0);
+  localparam int LAST_SIGNIFICANCE = LAST_CANDIDATE + ((SIGNIFICANCE_WIDTH != 0) ? dtof_pkg::POOL_DECODER_SIGNIFICANCE_CLOCKS : 0);
   localparam int LAST_OF_DECODE = LAST_SIGNIFICANCE + READ_CLOCKS;
   localparam int TAKE_PRIOR = FILL - 1;  // in time for the first pair sum, and read when the first bins have been
 
@@ -108,8 +108,8 @@ module dtof_pool2_sequencer #(
   localparam int PASS = SPREAD + 1;  // label 0
   localparam int TARGET = PASS - dtof_pkg::POOL_CHAIN_TARGET_CLOCKS;
   localparam int BELIEF = dtof_pkg::POOL_CHAIN_BELIEF_CLOCKS - 1;  // of the next step
-  localparam int DISTANCES = BELIEF + dtof_pkg::POOL2_ENGINE_DISTANCE_CLOCKS;
-  localparam int RESULT = DISTANCES + dtof_pkg::POOL2_ENGINE_SMOOTH_CLOCKS;
+  localparam int DISTANCES = BELIEF + dtof_pkg::POOL_ENGINE_DISTANCE_CLOCKS;
+  localparam int RESULT = DISTANCES + dtof_pkg::POOL_ENGINE_SMOOTH_CLOCKS;
   localparam int SEND = RESULT + dtof_pkg::POOL_ENGINE_RESULT_CLOCKS;
   localparam int READ_CELL = BELIEF + 1;           // after what the pixel before has chosen is written
   localparam int COMPARE = READ_CELL + dtof_pkg::POOL_ENGINE_MESSAGE_CLOCKS;
@@ -284,12 +284,12 @@ module dtof_pool2_sequencer #(
     every = (t >= first) && (t < first + period * times) && (((t - first) & (period - 1)) == 0);
   endfunction
 
-  `include "dtof_pool2_command.svh"
-  pool2_column_command_t columns;
-  pool2_decode_command_t decode;
+  `include "dtof_pool_command.svh"
+  pool_column_command_t columns;
+  pool_decode_command_t decode;
   beside_command_t beside;
   chain_command_t chain;
-  pool2_engine_command_t command;
+  pool_engine_command_t command;
   int t, last;
   logic write_message, write_position, read_next, read_before, read_cell, read_message;
   assign t = 32'(t_q);

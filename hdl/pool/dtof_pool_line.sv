@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: brings the word that an engine reads from its pairs of columns to the engine.
+// poolPointer: brings the word that an engine reads from its pairs of columns to the engine.
 //
 // At most one pair of an engine drives a word, all others give 0, so that an OR combines the words. Up to
-// dtof_pkg::POOL_LINE_PAIRS neighbouring pairs are a segment: their OR runs from pair to pair (dtof_pool2_pair) and ends in a register
+// dtof_pkg::POOL_LINE_PAIRS neighbouring pairs are a segment: their OR runs from pair to pair (dtof_pool_pair) and ends in a register
 // of this module. The OR of these registers is the line. So no path has more pairs than a segment, however many columns an
 // engine has, and every pair's word takes the same time.
 // Latency: POOL_LINE_CLOCKS from words_i to line_o.
@@ -11,7 +11,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_line #(
+module dtof_pool_line #(
     parameter int SEGMENTS = 5,
     parameter int WIDTH = 58
 ) (

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: the next word of a pixel after one timestamp, for the columns of a pair one after the other.
+// poolPointer: the next word of a pixel after one timestamp, for the columns of a pair one after the other.
 //
-// Equations: docs/reference/poolpointer2.md, Track, Point.
+// Equations: docs/reference/poolpointer.md, Track, Point.
 //   clock   of a pixel
 //   0       where the timestamp is (dtof_pixel_distance), whose scores are compared; registered
 //   1       the next word, combinational
@@ -11,7 +11,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_pixel_update #(
+module dtof_pool_pixel_update #(
     parameter int NP = 10,
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
@@ -107,7 +107,7 @@ module dtof_pool2_pixel_update #(
   logic [POINT_WIDTH-1:0] pointed;
   logic track_changes, point_changes;
 
-  dtof_pool2_track_update #(
+  dtof_pool_track_update #(
       .LABELS     (LABELS),
       .SCORE_BITS (SCORE_BITS),
       .OFFSET_BITS(OFFSET_BITS)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: what needs several pixels at once, shared by ENGINE_COLUMNS columns.
+// poolPointer: what needs several pixels at once, shared by ENGINE_COLUMNS columns.
 //
 // Decode makes the groups' words of the coarse histograms, choose the first pointer words of the track words, decide the
-// results of the pointer words (docs/reference/poolpointer2.md). The scratch memory has a word for each row: the messages
+// results of the pointer words (docs/reference/poolpointer.md). The scratch memory has a word for each row: the messages
 // of a chain's first pass, and the column to the left's best label: in choose its cell and offset, in decide its position.
 //
 // 1. The line is what a pair of columns has read. Decode hands it to the candidate decoder, whose group word
@@ -17,13 +17,13 @@
 //
 // An engine has no counters of rows, columns or clocks: in each clock it does what the command says, and nothing else.
 //
-// Schedule: the table of dtof_pool2_sequencer, with this module's POOL2_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
-// Cost: dtof_pool2_candidate_decoder, dtof_beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
+// Schedule: the table of dtof_pool_sequencer, with this module's POOL_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
+// Cost: dtof_pool_candidate_decoder, dtof_beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_engine #(
+module dtof_pool_engine #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
     parameter int COUNT_WIDTH = 7,
@@ -42,7 +42,7 @@ module dtof_pool2_engine #(
     localparam int PIXEL_WIDTH = dtof_pkg::max_of(TRACK_WIDTH, POINT_WIDTH),
     localparam int GROUP_WIDTH = dtof_pkg::pool_group_width(LABELS, PIXEL_WIDTH),
     localparam int HALF_WIDTH = dtof_pkg::max_of(2 * PIXEL_WIDTH, GROUP_WIDTH),
-    localparam int LINE_HALVES = dtof_pkg::pool2_line_halves(HALF_WIDTH, COUNT_WIDTH),
+    localparam int LINE_HALVES = dtof_pkg::pool_line_halves(HALF_WIDTH, COUNT_WIDTH),
     localparam int LINE_WIDTH = LINE_HALVES * HALF_WIDTH,
     localparam int ROW_WIDTH = dtof_pkg::index_width(PIXELS_PER_SRAM),
     localparam int SIGNIFICANCE_WIDTH = dtof_pkg::pool_significance_width(LABELS, PIXEL_WIDTH, ADVANTAGE_WIDTH, RIVAL_MOVES, PRIOR),
@@ -59,7 +59,7 @@ module dtof_pool2_engine #(
     input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
     input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,  // these two in decode: of the bin whose sum begins
     input  logic                    hidden_i,
-    input  logic [dtof_pkg::POOL2_COMMAND_WIDTH-1:0] command_i,  // pool2_engine_command_t
+    input  logic [dtof_pkg::POOL_COMMAND_WIDTH-1:0] command_i,  // pool_engine_command_t
     input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
     input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of write_scratch and read_scratch
@@ -76,11 +76,11 @@ module dtof_pool2_engine #(
   localparam int POINTER_WIDTH = dtof_pkg::pool_pointer_width(POINTER_SHIFT, RIVAL_MOVES);
   localparam int RIVAL_WIDTH = dtof_pkg::POOL_RIVAL_WIDTH;
   localparam int SMOOTH_BRIGHT_FROM = 6;
-  localparam int HALF_BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE / LINE_HALVES * COUNT_WIDTH;
-  localparam int BINS_WIDTH = dtof_pkg::POOL2_BINS_PER_LINE * COUNT_WIDTH;
+  localparam int HALF_BINS_WIDTH = dtof_pkg::POOL_BINS_PER_LINE / LINE_HALVES * COUNT_WIDTH;
+  localparam int BINS_WIDTH = dtof_pkg::POOL_BINS_PER_LINE * COUNT_WIDTH;
   localparam int CHOOSE_PENALTY_WIDTH = 4;  // 2 + (5 * 39 >> 4) at most
   localparam int DECIDE_PENALTY_WIDTH = 2;
-  localparam int CHOOSE_EVIDENCE_WIDTH = dtof_pkg::POOL2_EVIDENCE_WIDTH;
+  localparam int CHOOSE_EVIDENCE_WIDTH = dtof_pkg::POOL_EVIDENCE_WIDTH;
   localparam int DECIDE_EVIDENCE_WIDTH = ADVANTAGE_WIDTH + 1;
   localparam int CELL_POSITION_WIDTH = CELL_WIDTH + 1;
   localparam int POSITION_WIDTH = 17;
@@ -92,8 +92,8 @@ module dtof_pool2_engine #(
   localparam int EVIDENCE_FIRST = GROUP_WIDTH + ((PRIOR != 0) ? LABELS : 0);  // {significances, tilted} in a group's word
   localparam int SCRATCH_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH + LEFT_WIDTH, DECIDE_MESSAGE_WIDTH + WINNER_WIDTH);
 
-  `include "dtof_pool2_command.svh"
-  pool2_engine_command_t command;
+  `include "dtof_pool_command.svh"
+  pool_engine_command_t command;
   beside_command_t beside;
   assign command = command_i;
   assign beside = command.beside;
@@ -143,7 +143,7 @@ module dtof_pool2_engine #(
     end
   endgenerate
 
-  dtof_pool2_candidate_decoder #(
+  dtof_pool_candidate_decoder #(
       .COUNT_WIDTH       (COUNT_WIDTH),
       .LABELS            (LABELS),
       .PRIOR             (PRIOR),

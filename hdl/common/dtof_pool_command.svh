@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What dtof_pool2_sequencer commands in a clock, with what each command means to who gets it. In which clocks it is given
-// stands in the table in dtof_pool2_sequencer; docs/reference/blocks/pool_control.md shows both, written by
+// What dtof_pool_sequencer commands in a clock, with what each command means to who gets it. In which clocks it is given
+// stands in the table in dtof_pool_sequencer; docs/reference/blocks/pool_control.md shows both, written by
 // scripts/schedule.py from this file and from the table in simulation.
 //
 // A module includes this file in its body, so that the types are the module's own: Icarus Verilog 11 takes no type of a
@@ -25,9 +25,9 @@ typedef struct packed {
   logic read_used;          // read the word of a group done, so that its candidates stay as they are
   logic write_used;         // write which of its candidates are used
   logic send;               // the engines' results go to the output
-} pool2_column_command_t;
+} pool_column_command_t;
 
-// To dtof_pool2_candidate_decoder.
+// To dtof_pool_candidate_decoder.
 typedef struct packed {
   logic capture_above;  // the line has bins of the group above
   logic capture_own;    // the line has bins of the group
@@ -43,7 +43,7 @@ typedef struct packed {
   logic candidate;      // the turn before has found its candidate
   logic take_prior;     // the line is the group's word of the last frame, or 0
   logic [1:0] missing;  // neighbours above, below and to the left that the group does not have
-} pool2_decode_command_t;
+} pool_decode_command_t;
 
 // To dtof_label_chain.
 typedef struct packed {
@@ -67,14 +67,14 @@ typedef struct packed {
   logic has_left;          // there is a column to the left
 } beside_command_t;
 
-// To dtof_pool2_engine.
+// To dtof_pool_engine.
 typedef struct packed {
   logic decoding;       // in all of decode: the decoder is at work, and the engine's word is the group's
   logic choosing;       // in all of choose: its chain is at work, and the engine's word is two first pointer words, otherwise 0
   logic deciding;       // in all of decide: its chain is at work, and the message is decide's
   logic giving_used;    // with write_used, in all of its step: the engine's word is which candidates are used
   logic back;           // the second pass of a chain
-  pool2_decode_command_t decode;
+  pool_decode_command_t decode;
   beside_command_t beside;
   logic take_pixel;     // the line is the word of the pixel to prepare, in the next clock that of its group
   logic odd_pixel;      // with take_pixel and take_right_pixel: the word's second pixel
@@ -91,4 +91,4 @@ typedef struct packed {
   logic has_position;   // with take_position: it is known
   logic take_distances; // the position in the middle is compared with those above, below and to the left
   logic take_result;    // the result of the winner in the middle is known
-} pool2_engine_command_t;
+} pool_engine_command_t;

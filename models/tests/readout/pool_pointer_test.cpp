@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-// ---- An independent reference, as slow and as close to docs/reference/poolpointer2.md as possible --------
+// ---- An independent reference, as slow and as close to docs/reference/poolpointer.md as possible --------
 //
 // A dictionary from (column, row) to a pixel, plain numbers where the model has named parameters, no cells
 // where positions do, and every chain solved anew for every label of every pixel.
@@ -75,7 +75,7 @@ class Reference {
     int track = 20;
     bool left_needs_margin = false;
     bool smooth = true;
-    bool lean = false;  ///< the numbers of poolPointer 2 lean
+    bool lean = false;  ///< the numbers of poolPointer lean
     bool second_target = false;
     int cell = 512;               ///< positions of a settled pointer's cell
     bool prior = false;           ///< the array has PRIOR = 1
@@ -667,25 +667,24 @@ class Reference {
 };
 
 std::vector<std::vector<PixelResult>> read_array(std::span<const ColumnStream> array, int np,
-                                                 std::uint32_t acquisitions,
-                                                 const PoolPointer2Parameters& parameters) {
-  return run_pool_pointer2(static_cast<int>(array.size()), reader_of(array), np, acquisitions, parameters);
+                                                 std::uint32_t acquisitions, const PoolNumbers& parameters) {
+  return run_pool_pointer(static_cast<int>(array.size()), reader_of(array), np, acquisitions, parameters);
 }
 
-PoolPointer2Parameters with_cells(Readout readout, int cell_shift) {
+PoolNumbers with_cells(Readout readout, int cell_shift) {
   ReadoutParameters parameters = ReadoutParameters::defaults(readout);
   parameters.pool.cell_shift = cell_shift;
-  return pool_pointer2_parameters(parameters);
+  return pool_pointer_parameters(parameters);
 }
 
-PoolPointer2Parameters lean() { return with_cells(Readout::kPoolPointer2Lean, 9); }
+PoolNumbers lean() { return with_cells(Readout::kPoolPointerLean, 9); }
 
 void expect_as_reference(const std::vector<ColumnStream>& array, int np, int acquisitions,
                          int engine_columns = 34, Reference::Open open = {}) {
   for (const bool smooth : {false, true}) {
     open.smooth = smooth;
-    PoolPointer2Parameters parameters =
-        with_cells(open.lean ? Readout::kPoolPointer2Lean : Readout::kPoolPointer2,
+    PoolNumbers parameters =
+        with_cells(open.lean ? Readout::kPoolPointerLean : Readout::kPoolPointer,
                    static_cast<int>(std::bit_width(static_cast<unsigned>(open.cell))) - 1);
     parameters.engine_columns = engine_columns;
     parameters.smooth = smooth;
@@ -782,9 +781,9 @@ std::vector<ColumnStream> surfaces(int np, int slots, int columns, int rows, dou
   return array;
 }
 
-class PoolPointer2 : public testing::Test {
+class PoolPointer : public testing::Test {
  protected:
-  PoolPointer2() : trace_(__FILE__, __LINE__, test_seed_message()) {}
+  PoolPointer() : trace_(__FILE__, __LINE__, test_seed_message()) {}
   static CounterRandom random(std::uint32_t test) {
     return {test_seed(), static_cast<std::uint32_t>(RandomPurpose::kTestStream), 0x2000U + test, 0};
   }
@@ -793,10 +792,10 @@ class PoolPointer2 : public testing::Test {
   testing::ScopedTrace trace_;
 };
 
-TEST_F(PoolPointer2, WordsFitTheMemory) {
+TEST_F(PoolPointer, WordsFitTheMemory) {
   // A word of the pair's SRAM: two pixels of two columns, a part of a group's histogram, or two group words.
   struct Case {
-    PoolPointer2Parameters parameters;
+    PoolNumbers parameters;
     int pixel_bits, word_bits, bins_of_a_word, words, most_bits_per_pixel;
   };
   for (const Case& c : {Case{{}, 29, 2 * 58, 16, 100, 40}, Case{lean(), 16, 2 * 32, 8, 90, 18}}) {
@@ -811,9 +810,9 @@ TEST_F(PoolPointer2, WordsFitTheMemory) {
   }
 }
 
-TEST_F(PoolPointer2, EveryKindOfStreamAsReference) {
+TEST_F(PoolPointer, EveryKindOfStreamAsReference) {
   CounterRandom draw = random(1);
-  ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer);
   for (const StreamKind kind : kStreamKinds) {
     SCOPED_TRACE(std::string(stream_name(kind)));
     for (const auto& [columns, rows] :
@@ -831,7 +830,7 @@ TEST_F(PoolPointer2, EveryKindOfStreamAsReference) {
   }
 }
 
-TEST_F(PoolPointer2, SurfacesAsReference) {
+TEST_F(PoolPointer, SurfacesAsReference) {
   CounterRandom draw = random(2);
   constexpr std::array<double, 5> kBackgrounds = {0.0, 0.01, 0.07, 0.3, 0.6};
   for (int trial = 0; trial < 40; ++trial) {
@@ -843,7 +842,7 @@ TEST_F(PoolPointer2, SurfacesAsReference) {
   }
 }
 
-TEST_F(PoolPointer2, LeanAsReference) {
+TEST_F(PoolPointer, LeanAsReference) {
   CounterRandom draw = random(8);
   constexpr std::array<double, 4> kBackgrounds = {0.0, 0.02, 0.3, 0.6};
   for (int trial = 0; trial < 40; ++trial) {
@@ -875,13 +874,13 @@ TEST_F(PoolPointer2, LeanAsReference) {
 }
 
 // Windows for short and for long pulses: pointers that settle, many of them soon.
-TEST_F(PoolPointer2, OtherCellsAsReference) {
+TEST_F(PoolPointer, OtherCellsAsReference) {
   CounterRandom draw = random(9);
   constexpr std::array<double, 3> kBackgrounds = {0.01, 0.2, 0.5};
   std::size_t changed = 0;
   for (int trial = 0; trial < 24; ++trial) {
     const bool is_lean = trial % 2 == 1;
-    const Readout readout = is_lean ? Readout::kPoolPointer2Lean : Readout::kPoolPointer2;
+    const Readout readout = is_lean ? Readout::kPoolPointerLean : Readout::kPoolPointer;
     const int np = trial % 3 == 0 ? 10 : 8 + pick(draw, 9);
     const auto array = surfaces(np, 2 + pick(draw, 3), 1 + pick(draw, 7), 1 + pick(draw, 24),
                                 kBackgrounds[static_cast<std::size_t>(pick(draw, 3))], 900, draw);
@@ -899,7 +898,7 @@ TEST_F(PoolPointer2, OtherCellsAsReference) {
   EXPECT_GT(changed, 40U) << "the cells changed nothing";
 }
 
-TEST_F(PoolPointer2, TemplatesAsReference) {
+TEST_F(PoolPointer, TemplatesAsReference) {
   CounterRandom draw = random(12);
   std::size_t changed = 0;
   for (int trial = 0; trial < 24; ++trial) {
@@ -907,9 +906,8 @@ TEST_F(PoolPointer2, TemplatesAsReference) {
     Reference::Open open{
         .coarse = is_lean ? 10 : 14, .track = is_lean ? 14 : 20, .lean = is_lean, .second_target = true};
     const auto array = surfaces(10, 2, 1 + pick(draw, 7), 1 + pick(draw, 24), 0.1, 900, draw);
-    const PoolPointer2Parameters usual =
-        with_cells(is_lean ? Readout::kPoolPointer2Lean : Readout::kPoolPointer2, 9);
-    PoolPointer2Parameters told = usual;
+    const PoolNumbers usual = with_cells(is_lean ? Readout::kPoolPointerLean : Readout::kPoolPointer, 9);
+    PoolNumbers told = usual;
     for (std::size_t i = 0; i < open.taken.size(); ++i) {
       const std::array<int, 4> kinds = {0, 255, pick(draw, 256), pick(draw, 16)};
       open.taken[i] = kinds[static_cast<std::size_t>(pick(draw, 4))];
@@ -922,7 +920,7 @@ TEST_F(PoolPointer2, TemplatesAsReference) {
 }
 
 // A bin that is filled by what is in front of the sensor alone is no candidate, whatever it counts.
-TEST_F(PoolPointer2, TemplateHidesCrosstalk) {
+TEST_F(PoolPointer, TemplateHidesCrosstalk) {
   CounterRandom draw = random(13);
   constexpr int kAcquisitions = 1000;
   constexpr int kTarget = 600;
@@ -941,7 +939,7 @@ TEST_F(PoolPointer2, TemplateHidesCrosstalk) {
       column.append_row(stream);
     }
   }
-  PoolPointer2Parameters parameters;
+  PoolNumbers parameters;
   const auto share_at_target = [&] {
     int right = 0;
     for (const auto& column : read_array(array, 10, kAcquisitions, parameters)) {
@@ -956,7 +954,7 @@ TEST_F(PoolPointer2, TemplateHidesCrosstalk) {
 }
 
 // The numbers and switches that are still being chosen.
-TEST_F(PoolPointer2, OtherSharesAndSwitchesAsReference) {
+TEST_F(PoolPointer, OtherSharesAndSwitchesAsReference) {
   CounterRandom draw = random(6);
   for (int trial = 0; trial < 24; ++trial) {
     const Reference::Open open{.coarse = 8 + pick(draw, 16),
@@ -971,14 +969,14 @@ TEST_F(PoolPointer2, OtherSharesAndSwitchesAsReference) {
 }
 
 // A pixel that is sure of nothing may be kept from telling the next column something.
-TEST_F(PoolPointer2, NothingDetectedIsNoConfidence) {
+TEST_F(PoolPointer, NothingDetectedIsNoConfidence) {
   std::vector<ColumnStream> array(3);
   for (ColumnStream& column : array) {
     for (int row = 0; row < 8; ++row) {
       column.finish_row();
     }
   }
-  PoolPointer2Parameters parameters;
+  PoolNumbers parameters;
   parameters.left_needs_margin = 1;
   for (const auto& column : read_array(array, 10, 3333, parameters)) {
     EXPECT_THAT(column, testing::Each(PixelResult{31, 32, 0}));
@@ -986,11 +984,11 @@ TEST_F(PoolPointer2, NothingDetectedIsNoConfidence) {
 }
 
 // Frames of a scene that moves by two columns, and is another one in the end.
-TEST_F(PoolPointer2, VideosAsReference) {
+TEST_F(PoolPointer, VideosAsReference) {
   CounterRandom draw = random(7);
   constexpr int kAcquisitions = 500;
   constexpr int kColumns = 7;
-  PoolPointer2Parameters parameters;
+  PoolNumbers parameters;
   parameters.engine_columns = 4;
   parameters.keeps_prior = true;
   std::size_t changed = 0;
@@ -1018,7 +1016,7 @@ TEST_F(PoolPointer2, VideosAsReference) {
         }
       }
       const auto actual =
-          run_pool_pointer2(kColumns, reader_of(std::span(array)), 10, kAcquisitions, parameters, &priors);
+          run_pool_pointer(kColumns, reader_of(std::span(array)), 10, kAcquisitions, parameters, &priors);
       const auto alone = read_array(array, 10, kAcquisitions, parameters);
       if (frame == 0) {
         EXPECT_EQ(actual, alone);
@@ -1042,7 +1040,7 @@ TEST_F(PoolPointer2, VideosAsReference) {
 }
 
 // All gears, the dither below a position's unit and the counts that are slowed down.
-TEST_F(PoolPointer2, LongFramesAsReference) {
+TEST_F(PoolPointer, LongFramesAsReference) {
   CounterRandom draw = random(3);
   std::vector<ColumnStream> array(3);
   for (ColumnStream& column : array) {
@@ -1064,7 +1062,7 @@ TEST_F(PoolPointer2, LongFramesAsReference) {
 
 // Bins that fill: in light alone all of them, so that sweeps make room; of a strong pulse only its own, so
 // that a sweep freezes the group.
-TEST_F(PoolPointer2, FullBinsAsReference) {
+TEST_F(PoolPointer, FullBinsAsReference) {
   CounterRandom draw = random(10);
   constexpr int kAcquisitions = 4000;
   for (const auto& [signal, background] :
@@ -1081,9 +1079,9 @@ TEST_F(PoolPointer2, FullBinsAsReference) {
   }
 }
 
-TEST_F(PoolPointer2, ShortFramesAsReference) {
+TEST_F(PoolPointer, ShortFramesAsReference) {
   CounterRandom draw = random(4);
-  const ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer2);
+  const ReadoutParameters shape = ReadoutParameters::defaults(Readout::kPoolPointer);
   for (const int acquisitions : {1, 2, 3, 4, 5, 8, 9}) {
     std::vector<ColumnStream> array(5);
     for (ColumnStream& column : array) {
@@ -1096,7 +1094,7 @@ TEST_F(PoolPointer2, ShortFramesAsReference) {
   }
 }
 
-TEST_F(PoolPointer2, NothingDetected) {
+TEST_F(PoolPointer, NothingDetected) {
   std::vector<ColumnStream> array(3);
   for (ColumnStream& column : array) {
     for (int row = 0; row < 20; ++row) {
@@ -1117,10 +1115,10 @@ TEST_F(PoolPointer2, NothingDetected) {
 }
 
 // A column's results depend on its engine's columns only.
-TEST_F(PoolPointer2, EnginesAreIndependent) {
+TEST_F(PoolPointer, EnginesAreIndependent) {
   CounterRandom draw = random(5);
   const auto array = surfaces(10, 2, 8, 16, 0.2, 900, draw);
-  PoolPointer2Parameters parameters;
+  PoolNumbers parameters;
   parameters.engine_columns = 4;
   const auto together = read_array(array, 10, 900, parameters);
   for (const std::size_t begin : {0U, 4U}) {
@@ -1133,7 +1131,7 @@ TEST_F(PoolPointer2, EnginesAreIndependent) {
   EXPECT_NE(read_array(array, 10, 900, parameters), together) << "the border made no difference";
 }
 
-TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
+TEST_F(PoolPointer, RefusesMalformedStreamsAndParameters) {
   std::vector<ColumnStream> array(2);
   array[0].append_row(std::vector<Detection>{{5, 3}});
   array[1].finish_row();
@@ -1146,27 +1144,25 @@ TEST_F(PoolPointer2, RefusesMalformedStreamsAndParameters) {
               ThrowsMessage<InputError>(HasSubstr("column 1 has 2 rows, column 0 has 1")));
   std::vector<PoolPrior> priors(2);
   const auto read_video = [&] {
-    (void)run_pool_pointer2(1, reader_of(std::span(array).first(1)), 10, 6, {}, &priors);
+    (void)run_pool_pointer(1, reader_of(std::span(array).first(1)), 10, 6, {}, &priors);
   };
   EXPECT_THAT(read_video, ThrowsMessage<InputError>(HasSubstr("priors of 2 engines for an array of 1")));
   priors = {PoolPrior(3)};
   EXPECT_THAT(read_video, ThrowsMessage<InputError>(HasSubstr("a prior of 3 groups for an engine of 1")));
   const auto refused = [&](auto spoil, const char* message) {
-    PoolPointer2Parameters parameters;
+    PoolNumbers parameters;
     spoil(parameters);
     EXPECT_THAT([&] { parameters.validate(); }, ThrowsMessage<InputError>(HasSubstr(message)));
   };
-  refused([](PoolPointer2Parameters& p) { p.engine_columns = 3; },
+  refused([](PoolNumbers& p) { p.engine_columns = 3; },
           "ENGINE_COLUMNS must be even and at least 2, for two columns share an SRAM, not 3");
-  refused([](PoolPointer2Parameters& p) { p.group_rows = 3; },
-          "GROUP_SIZE must be a power of two from 4 to 32, not 3");
-  refused([](PoolPointer2Parameters& p) { p.count_width = 8; },
+  refused([](PoolNumbers& p) { p.group_rows = 3; }, "GROUP_SIZE must be a power of two from 4 to 32, not 3");
+  refused([](PoolNumbers& p) { p.count_width = 8; },
           "32 bins of COUNT_WIDTH and a bit more must fit the words of GROUP_SIZE rows, not 8");
-  refused([](PoolPointer2Parameters& p) { p.rival_moves = 0; },
-          "OFFSET_BITS must be 0 if RIVAL_MOVES is 0, not 6");
-  refused([](PoolPointer2Parameters& p) { p.cell_shift = 7; }, "CELL_SHIFT must be 8 to 10, not 7");
-  refused([](PoolPointer2Parameters& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
-  refused([](PoolPointer2Parameters& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 49, not 60");
+  refused([](PoolNumbers& p) { p.rival_moves = 0; }, "OFFSET_BITS must be 0 if RIVAL_MOVES is 0, not 6");
+  refused([](PoolNumbers& p) { p.cell_shift = 7; }, "CELL_SHIFT must be 8 to 10, not 7");
+  refused([](PoolNumbers& p) { p.labels = 9; }, "LABELS must be 2 to 8, not 9");
+  refused([](PoolNumbers& p) { p.track_share = 60; }, "TRACK_SHARE must be 1 to 49, not 60");
 }
 
 }  // namespace

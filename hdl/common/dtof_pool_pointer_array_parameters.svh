@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Written by scripts/generate.py from readouts.toml. A part of dtof_subsystem: the parameters of dtof_pool_pointer2_array.
+// Written by scripts/generate.py from readouts.toml. A part of dtof_subsystem: the parameters of dtof_pool_pointer_array.
           .NP(NP),
           .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
           .SRAM_NUM(SRAM_NUM),

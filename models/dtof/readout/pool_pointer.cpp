@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dtof/readout/pool_pointer2.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 
 #include <fmt/format.h>
 
@@ -32,7 +32,7 @@ class Groups {
  public:
   /// `prior`: of the last frame, empty if there is none.
   Groups(std::span<const PoolColumn> columns, std::uint32_t acquisitions, std::uint32_t coarse_end,
-         const PoolPointer2Parameters& parameters, const PoolPrior& prior)
+         const PoolNumbers& parameters, const PoolPrior& prior)
       : parameters_(parameters),
         rows_(static_cast<std::size_t>(parameters.group_rows)),
         offset_(significance_offset(acquisitions)),
@@ -158,7 +158,7 @@ class Groups {
     return group;
   }
 
-  const PoolPointer2Parameters& parameters_;
+  const PoolNumbers& parameters_;
   std::size_t rows_;       // of a group
   int offset_;             // of a significance
   int significance_bits_;  // of one that are kept
@@ -174,15 +174,13 @@ std::int32_t better_of_two(const PoolEvent& event, const Inside& inside) {
   return !inside(event.preferred) && inside(event.other) ? event.other : event.preferred;
 }
 
-bool near_a_candidate(std::int32_t position, const PoolGroup& group,
-                      const PoolPointer2Parameters& parameters) {
+bool near_a_candidate(std::int32_t position, const PoolGroup& group, const PoolNumbers& parameters) {
   return std::any_of(
       group.centre_cell.begin(), group.centre_cell.begin() + group.labels,
       [&](std::int32_t cell) { return within(in_cells(position) - cell, parameters.track_reach); });
 }
 
-void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
-           const PoolPointer2Parameters& parameters) {
+void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event, const PoolNumbers& parameters) {
   const std::int32_t position =
       better_of_two(event, [&](std::int32_t x) { return near_a_candidate(x, group, parameters); });
   const bool leads = parameters.offset_bits > 0;
@@ -195,7 +193,7 @@ void track(PoolTracks& word, const PoolGroup& group, const PoolEvent& event,
 }
 
 void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event,
-           const PoolPointer2Parameters& parameters) {
+           const PoolNumbers& parameters) {
   std::int32_t position = event.preferred;
   PointerWindows windows = parameters.windows;
   if (parameters.rival_moves != 0) {
@@ -213,8 +211,7 @@ void point(PoolPointerWord& word, const PoolGroup& group, const PoolEvent& event
 using Evidence = std::array<int, kMostLabels>;
 
 /// A pixel's own evidence in choose, before what the columns beside say.
-Evidence own_evidence(const PoolTracks& tracks, const PoolGroup& group,
-                      const PoolPointer2Parameters& parameters) {
+Evidence own_evidence(const PoolTracks& tracks, const PoolGroup& group, const PoolNumbers& parameters) {
   Evidence evidence{};
   for (int label = 0; label < group.labels; ++label) {
     const auto k = static_cast<std::size_t>(label);
@@ -224,13 +221,13 @@ Evidence own_evidence(const PoolTracks& tracks, const PoolGroup& group,
   return evidence;
 }
 
-bool agree(std::int32_t cell, std::int32_t other, const PoolPointer2Parameters& parameters) {
+bool agree(std::int32_t cell, std::int32_t other, const PoolNumbers& parameters) {
   return std::abs(cell - other) <= parameters.lateral_reach;
 }
 
 /// What a pixel's candidates pay for being unlike the best two of the pixel to the right.
 Evidence cost_from_right(const PoolGroup& group, const PoolTracks& right_tracks, const PoolGroup& right,
-                         const PoolPointer2Parameters& parameters) {
+                         const PoolNumbers& parameters) {
   const Evidence evidence = own_evidence(right_tracks, right, parameters);
   const BestLabels labels = best_labels(std::span(evidence).first(static_cast<std::size_t>(right.labels)));
   const auto best = static_cast<std::size_t>(labels.best);
@@ -249,7 +246,7 @@ Evidence cost_from_right(const PoolGroup& group, const PoolTracks& right_tracks,
 
 /// Lets the leaders' pointers of a column start closer together. Returns where they would have started alone.
 PoolWinners start_together(std::vector<PoolPointerWord>& words, std::size_t column, const Groups& groups,
-                           const PoolWinners& left, const PoolPointer2Parameters& parameters) {
+                           const PoolWinners& left, const PoolNumbers& parameters) {
   PoolWinners alone;
   alone.reserve(words.size());
   for (std::size_t row = 0; row < words.size(); ++row) {
@@ -267,8 +264,7 @@ PoolWinners start_together(std::vector<PoolPointerWord>& words, std::size_t colu
 
 /// Chooses in all columns from left to right; index: column, row.
 std::vector<std::vector<PoolPointerWord>> choose(const std::vector<std::vector<PoolTracks>>& tracks,
-                                                 const Groups& groups,
-                                                 const PoolPointer2Parameters& parameters) {
+                                                 const Groups& groups, const PoolNumbers& parameters) {
   std::vector<std::vector<PoolPointerWord>> words(tracks.size());
   const PoolPointerParameters common = parameters.common();
   std::vector<std::int32_t> left;  // cells chosen in the column before
@@ -337,8 +333,7 @@ PoolPrior used_cells(const std::vector<std::vector<PoolPointerWord>>& words, con
 }
 
 /// The largest significance of the candidates within a coarse bin of a position; 0 if there is none.
-int significance_near(const PoolGroup& group, std::int32_t position,
-                      const PoolPointer2Parameters& parameters) {
+int significance_near(const PoolGroup& group, std::int32_t position, const PoolNumbers& parameters) {
   int most = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(group.labels); ++k) {
     if (agree(group.centre_cell[k], in_cells(position), parameters)) {
@@ -349,7 +344,7 @@ int significance_near(const PoolGroup& group, std::int32_t position,
 }
 
 PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column, const Groups& groups,
-                   const PoolPointer2Parameters& parameters) {
+                   const PoolNumbers& parameters) {
   std::vector<ChainNode> chain;
   for (std::size_t row = 0; row < words.size(); ++row) {
     const PoolGroup& group = groups.at(column, row);
@@ -382,7 +377,7 @@ PoolWinners decide(const std::vector<PoolPointerWord>& words, std::size_t column
 /// Calls `visit` with the winners above, below and to the left whose positions are within T of a row's.
 template <typename Visit>
 void for_each_near_neighbour(std::span<const PoolWinner> winners, std::span<const PoolWinner> left,
-                             std::size_t row, const PoolPointer2Parameters& parameters, const Visit& visit) {
+                             std::size_t row, const PoolNumbers& parameters, const Visit& visit) {
   const bool bright = winners[row].background >= parameters.smooth_bright_from;
   const int reach = parameters.smooth_reach[bright ? 1 : 0];
   const auto visit_near = [&](const PoolWinner& neighbour) {
@@ -403,7 +398,7 @@ void for_each_near_neighbour(std::span<const PoolWinner> winners, std::span<cons
 
 }  // namespace
 
-PoolPointerParameters PoolPointer2Parameters::common() const {
+PoolPointerParameters PoolNumbers::common() const {
   return {.group_size = group_rows,
           .labels = labels,
           .score_bits = score_bits,
@@ -420,7 +415,7 @@ PoolPointerParameters PoolPointer2Parameters::common() const {
           .smooth = smooth};
 }
 
-void PoolPointer2Parameters::validate() const {
+void PoolNumbers::validate() const {
   require_range("COUNT_WIDTH", count_width, 4, 8);
   require_range("RIVAL_MOVES", rival_moves, 0, 1);
   require_range("LEFT_NEEDS_MARGIN", left_needs_margin, 0, 1);
@@ -455,7 +450,7 @@ PoolColumn pool_column_events(const ColumnStream& column, int np, std::uint32_t 
 }
 
 std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::uint32_t acquisitions,
-                                     const PoolPointer2Parameters& parameters, PoolPrior* prior) {
+                                     const PoolNumbers& parameters, PoolPrior* prior) {
   if (columns.empty()) {
     return {};
   }
@@ -497,7 +492,7 @@ std::vector<PoolWinners> read_engine(std::span<const PoolColumn> columns, std::u
 
 std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners,
                                              std::span<const PoolWinner> left,
-                                             const PoolPointer2Parameters& parameters) {
+                                             const PoolNumbers& parameters) {
   std::vector<std::int32_t> positions;
   for (std::size_t row = 0; row < winners.size(); ++row) {
     const std::int32_t own = winners[row].position;
@@ -510,7 +505,7 @@ std::vector<std::int32_t> smoothed_positions(std::span<const PoolWinner> winners
 }
 
 std::vector<int> pool_confidences(std::span<const PoolWinner> winners, std::span<const PoolWinner> left,
-                                  const PoolPointer2Parameters& parameters) {
+                                  const PoolNumbers& parameters) {
   const int bits = parameters.common().significance_bits();
   std::vector<int> confidences;
   for (std::size_t row = 0; row < winners.size(); ++row) {
@@ -526,12 +521,11 @@ std::vector<int> pool_confidences(std::span<const PoolWinner> winners, std::span
   return confidences;
 }
 
-std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnReader& column, int np,
-                                                        std::uint32_t acquisitions,
-                                                        const PoolPointer2Parameters& given,
-                                                        std::vector<PoolPrior>* priors) {
+std::vector<std::vector<PixelResult>> run_pool_pointer(int count, const ColumnReader& column, int np,
+                                                       std::uint32_t acquisitions, const PoolNumbers& given,
+                                                       std::vector<PoolPrior>* priors) {
   given.validate();
-  PoolPointer2Parameters parameters = given;
+  PoolNumbers parameters = given;
   parameters.keeps_prior = given.keeps_prior || priors != nullptr;
   const int engines = (count + parameters.engine_columns - 1) / parameters.engine_columns;
   if (priors != nullptr && !priors->empty() && priors->size() != static_cast<std::size_t>(engines)) {
@@ -581,10 +575,10 @@ std::vector<std::vector<PixelResult>> run_pool_pointer2(int count, const ColumnR
 
 namespace {
 
-class PoolPointer2Model final : public ReadoutModel {
+class PoolPointerModel final : public ReadoutModel {
  public:
-  explicit PoolPointer2Model(const ReadoutParameters& parameters)
-      : np_(parameters.np), parameters_(pool_pointer2_parameters(parameters)) {}
+  explicit PoolPointerModel(const ReadoutParameters& parameters)
+      : np_(parameters.np), parameters_(pool_pointer_parameters(parameters)) {}
 
   /// An engine of one column.
   [[nodiscard]] std::vector<PixelResult> run_column(const ColumnStream& column,
@@ -594,17 +588,17 @@ class PoolPointer2Model final : public ReadoutModel {
 
   [[nodiscard]] std::vector<std::vector<PixelResult>> run_columns(int count, const ColumnReader& column,
                                                                   std::uint32_t acquisitions) override {
-    return run_pool_pointer2(count, column, np_, acquisitions, parameters_);
+    return run_pool_pointer(count, column, np_, acquisitions, parameters_);
   }
 
   void run_sampled_column(PixelSampler& /*sampler*/, int /*column*/, std::uint32_t /*acquisitions*/,
                           std::span<PixelResult> /*results*/) override {
-    throw InputError("poolPointer 2 needs the exact photon model");
+    throw InputError("poolPointer needs the exact photon model");
   }
 
  private:
   int np_;
-  PoolPointer2Parameters parameters_;
+  PoolNumbers parameters_;
 };
 
 }  // namespace
@@ -613,30 +607,30 @@ std::array<int, 2> smooth_reach_of(int cell_shift) {
   return cell_shift > kCellShift ? std::array{2048, 2048} : std::array{1024, 1536};
 }
 
-PoolPointer2Parameters pool_pointer2_parameters(const ReadoutParameters& parameters) {
-  const PoolPointer2Parameters own{.count_width = parameters.count_width,
-                                   .group_rows = parameters.pool.group_size,
-                                   .labels = parameters.pool.labels,
-                                   .score_bits = parameters.pool.score_bits,
-                                   .offset_bits = parameters.pool.offset_bits,
-                                   .count_bits = parameters.pool.count_bits,
-                                   .pointer_shift = parameters.pool.pointer_shift,
-                                   .rival_moves = parameters.pool.rival_moves ? 1 : 0,
-                                   .cell_shift = parameters.pool.cell_shift,
-                                   .engine_columns = parameters.pool.engine_columns,
-                                   .coarse_share = parameters.pool.coarse_share,
-                                   .track_share = parameters.pool.track_share,
-                                   .smooth = parameters.pool.smooth,
-                                   .smooth_reach = smooth_reach_of(parameters.pool.cell_shift),
-                                   .coarse_template = parameters.pool.coarse_template,
-                                   .keeps_prior = parameters.pool.prior,
-                                   .second_target = parameters.pool.second_target};
+PoolNumbers pool_pointer_parameters(const ReadoutParameters& parameters) {
+  const PoolNumbers own{.count_width = parameters.count_width,
+                        .group_rows = parameters.pool.group_size,
+                        .labels = parameters.pool.labels,
+                        .score_bits = parameters.pool.score_bits,
+                        .offset_bits = parameters.pool.offset_bits,
+                        .count_bits = parameters.pool.count_bits,
+                        .pointer_shift = parameters.pool.pointer_shift,
+                        .rival_moves = parameters.pool.rival_moves ? 1 : 0,
+                        .cell_shift = parameters.pool.cell_shift,
+                        .engine_columns = parameters.pool.engine_columns,
+                        .coarse_share = parameters.pool.coarse_share,
+                        .track_share = parameters.pool.track_share,
+                        .smooth = parameters.pool.smooth,
+                        .smooth_reach = smooth_reach_of(parameters.pool.cell_shift),
+                        .coarse_template = parameters.pool.coarse_template,
+                        .keeps_prior = parameters.pool.prior,
+                        .second_target = parameters.pool.second_target};
   own.validate();
   return own;
 }
 
-std::unique_ptr<ReadoutModel> make_pool_pointer2(const ReadoutParameters& parameters) {
-  return std::make_unique<PoolPointer2Model>(parameters);
+std::unique_ptr<ReadoutModel> make_pool_pointer(const ReadoutParameters& parameters) {
+  return std::make_unique<PoolPointerModel>(parameters);
 }
 
 }  // namespace dtof

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer 2: what each column has for itself: its timestamps, and which of them counts. What comes of it for a pixel's word
-// is worked out by dtof_pool2_pixel_update, for both columns of a pair one after the other.
+// poolPointer: what each column has for itself: its timestamps, and which of them counts. What comes of it for a pixel's word
+// is worked out by dtof_pool_pixel_update, for both columns of a pair one after the other.
 //
-// Equations: docs/reference/poolpointer2.md, Timestamps, Coarse, Track, Point. What needs several pixels at once (decode,
-// choose, decide) is done by an engine that several columns share (dtof_pool2_engine).
+// Equations: docs/reference/poolpointer.md, Timestamps, Coarse, Track, Point. What needs several pixels at once (decode,
+// choose, decide) is done by an engine that several columns share (dtof_pool_engine).
 //
 // The first two timestamps of a pixel's slots count; the preferred one is the first in even acquisitions, the second in
 // odd ones if there is one. T1 and later count from the pixel's last slot:
@@ -17,7 +17,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool2_column #(
+module dtof_pool_column #(
     parameter int NP = 10,
     parameter int SLOTS = 2,
     parameter int LABELS = 5,
