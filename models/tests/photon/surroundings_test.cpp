@@ -305,19 +305,19 @@ TEST_F(SurroundingsTest, RefusesWhatCannotBe) {
     }
   }
   around_.motion.velocity_m_per_s = 100.0;  // 1.5 m to each side
-  EXPECT_THROW(source(1.4), InputError);
-  EXPECT_NO_THROW(source(1.6));
+  EXPECT_THROW((void)source(1.4), InputError);
+  EXPECT_NO_THROW((void)source(1.6));
   around_ = {};
   around_.other_laser.events = 0.1;
   sensor_.pulse_period_s = 40e-9;
-  EXPECT_THROW(source(1.0), InputError);
+  EXPECT_THROW((void)source(1.0), InputError);
   sensor_.pulse_period_s = 130e-9;
-  EXPECT_NO_THROW(source(1.0));
+  EXPECT_NO_THROW((void)source(1.0));
   around_.firing_offsets = {.bits = 5, .step_s = 3e-9};
-  EXPECT_THROW(source(1.0), InputError);
+  EXPECT_THROW((void)source(1.0), InputError);
   around_ = {};
   around_.cover_glass.events = 1e6;
-  EXPECT_THROW(source(1.0), InputError);
+  EXPECT_THROW((void)source(1.0), InputError);
 }
 
 }  // namespace
