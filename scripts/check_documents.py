@@ -7,11 +7,11 @@ names only parameters and ports that the module has. The page of formats has the
 import csv
 import gzip
 import re
-import subprocess
 import sys
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+from figures.source_tree import SourceTree
 from page import links, render
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -118,9 +118,7 @@ def problems(root: Path, files: list[str]) -> list[str]:
 
 
 def main() -> int:
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, check=True,
-                            capture_output=True, text=True).stdout
-    found = problems(ROOT, [file for file in listed.split("\0") if file and (ROOT / file).is_file()])
+    found = problems(ROOT, sorted(SourceTree(ROOT).files))
     for sentence in found:
         print(f"error: {sentence}", file=sys.stderr)
     return 1 if found else 0

@@ -10,10 +10,11 @@ hdl/ and models/ a parameter's name is typed by hand. More than the number is an
 
 import ast
 import re
-import subprocess
 import sys
 import tomllib
 from pathlib import Path
+
+from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
 LIMITS = "scripts/house.toml"
@@ -27,8 +28,7 @@ CPP_FUNCTION = re.compile(r"^( {0,2})\S.*\) (?:const |noexcept |override |-> [^{
 
 
 def listed(root: Path) -> list[str]:
-    said = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True, text=True, check=True)
-    return [name for name in said.stdout.splitlines() if (root / name).is_file()]
+    return sorted(SourceTree(root).files)
 
 
 class Library:

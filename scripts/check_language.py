@@ -7,9 +7,10 @@ know), for a wire does neither. docs/notes/ and CHANGELOG.md may say what they l
 """
 
 import re
-import subprocess
 import sys
 from pathlib import Path
+
+from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
 SOURCES = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".sh", ".mk", ".tcl", ".toml", ".cmake", ".in")
@@ -29,8 +30,7 @@ def problem(name: str, line: str) -> str:
 
 
 def files(root: Path) -> list[str]:
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard"], cwd=root, capture_output=True, text=True, check=True)
-    return [name for name in listed.stdout.splitlines() if (root / name).is_file() and (
+    return [name for name in sorted(SourceTree(root).files) if (
         name.endswith(SOURCES) or (name.endswith(".md") and not name.startswith(("reports/", "docs/notes/", "CHANGELOG"))))]
 
 

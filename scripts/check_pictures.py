@@ -4,9 +4,10 @@
 for ever. The others are drawn in build/, where `make report` finds them."""
 
 import re
-import subprocess
 import sys
 from pathlib import Path
+
+from figures.source_tree import SourceTree
 
 ROOT = Path(__file__).resolve().parent.parent
 MOST = 10
@@ -34,10 +35,7 @@ def problems(root: Path, files: list[str]) -> list[str]:
 
 
 def main() -> int:
-    listed = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=ROOT, check=True,
-                            capture_output=True, text=True).stdout
-    files = [file for file in listed.split("\0") if file and (ROOT / file).is_file()]
-    found = problems(ROOT, files)
+    found = problems(ROOT, sorted(SourceTree(ROOT).files))
     for sentence in found:
         print(f"error: {sentence}", file=sys.stderr)
     return 1 if found else 0

@@ -7,11 +7,7 @@
 set -euo pipefail
 format_version=14  # of clang-format: Debian 12's
 
-mapfile -t sources < <(git ls-files -co --exclude-standard '*.cpp' '*.hpp' driver/dtof.h driver/dtof.c)
-if [ ${#sources[@]} -eq 0 ]; then  # clang-format would wait for a text at the terminal
-  echo "git names no C++ file: the lint runs in a clone of the project alone" >&2
-  exit 1
-fi
+mapfile -t sources < <(scripts/list_files.py .cpp .hpp driver/dtof.h driver/dtof.c)
 format=clang-format-$format_version
 command -v "$format" > /dev/null || format=clang-format
 installed=$("$format" --version | sed -nE 's/.*version ([0-9]+).*/\1/p')
@@ -22,7 +18,7 @@ else
   echo "clang-format: skipped, for version $installed breaks lines otherwise than version $format_version, which the files follow"
 fi
 
-mapfile -t modules < <(git ls-files -co --exclude-standard '*.py')
+mapfile -t modules < <(scripts/list_files.py .py)
 /usr/bin/python3 -m pyflakes "${modules[@]}"
 echo "pyflakes: ${#modules[@]} files clean"
 /usr/bin/mypy --cache-dir build/mypy
@@ -53,7 +49,7 @@ echo "documents: every link resolves, every module has its section, which names 
 /usr/bin/python3 scripts/lint_rtl.py
 
 if [ "${1:-}" = "--static-analysis" ]; then
-  mapfile -t units < <(git ls-files -co --exclude-standard '*.cpp')
+  mapfile -t units < <(scripts/list_files.py .cpp)
   if [ ! -d /usr/include/dlib ]; then  # the one library that only training needs (package purpose "learning")
     mapfile -t units < <(grep -L '<dlib/' "${units[@]}")
     echo "clang-tidy: without dlib, the files that use it are left out"

@@ -20,7 +20,8 @@ def git_says(root: Path, *arguments: str) -> str | None:
 
 
 class SourceTree:
-    """Files that git keeps or would keep, by their names from the root with slashes."""
+    """Files that git keeps or would keep, by their names from the root with slashes. In an archive, which has no .git, every file
+    outside the folders that are built."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
@@ -28,12 +29,13 @@ class SourceTree:
         self.files = self._listed()
 
     def _listed(self) -> frozenset[str]:
-        listed = git_says(self.root, "ls-files", "-co", "--exclude-standard", "-z")
+        # An archive may lie in somebody's repository, whose git would say what it keeps.
+        listed = git_says(self.root, "ls-files", "-co", "--exclude-standard", "-z") if (self.root / ".git").exists() else None
         if listed is not None:
             names = [name for name in listed.split("\0") if name]
         else:
             names = [path.relative_to(self.root).as_posix() for path in self.root.rglob("*")
-                     if not {"build", "__pycache__"} & set(path.relative_to(self.root).parts)]
+                     if not {".git", ".mypy_cache", "build", "__pycache__"} & set(path.relative_to(self.root).parts)]
         return frozenset(name for name in names if (self.root / name).is_file())
 
     def read(self, name: str) -> bytes:

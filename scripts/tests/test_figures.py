@@ -160,6 +160,18 @@ class Staleness(Project):
             staleness.record(self.root, self.reports()["area"])
         self.assertEqual(staleness.measured(self.root)["area"].digest, before)
 
+    def test_an_archive_in_the_repository_of_another_project_has_its_own_files(self) -> None:
+        self.write(".gitignore", "build/\n")
+        kept = SourceTree(self.root).files
+        archive = self.root / "build" / "vendored"
+        for name in kept:
+            (archive / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(self.root / name, archive / name)
+        (archive / "build").mkdir()
+        (archive / "build" / "log.txt").write_text("no source\n", encoding="utf-8")
+        self.assertIn("hdl/a.sv", kept)
+        self.assertEqual(SourceTree(archive).files, kept)
+
     def test_a_digest_does_not_depend_on_where_the_project_lies(self) -> None:
         before = reports.inputs(self.reports()["area"], SourceTree(self.root)).digest
         moved = self.root.parent / "elsewhere"

@@ -1,0 +1,10 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Prints the project's files whose names end in one of the arguments: list_files.py .cpp .hpp driver/dtof.h"""
+
+import sys
+from pathlib import Path
+
+from figures.source_tree import SourceTree
+
+print("\n".join(sorted(name for name in SourceTree(Path(__file__).resolve().parent.parent).files if name.endswith(tuple(sys.argv[1:])))))
