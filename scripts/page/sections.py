@@ -30,7 +30,7 @@ class Report:
     committed: str
     built: str | None = None
     says: str = ""  # what it is, for the page that lists it
-    excerpt: tuple[str, ...] | None = None  # headings that the first page shows; (): all before the first one
+    excerpt: tuple[str, ...] | None = None  # headings that the page of results shows; (): all before the first one
     pictures: tuple[str, ...] = ()  # beside `built`, not named in its text
     with_it: tuple[tuple[str, str], ...] = ()
     left_out: tuple[str, ...] = ()
@@ -84,7 +84,7 @@ def _studies() -> tuple[Report, ...]:
 
 
 STUDIES = _studies()
-# Shown on the first page, in this order.
+# Shown on the page of results, in this order.
 SHOWN = (*(report for report in STUDIES if report.excerpt is not None), *HARDWARE)
 # Listed, each on a page of its own.
 LISTED = (*(report for report in STUDIES if report.excerpt is None), *OTHERS)
