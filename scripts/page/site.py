@@ -11,25 +11,31 @@ from figures import staleness
 from figures.reports import LIST, inputs, load
 from figures.source_tree import SourceTree
 
-from . import figures, layout, render, start
+from . import figures, layout, plots, render, start
 from .commands import Command, commands
 from .layout import NAME
+from .library import Library
 from .links import problems
 from .search import Index
 from .sections import ALL, FRAME, LISTED, SHOWN, Report, chosen
 
 HERE = Path(__file__).resolve().parent
 ASSETS = ("style.css", "page.js")  # beside the pages
-RESULTS, COMMANDS = "results.html", "commands.html"
+RESULTS, PLOTS, COMMANDS = "results.html", "plots.html", "commands.html"
+LIBRARY, LICENCE = "chart.js", "chart.js.LICENSE.md"
 GLOSSARY, DOCUMENTS = "docs/reference/glossary.md", "docs/README.md"
 WORD_ROW = re.compile(r"<tr>\n<td>(?P<word>[^<]*)</td>")
 # Copied beside the pages where a report links to them; any other file is named only.
 COPIED = (".csv", ".png", ".svg")
 
 
+def stale_lines(plot: plots.Plot) -> str:
+    return f'<blockquote class="stale">{"".join(f"<p>{html.escape(line)}</p>" for line in plot.stale)}</blockquote>' if plot.stale else ""
+
+
 class Site:
-    def __init__(self, root: Path, out: Path) -> None:
-        self.root, self.out = root.resolve(), out
+    def __init__(self, root: Path, out: Path, library: Library = Library(None, None, "this page was made without it")) -> None:
+        self.root, self.out, self.library = root.resolve(), out, library
         self.commands: dict[str, Command] = commands(self.root)
         self.sources = {report.name: chosen(report, self.root) for report in ALL}
         self.reports = {}  # Markdown file: report
@@ -40,8 +46,10 @@ class Site:
         self.documents: dict[Path, str] = {}  # Markdown file: page
         self.waiting: list[Path] = []
         self.marks: dict[str, str] = self.stale_pages()
+        self.plots, self.titles = plots.collect(self.root)
         self.index = Index()
-        self.entries = [layout.Entry("Start", "index.html"), layout.Entry("Results", RESULTS, "reports/")]
+        self.entries = [layout.Entry("Start", "index.html"), layout.Entry("Results", RESULTS, "reports/"),
+                        layout.Entry("Plots", PLOTS)]
         for title, name, folder in (("Documents", DOCUMENTS, "documents/"), ("Glossary", GLOSSARY, "")):
             if (self.root / name).is_file():
                 self.entries.append(layout.Entry(title, self.document(self.root / name), folder))
@@ -241,11 +249,11 @@ class Site:
 
     # ---- Pages ------------------------------------------------------------------------------------------
 
-    def write_page(self, page: str, title: str, body: str, searched: bool = True) -> None:
+    def write_page(self, page: str, title: str, body: str, searched: bool = True, scripts: tuple[str, ...] = ()) -> None:
         """`searched`: whether the search finds the page's text, which it shall do once for each text."""
         path = self.out / page
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(layout.whole(page, title, body, self.entries), encoding="utf-8")
+        path.write_text(layout.whole(page, title, body, self.entries, scripts), encoding="utf-8")
         if searched:
             self.index.add(page, title, body)
 
@@ -257,6 +265,7 @@ class Site:
         link = self.linker(readme, page)
         found = start.doors(text)
         body = [f"<h1>{NAME}</h1>", f'<div class="lead">{render.to_html(start.about(text), link)}</div>', start.cards(found),
+                self.first_picture(page),
                 '<section id="figures"><h2>One scene through every read-out</h2>', self.frame_figures(page),
                 f'<p><a href="{RESULTS}">All results</a>: each with the command that made it.</p></section>']
         for door in found:
@@ -266,11 +275,62 @@ class Site:
             body.append(f'<p>More: <a href="{self.document(readme)}">README</a>.</p>')
         self.write_page(page, NAME, "\n".join(body))
 
+    def first_picture(self, page: str) -> str:
+        """Area against accuracy, which leads to the plots."""
+        plot = self.plots[0]
+        picture = self.root / "reports" / plot.picture
+        if not picture.is_file():
+            return ""
+        return (f'<section id="accuracy"><h2>{html.escape(plot.title)}</h2>{stale_lines(plot)}<a class="picture" href="{PLOTS}">'
+                f'<img src="{html.escape(self.copied(picture, page))}" alt="{html.escape(plot.title)}"></a>'
+                f'<p><a href="{PLOTS}">Plots</a>: each mark with its figure and its command, by read-out and light.</p></section>')
+
     def write_results(self) -> None:
         body = ["<h1>Results</h1>", "<p>What the commands of this tree found. Every section names the command that made it.</p>",
                 self.frame(), *(self.shown(report) for report in SHOWN), self.listed()]
         self.write_page(RESULTS, "Results", "\n".join(body), searched=False)
         self.write_page(COMMANDS, "Commands", self.commands_table())
+
+    def write_plots(self) -> None:
+        """The live plots; without their library, pictures of the same figures."""
+        live = self.library.script is not None
+        body = ["<h1>Plots</h1>"]
+        if live:
+            body += ["<p>The mouse, or a finger, over a mark shows the figure and the command that made it. Without lines, hollow marks "
+                     'are those of 50 klux.</p>', '<div class="filtered"><form id="filters" hidden></form><div>']
+        else:
+            body.append(f'<p class="missing">The plots of this page are not live, for it has no plotting library ({LIBRARY}): '
+                        f"{html.escape(self.library.why_not)}.</p>")
+        body += [self.plot(plot, live) for plot in self.plots]
+        scripts: tuple[str, ...] = ()
+        if self.library.script and self.library.licence:
+            shutil.copyfile(self.library.script, self.out / LIBRARY)
+            shutil.copyfile(self.library.licence, self.out / LICENCE)
+            shutil.copyfile(HERE / "plots.js", self.out / "plots.js")
+            (self.out / plots.FILE).write_text(plots.as_script(self.plots, self.titles), encoding="utf-8")
+            body.append(f'</div></div><p class="made">Drawn by Chart.js, whose <a href="{LICENCE}">licence</a> is beside it.</p>')
+            scripts = (LIBRARY, plots.FILE, "plots.js")
+        self.write_page(PLOTS, "Plots", "\n".join(body), scripts=scripts)
+
+    def plot(self, plot: plots.Plot, live: bool) -> str:
+        report = next((one for one in ALL if one.committed == f"{plot.report}.md"), None)
+        parts = [f'<section id="{plot.name}"><h2>{html.escape(plot.title)}</h2>']
+        if report:
+            whole = f', <a href="{self.whole_page(report)}">report</a>' if self.sources[report.name] else ""
+            parts.append(f'<p class="made">Made by {self.command(report.target, PLOTS)}{whole}, from <code>reports/{plot.table}</code>.</p>')
+        parts += [stale_lines(plot), f"<p>{html.escape(plot.says)}</p>"]
+        picture = self.root / "reports" / plot.picture
+        if not plot.rows:
+            parts.append('<p class="missing">Not measured yet.</p>')
+        elif live:
+            parts.append('<div class="choices"></div><p class="none" hidden>No read-out or no light is chosen that has figures here.</p>'
+                         f'<div class="live {plot.kind}" hidden><canvas></canvas><div class="tip" role="status" hidden></div></div>')
+        elif plot.picture and picture.is_file():
+            address = html.escape(self.copied(picture, PLOTS))
+            parts.append(f'<a class="picture" href="{address}"><img src="{address}" alt="{html.escape(plot.title)}"></a>')
+        else:
+            parts.append('<p class="missing">The report has these figures as tables.</p>')
+        return "\n".join(parts) + "\n</section>"
 
     def write_report(self, report: Report) -> None:
         source = self.sources[report.name]
@@ -293,6 +353,7 @@ class Site:
             shutil.copyfile(HERE / name, self.out / name)
         self.write_start()
         self.write_results()
+        self.write_plots()
         for report in ALL:
             self.write_report(report)
         for path in sorted(self.root.glob("docs/*/**/*.md")):
