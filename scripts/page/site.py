@@ -22,6 +22,7 @@ from .sections import ALL, FRAME, LISTED, SHOWN, Report, chosen
 HERE = Path(__file__).resolve().parent
 ASSETS = ("style.css", "page.js")  # beside the pages
 RESULTS, PLOTS, COMMANDS = "results.html", "plots.html", "commands.html"
+PLAYGROUND = "playground.html"
 LIBRARY, LICENCE = "chart.js", "chart.js.LICENSE.md"
 GLOSSARY, DOCUMENTS = "docs/reference/glossary.md", "docs/README.md"
 WORD_ROW = re.compile(r"<tr>\n<td>(?P<word>[^<]*)</td>")
@@ -54,6 +55,9 @@ class Site:
             if (self.root / name).is_file():
                 self.entries.append(layout.Entry(title, self.document(self.root / name), folder))
         self.entries.append(layout.Entry("Commands", COMMANDS))
+        self.playground = self.root / "build/playground/index.html"  # of make playground, one file
+        if self.playground.is_file():
+            self.entries.insert(1, layout.Entry("Playground", PLAYGROUND))
 
     def stale_pages(self) -> dict[str, str]:
         """By report, the line that says that it was measured on other inputs than those that lie here."""
@@ -269,7 +273,9 @@ class Site:
                 '<section id="figures"><h2>One scene through every read-out</h2>', self.frame_figures(page),
                 f'<p><a href="{RESULTS}">All results</a>: each with the command that made it.</p></section>']
         for door in found:
-            body.append(f'<section id="{door.anchor}"><h2>{html.escape(door.title)}</h2>{render.to_html(door.text, link)}'
+            browser = f'<p><a href="{PLAYGROUND}">In the browser</a>: a scene, its light and the read-outs to choose; nothing to install.</p>' \
+                if door.title == "Try it" and self.playground.is_file() else ""
+            body.append(f'<section id="{door.anchor}"><h2>{html.escape(door.title)}</h2>{browser}{render.to_html(door.text, link)}'
                         f"{start.commands_table(door)}</section>")
         if text:
             body.append(f'<p>More: <a href="{self.document(readme)}">README</a>.</p>')
@@ -351,6 +357,8 @@ class Site:
         self.out.mkdir(parents=True)
         for name in ASSETS:
             shutil.copyfile(HERE / name, self.out / name)
+        if self.playground.is_file():
+            shutil.copyfile(self.playground, self.out / PLAYGROUND)
         self.write_start()
         self.write_results()
         self.write_plots()

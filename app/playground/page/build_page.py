@@ -10,10 +10,10 @@ import json
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PARTS = ROOT / "scripts" / "playground"
+PARTS = Path(__file__).resolve().parent
+ROOT = PARTS.parents[2]
 OUT = ROOT / "build" / "playground"
-MODULE = OUT / "cmake" / "playground" / "playground_module.js"
+MODULE = OUT / "cmake" / "bin" / "playground_module.js"
 sys.path[:0] = [str(ROOT / "synth"), str(ROOT / "scripts")]
 
 import plot_style  # noqa: E402
@@ -61,9 +61,10 @@ def script(text: str, what: str) -> str:
     return text
 
 
-def main() -> int:
+def page(module: str) -> str:
+    """The page around the text of the WebAssembly module."""
     text = (PARTS / "page.html").read_text(encoding="utf-8")
-    worker = MODULE.read_text(encoding="utf-8") + "\n" + (PARTS / "worker.js").read_text(encoding="utf-8")
+    worker = module + "\n" + (PARTS / "worker.js").read_text(encoding="utf-8")
     for mark, part in {
         "/*STYLE*/": (PARTS / "style.css").read_text(encoding="utf-8").strip(),
         "/*COST*/": json.dumps(cost()),
@@ -72,6 +73,11 @@ def main() -> int:
     }.items():
         before, after = text.split(mark)
         text = before + part + after
+    return text
+
+
+def main() -> int:
+    text = page(MODULE.read_text(encoding="utf-8"))
     (OUT / "index.html").write_text(text, encoding="utf-8")
     print(f"build/playground/index.html: {len(text.encode()) / 1e6:.1f} MB, opens in a browser as it is")
     return 0
