@@ -134,6 +134,56 @@ class InTheBrowser(unittest.TestCase):
         self.assertEqual(self.state(), "failed")
         self.assertEqual(self.browser.evaluate("document.getElementById('status').textContent"), "13 is refused")
 
+    def colours(self) -> list[str]:
+        """The first row of the map of two read-outs: blue is too near, red too far."""
+        return self.browser.evaluate(
+            "(c => { const copy = new OffscreenCanvas(c.width, 1).getContext('2d', {willReadFrequently: true}); copy.drawImage(c, 0, 0);"
+            "return [...Array(c.width).keys()].map(x => copy.getImageData(x, 0, 1, 1).data)"
+            ".map(([red, green, blue]) => red > blue ? 'red' : 'blue'); })(document.getElementById('compare-map'))")
+
+    def slide(self, value: int) -> None:
+        self.browser.evaluate(f"(s => {{ s.value = {value}; s.dispatchEvent(new Event('input', {{bubbles: true}})); }})"
+                              "(document.getElementById('compare-split'))")
+
+    def test_two_readouts_share_a_map_and_the_slider_divides_it(self) -> None:
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.assertEqual(self.colours(), 8 * ["red"] + 8 * ["blue"])
+            self.slide(250)
+            self.assertEqual(self.colours(), 4 * ["red"] + 12 * ["blue"])
+            self.assertEqual(self.browser.evaluate("document.getElementById('compare-names').innerText").split("\n"),
+                             ["left: First", "right: Second"])
+            self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+            self.browser.evaluate("document.getElementById('compare').scrollIntoView()")
+            self.browser.screenshot(SCREENSHOTS / f"playground_compare_{width}.png", whole=False)
+
+    def test_the_line_follows_the_pressed_mouse(self) -> None:
+        self.show()
+        x, y, width = self.browser.evaluate("(c => { c.scrollIntoView({block: 'center'}); const r = c.getBoundingClientRect();"
+                                            "return [r.left, r.top + r.height / 2, r.width]; })(document.getElementById('compare-map'))")
+        place = {"x": x + width * 12 / 16, "y": y, "button": "left"}
+        self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=place["x"], y=y)
+        self.assertEqual(self.colours(), 8 * ["red"] + 8 * ["blue"])
+        self.browser.call("Input.dispatchMouseEvent", type="mousePressed", buttons=1, clickCount=1, **place)
+        self.browser.call("Input.dispatchMouseEvent", type="mouseReleased", clickCount=1, **place)
+        self.assertEqual(self.colours(), 12 * ["red"] + 4 * ["blue"])
+        said = self.browser.evaluate("document.getElementById('compare-pixel').textContent")
+        self.assertRegex(said, "^Column 12, row 4: First measured 2.300 m, true 2.200 m.*; Second measured 2.100 m, true 2.200 m")
+
+    def test_what_is_compared_can_be_chosen_and_stays(self) -> None:
+        self.show()
+        self.browser.evaluate("(list => { list.value = 'second'; list.dispatchEvent(new Event('input')); })(document.getElementById('compare-left'))")
+        self.assertEqual(self.colours(), 16 * ["blue"])
+        self.browser.evaluate("form.seed.value = 2; form.requestSubmit()")
+        self.assertEqual(self.state(), "done")
+        self.assertEqual(self.colours(), 16 * ["blue"])
+
+    def test_one_readout_is_not_compared(self) -> None:
+        self.show()
+        self.browser.evaluate("form.querySelector('[value=second]').checked = false; form.requestSubmit()")
+        self.assertEqual(self.state(), "done")
+        self.assertTrue(self.browser.evaluate("document.getElementById('compare').hidden"))
+
 
 if __name__ == "__main__":
     unittest.main()

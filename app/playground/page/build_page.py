@@ -20,6 +20,7 @@ import plot_style  # noqa: E402
 from figures import store  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 
+SCRIPTS = ("page.js", "compare.js", "begin.js")  # of the page, in this order
 THESIS_PIXELS = 32000
 
 
@@ -68,7 +69,7 @@ def page(module: str) -> str:
     for mark, part in {
         "/*STYLE*/": (PARTS / "style.css").read_text(encoding="utf-8").strip(),
         "/*COST*/": json.dumps(cost()),
-        "/*PAGE*/": script((PARTS / "page.js").read_text(encoding="utf-8"), "page.js"),
+        "/*PAGE*/": "\n".join(script((PARTS / name).read_text(encoding="utf-8"), name) for name in SCRIPTS),
         "/*WORKER*/": script(worker, "the module"),
     }.items():
         before, after = text.split(mark)

@@ -300,6 +300,7 @@ function show() {
   byId("depth-ends").replaceChildren(...[scene.near, (scene.near + scene.far) / 2, scene.far].map((m) => make("span", `${m.toFixed(2)} m`)));
   paint(byId("depth-legend"), ramp, viridis);
   paint(byId("error-legend"), ramp, blueWhiteRed);
+  showComparison();
   byId("shown").hidden = false;
   byId("shown").classList.remove("stale");
 }
@@ -320,4 +321,3 @@ for (const [id, checked] of [["all", true], ["none", false]]) {
     form.querySelectorAll("[name=readout]").forEach((box) => { box.checked = checked; });
   };
 }
-startWorker();
