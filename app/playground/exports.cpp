@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions that the page's worker calls (worker.js), and nothing of C++ that it would have to know: a
 // request is text, one "name value" a line; a failure is a sentence.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "dtof/sensor/sensor_file.hpp"
 #include "playground/catalogue.hpp"
 #include "playground/request.hpp"
 #include "playground/session.hpp"
@@ -15,7 +17,9 @@
 namespace {
 
 std::unique_ptr<dtof::PlaygroundSession> session;
+dtof::PlaygroundFiles files;
 dtof::PlaygroundFrame frame;
+std::string sensor_line;
 std::string sentence;
 std::string figures;
 
@@ -39,10 +43,29 @@ const char* playground_catalogue() {
   static const std::string catalogue = dtof::playground_catalogue();
   return catalogue.c_str();
 }
+/// The sensor file that scenes have from now on; without text they have their preset.
+bool playground_take_sensor(const char* name, const char* text) {
+  return attempt([&] {
+    sensor_line = *text == '\0' ? "" : dtof::playground_sensor_line(name, dtof::parse_sensor(text, name));
+    files.sensor_name = name;
+    files.sensor_text = text;
+  });
+}
+/// The catalogue's line of that sensor.
+const char* playground_sensor() { return sensor_line.c_str(); }
+/// The depth map that scenes have from now on: its place, for metres row by row. Of 0 columns: none.
+float* playground_take_map(int columns, int rows) {
+  files.map_columns = columns;
+  files.map_rows = rows;
+  files.map_m.assign(
+      static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)), 0.0F);
+  return files.map_m.data();
+}
 /// Begins a scene.
 bool playground_begin(const char* request) {
-  return attempt(
-      [&] { session = std::make_unique<dtof::PlaygroundSession>(dtof::parse_playground_request(request)); });
+  return attempt([&] {
+    session = std::make_unique<dtof::PlaygroundSession>(dtof::parse_playground_request(request), files);
+  });
 }
 /// Why the last call failed.
 const char* playground_error() { return sentence.c_str(); }

@@ -15,6 +15,7 @@
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "dtof/sensor/sensor_file.hpp"
 
 namespace dtof {
 namespace {
@@ -25,9 +26,7 @@ void require_in_range(const SensorModel& sensor, double metres) {
   }
 }
 
-PhotonSource make_photons(const PlaygroundRequest& request) {
-  SensorModel sensor = parse_preset(request.sensor);
-  sensor.acquisitions = request.acquisitions.value_or(sensor.acquisitions);
+TargetMap make_targets(const PlaygroundRequest& request, const SensorModel& sensor) {
   const Scene scene = parse_scene(request.scene);
   if (scene == Scene::kFlat) {
     require_in_range(sensor, request.distance_m);
@@ -43,13 +42,27 @@ PhotonSource make_photons(const PlaygroundRequest& request) {
   parameters.far_m = request.far_m;
   parameters.steps = request.steps;
   parameters.reflectivity = request.reflectivity.value_or(sensor.default_reflectivity);
-  return {sensor, make_scene(scene, parameters), request.klux, request.seed};
+  return make_scene(scene, parameters);
+}
+
+PhotonSource make_photons(const PlaygroundRequest& request, const PlaygroundFiles& files) {
+  SensorModel sensor = files.sensor_text.empty() ? parse_preset(request.sensor)
+                                                 : parse_sensor(files.sensor_text, files.sensor_name);
+  sensor.acquisitions = request.acquisitions.value_or(sensor.acquisitions);
+  const TargetMap targets =
+      files.map_columns == 0
+          ? make_targets(request, sensor)
+          : scene_from_depth_image(files.map_columns, files.map_rows, files.map_m,
+                                   request.columns.value_or(sensor.columns),
+                                   request.rows.value_or(sensor.rows),
+                                   request.reflectivity.value_or(sensor.default_reflectivity));
+  return {sensor, targets, request.klux, request.seed};
 }
 
 }  // namespace
 
-PlaygroundSession::PlaygroundSession(const PlaygroundRequest& request)
-    : scene_(make_photons(request)), seed_(request.seed) {
+PlaygroundSession::PlaygroundSession(const PlaygroundRequest& request, const PlaygroundFiles& files)
+    : scene_(make_photons(request, files)), seed_(request.seed) {
   std::vector<int> columns(static_cast<std::size_t>(scene_.columns()));
   std::iota(columns.begin(), columns.end(), 0);
   truth_ =

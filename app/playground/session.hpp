@@ -32,6 +32,15 @@ struct PlaygroundRequest {
   std::vector<std::string> readouts;  ///< names
 };
 
+/// Files that a visitor of the page gives.
+struct PlaygroundFiles {
+  std::string sensor_name = {};  ///< the file's, for messages
+  std::string sensor_text = {};  ///< a sensor file; empty: the request's preset
+  int map_columns = 0;           ///< of a depth map; 0: the request's scene
+  int map_rows = 0;
+  std::vector<float> map_m = {};  ///< [row][column], row 0 on top; 0: unknown
+};
+
 /// A frame of one read-out, row-major.
 struct PlaygroundFrame {
   std::vector<PixelResult> results;
@@ -45,7 +54,7 @@ struct PlaygroundFrame {
 class PlaygroundSession {
  public:
   /// Throws InputError.
-  explicit PlaygroundSession(const PlaygroundRequest& request);
+  explicit PlaygroundSession(const PlaygroundRequest& request, const PlaygroundFiles& files = {});
 
   [[nodiscard]] int columns() const { return scene_.columns(); }
   [[nodiscard]] int rows() const { return scene_.rows(); }

@@ -4,11 +4,16 @@
 `make playground-test` compares the models' module with `dtof frame`; it needs emscripten, and this test does not."""
 
 import importlib.util
+import io
+import json
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 from types import ModuleType
+
+import numpy
 
 from page.site import Site
 from tests.browser import Browser, missing
@@ -20,9 +25,11 @@ SECONDS = 30
 STAND_IN = """
 const createModels = async () => {
   const heap = new ArrayBuffer(1 << 20), HEAPF32 = new Float32Array(heap), HEAPU16 = new Uint16Array(heap);
-  let asked = {}, readout = 0, sentence = "";
+  let asked = {}, readout = 0, sentence = "", sensor = "", map = null;
   const pixels = () => asked.columns * asked.rows;
-  const truth = (i) => 1 + 0.1 * (i % asked.columns);
+  const MAP = 5 << 16;
+  const truth = (i) => !map ? 1 + 0.1 * (i % asked.columns) :
+    HEAPF32[MAP / 4 + Math.floor(Math.floor(i / asked.columns) * map[1] / asked.rows) * map[0] + Math.floor(i % asked.columns * map[0] / asked.columns)];
   const floats = (place, value) => {
     for (let i = 0; i < pixels(); ++i) { HEAPF32[place / 4 + i] = value(i); }
     return place;
@@ -31,6 +38,13 @@ const createModels = async () => {
   const functions = {
     catalogue: () => "readout\\tfirst\\tFirst\\treads too far\\nreadout\\tsecond\\tSecond\\treads too near\\nscene\\troom\\ta room\\n" +
       "scene\\tflat\\ta wall\\nsensor\\tthesis\\t16\\t8\\t0.5\\t100\\t6.75\\n",
+    take_sensor: (name, text) => {
+      sentence = text.includes("wrong") ? `${name}:1: wrong` : "";
+      sensor = text === "" ? "" : `sensor\\t${name}\\t32\\t8\\t0.25\\t77\\t3.5\\n`;
+      return sentence === "" ? 1 : 0;
+    },
+    sensor: () => sensor,
+    take_map: (columns, rows) => { map = columns === 0 ? null : [columns, rows]; return MAP; },
     begin: (text) => {
       asked = Object.fromEntries(text.split("\\n").map((line) => line.split(" ")));
       sentence = Number(asked.seed) === 13 ? "13 is refused" : "";
@@ -183,6 +197,119 @@ class InTheBrowser(unittest.TestCase):
         self.browser.evaluate("form.querySelector('[value=second]').checked = false; form.requestSubmit()")
         self.assertEqual(self.state(), "done")
         self.assertTrue(self.browser.evaluate("document.getElementById('compare').hidden"))
+
+    # ---- Files --------------------------------------------------------------------------------------------
+
+    def drop(self, *files: tuple[str, bytes]) -> None:
+        """Drops files, by name and content, on the page."""
+        made = ",".join(f"new File([Uint8Array.from({list(content)})], {json.dumps(name)})" for name, content in files)
+        self.browser.evaluate("delete document.body.dataset.state;"
+                              f"(data => {{ [{made}].forEach(file => data.items.add(file));"
+                              "document.body.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true})); })"
+                              "(new DataTransfer())")
+
+    def status(self) -> str:
+        return str(self.browser.evaluate("document.getElementById('status').textContent"))
+
+    def command(self) -> str:
+        return " ".join(str(self.browser.evaluate("document.getElementById('command').textContent")).replace("\\\n", "").split())
+
+    def truth(self) -> list[float]:
+        return self.browser.evaluate("[...scene.truth]")
+
+    def test_a_depth_map_is_the_scene(self) -> None:
+        metres = numpy.linspace(0.5, 4.0, 128, dtype=numpy.float32).reshape(8, 16)
+        metres[3, 4] = 0
+        millimetres = numpy.random.default_rng(1).integers(1, 4000, (8, 16)).astype(numpy.uint16)
+        few = numpy.random.default_rng(2).integers(1, 7, (8, 16)).astype(numpy.uint16)  # the last filter often finds two as near
+        begins_with_a_line_end = metres.copy()
+        begins_with_a_line_end[7, 0] = numpy.frombuffer(b"\n\x00\x80\x3f", "<f4")[0]
+        for name, content, wanted in (
+                ("map.npy", npy(metres), metres), ("map.npy", npy(metres.astype(">f8")), metres), ("map.npy", npy(metres[None]), metres),
+                ("map.pfm", b"Pf\n16 8\n-2.0\n" + (metres[::-1] / 2).astype("<f4").tobytes(), metres),
+                ("map.pfm", b"Pf 16 8 1\r\n" + metres[::-1].astype(">f4").tobytes(), metres),
+                ("map.pfm", b"Pf 16 8 -1\r" + begins_with_a_line_end[::-1].astype("<f4").tobytes(), begins_with_a_line_end),
+                ("map.png", png(few, 16, (4,)), (few * 1e-3).astype(numpy.float32)),
+                ("map.png", png(millimetres, 16), (millimetres * 1e-3).astype(numpy.float32))):
+            self.show()
+            self.drop((name, content))
+            self.assertEqual(self.state(), "done", self.status())
+            self.assertEqual(self.truth(), wanted.ravel().tolist())
+            self.assertIn(f"dtof frame --depth {name} --sensor thesis", self.command())
+            self.assertNotIn("--scene", self.command())
+        self.assertIn("map.png, 16 x 8 pixels", self.browser.evaluate("document.getElementById('cards').innerText"))
+        self.browser.evaluate("delete document.body.dataset.state; document.getElementById('drop-depth').click()")
+        self.assertEqual(self.state(), "done")
+        self.assertIn("--scene room", self.command())
+        self.assertAlmostEqual(self.truth()[15], 2.5, 5)
+
+    def test_a_map_of_8_bits_waits_for_its_scale(self) -> None:
+        self.show()
+        units = numpy.arange(128, dtype=numpy.uint8).reshape(8, 16)
+        self.drop(("a map.png", png(units, 8)))
+        self.assertEqual(self.state(), "failed")
+        self.assertIn("a map.png: a depth map of 8 bits needs its scale", self.status())
+        self.browser.evaluate("delete document.body.dataset.state; form['depth-scale'].value = '0.05';"
+                              "form['depth-scale'].dispatchEvent(new Event('change', {bubbles: true}))")
+        self.assertEqual(self.state(), "done", self.status())
+        self.assertEqual(self.truth(), (units * 0.05).astype(numpy.float32).ravel().tolist())
+        self.assertIn("--depth 'a map.png' --depth-scale 0.05", self.command())
+
+    def test_a_sensor_file_is_the_sensor(self) -> None:
+        self.show()
+        self.drop(("mine.toml", b"name = 'mine'\n"))
+        self.assertEqual(self.state(), "done", self.status())
+        self.assertIn("--scene room --sensor mine.toml --array-columns 32 --array-rows 8", self.command())
+        self.assertIn("--reflectivity 0.25 --acquisitions 77", self.command())
+        self.assertEqual(len(self.truth()), 256)
+        self.drop(("other.toml", b"wrong"))
+        self.assertEqual((self.state(), self.status()), ("failed", "other.toml:1: wrong"))
+        self.browser.evaluate("delete document.body.dataset.state; document.getElementById('drop-sensor').click()")
+        self.assertEqual(self.state(), "done")
+        self.assertIn("--sensor thesis --array-columns 16", self.command())
+
+    def test_a_file_that_is_none_of_these_is_refused_and_changes_nothing(self) -> None:
+        good = npy(numpy.ones((8, 16), numpy.float32))
+        for content, sentence in ((b"hello", "neither a PNG, a PFM nor an NPY file"), (good[:-4], "need 512 bytes, the file has 508"),
+                                  (npy(-numpy.ones((2, 2))), "column 0, row 0: a negative depth"),
+                                  (npy(numpy.ones((2, 2), numpy.complex64)), "NPY of c8"), (npy(numpy.ones(4)), "NPY shape (4)"),
+                                  (b"Pf\n2 2\n0\n" + bytes(16), "PFM scale 0 is not"), (b"Pf\n2 2\n1\n" + bytes(15), "the file has 15"),
+                                  (png(numpy.ones((2, 2)), 16)[:-40], "a damaged PNG")):
+            with self.subTest(sentence=sentence):
+                self.show()
+                self.drop(("x.bin", content))
+                self.assertEqual(self.state(), "failed")
+                self.assertTrue(self.status().startswith("x.bin: ") and sentence in self.status(), self.status())
+                self.assertIn("--scene room", self.command())
+                self.assertTrue(self.browser.evaluate("document.getElementById('drop-depth').hidden"))
+
+
+def npy(array: numpy.ndarray) -> bytes:
+    file = io.BytesIO()
+    numpy.save(file, array)
+    return file.getvalue()
+
+
+def png(array: numpy.ndarray, bits: int, filters: tuple[int, ...] = (0, 1, 2, 3, 4)) -> bytes:
+    """In grey; its rows have the filters in turn."""
+    rows = [list(line.astype(">u2" if bits == 16 else "u1").tobytes()) for line in array]
+    pixel = bits // 8
+    data = b""
+    for number, row in enumerate(rows):
+        above = rows[number - 1] if number else [0] * len(row)
+        used = filters[number % len(filters)]
+        data += bytes([used])
+        for i, value in enumerate(row):
+            left, corner = (row[i - pixel], above[i - pixel]) if i >= pixel else (0, 0)
+            nearest = min((left, above[i], corner), key=lambda one: abs(left + above[i] - corner - one))
+            data += bytes([(value - (0, left, above[i], (left + above[i]) // 2, nearest)[used]) % 256])
+
+    def chunk(name: bytes, content: bytes) -> bytes:
+        return len(content).to_bytes(4, "big") + name + content + zlib.crc32(name + content).to_bytes(4, "big")
+
+    size = array.shape[1].to_bytes(4, "big") + array.shape[0].to_bytes(4, "big")
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", size + bytes([bits, 0, 0, 0, 0])) + chunk(b"IDAT", zlib.compress(data)) +
+            chunk(b"IEND", b""))
 
 
 if __name__ == "__main__":
