@@ -58,8 +58,7 @@
     const measure = plot.measures[index];
     const lines = [make("strong", { textContent: row.label }),
       make("span", { textContent: `${number(value)} %${interval} ${measure}` }),
-      make("span", { textContent: [`${row.light} klux`, typeof row.x === "string" ? row.x : "", ...Object.values(row.at ?? {}), row.note]
-        .filter(Boolean).join(", ") }),
+      make("span", { textContent: [`${row.light} klux`, typeof row.x === "string" ? row.x : "", row.note].filter(Boolean).join(", ") }),
       make("code", { textContent: plot.command }),
       make("small", { textContent: row.figure && index === 0 ? `${row.figure} in reports/figures.json` : plot.table })];
     if (plot.stale.length > 0) {
@@ -84,8 +83,9 @@
 
   /** Intervals as bars. */
   const bars = { id: "bars", beforeDatasetsDraw(chart) {
-    const { left, right } = chart.chartArea;
-    const inside = (value) => Math.min(Math.max(chart.scales.x.getPixelForValue(value), left), right);
+    const { left, right, top, bottom } = chart.chartArea;
+    const across = (value) => Math.min(Math.max(chart.scales.x.getPixelForValue(value), left), right);
+    const down = (value) => Math.min(Math.max(chart.scales.y.getPixelForValue(value), top), bottom);
     chart.data.datasets.forEach((set, i) => chart.getDatasetMeta(i).data.forEach((point, j) => {
       const { low, high } = set.data[j];
       if (low === null || low === undefined) {
@@ -96,8 +96,13 @@
       context.strokeStyle = set.borderColor;
       context.lineWidth = 1.5;
       context.beginPath();
-      context.moveTo(inside(low), point.y);
-      context.lineTo(inside(high), point.y);
+      if (chart.scales.y.type === "category") {
+        context.moveTo(across(low), point.y);
+        context.lineTo(across(high), point.y);
+      } else {
+        context.moveTo(point.x, down(low));
+        context.lineTo(point.x, down(high));
+      }
       context.stroke();
       context.restore();
     }));
@@ -149,9 +154,8 @@
       }
       const [value, low, high] = row.values[index];
       const clipped = Math.max(value, least);
-      sets.get(key).data.push(plot.kind === "rows" ?
-        { x: clipped, y: row.x, low: low === null ? null : Math.max(low, least), high: high === null ? null : Math.max(high, least), row } :
-        { x: row.x, y: clipped, row });
+      const interval = { low: low === null ? null : Math.max(low, least), high: high === null ? null : Math.max(high, least) };
+      sets.get(key).data.push({ ...(plot.kind === "rows" ? { x: clipped, y: row.x } : { x: row.x, y: clipped }), ...interval, row });
     }
     return [...sets.values()];
   }

@@ -6,7 +6,7 @@ plots.js draws what is written here. A plot has rows; a row is a read-out at a l
 import json
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import plot_style
@@ -19,6 +19,7 @@ from figures.tables import Tables
 FILE = "plots_data.js"
 ABOVE_3, ABOVE_10, RMSE = "off by more than 3 %", "off by more than 10 %", "relative rmse"
 LIGHTS = {"indoor": 14, "outdoor": 50}  # klux, as scripts/pareto.py has them
+TOGETHER = "all but the flat targets"
 UNKNOWN_COLOUR, UNKNOWN_MARKER = "#555555", 7  # a title that no list of styles has
 
 Value = tuple[float, float | None, float | None]  # in per cent, and the ends of its interval at 95 %
@@ -108,17 +109,28 @@ def scenes(root: Path, _titles: Titles) -> Iterator[Row]:
                   for measure, column in columns.items()}
         square = sum(int(row["pixels"]) * float(row["relative_rmse"]) ** 2 for row in rows) / pixels
         yield Row(estimator, int(klux), int(klux), values | {RMSE: (100 * square ** 0.5, None, None)},
-                  {"scene": "all but the flat targets", "sensor": sensor}, f"{pixels} pixels")
+                  {"scene": TOGETHER, "sensor": sensor}, f"{TOGETHER}, sensor {sensor}, {pixels} pixels")
     for row in measured:
         values = {measure: (100 * float(row[column]), None, None) for measure, column in columns.items()}
         yield Row(row["estimator"], int(row["klux"]), int(row["klux"]), values | {RMSE: (100 * float(row["relative_rmse"]), None, None)},
-                  {"scene": row["scene"], "sensor": row["sensor"]}, f"{row['pixels']} pixels")
+                  {"scene": row["scene"], "sensor": row["sensor"]}, f"{row['scene']}, sensor {row['sensor']}, {row['pixels']} pixels")
 
 
 def hostile(root: Path, titles: Titles) -> Iterator[Row]:
     for row in rows_of(root, "data/hostile_scenes.csv.gz"):
         yield Row(titles.title(row["readout"]), int(row["klux"]), row["condition"],
                   {ABOVE_3: interval(row, "above_3"), ABOVE_10: interval(row, "above_10")}, note=f"{row['pixels']} pixels with a target")
+
+
+def dynamic_range(root: Path, titles: Titles) -> Iterator[Row]:
+    """At one signal and one light at a time, first those of the thesis by day."""
+    rows = [row for row in rows_of(root, "data/dynamic_range.csv.gz") if row["part"] == "grid"]
+    rows.sort(key=lambda row: (row["signal"] != "1", float(row["signal"]), row["klux"] != "14", int(row["klux"]), int(row["acquisitions"])))
+    for row in rows:
+        yield Row(titles.title(row["readout"]), int(row["klux"]), int(row["acquisitions"]),
+                  {ABOVE_3: interval(row, "above_3"), ABOVE_10: interval(row, "above_10")},
+                  {"signal": f"{row['signal']} x", "light": f"{row['klux']} klux"},
+                  f"{row['acquisitions']} acquisitions, signal {row['signal']} x, {row['pixels']} pixels")
 
 
 def interval(row: dict[str, str], name: str) -> Value:
@@ -133,6 +145,9 @@ PLOTS: tuple[tuple[Plot, Callable[[Path, Titles], Iterator[Row]]], ...] = (
     (Plot("hostile", "Hostile conditions", "Glass, fog, other lasers, motion and skew; bars are intervals at 95 %. \"told\": the read-out "
           "has a template of a frame without a target.",
           "hostile_scenes", "data/hostile_scenes.csv.gz", "rows", "", (ABOVE_3, ABOVE_10)), hostile),
+    (Plot("acquisitions", "Errors over acquisitions", "Does a longer frame, or more light, make a read-out worse? Signal in parts of "
+          "the thesis's.",
+          "dynamic_range", "data/dynamic_range.csv.gz", "lines", "acquisitions of a frame", (ABOVE_3, ABOVE_10)), dynamic_range),
 )
 
 
@@ -158,8 +173,7 @@ def collect(root: Path) -> tuple[list[Plot], Titles]:
     commands = {name: report.command for name, report in load(root).items()} if (root / LIST).is_file() else {}
     found = []
     for plot, rows in PLOTS:
-        found.append(Plot(**{**vars(plot), "command": commands.get(plot.report, ""), "stale": stale.get(plot.report, ()),
-                             "rows": list(rows(root, titles))}))
+        found.append(replace(plot, command=commands.get(plot.report, ""), stale=stale.get(plot.report, ()), rows=list(rows(root, titles))))
     return found, titles
 
 

@@ -153,6 +153,7 @@ class Site:
     def pictures(self, report: Report, page: str) -> str:
         """Those that the report's text does not name."""
         source = self.sources[report.name]
+        assert source is not None
         shown = []
         for name in report.pictures:
             for folder in (source.parent, (self.root / "reports" / report.committed).parent):
@@ -358,7 +359,7 @@ class Site:
         for name in ASSETS:
             shutil.copyfile(HERE / name, self.out / name)
         if self.playground.is_file():
-            shutil.copyfile(self.playground, self.out / PLAYGROUND)
+            self.write_playground()
         self.write_start()
         self.write_results()
         self.write_plots()
@@ -370,6 +371,13 @@ class Site:
             self.write_document(self.waiting.pop())
         self.index.write(self.out)
         return problems(self.out)
+
+    def write_playground(self) -> None:
+        """As it was built, with a way back to the start page."""
+        text = self.playground.read_text(encoding="utf-8")
+        self.index.add(PLAYGROUND, "Playground", text)
+        text = text.replace("<main>", f'<main>\n<p class="hint"><a href="index.html">{NAME}</a></p>', 1)
+        (self.out / PLAYGROUND).write_text(text, encoding="utf-8")
 
     def write_document(self, path: Path) -> None:
         page = self.documents[path]

@@ -65,7 +65,7 @@ class Figures(Tree):
         together = rows["all but the flat targets"]
         self.assertAlmostEqual(together.values[plots.ABOVE_3][0], 30)
         self.assertAlmostEqual(together.values[plots.RMSE][0], 100 * ((300 * 0.09 + 100 * 0.01) / 400) ** 0.5)
-        self.assertEqual((together.note, rows["room"].values[plots.ABOVE_10][0]), ("400 pixels", 10))
+        self.assertEqual((together.note, rows["room"].values[plots.ABOVE_10][0]), ("all but the flat targets, sensor thesis, 400 pixels", 10))
 
     def test_conditions_have_intervals_and_titles(self) -> None:
         self.assertEqual(self.rows("hostile"), [])
@@ -276,6 +276,14 @@ class InTheBrowser(Shown):
         self.browser.evaluate("[...document.querySelectorAll('#filters fieldset:nth-of-type(2) button')].find(b => b.textContent === 'none').click()")
         self.assertEqual(self.sets("light"), [])
         self.assertFalse(self.browser.evaluate("document.querySelector('#light .none').hidden"))
+
+    def test_lines_have_intervals_and_the_light_of_the_list(self) -> None:
+        self.show(1440, 900)
+        self.choose("acquisitions", "light", "50 klux")
+        self.choose("acquisitions", "signal", "10 x")
+        shown = self.point_at("acquisitions", "hisPointer", 3)
+        self.assertRegex(shown, r"hisPointer\n[\d.]+ % \[[\d.]+, [\d.]+\] off by more than 3 %\n50 klux, 1000 acquisitions, signal 10 x, ")
+        self.assertIn("make dynamic-range", shown)
 
     def test_measure_scene_and_axis(self) -> None:
         self.show(1440, 900)
