@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "dtof/sensor/sensor_file.hpp"
 #include "playground/catalogue.hpp"
@@ -20,6 +21,7 @@ std::unique_ptr<dtof::PlaygroundSession> session;
 dtof::PlaygroundFiles files;
 dtof::PlaygroundFrame frame;
 std::string sensor_line;
+std::vector<dtof::Detection> detections;
 std::string sentence;
 std::string figures;
 
@@ -98,6 +100,18 @@ const std::uint16_t* playground_results() {
   static_assert(sizeof(dtof::PixelResult) == 4 * sizeof(std::uint16_t));
   return &frame.results.front().code;
 }
+/// What a pixel's TDC delivered over the frame: reads it, says how many detections there are, and where. A
+/// detection is an acquisition of 32 bits and a timestamp of 16, in 8 bytes.
+bool playground_pixel(int column, int row) {
+  return attempt([&] { detections = session->pixel(column, row); });
+}
+int playground_detections() { return static_cast<int>(detections.size()); }
+const dtof::Detection* playground_detection() {
+  static_assert(sizeof(dtof::Detection) == 8 && offsetof(dtof::Detection, timestamp) == 4);
+  return detections.data();
+}
+int playground_acquisitions() { return static_cast<int>(session->acquisitions()); }
+int playground_codes() { return session->codes(); }
 /// The figures of summary.csv, one a line.
 const char* playground_figures() { return figures.c_str(); }
 }

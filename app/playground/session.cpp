@@ -124,4 +124,15 @@ PlaygroundFrame PlaygroundSession::frame(std::size_t readout) const {
   return frame;
 }
 
+std::vector<Detection> PlaygroundSession::pixel(int column, int row) const {
+  if (column < 0 || row < 0 || column >= columns() || row >= rows()) {
+    throw InputError(fmt::format("there is no pixel in column {}, row {}", column, row));
+  }
+  const ColumnStream stream = scene_.column(column);
+  const auto detections = stream.row(row);
+  return {detections.begin(), detections.end()};
+}
+
+int PlaygroundSession::codes() const { return 1 << scene_.model().np; }
+
 }  // namespace dtof

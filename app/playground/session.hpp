@@ -68,6 +68,11 @@ class PlaygroundSession {
   void read_column(int column);
   /// What a read-out of the request (by its place there) made of the columns, after all were read.
   [[nodiscard]] PlaygroundFrame frame(std::size_t readout) const;
+  /// What the TDC of a pixel delivered over the frame.
+  [[nodiscard]] std::vector<Detection> pixel(int column, int row) const;
+  [[nodiscard]] std::uint32_t acquisitions() const { return scene_.acquisitions(); }
+  /// Codes that a timestamp can have.
+  [[nodiscard]] int codes() const;
 
  private:
   PhotonSource scene_;

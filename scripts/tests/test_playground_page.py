@@ -24,7 +24,7 @@ SECONDS = 30
 # Two read-outs of 16 x 8 pixels, columns from 1 m to 2.5 m: the first reads 0.1 m too much, the second 0.1 m too little.
 STAND_IN = """
 const createModels = async () => {
-  const heap = new ArrayBuffer(1 << 20), HEAPF32 = new Float32Array(heap), HEAPU16 = new Uint16Array(heap);
+  const heap = new ArrayBuffer(1 << 20), HEAPF32 = new Float32Array(heap), HEAPU16 = new Uint16Array(heap), HEAPU32 = new Uint32Array(heap);
   let asked = {}, readout = 0, sentence = "", sensor = "", map = null;
   const pixels = () => asked.columns * asked.rows;
   const MAP = 5 << 16;
@@ -60,7 +60,21 @@ const createModels = async () => {
     },
     figures: () => ["100", "100", "100", "50 %", "10 %"].join("\\n"),
   };
-  return { HEAPF32, HEAPU16, ccall: (name, result, types, values) => functions[name.replace("playground_", "")](...values) };
+  // Each pixel has a timestamp of 8 times its column in every second acquisition, and one of 900 in the last.
+  const seen = 7 << 16;
+  Object.assign(functions, {
+    pixel: (column) => {
+      for (let i = 0; i < 50; ++i) {
+        HEAPU32[seen / 4 + 2 * i] = 2 * i;
+        HEAPU16.set([8 * column, 7], seen / 2 + 4 * i + 2);
+      }
+      HEAPU32[seen / 4 + 100] = 99;
+      HEAPU16.set([900, 7], seen / 2 + 4 * 50 + 2);
+      return 1;
+    },
+    detections: () => 51, detection: () => seen, acquisitions: () => 100, codes: () => 1024,
+  });
+  return { HEAPF32, HEAPU16, HEAPU32, ccall: (name, result, types, values) => functions[name.replace("playground_", "")](...values) };
 };
 """
 
@@ -200,6 +214,43 @@ class InTheBrowser(unittest.TestCase):
         self.browser.evaluate("form.querySelector('[value=second]').checked = false; form.requestSubmit()")
         self.assertEqual(self.state(), "done")
         self.assertTrue(self.browser.evaluate("document.getElementById('compare').hidden"))
+
+    def point_at(self, selector: str, column: int, row: int) -> None:
+        x, y = self.browser.evaluate(f"(c => {{ c.scrollIntoView({{block: 'center'}}); const r = c.getBoundingClientRect();"
+                                     f"return [r.left + r.width * {column + 0.5} / 16, r.top + r.height * {row + 0.5} / 8]; }})"
+                                     f"(document.querySelector('{selector}'))")
+        self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+
+    def histogram(self, says: str) -> dict[int, int]:
+        """By bar, the counts that are not 0, once the page says this of them."""
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            if self.browser.evaluate("document.getElementById('watch-says').textContent") == says:
+                break
+            time.sleep(0.05)
+        self.assertEqual(self.browser.evaluate("document.getElementById('watch-says').textContent"), says)
+        return {bar: count for bar, count in enumerate(self.browser.evaluate("watched.counts")) if count}
+
+    def test_the_pixel_under_the_mouse_shows_its_histogram_over_the_frame(self) -> None:
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.assertTrue(self.browser.evaluate("document.getElementById('watch').hidden"))
+            for selector, column in (("#cards article:nth-of-type(2) canvas", 6), ("#compare-map", 9)):
+                self.point_at(selector, column, 2)
+                self.assertEqual(self.histogram(f"Column {column}, row 2: 51 timestamps in the first 100 of 100 acquisitions"),
+                                 {column: 50, 112: 1})
+            self.browser.evaluate("(s => { s.value = 200; s.dispatchEvent(new Event('input', {bubbles: true})); })"
+                                  "(document.getElementById('watch-time'))")
+            self.assertEqual(self.histogram("Column 9, row 2: 10 timestamps in the first 20 of 100 acquisitions"), {9: 10})
+            self.assertEqual(self.browser.evaluate("document.getElementById('watch-marks').innerText.match(/▮ [^▮]*/g).map(t => t.slice(2).trim())"),
+                             ["First", "Second", "true distance"])
+            self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+            box = self.browser.evaluate("(r => [r.top, r.bottom])(document.getElementById('watch').getBoundingClientRect())")
+            self.assertTrue(0 < box[0] < box[1] <= height, box)  # in sight, wherever the pixel is
+            self.browser.screenshot(SCREENSHOTS / f"playground_pixel_{width}.png", whole=False)
+        self.browser.evaluate("delete document.body.dataset.state; form.requestSubmit()")
+        self.assertEqual(self.state(), "done")
+        self.assertTrue(self.browser.evaluate("document.getElementById('watch').hidden"))
 
     # ---- Files --------------------------------------------------------------------------------------------
 

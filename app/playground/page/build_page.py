@@ -20,7 +20,7 @@ import plot_style  # noqa: E402
 from figures import store  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 
-SCRIPTS = ("page.js", "compare.js", "files.js", "begin.js")  # of the page, in this order
+SCRIPTS = ("page.js", "compare.js", "pixel.js", "files.js", "begin.js")  # of the page, in this order
 THESIS_PIXELS = 32000
 
 

@@ -250,6 +250,7 @@ function map(values, colour, label, describe) {
     const row = Math.floor((event.clientY - box.top) / box.height * scene.rows);
     if (column >= 0 && row >= 0 && column < scene.columns && row < scene.rows) {
       byId("pixel").textContent = `Column ${column}, row ${row}: ${describe(row * scene.columns + column)}`;
+      watchPixel(column, row);
     }
   };
   return make("figure", "", [canvas, make("figcaption", label)]);
@@ -314,6 +315,7 @@ function show() {
   paint(byId("depth-legend"), ramp, viridis);
   paint(byId("error-legend"), ramp, blueWhiteRed);
   showComparison();
+  forgetPixel();
   byId("shown").hidden = false;
   byId("shown").classList.remove("stale");
 }

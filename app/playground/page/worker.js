@@ -54,9 +54,22 @@ createModels().then((models) => {
     postMessage({ what: "done" });
   }
 
+  /** What the pixel's TDC delivered over the frame, an acquisition and a timestamp each. */
+  function pixel({ column, row }) {
+    attempt("pixel", ["number", "number"], [column, row]);
+    const count = call("detections", "number");
+    const place = call("detection", "number");
+    const acquisition = Uint32Array.from({ length: count }, (_, i) => models.HEAPU32[place / 4 + 2 * i]);
+    const timestamp = Uint16Array.from({ length: count }, (_, i) => models.HEAPU16[place / 2 + 4 * i + 2]);
+    postMessage({ what: "pixel", column, row, acquisition, timestamp, acquisitions: call("acquisitions", "number"),
+      codes: call("codes", "number") });
+  }
+
   onmessage = (event) => {
     try {
-      if (event.data.what === "sensor") {
+      if (event.data.what === "pixel") {
+        pixel(event.data);
+      } else if (event.data.what === "sensor") {
         take(event.data.sensor, null);
         postMessage({ what: "sensor", line: call("sensor", "string") });
       } else {

@@ -98,6 +98,22 @@ TEST(PlaygroundSession, ADepthMapStandsForAScene) {
   EXPECT_EQ(frame_of(request, files).results, run_frame(scene, readout));
 }
 
+/// The photons of a pixel are those that the read-outs had.
+TEST(PlaygroundSession, APixelIsARowOfItsColumn) {
+  const PlaygroundSession session(small_plane());
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 800;
+  const PhotonSource scene(sensor, make_scene(Scene::kPlane, {.columns = 6, .rows = 8}), 14.0, 3);
+  const ColumnStream column = scene.column(4);
+  const auto row = column.row(7);
+  EXPECT_FALSE(row.empty());
+  EXPECT_EQ(session.pixel(4, 7), std::vector<Detection>(row.begin(), row.end()));
+  EXPECT_EQ(session.acquisitions(), 800U);
+  EXPECT_EQ(session.codes(), 1024);
+  EXPECT_THAT([&] { static_cast<void>(session.pixel(6, 0)); },
+              ThrowsMessage<InputError>(HasSubstr("no pixel in column 6")));
+}
+
 TEST(PlaygroundSession, RefusesFilesThatCannotBe) {
   const auto with = [](const PlaygroundFiles& files) {
     return [files] { PlaygroundSession(small_plane(), files); };
