@@ -10,10 +10,10 @@ import json
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PARTS = ROOT / "scripts" / "playground"
+PARTS = Path(__file__).resolve().parent
+ROOT = PARTS.parent.parent.parent
 OUT = ROOT / "build" / "playground"
-MODULE = OUT / "cmake" / "playground" / "playground_module.js"
+MODULE = OUT / "cmake" / "bin" / "playground_module.js"
 sys.path[:0] = [str(ROOT / "synth"), str(ROOT / "scripts")]
 
 import plot_style  # noqa: E402
