@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 PARTS = Path(__file__).resolve().parent
-ROOT = PARTS.parents[2]
+ROOT = PARTS.parent.parent.parent
 OUT = ROOT / "build" / "playground"
 MODULE = OUT / "cmake" / "bin" / "playground_module.js"
 sys.path[:0] = [str(ROOT / "synth"), str(ROOT / "scripts")]

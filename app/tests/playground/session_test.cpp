@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "dtof/core/error.hpp"
@@ -53,6 +54,41 @@ TEST(PlaygroundSession, ReadsWhatAFrameReads) {
     EXPECT_FLOAT_EQ(session.truth_m()[5], 5.0F);
     EXPECT_EQ(frame.figures.size(), 6U);
   }
+}
+
+/// The frame of `dtof frame`, figures and distances included, also where columns are more than an engine's.
+TEST(PlaygroundSession, ShowsTheFrameOfThePipeline) {
+  PlaygroundRequest request = small_plane();
+  request.columns = 37;
+  request.readouts = {"poolpointer", "sifh", "poolpointer-lean"};
+  PlaygroundSession session(request);
+  session.calibrate();
+  for (int column = 0; column < session.columns(); ++column) {
+    session.read_column(column);
+  }
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 800;
+  const PhotonSource scene(sensor, make_scene(Scene::kPlane, {.columns = 37, .rows = 8}), 14.0, 3);
+  const ModelEngine engine({.observer = [](std::size_t, std::size_t) {}});
+  const FramePipeline pipeline(scene, engine, {.region = Region::whole(37, 8), .seed = 3});
+  std::vector<ReadoutParameters> readouts;
+  for (const std::string& name : request.readouts) {
+    readouts.push_back(default_parameters(parse_readout(name), sensor));
+  }
+  const std::vector<TabledReadout> tabled = pipeline.tables(readouts, TableRule::kFlat);
+  const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
+    return std::ranges::equal(a, b, [](float x, float y) { return x == y || (x != x && y != y); });
+  };
+  for (std::size_t r = 0; r < readouts.size(); ++r) {
+    SCOPED_TRACE(request.readouts[r]);
+    const MeasuredFrame expected = pipeline.measure(tabled[r]);
+    const PlaygroundFrame frame = session.frame(r);
+    EXPECT_EQ(frame.results, expected.run.results);
+    EXPECT_TRUE(same(frame.depth_m, expected.maps.depth));
+    EXPECT_TRUE(same(frame.error_m, expected.maps.error));
+    EXPECT_EQ(frame.figures, figure_values(expected.maps.figures, true));
+  }
+  EXPECT_TRUE(same(session.truth_m(), pipeline.truth().metres));
 }
 
 /// The frame of a session's only read-out.
