@@ -15,6 +15,8 @@ import tomllib
 import unittest
 from pathlib import Path
 
+import numpy
+
 from tests.browser import Browser
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -163,6 +165,27 @@ class Playground(unittest.TestCase):
         self.set({"sensor": "phone", "scene": "poles", "klux": 40, "seed": 12, "size": "100 80"}, ["poolpointer", "pifh"])
         self.assert_equal_to_native()
         self.assertIn("--reflectivity 0.5 --acquisitions 3333", self.command())
+
+    def test_own_files(self) -> None:
+        """A sensor file and a depth map that are dropped on the page."""
+        self.browser.open(PAGE)
+        self.wait()
+        with tempfile.TemporaryDirectory() as folder:
+            sensor, depth = Path(folder) / "mine.toml", Path(folder) / "map.npy"
+            sensor.write_text((ROOT / "models/dtof/sensor/presets/phone.toml").read_text(encoding="utf-8"), encoding="utf-8")
+            metres = numpy.random.default_rng(1).uniform(1, 3, (20, 30)).astype(numpy.float32)
+            metres[2, 3] = 0
+            numpy.save(depth, metres)
+            self.set({"seed": 3}, ["ezpointer", "sifh", "poolpointer"])
+            for file in (sensor, depth):
+                self.assertEqual(self.wait(), "done", self.status())
+                self.browser.evaluate(
+                    f"form.size.selectedIndex = 2; document.body.dataset.state = 'running'; (data => {{ data.items.add(new File("
+                    f"[Uint8Array.from({list(file.read_bytes())})], '{file.name}')); document.body.dispatchEvent(new DragEvent('drop', "
+                    "{dataTransfer: data, bubbles: true, cancelable: true})); })(new DataTransfer())")
+            self.assertEqual(self.wait(), "done", self.status())
+            self.assertIn("--depth map.npy --sensor mine.toml", self.command())
+            self.assertEqual(self.shown().differences(native(self.command(), sensor=str(sensor), depth=str(depth))), [])
 
     def test_what_cannot_be_is_refused(self) -> None:
         self.browser.open(PAGE)
