@@ -33,10 +33,11 @@ for purpose in "$@"; do
     python)  # installs the Python module and draws the examples' pictures, for make test only
       packages+=(python3-venv python3-pip python3-setuptools python3-wheel python3-matplotlib) ;;
     learning) packages+=(libdlib-dev) ;;        # trains the enlarger's weights, for make train-enlarger only
+    page) packages+=(npm) ;;                    # fetches the plotting library of make report's pages, for .ci/pages only
     slang) packages+=(npm) ;;                   # fetches slang, for make lint-slang only
     playground)  # the models as WebAssembly, for make playground only
       packages+=(emscripten librange-v3-dev) ;;
-    *) echo "error: $purpose: packages for fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, python, learning, slang and playground are known" >&2; exit 2 ;;
+    *) echo "error: $purpose: packages for fuzz, fpga, layout, osu018, wave, sweep, slurm, browser, python, learning, page, slang and playground are known" >&2; exit 2 ;;
   esac
 done
 

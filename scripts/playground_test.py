@@ -11,8 +11,11 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 import unittest
 from pathlib import Path
+
+import numpy
 
 from tests.browser import Browser
 
@@ -126,7 +129,7 @@ class Playground(unittest.TestCase):
         cells = self.browser.evaluate(
             "[...document.querySelectorAll('#table tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
         self.assertEqual(len(cells), len(results))
-        for row, (name, _, (rmse, bias, _, above_3, above_10)) in zip(cells, results):
+        for row, (name, _, (rmse, bias, _, above_3, above_10, _)) in zip(cells, results):
             self.assertEqual(title_name(row[0]), name.replace("-", ""))
             self.assertEqual(row[1:5], [above_3, above_10, f"{rmse} mm", f"{bias} mm"])
         return frame
@@ -143,7 +146,7 @@ class Playground(unittest.TestCase):
         self.assert_equal_to_native()
         self.browser.screenshot(SCREENSHOTS / "wide.png")
         shown = self.shown()
-        self.assertEqual(len(shown.pixels), 10)
+        self.assertEqual(list(shown.pixels), list(tomllib.loads((ROOT / "readouts.toml").read_text(encoding="utf-8"))["readout"]))
         self.assertTrue(all(len(pixels) == 32000 for pixels in shown.pixels.values()))
         # The comparison sees another seed in every read-out.
         others = shown.differences(native(self.command(), seed="2"))
@@ -163,6 +166,27 @@ class Playground(unittest.TestCase):
         self.assert_equal_to_native()
         self.assertIn("--reflectivity 0.5 --acquisitions 3333", self.command())
 
+    def test_own_files(self) -> None:
+        """A sensor file and a depth map that are dropped on the page."""
+        self.browser.open(PAGE)
+        self.wait()
+        with tempfile.TemporaryDirectory() as folder:
+            sensor, depth = Path(folder) / "mine.toml", Path(folder) / "map.npy"
+            sensor.write_text((ROOT / "models/dtof/sensor/presets/phone.toml").read_text(encoding="utf-8"), encoding="utf-8")
+            metres = numpy.random.default_rng(1).uniform(1, 3, (20, 30)).astype(numpy.float32)
+            metres[2, 3] = 0
+            numpy.save(depth, metres)
+            self.set({"seed": 3}, ["ezpointer", "sifh", "poolpointer"])
+            for file in (sensor, depth):
+                self.assertEqual(self.wait(), "done", self.status())
+                self.browser.evaluate(
+                    f"form.size.selectedIndex = 2; document.body.dataset.state = 'running'; (data => {{ data.items.add(new File("
+                    f"[Uint8Array.from({list(file.read_bytes())})], '{file.name}')); document.body.dispatchEvent(new DragEvent('drop', "
+                    "{dataTransfer: data, bubbles: true, cancelable: true})); })(new DataTransfer())")
+            self.assertEqual(self.wait(), "done", self.status())
+            self.assertIn("--depth map.npy --sensor mine.toml", self.command())
+            self.assertEqual(self.shown().differences(native(self.command(), sensor=str(sensor), depth=str(depth))), [])
+
     def test_what_cannot_be_is_refused(self) -> None:
         self.browser.open(PAGE)
         self.wait()
@@ -176,7 +200,8 @@ class Playground(unittest.TestCase):
         # What the models themselves refuse.
         self.browser.evaluate("form.elements.distance.max = ''")
         self.set({"distance": 9}, ["ezpointer"])
-        self.assertEqual((self.wait(), self.status()), ("failed", "9 m is beyond the sensor's range, 6.75 m"))
+        self.assertEqual((self.wait(), self.status()), ("failed",
+                         "9 m is beyond the sensor's range, 6.75 m (light there and back in 45 ns)"))
         self.set({"distance": 2})
         self.assertEqual(self.wait(), "done")
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes build/report/index.html: results and pictures of this tree as pages that need no network and can be moved.
+"""Writes build/report/index.html: results, plots and documents of this tree as pages that need no network and can be moved.
 
 `report_page.py [FOLDER]`: another folder than build/report. Its content is replaced.
 """
@@ -9,6 +9,7 @@ import os
 import sys
 from pathlib import Path
 
+from page.library import fetch
 from page.site import Site
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -19,7 +20,10 @@ def main() -> int:
         print(__doc__, file=sys.stderr)
         return 2
     out = Path(sys.argv[1]) if len(sys.argv) == 2 else ROOT / "build" / "report"
-    wrong = Site(ROOT, out).write()
+    library = fetch(ROOT)
+    if library.why_not:
+        print(f"The plots of the page are pictures: {library.why_not}")
+    wrong = Site(ROOT, out, library).write()
     for sentence in wrong:
         print(f"error: {sentence}", file=sys.stderr)
     if wrong:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # make figures      writes measured figures into README.md and docs/, and what is stale into the first lines of reports/*.md
 # make stale        lists the reports whose inputs changed since they were measured, what changed, the minutes that renewing takes
-# make stale-check  fails if README.md or the report's first page shows a stale figure, or a report that takes two minutes is stale (CI)
+# make stale-check  fails if README.md or the page of results shows a stale figure, or a report that takes two minutes is stale (CI)
 # make reports      renews every stale report in order (hours); stopped and started again it goes on where it was
 #                   (docs/reference/figures.md)
 .PHONY: figures stale stale-check reports

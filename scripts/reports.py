@@ -7,7 +7,7 @@
 `record REPORT --commit COMMIT`  the same for a report that was committed with COMMIT
 `figures [--check]`  writes figures into README.md and docs/, and what is stale into the first lines of report pages
 `stale`              lists stale reports, what changed, and how long renewing takes
-`stale-check`        fails if a figure that README.md or the report's first page shows is stale, or a report of two minutes
+`stale-check`        fails if a figure that README.md or the page of results shows is stale, or a report of two minutes
 `renew [--list]`     renews every stale report, in order; what is fresh is passed over
 
 With SMALL=1 `begin` and `record` leave what lies here alone and note in build/small; no page follows.
@@ -102,7 +102,7 @@ def stale(_: argparse.Namespace, known: dict[str, Report]) -> int:
 
 
 def stale_check(_: argparse.Namespace, known: dict[str, Report]) -> int:
-    """A page that says on its first line that it is stale is no error here, but what README.md and the first page show is."""
+    """A page that says on its first line that it is stale is no error here, but what README.md and the page of results show is."""
     tree = SourceTree(ROOT)
     found = staleness.stale(ROOT, known, tree)
     known_figures = store.load(ROOT)
@@ -110,7 +110,7 @@ def stale_check(_: argparse.Namespace, known: dict[str, Report]) -> int:
                                                    for name in references.quoted(tree.text("README.md"), known_figures)}
     wrong = []
     for name, one in found.items():
-        where = "README.md shows its figures" if name in quoted else "the first page of `make report` shows it" \
+        where = "README.md shows its figures" if name in quoted else "the page of results of `make report` shows it" \
             if one.report.first else "renewing it takes less than two minutes" if one.report.minutes < MINUTES_TO_BE_FRESH else ""
         if where:
             wrong.append(f"{name} is stale, and {where}: `{one.report.command}` ({staleness.minutes(one.report)}) renews it")

@@ -14,9 +14,11 @@
 #include <system_error>
 #include <vector>
 
+#include "command_line/command_table.hpp"
 #include "command_line/option_checks.hpp"
 #include "command_line/shell_words.hpp"
 #include "command_line/standard_streams.hpp"
+#include "command_line/version_text.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/core/suggestion.hpp"
@@ -25,33 +27,12 @@
 namespace dtof {
 namespace {
 
-std::vector<const CLI::App*> subcommands(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
 std::vector<std::string> command_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::App* command : subcommands(app)) {
     names.push_back(command->get_name());
   }
   return names;
-}
-
-void add_options(const CLI::App& app, std::vector<const CLI::Option*>& options) {
-  const auto own = app.get_options();
-  options.insert(options.end(), own.begin(), own.end());
-  for (const CLI::App* group : subcommands(app)) {
-    if (group->get_name().empty()) {
-      add_options(*group, options);
-    }
-  }
-}
-
-/// All options of a command and of its option groups.
-std::vector<const CLI::Option*> all_options(const CLI::App& command) {
-  std::vector<const CLI::Option*> options;
-  add_options(command, options);
-  return options;
 }
 
 void check_command_name(const CLI::App& app, std::string_view name) {
@@ -128,6 +109,25 @@ constexpr int kExitRtlError = 3;
 constexpr int kExitFailure = 4;
 constexpr int kExitInterrupted = 130;
 
+/// What a program says of itself instead of working: its version, a completion script, a man page.
+void add_texts(CLI::App& app, const std::string& name) {
+  CLI::Option* version = app.set_version_flag(
+      "--version",
+      [&app, name] {
+        return app["--json"]->count() > 0 ? version_json(name, DTOF_VERSION) : name + " " DTOF_VERSION;
+      },
+      "the version; with --json also compiler and system, for a report of a problem");
+  app.add_flag("--json")->description("with --version: as JSON")->needs(version);
+  app.add_option_function<std::string>(
+         "--completion",
+         [&app](const std::string& /*shell*/) { throw CLI::CallForVersion(bash_completion(app), 0); },
+         fmt::format("a completion script for this shell: source <({} --completion bash)", name))
+      ->check(CLI::IsMember({"bash"}));
+  app.add_flag_callback(
+      "--man", [&app] { throw CLI::CallForVersion(man_page(app, DTOF_VERSION), 0); },
+      fmt::format("a man page: {} --man | man -l -", name));
+}
+
 /// A file's name, or what stands in the file, may hold line ends and terminal codes.
 std::string in_one_line(std::string text) {
   std::ranges::replace_if(
@@ -140,7 +140,7 @@ std::string in_one_line(std::string text) {
 std::unique_ptr<CLI::App> make_command_line(const Program& program, const std::string& command_line) {
   auto app = std::make_unique<CLI::App>(program.description, program.name);
   app->require_subcommand(1);
-  app->set_version_flag("--version", program.name + " " DTOF_VERSION);
+  add_texts(*app, program.name);
   app->footer(program.examples +
               "Exit codes: 0 done, 1 bad input, 3 RTL misbehaved or differs from its model, 4 failure, 130 "
               "interrupted.");

@@ -62,6 +62,7 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
                                                           const SensorModel& sensor) const {
   SensorModel asked = sensor;
   override_with(np, asked.np);
+  override_with(slots, asked.slots);
   std::vector<Readout> chosen;
   for (const std::string& name : CLI::detail::split(readouts, ',')) {
     if (name == "all") {
@@ -118,7 +119,6 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
         parameters.*change.member = *change.value;
       }
     }
-    override_with(slots, parameters.slots);
     if (has_parameter(readout, "CELL_SHIFT")) {
       override_with(cell_shift, parameters.pool.cell_shift);
     }
@@ -126,10 +126,10 @@ std::vector<ReadoutParameters> ReadoutOptions::parameters(std::span<const Readou
     if (!code_gate.empty()) {
       parameters.time_gate = CodeGate{code_gate[0], code_gate[1]};
     }
+    parameters.validate();
     if (with_template && is_pool_readout(readout)) {
       parameters.pool.coarse_template = template_of(asked, parameters);
     }
-    parameters.validate();
     if (std::find(sets.begin(), sets.end(), parameters) == sets.end()) {
       sets.push_back(parameters);
     }
@@ -246,16 +246,9 @@ SensorModel SensorOptions::described() const {
   return *read_once;
 }
 
-SensorModel SensorOptions::with_acquisitions() const {
+SensorModel SensorOptions::with_options() const {
   SensorModel model = described();
   override_with(acquisitions, model.acquisitions);
-  return model;
-}
-
-SensorModel SensorOptions::model(int np, int slots) const {
-  SensorModel model = with_acquisitions();
-  model.np = np;
-  model.slots = slots;
   if (dead_time_ns) {
     model.dead_time_s = *dead_time_ns / kNanosecondsPerSecond;
   }
@@ -267,6 +260,13 @@ SensorModel SensorOptions::model(int np, int slots) const {
   if (coincidence_ns) {
     model.coincidence_window_s = *coincidence_ns / kNanosecondsPerSecond;
   }
+  return model;
+}
+
+SensorModel SensorOptions::model(int np, int slots) const {
+  SensorModel model = with_options();
+  model.np = np;
+  model.slots = slots;
   model.validate();
   return model;
 }

@@ -35,9 +35,9 @@ struct ReadoutOptions {
   /// Whether "all" is all that is asked for.
   [[nodiscard]] bool all() const { return readouts == "all"; }
   /// One set of parameters for each read-out asked for; "all" stands for those of `all`, "thesis" for
-  /// kThesisReadouts. Throws InputError,
-  /// also for an override that none of the read-outs has. What no option says is that of default_parameters
-  /// (sensor/default_parameters.hpp).
+  /// kThesisReadouts. Throws InputError, also for an override that none of the read-outs has. What no option
+  /// says is that of default_parameters (sensor/default_parameters.hpp). The template is measured with the
+  /// sensor as given, and with --np and --slots.
   [[nodiscard]] std::vector<ReadoutParameters> parameters(std::span<const Readout> all,
                                                           const SensorModel& sensor = {}) const;
 };
@@ -74,9 +74,9 @@ struct SensorOptions {
   void add_sensor_to(CLI::App& command);
   /// The sensor as its file describes it. Throws InputError.
   [[nodiscard]] SensorModel described() const;
-  /// The same with --acquisitions.
-  [[nodiscard]] SensorModel with_acquisitions() const;
-  /// The same with the overrides; NP and SLOTS as the read-outs have them. Throws InputError.
+  /// The same with the overrides. Throws InputError.
+  [[nodiscard]] SensorModel with_options() const;
+  /// The same with NP and SLOTS of the read-outs. Throws InputError, also for what no sensor can be.
   [[nodiscard]] SensorModel model(int np, int slots) const;
   /// Throws InputError for an option of `command` that changes nothing.
   void refuse_options_without_effect(const CLI::App& command) const;

@@ -75,11 +75,12 @@ void run_convert_command(const CLI::App& command, ConvertCommand& options) {
 void add_convert_command(CLI::App& app) {
   auto options = std::make_shared<ConvertCommand>();
   RecordingOptions& recording = options->conversion.recording;
-  CLI::App* command = app.add_subcommand("convert",
-                                         "A file of one format as one of another: maps (PNG, PFM), arrays "
-                                         "(NPY, NPZ, HDF5, MAT), sensors' logs, photon\n"
-                                         "times and time tags (PTU, HT3) into maps, point clouds (PLY, PCD), "
-                                         "arrays, TDC streams and events (CSV)");
+  CLI::App* command =
+      app.add_subcommand("convert",
+                         "A file of one format as one of another: maps (PNG, PFM), arrays "
+                         "(NPY, NPZ, HDF5, MAT), sensors' logs, photon\n"
+                         "times and time tags (PTU, HT3, Photon-HDF5) into maps, point clouds (PLY, PCD), "
+                         "arrays, TDC streams and events (CSV)");
   command
       ->add_option(
           "in", recording.file,

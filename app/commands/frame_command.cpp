@@ -270,7 +270,7 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const Region& regi
 void run_frame_command(const FrameOptions& options) {
   check_run_options(options.run);
   std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(options.run.readouts(), options.sensor.with_acquisitions());
+      options.readout.parameters(options.run.readouts(), options.sensor.with_options());
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }

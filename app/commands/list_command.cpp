@@ -27,8 +27,10 @@ void add_list_command(CLI::App& app) {
     fmt::print("\nPresets (--sensor), per pixel and pulse at 1 m, reflectivity 1, 14 klux:\n");
     for (const std::string_view name : preset_names()) {
       const SensorModel sensor = parse_preset(name);
-      fmt::print("  {:<16} {:.3f} signal events, {:.3f} background events, {} acquisitions per frame\n", name,
-                 sensor.signal_events(1.0, 1.0), sensor.background_events(14.0, 1.0), sensor.acquisitions);
+      const bool assumed = preset_text(name).find("# assumption") != std::string_view::npos;
+      fmt::print("  {:<16} {:.3f} signal events, {:.3f} background events, {} acquisitions per frame{}\n",
+                 name, sensor.signal_events(1.0, 1.0), sensor.background_events(14.0, 1.0),
+                 sensor.acquisitions, assumed ? fmt::format("; light assumed (dtof sensor {})", name) : "");
     }
     fmt::print("\nConditions (--sensor PRESET+CONDITION):\n");
     for (const Condition& condition : conditions()) {

@@ -428,7 +428,7 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
   CLI::App* command = app.add_subcommand("replay",
                                          "Reads out recorded data: TDC streams (CSV), histograms (NPY, NPZ, "
                                          "HDF5, MAT, TMF8820, TMF8829), photon "
-                                         "times (MAT), time tags (PTU, HT3)");
+                                         "times (MAT), time tags (PTU, HT3, Photon-HDF5)");
   command
       ->add_option("file", options->recording.file,
                    "recording; an array of an archive is file.npz:name, file.h5:/group/name or file.mat:name")

@@ -287,7 +287,7 @@ class DepthSheet {
 
 void run_video_command(const VideoOptions& options) {
   const std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(kAllReadouts, options.sensor.with_acquisitions());
+      options.readout.parameters(kAllReadouts, options.sensor.with_options());
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
   std::vector<Video> videos;
   for (const std::string& scene : options.scenes) {

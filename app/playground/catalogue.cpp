@@ -11,6 +11,12 @@
 
 namespace dtof {
 
+std::string playground_sensor_line(std::string_view name, const SensorModel& sensor) {
+  return fmt::format("sensor\t{}\t{}\t{}\t{}\t{}\t{:.2f}\n", name, sensor.columns, sensor.rows,
+                     sensor.default_reflectivity, sensor.acquisitions,
+                     0.5 * kSpeedOfLight * sensor.integration_time_s);
+}
+
 std::string playground_catalogue() {
   std::string text;
   for (const Readout readout : kAllReadouts) {
@@ -21,10 +27,7 @@ std::string playground_catalogue() {
     text += fmt::format("scene\t{}\t{}\n", scene_name(scene), scene_summary(scene));
   }
   for (const std::string_view name : preset_names()) {
-    const SensorModel sensor = parse_preset(name);
-    text += fmt::format("sensor\t{}\t{}\t{}\t{}\t{}\t{:.2f}\n", name, sensor.columns, sensor.rows,
-                        sensor.default_reflectivity, sensor.acquisitions,
-                        0.5 * kSpeedOfLight * sensor.integration_time_s);
+    text += playground_sensor_line(name, parse_preset(name));
   }
   for (const std::string& name : figure_names(true)) {
     text += fmt::format("figure\t{}\n", name);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The functions that the page's worker calls (worker.js), and nothing of C++ that it would have to know: a
 // request is text, one "name value" a line; a failure is a sentence.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "dtof/sensor/sensor_file.hpp"
 #include "playground/catalogue.hpp"
 #include "playground/request.hpp"
 #include "playground/session.hpp"
@@ -15,7 +18,10 @@
 namespace {
 
 std::unique_ptr<dtof::PlaygroundSession> session;
+dtof::PlaygroundFiles files;
 dtof::PlaygroundFrame frame;
+std::string sensor_line;
+std::vector<dtof::Detection> detections;
 std::string sentence;
 std::string figures;
 
@@ -39,10 +45,29 @@ const char* playground_catalogue() {
   static const std::string catalogue = dtof::playground_catalogue();
   return catalogue.c_str();
 }
+/// The sensor file that scenes have from now on; without text they have their preset.
+bool playground_take_sensor(const char* name, const char* text) {
+  return attempt([&] {
+    sensor_line = *text == '\0' ? "" : dtof::playground_sensor_line(name, dtof::parse_sensor(text, name));
+    files.sensor_name = name;
+    files.sensor_text = text;
+  });
+}
+/// The catalogue's line of that sensor.
+const char* playground_sensor() { return sensor_line.c_str(); }
+/// The depth map that scenes have from now on: its place, for metres row by row. Of 0 columns: none.
+float* playground_take_map(int columns, int rows) {
+  files.map_columns = columns;
+  files.map_rows = rows;
+  files.map_m.assign(
+      static_cast<std::size_t>(std::max(columns, 0)) * static_cast<std::size_t>(std::max(rows, 0)), 0.0F);
+  return files.map_m.data();
+}
 /// Begins a scene.
 bool playground_begin(const char* request) {
-  return attempt(
-      [&] { session = std::make_unique<dtof::PlaygroundSession>(dtof::parse_playground_request(request)); });
+  return attempt([&] {
+    session = std::make_unique<dtof::PlaygroundSession>(dtof::parse_playground_request(request), files);
+  });
 }
 /// Why the last call failed.
 const char* playground_error() { return sentence.c_str(); }
@@ -75,6 +100,18 @@ const std::uint16_t* playground_results() {
   static_assert(sizeof(dtof::PixelResult) == 4 * sizeof(std::uint16_t));
   return &frame.results.front().code;
 }
+/// What a pixel's TDC delivered over the frame: reads it, says how many detections there are, and where. A
+/// detection is an acquisition of 32 bits and a timestamp of 16, in 8 bytes.
+bool playground_pixel(int column, int row) {
+  return attempt([&] { detections = session->pixel(column, row); });
+}
+int playground_detections() { return static_cast<int>(detections.size()); }
+const dtof::Detection* playground_detection() {
+  static_assert(sizeof(dtof::Detection) == 8 && offsetof(dtof::Detection, timestamp) == 4);
+  return detections.data();
+}
+int playground_acquisitions() { return static_cast<int>(session->acquisitions()); }
+int playground_codes() { return session->codes(); }
 /// The figures of summary.csv, one a line.
 const char* playground_figures() { return figures.c_str(); }
 }

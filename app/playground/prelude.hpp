@@ -30,6 +30,7 @@ using ::ranges::any_of;
 using ::ranges::binary_search;
 using ::ranges::count;
 using ::ranges::count_if;
+using ::ranges::equal;
 using ::ranges::fill;
 using ::ranges::find;
 using ::ranges::find_if;

@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "dtof/core/detection.hpp"
 #include "dtof/core/parameters.hpp"
 #include "dtof/core/result.hpp"
-#include "dtof/host/range_converter.hpp"
-#include "dtof/photon/photon_source.hpp"
+#include "dtof/pipeline/frame_engine.hpp"
+#include "dtof/pipeline/frame_pipeline.hpp"
 
 namespace dtof {
 
@@ -32,6 +31,15 @@ struct PlaygroundRequest {
   std::vector<std::string> readouts;  ///< names
 };
 
+/// Files that a visitor of the page gives.
+struct PlaygroundFiles {
+  std::string sensor_name = {};  ///< the file's, for messages
+  std::string sensor_text = {};  ///< a sensor file; empty: the request's preset
+  int map_columns = 0;           ///< of a depth map; 0: the request's scene
+  int map_rows = 0;
+  std::vector<float> map_m = {};  ///< [row][column], row 0 on top; 0: unknown
+};
+
 /// A frame of one read-out, row-major.
 struct PlaygroundFrame {
   std::vector<PixelResult> results;
@@ -45,11 +53,16 @@ struct PlaygroundFrame {
 class PlaygroundSession {
  public:
   /// Throws InputError.
-  explicit PlaygroundSession(const PlaygroundRequest& request);
+  explicit PlaygroundSession(const PlaygroundRequest& request, const PlaygroundFiles& files = {});
+  PlaygroundSession(const PlaygroundSession&) = delete;
+  PlaygroundSession& operator=(const PlaygroundSession&) = delete;
+  PlaygroundSession(PlaygroundSession&&) = delete;
+  PlaygroundSession& operator=(PlaygroundSession&&) = delete;
+  ~PlaygroundSession() = default;
 
-  [[nodiscard]] int columns() const { return scene_.columns(); }
-  [[nodiscard]] int rows() const { return scene_.rows(); }
-  [[nodiscard]] const std::vector<float>& truth_m() const { return truth_; }
+  [[nodiscard]] int columns() const { return pipeline_.scene().columns(); }
+  [[nodiscard]] int rows() const { return pipeline_.scene().rows(); }
+  [[nodiscard]] const std::vector<float>& truth_m() const { return pipeline_.truth().metres; }
   [[nodiscard]] const std::vector<float>& reflectivity() const { return reflectivity_; }
 
   /// Fits the look-up tables.
@@ -59,16 +72,21 @@ class PlaygroundSession {
   void read_column(int column);
   /// What a read-out of the request (by its place there) made of the columns, after all were read.
   [[nodiscard]] PlaygroundFrame frame(std::size_t readout) const;
+  /// What the TDC of a pixel delivered over the frame.
+  [[nodiscard]] std::vector<Detection> pixel(int column, int row) const;
+  [[nodiscard]] std::uint32_t acquisitions() const { return pipeline_.scene().acquisitions(); }
+  /// Codes that a timestamp can have.
+  [[nodiscard]] int codes() const;
 
  private:
-  PhotonSource scene_;
-  std::uint64_t seed_;
-  std::vector<float> truth_;
+  ModelEngine engine_;
+  FramePipeline pipeline_;
   std::vector<float> reflectivity_;
   std::vector<ReadoutParameters> readouts_;
-  std::vector<RangeConverter> tables_;
-  std::vector<std::vector<ColumnStream>> waiting_;  // of each read-out, the last columns, not yet read
-  std::vector<std::vector<PixelResult>> results_;   // of each read-out, row-major
+  std::vector<TabledReadout> tabled_;
+  std::vector<int> read_;                          // of each read-out, the first column not yet read
+  int forgotten_ = 0;                              // the first column whose photons are kept
+  std::vector<std::vector<PixelResult>> results_;  // of each read-out, row-major
 };
 
 }  // namespace dtof

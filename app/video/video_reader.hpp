@@ -30,8 +30,8 @@ struct VideoFrame {
 
 /// Reads videos out with the models of several read-outs, each frame on its own; and, if poolPointer is
 /// among them, once more with one that begins each frame from what the last one left
-/// (`readout/pool_pointer.hpp`, PoolPrior). All see the same photons, other ones in each frame. Distances
-/// come from look-up tables by FlatCalibration at one light.
+/// (`readout/pool_pointer.hpp`, PoolPrior). All see the same photons, other ones in each frame. A frame
+/// is that of FramePipeline, of an array with the sensor's rows alone; the look-up tables are of one light.
 class VideoReader {
  public:
   VideoReader(SensorModel sensor, std::span<const ReadoutParameters> readouts, double table_klux,
@@ -49,15 +49,9 @@ class VideoReader {
                                                            const Watcher& watch = {}) const;
 
  private:
-  /// Read-outs that read as many columns together.
-  struct Block {
-    int columns;
-    std::vector<std::size_t> readouts;
-  };
-  [[nodiscard]] std::vector<Block> blocks() const;
-  /// The columns from `first` on. `prior` is poolPointer's, before and after the frame.
-  void read_block(const Block& block, int first, const PhotonSource& source, std::vector<PoolPrior>& prior,
-                  VideoFrame& seen) const;
+  /// A frame; `priors` are poolPointer's, before and after it.
+  [[nodiscard]] VideoFrame read_frame(const SequenceFrame& frame, std::uint32_t number,
+                                      std::vector<PoolPrior>& priors) const;
 
   SensorModel sensor_;
   std::vector<ReadoutParameters> readouts_;

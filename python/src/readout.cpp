@@ -6,13 +6,22 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
+#include "dtof/core/detection.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/parameters.hpp"
+#include "dtof/frame/empty_frame.hpp"
 #include "dtof/pipeline/readout_choice.hpp"
+#include "dtof/readout/pool_template.hpp"
 #include "dtof/sensor/default_parameters.hpp"
 #include "src/bindings.hpp"
 
@@ -41,9 +50,57 @@ int whole_number(const py::handle& value, const std::string& name) {
   }
 }
 
+/// Whether there is a template of the sensor's own light, a frame without a target to measure it from, or
+/// its entries.
+using TemplateChoice = std::variant<bool, std::shared_ptr<StreamSource>, std::vector<int>>;
+
+PoolTemplate template_of_entries(const std::vector<int>& entries) {
+  PoolTemplate made{};
+  if (entries.size() != made.size()) {
+    throw InputError(fmt::format("template: {} entries are wanted, not {}", made.size(), entries.size()));
+  }
+  for (std::size_t bin = 0; bin < made.size(); ++bin) {
+    if (entries[bin] < 0 || entries[bin] > std::numeric_limits<std::uint8_t>::max()) {
+      throw InputError(fmt::format("template: entries are 0 to 255, not {}", entries[bin]));
+    }
+    made[bin] = static_cast<std::uint8_t>(entries[bin]);
+  }
+  return made;
+}
+
+PoolTemplate template_of_frame(const StreamSource& photons, const ReadoutParameters& parameters) {
+  std::vector<ColumnStream> columns;
+  columns.reserve(static_cast<std::size_t>(photons.columns()));
+  for (int column = 0; column < photons.columns(); ++column) {
+    columns.push_back(photons.column(column));
+  }
+  return measured_template(columns, photons.acquisitions(), parameters);
+}
+
+PoolTemplate chosen_template(const TemplateChoice& choice, const SensorModel& sensor,
+                             const ReadoutParameters& parameters) {
+  if (const auto* wanted = std::get_if<bool>(&choice); wanted != nullptr && !*wanted) {
+    return {};
+  }
+  if (!is_pool_readout(parameters.readout)) {
+    throw InputError(
+        fmt::format("template has no effect: {} has no TEMPLATE", readout_name(parameters.readout)));
+  }
+  if (const auto* photons = std::get_if<std::shared_ptr<StreamSource>>(&choice)) {
+    return template_of_frame(**photons, parameters);
+  }
+  if (const auto* entries = std::get_if<std::vector<int>>(&choice)) {
+    return template_of_entries(*entries);
+  }
+  if (!has_own_light(sensor)) {
+    throw InputError("template has no effect: the sensor has neither cover glass nor fog");
+  }
+  return template_of(sensor, parameters);
+}
+
 ReadoutParameters make_readout(const std::string& name, const std::optional<SensorModel>& sensor,
                                const std::optional<std::pair<int, int>>& code_gate,
-                               const py::kwargs& changes) {
+                               const TemplateChoice& coarse_template, const py::kwargs& changes) {
   const Readout readout = parse_readout(name);
   SensorModel asked = sensor.value_or(SensorModel());
   if (changes.contains("np")) {  // other defaults follow from NP
@@ -58,6 +115,8 @@ ReadoutParameters make_readout(const std::string& name, const std::optional<Sens
     parameters.time_gate = CodeGate{code_gate->first, code_gate->second};
   }
   parameters.validate();
+  asked.slots = parameters.slots;
+  parameters.pool.coarse_template = chosen_template(coarse_template, asked, parameters);
   return parameters;
 }
 
@@ -82,9 +141,12 @@ void bind_readouts(py::module_& module) {
       module, "Readout",
       "A read-out and its parameters, which are keywords with the names of readouts.toml in small letters\n"
       "(nb=6, count_width=8). What no keyword says follows from the sensor, by default that of the thesis.\n"
-      "code_gate: codes begin <= x < end count.")
+      "code_gate: codes begin <= x < end count. template, of a pool read-out: True, what decode takes away\n"
+      "because the sensor's cover glass and fog send light back; or Photons of a frame without a target, "
+      "from\n"
+      "which that is measured; or 32 entries.")
       .def(py::init(&make_readout), "name"_a, "sensor"_a = py::none(), py::kw_only(),
-           "code_gate"_a = py::none())
+           "code_gate"_a = py::none(), "template"_a = false)
       .def_property_readonly("name",
                              [](const ReadoutParameters& p) { return std::string(readout_name(p.readout)); })
       .def_property_readonly("title",
@@ -93,6 +155,13 @@ void bind_readouts(py::module_& module) {
           "summary", [](const ReadoutParameters& p) { return std::string(readout_summary(p.readout)); })
       .def_property_readonly("parameters", &parameter_dict,
                              "The parameters that can be chosen, with their values.")
+      .def_property_readonly(
+          "template",
+          [](const ReadoutParameters& p) {
+            const PoolTemplate& entries = p.pool.coarse_template;
+            return std::vector<int>(entries.begin(), entries.end());
+          },
+          "What decode takes from each of 32 coarse bins; zeros without a template.")
       .def_property_readonly(
           "pools_pixels", [](const ReadoutParameters& p) { return is_pool_readout(p.readout); },
           "Whether pixels help each other.")

@@ -74,6 +74,21 @@ class ProgramTest(unittest.TestCase):
         self.compare(frame, "--array-columns", 8, "--array-rows", ROWS, "--acquisitions", 700, "--dead-time", 7.3, "--gate", 3.1, 40.7,
                      "--slots", 3, "--np", 9, "--nb", 4, "--window-centred", "--code-gate", 5, 400)
 
+    def test_template_of_the_sensors_own_light(self) -> None:
+        size = ["--array-columns", COLUMNS, "--array-rows", ROWS]
+        for condition, changed, options in [
+                ("thesis+glass", {}, []), ("thesis+fog", {"slots": 3, "np": 11}, ["--slots", 3, "--np", 11]),
+                ("thesis+fog", {"acquisitions": 900, "dead_time_ns": 25.0}, ["--acquisitions", 900, "--dead-time", 25]),
+                ("thesis+glass", {"time_gate_ns": (1.0, 40.0), "binning": 2}, ["--gate", 1, 40, "--binning", 2])]:
+            with self.subTest(condition, options=options):
+                sensor = dtof.Sensor(condition).replace(**changed)
+                told = [dtof.Readout(name, sensor, template=True) for name in ("poolpointer", "poolpointer-lean")]
+                scene = dtof.Scene("room", sensor, columns=COLUMNS, rows=ROWS)
+                frame = dtof.frame(scene, sensor, told)
+                self.compare(frame, "--sensor", condition, "--template", *size, *options)
+                untold = dtof.frame(scene, sensor, list(frame), table="none")
+                self.assertFalse(np.array_equal(untold["poolpointer"].results.code, frame["poolpointer"].results.code))
+
     def test_the_timestamps_are_the_readouts(self) -> None:
         frame = dtof.frame(dtof.Scene("room", columns=6, rows=ROWS), "thesis", dtof.Readout("sifh", np=9, slots=1))
         self.compare(frame, "--array-columns", 6, "--array-rows", ROWS, "--np", 9, "--slots", 1)

@@ -49,6 +49,31 @@ class ReadoutTest(unittest.TestCase):
             self.assertTrue(str(raised.exception).startswith(sentence), str(raised.exception))
             self.assertNotIn("\n", str(raised.exception))
 
+    def test_template(self) -> None:
+        sensor = dtof.Sensor("thesis+glass").replace(acquisitions=1000)
+        told = dtof.Readout("poolpointer", sensor, template=True)
+        self.assertEqual(len(told.template), 32)
+        self.assertGreater(max(told.template), 0)
+        self.assertEqual(dtof.Readout("poolpointer", sensor).template, [0] * 32)
+        self.assertEqual(dtof.Readout("poolpointer", sensor, template=told.template), told)
+        # A dark frame whose only light is the glass's: the entries are those of the sensor, but for the noise of other photons.
+        dark = dtof.photons(dtof.Scene.from_depth(np.full((160, 8), 5.0), reflectivity=1e-9), sensor, klux=0.0, seed=5)
+        own = dtof.Readout("poolpointer", sensor, template=dark)
+        self.assertNotEqual(own.template, [0] * 32)
+        np.testing.assert_allclose(own.template, told.template, rtol=0.1, atol=4)
+
+    def test_templates_that_are_refused(self) -> None:
+        dark = dtof.event_list([], [], [], [], columns=2, rows=1, acquisitions=100)
+        for name, sensor, template, sentence in [
+                ("sifh", "thesis+fog", True, "template has no effect: sifh has no TEMPLATE"),
+                ("poolpointer", "thesis", True, "template has no effect: the sensor has neither cover glass nor fog"),
+                ("poolpointer", "thesis", [1] * 31, "template: 32 entries are wanted, not 31"),
+                ("poolpointer", "thesis", [256] * 32, "template: entries are 0 to 255, not 256"),
+                ("poolpointer", "thesis", dark, "a template needs a column of at least two rows")]:
+            with self.subTest(sentence), self.assertRaises(ValueError) as raised:
+                dtof.Readout(name, dtof.Sensor(sensor), template=template)
+            self.assertEqual(str(raised.exception), sentence)
+
     def test_frames_refuse_readouts_of_different_timestamps(self) -> None:
         with self.assertRaisesRegex(ValueError, "NP and SLOTS must be the same"):
             dtof.frame(readouts=[dtof.Readout("sifh", np=9), "fifh"])

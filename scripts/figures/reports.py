@@ -27,7 +27,7 @@ class Report:
     inputs: tuple[str, ...]
     files: tuple[str, ...] = ()
     data: tuple[str, ...] = ()
-    first: bool = False  # the first page of `make report` shows it
+    first: bool = False  # the page of results of `make report` shows it
     after: tuple[str, ...] = ()  # reports whose files it reads
 
     @property

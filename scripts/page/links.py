@@ -6,6 +6,7 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 ELSEWHERE = ("http", "https", "mailto")
+INSIDE = "data"  # the address is the content
 RESOURCES = {"img": "src", "script": "src", "link": "href", "iframe": "src", "source": "src", "object": "data"}
 
 
@@ -41,7 +42,7 @@ def problems(folder: Path) -> list[str]:
         found += [f"{here}: the anchor {anchor} is there twice" for anchor in sorted(page.twice)]
         for address in page.links + page.resources:
             parts = urlsplit(address)
-            if parts.scheme in ELSEWHERE and address in page.links:
+            if parts.scheme == INSIDE or parts.scheme in ELSEWHERE and address in page.links:
                 continue
             if parts.scheme or parts.netloc or parts.path.startswith("/"):
                 found.append(f"{here}: {address} is outside of the page's folder")

@@ -30,7 +30,7 @@ class Report:
     committed: str
     built: str | None = None
     says: str = ""  # what it is, for the page that lists it
-    excerpt: tuple[str, ...] | None = None  # headings that the first page shows; (): all before the first one
+    excerpt: tuple[str, ...] | None = None  # headings that the page of results shows; (): all before the first one
     pictures: tuple[str, ...] = ()  # beside `built`, not named in its text
     with_it: tuple[tuple[str, str], ...] = ()
     left_out: tuple[str, ...] = ()
@@ -84,7 +84,7 @@ def _studies() -> tuple[Report, ...]:
 
 
 STUDIES = _studies()
-# Shown on the first page, in this order.
+# Shown on the page of results, in this order.
 SHOWN = (*(report for report in STUDIES if report.excerpt is not None), *HARDWARE)
 # Listed, each on a page of its own.
 LISTED = (*(report for report in STUDIES if report.excerpt is None), *OTHERS)
@@ -136,6 +136,7 @@ def shortened(report: Report, text: str) -> str:
 
 def for_reports(report: Report, root: Path) -> str:
     """The text of what lies in build/ as it is under reports/."""
+    assert report.built is not None
     return as_committed(report, (root / "build" / report.built).read_text(encoding="utf-8"))
 
 
@@ -143,7 +144,7 @@ def as_committed(report: Report, text: str) -> str:
     folder = Path(report.committed).parent
     kept = [Path(name).relative_to(folder).as_posix() for _, name in report.with_it
             if Path(name).is_relative_to(folder) and not name.endswith(COMPRESSED)]
-    built = Path("build", report.built).parent
+    built = Path("build", report.built or "").parent
 
     def link(match: re.Match[str]) -> str:
         return match[0] if match[1] in kept or match[1].startswith("../") else f"`{built / match[1]}`"

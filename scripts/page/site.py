@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the pages: the first one, one of each report, one of each document that they link to."""
+"""Writes the pages: the start page, the results, one of each report and document, and what their search reads."""
 
 import html
+import re
 import shutil
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -10,20 +11,32 @@ from figures import staleness
 from figures.reports import LIST, inputs, load
 from figures.source_tree import SourceTree
 
-from . import figures, render
+from . import figures, layout, plots, render, start
 from .commands import Command, commands
+from .layout import NAME
+from .library import Library
 from .links import problems
+from .search import Index
 from .sections import ALL, FRAME, LISTED, SHOWN, Report, chosen
 
-STYLE = (Path(__file__).resolve().parent / "style.css").read_text(encoding="utf-8")
-NAME = "dtof-readout"
+HERE = Path(__file__).resolve().parent
+ASSETS = ("style.css", "page.js")  # beside the pages
+RESULTS, PLOTS, COMMANDS = "results.html", "plots.html", "commands.html"
+PLAYGROUND = "playground.html"
+LIBRARY, LICENCE = "chart.js", "chart.js.LICENSE.md"
+GLOSSARY, DOCUMENTS = "docs/reference/glossary.md", "docs/README.md"
+WORD_ROW = re.compile(r"<tr>\n<td>(?P<word>[^<]*)</td>")
 # Copied beside the pages where a report links to them; any other file is named only.
 COPIED = (".csv", ".png", ".svg")
 
 
+def stale_lines(plot: plots.Plot) -> str:
+    return f'<blockquote class="stale">{"".join(f"<p>{html.escape(line)}</p>" for line in plot.stale)}</blockquote>' if plot.stale else ""
+
+
 class Site:
-    def __init__(self, root: Path, out: Path) -> None:
-        self.root, self.out = root.resolve(), out
+    def __init__(self, root: Path, out: Path, library: Library = Library(None, None, "this page was made without it")) -> None:
+        self.root, self.out, self.library = root.resolve(), out, library
         self.commands: dict[str, Command] = commands(self.root)
         self.sources = {report.name: chosen(report, self.root) for report in ALL}
         self.reports = {}  # Markdown file: report
@@ -34,6 +47,17 @@ class Site:
         self.documents: dict[Path, str] = {}  # Markdown file: page
         self.waiting: list[Path] = []
         self.marks: dict[str, str] = self.stale_pages()
+        self.plots, self.titles = plots.collect(self.root)
+        self.index = Index()
+        self.entries = [layout.Entry("Start", "index.html"), layout.Entry("Results", RESULTS, "reports/"),
+                        layout.Entry("Plots", PLOTS)]
+        for title, name, folder in (("Documents", DOCUMENTS, "documents/"), ("Glossary", GLOSSARY, "")):
+            if (self.root / name).is_file():
+                self.entries.append(layout.Entry(title, self.document(self.root / name), folder))
+        self.entries.append(layout.Entry("Commands", COMMANDS))
+        self.playground = self.root / "build/playground/index.html"  # of make playground, one file
+        if self.playground.is_file():
+            self.entries.insert(1, layout.Entry("Playground", PLAYGROUND))
 
     def stale_pages(self) -> dict[str, str]:
         """By report, the line that says that it was measured on other inputs than those that lie here."""
@@ -109,10 +133,18 @@ class Site:
 
     # ---- Parts ------------------------------------------------------------------------------------------
 
+    def command(self, target: str, page: str) -> str:
+        return f'<a href="{render.relative(COMMANDS, page)}#make-{target}"><code>make {target}</code></a>'
+
+    def mark(self, report: Report) -> str:
+        """The line of a stale report."""
+        if report.name not in self.marks:
+            return ""
+        return f'<blockquote class="stale">{render.to_html(self.marks[report.name], lambda _: None)}</blockquote>'
+
     def made_by(self, report: Report, page: str) -> str:
         source = self.sources[report.name]
-        index = render.relative("index.html", page)
-        command = f'<a href="{index}#make-{report.target}"><code>make {report.target}</code></a>'
+        command = self.command(report.target, page)
         if source is None:
             return f'<p class="missing">Not made yet: {command} makes it.</p>'
         return (f'<p class="made">Made by {command}; shown from <code>{html.escape(str(source.relative_to(self.root)))}'
@@ -121,6 +153,7 @@ class Site:
     def pictures(self, report: Report, page: str) -> str:
         """Those that the report's text does not name."""
         source = self.sources[report.name]
+        assert source is not None
         shown = []
         for name in report.pictures:
             for folder in (source.parent, (self.root / "reports" / report.committed).parent):
@@ -135,46 +168,50 @@ class Site:
         return "\n".join(shown)
 
     def shown(self, report: Report) -> str:
-        """A section of the first page."""
+        """A section of the page of results."""
         source = self.sources[report.name]
-        parts = [f'<section id="{report.name}"><h2>{html.escape(report.title)}</h2>', self.made_by(report, "index.html")]
+        parts = [f'<section id="{report.name}"><h2>{html.escape(report.title)}</h2>', self.made_by(report, RESULTS)]
         if source is not None:
             text = render.excerpt(self.text(report), report.excerpt or ())
-            parts.append(render.to_html(text, self.linker(source, "index.html"), 1, f"{report.name}-"))
+            parts.append(render.to_html(text, self.linker(source, RESULTS), 1, f"{report.name}-"))
             parts.append(f'<p><a href="{self.whole_page(report)}">The whole report</a></p>')
         return "\n".join(parts) + "\n</section>"
+
+    def frame_figures(self, page: str) -> str:
+        """The main job's table."""
+        source = self.sources[FRAME.name]
+        if source is None:
+            return self.made_by(FRAME, page)
+        text = staleness.without_mark(source.read_text(encoding="utf-8"))
+        parts = [self.made_by(FRAME, page), self.mark(FRAME), f"<p>{html.escape(text.splitlines()[0])}</p>"]
+        head = ("read-out", "off by > 3 %", "> 10 %", "rmse, mm", "mm2", "mW by day", "bits a pixel")
+        cells = "".join(f"<th>{name}</th>" for name in head)
+        parts.append(f'<div class="scroll" tabindex="0"><table class="figures"><thead><tr>{cells}</tr></thead><tbody>')
+        for one in figures.figures(self.root, source.parent):
+            values = (one.above_3, one.above_10, one.rmse_mm, one.mm2, one.mw, one.bits)
+            parts.append(f"<tr><th>{html.escape(one.title)}</th>" + "".join(f"<td>{html.escape(value)}</td>"
+                                                                            for value in values) + "</tr>")
+        results = render.relative(RESULTS, page) if page != RESULTS else ""
+        parts.append('</tbody></table></div>\n<p>Accuracy: this frame, after each read-out\'s look-up table. Area and memory: <a '
+                     f'href="{results}#area">the array</a>. Power: <a href="{results}#power">the array</a> while acquisitions of the '
+                     "room at 50 klux stream in (day), not of this frame.</p>")
+        return "\n".join(parts)
 
     def frame(self) -> str:
         """The main job: figures of every read-out, then its maps."""
         source = self.sources[FRAME.name]
-        parts = [f'<section id="{FRAME.name}"><h2>{FRAME.title}</h2>', self.made_by(FRAME, "index.html")]
+        parts = [f'<section id="{FRAME.name}"><h2>{FRAME.title}</h2>', self.frame_figures(RESULTS)]
         if source is None:
             return "\n".join(parts) + "\n</section>"
-        text = staleness.without_mark(source.read_text(encoding="utf-8"))
-        if FRAME.name in self.marks:
-            parts.append(f"<blockquote><p>{html.escape(self.marks[FRAME.name])}</p></blockquote>")
-        parts.append(f"<p>{html.escape(text.splitlines()[0])}</p>")
-        found = figures.figures(self.root, source.parent)
-        head = ("read-out", "off by > 3 %", "> 10 %", "rmse, mm", "mm2", "mW by day", "bits a pixel")
-        cells = "".join(f"<th>{name}</th>" for name in head)
-        parts.append(f'<div class="scroll" tabindex="0"><table class="figures"><thead><tr>{cells}</tr></thead><tbody>')
-        for one in found:
-            values = (one.above_3, one.above_10, one.rmse_mm, one.mm2, one.mw, one.bits)
-            parts.append(f"<tr><th>{html.escape(one.title)}</th>" + "".join(f"<td>{html.escape(value)}</td>"
-                                                                            for value in values) + "</tr>")
-        parts.append('</tbody></table></div>\n<p>Accuracy: this frame, after each read-out\'s look-up table. Area and memory: <a '
-                     'href="#area">the array</a>. Power: <a href="#power">the array</a> while acquisitions of the room at 50 klux '
-                     "stream in (day), not of this frame.</p>")
-        maps = [self.card(one, source.parent) for one in found]
+        maps = [self.card(one, source.parent) for one in figures.figures(self.root, source.parent)]
         if all(maps):
             parts += ['<div class="cards">', *maps, "</div>"]
         else:
             overview = source.parent / "overview.png"
             if overview.is_file():
-                address = self.copied(overview, "index.html")
+                address = self.copied(overview, RESULTS)
                 parts.append(f'<a class="picture" href="{address}"><img src="{address}" alt="Depth maps"></a>')
-            parts.append('<p class="missing">Depth and error map of each read-out: <a href="#make-sim"><code>make sim'
-                         "</code></a> draws them.</p>")
+            parts.append(f'<p class="missing">Depth and error map of each read-out: {self.command("sim", RESULTS)} draws them.</p>')
         parts.append(f'<p><a href="{self.whole_page(FRAME)}">The whole report</a></p>')
         return "\n".join(parts) + "\n</section>"
 
@@ -184,7 +221,7 @@ class Site:
             path = folder / f"{one.name}_{kind}.png"
             if not path.is_file():
                 return ""
-            address = html.escape(self.copied(path, "index.html"))
+            address = html.escape(self.copied(path, RESULTS))
             pictures.append(f'<a href="{address}"><img src="{address}" alt="{kind} map of {html.escape(one.title)}" '
                             'loading="lazy"></a>')
         return (f'<figure><figcaption><strong>{html.escape(one.title)}</strong> {one.above_3} off by more than 3 %, rmse '
@@ -202,45 +239,105 @@ class Site:
             if report.name in self.marks:
                 missing = f" <em>{html.escape(self.marks[report.name].split('. `')[0])}.</em>"
             lines.append(f"<tr><td>{title}</td><td>{render.to_html(report.says, lambda _: None)[3:-4]}{missing}</td>"
-                         f'<td><a href="#make-{report.target}"><code>make {report.target}</code></a></td></tr>')
+                         f"<td>{self.command(report.target, RESULTS)}</td></tr>")
         return "\n".join(lines) + "</tbody></table></div></section>"
 
     def commands_table(self) -> str:
-        lines = ['<section id="commands"><h2>Commands</h2>', "<p>Run in the project's folder; each says more at the head "
-                 'of its makefile.</p>', '<div class="scroll" tabindex="0"><table><thead><tr><th>command</th><th>what it '
+        lines = ["<h1>Commands</h1>", "<p>Run in the project's folder; each says more at the head "
+                 'of its makefile.</p>', '<div class="scroll" tabindex="0"><table class="commands"><thead><tr><th>command</th><th>what it '
                  "does</th><th>where</th></tr></thead><tbody>"]
         for target in sorted(self.commands):
             command = self.commands[target]
             lines.append(f'<tr id="make-{target}"><td><code>make {target}</code></td><td>{html.escape(command.says)}</td>'
                          f"<td><code>{html.escape(command.makefile)}</code></td></tr>")
-        return "\n".join(lines) + "</tbody></table></div></section>"
+        return "\n".join(lines) + "</tbody></table></div>"
 
     # ---- Pages ------------------------------------------------------------------------------------------
 
-    def write_page(self, page: str, title: str, body: str) -> None:
-        index = render.relative("index.html", page)
-        home = "" if page == "index.html" else f'<p><a href="{index}">{NAME}: all results</a></p>\n'
+    def write_page(self, page: str, title: str, body: str, searched: bool = True, scripts: tuple[str, ...] = ()) -> None:
+        """`searched`: whether the search finds the page's text, which it shall do once for each text."""
         path = self.out / page
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(
-            '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f'<meta name="color-scheme" content="light dark">\n'
-            f"<title>{html.escape(title)}</title>\n<style>\n{STYLE}</style>\n"
-            f"</head>\n<body>\n<main>\n{home}{body}\n</main>\n</body>\n</html>\n", encoding="utf-8")
+        path.write_text(layout.whole(page, title, body, self.entries, scripts), encoding="utf-8")
+        if searched:
+            self.index.add(page, title, body)
 
-    def write_index(self) -> None:
-        sections = [(FRAME.name, FRAME.title), *((report.name, report.title) for report in SHOWN),
-                    ("more", "More reports"), ("commands", "Commands")]
-        menu = "".join(f'<li><a href="#{name}">{html.escape(title)}</a></li>' for name, title in sections)
+    def write_start(self) -> None:
+        """What it is, three doors, and what it comes to."""
+        page = "index.html"
         readme = self.root / "README.md"
-        about = ""
-        if readme.is_file():
-            about = f' <a href="{self.document(readme)}">What it is, and how to use it</a>.'
-        body = [f"<h1>{NAME}</h1>", "<p>On-chip read-out for large SPAD arrays: what the commands of this tree found. Every "
-                f"section names the command that made it.{about}</p>", f"<nav><ul>{menu}</ul></nav>", self.frame(),
-                *(self.shown(report) for report in SHOWN), self.listed(), self.commands_table()]
-        self.write_page("index.html", f"{NAME}: results", "\n".join(body))
+        text = readme.read_text(encoding="utf-8") if readme.is_file() else ""
+        link = self.linker(readme, page)
+        found = start.doors(text)
+        body = [f"<h1>{NAME}</h1>", f'<div class="lead">{render.to_html(start.about(text), link)}</div>', start.cards(found),
+                self.first_picture(page),
+                '<section id="figures"><h2>One scene through every read-out</h2>', self.frame_figures(page),
+                f'<p><a href="{RESULTS}">All results</a>: each with the command that made it.</p></section>']
+        for door in found:
+            browser = f'<p><a href="{PLAYGROUND}">In the browser</a>: a scene, its light and the read-outs to choose; nothing to install.</p>' \
+                if door.title == "Try it" and self.playground.is_file() else ""
+            body.append(f'<section id="{door.anchor}"><h2>{html.escape(door.title)}</h2>{browser}{render.to_html(door.text, link)}'
+                        f"{start.commands_table(door)}</section>")
+        if text:
+            body.append(f'<p>More: <a href="{self.document(readme)}">README</a>.</p>')
+        self.write_page(page, NAME, "\n".join(body))
+
+    def first_picture(self, page: str) -> str:
+        """Area against accuracy, which leads to the plots."""
+        plot = self.plots[0]
+        picture = self.root / "reports" / plot.picture
+        if not picture.is_file():
+            return ""
+        return (f'<section id="accuracy"><h2>{html.escape(plot.title)}</h2>{stale_lines(plot)}<a class="picture" href="{PLOTS}">'
+                f'<img src="{html.escape(self.copied(picture, page))}" alt="{html.escape(plot.title)}"></a>'
+                f'<p><a href="{PLOTS}">Plots</a>: each mark with its figure and its command, by read-out and light.</p></section>')
+
+    def write_results(self) -> None:
+        body = ["<h1>Results</h1>", "<p>What the commands of this tree found. Every section names the command that made it.</p>",
+                self.frame(), *(self.shown(report) for report in SHOWN), self.listed()]
+        self.write_page(RESULTS, "Results", "\n".join(body), searched=False)
+        self.write_page(COMMANDS, "Commands", self.commands_table())
+
+    def write_plots(self) -> None:
+        """The live plots; without their library, pictures of the same figures."""
+        live = self.library.script is not None
+        body = ["<h1>Plots</h1>"]
+        if live:
+            body += ["<p>The mouse, or a finger, over a mark shows the figure and the command that made it. Without lines, hollow marks "
+                     'are those of 50 klux.</p>', '<div class="filtered"><form id="filters" hidden></form><div>']
+        else:
+            body.append(f'<p class="missing">The plots of this page are not live, for it has no plotting library ({LIBRARY}): '
+                        f"{html.escape(self.library.why_not)}.</p>")
+        body += [self.plot(plot, live) for plot in self.plots]
+        scripts: tuple[str, ...] = ()
+        if self.library.script and self.library.licence:
+            shutil.copyfile(self.library.script, self.out / LIBRARY)
+            shutil.copyfile(self.library.licence, self.out / LICENCE)
+            shutil.copyfile(HERE / "plots.js", self.out / "plots.js")
+            (self.out / plots.FILE).write_text(plots.as_script(self.plots, self.titles), encoding="utf-8")
+            body.append(f'</div></div><p class="made">Drawn by Chart.js, whose <a href="{LICENCE}">licence</a> is beside it.</p>')
+            scripts = (LIBRARY, plots.FILE, "plots.js")
+        self.write_page(PLOTS, "Plots", "\n".join(body), scripts=scripts)
+
+    def plot(self, plot: plots.Plot, live: bool) -> str:
+        report = next((one for one in ALL if one.committed == f"{plot.report}.md"), None)
+        parts = [f'<section id="{plot.name}"><h2>{html.escape(plot.title)}</h2>']
+        if report:
+            whole = f', <a href="{self.whole_page(report)}">report</a>' if self.sources[report.name] else ""
+            parts.append(f'<p class="made">Made by {self.command(report.target, PLOTS)}{whole}, from <code>reports/{plot.table}</code>.</p>')
+        parts += [stale_lines(plot), f"<p>{html.escape(plot.says)}</p>"]
+        picture = self.root / "reports" / plot.picture
+        if not plot.rows:
+            parts.append('<p class="missing">Not measured yet.</p>')
+        elif live:
+            parts.append('<div class="choices"></div><p class="none" hidden>No read-out or no light is chosen that has figures here.</p>'
+                         f'<div class="live {plot.kind}" hidden><canvas></canvas><div class="tip" role="status" hidden></div></div>')
+        elif plot.picture and picture.is_file():
+            address = html.escape(self.copied(picture, PLOTS))
+            parts.append(f'<a class="picture" href="{address}"><img src="{address}" alt="{html.escape(plot.title)}"></a>')
+        else:
+            parts.append('<p class="missing">The report has these figures as tables.</p>')
+        return "\n".join(parts) + "\n</section>"
 
     def write_report(self, report: Report) -> None:
         source = self.sources[report.name]
@@ -259,12 +356,39 @@ class Site:
             return [f"{self.out}: has other files than these pages, which replace its content"]
         shutil.rmtree(self.out, ignore_errors=True)
         self.out.mkdir(parents=True)
-        self.write_index()
+        for name in ASSETS:
+            shutil.copyfile(HERE / name, self.out / name)
+        if self.playground.is_file():
+            self.write_playground()
+        self.write_start()
+        self.write_results()
+        self.write_plots()
         for report in ALL:
             self.write_report(report)
+        for path in sorted(self.root.glob("docs/*/**/*.md")):
+            self.document(path)
         while self.waiting:
-            path = self.waiting.pop()
-            page = self.documents[path]
-            text = path.read_text(encoding="utf-8")
-            self.write_page(page, render.title(text, path.stem), render.to_html(text, self.linker(path, page)))
+            self.write_document(self.waiting.pop())
+        self.index.write(self.out)
         return problems(self.out)
+
+    def write_playground(self) -> None:
+        """As it was built, with a way back to the start page."""
+        text = self.playground.read_text(encoding="utf-8")
+        self.index.add(PLAYGROUND, "Playground", text)
+        text = text.replace("<main>", f'<main>\n<p class="hint"><a href="index.html">{NAME}</a></p>', 1)
+        (self.out / PLAYGROUND).write_text(text, encoding="utf-8")
+
+    def write_document(self, path: Path) -> None:
+        page = self.documents[path]
+        text = path.read_text(encoding="utf-8")
+        body = render.to_html(text, self.linker(path, page))
+        name = path.relative_to(self.root).as_posix()
+        if name == GLOSSARY:  # each word can be linked to, and is found
+            taken: set[str] = set()
+            body = WORD_ROW.sub(lambda row: f'<tr id="word-{render.unique_slug(row["word"], taken)}">\n<td>{row["word"]}</td>', body)
+        title = render.title(text, path.stem)
+        if name.startswith("docs/") and name != DOCUMENTS and (self.root / DOCUMENTS).is_file():
+            above = render.relative(self.document(self.root / DOCUMENTS), page)
+            body = f'<p class="where"><a href="{above}">Documents</a> / {html.escape(Path(name).parent.relative_to("docs").as_posix())}</p>\n' + body
+        self.write_page(page, title, body)

@@ -321,7 +321,7 @@ class Commands(Project):
         self.write("hdl/a.sv", "module a; wire w; endmodule\n")
         status, said = self.run_command(command.stale_check)
         self.assertEqual((status, len(said.splitlines())), (1, 2))
-        self.assertIn("area is stale, and the first page of `make report` shows it", said)
+        self.assertIn("area is stale, and the page of results of `make report` shows it", said)
 
     def test_a_stale_figure_on_the_readme_is_found(self) -> None:
         self.write("reports/reports.toml", (self.root / "reports/reports.toml").read_text().replace("first = true\n", ""))

@@ -90,7 +90,7 @@ class Links(Folder):
 
     def test_what_resolves(self) -> None:
         self.assertEqual(self.problems('<p id="a"><a href="#a">x</a><a href="sub/b.html#there">x</a><a href='
-                                       '"https://example.org/">x</a></p>'), [])
+                                       '"https://example.org/">x</a></p><link href="data:,">'), [])
 
     def test_what_does_not(self) -> None:
         for body, sentence in {
@@ -165,11 +165,11 @@ class Pages(Folder):
     def test_without_any_report_each_section_names_its_command(self) -> None:
         wrong, out = self.site()
         self.assertEqual(wrong, [])
-        text = (out / "index.html").read_text(encoding="utf-8")
+        text = (out / "results.html").read_text(encoding="utf-8")
         for report in (sections.FRAME, *sections.SHOWN):
             start = text.index(f'<section id="{report.name}">')
             section = text[start:text.index("</section>", start)]
-            self.assertIn(f'Not made yet: <a href="index.html#make-{report.target}">', section)
+            self.assertIn(f'Not made yet: <a href="commands.html#make-{report.target}">', section)
         self.assertEqual(text.count("<em>Not made yet.</em>"), len(sections.LISTED))
 
     def test_figures_of_the_main_job(self) -> None:
@@ -182,12 +182,12 @@ class Pages(Folder):
         self.assertEqual((one.above_3, one.rmse_mm, one.mm2, one.mw, one.bits), ("40.56 %", "478", "14.91", "105", "646"))
         wrong, out = self.site()
         self.assertEqual(wrong, [])
-        self.assertIn("draws them", (out / "index.html").read_text(encoding="utf-8"))
+        self.assertIn("draws them", (out / "results.html").read_text(encoding="utf-8"))
         for kind in ("depth", "error"):
             self.write(f"build/frame/sifh_{kind}.png", "picture")
         wrong, out = self.site()
         self.assertEqual(wrong, [])
-        text = (out / "index.html").read_text(encoding="utf-8")
+        text = (out / "results.html").read_text(encoding="utf-8")
         self.assertIn('src="files/build/frame/sifh_error.png"', text)
         self.assertTrue((out / "files/build/frame/sifh_error.png").is_file())
 
@@ -203,11 +203,11 @@ class Pages(Folder):
             staleness.begin(self.root, entry, SourceTree(self.root))
             staleness.record(self.root, entry)
         _, out = self.site()
-        self.assertNotIn("Measured before", (out / "index.html").read_text(encoding="utf-8"))
+        self.assertNotIn("Measured before", (out / "results.html").read_text(encoding="utf-8"))
         self.write("hdl/a.sv", "module a; wire w; endmodule\n")
         _, out = self.site()
-        first = (out / "index.html").read_text(encoding="utf-8")
-        self.assertEqual(first.count("Measured before: changes in hdl"), 2)  # a section, and the list
+        results = (out / "results.html").read_text(encoding="utf-8")
+        self.assertEqual(results.count("Measured before: changes in hdl"), 2)  # a section, and the list
         self.assertIn("Measured before: changes in hdl", (out / "reports/sram.html").read_text(encoding="utf-8"))
 
     def test_a_foreign_folder_is_left_alone(self) -> None:
@@ -282,13 +282,15 @@ class InTheBrowser(unittest.TestCase):
             with self.subTest(page=str(page.relative_to(self.out))):
                 self.assertEqual(self.show(page), [])
                 for address in self.browser.requests:
-                    self.assertTrue(address.startswith(self.out.as_uri()), address)
+                    self.assertTrue(address.startswith((self.out.as_uri(), "data:", "blob:")), address)
                 broken = self.browser.evaluate("[...document.images].filter(i => !i.naturalWidth).map(i => i.src)")
                 self.assertEqual(broken, [])
 
-    def test_every_link_of_the_first_page_leads_where_the_browser_finds_it(self) -> None:
-        self.show(self.out / "index.html")
-        addresses = self.browser.evaluate("[...document.links].map(a => a.href)")
+    def test_every_link_of_start_and_results_leads_where_the_browser_finds_it(self) -> None:
+        addresses = []
+        for name in ("index.html", "results.html"):
+            self.show(self.out / name)
+            addresses += self.browser.evaluate("[...document.links].map(a => a.href)")
         self.assertGreater(len(addresses), 50)
         anchors: dict[str, set[str]] = {}
         for address in addresses:
@@ -304,11 +306,12 @@ class InTheBrowser(unittest.TestCase):
                     found = self.browser.evaluate(f"!!document.getElementById({json.dumps(name)})")
                     self.assertTrue(found, f"{path}#{name}")
 
-    def test_it_fits_a_phone(self) -> None:
+    def test_no_page_is_wider_than_a_phone_or_a_desk(self) -> None:
         for page in sorted(self.out.rglob("*.html")):
-            with self.subTest(page=str(page.relative_to(self.out))):
-                self.show(page, width=390, height=844)
-                self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), 390)
+            for width, height in ((390, 844), (1440, 900)):
+                with self.subTest(page=str(page.relative_to(self.out)), width=width):
+                    self.show(page, width=width, height=height)
+                    self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
 
     def test_light_and_dark(self) -> None:
         papers = {}
@@ -318,8 +321,9 @@ class InTheBrowser(unittest.TestCase):
         self.assertNotEqual(papers[False], papers[True])
 
     def test_screenshots(self) -> None:
-        for name, width, dark in (("light", 1280, False), ("dark_phone", 390, True)):
-            self.show(self.out / "index.html", width=width, dark=dark)
+        for name, page, width, dark in (("start", "index", 1440, False), ("start_dark_phone", "index", 390, True),
+                                        ("results", "results", 1440, False), ("results_dark_phone", "results", 390, True)):
+            self.show(self.out / f"{page}.html", width=width, dark=dark)
             path = SCREENSHOTS / f"{name}.png"
             self.browser.screenshot(path)
             self.assertGreater(path.stat().st_size, 50_000)

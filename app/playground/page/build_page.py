@@ -10,16 +10,17 @@ import json
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
-PARTS = ROOT / "scripts" / "playground"
+PARTS = Path(__file__).resolve().parent
+ROOT = PARTS.parent.parent.parent
 OUT = ROOT / "build" / "playground"
-MODULE = OUT / "cmake" / "playground" / "playground_module.js"
+MODULE = OUT / "cmake" / "bin" / "playground_module.js"
 sys.path[:0] = [str(ROOT / "synth"), str(ROOT / "scripts")]
 
 import plot_style  # noqa: E402
 from figures import store  # noqa: E402
 from dtof_synth.configuration import load  # noqa: E402
 
+SCRIPTS = ("page.js", "compare.js", "pixel.js", "files.js", "begin.js")  # of the page, in this order
 THESIS_PIXELS = 32000
 
 
@@ -61,17 +62,23 @@ def script(text: str, what: str) -> str:
     return text
 
 
-def main() -> int:
+def page(module: str) -> str:
+    """The page around the text of the WebAssembly module."""
     text = (PARTS / "page.html").read_text(encoding="utf-8")
-    worker = MODULE.read_text(encoding="utf-8") + "\n" + (PARTS / "worker.js").read_text(encoding="utf-8")
+    worker = module + "\n" + (PARTS / "worker.js").read_text(encoding="utf-8")
     for mark, part in {
         "/*STYLE*/": (PARTS / "style.css").read_text(encoding="utf-8").strip(),
         "/*COST*/": json.dumps(cost()),
-        "/*PAGE*/": script((PARTS / "page.js").read_text(encoding="utf-8"), "page.js"),
+        "/*PAGE*/": "\n".join(script((PARTS / name).read_text(encoding="utf-8"), name) for name in SCRIPTS),
         "/*WORKER*/": script(worker, "the module"),
     }.items():
         before, after = text.split(mark)
         text = before + part + after
+    return text
+
+
+def main() -> int:
+    text = page(MODULE.read_text(encoding="utf-8"))
     (OUT / "index.html").write_text(text, encoding="utf-8")
     print(f"build/playground/index.html: {len(text.encode()) / 1e6:.1f} MB, opens in a browser as it is")
     return 0

@@ -83,7 +83,7 @@ function fillControls() {
   takeSensor();
 }
 
-const sensor = () => catalogue.sensor.find(([name]) => name === form.sensor.value);
+const sensor = () => given.sensor ? catalogue.given : catalogue.sensor.find(([name]) => name === form.sensor.value);
 
 /** What a sensor has of its own. */
 function takeSensor() {
@@ -100,16 +100,22 @@ function takeSensor() {
   showControls();
 }
 
+const sceneSummary = () => given.depth ? `${given.depth.name}, ${given.depth.columns} x ${given.depth.rows} pixels` :
+  catalogue.scene.find(([name]) => name === form.scene.value)[1];
+
 /** Texts and fields that follow from other fields. */
 function showControls() {
-  byId("scene-summary").textContent = catalogue.scene.find(([name]) => name === form.scene.value)[1];
+  byId("scene-summary").textContent = sceneSummary();
   byId("klux-text").value = form.klux.value;
   byId("reflectivity-text").value = form.reflectivity.value;
   for (const label of form.querySelectorAll("[data-scenes]")) {
-    label.hidden = !label.dataset.scenes.split(" ").includes(form.scene.value);
+    label.hidden = Boolean(given.depth) || !label.dataset.scenes.split(" ").includes(form.scene.value);
     label.querySelector("input").disabled = label.hidden;
   }
 }
+
+/** A file's name as a word of a shell. */
+const quoted = (name) => /^[\w./-]+$/.test(name) ? name : `'${name.replaceAll("'", "'\\''")}'`;
 
 /** Options of `dtof frame`, and what the worker is asked for. */
 function request() {
@@ -123,10 +129,13 @@ function request() {
     }
   }
   const option = { columns: "array-columns", rows: "array-rows" };
-  const command = Object.entries(said).map(([name, value]) => `--${option[name] ?? name} ${value}`);
+  const { sensor: own, depth } = given;
+  const command = [depth ? `--depth ${quoted(depth.name)}${depth.scale === "" ? "" : ` --depth-scale ${depth.scale}`}` : `--scene ${said.scene}`,
+    `--sensor ${own ? quoted(own.name) : said.sensor}`,
+    ...Object.entries(said).slice(2).map(([name, value]) => `--${option[name] ?? name} ${value}`)];
   const every = readouts.length === catalogue.readout.length;
   return {
-    readouts,
+    what: "run", readouts, sensor: own, depth,
     text: [...Object.entries(said), ...readouts.map((name) => ["readout", name])].map((line) => line.join(" ")).join("\n"),
     command: [`build/cpp/bin/dtof frame ${command.slice(0, 4).join(" ")}`, command.slice(4).join(" "),
       `--readout ${every ? "all" : readouts.join(",")}`].join(" \\\n    "),
@@ -158,6 +167,12 @@ function startWorker() {
   };
 }
 
+function restartWorker(ready) {
+  worker.terminate();
+  startWorker();
+  hear.ready = ready;
+}
+
 /** Begins a run; one that is under way is given up. */
 function run() {
   if (!form.reportValidity()) {
@@ -170,9 +185,7 @@ function run() {
     return;
   }
   if (asking) {
-    worker.terminate();
-    startWorker();
-    hear.ready = () => worker.postMessage(asked);
+    restartWorker(() => worker.postMessage(asked));
   } else {
     worker.postMessage(asked);
   }
@@ -237,6 +250,7 @@ function map(values, colour, label, describe) {
     const row = Math.floor((event.clientY - box.top) / box.height * scene.rows);
     if (column >= 0 && row >= 0 && column < scene.columns && row < scene.rows) {
       byId("pixel").textContent = `Column ${column}, row ${row}: ${describe(row * scene.columns + column)}`;
+      watchPixel(column, row);
     }
   };
   return make("figure", "", [canvas, make("figcaption", label)]);
@@ -268,7 +282,7 @@ function show() {
   const distances = Float32Array.from(scene.truth).filter((value) => !Number.isNaN(value)).sort();
   const cards = [make("article", "", [
     make("h3", "The scene"),
-    make("p", catalogue.scene.find(([name]) => name === form.scene.value)[1], [], { class: "hint" }),
+    make("p", sceneSummary(), [], { class: "hint" }),
     make("div", "", [
       map(scene.truth, depthColour, "depth", describeTruth),
       map(scene.reflectivity, (value) => grey(value / brightest), `reflectivity, black 0, white ${brightest.toFixed(2)}`, describeTruth),
@@ -300,6 +314,8 @@ function show() {
   byId("depth-ends").replaceChildren(...[scene.near, (scene.near + scene.far) / 2, scene.far].map((m) => make("span", `${m.toFixed(2)} m`)));
   paint(byId("depth-legend"), ramp, viridis);
   paint(byId("error-legend"), ramp, blueWhiteRed);
+  showComparison();
+  forgetPixel();
   byId("shown").hidden = false;
   byId("shown").classList.remove("stale");
 }
@@ -320,4 +336,3 @@ for (const [id, checked] of [["all", true], ["none", false]]) {
     form.querySelectorAll("[name=readout]").forEach((box) => { box.checked = checked; });
   };
 }
-startWorker();

@@ -16,7 +16,17 @@ createModels().then((models) => {
     return models.HEAPF32.slice(begin, begin + count);
   };
 
-  function run(text, readouts) {
+  /** Files that stand for the preset and the scene; null: none. */
+  function take(sensor, depth) {
+    attempt("take_sensor", ["string", "string"], sensor ? [sensor.name, sensor.text] : ["", ""]);
+    const place = call("take_map", "number", ["number", "number"], depth ? [depth.columns, depth.rows] : [0, 0]);
+    if (depth) {
+      models.HEAPF32.set(depth.metres, place / 4);
+    }
+  }
+
+  function run({ text, readouts, sensor, depth }) {
+    take(sensor, depth);
     attempt("begin", ["string"], [text]);
     const columns = call("columns", "number");
     const rows = call("rows", "number");
@@ -44,9 +54,27 @@ createModels().then((models) => {
     postMessage({ what: "done" });
   }
 
+  /** What the pixel's TDC delivered over the frame, an acquisition and a timestamp each. */
+  function pixel({ column, row }) {
+    attempt("pixel", ["number", "number"], [column, row]);
+    const count = call("detections", "number");
+    const place = call("detection", "number");
+    const acquisition = Uint32Array.from({ length: count }, (_, i) => models.HEAPU32[place / 4 + 2 * i]);
+    const timestamp = Uint16Array.from({ length: count }, (_, i) => models.HEAPU16[place / 2 + 4 * i + 2]);
+    postMessage({ what: "pixel", column, row, acquisition, timestamp, acquisitions: call("acquisitions", "number"),
+      codes: call("codes", "number") });
+  }
+
   onmessage = (event) => {
     try {
-      run(event.data.text, event.data.readouts);
+      if (event.data.what === "pixel") {
+        pixel(event.data);
+      } else if (event.data.what === "sensor") {
+        take(event.data.sensor, null);
+        postMessage({ what: "sensor", line: call("sensor", "string") });
+      } else {
+        run(event.data);
+      }
     } catch (error) {
       postMessage({ what: "failed", sentence: error instanceof Error ? error.message : String(error) });
     }

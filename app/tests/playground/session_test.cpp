@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "dtof/core/error.hpp"
 #include "dtof/frame/array_rows.hpp"
 #include "dtof/readout/run_frame.hpp"
@@ -15,6 +18,7 @@ namespace dtof {
 namespace {
 
 using testing::HasSubstr;
+using testing::Throws;
 using testing::ThrowsMessage;
 
 PlaygroundRequest small_plane() {
@@ -50,6 +54,109 @@ TEST(PlaygroundSession, ReadsWhatAFrameReads) {
     EXPECT_FLOAT_EQ(session.truth_m()[5], 5.0F);
     EXPECT_EQ(frame.figures.size(), 6U);
   }
+}
+
+/// The frame of `dtof frame`, figures and distances included, also where columns are more than an engine's.
+TEST(PlaygroundSession, ShowsTheFrameOfThePipeline) {
+  PlaygroundRequest request = small_plane();
+  request.columns = 37;
+  request.readouts = {"poolpointer", "sifh", "poolpointer-lean"};
+  PlaygroundSession session(request);
+  session.calibrate();
+  for (int column = 0; column < session.columns(); ++column) {
+    session.read_column(column);
+  }
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 800;
+  const PhotonSource scene(sensor, make_scene(Scene::kPlane, {.columns = 37, .rows = 8}), 14.0, 3);
+  const ModelEngine engine({.observer = [](std::size_t, std::size_t) {}});
+  const FramePipeline pipeline(scene, engine, {.region = Region::whole(37, 8), .seed = 3});
+  std::vector<ReadoutParameters> readouts;
+  for (const std::string& name : request.readouts) {
+    readouts.push_back(default_parameters(parse_readout(name), sensor));
+  }
+  const std::vector<TabledReadout> tabled = pipeline.tables(readouts, TableRule::kFlat);
+  const auto same = [](const std::vector<float>& a, const std::vector<float>& b) {
+    return std::ranges::equal(a, b, [](float x, float y) { return x == y || (x != x && y != y); });
+  };
+  for (std::size_t r = 0; r < readouts.size(); ++r) {
+    SCOPED_TRACE(request.readouts[r]);
+    const MeasuredFrame expected = pipeline.measure(tabled[r]);
+    const PlaygroundFrame frame = session.frame(r);
+    EXPECT_EQ(frame.results, expected.run.results);
+    EXPECT_TRUE(same(frame.depth_m, expected.maps.depth));
+    EXPECT_TRUE(same(frame.error_m, expected.maps.error));
+    EXPECT_EQ(frame.figures, figure_values(expected.maps.figures, true));
+  }
+  EXPECT_TRUE(same(session.truth_m(), pipeline.truth().metres));
+}
+
+/// The frame of a session's only read-out.
+PlaygroundFrame frame_of(const PlaygroundRequest& request, const PlaygroundFiles& files) {
+  PlaygroundSession session(request, files);
+  session.calibrate();
+  for (int column = 0; column < session.columns(); ++column) {
+    session.read_column(column);
+  }
+  return session.frame(0);
+}
+
+PlaygroundRequest small_sifh() {
+  PlaygroundRequest request = small_plane();
+  request.readouts = {"sifh"};
+  return request;
+}
+
+TEST(PlaygroundSession, ASensorFileStandsForAPreset) {
+  const PlaygroundFiles file{.sensor_name = "mine.toml", .sensor_text = std::string(preset_text("phone"))};
+  PlaygroundRequest request = small_sifh();
+  const PlaygroundFrame other = frame_of(request, {});
+  const PlaygroundFrame with_file = frame_of(request, file);
+  request.sensor = "phone";
+  EXPECT_EQ(with_file.results, frame_of(request, {}).results);
+  EXPECT_NE(with_file.results, other.results);
+}
+
+TEST(PlaygroundSession, ADepthMapStandsForAScene) {
+  PlaygroundFiles files{.map_columns = 3, .map_rows = 2, .map_m = {1.0F, 2.0F, 3.0F, 0.0F, 1.5F, 2.5F}};
+  const PlaygroundRequest request = small_sifh();
+  const PlaygroundSession session(request, files);
+  ASSERT_EQ(session.truth_m().size(), 48U);
+  EXPECT_EQ(session.truth_m()[0], 1.0F);
+  EXPECT_EQ(session.truth_m()[5], 3.0F);
+  EXPECT_TRUE(std::isnan(session.truth_m()[24]));
+  EXPECT_EQ(session.truth_m()[47], 2.5F);
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 800;
+  const PhotonSource scene(
+      sensor, scene_from_depth_image(3, 2, files.map_m, 6, 8, sensor.default_reflectivity), 14.0, 3);
+  const ReadoutParameters readout = default_parameters(parse_readout("sifh"), sensor);
+  EXPECT_EQ(frame_of(request, files).results, run_frame(scene, readout));
+}
+
+/// The photons of a pixel are those that the read-outs had.
+TEST(PlaygroundSession, APixelIsARowOfItsColumn) {
+  const PlaygroundSession session(small_plane());
+  SensorModel sensor = parse_preset("thesis");
+  sensor.acquisitions = 800;
+  const PhotonSource scene(sensor, make_scene(Scene::kPlane, {.columns = 6, .rows = 8}), 14.0, 3);
+  const ColumnStream column = scene.column(4);
+  const auto row = column.row(7);
+  EXPECT_FALSE(row.empty());
+  EXPECT_EQ(session.pixel(4, 7), std::vector<Detection>(row.begin(), row.end()));
+  EXPECT_EQ(session.acquisitions(), 800U);
+  EXPECT_EQ(session.codes(), 1024);
+  EXPECT_THAT([&] { static_cast<void>(session.pixel(6, 0)); },
+              ThrowsMessage<InputError>(HasSubstr("no pixel in column 6")));
+}
+
+TEST(PlaygroundSession, RefusesFilesThatCannotBe) {
+  const auto with = [](const PlaygroundFiles& files) {
+    return [files] { PlaygroundSession(small_plane(), files); };
+  };
+  EXPECT_THAT(with({.sensor_name = "mine.toml", .sensor_text = "[laser]\npulse = 3\n"}),
+              ThrowsMessage<InputError>(HasSubstr("mine.toml")));
+  EXPECT_THAT(with({.map_columns = 2, .map_rows = 1, .map_m = {1.0F, -1.0F}}), Throws<InputError>());
 }
 
 TEST(PlaygroundSession, RefusesWhatCannotBe) {

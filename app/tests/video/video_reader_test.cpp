@@ -3,17 +3,24 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
+#include "dtof/core/error.hpp"
 #include "dtof/frame/flat_calibration.hpp"
 #include "dtof/metrics/depth.hpp"
 #include "dtof/photon/photon_source.hpp"
+#include "dtof/pipeline/frame_engine.hpp"
+#include "dtof/pipeline/frame_pipeline.hpp"
+#include "dtof/readout/pool_pointer.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/sensor/default_parameters.hpp"
 #include "dtof/sensor/preset.hpp"
+#include "video/prior_engine.hpp"
 
 namespace dtof {
 namespace {
@@ -107,6 +114,77 @@ TEST(VideoReader, ReadOutsThatHearOtherColumnsReadWholeEngines) {
     far_off += std::abs(depth - seen[1][i]) > 0.2 ? 1.0 : 0.0;
   }
   EXPECT_EQ(far_off, 0.0);
+}
+
+/// Bit for bit, whatever surrounds the sensor: skew is taken away, and the table is that of a host that
+/// calibrates without fog.
+TEST(VideoReader, AFrameIsThatOfDtofFrame) {
+  for (const char* const name : {"thesis", "thesis+column-skew+fog"}) {
+    SCOPED_TRACE(name);
+    SensorModel sensor = find_sensor(name);
+    sensor.acquisitions = 300;
+    const std::vector<ReadoutParameters> both = readouts(sensor);
+    Sequence video = sequence(Motion::kStill);
+    video.frames = 2;
+    std::vector<std::vector<std::vector<double>>> seen;
+    const VideoReader reader(sensor, both, 30.0, 7, 2);
+    (void)reader.read(video, nullptr,
+                      [&](int /*frame*/, const VideoFrame& frame) { seen.push_back(frame.distance_m); });
+    for (int number = 0; number < 2; ++number) {
+      const SequenceFrame frame = sequence_frame(video, number);
+      const PhotonSource scene(sensor, frame.targets, frame.klux, 7,
+                               scene_frame(static_cast<std::uint32_t>(number)));
+      const ModelEngine engine({.own_rows = true, .observer = [](std::size_t, std::size_t) {}});
+      const FramePipeline pipeline(scene, engine, {.region = Region::whole(36, 32), .seed = 7});
+      const std::vector<TabledReadout> tabled = pipeline.tables(both, TableRule::kFlat);
+      for (std::size_t r = 0; r < both.size(); ++r) {
+        const std::vector<float> depth = pipeline.measure(tabled[r]).maps.depth;
+        const std::vector<double>& distances = seen[static_cast<std::size_t>(number)][r];
+        for (std::size_t i = 0; i < depth.size(); ++i) {
+          if (!std::isnan(depth[i])) {
+            ASSERT_EQ(depth[i], std::max(static_cast<float>(distances[i]), 0.0F)) << r << ", pixel " << i;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(PriorEngine, EachEngineBeginsFromItsOwnLastFrame) {
+  const SensorModel sensor = short_sensor();
+  const ReadoutParameters pool = default_parameters(Readout::kPoolPointer, sensor);
+  constexpr int kColumns = 40;  // two engines
+  constexpr int kRows = 24;
+  std::vector<PoolPrior> priors;
+  std::vector<PoolPrior> expected_priors;
+  const PriorEngine engine(priors, 2);
+  for (std::uint32_t number = 0; number < 3; ++number) {
+    const PhotonSource source(sensor, make_scene(Scene::kRoom, {.columns = kColumns, .rows = kRows}), 30.0, 1,
+                              scene_frame(number));
+    ColumnStream stream;
+    const auto column = [&](int index) -> const ColumnStream& { return stream = source.column(index); };
+    const auto expected = run_pool_pointer(kColumns, column, sensor.np, sensor.acquisitions,
+                                           pool_pointer_parameters(pool), &expected_priors);
+    const auto results = engine.read(source, pool, Region::whole(kColumns, kRows)).results;
+    for (int i = 0; i < kColumns * kRows; ++i) {
+      ASSERT_EQ(results[static_cast<std::size_t>(i)],
+                expected[static_cast<std::size_t>(i % kColumns)][static_cast<std::size_t>(i / kColumns)])
+          << "frame " << number;
+    }
+    EXPECT_EQ(priors, expected_priors);
+  }
+}
+
+TEST(PriorEngine, RefusesWhatLeavesNothingForTheNextFrame) {
+  const SensorModel sensor = short_sensor();
+  std::vector<PoolPrior> priors;
+  const PriorEngine engine(priors, 1);
+  const PhotonSource source(sensor, make_scene(Scene::kRoom, {.columns = 6, .rows = 4}), 30.0, 1);
+  const ReadoutParameters pool = default_parameters(Readout::kPoolPointer, sensor);
+  EXPECT_THROW((void)engine.read(source, default_parameters(Readout::kSifh, sensor), Region::whole(6, 4)),
+               InputError);
+  EXPECT_THROW((void)engine.read(source, pool, Region::whole(5, 4)), InputError);
+  EXPECT_THROW((void)engine.read(source, pool, Region::whole(6, 3)), InputError);
 }
 
 TEST(VideoReader, ShowsEachFrameOnce) {

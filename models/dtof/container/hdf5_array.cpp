@@ -13,8 +13,8 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
+#include "dtof/container/hdf5_handle.hpp"
 #include "dtof/container/read_apart.hpp"
 #include "dtof/io/input_file.hpp"
 
@@ -25,91 +25,16 @@ constexpr std::size_t kMostElements = std::size_t{1} << 27U;  // as of an NPY ar
 constexpr std::size_t kMostNames = 1000;
 constexpr int kDeepestGroup = 16;
 
-/// The library prints what goes wrong unless it is told not to.
-class QuietHdf5 {
- public:
-  QuietHdf5() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  QuietHdf5(const QuietHdf5&) = delete;
-  QuietHdf5& operator=(const QuietHdf5&) = delete;
-  QuietHdf5(QuietHdf5&&) = delete;
-  QuietHdf5& operator=(QuietHdf5&&) = delete;
-  ~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-
- private:
-  H5E_auto2_t print_ = nullptr;
-  void* data_ = nullptr;
-};
-
-/// Something that the library has opened.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
-  Handle& operator=(Handle&&) = delete;
-  ~Handle() {
-    if (id_ >= 0) {
-      close_(id_);
-    }
-  }
-  [[nodiscard]] hid_t id() const { return id_; }
-  [[nodiscard]] bool good() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-Handle open_file(const std::filesystem::path& path) {
-  Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file.good()) {
-    fail_in_file(path, "the HDF5 file is damaged or ends early");
-  }
-  return file;
-}
-
 /// MATLAB's name of the variable's class; empty for a dataset of others.
 std::string matlab_class(hid_t dataset) {
-  if (H5Aexists(dataset, "MATLAB_class") <= 0) {
-    return "";
-  }
-  const Handle attribute(H5Aopen(dataset, "MATLAB_class", H5P_DEFAULT), H5Aclose);
-  const Handle type(H5Aget_type(attribute.id()), H5Tclose);
   constexpr std::size_t kLongest = 64;
-  const std::size_t size = type.good() ? H5Tget_size(type.id()) : 0;
-  if (size == 0 || size > kLongest || H5Tget_class(type.id()) != H5T_STRING ||
-      H5Tis_variable_str(type.id()) != 0) {
-    return "";
-  }
-  std::array<char, kLongest + 1> text{};
-  return H5Aread(attribute.id(), type.id(), text.data()) < 0 ? "" : text.data();
+  return hdf5_attribute_text(dataset, "MATLAB_class", kLongest).value_or("");
 }
 
 bool is_numbers(hid_t dataset) {
-  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   const H5T_class_t kind = type.good() ? H5Tget_class(type.id()) : H5T_NO_CLASS;
   return (kind == H5T_INTEGER || kind == H5T_FLOAT) && matlab_class(dataset) != "char";
-}
-
-/// Extents as they stand in the file; none if the dataset is damaged or has no array.
-std::optional<std::vector<std::size_t>> extents_of(hid_t dataset) {
-  const Handle space(H5Dget_space(dataset), H5Sclose);
-  if (!space.good() || H5Sget_simple_extent_type(space.id()) == H5S_NULL) {
-    return std::nullopt;
-  }
-  const int rank = H5Sget_simple_extent_ndims(space.id());
-  if (rank < 0) {
-    return std::nullopt;
-  }
-  std::vector<hsize_t> extents(static_cast<std::size_t>(rank));
-  if (rank > 0 && H5Sget_simple_extent_dims(space.id(), extents.data(), nullptr) < 0) {
-    return std::nullopt;
-  }
-  return std::vector<std::size_t>(extents.begin(), extents.end());
 }
 
 /// Product of the extents; none above `kMostElements`.
@@ -139,7 +64,7 @@ void collect_names(hid_t group, const std::string& prefix, int depth, std::vecto
     if (name == "/#refs#" || name == "/#subsystem#") {  // MATLAB's own, which variables point into
       continue;
     }
-    const Handle object(H5Oopen(group, text.data(), H5P_DEFAULT), H5Oclose);
+    const Hdf5Handle object(H5Oopen(group, text.data(), H5P_DEFAULT), H5Oclose);
     if (!object.good()) {
       continue;
     }
@@ -160,7 +85,7 @@ NpyArray read_dataset(const std::filesystem::path& path, hid_t dataset, const st
   if (!is_numbers(dataset)) {
     fail("the dataset holds no real numbers");
   }
-  const auto extents = extents_of(dataset);
+  const auto extents = hdf5_extents(dataset);
   if (!extents) {
     fail("the dataset is damaged or has no array");
   }
@@ -175,7 +100,7 @@ NpyArray read_dataset(const std::filesystem::path& path, hid_t dataset, const st
   if (H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) < 0) {
     fail("the dataset is damaged, or packed by a filter that is not here");
   }
-  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   constexpr double kLargest = 0x1.0p53;
   if (H5Tget_class(type.id()) == H5T_INTEGER &&
       std::any_of(array.values.begin(), array.values.end(),
@@ -191,8 +116,8 @@ NpyArray read_dataset(const std::filesystem::path& path, hid_t dataset, const st
 
 std::vector<std::string> names_in(const std::filesystem::path& path) {
   const QuietHdf5 quiet;
-  const Handle file = open_file(path);
-  const Handle root(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose);
+  const Hdf5Handle file = open_hdf5_file(path);
+  const Hdf5Handle root(H5Gopen2(file.id(), "/", H5P_DEFAULT), H5Gclose);
   std::vector<std::string> names;
   if (!root.good()) {
     fail_in_file(path, "the HDF5 file is damaged or ends early");
@@ -202,8 +127,8 @@ std::vector<std::string> names_in(const std::filesystem::path& path) {
 }
 
 /// Opens the dataset; the name may lack the slash in front.
-Handle open_dataset(const std::filesystem::path& path, hid_t file, const std::string& name) {
-  Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+Hdf5Handle open_dataset(const std::filesystem::path& path, hid_t file, const std::string& name) {
+  Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!dataset.good()) {
     const std::vector<std::string> names = names_in(path);
     fail_in_file(path, fmt::format("the file has no dataset '{}'{}{}", name, names.empty() ? "" : ", but ",
@@ -226,24 +151,24 @@ NpyArray array_in(const std::filesystem::path& path, const std::string& name) {
     }
     wanted = names.front();
   }
-  const Handle file = open_file(path);
-  const Handle dataset = open_dataset(path, file.id(), wanted);
+  const Hdf5Handle file = open_hdf5_file(path);
+  const Hdf5Handle dataset = open_dataset(path, file.id(), wanted);
   return read_dataset(path, dataset.id(), wanted);
 }
 
 bool is_cell_array_in(const std::filesystem::path& path, const std::string& name) {
   const QuietHdf5 quiet;
-  const Handle file = open_file(path);
-  const Handle dataset(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle file = open_hdf5_file(path);
+  const Hdf5Handle dataset(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
   return dataset.good() && matlab_class(dataset.id()) == "cell";
 }
 
 Hdf5Cells cells_in(const std::filesystem::path& path, const std::string& name) {
   const QuietHdf5 quiet;
-  const Handle file = open_file(path);
-  const Handle dataset = open_dataset(path, file.id(), name);
-  const auto extents = extents_of(dataset.id());
-  const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+  const Hdf5Handle file = open_hdf5_file(path);
+  const Hdf5Handle dataset = open_dataset(path, file.id(), name);
+  const auto extents = hdf5_extents(dataset.id());
+  const Hdf5Handle type(H5Dget_type(dataset.id()), H5Tclose);
   if (matlab_class(dataset.id()) != "cell" || H5Tget_class(type.id()) != H5T_REFERENCE || !extents ||
       extents->size() != 2 || H5Tequal(type.id(), H5T_STD_REF_OBJ) <= 0) {
     fail_in_file(path, fmt::format("\"{}\" is not a two-dimensional cell array", name));
@@ -263,13 +188,13 @@ Hdf5Cells cells_in(const std::filesystem::path& path, const std::string& name) {
   Hdf5Cells result{.shape = {rows, columns}, .cells = std::vector<std::vector<double>>(rows * columns)};
   for (std::size_t column = 0; column < columns; ++column) {
     for (std::size_t row = 0; row < rows; ++row) {
-      const Handle cell(
+      const Hdf5Handle cell(
           H5Rdereference2(dataset.id(), H5P_DEFAULT, H5R_OBJECT, &references[column * rows + row]), H5Oclose);
       const std::string place = fmt::format("\"{}\": the cell of column {}, row {}", name, column, row);
       if (!cell.good() || H5Iget_type(cell.id()) != H5I_DATASET) {
         fail_in_file(path, place + " is damaged or holds no real numbers");
       }
-      const auto length = extents_of(cell.id());
+      const auto length = hdf5_extents(cell.id());
       if (H5Aexists(cell.id(), "MATLAB_empty") <= 0 && length && element_count(*length) != 0) {
         result.cells[row * columns + column] = read_dataset(path, cell.id(), place).values;
       }

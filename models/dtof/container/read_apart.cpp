@@ -13,6 +13,7 @@
 #include <csignal>
 #include <cstdint>
 #include <exception>
+#include <optional>
 #include <string_view>
 #include <system_error>
 
@@ -24,8 +25,8 @@ namespace {
 
 constexpr std::size_t kMostAtOnce = std::size_t{1} << 20U;
 
-/// What the child's first byte says.
-enum class Reply : char { kAnswer = 'A', kRefusal = 'R' };
+/// What a byte of the child says of what follows it.
+enum class Reply : char { kAnswer = 'A', kRefusal = 'R', kPiece = 'P', kEnd = 'E' };
 
 /// Writes into the pipe; the child ends where nobody reads.
 class Sender {
@@ -46,6 +47,7 @@ class Sender {
       count -= static_cast<std::size_t>(written);
     }
   }
+  void reply(Reply value) const { bytes(&value, sizeof value); }
   void number(std::uint64_t value) const { bytes(&value, sizeof value); }
   void text(std::string_view text) const {
     number(text.size());
@@ -73,6 +75,12 @@ class Receiver {
       count -= static_cast<std::size_t>(std::max<ssize_t>(read, 0));
     }
   }
+  /// None once the child has said too little.
+  std::optional<Reply> reply() {
+    Reply value = Reply::kEnd;
+    bytes(&value, sizeof value);
+    return whole ? std::optional(value) : std::nullopt;
+  }
   /// A number of things that follow.
   std::size_t number() {
     std::uint64_t value = 0;
@@ -91,7 +99,21 @@ class Receiver {
   int descriptor_;
 };
 
-[[noreturn]] void answer_and_end(int descriptor, const std::function<ReadAnswer()>& read) {
+void send_answer(const Sender& sender, const ReadAnswer& answer) {
+  sender.reply(Reply::kAnswer);
+  sender.number(answer.sizes.size());
+  for (const std::size_t size : answer.sizes) {
+    sender.number(size);
+  }
+  sender.number(answer.values.size());
+  sender.bytes(answer.values.data(), answer.values.size() * sizeof(double));
+  sender.number(answer.names.size());
+  for (const std::string& name : answer.names) {
+    sender.text(name);
+  }
+}
+
+[[noreturn]] void answer_and_end(int descriptor, const std::function<void(const Sender&)>& answer) {
   // A crash of this process is an answer, too: it writes no core, and Control-C ends it.
   const rlimit none{.rlim_cur = 0, .rlim_max = 0};
   ::setrlimit(RLIMIT_CORE, &none);
@@ -105,22 +127,9 @@ class Receiver {
   }
   const Sender sender(descriptor);
   try {
-    const ReadAnswer answer = read();
-    const Reply reply = Reply::kAnswer;
-    sender.bytes(&reply, sizeof reply);
-    sender.number(answer.sizes.size());
-    for (const std::size_t size : answer.sizes) {
-      sender.number(size);
-    }
-    sender.number(answer.values.size());
-    sender.bytes(answer.values.data(), answer.values.size() * sizeof(double));
-    sender.number(answer.names.size());
-    for (const std::string& name : answer.names) {
-      sender.text(name);
-    }
+    answer(sender);
   } catch (const std::exception& error) {
-    const Reply reply = Reply::kRefusal;
-    sender.bytes(&reply, sizeof reply);
+    sender.reply(Reply::kRefusal);
     sender.text(error.what());
   } catch (...) {
     ::_exit(1);
@@ -143,44 +152,91 @@ ReadAnswer receive_answer(Receiver& receiver) {
   return answer;
 }
 
+/// The process that reads, and the pipe from it.
+class Child {
+ public:
+  Child(const std::filesystem::path& path, const std::function<void(const Sender&)>& answer) : path_(path) {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) {
+      fail_in_file(path, fmt::format("cannot read: {}", std::generic_category().message(errno)));
+    }
+    process_ = ::fork();
+    const int error = errno;
+    if (process_ == 0) {
+      ::close(ends[0]);
+      answer_and_end(ends[1], answer);
+    }
+    ::close(ends[1]);
+    descriptor_ = ends[0];
+    if (process_ < 0) {
+      ::close(descriptor_);
+      fail_in_file(path, fmt::format("cannot read: {}", std::generic_category().message(error)));
+    }
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+  Child(Child&&) = delete;
+  Child& operator=(Child&&) = delete;
+  /// A child that still writes ends, for nobody reads.
+  ~Child() {
+    ::close(descriptor_);
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+
+  [[nodiscard]] int descriptor() const { return descriptor_; }
+  /// Throws InputError unless the child has said all, and if it refused.
+  void check(const Receiver& receiver, const std::string& refusal) const {
+    if (!receiver.whole) {
+      fail_in_file(path_, "damaged: the library that reads such files ended without an answer");
+    }
+    if (!refusal.empty()) {
+      throw InputError(refusal);
+    }
+  }
+
+ private:
+  std::filesystem::path path_;
+  pid_t process_ = -1;
+  int descriptor_ = -1;
+};
+
 }  // namespace
 
 ReadAnswer read_apart(const std::filesystem::path& path, const std::function<ReadAnswer()>& read) {
-  std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) {
-    fail_in_file(path, fmt::format("cannot read: {}", std::generic_category().message(errno)));
-  }
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::close(ends[0]);
-    answer_and_end(ends[1], read);
-  }
-  ::close(ends[1]);
+  const Child child(path, [&](const Sender& sender) { send_answer(sender, read()); });
+  Receiver receiver(child.descriptor());
   ReadAnswer answer;
   std::string refusal;
-  Receiver receiver(ends[0]);
-  if (child > 0) {
-    Reply reply = Reply::kAnswer;
-    receiver.bytes(&reply, sizeof reply);
-    if (receiver.whole && reply == Reply::kRefusal) {
-      refusal = receiver.text();
-    } else if (receiver.whole) {
-      answer = receive_answer(receiver);
+  if (receiver.reply() == Reply::kRefusal) {
+    refusal = receiver.text();
+  } else if (receiver.whole) {
+    answer = receive_answer(receiver);
+  }
+  child.check(receiver, refusal);
+  return answer;
+}
+
+void read_pieces_apart(const std::filesystem::path& path, const std::function<void(const GivePiece&)>& read,
+                       const std::function<void(const ReadPiece&)>& take) {
+  const Child child(path, [&](const Sender& sender) {
+    read([&](const ReadPiece& piece) {
+      sender.reply(Reply::kPiece);
+      sender.number(piece.size());
+      sender.bytes(piece.data(), piece.size() * sizeof(ReadPiece::value_type));
+    });
+    sender.reply(Reply::kEnd);
+  });
+  Receiver receiver(child.descriptor());
+  std::optional<Reply> reply = receiver.reply();
+  for (; reply == Reply::kPiece; reply = receiver.reply()) {
+    ReadPiece piece(receiver.number());
+    receiver.bytes(piece.data(), piece.size() * sizeof(ReadPiece::value_type));
+    if (receiver.whole) {
+      take(piece);
     }
   }
-  ::close(ends[0]);
-  if (child < 0) {
-    fail_in_file(path, fmt::format("cannot read: {}", std::generic_category().message(errno)));
-  }
-  while (::waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
-  }
-  if (!receiver.whole) {
-    fail_in_file(path, "damaged: the library that reads such files ended without an answer");
-  }
-  if (!refusal.empty()) {
-    throw InputError(refusal);
-  }
-  return answer;
+  child.check(receiver, reply == Reply::kRefusal ? receiver.text() : "");
 }
 
 }  // namespace dtof

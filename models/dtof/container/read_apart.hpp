@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -20,5 +21,15 @@ struct ReadAnswer {
 /// only that process along. Throws InputError as `read` does, and "<path>: damaged: ..." where the process
 /// ended without an answer.
 ReadAnswer read_apart(const std::filesystem::path& path, const std::function<ReadAnswer()>& read);
+
+/// A part of what is longer than memory.
+using ReadPiece = std::vector<std::uint64_t>;
+using GivePiece = std::function<void(const ReadPiece&)>;
+
+/// The same for what comes in pieces: `read` gives each to the function that it is called with, in a process
+/// of its own, and `take` has each here, in the same order, while the next one is read. An exception of
+/// `take` ends the other process. Throws InputError as above; pieces before it have been taken.
+void read_pieces_apart(const std::filesystem::path& path, const std::function<void(const GivePiece&)>& read,
+                       const std::function<void(const ReadPiece&)>& take);
 
 }  // namespace dtof

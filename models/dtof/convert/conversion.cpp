@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <iterator>
 #include <string_view>
 #include <utility>
@@ -16,12 +17,14 @@
 #include "dtof/container/array_address.hpp"
 #include "dtof/container/hdf5_array.hpp"
 #include "dtof/container/npz.hpp"
+#include "dtof/container/photon_hdf5.hpp"
 #include "dtof/convert/converted_map.hpp"
 #include "dtof/convert/histograms.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/byte_stream.hpp"
 #include "dtof/io/npy.hpp"
+#include "dtof/recording/photon_hdf5_cube.hpp"
 #include "dtof/recording/picoquant.hpp"
 #include "dtof/recording/stream_csv.hpp"
 
@@ -144,15 +147,36 @@ std::string convert_to_histograms(const ConversionOptions& options, const Conver
                      counted.outside == 0 ? "" : fmt::format("; {} photons are outside", counted.outside));
 }
 
+/// A time in ps, of a unit: a whole number where the unit is one.
+class Picoseconds {
+ public:
+  explicit Picoseconds(double unit_ps)
+      : unit_ps_(unit_ps),
+        whole_(static_cast<std::uint64_t>(unit_ps)),
+        is_whole_(static_cast<double>(whole_) == unit_ps) {}
+
+  void append(fmt::memory_buffer& line, std::uint64_t time) const {
+    if (is_whole_) {
+      fmt::format_to(std::back_inserter(line), "{}\n", time * whole_);
+    } else {
+      fmt::format_to(std::back_inserter(line), "{}\n", static_cast<double>(time) * unit_ps_);
+    }
+  }
+
+ private:
+  double unit_ps_;
+  std::uint64_t whole_;
+  bool is_whole_;
+};
+
 /// Time tags one by one, as they stand in the file.
-std::string convert_to_events(const ConversionOptions& options) {
-  PicoquantFile tags(parse_array_address(options.recording.file).file);
+std::string convert_picoquant_events(const ConversionOptions& options, const std::filesystem::path& path) {
+  PicoquantFile tags(path);
   const PicoquantHeader& header = tags.header();
   AtomicFile out(options.out);
   const bool t3 = header.mode == 3;
   out.append(t3 ? "channel,sync,time_ps\n" : "channel,time_ps\n");
-  const auto whole = static_cast<std::uint64_t>(header.unit_ps);
-  const bool is_whole = static_cast<double>(whole) == header.unit_ps;
+  const Picoseconds picoseconds(header.unit_ps);
   fmt::memory_buffer line;
   const PicoquantCount count = tags.read([&](const PicoquantEvent& event) {
     line.clear();
@@ -160,15 +184,36 @@ std::string convert_to_events(const ConversionOptions& options) {
     if (t3) {
       fmt::format_to(std::back_inserter(line), "{},", event.sync);
     }
-    if (is_whole) {
-      fmt::format_to(std::back_inserter(line), "{}\n", event.time * whole);
-    } else {
-      fmt::format_to(std::back_inserter(line), "{}\n", static_cast<double>(event.time) * header.unit_ps);
-    }
+    picoseconds.append(line, event.time);
     out.append({line.data(), line.size()});
   });
   out.commit();
   return picoquant_description(header, count);
+}
+
+std::string convert_photon_hdf5_events(const ConversionOptions& options, const std::filesystem::path& path) {
+  const PhotonHdf5Header header = read_photon_hdf5_header(path);
+  std::vector<Picoseconds> picoseconds;
+  for (const PhotonHdf5Spot& spot : header.spots) {
+    picoseconds.emplace_back(std::round(spot.tcspc_unit_s * 1e18) * 1e-6);
+  }
+  AtomicFile out(options.out);
+  out.append("spot,detector,timestamp,time_ps\n");
+  fmt::memory_buffer line;
+  read_photon_hdf5(path, [&](const PhotonHdf5Event& photon) {
+    line.clear();
+    fmt::format_to(std::back_inserter(line), "{},{},{},", photon.spot, photon.detector, photon.timestamp);
+    picoseconds.at(photon.spot).append(line, photon.nanotime);
+    out.append({line.data(), line.size()});
+  });
+  out.commit();
+  return photon_hdf5_description(header);
+}
+
+std::string convert_to_events(const ConversionOptions& options, const ConversionInput& input) {
+  const std::filesystem::path path = parse_array_address(options.recording.file).file;
+  return input.file.format == "picoquant" ? convert_picoquant_events(options, path)
+                                          : convert_photon_hdf5_events(options, path);
 }
 
 std::string convert_to_stream(const ConversionOptions& options, ConversionInput input) {
@@ -200,7 +245,7 @@ ConversionInput open_conversion(const ConversionOptions& options) {
   }
   input.file = read_recording(options.recording);
   const std::string& format = input.file.format;
-  if (format == "picoquant") {
+  if (format == "picoquant" || format == "photon-hdf5") {
     input.kind = InputKind::kTimeTags;
   } else if (format == "npy" || format == "npz" ||
              ((format == "mat" || format == "hdf5") && !has_cells(options.recording, input.file))) {
@@ -228,7 +273,7 @@ std::string convert(const ConversionOptions& options, ConversionInput input) {
     throw InputError(fmt::format("{}: {}", options.recording.file, obstacle));
   }
   if (output == OutputKind::kCsv) {
-    return input.kind == InputKind::kTimeTags ? convert_to_events(options)
+    return input.kind == InputKind::kTimeTags ? convert_to_events(options, input)
                                               : convert_to_stream(options, std::move(input));
   }
   const bool wants_map = output == OutputKind::kMap || output == OutputKind::kPoints ||

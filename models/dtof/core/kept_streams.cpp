@@ -34,4 +34,13 @@ ColumnStream KeptStreams::column_rows(int index, RowRange rows) const {
   return drawn;
 }
 
+void KeptStreams::forget(int index) {
+  Kept& kept = kept_.at(static_cast<std::size_t>(index));
+  const std::lock_guard lock(kept.mutex);
+  if (kept.stream != nullptr) {
+    bytes_.fetch_sub(kept.stream->detection_count() * sizeof(Detection));
+    kept.stream.reset();
+  }
+}
+
 }  // namespace dtof

@@ -23,6 +23,9 @@ class KeptStreams final : public StreamSource {
   [[nodiscard]] ColumnStream column(int index) const override;
   [[nodiscard]] ColumnStream column_rows(int index, RowRange rows) const override;
 
+  /// The column's memory is free again; who reads the column next draws it anew.
+  void forget(int index);
+
   /// A frame of 200 x 160 pixels and 3,333 acquisitions at 14 klux takes 0.4 GB.
   static constexpr std::size_t kMostBytes = std::size_t{1} << 30U;
 

@@ -9,6 +9,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/core/pixel_sampler.hpp"
 #include "dtof/metrics/confidence_interval.hpp"
+#include "dtof/metrics/depth.hpp"
 
 namespace dtof {
 
@@ -72,9 +73,9 @@ std::vector<TabledReadout> FramePipeline::tables(std::span<const ReadoutParamete
   return tabled;
 }
 
-const StreamSource& FramePipeline::first_frame(Readout readout) const {
+const StreamSource& FramePipeline::first_frame(const FrameEngine& engine, Readout readout) const {
   const bool sampled = dynamic_cast<const SampledSource*>(source_.get()) != nullptr;
-  if (sampled && engine_.reads_samples(readout)) {
+  if (sampled && engine.reads_samples(readout)) {
     return *source_;
   }
   return *streams_;
@@ -97,18 +98,44 @@ std::vector<double> FramePipeline::skew_bins() const {
   return skews;
 }
 
+ReadoutRun FramePipeline::read(const ReadoutParameters& readout, std::vector<int> columns) const {
+  const StreamSource& photons = first_frame(engine_, readout.readout);
+  if (columns.empty()) {
+    return engine_.read(photons, readout, region());
+  }
+  return engine_.read(photons, readout, {.columns = std::move(columns), .rows = region().rows});
+}
+
+ReadoutRun FramePipeline::read_by(const FrameEngine& engine, const ReadoutParameters& readout) const {
+  return engine.read(first_frame(engine, readout.readout), readout, region());
+}
+
+std::vector<double> FramePipeline::positions(std::span<const PixelResult> results,
+                                             const ReadoutParameters& readout) const {
+  const std::vector<double> skews = skew_bins();
+  std::vector<double> positions;
+  positions.reserve(results.size());
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    positions.push_back(code_position(results[i], readout.fraction_bits) - (skews.empty() ? 0.0 : skews[i]));
+  }
+  return positions;
+}
+
+FrameMaps FramePipeline::judge(std::span<const PixelResult> results, const TabledReadout& readout) const {
+  return frame_maps(results, readout.parameters, scene_.model(), readout.table, truth_.metres, skew_bins());
+}
+
 MeasuredFrame FramePipeline::measure_once(const StreamSource& source, const TabledReadout& readout) const {
   MeasuredFrame frame;
   frame.parameters = readout.parameters;
   frame.run = engine_.read(source, readout.parameters, region());
-  frame.maps = frame_maps(frame.run.results, readout.parameters, scene_.model(), readout.table, truth_.metres,
-                          skew_bins());
+  frame.maps = judge(frame.run.results, readout);
   return frame;
 }
 
 MeasuredFrame FramePipeline::measure(const TabledReadout& readout,
                                      const std::optional<FramePrecision>& precision) const {
-  MeasuredFrame frame = measure_once(first_frame(readout.parameters.readout), readout);
+  MeasuredFrame frame = measure_once(first_frame(engine_, readout.parameters.readout), readout);
   if (!precision) {
     return frame;
   }

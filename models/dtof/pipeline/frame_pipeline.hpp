@@ -62,7 +62,9 @@ struct MeasuredFrame {
   bool precision_reached = true;
 };
 
-/// A frame of a scene, from its photons to distances, errors and figures, whatever engine reads them.
+/// A frame of a scene, from its photons to distances, errors and figures, whatever engine reads them. At
+/// once: tables() and measure(). Step by step, for whoever shows how far a frame is or keeps something from
+/// frame to frame: read(), all columns or some, then positions() or judge().
 class FramePipeline {
  public:
   struct Settings {
@@ -91,8 +93,22 @@ class FramePipeline {
   [[nodiscard]] MeasuredFrame measure(const TabledReadout& readout,
                                       const std::optional<FramePrecision>& precision = std::nullopt) const;
 
+  /// Reads these columns of the region, ascending; none named: all. A pool read-out reads whole engines
+  /// (ReadoutParameters::columns_together) for them, so that columns are best asked for engine by engine.
+  [[nodiscard]] ReadoutRun read(const ReadoutParameters& readout, std::vector<int> columns = {}) const;
+  /// Another engine reads the region from the same photons.
+  [[nodiscard]] ReadoutRun read_by(const FrameEngine& engine, const ReadoutParameters& readout) const;
+  /// The memory that a column's photons have is free again; who reads the column next draws them anew.
+  void forget_photons(int column) { streams_->forget(column); }
+  /// Places of the region's results on the code axis in bins, less the skew of each pixel's clock, which the
+  /// host knows.
+  [[nodiscard]] std::vector<double> positions(std::span<const PixelResult> results,
+                                              const ReadoutParameters& readout) const;
+  /// Distances, errors and figures of the region's results.
+  [[nodiscard]] FrameMaps judge(std::span<const PixelResult> results, const TabledReadout& readout) const;
+
  private:
-  [[nodiscard]] const StreamSource& first_frame(Readout readout) const;
+  [[nodiscard]] const StreamSource& first_frame(const FrameEngine& engine, Readout readout) const;
   [[nodiscard]] MeasuredFrame measure_once(const StreamSource& source, const TabledReadout& readout) const;
   [[nodiscard]] std::vector<double> skew_bins() const;
 

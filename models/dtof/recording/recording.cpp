@@ -15,11 +15,13 @@
 #include "dtof/container/array_address.hpp"
 #include "dtof/container/hdf5_array.hpp"
 #include "dtof/container/npz.hpp"
+#include "dtof/container/photon_hdf5.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/io/byte_stream.hpp"
 #include "dtof/io/input_file.hpp"
 #include "dtof/io/npy.hpp"
 #include "dtof/recording/histogram_stream.hpp"
+#include "dtof/recording/photon_hdf5_cube.hpp"
 #include "dtof/recording/photon_times_mat.hpp"
 #include "dtof/recording/picoquant.hpp"
 #include "dtof/recording/stream_csv.hpp"
@@ -188,12 +190,16 @@ RecordingFile read_recording(const RecordingOptions& options) {
   RecordingFile file;
   const std::filesystem::path path = parse_array_address(options.file).file;
   constexpr std::size_t kMagic = 16;
-  if (options.format == "hdf5" || (options.format == "auto" && is_hdf5(path))) {
+  if (options.format.ends_with("hdf5") || (options.format == "auto" && is_hdf5(path))) {
     if (!is_hdf5(path)) {
       (void)ByteStream(path);  // a file that cannot be read has its own refusal
       fail_in_file(path, "not an HDF5 file, or a pipe");
     }
-    file.format = "hdf5";
+    // An array that is named is asked for as it is.
+    const bool whole = options.format == "auto" && parse_array_address(options.file).array.empty();
+    file.format = whole && is_photon_hdf5(path)     ? "photon-hdf5"
+                  : options.format == "photon-hdf5" ? "photon-hdf5"
+                                                    : "hdf5";
     return file;
   }
   if (options.format == "picoquant" || (options.format == "auto" && is_picoquant(file_start(path, kMagic)))) {
@@ -243,6 +249,11 @@ RecordedData open_recorded_data(const RecordingOptions& options, const Recording
   if (file.format == "picoquant") {
     std::string description;
     HistogramCube cube = picoquant_cube(path, description);
+    return {.description = std::move(description), .data = std::move(cube)};
+  }
+  if (file.format == "photon-hdf5") {
+    std::string description;
+    HistogramCube cube = photon_hdf5_cube(path, description);
     return {.description = std::move(description), .data = std::move(cube)};
   }
   // A cell array of MATLAB has photon times, another variable histograms.

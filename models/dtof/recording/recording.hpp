@@ -18,8 +18,8 @@
 
 namespace dtof {
 
-inline constexpr std::array<std::string_view, 8> kRecordingFormats = {
-    "csv", "npy", "npz", "mat", "hdf5", "picoquant", "tmf8820", "tmf8829"};
+inline constexpr std::array<std::string_view, 9> kRecordingFormats = {
+    "csv", "npy", "npz", "mat", "hdf5", "photon-hdf5", "picoquant", "tmf8820", "tmf8829"};
 
 /// The member of an NPZ archive that says how wide the bins of its histograms are, in ps.
 inline constexpr std::string_view kBinWidthName = "bin_width_ps";
@@ -39,8 +39,9 @@ struct RecordingOptions {
 
 /// A file that has been read, once, so that it may be a pipe.
 struct RecordingFile {
-  std::string contents;  ///< unpacked, if it was gzip; empty for hdf5 and picoquant, which are read in pieces
-  std::string format;    ///< one of kRecordingFormats
+  /// Unpacked, if it was gzip; empty for hdf5, photon-hdf5 and picoquant, which are read in pieces.
+  std::string contents;
+  std::string format;  ///< one of kRecordingFormats
 };
 
 /// What a file holds, before photons are drawn from it.

@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -44,6 +46,42 @@ TEST(ReadApart, ACrashIsARefusal) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   test::expect_input_error(
       [] { (void)read_apart("a", []() -> ReadAnswer { throw InputError("a: its own"); }); }, "a: its own");
+}
+
+TEST(ReadApart, PiecesComeInOrderUntilAnEnd) {
+  constexpr std::uint64_t kPieces = 300;
+  std::vector<std::uint64_t> taken;
+  read_pieces_apart(
+      "a",
+      [](const GivePiece& give) {
+        for (std::uint64_t piece = 0; piece < kPieces; ++piece) {
+          give(ReadPiece(10'000, piece));
+        }
+      },
+      [&](const ReadPiece& piece) {
+        ASSERT_EQ(piece.size(), 10'000U);
+        taken.push_back(piece.back());
+      });
+  std::vector<std::uint64_t> expected(kPieces);
+  std::iota(expected.begin(), expected.end(), 0U);
+  EXPECT_EQ(taken, expected);
+}
+
+TEST(ReadApart, ACrashBetweenPiecesIsARefusal) {
+  std::size_t taken = 0;
+  const auto read = [&](const std::function<void()>& end) {
+    read_pieces_apart(
+        "a",
+        [&](const GivePiece& give) {
+          give({1, 2});
+          end();
+        },
+        [&](const ReadPiece& /*piece*/) { ++taken; });
+  };
+  test::expect_input_error([&] { read([] { std::raise(SIGKILL); }); },
+                           "a: damaged: the library that reads such files ended without an answer");
+  test::expect_input_error([&] { read([] { throw InputError("a: its own"); }); }, "a: its own");
+  EXPECT_EQ(taken, 2U);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "dtof/io/depth_image.hpp"
 #include "dtof/io/result_csv.hpp"
 #include "dtof/recording/picoquant.hpp"
+#include "tests/container/photon_hdf5_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -132,6 +133,24 @@ TEST_F(ConversionTest, TimeTagsBecomeTheEventsOfAnotherLibrary) {
       "missing");
   EXPECT_EQ(contents(path("a.csv")),
             "channel,sync,time_ps\n" + contents(test::shared_data("picoquant/v10.ht3.data")));
+}
+
+TEST_F(ConversionTest, PhotonHdf5BecomesEventsAndHistograms) {
+  {
+    const test::PhotonHdf5Writer file(path("a.hdf5"));
+    file.spot("/photon_data0", {5, 900'719'925'474'099'3}, {2, 0}, {1, 0}, 16e-12, 3);
+    file.spot("/photon_data1", {7}, {1}, {}, 16e-12, 3);
+  }
+  EXPECT_EQ(run("a.hdf5", "a.csv"), "Photon-HDF5, 2 spots, 3 photons");
+  EXPECT_EQ(contents(path("a.csv")),
+            "spot,detector,timestamp,time_ps\n0,1,5,32\n0,0,9007199254740993,0\n1,0,7,16\n");
+  EXPECT_EQ(run("a.hdf5", "a.npz"),
+            "Photon-HDF5, 2 spots, 3 photons: histograms of 2 rows, 2 columns and 3 bins of 16 ps");
+  EXPECT_THAT(member("a.npz", "histograms").values, ElementsAre(1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0));
+  EXPECT_EQ(run("a.hdf5:/photon_data0/nanotimes", "b.npy"), "an array of shape (2)");
+  test::PhotonHdf5Writer(path("b.hdf5")).spot("/photon_data", {3}, {3}, {}, 12.5e-12);
+  EXPECT_EQ(run("b.hdf5", "b.csv"), "Photon-HDF5, 1 photons");
+  EXPECT_EQ(contents(path("b.csv")), "spot,detector,timestamp,time_ps\n0,0,3,37.5\n");
 }
 
 TEST_F(ConversionTest, PhotonTimesOfASampleAreCounted) {

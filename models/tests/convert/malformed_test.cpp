@@ -12,6 +12,7 @@
 #include "dtof/convert/conversion.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/npy.hpp"
+#include "tests/container/photon_hdf5_writer.hpp"
 #include "tests/io/io_test_support.hpp"
 
 namespace dtof {
@@ -61,6 +62,18 @@ class MalformedTest : public test::IoTest {
       file += tag;
     }
     return file + std::string(4 * records, '\1');
+  }
+  /// Photon-HDF5 of some photons, the last of them before the laser's pulse where that is asked for.
+  [[nodiscard]] std::string photon_hdf5_of(std::size_t photons, bool negative) const {
+    std::vector<std::int64_t> times(photons, 1);
+    {
+      const test::PhotonHdf5Writer file(path("made.h5"));
+      file.array("/photon_data/timestamps", times);
+      times.back() = negative ? -1 : 1;
+      file.array("/photon_data/nanotimes", times);
+      file.number("/photon_data/nanotimes_specs/tcspc_unit", 1e-12);
+    }
+    return contents(path("made.h5"));
   }
   [[nodiscard]] std::vector<MalformedFile> table() const;
 };
@@ -114,6 +127,10 @@ std::vector<MalformedFile> MalformedTest::table() const {
        "expected ']'"},
       {"time tags cut in a record, behind a megabyte of output", "a.ptu", ptu_of(200000) + "x", "a.csv",
        " the file ends in record 200000"},
+      {"Photon-HDF5 with a photon before the pulse, behind a megabyte of output", "a.hdf5",
+       photon_hdf5_of(200000, true), "a.csv", " /photon_data/nanotimes: element 199999 is negative, -1"},
+      {"Photon-HDF5 cut by a full disk", "a.hdf5", photon_hdf5_of(2000, false).substr(0, 20000), "a.csv",
+       " the HDF5 file is damaged or ends early"},
       {"time tags cut in the header", "a.ptu",
        std::string("PQTTTR\0\0"
                    "1.0.00\0\0",

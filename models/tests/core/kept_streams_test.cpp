@@ -64,6 +64,21 @@ TEST(KeptStreams, OtherRowsAreDrawnForThemselves) {
   EXPECT_EQ(source.drawn(), 2);
 }
 
+TEST(KeptStreams, AForgottenColumnIsDrawnAnewAndItsMemoryIsFree) {
+  const CountingSource source;
+  constexpr std::size_t kOneColumn = kRows * kDetections * sizeof(Detection);
+  KeptStreams kept(source, kOneColumn);
+  const ColumnStream first = kept.column(1);
+  kept.forget(1);
+  kept.forget(1);
+  EXPECT_EQ(kept.column(1), first);
+  EXPECT_EQ(source.drawn(), 2);
+  kept.forget(1);
+  (void)kept.column(2);
+  (void)kept.column(2);
+  EXPECT_EQ(source.drawn(), 3) << "there is memory for one column";
+}
+
 TEST(KeptStreams, MemoryIsBounded) {
   const CountingSource source;
   const std::size_t column = sizeof(Detection) * kRows * kDetections;

@@ -100,6 +100,37 @@ TEST(FramePipeline, PhotonsThatAreNotKeptAreTheSame) {
   EXPECT_EQ(kept.measure(readout).run.results, drawn.measure(readout).run.results);
 }
 
+TEST(FramePipeline, StepByStepIsAtOnce) {
+  SensorModel sensor = find_sensor("thesis+column-skew");
+  sensor.acquisitions = 400;
+  const PhotonSource scene(sensor, make_scene(Scene::kRoom, {.columns = 40, .rows = 6}), 14.0, 1);
+  const ModelEngine engine({.observer = [](std::size_t, std::size_t) {}});
+  FramePipeline pipeline(scene, engine, {.region = Region::whole(40, 6)});
+  for (const Readout name : {Readout::kSifh, Readout::kPoolPointer}) {
+    const std::array readouts = {default_parameters(name, sensor)};
+    const TabledReadout readout = pipeline.tables(readouts, TableRule::kFlat).front();
+    const MeasuredFrame whole = pipeline.measure(readout);
+    EXPECT_EQ(pipeline.read(readout.parameters).results, whole.run.results);
+    EXPECT_EQ(pipeline.read_by(engine, readout.parameters).results, whole.run.results);
+    const auto some = pipeline.read(readout.parameters, {34, 39}).results;
+    for (std::size_t row = 0; row < 6; ++row) {
+      EXPECT_EQ(some[2 * row], whole.run.results[40 * row + 34]);
+      EXPECT_EQ(some[2 * row + 1], whole.run.results[40 * row + 39]);
+    }
+    pipeline.forget_photons(34);
+    EXPECT_EQ(pipeline.read(readout.parameters, {34, 39}).results, some);
+    const FrameMaps judged = pipeline.judge(whole.run.results, readout);
+    EXPECT_EQ(figure_values(judged.figures, true), figure_values(whole.maps.figures, true));
+    const std::vector<double> positions = pipeline.positions(whole.run.results, readout.parameters);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      if (!std::isnan(whole.maps.depth[i])) {
+        EXPECT_EQ(std::max(static_cast<float>(readout.table->distance(positions[i])), 0.0F),
+                  whole.maps.depth[i]);
+      }
+    }
+  }
+}
+
 TEST(FramePipeline, APrecisionTakesFramesUntilItIsReached) {
   const ModelEngine engine({});
   const FramePipeline pipeline(room(), engine, {.region = Region::whole(12, 10)});

@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
+#include <regex>
+#include <sstream>
 #include <string>
+#include <string_view>
 
 #include "dtof/core/error.hpp"
 
@@ -119,10 +123,67 @@ TEST(Preset, ThesisIsTheDefaultModelToTheLastBit) {
 }
 
 TEST(Preset, UnknownNameListsTheKnown) {
-  EXPECT_THAT(preset_names(), ElementsAre("thesis", "thesis_1mhz", "thesis_full", "phone"));
+  EXPECT_THAT(preset_names(), ElementsAre("thesis", "thesis_1mhz", "thesis_full", "phone", "vl53l8ch",
+                                          "vl53l9cx", "tmf8829", "ads6311"));
   const std::string message = refusal([] { parse_preset("tablet"); });
   EXPECT_THAT(message, HasSubstr("tablet"));
-  EXPECT_THAT(message, HasSubstr("thesis, thesis_1mhz, thesis_full, phone"));
+  EXPECT_THAT(message,
+              HasSubstr("thesis, thesis_1mhz, thesis_full, phone, vl53l8ch, vl53l9cx, tmf8829, ads6311"));
+}
+
+/// Presets of makers' sensors, whose light nobody publishes.
+constexpr std::array kMakers = {"vl53l8ch", "vl53l9cx", "tmf8829", "ads6311"};
+
+TEST(Preset, EveryNumberOfAMakersSensorHasASourceOrIsAnAssumption) {
+  for (const char* const name : kMakers) {
+    std::istringstream text{std::string(preset_text(name))};
+    int sources = 0;
+    int numbers = 0;
+    for (std::string line; std::getline(text, line);) {
+      if (const std::regex source("# [0-9]: .*"); std::regex_match(line, source)) {
+        ++sources;
+      }
+      const std::regex number("[a-z0-9_]+ = [0-9].*");
+      const std::regex explained(".*  # (sources? ([0-9])( and ([0-9]))?|assumption)\\b.*");
+      if (!std::regex_match(line, number)) {
+        continue;
+      }
+      ++numbers;
+      std::smatch found;
+      ASSERT_TRUE(std::regex_match(line, found, explained)) << name << ": " << line;
+      for (const int group : {2, 4}) {
+        EXPECT_LE(found[group].matched ? std::stoi(found[group]) : 1, sources) << name << ": " << line;
+      }
+    }
+    EXPECT_GE(sources, 1) << name;
+    EXPECT_GE(numbers, 11) << name;
+  }
+}
+
+TEST(Preset, MakersSensorsHaveTheirPublicFigures) {
+  constexpr double kMillimetresPerSecond = 299'792'458'000.0;
+  const SensorModel vl53l8ch = parse_preset("vl53l8ch");
+  EXPECT_EQ(vl53l8ch.columns * vl53l8ch.rows, 64);
+  EXPECT_NEAR(2.0 * vl53l8ch.time_resolution_s() * kMillimetresPerSecond / 2.0, 37.5, 0.1);
+  EXPECT_GT(vl53l8ch.integration_time_s * kMillimetresPerSecond / 2.0, 4000.0);
+  const SensorModel vl53l9cx = parse_preset("vl53l9cx");
+  EXPECT_EQ(vl53l9cx.columns * vl53l9cx.rows, 2268);
+  EXPECT_NEAR(vl53l9cx.degrees_per_pixel(), 1.0, 1e-9);
+  EXPECT_GT(vl53l9cx.integration_time_s * kMillimetresPerSecond / 2.0, 8800.0);
+  const SensorModel tmf8829 = parse_preset("tmf8829");
+  EXPECT_EQ(tmf8829.columns * tmf8829.rows, 1536);
+  EXPECT_NEAR(tmf8829.time_resolution_s(), 203.75e-12, 1e-15);
+  const SensorModel ads6311 = parse_preset("ads6311");
+  EXPECT_EQ(ads6311.columns * ads6311.rows, 256 * 192);
+  EXPECT_NEAR(ads6311.time_resolution_s(), 0.75e-9, 1e-15);
+  // The assumption about the light: 25 events a frame from a white target at the longest distance.
+  const std::array<double, kMakers.size()> longest_m = {4.0, 8.8, 7.5, 75.5};
+  for (std::size_t i = 0; i < kMakers.size(); ++i) {
+    const SensorModel sensor = parse_preset(kMakers[i]);
+    EXPECT_NEAR(sensor.signal_events(longest_m[i], 1.0) * sensor.acquisitions, 25.0, 0.05) << kMakers[i];
+    EXPECT_NEAR(sensor.background_events_per_klux / sensor.integration_time_s, 0.15 / 14.0 / 45e-9, 2e2)
+        << kMakers[i];
+  }
 }
 
 TEST(Preset, EveryPresetIsLegal) {

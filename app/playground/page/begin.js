@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last script: everything that answers the worker is there.
+"use strict";
+
+startWorker();

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files that are dropped on the page: a sensor file (TOML), or a depth map (PNG of 8 or 16 bits, PFM, NPY) as `dtof frame --depth` reads it.
+"use strict";
+
+const LARGEST_EXTENT = 65535;  // rows and columns of a map
+const MILLIMETRE = 1e-3;  // a unit of a PNG of 16 bits
+const given = { sensor: null, depth: null };  // what a run takes instead of a preset and a scene
+let lastMap = null;  // the file, which another scale reads again
+
+const refuse = (reason) => { throw new Error(reason); };
+
+function checkExtent(columns, rows) {
+  if (!(columns >= 1 && rows >= 1 && columns <= LARGEST_EXTENT && rows <= LARGEST_EXTENT)) {
+    refuse(`${columns} x ${rows} pixels: each must be 1..${LARGEST_EXTENT}`);
+  }
+}
+
+// ---- Maps: numbers row by row, row 0 on top -----------------------------------------------------------------------
+
+function readPfm(bytes) {
+  const header = /^Pf\s+(\d+)\s+(\d+)\s+(\S+?)(\r\n|\s)/.exec(String.fromCharCode(...bytes.slice(0, 100))) ?? refuse("no header of a PFM in grey (Pf)");
+  const [columns, rows, scale] = header.slice(1, 4).map(Number);
+  checkExtent(columns, rows);
+  if (!Number.isFinite(scale) || scale === 0) {
+    refuse(`PFM scale ${header[3]} is not a finite number other than 0`);
+  }
+  // A line end of CR LF is two characters, unless LF is the first byte of a number.
+  let begin = header[0].length;
+  if (header[4] === "\r\n" && bytes.length < begin + 4 * columns * rows) {
+    begin -= 1;
+  }
+  if (bytes.length - begin !== 4 * columns * rows) {
+    refuse(`${columns} x ${rows} pixels need ${4 * columns * rows} bytes, the file has ${bytes.length - begin}`);
+  }
+  const view = new DataView(bytes.buffer, bytes.byteOffset + begin);
+  const values = Float64Array.from({ length: columns * rows }, (_, i) => {
+    const row = rows - 1 - Math.floor(i / columns);  // PFM stores the bottom row first
+    return Math.abs(scale) * view.getFloat32(4 * (row * columns + i % columns), scale < 0);
+  });
+  return { columns, rows, bits: 0, values };
+}
+
+const NPY_TYPES = { f4: [4, "getFloat32"], f8: [8, "getFloat64"], u1: [1, "getUint8"], u2: [2, "getUint16"], u4: [4, "getUint32"],
+  i1: [1, "getInt8"], i2: [2, "getInt16"], i4: [4, "getInt32"] };
+
+function readNpy(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  const [length, begin] = bytes[6] === 1 ? [view.getUint16(8, true), 10] : [view.getUint32(8, true), 12];
+  const header = new TextDecoder("latin1").decode(bytes.slice(begin, begin + length));
+  const [, order, type] = /'descr':\s*'([<>|=]?)(\w+)'/.exec(header) ?? refuse("NPY without a type of numbers");
+  const size = NPY_TYPES[type] ?? refuse(`NPY of ${type}: numbers are ${Object.keys(NPY_TYPES).join(", ")}`);
+  if (/'fortran_order':\s*True/.test(header)) {
+    refuse("NPY in the order of Fortran");
+  }
+  let shape = (/'shape':\s*\(([^)]*)\)/.exec(header) ?? refuse("NPY without a shape"))[1].split(",").filter((text) => text.trim()).map(Number);
+  while (shape.length > 2 && shape.at(-1) === 1) {
+    shape = shape.slice(0, -1);
+  }
+  while (shape.length > 2 && shape[0] === 1) {
+    shape = shape.slice(1);
+  }
+  if (shape.length !== 2) {
+    refuse(`NPY shape (${shape.join(", ")}): a map has rows and columns`);
+  }
+  const [rows, columns] = shape;
+  checkExtent(columns, rows);
+  const data = begin + length;
+  if (bytes.length - data !== rows * columns * size[0]) {
+    refuse(`${columns} x ${rows} numbers need ${rows * columns * size[0]} bytes, the file has ${bytes.length - data}`);
+  }
+  return { columns, rows, bits: 0,
+    values: Float64Array.from({ length: rows * columns }, (_, i) => view[size[1]](data + i * size[0], order !== ">")) };
+}
+
+async function inflate(bytes) {
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** Paeth's predictor of PNG. */
+function paeth(left, above, corner) {
+  const guess = left + above - corner;
+  const [a, b, c] = [left, above, corner].map((value) => Math.abs(guess - value));
+  return a <= b && a <= c ? left : b <= c ? above : corner;
+}
+
+async function readPng(bytes) {
+  const view = new DataView(bytes.buffer, bytes.byteOffset);
+  const parts = [];
+  let columns = 0, rows = 0, bits = 0;
+  for (let at = 8; at + 12 <= bytes.length;) {
+    const length = view.getUint32(at), name = String.fromCharCode(...bytes.slice(at + 4, at + 8));
+    if (name === "IHDR") {
+      [columns, rows, bits] = [view.getUint32(at + 8), view.getUint32(at + 12), bytes[at + 16]];
+      checkExtent(columns, rows);
+      if (bytes[at + 17] !== 0 || bytes[at + 20] !== 0 || ![8, 16].includes(bits)) {
+        refuse("a PNG here is greyscale of 8 or 16 bits, without alpha and not interlaced; `dtof frame` reads more");
+      }
+    } else if (name === "tRNS") {
+      refuse("a PNG here has no transparent pixels; `dtof frame` reads them");
+    } else if (name === "IDAT") {
+      parts.push(bytes.slice(at + 8, at + 8 + length));
+    }
+    at += 12 + length;
+  }
+  const data = await inflate(await new Blob(parts).arrayBuffer()).catch(() => refuse("a damaged PNG"));
+  const pixel = bits / 8, line = columns * pixel;
+  if (data.length !== rows * (line + 1)) {
+    refuse("a damaged PNG");
+  }
+  const plain = new Uint8Array(rows * line);
+  for (let row = 0; row < rows; ++row) {
+    const filter = data[row * (line + 1)];
+    for (let i = 0; i < line; ++i) {
+      const to = row * line + i;
+      const left = i >= pixel ? plain[to - pixel] : 0, above = row > 0 ? plain[to - line] : 0;
+      const corner = i >= pixel && row > 0 ? plain[to - line - pixel] : 0;
+      const guess = [0, left, above, (left + above) >> 1, paeth(left, above, corner)][filter] ?? refuse("a damaged PNG");
+      plain[to] = data[row * (line + 1) + 1 + i] + guess;
+    }
+  }
+  const numbers = new DataView(plain.buffer);
+  return { columns, rows, bits,
+    values: Float64Array.from({ length: rows * columns }, (_, i) => bits === 16 ? numbers.getUint16(2 * i) : plain[i]) };
+}
+
+/** A depth map in metres; 0 is unknown. `scale`: metres a unit, or NaN for the format's own. */
+async function readMap(bytes, scale) {
+  const begins = (...values) => values.every((value, i) => bytes[i] === value);
+  const map = begins(0x89, 0x50, 0x4e, 0x47) ? await readPng(bytes) : begins(0x50, 0x66) ? readPfm(bytes) :
+    begins(0x93, 0x4e, 0x55, 0x4d) ? readNpy(bytes) : refuse("neither a PNG, a PFM nor an NPY file");
+  if (map.bits === 8 && Number.isNaN(scale)) {
+    refuse("a depth map of 8 bits needs its scale: give the metres that one unit stands for");
+  }
+  const unit = Number.isNaN(scale) ? (map.bits === 16 ? MILLIMETRE : 1) : scale;
+  const metres = Float32Array.from(map.values, (value) => Number.isFinite(value) ? value * unit : 0);
+  const wrong = metres.findIndex((value) => value < 0);
+  if (wrong >= 0) {
+    refuse(`column ${wrong % map.columns}, row ${Math.floor(wrong / map.columns)}: a negative depth`);
+  }
+  return { columns: map.columns, rows: map.rows, metres };
+}
+
+// ---- What was given -----------------------------------------------------------------------------------------------
+
+function showGiven() {
+  for (const [kind, button] of [["sensor", byId("drop-sensor")], ["depth", byId("drop-depth")]]) {
+    button.hidden = !given[kind];
+    button.textContent = given[kind] ? `${given[kind].name} \u00d7` : "";
+  }
+  form.sensor.disabled = Boolean(given.sensor);
+  form.scene.disabled = Boolean(given.depth);
+}
+
+async function take(file) {
+  if (catalogue.readout.length === 0) {
+    refuse("the models are still starting");
+  }
+  const bytes = new Uint8Array(await file.arrayBuffer());
+  if (/\.toml$/i.test(file.name)) {
+    askSensor({ name: file.name, text: new TextDecoder().decode(bytes) });
+    return;
+  }
+  lastMap = file;
+  const typed = form["depth-scale"].value;
+  given.depth = { name: file.name, scale: typed, ...await readMap(bytes, typed === "" ? NaN : Number(typed)) };
+  showGiven();
+  showControls();
+  run();
+}
+
+async function takeFiles(files) {
+  for (const file of files) {
+    try {
+      await take(file);
+    } catch (error) {
+      fail(`${file.name}: ${error.message}`);
+    }
+  }
+}
+
+/** The models say what the sensor has, or what is wrong with its file. */
+function askSensor(sensor) {
+  restartWorker(() => worker.postMessage({ what: "sensor", sensor }));
+  hear.sensor = (message) => {
+    catalogue.given = message.line.trim().split("\t").slice(1);
+    given.sensor = sensor;
+    showGiven();
+    takeSensor();
+    run();
+  };
+}
+
+function drop(kind) {
+  given[kind] = null;
+  lastMap = kind === "depth" ? null : lastMap;
+  showGiven();
+  if (kind === "sensor") {
+    takeSensor();
+  }
+  showControls();
+  run();
+}
+
+byId("drop-sensor").onclick = () => drop("sensor");
+byId("drop-depth").onclick = () => drop("depth");
+form["depth-scale"].onchange = (event) => {
+  event.stopPropagation();
+  takeFiles(lastMap ? [lastMap] : []);
+};
+byId("file").onchange = (event) => {
+  event.stopPropagation();  // a change of the form runs the models
+  takeFiles([...event.target.files]);
+  event.target.value = "";
+};
+document.ondragover = (event) => {
+  event.preventDefault();
+  document.body.classList.add("over");
+};
+document.ondragleave = () => document.body.classList.remove("over");
+document.ondrop = (event) => {
+  event.preventDefault();
+  document.body.classList.remove("over");
+  takeFiles([...event.dataTransfer.files]);
+};

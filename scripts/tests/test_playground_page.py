@@ -1,0 +1,370 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The playground's page in a browser, around a module that stands in for the models: what the page itself does.
+
+`make playground-test` compares the models' module with `dtof frame`; it needs emscripten, and this test does not."""
+
+import importlib.util
+import io
+import json
+import tempfile
+import time
+import unittest
+import zlib
+from pathlib import Path
+from types import ModuleType
+
+import numpy
+
+from page.site import Site
+from tests.browser import Browser, missing
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+SCREENSHOTS = ROOT / "build" / "report_test"
+SECONDS = 30
+# Two read-outs of 16 x 8 pixels, columns from 1 m to 2.5 m: the first reads 0.1 m too much, the second 0.1 m too little.
+STAND_IN = """
+const createModels = async () => {
+  const heap = new ArrayBuffer(1 << 20), HEAPF32 = new Float32Array(heap), HEAPU16 = new Uint16Array(heap), HEAPU32 = new Uint32Array(heap);
+  let asked = {}, readout = 0, sentence = "", sensor = "", map = null;
+  const pixels = () => asked.columns * asked.rows;
+  const MAP = 5 << 16;
+  const truth = (i) => !map ? 1 + 0.1 * (i % asked.columns) :
+    HEAPF32[MAP / 4 + Math.floor(Math.floor(i / asked.columns) * map[1] / asked.rows) * map[0] + Math.floor(i % asked.columns * map[0] / asked.columns)];
+  const floats = (place, value) => {
+    for (let i = 0; i < pixels(); ++i) { HEAPF32[place / 4 + i] = value(i); }
+    return place;
+  };
+  const off = () => readout === 0 ? 0.1 : -0.1;
+  const functions = {
+    catalogue: () => "readout\\tfirst\\tFirst\\treads too far\\nreadout\\tsecond\\tSecond\\treads too near\\nscene\\troom\\ta room\\n" +
+      "scene\\tflat\\ta wall\\nsensor\\tthesis\\t16\\t8\\t0.5\\t100\\t6.75\\n",
+    take_sensor: (name, text) => {
+      sentence = text.includes("wrong") ? `${name}:1: wrong` : "";
+      sensor = text === "" ? "" : `sensor\\t${name}\\t32\\t8\\t0.25\\t77\\t3.5\\n`;
+      return sentence === "" ? 1 : 0;
+    },
+    sensor: () => sensor,
+    take_map: (columns, rows) => { map = columns === 0 ? null : [columns, rows]; return MAP; },
+    begin: (text) => {
+      asked = Object.fromEntries(text.split("\\n").map((line) => line.split(" ")));
+      sentence = Number(asked.seed) === 13 ? "13 is refused" : "";
+      return sentence === "" ? 1 : 0;
+    },
+    error: () => sentence, columns: () => Number(asked.columns), rows: () => Number(asked.rows),
+    truth: () => floats(0, truth), reflectivity: () => floats(1 << 16, () => 0.5), calibrate: () => 1, read_column: () => 1,
+    frame: (index) => { readout = index; return 1; },
+    depth: () => floats(2 << 16, (i) => truth(i) + off()), error_map: () => floats(3 << 16, off),
+    results: () => {
+      for (let i = 0; i < pixels(); ++i) { HEAPU16.set([i, 0, 3, 0], (4 << 16) / 2 + 4 * i); }
+      return 4 << 16;
+    },
+    figures: () => ["100", "100", "100", "50 %", "10 %"].join("\\n"),
+  };
+  // Each pixel has a timestamp of 8 times its column in every second acquisition, and one of 900 in the last.
+  const seen = 7 << 16;
+  Object.assign(functions, {
+    pixel: (column) => {
+      for (let i = 0; i < 50; ++i) {
+        HEAPU32[seen / 4 + 2 * i] = 2 * i;
+        HEAPU16.set([8 * column, 7], seen / 2 + 4 * i + 2);
+      }
+      HEAPU32[seen / 4 + 100] = 99;
+      HEAPU16.set([900, 7], seen / 2 + 4 * 50 + 2);
+      return 1;
+    },
+    detections: () => 51, detection: () => seen, acquisitions: () => 100, codes: () => 1024,
+  });
+  return { HEAPF32, HEAPU16, HEAPU32, ccall: (name, result, types, values) => functions[name.replace("playground_", "")](...values) };
+};
+"""
+
+
+def builder() -> ModuleType:
+    path = ROOT / "app" / "playground" / "page" / "build_page.py"
+    spec = importlib.util.spec_from_file_location("build_page", path)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+class Building(unittest.TestCase):
+    def test_its_parts_are_where_it_looks(self) -> None:
+        module = builder()
+        self.assertEqual(module.ROOT, ROOT)
+        text = module.page("// the module")
+        for mark in ("/*STYLE*/", "/*COST*/", "/*PAGE*/", "/*WORKER*/"):
+            self.assertNotIn(mark, text)
+        self.assertIn("// the module", text)
+
+    def test_a_module_that_would_end_its_script_is_refused(self) -> None:
+        with self.assertRaises(SystemExit):
+            builder().page("'</script>'")
+
+    def test_the_start_page_leads_to_it(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            root = Path(folder)
+            for name in ("README.md", "configurations.toml", "studies.toml"):
+                (root / name).write_text((ROOT / name).read_text(encoding="utf-8"), encoding="utf-8")
+            for there in (False, True):
+                if there:
+                    (root / "build/playground").mkdir(parents=True)
+                    (root / "build/playground/index.html").write_text(builder().page("// the module"), encoding="utf-8")
+                wrong = Site(root, root / "out").write()
+                self.assertEqual([line for line in wrong if "playground" in line], [])
+                self.assertEqual((root / "out/playground.html").is_file(), there)
+                if there:
+                    self.assertIn('<a href="index.html">', (root / "out/playground.html").read_text(encoding="utf-8"))
+                self.assertEqual("Drop a sensor file" in (root / "out/search_index.js").read_text(encoding="utf-8"), there)
+                self.assertEqual('href="playground.html"' in (root / "out/index.html").read_text(encoding="utf-8"), there)
+
+
+@unittest.skipIf(missing(), missing() or "")
+class InTheBrowser(unittest.TestCase):
+    browser: Browser
+
+    @classmethod
+    def setUpClass(cls) -> None:
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.page = Path(folder.name) / "index.html"
+        cls.page.write_text(builder().page(STAND_IN), encoding="utf-8")
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.__exit__)
+
+    def show(self, width: int = 1440, height: int = 900) -> None:
+        self.browser.complaints.clear()
+        self.browser.window(width, height)
+        self.browser.open(self.page)
+        self.assertEqual(self.state(), "done")
+
+    def state(self) -> str:
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            state = self.browser.evaluate("document.body.dataset.state ?? 'running'")
+            if state != "running":
+                return str(state)
+            time.sleep(0.05)
+        return "running"
+
+    def tearDown(self) -> None:
+        self.assertEqual(self.browser.complaints, [])
+
+    def test_what_the_models_say_is_shown(self) -> None:
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+            self.assertEqual(self.browser.evaluate("[...document.querySelectorAll('#cards h3')].map(h => h.textContent)"),
+                             ["The scene", "First", "Second"])
+            self.assertIn("--scene room --sensor thesis --array-columns 16 --array-rows 8", self.browser.evaluate(
+                "document.getElementById('command').textContent"))
+
+    def test_a_refusal_is_shown(self) -> None:
+        self.show()
+        self.browser.evaluate("form.seed.value = 13; form.requestSubmit()")
+        self.assertEqual(self.state(), "failed")
+        self.assertEqual(self.browser.evaluate("document.getElementById('status').textContent"), "13 is refused")
+
+    def colours(self) -> list[str]:
+        """The first row of the map of two read-outs: blue is too near, red too far."""
+        return self.browser.evaluate(
+            "(c => { const copy = new OffscreenCanvas(c.width, 1).getContext('2d', {willReadFrequently: true}); copy.drawImage(c, 0, 0);"
+            "return [...Array(c.width).keys()].map(x => copy.getImageData(x, 0, 1, 1).data)"
+            ".map(([red, green, blue]) => red > blue ? 'red' : 'blue'); })(document.getElementById('compare-map'))")
+
+    def slide(self, value: int) -> None:
+        self.browser.evaluate(f"(s => {{ s.value = {value}; s.dispatchEvent(new Event('input', {{bubbles: true}})); }})"
+                              "(document.getElementById('compare-split'))")
+
+    def test_two_readouts_share_a_map_and_the_slider_divides_it(self) -> None:
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.assertEqual(self.colours(), 8 * ["red"] + 8 * ["blue"])
+            self.slide(250)
+            self.assertEqual(self.colours(), 4 * ["red"] + 12 * ["blue"])
+            self.assertEqual(self.browser.evaluate("document.getElementById('compare-names').innerText").split("\n"),
+                             ["left: First", "right: Second"])
+            self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+            self.browser.evaluate("document.getElementById('compare').scrollIntoView()")
+            self.browser.screenshot(SCREENSHOTS / f"playground_compare_{width}.png", whole=False)
+
+    def test_the_line_follows_the_pressed_mouse(self) -> None:
+        self.show()
+        x, y, width = self.browser.evaluate("(c => { c.scrollIntoView({block: 'center'}); const r = c.getBoundingClientRect();"
+                                            "return [r.left, r.top + r.height / 2, r.width]; })(document.getElementById('compare-map'))")
+        place = {"x": x + width * 12 / 16, "y": y, "button": "left"}
+        self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=place["x"], y=y)
+        self.assertEqual(self.colours(), 8 * ["red"] + 8 * ["blue"])
+        self.browser.call("Input.dispatchMouseEvent", type="mousePressed", buttons=1, clickCount=1, **place)
+        self.browser.call("Input.dispatchMouseEvent", type="mouseReleased", clickCount=1, **place)
+        self.assertEqual(self.colours(), 12 * ["red"] + 4 * ["blue"])
+        said = self.browser.evaluate("document.getElementById('compare-pixel').textContent")
+        self.assertRegex(said, "^Column 12, row 4: First measured 2.300 m, true 2.200 m.*; Second measured 2.100 m, true 2.200 m")
+
+    def test_what_is_compared_can_be_chosen_and_stays(self) -> None:
+        self.show()
+        self.browser.evaluate("(list => { list.value = 'second'; list.dispatchEvent(new Event('input')); })(document.getElementById('compare-left'))")
+        self.assertEqual(self.colours(), 16 * ["blue"])
+        self.browser.evaluate("form.seed.value = 2; form.requestSubmit()")
+        self.assertEqual(self.state(), "done")
+        self.assertEqual(self.colours(), 16 * ["blue"])
+
+    def test_one_readout_is_not_compared(self) -> None:
+        self.show()
+        self.browser.evaluate("form.querySelector('[value=second]').checked = false; form.requestSubmit()")
+        self.assertEqual(self.state(), "done")
+        self.assertTrue(self.browser.evaluate("document.getElementById('compare').hidden"))
+
+    def point_at(self, selector: str, column: int, row: int) -> None:
+        x, y = self.browser.evaluate(f"(c => {{ c.scrollIntoView({{block: 'center'}}); const r = c.getBoundingClientRect();"
+                                     f"return [r.left + r.width * {column + 0.5} / 16, r.top + r.height * {row + 0.5} / 8]; }})"
+                                     f"(document.querySelector('{selector}'))")
+        self.browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
+
+    def histogram(self, says: str) -> dict[int, int]:
+        """By bar, the counts that are not 0, once the page says this of them."""
+        end = time.monotonic() + SECONDS
+        while time.monotonic() < end:
+            if self.browser.evaluate("document.getElementById('watch-says').textContent") == says:
+                break
+            time.sleep(0.05)
+        self.assertEqual(self.browser.evaluate("document.getElementById('watch-says').textContent"), says)
+        return {bar: count for bar, count in enumerate(self.browser.evaluate("watched.counts")) if count}
+
+    def test_the_pixel_under_the_mouse_shows_its_histogram_over_the_frame(self) -> None:
+        for width, height in ((390, 844), (1440, 900)):
+            self.show(width, height)
+            self.assertTrue(self.browser.evaluate("document.getElementById('watch').hidden"))
+            for selector, column in (("#cards article:nth-of-type(2) canvas", 6), ("#compare-map", 9)):
+                self.point_at(selector, column, 2)
+                self.assertEqual(self.histogram(f"Column {column}, row 2: 51 timestamps in the first 100 of 100 acquisitions"),
+                                 {column: 50, 112: 1})
+            self.browser.evaluate("(s => { s.value = 200; s.dispatchEvent(new Event('input', {bubbles: true})); })"
+                                  "(document.getElementById('watch-time'))")
+            self.assertEqual(self.histogram("Column 9, row 2: 10 timestamps in the first 20 of 100 acquisitions"), {9: 10})
+            self.assertEqual(self.browser.evaluate("document.getElementById('watch-marks').innerText.match(/▮ [^▮]*/g).map(t => t.slice(2).trim())"),
+                             ["First", "Second", "true distance"])
+            self.assertLessEqual(self.browser.evaluate("document.documentElement.scrollWidth"), width)
+            box = self.browser.evaluate("(r => [r.top, r.bottom])(document.getElementById('watch').getBoundingClientRect())")
+            self.assertTrue(0 < box[0] < box[1] <= height, box)  # in sight, wherever the pixel is
+            self.browser.screenshot(SCREENSHOTS / f"playground_pixel_{width}.png", whole=False)
+        self.browser.evaluate("delete document.body.dataset.state; form.requestSubmit()")
+        self.assertEqual(self.state(), "done")
+        self.assertTrue(self.browser.evaluate("document.getElementById('watch').hidden"))
+
+    # ---- Files --------------------------------------------------------------------------------------------
+
+    def drop(self, *files: tuple[str, bytes]) -> None:
+        """Drops files, by name and content, on the page."""
+        made = ",".join(f"new File([Uint8Array.from({list(content)})], {json.dumps(name)})" for name, content in files)
+        self.browser.evaluate("delete document.body.dataset.state;"
+                              f"(data => {{ [{made}].forEach(file => data.items.add(file));"
+                              "document.body.dispatchEvent(new DragEvent('drop', {dataTransfer: data, bubbles: true, cancelable: true})); })"
+                              "(new DataTransfer())")
+
+    def status(self) -> str:
+        return str(self.browser.evaluate("document.getElementById('status').textContent"))
+
+    def command(self) -> str:
+        return " ".join(str(self.browser.evaluate("document.getElementById('command').textContent")).replace("\\\n", "").split())
+
+    def truth(self) -> list[float]:
+        return self.browser.evaluate("[...scene.truth]")
+
+    def test_a_depth_map_is_the_scene(self) -> None:
+        metres = numpy.linspace(0.5, 4.0, 128, dtype=numpy.float32).reshape(8, 16)
+        metres[3, 4] = 0
+        millimetres = numpy.random.default_rng(1).integers(1, 4000, (8, 16)).astype(numpy.uint16)
+        few = numpy.random.default_rng(2).integers(1, 7, (8, 16)).astype(numpy.uint16)  # the last filter often finds two as near
+        begins_with_a_line_end = metres.copy()
+        begins_with_a_line_end[7, 0] = numpy.frombuffer(b"\n\x00\x80\x3f", "<f4")[0]
+        for name, content, wanted in (
+                ("map.npy", npy(metres), metres), ("map.npy", npy(metres.astype(">f8")), metres), ("map.npy", npy(metres[None]), metres),
+                ("map.pfm", b"Pf\n16 8\n-2.0\n" + (metres[::-1] / 2).astype("<f4").tobytes(), metres),
+                ("map.pfm", b"Pf 16 8 1\r\n" + metres[::-1].astype(">f4").tobytes(), metres),
+                ("map.pfm", b"Pf 16 8 -1\r" + begins_with_a_line_end[::-1].astype("<f4").tobytes(), begins_with_a_line_end),
+                ("map.png", png(few, 16, (4,)), (few * 1e-3).astype(numpy.float32)),
+                ("map.png", png(millimetres, 16), (millimetres * 1e-3).astype(numpy.float32))):
+            self.show()
+            self.drop((name, content))
+            self.assertEqual(self.state(), "done", self.status())
+            self.assertEqual(self.truth(), wanted.ravel().tolist())
+            self.assertIn(f"dtof frame --depth {name} --sensor thesis", self.command())
+            self.assertNotIn("--scene", self.command())
+        self.assertIn("map.png, 16 x 8 pixels", self.browser.evaluate("document.getElementById('cards').innerText"))
+        self.browser.evaluate("delete document.body.dataset.state; document.getElementById('drop-depth').click()")
+        self.assertEqual(self.state(), "done")
+        self.assertIn("--scene room", self.command())
+        self.assertAlmostEqual(self.truth()[15], 2.5, 5)
+
+    def test_a_map_of_8_bits_waits_for_its_scale(self) -> None:
+        self.show()
+        units = numpy.arange(128, dtype=numpy.uint8).reshape(8, 16)
+        self.drop(("a map.png", png(units, 8)))
+        self.assertEqual(self.state(), "failed")
+        self.assertIn("a map.png: a depth map of 8 bits needs its scale", self.status())
+        self.browser.evaluate("delete document.body.dataset.state; form['depth-scale'].value = '0.05';"
+                              "form['depth-scale'].dispatchEvent(new Event('change', {bubbles: true}))")
+        self.assertEqual(self.state(), "done", self.status())
+        self.assertEqual(self.truth(), (units * 0.05).astype(numpy.float32).ravel().tolist())
+        self.assertIn("--depth 'a map.png' --depth-scale 0.05", self.command())
+
+    def test_a_sensor_file_is_the_sensor(self) -> None:
+        self.show()
+        self.drop(("mine.toml", b"name = 'mine'\n"))
+        self.assertEqual(self.state(), "done", self.status())
+        self.assertIn("--scene room --sensor mine.toml --array-columns 32 --array-rows 8", self.command())
+        self.assertIn("--reflectivity 0.25 --acquisitions 77", self.command())
+        self.assertEqual(len(self.truth()), 256)
+        self.drop(("other.toml", b"wrong"))
+        self.assertEqual((self.state(), self.status()), ("failed", "other.toml:1: wrong"))
+        self.browser.evaluate("delete document.body.dataset.state; document.getElementById('drop-sensor').click()")
+        self.assertEqual(self.state(), "done")
+        self.assertIn("--sensor thesis --array-columns 16", self.command())
+
+    def test_a_file_that_is_none_of_these_is_refused_and_changes_nothing(self) -> None:
+        good = npy(numpy.ones((8, 16), numpy.float32))
+        for content, sentence in ((b"hello", "neither a PNG, a PFM nor an NPY file"), (good[:-4], "need 512 bytes, the file has 508"),
+                                  (npy(-numpy.ones((2, 2))), "column 0, row 0: a negative depth"),
+                                  (npy(numpy.ones((2, 2), numpy.complex64)), "NPY of c8"), (npy(numpy.ones(4)), "NPY shape (4)"),
+                                  (b"Pf\n2 2\n0\n" + bytes(16), "PFM scale 0 is not"), (b"Pf\n2 2\n1\n" + bytes(15), "the file has 15"),
+                                  (png(numpy.ones((2, 2)), 16)[:-40], "a damaged PNG")):
+            with self.subTest(sentence=sentence):
+                self.show()
+                self.drop(("x.bin", content))
+                self.assertEqual(self.state(), "failed")
+                self.assertTrue(self.status().startswith("x.bin: ") and sentence in self.status(), self.status())
+                self.assertIn("--scene room", self.command())
+                self.assertTrue(self.browser.evaluate("document.getElementById('drop-depth').hidden"))
+
+
+def npy(array: numpy.ndarray) -> bytes:
+    file = io.BytesIO()
+    numpy.save(file, array)
+    return file.getvalue()
+
+
+def png(array: numpy.ndarray, bits: int, filters: tuple[int, ...] = (0, 1, 2, 3, 4)) -> bytes:
+    """In grey; its rows have the filters in turn."""
+    rows = [list(line.astype(">u2" if bits == 16 else "u1").tobytes()) for line in array]
+    pixel = bits // 8
+    data = b""
+    for number, row in enumerate(rows):
+        above = rows[number - 1] if number else [0] * len(row)
+        used = filters[number % len(filters)]
+        data += bytes([used])
+        for i, value in enumerate(row):
+            left, corner = (row[i - pixel], above[i - pixel]) if i >= pixel else (0, 0)
+            nearest = min((left, above[i], corner), key=lambda one: abs(left + above[i] - corner - one))
+            data += bytes([(value - (0, left, above[i], (left + above[i]) // 2, nearest)[used]) % 256])
+
+    def chunk(name: bytes, content: bytes) -> bytes:
+        return len(content).to_bytes(4, "big") + name + content + zlib.crc32(name + content).to_bytes(4, "big")
+
+    size = array.shape[1].to_bytes(4, "big") + array.shape[0].to_bytes(4, "big")
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", size + bytes([bits, 0, 0, 0, 0])) + chunk(b"IDAT", zlib.compress(data)) +
+            chunk(b"IEND", b""))
+
+
+if __name__ == "__main__":
+    unittest.main()
