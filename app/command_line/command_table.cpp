@@ -232,7 +232,7 @@ std::string man_page(const CLI::App& app, const std::string& version) {
   const std::vector<CommandText> table = command_table(app);
   const CommandText& program = table.front();
   std::string page = fmt::format(
-      ".TH {} 1 \"\" \"{} {}\" \"User commands\"\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n\\fB{}\\fR "
+      ".TH {} 1 \"\" \"{} {}\" \"User commands\"\n.ad l\n.SH NAME\n{} \\- {}\n.SH SYNOPSIS\n\\fB{}\\fR "
       "\\fICOMMAND\\fR "
       "[\\fIOPTIONS\\fR]\n.SH OPTIONS\n{}",
       upper(program.name), program.name, version, troff(program.name), troff(program.description),

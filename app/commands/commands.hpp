@@ -17,11 +17,11 @@ Program dtof_program();
 /// Each adds its subcommand; `command_line` as in Program.
 void add_frame_command(CLI::App& app, const std::string& command_line);
 void add_replay_command(CLI::App& app, const std::string& command_line);
-void add_convert_command(CLI::App& app);
+void add_convert_command(CLI::App& app, const std::string& command_line);
 void add_video_command(CLI::App& app, const std::string& command_line);
-void add_sensor_command(CLI::App& app);
+void add_sensor_command(CLI::App& app, const std::string& command_line);
 void add_design_command(CLI::App& app, const std::string& command_line);
 void add_product_command(CLI::App& app, const std::string& command_line);
-void add_list_command(CLI::App& app);
+void add_list_command(CLI::App& app, const std::string& command_line);
 
 }  // namespace dtof

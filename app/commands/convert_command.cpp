@@ -10,6 +10,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "commands/commands.hpp"
+#include "commands/json_result.hpp"
 #include "dtof/convert/conversion.hpp"
 #include "dtof/core/error.hpp"
 
@@ -22,6 +23,8 @@ struct ConvertCommand {
   double tick_ps = 8.0;
   double t_int_ns = 45.0;
   double shift_ns = 0.0;
+  bool json = false;
+  std::string command_line;
 };
 
 /// Options that say nothing about such an input or output.
@@ -52,7 +55,7 @@ void check_convert_options(const CLI::App& command, const ConversionInput& input
          "only TDC streams and photon times have it");
 }
 
-void run_convert_command(const CLI::App& command, ConvertCommand& options) {
+void run_convert_command(const CLI::App& command, ConvertCommand& options, JsonResult& result) {
   ConversionOptions& conversion = options.conversion;
   const OutputKind output = output_kind(conversion.out);
   if (options.bin_width_ps) {
@@ -67,13 +70,17 @@ void run_convert_command(const CLI::App& command, ConvertCommand& options) {
   }
   check_convert_options(command, input, output);
   const std::string sentence = convert(conversion, std::move(input));
+  result["in"] = conversion.recording.file;
+  result["out"] = conversion.out;
+  result["says"] = sentence;
   fmt::print("{}: {}\n", conversion.out, sentence);
 }
 
 }  // namespace
 
-void add_convert_command(CLI::App& app) {
+void add_convert_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<ConvertCommand>();
+  options->command_line = command_line;
   RecordingOptions& recording = options->conversion.recording;
   CLI::App* command =
       app.add_subcommand("convert",
@@ -137,7 +144,12 @@ void add_convert_command(CLI::App& app) {
       ->capture_default_str();
   command->add_option("--seed", recording.resampling.seed, "TDC stream: of the random numbers")
       ->capture_default_str();
-  command->callback([options, command] { run_convert_command(*command, *options); });
+  JsonResult::add_to(*command, options->json);
+  command->callback([options, command] {
+    JsonResult result(options->json, "convert", options->command_line);
+    run_convert_command(*command, *options, result);
+    result.finish();
+  });
 }
 
 }  // namespace dtof

@@ -14,6 +14,7 @@
 #include "command_line/options.hpp"
 #include "commands/commands.hpp"
 #include "commands/flow_measurement.hpp"
+#include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
 #include "design/design_page.hpp"
 #include "dtof/core/error.hpp"
@@ -39,6 +40,7 @@ struct DesignOptions {
   int threads = 0;
   bool confirm = false;
   std::string out = "build/design";
+  bool json = false;
   std::string command_line;
 };
 
@@ -59,7 +61,7 @@ DesignRequest request_of(const DesignOptions& options) {
   return request;
 }
 
-void run_design_command(const DesignOptions& options) {
+void run_design_command(const DesignOptions& options, JsonResult& json) {
   const DesignRequest request = request_of(options);
   if (options.confirm) {
     check_flow("--confirm");
@@ -86,6 +88,11 @@ void run_design_command(const DesignOptions& options) {
   write_file(folder / "design.csv", design_csv(request, result));
   write_optional(folder / "design.svg", plot_obstacle(),
                  [&] { write_design_picture(folder / "design.svg", request, result); });
+  json["readout"] = readout_name(chosen.candidate.array.parameters.readout);
+  json["parameters"] = chosen.candidate.array.parameters.to_string();
+  json["mm2"] = chosen.candidate.cost.mm2;
+  json["product"] = design_product(request, result, options.sensor);
+  json.add_folder(folder);
   fmt::print("\nProduct: {}\nPage, picture and table are in {}\n",
              design_product(request, result, options.sensor), options.out);
 }
@@ -117,7 +124,12 @@ void add_design_command(CLI::App& app, const std::string& command_line) {
   add_study_options(*command, options->seed, options->threads, options->out);
   command->add_flag("--confirm", options->confirm,
                     "synthesises the recommended array by the project's flow, in its folder (minutes)");
-  command->callback([options] { run_design_command(*options); });
+  JsonResult::add_to(*command, options->json);
+  command->callback([options] {
+    JsonResult result(options->json, "design", options->command_line);
+    run_design_command(*options, result);
+    result.finish();
+  });
 }
 
 }  // namespace dtof

@@ -18,6 +18,7 @@
 #include "command_line/options.hpp"
 #include "command_line/own_map.hpp"
 #include "commands/commands.hpp"
+#include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
 #include "dtof/analytic/fidelity.hpp"
 #include "dtof/core/error.hpp"
@@ -55,6 +56,7 @@ struct FrameOptions {
   int most_frames = 1000;
   std::string out = "build/my_frame";  // build/frame is that of the main job
   std::string record;
+  bool json = false;
   std::string command_line;
 };
 
@@ -267,7 +269,38 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const Region& regi
                      .largest_error = kLargestError});
 }
 
-void run_frame_command(const FrameOptions& options) {
+/// Each read-out's figures as numbers, of all frames taken.
+nlohmann::ordered_json json_readouts(const std::vector<MeasuredFrame>& frames) {
+  auto readouts = nlohmann::ordered_json::array();
+  for (const MeasuredFrame& frame : frames) {
+    nlohmann::ordered_json readout = {{"readout", readout_name(frame.parameters.readout)},
+                                      {"title", readout_title(frame.parameters.readout)},
+                                      {"parameters", frame.parameters.to_string()},
+                                      {"frames", frame.frames},
+                                      {"precision_reached", frame.precision_reached},
+                                      {"cycles", frame.run.cycles},
+                                      {"pixels", frame.maps.figures.errors.count()}};
+    if (frame.maps.figures.errors.count() > 0) {
+      const ErrorSummary summary = frame.maps.figures.errors.summary();
+      readout["rmse_m"] = summary.rmse_m;
+      readout["bias_m"] = summary.bias_m;
+      readout["share_above_3_percent"] = summary.share_above_3_percent;
+      readout["share_above_10_percent"] = summary.share_above_10_percent;
+      readout["without_distance"] = frame.maps.figures.without_distance;
+    }
+    readouts.push_back(std::move(readout));
+  }
+  return readouts;
+}
+
+void describe(const std::string& heading, const std::vector<MeasuredFrame>& frames, const std::string& out,
+              JsonResult& result) {
+  result["heading"] = heading;
+  result["readouts"] = json_readouts(frames);
+  result.add_folder(out);
+}
+
+void run_frame_command(const FrameOptions& options, JsonResult& result) {
   check_run_options(options.run);
   std::vector<ReadoutParameters> readouts =
       options.readout.parameters(options.run.readouts(), options.sensor.with_options());
@@ -344,6 +377,7 @@ void run_frame_command(const FrameOptions& options) {
       rule == TableRule::kNone
           ? fmt::format("Read out in {:.1f} s", seconds)
           : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, seconds);
+  describe(heading, frames, options.out, result);
   fmt::print("{}{}. Depth maps, error maps, point clouds and CSV are in {}\n", body, times, options.out);
 }
 
@@ -398,11 +432,14 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
   command->add_option("--record", options->record,
                       "also write the TDC stream of the whole array as CSV, for `dtof replay`");
+  JsonResult::add_to(*command, options->json);
   command->callback([options, command] {
     check_scene_options(*command, *options);
     // A recording must give the same results when it is replayed.
     options->run.streams_only = !options->record.empty();
-    run_frame_command(*options);
+    JsonResult result(options->json, "frame", options->command_line);
+    run_frame_command(*options, result);
+    result.finish();
   });
 }
 

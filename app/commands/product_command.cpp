@@ -10,6 +10,7 @@
 #include "command_line/options.hpp"
 #include "commands/commands.hpp"
 #include "commands/flow_measurement.hpp"
+#include "commands/json_result.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "product/product.hpp"
@@ -28,6 +29,7 @@ struct ProductOptions {
   double clock_mhz = 330.0;
   bool measure = false;
   std::string out;
+  bool json = false;
   std::string command_line;
 };
 
@@ -43,7 +45,7 @@ std::string command_of(const ProductOptions& options) {
   return command;
 }
 
-void run_product_command(const ProductOptions& options) {
+void run_product_command(const ProductOptions& options, JsonResult& result) {
   const DescribedSensor described = find_described_sensor(options.sensor);
   const std::vector<ReadoutParameters> readouts = options.readout.parameters(kRtlReadouts, described.model);
   if (readouts.size() != 1) {
@@ -73,6 +75,9 @@ void run_product_command(const ProductOptions& options) {
   }
   const auto files = product_files(request);
   write_product(files, options.out);
+  result["readout"] = readout_name(request.parameters.readout);
+  result["parameters"] = request.parameters.to_string();
+  result.add_folder(options.out);
   fmt::print("{}\n{} files in {}; `make -C {}` runs and checks them.\n",
              frame_fit(request.parameters, request.sensor.rows, request.sensor.columns,
                        request.sensor.acquisitions, request.budget)
@@ -103,7 +108,12 @@ void add_product_command(CLI::App& app, const std::string& command_line) {
   command->add_flag("--measure", options->measure,
                     "area and timing of the array by the project's synthesis flow, in its folder (minutes)");
   command->add_option("-o,--out", options->out, "folder to make")->required();
-  command->callback([options] { run_product_command(*options); });
+  JsonResult::add_to(*command, options->json);
+  command->callback([options] {
+    JsonResult result(options->json, "product", options->command_line);
+    run_product_command(*options, result);
+    result.finish();
+  });
 }
 
 }  // namespace dtof

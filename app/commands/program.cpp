@@ -27,12 +27,12 @@ Program dtof_program() {
       .add_commands = [](CLI::App& app, const std::string& command_line) {
         add_frame_command(app, command_line);
         add_replay_command(app, command_line);
-        add_convert_command(app);
+        add_convert_command(app, command_line);
         add_video_command(app, command_line);
-        add_sensor_command(app);
+        add_sensor_command(app, command_line);
         add_design_command(app, command_line);
         add_product_command(app, command_line);
-        add_list_command(app);
+        add_list_command(app, command_line);
       }};
 }
 

@@ -15,6 +15,7 @@
 #include "command_line/options.hpp"
 #include "command_line/truth_map.hpp"
 #include "commands/commands.hpp"
+#include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/physical_constants.hpp"
@@ -48,6 +49,7 @@ struct ReplayOptions {
   std::optional<double> offset_mm;
   std::string out = "build/replay";
   std::string command_line;
+  bool json = false;
 };
 
 /// Distances of one read-out against the recording's truth.
@@ -350,7 +352,19 @@ std::string lost_photons_sentence(const Recording& recording, const Region& regi
                                             photons.outside, photons.all, range);
 }
 
-void run_replay_command(const ReplayOptions& options, RecordingFile file) {
+/// The read-outs, and their offset where they were compared with a truth.
+nlohmann::ordered_json json_results(const std::vector<ReadoutParameters>& readouts,
+                                    const std::vector<TruthComparison>& comparisons) {
+  nlohmann::ordered_json results;
+  for (std::size_t r = 0; r < readouts.size(); ++r) {
+    const auto& read = readouts[r];
+    results.push_back({{"readout", readout_name(read.readout)}, {"parameters", read.to_string()}});
+    results.back()["offset_m"] = comparisons.empty() ? std::nan("") : comparisons[r].offset_m;
+  }
+  return results;
+}
+
+void run_replay_command(const ReplayOptions& options, RecordingFile file, JsonResult& result) {
   check_run_options(options.run);
   if (options.truth_scale && options.truth_file.empty()) {
     throw InputError("--truth-scale needs --truth");
@@ -417,6 +431,9 @@ void run_replay_command(const ReplayOptions& options, RecordingFile file) {
         options.photons ? fmt::format(", {:g} photons per pixel and frame", *options.photons) : "";
     write_comparison(comparisons, options, recording.description + thinned, heading);
   }
+  result["heading"] = heading;
+  result["readouts"] = json_results(readouts, comparisons);
+  result.add_folder(options.out);
   fmt::print("Results are in {}\n", options.out);
 }
 
@@ -469,10 +486,13 @@ void add_replay_command(CLI::App& app, const std::string& command_line) {
   options->readout.add_to(*command);
   add_run_options(*command, options->run, true);
   command->add_option("-o,--out", options->out, "output folder")->capture_default_str();
+  JsonResult::add_to(*command, options->json);
   command->callback([options, command] {
     RecordingFile file = read_recording(options->recording);
     check_recording_options(*command, file.format);
-    run_replay_command(*options, std::move(file));
+    JsonResult result(options->json, "replay", options->command_line);
+    run_replay_command(*options, std::move(file), result);
+    result.finish();
   });
 }
 

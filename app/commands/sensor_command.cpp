@@ -8,6 +8,7 @@
 
 #include "command_line/option_checks.hpp"
 #include "commands/commands.hpp"
+#include "commands/json_result.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/core/frame_time.hpp"
 #include "dtof/core/physical_constants.hpp"
@@ -41,42 +42,69 @@ struct SensorCommand {
   bool keys = false;
   std::optional<double> frame_rate;
   double clock_mhz = 330.0;
+  bool json = false;
+  std::string command_line;
 };
 
 /// A sentence for each read-out that has RTL.
-void print_fits(const SensorModel& sensor, const FrameBudget& budget) {
+std::string print_fits(const SensorModel& sensor, const FrameBudget& budget) {
+  std::string fits;
   for (const Readout readout : kRtlReadouts) {
     const ReadoutParameters parameters = default_parameters(readout, sensor);
     try {
       parameters.validate();
     } catch (const InputError& error) {
-      fmt::print("{}: not for this sensor, {}\n", readout_title(readout), error.what());
+      fits += fmt::format("{}: not for this sensor, {}\n", readout_title(readout), error.what());
       continue;
     }
-    fmt::print("{}\n",
-               frame_fit(parameters, sensor.rows, sensor.columns, sensor.acquisitions, budget).sentence);
+    fits += frame_fit(parameters, sensor.rows, sensor.columns, sensor.acquisitions, budget).sentence + "\n";
   }
+  fmt::print("{}", fits);
+  return fits;
 }
 
-void run_sensor_command(const SensorCommand& options) {
+/// What follows from a sensor, as numbers.
+void describe(const DescribedSensor& sensor, JsonResult& result) {
+  const SensorModel& model = sensor.model;
+  result["sensor"] = model.name;
+  result["text"] = sensor.text;
+  result["columns"] = model.columns;
+  result["rows"] = model.rows;
+  result["np"] = model.np;
+  result["slots"] = model.slots;
+  result["acquisitions"] = model.acquisitions;
+  result["integration_time_s"] = model.integration_time_s;
+  result["time_resolution_s"] = model.time_resolution_s();
+  result["pulse_fwhm_s"] = model.pulse_fwhm_s;
+  result["degrees_per_pixel"] = model.degrees_per_pixel();
+  result["signal_events_at_1m"] = model.signal_events(1.0, 1.0);
+  result["background_events_at_14_klux"] = model.background_events(14.0, 1.0);
+}
+
+void run_sensor_command(const SensorCommand& options, JsonResult& result) {
   const std::string& name = options.name;
   if (options.keys) {
+    result["keys"] = sensor_key_table();
     fmt::print("{}", sensor_key_table());
     return;
   }
   if (options.frame_rate) {
-    print_fits(find_described_sensor(name).model,
-               {.clock_hz = options.clock_mhz * 1e6, .frames_per_s = *options.frame_rate});
+    const DescribedSensor fitted = find_described_sensor(name);
+    describe(fitted, result);
+    result["fits"] =
+        print_fits(fitted.model, {.clock_hz = options.clock_mhz * 1e6, .frames_per_s = *options.frame_rate});
     return;
   }
   const DescribedSensor sensor = find_described_sensor(name);
+  describe(sensor, result);
   fmt::print("{}{}", sensor.text, consequences(sensor.model));
 }
 
 }  // namespace
 
-void add_sensor_command(CLI::App& app) {
+void add_sensor_command(CLI::App& app, const std::string& command_line) {
   auto options = std::make_shared<SensorCommand>();
+  options->command_line = command_line;
   CLI::App* command = app.add_subcommand(
       "sensor", "Checks and prints a sensor file, to start one's own from, and what follows from it");
   command->add_option("sensor", options->name, "a preset of `dtof list`, or a sensor file (TOML)")
@@ -91,7 +119,12 @@ void add_sensor_command(CLI::App& app) {
       ->check(above_zero())
       ->needs(rate)
       ->capture_default_str();
-  command->callback([options] { run_sensor_command(*options); });
+  JsonResult::add_to(*command, options->json);
+  command->callback([options] {
+    JsonResult result(options->json, "sensor", options->command_line);
+    run_sensor_command(*options, result);
+    result.finish();
+  });
 }
 
 }  // namespace dtof

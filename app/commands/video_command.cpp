@@ -17,6 +17,7 @@
 #include "command_line/option_checks.hpp"
 #include "command_line/options.hpp"
 #include "commands/commands.hpp"
+#include "commands/json_result.hpp"
 #include "commands/optional_output.hpp"
 #include "dtof/core/error.hpp"
 #include "dtof/frame/frame_truth.hpp"
@@ -44,6 +45,7 @@ struct VideoOptions {
   int seeds = 1;
   int threads = 0;
   std::string out = "build/video";
+  bool json = false;
   std::string command_line;
 };
 
@@ -285,7 +287,7 @@ class DepthSheet {
   const std::vector<std::string>& estimators_;
 };
 
-void run_video_command(const VideoOptions& options) {
+void run_video_command(const VideoOptions& options, JsonResult& result) {
   const std::vector<ReadoutParameters> readouts =
       options.readout.parameters(kAllReadouts, options.sensor.with_options());
   const SensorModel sensor = options.sensor.model(readouts.front().np, readouts.front().slots);
@@ -379,6 +381,8 @@ void run_video_command(const VideoOptions& options) {
   report += fmt::format("\nCommand: `{}`\n", options.command_line);
   write_file(folder / "video.csv", frames_csv(videos, estimators).csv());
   write_file(folder / "video.md", report);
+  result["frames"] = json_rows(frames_csv(videos, estimators));
+  result.add_folder(folder);
   fmt::print("{}\nWith {}. Written to {}\n", tables, seeds, (folder / "video.md").string());
 }
 
@@ -415,12 +419,15 @@ void add_video_command(CLI::App& app, const std::string& command_line) {
   options->sensor.add_to(*command);
   options->readout.add_to(*command);
   add_study_options(*command, options->seed, options->threads, options->out);
+  JsonResult::add_to(*command, options->json);
   command->callback([options, command] {
     for (const char* option : {"--fidelity", "--tolerance"}) {
       refuse_without_effect(*command, option, "videos are drawn with exact photons");
     }
     options->sensor.refuse_options_without_effect(*command);
-    run_video_command(*options);
+    JsonResult result(options->json, "video", options->command_line);
+    run_video_command(*options, result);
+    result.finish();
   });
 }
 

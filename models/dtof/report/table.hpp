@@ -19,6 +19,8 @@ class Table {
   /// Markdown; text is left-aligned, figures right-aligned. Columns too wide for a terminal are not padded.
   [[nodiscard]] std::string markdown() const;
   [[nodiscard]] std::string csv() const;
+  /// The header, then the rows.
+  [[nodiscard]] const std::vector<std::vector<std::string>>& cells() const { return rows_; }
 
  private:
   std::size_t text_columns_;

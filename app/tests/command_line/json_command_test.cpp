@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// The result of every command as JSON, apart from what is for people.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/io/io_test_support.hpp"
+#include "tests/run_shell.hpp"
+
+namespace dtof {
+namespace {
+
+using test::Outcome;
+using test::run_shell;
+
+using ::testing::HasSubstr;
+
+constexpr const char* kSmall = "--array-columns 6 --array-rows 5 --acquisitions 200 -r sifh,poolpointer";
+
+class JsonCommand : public test::IoTest {
+ protected:
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    return run_shell(fmt::format("cd '{}' && {} {}", path("").string(), DTOF_PROGRAM, arguments));
+  }
+  /// What stands on standard output alone.
+  [[nodiscard]] nlohmann::json json(const std::string& arguments) const {
+    const Outcome outcome = run(arguments + " --json 2> said.txt");
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << contents(path("said.txt"));
+    return nlohmann::json::parse(outcome.output);
+  }
+};
+
+TEST_F(JsonCommand, EveryCommandHasOneObject) {
+  ASSERT_EQ(run(fmt::format("frame {} --record s.csv --out first", kSmall)).exit_code, 0);
+  const std::map<std::string, std::string> calls = {
+      {"frame", fmt::format("{} --out f", kSmall)},
+      {"replay", "s.csv -r sifh --out r"},
+      {"convert", "s.csv h.npz"},
+      {"video", fmt::format("{} --frames 2 --out v", kSmall)},
+      {"sensor", "tmf8829"},
+      {"design", "--sensor thesis --frames 2 --scenes room --out d"},
+      {"product", "--sensor thesis --readout sifh --vector-acquisitions 4 --out p"},
+      {"list", ""}};
+  const std::string help = run("--help").output;
+  const std::string commands =
+      help.substr(help.find("Subcommands:"), help.find("Try:") - help.find("Subcommands:"));
+  std::size_t known = 0;
+  for (std::size_t at = commands.find("\n  "); at != std::string::npos; at = commands.find("\n  ", at + 1)) {
+    known += commands[at + 3] == ' ' ? 0 : 1;
+  }
+  EXPECT_EQ(known, calls.size()) << commands;
+  for (const auto& [command, arguments] : calls) {
+    SCOPED_TRACE(command);
+    if (command == "design") {  // takes minutes; its option is the others'
+      EXPECT_THAT(run("design --help").output, HasSubstr("--json"));
+      continue;
+    }
+    const nlohmann::json object = json(command + " " + arguments);
+    EXPECT_EQ(object.at("command"), command);
+    EXPECT_THAT(object.at("command_line").get<std::string>(), HasSubstr("dtof " + command));
+    EXPECT_NE(contents(path("said.txt")), "") << "what is for people is still said";
+    if (object.contains("files")) {
+      EXPECT_GT(object.at("files").size(), 0U);
+      for (const auto& file : object.at("files")) {
+        EXPECT_TRUE(
+            std::filesystem::exists(path(object.at("out").get<std::string>()) / file.get<std::string>()));
+      }
+    }
+  }
+}
+
+TEST_F(JsonCommand, AFramesFiguresAreThoseOfItsSummaryAndItsFilesTheSame) {
+  ASSERT_EQ(run(fmt::format("frame {} --out plain", kSmall)).exit_code, 0);
+  const nlohmann::json object = json(fmt::format("frame {} --out told", kSmall));
+  const std::string summary = contents(path("plain/summary.csv"));
+  EXPECT_EQ(contents(path("told/summary.csv")), summary);
+  ASSERT_EQ(object.at("readouts").size(), 2U);
+  for (const auto& readout : object.at("readouts")) {
+    const std::string name = readout.at("readout");
+    EXPECT_EQ(contents(path("told") / (name + ".csv")), contents(path("plain") / (name + ".csv")));
+    EXPECT_THAT(summary, HasSubstr(fmt::format("{},{:.0f},{:.0f},", readout.at("title").get<std::string>(),
+                                               readout.at("rmse_m").get<double>() * 1e3,
+                                               readout.at("bias_m").get<double>() * 1e3)));
+    EXPECT_THAT(summary, HasSubstr(fmt::format("{:.2f} %",
+                                               readout.at("share_above_3_percent").get<double>() * 100.0)));
+  }
+}
+
+TEST_F(JsonCommand, ARefusalHasNoObject) {
+  const Outcome outcome = run("frame --sensor thesys --json 2> said.txt");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.output, "");
+  EXPECT_THAT(contents(path("said.txt")), HasSubstr("did you mean 'thesis'"));
+}
+
+}  // namespace
+}  // namespace dtof
