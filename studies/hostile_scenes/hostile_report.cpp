@@ -88,7 +88,8 @@ std::string told_section(const HostileSettings& settings, const HostileScenes& s
       "background. They are no bound here: they expect the signal of a target at 3 m, and a fainter one is "
       "less likely to them than strong crosstalk. The coarse histogram has nothing to be told with but a "
       "gate. *Skew*: S1 of the pool read-outs is off (OUTPUT.SMOOTH), for it draws neighbours together whose "
-      "skews differ. *A laser that is silent at first*: the silent acquisitions are dropped at the frame's "
+      "skews differ. *A laser that is silent at first*: SETTLE: the silent acquisitions are dropped at the "
+      "frame's "
       "start, and ACQUISITIONS are as many less, so that a frame takes no longer; for all alike. *Motion*: "
       "judged at the own instant (below). Pixels with a target above 3 % / above 10 %, in %:\n";
   for (const double klux : settings.klux) {
