@@ -26,7 +26,7 @@ module settle_properties #(
     checking <= 1'b1;
   end
 
-  logic drops;
+  logic drops, takes;
 
   dtof_settle #(
       .WIDTH(WIDTH)
@@ -39,7 +39,8 @@ module settle_properties #(
       .give_up_i(give_up_i),
       .first_i  (first_i),
       .last_i   (last_i),
-      .drops_o  (drops)
+      .drops_o  (drops),
+      .takes_o  (takes)
   );
 
   // The reference counts upwards: acquisitions that have left since the frame began, and how many of them it drops.
@@ -77,6 +78,7 @@ module settle_properties #(
   end
 
   `PROVE(a_drops, !rst_n || drops == (left_q < dropping_q))
+  `PROVE(a_takes, !rst_n || takes == (leaving_q && left_q < dropping_q))
   `GOAL(rst_n && dropping_q == (WIDTH + 1)'(2) && left_q == (WIDTH + 1)'(3))
 
 endmodule

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Drops the acquisitions at a frame's start, in which a laser settles: the array takes those behind them.
 //
-// 1. A frame that begins drops settle_i acquisitions. They leave the line buffer at the pace of the array, which waits for its first
-//    acquisition and is offered none: drops_o hides the line, and a line that is late does not stop the array's clock.
+// 1. A frame that begins drops settle_i acquisitions. Each leaves the line buffer from where the array could begin its first one, a line
+//    a clock (takes_o); the array is offered none of them: drops_o hides the lines, and one that is late does not stop the array's clock.
 // 2. abort_i ends that. give_up_i (the source is dead) does, too, but behind the last line of an acquisition that has begun.
 //
-// Latency: none; drops_o is from flip-flops.
+// Latency: none; both outputs are from flip-flops.
 // Cost: 17 flip-flops, a decrementer of 16 bits.
 `include "dtof_macros.svh"
 
@@ -24,13 +24,15 @@ module dtof_settle #(
     // of an acquisition that leaves the line buffer
     input  logic             first_i,   // its first line is taken
     input  logic             last_i,    // its last line is taken
-    output logic             drops_o    // the acquisition that leaves the line buffer now or next is not the array's
+    output logic             drops_o,   // the acquisition that leaves the line buffer now or next is not the array's
+    output logic             takes_o    // and it has begun: its lines are taken, whether the array is ready or not
 );
 
   logic [WIDTH-1:0] left_q;  // acquisitions to drop, with the one that is leaving
   logic inside_q;            // an acquisition is leaving
 
   assign drops_o = (left_q != '0);
+  assign takes_o = drops_o && inside_q;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -43,7 +45,7 @@ module dtof_settle #(
       end else if (begin_i) begin
         left_q <= settle_i;
       end else if (give_up_i) begin
-        left_q <= WIDTH'(drops_o && inside_q);
+        left_q <= WIDTH'(takes_o);
       end else if (drops_o && last_i) begin
         left_q <= left_q - 1'b1;
       end

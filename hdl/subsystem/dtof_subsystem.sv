@@ -311,7 +311,7 @@ module dtof_subsystem #(
   logic tdc_valid, tdc_ready, starved, kept, expired, queued, source_inside, source_early, arrives, rest_ends, taken, dropped;
   logic line_waits;   // a line is late inside an acquisition
   logic drops;        // the acquisition that leaves the line buffer is not the array's
-  logic taken_last, array_valid;
+  logic settle_takes, line_ready, taken_last, array_valid;
   logic array_waits;  // the array's clock rests, because a line is late
   logic [1:0] lost_acquisition;
   logic [LEVEL_WIDTH:0] lost;
@@ -358,7 +358,7 @@ module dtof_subsystem #(
       .s_tdata_i   (s_axis_tdata_i[SRAM_NUM*NP-1:0]),
       .s_tlast_i   (s_axis_tlast_i),
       .line_valid_o(tdc_valid),
-      .line_ready_i(tdc_ready && !resetting),
+      .line_ready_i(line_ready && !resetting),
       .line_o      (line)
   );
 
@@ -383,6 +383,7 @@ module dtof_subsystem #(
 
   assign frame_settle = (acquisitions == '0) ? '0 : settle;
   assign needed = NEED_WIDTH'(acquisitions) + NEED_WIDTH'(frame_settle);
+  assign line_ready = tdc_ready || settle_takes;
   assign array_waits = line_waits && !drops;
   assign array_valid = tdc_valid && !line_waits && !drops;
 
@@ -397,7 +398,8 @@ module dtof_subsystem #(
       .give_up_i(timeout),
       .first_i  (taken),
       .last_i   (taken_last),
-      .drops_o  (drops)
+      .drops_o  (drops),
+      .takes_o  (settle_takes)
   );
 
   dtof_shot_dither #(

@@ -174,7 +174,7 @@ module subsystem_testbench #(
   assign probe_array_valid_o = u_subsystem.array_valid;
   assign probe_dropped_o = u_subsystem.dropped;
   assign probe_line_valid_o = u_subsystem.tdc_valid;
-  assign probe_line_ready_o = u_subsystem.tdc_ready;
+  assign probe_line_ready_o = u_subsystem.line_ready;
   assign probe_line_o = BUS_WIDTH'(u_subsystem.line);
 
   // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.
