@@ -268,15 +268,28 @@ void write_overview(const std::vector<MeasuredFrame>& frames, const Region& regi
                      .largest_error = kLargestError});
 }
 
-void run_frame_command(const FrameOptions& options) {
-  check_run_options(options.run);
-  SensorModel counted = options.sensor.with_acquisitions();
-  if (options.settle >= counted.acquisitions) {
-    throw InputError(fmt::format("--settle: of {} acquisitions {} cannot be dropped", counted.acquisitions,
+/// The sensor with the acquisitions that read-outs see.
+SensorModel settled_sensor(const FrameOptions& options) {
+  SensorModel sensor = options.sensor.with_acquisitions();
+  if (options.settle >= sensor.acquisitions) {
+    throw InputError(fmt::format("--settle: of {} acquisitions {} cannot be dropped", sensor.acquisitions,
                                  options.settle));
   }
-  counted.acquisitions -= options.settle;
-  std::vector<ReadoutParameters> readouts = options.readout.parameters(options.run.readouts(), counted);
+  sensor.acquisitions -= options.settle;
+  return sensor;
+}
+
+/// "3333 acquisitions of which the first 733 are dropped"
+std::string acquisitions_text(const SensorModel& sensor, const FrameOptions& options) {
+  return fmt::format(
+      "{} acquisitions{}", sensor.acquisitions,
+      options.settle > 0 ? fmt::format(" of which the first {} are dropped", options.settle) : "");
+}
+
+void run_frame_command(const FrameOptions& options) {
+  check_run_options(options.run);
+  std::vector<ReadoutParameters> readouts =
+      options.readout.parameters(options.run.readouts(), settled_sensor(options));
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }
@@ -334,13 +347,11 @@ void run_frame_command(const FrameOptions& options) {
   const Table table = summarise(frames, options);
   const std::string precision = precision_sentence(frames, options);
   const std::string heading = fmt::format(
-      "Scene {}: {} x {} pixels, {} klux, sensor {}, {} acquisitions{}, {} photons, engine {}{}, seed "
+      "Scene {}: {} x {} pixels, {} klux, sensor {}, {}, {} photons, engine {}{}, seed "
       "{}.{}{}{}\n",
       options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
-      options.sensor.klux, sensor.name, sensor.acquisitions,
-      options.settle > 0 ? fmt::format(" of which the first {} are dropped", options.settle) : "",
-      fidelity_name(fidelity), options.run.engine,
-      options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      options.sensor.klux, sensor.name, acquisitions_text(sensor, options), fidelity_name(fidelity),
+      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
       judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
   const std::string body =
       fmt::format("{}\n{}\n{}{}\n\n{}", heading, table.markdown(), cycles_sentence(frames),

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::array<const char*, 2> kReferences = {"matchedfilter", "pooledmatchedfilter"};
 constexpr std::array<const char*, 4> kOutcomes = {"within_3", "within_10", "beyond", "sky"};
-// Of a stored cell, behind the outcomes.
+// Rows of a stored cell behind the outcomes.
 constexpr std::size_t kNearRow = kOutcomes.size();
 constexpr std::size_t kErrorRow = kNearRow + 1;
 constexpr std::array<double, 6> kWalls = {1.0, 1.5, 2.0, 3.0, 4.0, 5.0};  // m, of the own instants

@@ -75,7 +75,7 @@ struct HostileScenes {
   /// S1. A laser that is silent at first: SETTLE, and as many acquisitions less. Motion: all estimators,
   /// judged by where the target is at their own instant.
   std::map<HostileCell, HostileReadouts> told;
-  /// Of the conditions in which targets move.
+  /// Each estimator's, of the conditions in which targets move.
   std::map<HostileCell, OwnInstants> instants;
   std::map<std::string, int> thresholds;  ///< of confidence, of each estimator: one for all lights
 };

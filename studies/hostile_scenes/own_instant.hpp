@@ -17,7 +17,7 @@ inline constexpr double kMiddleOfAFrame = 0.5;
 /// that it is, by the target's distance at the frame's middle.
 struct OwnInstants {
   std::vector<double> distances_m;  ///< rising
-  /// Of each estimator, by its name; none where it does not find the target.
+  /// Each estimator's, by its name; none where it does not find the target.
   std::map<std::string, std::vector<std::optional<double>>> instants;
 
   /// Between two distances in proportion, beyond them that of the nearest one with an instant; the frame's

@@ -196,6 +196,23 @@ Line SubsystemBench::array_line() const {
   return line;
 }
 
+void SubsystemBench::check_array_offer(bool here) const {
+  const bool offered = *ports_.array_valid != 0;
+  if (offered != (here && settle_left_ == 0)) {
+    throw RtlError(fmt::format("the array is offered {}, {} acquisitions are to be dropped",
+                               offered ? "a line" : "nothing", settle_left_));
+  }
+}
+
+void SubsystemBench::begin_frame() {
+  frames_.emplace_back();
+  begin_cycle_ = cycle_;
+  settle_left_ = committed_.acquisitions > 0 ? committed_.settle : 0;
+  reference_.set_release(committed_.release);
+  reference_.begin();
+  sink_.expect_frame(words());
+}
+
 void SubsystemBench::take_array_line() {
   const Line line = array_line();
   reference_.take(line);
@@ -252,10 +269,7 @@ void SubsystemBench::observe_lines() {
   }
   ShotClock now{.inside = reference_.hunting() || reference_.source_index() > 0,
                 .taken = offered && ready && !rests && !reference_.inside()};
-  if ((*ports_.array_valid != 0) != (offered && !rests && settle_left_ == 0)) {
-    throw RtlError(fmt::format("the array is offered {}, {} acquisitions are to be dropped",
-                               *ports_.array_valid != 0 ? "a line" : "nothing", settle_left_));
-  }
+  check_array_offer(offered && !rests);
   if (offered && ready && !rests) {
     take_array_line();
   }
@@ -304,12 +318,7 @@ void SubsystemBench::observe_lines() {
     reference_.done();
   }
   if (*ports_.begin != 0) {
-    frames_.emplace_back();
-    begin_cycle_ = cycle_;
-    settle_left_ = committed_.acquisitions > 0 ? committed_.settle : 0;
-    reference_.set_release(committed_.release);
-    reference_.begin();
-    sink_.expect_frame(words());
+    begin_frame();
   }
   if (*ports_.abort != 0) {
     settle_left_ = 0;

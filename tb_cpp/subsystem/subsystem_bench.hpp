@@ -92,6 +92,9 @@ class SubsystemBench {
   void run_transfer();
   void observe_lines();
   void take_array_line();
+  /// `here`: a line is, that nobody waits for; the array is offered none that SETTLE drops.
+  void check_array_offer(bool here) const;
+  void begin_frame();
   void observe_shot(ShotClock now);
   [[nodiscard]] Line array_line() const;
   struct Settings {
