@@ -426,12 +426,14 @@ TEST_P(StreamFaults, SettingsBecomeValidTogether) {
   // Each of these is legal, and mixtures of them are not, where there is a schedule or a raw frame.
   FrameSettings few = everything_counts(5);
   FrameSettings many = everything_counts(12);
+  few.settle = 1;
+  many.settle = 3;
   few.raw_first = bench_.configuration().pixels_per_sram - 1;
   few.raw_last = few.raw_first;
   few.raw = many.raw = bench_.configuration().raw_histogram;
   write_settings(bench_, few);
   bench_.source().gap_probability = 0.0;
-  const std::vector<Line> lines = bright_lines(bench_.configuration(), 1500, random);
+  const std::vector<Line> lines = bright_lines(bench_.configuration(), 2000, random);
   push(beats_of(lines));
   bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
   const FrameSettings* valid = &few;
