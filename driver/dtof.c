@@ -144,6 +144,7 @@ dtof_status dtof_configure(const dtof_device *device, const dtof_settings *setti
        (uint32_t)settings->shot_bits << DTOF_SHOT_BITS_LSB | (uint32_t)settings->shot_unit
                                                                  << DTOF_SHOT_UNIT_LSB,
        true},
+      {DTOF_SETTLE, settings->settle, true},
       {DTOF_OUTPUT,
        (settings->second_target ? DTOF_OUTPUT_SECOND_TARGET_MASK : 0U) |
            (settings->raw ? DTOF_OUTPUT_RAW_MASK : 0U) |

@@ -98,6 +98,7 @@ typedef struct {
                        in the buffer before an acquisition begins; 0: as many as possible */
   uint8_t shot_bits; /* start dither: shot_o waits 0 to 2^shot_bits - 1 units, at most 7; 0: no wait */
   uint8_t shot_unit; /* clocks of a unit */
+  uint16_t settle; /* acquisitions at the frame's start that are dropped, before the first one that counts */
 } dtof_settings;
 
 /* What goes on, and what went wrong; nothing is forgotten by reading. */

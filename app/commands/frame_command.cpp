@@ -54,6 +54,7 @@ struct FrameOptions {
   std::string table = "flat";
   std::optional<double> precision_percent;
   int most_frames = 1000;
+  std::uint32_t settle = 0;
   std::string out = "build/my_frame";  // build/frame is that of the main job
   std::string record;
   bool json = false;
@@ -300,10 +301,28 @@ void describe(const std::string& heading, const std::vector<MeasuredFrame>& fram
   result.add_folder(out);
 }
 
+/// The sensor with the acquisitions that read-outs see.
+SensorModel settled_sensor(const FrameOptions& options) {
+  SensorModel sensor = options.sensor.with_options();
+  if (options.settle >= sensor.acquisitions) {
+    throw InputError(fmt::format("--settle: of {} acquisitions {} cannot be dropped", sensor.acquisitions,
+                                 options.settle));
+  }
+  sensor.acquisitions -= options.settle;
+  return sensor;
+}
+
+/// "3333 acquisitions of which the first 733 are dropped"
+std::string acquisitions_text(const SensorModel& sensor, const FrameOptions& options) {
+  return fmt::format(
+      "{} acquisitions{}", sensor.acquisitions,
+      options.settle > 0 ? fmt::format(" of which the first {} are dropped", options.settle) : "");
+}
+
 void run_frame_command(const FrameOptions& options, JsonResult& result) {
   check_run_options(options.run);
   std::vector<ReadoutParameters> readouts =
-      options.readout.parameters(options.run.readouts(), options.sensor.with_options());
+      options.readout.parameters(options.run.readouts(), settled_sensor(options));
   if (!options.run.trace.empty() && readouts.size() != 1) {
     throw InputError("--trace needs exactly one read-out");
   }
@@ -331,7 +350,8 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
                                 .fidelity = fidelity,
                                 .seed = options.run.seed,
                                 .threads = options.run.threads,
-                                .keep_photons = readouts.size() > 1 || options.run.verify});
+                                .keep_photons = readouts.size() > 1 || options.run.verify,
+                                .settle = options.settle});
   const FrameTruth& judged = pipeline.truth();
   if (options.precision_percent && !judged.any_judged()) {
     throw InputError("--precision: no pixel of the scene has a distance to be wrong about");
@@ -360,11 +380,11 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
   const Table table = summarise(frames, options);
   const std::string precision = precision_sentence(frames, options);
   const std::string heading = fmt::format(
-      "Scene {}: {} x {} pixels, {} klux, sensor {}, {} acquisitions, {} photons, engine {}{}, seed "
+      "Scene {}: {} x {} pixels, {} klux, sensor {}, {}, {} photons, engine {}{}, seed "
       "{}.{}{}{}\n",
       options.maps.depth.empty() ? options.scene : options.maps.depth, truth.width, truth.height,
-      options.sensor.klux, sensor.name, sensor.acquisitions, fidelity_name(fidelity), options.run.engine,
-      options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
+      options.sensor.klux, sensor.name, acquisitions_text(sensor, options), fidelity_name(fidelity),
+      options.run.engine, options.run.verify ? " (every pixel equal to the model)" : "", options.run.seed,
       judged.sentences(sensor), made.description.empty() ? "" : "\n", made.description);
   const std::string body =
       fmt::format("{}\n{}\n{}{}\n\n{}", heading, table.markdown(), cycles_sentence(frames),
@@ -423,6 +443,12 @@ void add_frame_command(CLI::App& app, const std::string& command_line) {
                    "more frames of the scene, until the 95 % interval of the rmse is within this many per "
                    "cent of its value")
       ->check(above_zero());
+  command
+      ->add_option(
+          "--settle", options->settle,
+          "acquisitions at the frame's start that are dropped, as the register SETTLE does: the laser's\n"
+          "start, where a sensor file has one; read-outs see as many less")
+      ->capture_default_str();
   command->add_option("--max-frames", options->most_frames, "where --precision gives up")
       ->check(CLI::Range(4, 1'000'000))
       ->capture_default_str();

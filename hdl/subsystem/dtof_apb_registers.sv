@@ -90,6 +90,7 @@ module dtof_apb_registers #(
     output logic [ SRAM_NUM-1:0] enable_o,
     output logic [          2:0] shot_bits_o,
     output logic [          7:0] shot_unit_o,
+    output logic [         15:0] settle_o,
     // status
     input  logic                 busy_i,
     input  logic [          2:0] state_i,
@@ -160,6 +161,7 @@ module dtof_apb_registers #(
   logic [2:0] shot_bits_q;
   logic [7:0] shot_unit_q;
   logic [15:0] shot_seed_q;
+  logic [15:0] settle_q;
   logic shot_reseed_q;
   logic [SRAM_NUM-1:0] enable_q;
 
@@ -207,6 +209,7 @@ module dtof_apb_registers #(
       shot_unit_q <= dtof_registers_pkg::SHOT_RESET[dtof_registers_pkg::SHOT_UNIT_LSB+:8];
       shot_seed_q <= 16'(dtof_registers_pkg::SHOT_SEED_RESET);
       shot_reseed_q <= 1'b0;
+      settle_q <= '0;
     end else begin
       start_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_START_LSB];
       flush_q <= write && (offset == dtof_registers_pkg::CONTROL) && written[dtof_registers_pkg::CONTROL_FLUSH_LSB];
@@ -240,6 +243,7 @@ module dtof_apb_registers #(
                 | written[dtof_registers_pkg::SHOT_UNIT_LSB+:8];
           end
           dtof_registers_pkg::SHOT_SEED: shot_seed_q <= (shot_seed_q & ~mask[15:0]) | written[15:0];
+          dtof_registers_pkg::SETTLE: settle_q <= (settle_q & ~mask[15:0]) | written[15:0];
           default: begin
           end
         endcase
@@ -453,6 +457,7 @@ module dtof_apb_registers #(
       enable_o <= enable_q;
       shot_bits_o <= shot_bits_q;
       shot_unit_o <= shot_unit_q;
+      settle_o <= settle_q;
     end
   end
 
@@ -490,6 +495,7 @@ module dtof_apb_registers #(
       dtof_registers_pkg::RAW_ROWS: there = (RAW_HISTOGRAM != 0) ? ROWS_BITS : '0;
       dtof_registers_pkg::SHOT: there = SHOT_FIELDS;
       dtof_registers_pkg::SHOT_SEED: there = 32'h0000ffff;
+      dtof_registers_pkg::SETTLE: there = 32'h0000ffff;
       dtof_registers_pkg::COMMIT: there = 32'd1 << dtof_registers_pkg::COMMIT_SETTINGS_LSB;
       default:
       if (is_template) begin
@@ -587,6 +593,7 @@ module dtof_apb_registers #(
         prdata_o[dtof_registers_pkg::SHOT_UNIT_LSB+:8] = shot_unit_q;
       end
       dtof_registers_pkg::SHOT_SEED: prdata_o = 32'(shot_seed_q);
+      dtof_registers_pkg::SETTLE: prdata_o = 32'(settle_q);
       dtof_registers_pkg::PARITY_ERRORS: prdata_o = parity_errors_i;
       dtof_registers_pkg::SHOT_STATE: prdata_o = 32'(shot_state_i);
       dtof_registers_pkg::ACQUISITIONS: prdata_o = 32'(acquisitions_q);

@@ -58,6 +58,7 @@ module dtof_line_buffer #(
     output logic                   arrives_o,    // the first line of an acquisition was accepted
     output logic                   rest_ends_o,  // the last line of a rest that is thrown away was accepted
     output logic                   taken_o,      // the array takes the first line of an acquisition
+    output logic                   taken_last_o, // the array takes the last line of one
     output logic                   underrun_o,   // the array needs a line that is not here: once an acquisition
     output logic                   short_o,      // s_tlast_i came before an acquisition's last line
     output logic                   long_o,       // s_tlast_i did not come with it
@@ -274,6 +275,7 @@ module dtof_line_buffer #(
   assign step = line_valid_o && line_ready_i && !wait_o;
   assign last_line = (line_q == LAST_LINE);
   assign taken_o = step && (line_q == '0);
+  assign taken_last_o = step && last_line;
   assign missing = drain_q || fill_q || (inside_q && !head_here);
   assign underrun_o = step && inside_q && !head_here && !fill_q && !drain_q;
   assign line_o = missing ? '1 : head;

@@ -9,7 +9,7 @@
 package dtof_registers_pkg;
 
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
-  localparam logic [31:0] VERSION_VALUE = 32'h00030003;
+  localparam logic [31:0] VERSION_VALUE = 32'h00030004;
 
   // says that this is the subsystem
   localparam logic [11:0] ID = 12'h000;
@@ -19,7 +19,7 @@ package dtof_registers_pkg;
 
   // of the registers and the result stream
   localparam logic [11:0] VERSION = 12'h004;
-  localparam logic [31:0] VERSION_RESET = 32'h00030003;
+  localparam logic [31:0] VERSION_RESET = 32'h00030004;
   localparam int VERSION_MINOR_LSB = 0;
   localparam int VERSION_MINOR_WIDTH = 16;
   localparam int VERSION_MAJOR_LSB = 16;
@@ -359,6 +359,12 @@ package dtof_registers_pkg;
   localparam int TEMPLATE_ENTRY3_LSB = 24;
   localparam int TEMPLATE_ENTRY3_WIDTH = 8;
 
+  // a laser that is not settled when a frame begins
+  localparam logic [11:0] SETTLE = 12'h144;
+  localparam logic [31:0] SETTLE_RESET = 32'h00000000;
+  localparam int SETTLE_VALUE_LSB = 0;
+  localparam int SETTLE_VALUE_WIDTH = 16;
+
   // A result.
   localparam int RESULT_WIDTH = 64;
   localparam int RESULT_POSITION_LSB = 0;
@@ -388,7 +394,7 @@ package dtof_registers_pkg;
 
   function automatic bit is_register(input logic [11:0] offset);
     is_register = (offset <= 12'h030)
-        || (offset >= 12'h040 && offset <= 12'h140);
+        || (offset >= 12'h040 && offset <= 12'h144);
   endfunction
 
   function automatic bit is_writable(input logic [11:0] offset);
@@ -396,7 +402,7 @@ package dtof_registers_pkg;
         || (offset >= 12'h048 && offset <= 12'h050)
         || (offset >= 12'h05c && offset <= 12'h100)
         || (offset >= 12'h10c && offset <= 12'h114)
-        || (offset >= 12'h124 && offset <= 12'h140);
+        || (offset >= 12'h124 && offset <= 12'h144);
   endfunction
 
 endpackage

@@ -11,6 +11,7 @@
 //    waits. With SECOND_TARGET = 1 a frame may have a word for each pixel's second target, too; with RAW_HISTOGRAM = 1
 //    it may send histograms of chosen rows instead of results.
 // 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
+//    With SETTLE the acquisitions at a frame's start, in which a laser settles, are taken and dropped (dtof_settle).
 // 6. Between frames the array's clock is gated (dtof_clock_gate of the technology folder).
 // 7. Whatever the source does, a frame ends: what is missing counts as no detection, an acquisition begins behind each
 //    s_axis_tlast_i, and a watchdog ends the wait for a source that is dead. CONTROL.ABORT ends a frame at any time.
@@ -128,7 +129,7 @@ module dtof_subsystem #(
   logic line_parity_error, raster_parity_error;
   logic [ACQ_WIDTH-1:0] acquisitions, coarse_end, track_end;
   logic [NP-1:0] gate_begin, gate_end;
-  logic [15:0] release_lines, weak_below;
+  logic [15:0] release_lines, weak_below, settle;
   logic [11:0] raw_first, raw_last;
   logic [SRAM_NUM-1:0] enable;
   logic [2:0] state;
@@ -208,6 +209,7 @@ module dtof_subsystem #(
       .enable_o          (enable),
       .shot_bits_o       (shot_bits),
       .shot_unit_o       (shot_unit),
+      .settle_o          (settle),
       .busy_i            (busy),
       .state_i           (state),
       .level_i           (16'(level)),
@@ -307,6 +309,9 @@ module dtof_subsystem #(
   // Lines in.
 
   logic tdc_valid, tdc_ready, starved, kept, expired, queued, source_inside, source_early, arrives, rest_ends, taken, dropped;
+  logic line_waits;   // a line is late inside an acquisition
+  logic drops;        // the acquisition that leaves the line buffer is not the array's
+  logic settle_takes, line_ready, taken_last, array_valid;
   logic array_waits;  // the array's clock rests, because a line is late
   logic [1:0] lost_acquisition;
   logic [LEVEL_WIDTH:0] lost;
@@ -332,7 +337,7 @@ module dtof_subsystem #(
       .release_i   (frame_release_q),
       .level_o     (level),
       .starved_o   (starved),
-      .wait_o      (array_waits),
+      .wait_o      (line_waits),
       .queued_o    (queued),
       .inside_o    (source_inside),
       .early_o     (source_early),
@@ -340,6 +345,7 @@ module dtof_subsystem #(
       .arrives_o   (arrives),
       .rest_ends_o (rest_ends),
       .taken_o     (taken),
+      .taken_last_o(taken_last),
       .underrun_o  (underrun),
       .short_o     (short_acquisition),
       .long_o      (long_acquisition),
@@ -352,7 +358,7 @@ module dtof_subsystem #(
       .s_tdata_i   (s_axis_tdata_i[SRAM_NUM*NP-1:0]),
       .s_tlast_i   (s_axis_tlast_i),
       .line_valid_o(tdc_valid),
-      .line_ready_i(tdc_ready && !resetting),
+      .line_ready_i(line_ready && !resetting),
       .line_o      (line)
   );
 
@@ -370,8 +376,34 @@ module dtof_subsystem #(
 
   assign timeout = expired && running && starved && !abort;
 
+  // Acquisitions that a frame drops, and all that it needs; a frame of no acquisition takes none.
+  localparam int NEED_WIDTH = dtof_pkg::max_of(ACQ_WIDTH, 16) + 1;
+  logic [15:0] frame_settle;
+  logic [NEED_WIDTH-1:0] needed;
+
+  assign frame_settle = (acquisitions == '0) ? '0 : settle;
+  assign needed = NEED_WIDTH'(acquisitions) + NEED_WIDTH'(frame_settle);
+  assign line_ready = tdc_ready || settle_takes;
+  assign array_waits = line_waits && !drops;
+  assign array_valid = tdc_valid && !line_waits && !drops;
+
+  dtof_settle #(
+      .WIDTH(16)
+  ) u_settle (
+      .clk_i    (clk_i),
+      .rst_ni   (rst_ni),
+      .settle_i (frame_settle),
+      .begin_i  (begin_frame),
+      .abort_i  (abort),
+      .give_up_i(timeout),
+      .first_i  (taken),
+      .last_i   (taken_last),
+      .drops_o  (drops),
+      .takes_o  (settle_takes)
+  );
+
   dtof_shot_dither #(
-      .ACQ_WIDTH(ACQ_WIDTH)
+      .ACQ_WIDTH(NEED_WIDTH)
   ) u_shot_dither (
       .clk_i         (clk_i),
       .rst_ni        (rst_ni),
@@ -379,7 +411,7 @@ module dtof_subsystem #(
       .seed_i        (shot_seed),
       .bits_i        (shot_bits),
       .unit_i        (shot_unit),
-      .acquisitions_i(acquisitions),
+      .acquisitions_i(needed),
       .begin_i       (begin_frame),
       .abort_i       (abort),
       .flush_i       (flushes),
@@ -505,7 +537,7 @@ module dtof_subsystem #(
           .done_o         (array_done),
           .state_o        (state),
           .error_o        (array_error),
-          .tdc_valid_i    (tdc_valid && !array_waits),
+          .tdc_valid_i    (array_valid),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
           .result_tvalid_o(array_tvalid),
@@ -536,7 +568,7 @@ module dtof_subsystem #(
           .state_o        (state),
           .error_o        (array_error),
           .counter_full_o (array_counter_full),
-          .tdc_valid_i    (tdc_valid && !array_waits),
+          .tdc_valid_i    (array_valid),
           .tdc_ready_o    (tdc_ready),
           .tdc_timestamp_i(timestamps),
           .result_tvalid_o(array_tvalid),

@@ -34,9 +34,12 @@ TargetMap middle_of(Scene scene, const SensorModel& sensor, int rows) {
 }
 
 std::vector<EngineResults> read_engine(const PhotonSource& source,
-                                       std::span<const ReadoutParameters> readouts) {
+                                       std::span<const ReadoutParameters> readouts, std::uint32_t dropped) {
   const int judged = engine_columns_judged();
-  const std::uint32_t acquisitions = source.acquisitions();
+  const std::uint32_t acquisitions = source.acquisitions() - dropped;
+  const auto kept = [&](int column) {
+    return dropped == 0 ? source.column(column) : without_first(source.column(column), dropped);
+  };
   std::vector<EngineResults> results(readouts.size());
   std::vector<std::pair<std::size_t, std::unique_ptr<ReadoutModel>>> alone;
   for (std::size_t r = 0; r < readouts.size(); ++r) {
@@ -48,10 +51,10 @@ std::vector<EngineResults> read_engine(const PhotonSource& source,
     ColumnStream stream;
     results[r] = model->run_columns(
         std::min(readouts[r].columns_together(), source.columns()),
-        [&](int column) -> const ColumnStream& { return stream = source.column(column); }, acquisitions);
+        [&](int column) -> const ColumnStream& { return stream = kept(column); }, acquisitions);
   }
   for (int column = 0; column < judged && !alone.empty(); ++column) {
-    const ColumnStream stream = source.column(column);
+    const ColumnStream stream = kept(column);
     for (const auto& [r, model] : alone) {
       results[r].push_back(model->run_column(stream, acquisitions));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,8 +28,10 @@ TargetMap middle_of(Scene scene, const SensorModel& sensor, int rows);
 
 /// Results by column and row.
 using EngineResults = std::vector<std::vector<PixelResult>>;
-/// What each read-out made of at least the judged columns. All see the same photons.
+/// What each read-out made of at least the judged columns. All see the same photons, but for those of the
+/// first `dropped` acquisitions.
 std::vector<EngineResults> read_engine(const PhotonSource& source,
-                                       std::span<const ReadoutParameters> readouts);
+                                       std::span<const ReadoutParameters> readouts,
+                                       std::uint32_t dropped = 0);
 
 }  // namespace dtof

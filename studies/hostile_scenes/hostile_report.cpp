@@ -80,14 +80,72 @@ std::string told_section(const HostileSettings& settings, const HostileScenes& s
     return "";
   }
   std::string text =
-      "\n## Told of glass and fog\n\n"
-      "The pool read-outs have their TEMPLATE registers from a frame in the dark without a target "
+      "\n## Told of the sensor\n\n"
+      "What a user sets who knows the sensor and what is around it. *Cover glass and fog*: the pool "
+      "read-outs "
+      "have their TEMPLATE registers from a frame in the dark without a target "
       "(docs/reference/poolpointer.md, Template); the matched filters count that frame's mean events as "
       "background. They are no bound here: they expect the signal of a target at 3 m, and a fainter one is "
-      "less likely to them than strong crosstalk. The other read-outs have nothing to be told with but a "
-      "gate. Pixels with a target above 3 % / above 10 %, in %:\n";
+      "less likely to them than strong crosstalk. The coarse histogram has nothing to be told with but a "
+      "gate. *Skew*: S1 of the pool read-outs is off (OUTPUT.SMOOTH), for it draws neighbours together whose "
+      "skews differ. *A laser that is silent at first*: SETTLE: the silent acquisitions are dropped at the "
+      "frame's "
+      "start, and ACQUISITIONS are as many less, so that a frame takes no longer; for all alike. *Motion*: "
+      "judged at the own instant (below). Pixels with a target above 3 % / above 10 %, in %:\n";
   for (const double klux : settings.klux) {
     text += fmt::format("\n{:g} klux:\n\n{}", klux, told_table(settings, study, klux));
+  }
+  return text;
+}
+
+std::string instant_text(const std::optional<double>& instant) {
+  return instant ? fmt::format("{:.2f}", *instant) : "-";
+}
+
+std::string motion_table(const HostileSettings& settings, const HostileScenes& study,
+                         const HostileCell& cell) {
+  const OwnInstants& own = study.instants.at(cell);
+  std::vector<std::string> header = {"read-out", "middle of its part"};
+  for (const double distance : own.distances_m) {
+    header.push_back(fmt::format("at {:g} m", distance));
+  }
+  header.insert(header.end(), {"bias, mm", "above 3 / 10 %", "bias, mm, own", "above 3 / 10 %, own"});
+  Table table(header);
+  const std::vector<std::string> names = hostile_estimators(settings);
+  for (std::size_t e = 0; e < names.size(); ++e) {
+    const std::optional<double> middle =
+        e < settings.readouts.size() ? middle_of_position(settings.readouts[e]) : kMiddleOfAFrame;
+    std::vector<std::string> row = {hostile_title(names[e]), instant_text(middle)};
+    for (const std::optional<double>& instant : own.instants.at(names[e])) {
+      row.push_back(instant_text(instant));
+    }
+    for (const HostileReadouts* readouts : {&study.cells.at(cell), &study.told.at(cell)}) {
+      const std::vector<HostileCounts>& seeds = readouts->at(names[e]);
+      row.push_back(fmt::format("{:.0f}", 1e3 * mean_error(seeds)));
+      row.push_back(fmt::format("{} / {}", percent_text(share_above(seeds, 3).value),
+                                percent_text(share_above(seeds, 10).value)));
+    }
+    table.add(std::move(row));
+  }
+  return table.markdown();
+}
+
+std::string motion_section(const HostileSettings& settings, const HostileScenes& study) {
+  if (study.instants.empty()) {
+    return "";
+  }
+  std::string text =
+      "\n## Motion, judged at each read-out's own instant\n\n"
+      "A depth belongs to an instant of the frame, 0 at its start and 1 at its end "
+      "(docs/reference/readouts.md, Instant of a depth). Measured with walls of other seeds that go away and "
+      "come nearer; \"-\": most of the wall's pixels are further off than 0.3 m. *Middle of its part*: of "
+      "the part of the frame that makes the position, beside it. Bias, the mean error of pixels at most 0.3 "
+      "m "
+      "off, and errors in %: against where targets are at the frame's middle, and at the own instant, which "
+      "is between the walls' distances in proportion.\n";
+  for (const auto& [cell, instants] : study.instants) {
+    text +=
+        fmt::format("\n{}, {:g} klux:\n\n{}", cell.condition, cell.klux, motion_table(settings, study, cell));
   }
   return text;
 }
@@ -165,9 +223,11 @@ std::string scene_names(const HostileSettings& settings) {
 }  // namespace
 
 std::vector<std::string> behind_coarse_histogram(const HostileSettings& settings, const HostileScenes& study,
-                                                 const std::string& estimator) {
+                                                 const std::string& estimator, bool told) {
   std::map<std::string, std::vector<std::string>> lights;
-  for (const auto& [cell, readouts] : study.cells) {
+  for (const auto& [cell, untold] : study.cells) {
+    const auto found = study.told.find(cell);
+    const HostileReadouts& readouts = told && found != study.told.end() ? found->second : untold;
     const auto coarse = readouts.find(std::string(readout_name(Readout::kCoarseHistogram)));
     if (coarse == readouts.end()) {
       return {};
@@ -210,11 +270,15 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
       report += fmt::format(
           "* {} has more than twice the coarse histogram's errors above 3 %, beyond both intervals, "
           "under: {}.\n",
-          hostile_title(name), list_or(behind_coarse_histogram(settings, study, name), "no condition"));
+          hostile_title(name),
+          list_or(behind_coarse_histogram(settings, study, name, false), "no condition"));
       if (!told_conditions(settings).empty()) {
-        report += fmt::format("* {} that is told of glass and fog has above 3 %, in % at {:g} klux: {}.\n",
-                              hostile_title(name), fmt::join(settings.klux, " / "),
-                              told_sentence(settings, study, name));
+        report += fmt::format(
+            "* {} that is told of the sensor has more than twice the errors of a coarse histogram that is, "
+            "too, under: {}. Above 3 % it has, in % at {:g} klux: {}.\n",
+            hostile_title(name),
+            list_or(behind_coarse_histogram(settings, study, name, true), "no condition"),
+            fmt::join(settings.klux, " / "), told_sentence(settings, study, name));
       }
     }
   }
@@ -229,7 +293,7 @@ std::string hostile_report(const HostileSettings& settings, const HostileScenes&
         fmt::format("\n## Errors at {:g} klux\n\nPixels with a target above 3 % / above 10 %, in %:\n\n{}",
                     klux, error_table(settings, study, klux));
   }
-  report += told_section(settings, study);
+  report += told_section(settings, study) + motion_section(settings, study);
   for (const double klux : settings.klux) {
     report += fmt::format(
         "\n## False alarms and detection at {:g} klux\n\n"

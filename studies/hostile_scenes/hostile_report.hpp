@@ -11,9 +11,10 @@
 namespace dtof {
 
 /// Conditions, as "late-laser (14, 50 klux)", under which an estimator has more than twice the coarse
-/// histogram's errors above 3 %, beyond both intervals; empty without a coarse histogram.
+/// histogram's errors above 3 %, beyond both intervals; empty without a coarse histogram. With `told` both
+/// are told what they can be told.
 std::vector<std::string> behind_coarse_histogram(const HostileSettings& settings, const HostileScenes& study,
-                                                 const std::string& estimator);
+                                                 const std::string& estimator, bool told);
 
 /// Conditions under which every read-out has more than a tenth of its pixels above 10 %, with the best one's
 /// share.

@@ -6,219 +6,80 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <utility>
 
 #include "common/engine_frame.hpp"
-#include "dtof/analytic/pulse_match.hpp"
 #include "dtof/core/error.hpp"
-#include "dtof/core/parallel.hpp"
 #include "dtof/core/progress.hpp"
 #include "dtof/frame/empty_frame.hpp"
-#include "dtof/frame/flat_calibration.hpp"
 #include "dtof/host/range_converter.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/csv_table.hpp"
 #include "dtof/io/output_folder.hpp"
-#include "dtof/photon/photon_source.hpp"
 #include "dtof/readout/pool_template.hpp"
-#include "dtof/readout/pooled_matched_filter.hpp"
 #include "dtof/report/table.hpp"
 #include "dtof/sensor/condition.hpp"
+#include "hostile_scenes/hostile_frame.hpp"
 
 namespace dtof {
 namespace {
 
-constexpr int kCalibrationPixels = 32;  // of each distance
-constexpr double kTypicalDistance = 3.0;
-constexpr double kStepsPerScore = 8.0;
-constexpr double kThree = 0.03;
-constexpr double kTen = 0.10;
 constexpr std::array<const char*, 2> kReferences = {"matchedfilter", "pooledmatchedfilter"};
 constexpr std::array<const char*, 4> kOutcomes = {"within_3", "within_10", "beyond", "sky"};
+// Rows of a stored cell behind the outcomes.
+constexpr std::size_t kNearRow = kOutcomes.size();
+constexpr std::size_t kErrorRow = kNearRow + 1;
+constexpr std::array<double, 6> kWalls = {1.0, 1.5, 2.0, 3.0, 4.0, 5.0};  // m, of the own instants
+// Seeds of the walls, likewise none of a scene's.
+constexpr std::uint64_t kWallSeeds = 2'000'000;
 // Seeds of the sky frames that set the thresholds: none of a scene's.
 constexpr std::uint64_t kSkySeeds = 1'000'000;
-
-/// Mean events of each bin that surroundings alone send back to a pixel in an acquisition
-/// (frame/empty_frame.hpp).
-std::vector<double> mean_returns(const std::vector<ColumnStream>& empty, const SensorModel& sensor) {
-  std::vector<double> mean((std::size_t{1} << static_cast<unsigned>(sensor.np)) - 1, 0.0);
-  double pixels = 0.0;
-  for (const ColumnStream& column : empty) {
-    for (int row = 0; row < column.rows(); ++row, ++pixels) {
-      for (const Detection& detection : column.row(row)) {
-        if (detection.timestamp < mean.size()) {
-          mean[detection.timestamp] += 1.0;
-        }
-      }
-    }
-  }
-  for (double& events : mean) {
-    events /= pixels * sensor.acquisitions;
-  }
-  return mean;
-}
-
-/// Both references of one column. A measurement's confidence is the score. `returns`: what they are told; may
-/// be empty.
-std::array<std::vector<Measurement>, 2> read_references(const PhotonSource& source, int column,
-                                                        const ColumnStream& stream,
-                                                        const std::vector<double>& returns = {}) {
-  const SensorModel& sensor = source.model();
-  const auto bins = (std::size_t{1} << static_cast<unsigned>(sensor.np)) - 1;
-  const auto rows = static_cast<std::size_t>(source.rows());
-  std::array<std::vector<Measurement>, 2> measurements;
-  std::unique_ptr<MatchedFilter> filter;
-  double background = -1.0;
-  std::vector<std::vector<double>> scores(rows, std::vector<double>(bins, 0.0));
-  for (std::size_t row = 0; row < rows; ++row) {
-    PixelRates rates = source.rates(column, static_cast<int>(row));
-    rates.signal = sensor.signal_events(kTypicalDistance, sensor.default_reflectivity);
-    if (!filter || rates.background != background) {
-      MatchedFilterParameters parameters = matched_to(sensor, rates);
-      parameters.returns = returns;
-      filter = std::make_unique<MatchedFilter>(parameters);
-      background = rates.background;
-    }
-    std::ranges::copy(filter->scores(stream.row(static_cast<int>(row))), scores[row].begin());
-    const auto peak = std::ranges::max_element(scores[row]);
-    const auto bin = static_cast<std::size_t>(peak - scores[row].begin());
-    measurements[0].push_back({refined_peak(scores[row], bin), *peak});
-  }
-  for (const MatchedFilter::Result& result : pool_column(scores)) {
-    measurements[1].push_back({result.position, result.score});
-  }
-  return measurements;
-}
-
-/// Look-up tables of the estimators.
-std::vector<RangeConverter> fit_tables(const HostileSettings& settings, double klux) {
-  const SensorModel sensor = settings.sensor.as_calibrated();
-  const FlatCalibration calibration(sensor, kCalibrationPixels);
-  std::vector<RangeConverter> tables = calibration.fit(
-      [&](const TargetMap& targets) {
-        return std::make_unique<PhotonSource>(sensor, targets, klux, settings.seed, FlatCalibration::kFrame);
-      },
-      settings.readouts, settings.seed, settings.threads);
-  const PhotonSource source(sensor, calibration.targets(), klux, settings.seed, FlatCalibration::kFrame);
-  const std::size_t distances = calibration.distances_m().size();
-  const auto rows = static_cast<std::size_t>(source.rows());
-  std::array<std::vector<Measurement>, 2> all;
-  all.fill(std::vector<Measurement>(distances * rows));
-  parallel_for(distances, settings.threads, [&](std::size_t distance) {
-    const int column = calibration.column(distance);
-    const auto own = read_references(source, column, source.column(column));
-    for (std::size_t e = 0; e < own.size(); ++e) {
-      for (std::size_t row = 0; row < rows; ++row) {
-        all[e][row * distances + distance] = own[e][row];
-      }
-    }
-  });
-  for (const std::vector<Measurement>& measurements : all) {
-    tables.push_back(calibration.fit(measurements, 0.0, settings.seed));
-  }
-  return tables;
-}
-
-Outcome outcome_of(const PixelTarget& target, double metres) {
-  if (!target.returns_signal()) {
-    return Outcome::kSky;
-  }
-  const double error = std::abs(metres - target.depth_m);
-  return error <= kThree * target.depth_m ? Outcome::kWithin3
-         : error <= kTen * target.depth_m ? Outcome::kWithin10
-                                          : Outcome::kBeyond;
-}
-
-/// What is read, with a look-up table of each and of the two references behind them; told of `empty`, if that
-/// is not empty.
-struct Estimators {
-  std::vector<ReadoutParameters> readouts;
-  std::vector<std::string> names;
-  std::vector<RangeConverter> tables;
-  std::vector<double> returns;
-};
-
-/// Adds a frame's pixels to each estimator's counts.
-void count_frame(const Estimators& estimators, const PhotonSource& source,
-                 std::vector<HostileCounts>& counts) {
-  const SensorModel& sensor = source.model();
-  const std::vector<EngineResults> results = read_engine(source, estimators.readouts);
-  const std::size_t readouts = estimators.readouts.size();
-  for (int column = 0; column < engine_columns_judged(); ++column) {
-    const auto references = read_references(source, column, source.column(column), estimators.returns);
-    for (int row = 0; row < source.rows(); ++row) {
-      const PixelTarget& target = source.targets().at(column, row);
-      // The host knows the skew.
-      const double skew =
-          sensor.surroundings.skew.of_pixel(column, row, source.columns()) / sensor.time_resolution_s();
-      const auto place = static_cast<std::size_t>(row);
-      for (std::size_t e = 0; e < counts.size(); ++e) {
-        const bool reference = e >= readouts;
-        const Measurement measured = reference
-                                         ? references[e - readouts][place]
-                                         : to_measurement(results[e][static_cast<std::size_t>(column)][place],
-                                                          estimators.readouts[e].fraction_bits);
-        const double confidence =
-            std::clamp(measured.confidence * (reference ? kStepsPerScore : 1.0), 0.0, 1e6);
-        counts[e].add(outcome_of(target, estimators.tables[e].distance(measured.position - skew)),
-                      static_cast<int>(confidence));
-      }
-    }
-  }
-}
 
 SensorModel sensor_under(const HostileSettings& settings, const std::string& condition) {
   return condition == kClear ? settings.sensor : under_condition(settings.sensor, condition);
 }
 
-using Tables = std::function<const std::vector<RangeConverter>&(double klux)>;
+bool tellable(const ReadoutParameters& readout) {
+  return is_pool_readout(readout.readout) || readout.readout == Readout::kCoarseHistogram;
+}
 
-/// Those that can be told of what surrounds `sensor`, told.
+/// Those that can be told of `sensor`, told.
 Estimators told_of(const HostileSettings& settings, const SensorModel& sensor,
                    const std::vector<RangeConverter>& tables) {
-  Estimators told{.readouts = {}, .names = told_estimators(settings), .tables = {}, .returns = {}};
-  const std::vector<ColumnStream> empty = empty_columns(sensor, settings.seed);
-  told.returns = mean_returns(empty, sensor);
+  Estimators told{.readouts = {}, .names = told_estimators(settings), .tables = {}};
+  std::vector<ColumnStream> empty;
+  if (has_own_light(sensor)) {
+    empty = empty_columns(sensor, settings.seed);
+    told.returns = mean_returns(empty, sensor);
+  }
+  told.settle = silent_acquisitions(sensor);
   for (std::size_t r = 0; r < settings.readouts.size(); ++r) {
-    if (is_pool_readout(settings.readouts[r].readout)) {
-      told.readouts.push_back(settings.readouts[r]);
-      told.readouts.back().pool.coarse_template =
-          measured_template(empty, sensor.acquisitions, settings.readouts[r]);
-      told.tables.push_back(tables[r]);
+    if (!tellable(settings.readouts[r])) {
+      continue;
     }
+    ReadoutParameters readout = settings.readouts[r];
+    if (!empty.empty() && is_pool_readout(readout.readout)) {
+      readout.pool.coarse_template = measured_template(empty, sensor.acquisitions, readout);
+    }
+    if (!sensor.surroundings.skew.none()) {
+      readout.pool.smooth = false;
+    }
+    told.readouts.push_back(readout);
+    told.tables.push_back(tables[r]);
   }
   told.tables.insert(told.tables.end(), tables.end() - kReferences.size(), tables.end());
   return told;
 }
 
-/// Each estimator's counts of `maps`, by seed.
-HostileReadouts measure(const HostileSettings& settings, const Estimators& estimators,
-                        const SensorModel& sensor, double klux, const std::vector<TargetMap>& maps,
-                        std::uint64_t first_seed) {
-  const std::vector<std::string>& names = estimators.names;
-  const auto seeds = static_cast<std::size_t>(settings.seeds);
-  std::vector<std::vector<HostileCounts>> counts(maps.size() * seeds,
-                                                 std::vector<HostileCounts>(names.size()));
-  parallel_for(counts.size(), settings.threads, [&](std::size_t index) {
-    const std::size_t map = index / seeds;
-    const PhotonSource source(sensor, maps[map], klux, first_seed + index % seeds,
-                              scene_frame(static_cast<std::uint32_t>(map)));
-    count_frame(estimators, source, counts[index]);
-  });
-  HostileReadouts readouts;
-  for (std::size_t e = 0; e < names.size(); ++e) {
-    std::vector<HostileCounts>& own = readouts[names[e]];
-    own.resize(seeds);
-    for (std::size_t index = 0; index < counts.size(); ++index) {
-      for (std::size_t outcome = 0; outcome < kOutcomes.size(); ++outcome) {
-        for (const auto& [confidence, pixels] : counts[index][e].by_confidence.at(outcome)) {
-          own[index % seeds].by_confidence.at(outcome)[confidence] += pixels;
-        }
-      }
-    }
+/// Mean error of an estimator's pixels near their target, over all seeds; none where most are elsewhere.
+std::optional<double> error_of_most(const std::vector<HostileCounts>& seeds) {
+  std::uint64_t pixels = 0;
+  std::uint64_t near = 0;
+  for (const HostileCounts& counts : seeds) {
+    pixels += counts.targets();
+    near += counts.near_target;
   }
-  return readouts;
+  return 2 * near > pixels ? std::optional(mean_error(seeds)) : std::nullopt;
 }
 
 void store_cell(const std::filesystem::path& file, const HostileReadouts& readouts) {
@@ -231,6 +92,10 @@ void store_cell(const std::filesystem::path& file, const HostileReadouts& readou
                      fmt::format("{}", pixels)});
         }
       }
+      table.add({name, fmt::format("{}", seed), fmt::format("{}", kNearRow), "0",
+                 fmt::format("{}", seeds[seed].near_target)});
+      table.add({name, fmt::format("{}", seed), fmt::format("{}", kErrorRow), "0",
+                 fmt::format("{}", seeds[seed].error_um)});
     }
   }
   write_file(file, table.csv());
@@ -247,9 +112,15 @@ HostileReadouts stored_cell(const std::filesystem::path& file, int seeds) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     std::vector<HostileCounts>& own = readouts[names[i]];
     own.resize(static_cast<std::size_t>(seeds));
-    own.at(static_cast<std::size_t>(seed[i]))
-        .by_confidence.at(static_cast<std::size_t>(outcome[i]))[static_cast<int>(confidence[i])] =
-        static_cast<std::uint64_t>(pixels[i]);
+    HostileCounts& counts = own.at(static_cast<std::size_t>(seed[i]));
+    const auto row = static_cast<std::size_t>(outcome[i]);
+    if (row == kNearRow) {
+      counts.near_target = static_cast<std::uint64_t>(pixels[i]);
+    } else if (row == kErrorRow) {
+      counts.error_um = static_cast<std::int64_t>(pixels[i]);
+    } else {
+      counts.by_confidence.at(row)[static_cast<int>(confidence[i])] = static_cast<std::uint64_t>(pixels[i]);
+    }
   }
   return readouts;
 }
@@ -315,7 +186,7 @@ std::vector<std::string> hostile_estimators(const HostileSettings& settings) {
 std::vector<std::string> told_estimators(const HostileSettings& settings) {
   std::vector<std::string> names;
   for (const ReadoutParameters& readout : settings.readouts) {
-    if (is_pool_readout(readout.readout)) {
+    if (tellable(readout)) {
       names.emplace_back(readout_name(readout.readout));
     }
   }
@@ -323,10 +194,21 @@ std::vector<std::string> told_estimators(const HostileSettings& settings) {
   return names;
 }
 
+std::uint32_t silent_acquisitions(const SensorModel& sensor) {
+  return static_cast<std::uint32_t>(
+      std::ceil(sensor.surroundings.settling.silent_share * sensor.acquisitions));
+}
+
+bool moves(const HostileSettings& settings, const std::string& condition) {
+  return travel_of_a_frame(sensor_under(settings, condition)) != 0.0;
+}
+
 std::vector<std::string> told_conditions(const HostileSettings& settings) {
   std::vector<std::string> names;
   for (const std::string& condition : settings.conditions) {
-    if (has_own_light(sensor_under(settings, condition))) {
+    const SensorModel sensor = sensor_under(settings, condition);
+    if (has_own_light(sensor) || !sensor.surroundings.skew.none() || silent_acquisitions(sensor) > 0 ||
+        moves(settings, condition)) {
       names.push_back(condition);
     }
   }
@@ -358,67 +240,147 @@ int least_confidence(const std::vector<std::vector<HostileCounts>>& skies, doubl
   return least;
 }
 
+namespace {
+
+/// A run: the cells that are done, and what the others need.
+class HostileRun {
+ public:
+  explicit HostileRun(const HostileSettings& settings)
+      : settings_(settings),
+        progress_("hostile scenes", (settings.conditions.size() + told_conditions(settings).size() + 1) *
+                                        settings.klux.size()) {
+    for (const Scene scene : settings.scenes) {
+      scenes_.push_back(middle_of(scene, settings.sensor, settings.rows));
+    }
+  }
+
+  /// Frames of sky alone, as bright as a surface of the sensor's reflectivity, as the sky of the scene is.
+  HostileReadouts sky(double klux) {
+    return stored_or("only-sky", klux, [&] {
+      return measure_hostile(settings_, all(klux), settings_.sensor, klux, {flat(0.0)},
+                             settings_.seed + kSkySeeds);
+    });
+  }
+
+  HostileReadouts untold(const std::string& condition, double klux) {
+    return stored_or(condition, klux, [&] {
+      return measure_hostile(settings_, all(klux), sensor_under(settings_, condition), klux, scenes_,
+                             settings_.seed);
+    });
+  }
+
+  /// `instants`: of the estimators under a condition in which targets move, else null.
+  HostileReadouts told(const std::string& condition, double klux, const OwnInstants* instants) {
+    return stored_or("told-" + condition, klux, [&] {
+      const SensorModel sensor = sensor_under(settings_, condition);
+      Estimators estimators = instants != nullptr ? all(klux) : told_of(settings_, sensor, tables(klux));
+      estimators.instants = instants;
+      return measure_hostile(settings_, estimators, sensor, klux, scenes_, settings_.seed);
+    });
+  }
+
+  OwnInstants instants(const std::string& condition, double klux) {
+    OwnInstants own{.distances_m = {kWalls.begin(), kWalls.end()}, .instants = {}};
+    SensorModel away = sensor_under(settings_, condition);
+    SensorModel nearer = away;
+    nearer.surroundings.motion.velocity_m_per_s *= -1.0;
+    const double travel = travel_of_a_frame(away);
+    for (const double distance : kWalls) {
+      const auto wall = [&](const char* way, const SensorModel& sensor) {
+        return stored_or(
+            fmt::format("wall-{:g}-{}-{}", distance, condition, way), klux,
+            [&] {
+              return measure_hostile(settings_, all(klux), sensor, klux, {flat(distance)},
+                                     settings_.seed + kWallSeeds);
+            },
+            0);
+      };
+      const HostileReadouts going = wall("away", away);
+      const HostileReadouts coming = wall("nearer", nearer);
+      for (const auto& [name, seeds] : going) {
+        const std::optional<double> error_going = error_of_most(seeds);
+        const std::optional<double> error_coming = error_of_most(coming.at(name));
+        own.instants[name].push_back(error_going && error_coming
+                                         ? std::optional(own_instant(*error_going, *error_coming, travel))
+                                         : std::nullopt);
+      }
+    }
+    return own;
+  }
+
+ private:
+  template <typename Make>
+  HostileReadouts stored_or(const std::string& name, double klux, const Make& make, int steps = 1) {
+    const std::filesystem::path file = settings_.store / fmt::format("{}_{:g}.csv", name, klux);
+    if (!std::filesystem::exists(file)) {
+      store_cell(file, make());
+    }
+    progress_.advance(steps);
+    return stored_cell(file, settings_.seeds);
+  }
+
+  [[nodiscard]] TargetMap flat(double distance) const {
+    return {engine_columns_read(), settings_.rows, {distance, settings_.sensor.default_reflectivity}};
+  }
+
+  const std::vector<RangeConverter>& tables(double klux) {
+    const auto found = fitted_.find(klux);
+    return found != fitted_.end() ? found->second
+                                  : fitted_.emplace(klux, fit_hostile_tables(settings_, klux)).first->second;
+  }
+
+  Estimators all(double klux) {
+    return {.readouts = settings_.readouts, .names = hostile_estimators(settings_), .tables = tables(klux)};
+  }
+
+  const HostileSettings& settings_;
+  Progress progress_;
+  std::vector<TargetMap> scenes_;
+  std::map<double, std::vector<RangeConverter>> fitted_;
+};
+
+}  // namespace
+
 HostileScenes run_hostile_scenes(const HostileSettings& settings) {
   validate(settings);
   for (const std::string& condition : settings.conditions) {
     (void)sensor_under(settings, condition);  // refuses unknown ones before anything is measured
   }
   create_output_folder(settings.store);
-  std::map<double, std::vector<RangeConverter>> fitted;
-  const Tables tables = [&](double klux) -> const std::vector<RangeConverter>& {
-    const auto found = fitted.find(klux);
-    return found != fitted.end() ? found->second
-                                 : fitted.emplace(klux, fit_tables(settings, klux)).first->second;
-  };
-  std::vector<TargetMap> scenes;
-  for (const Scene scene : settings.scenes) {
-    scenes.push_back(middle_of(scene, settings.sensor, settings.rows));
-  }
-  // As bright as a surface of the sensor's reflectivity, as the sky of the scene is.
-  const std::vector<TargetMap> sky = {
-      TargetMap(engine_columns_read(), settings.rows, {0.0, settings.sensor.default_reflectivity})};
-  const std::vector<std::string> told = told_conditions(settings);
-  Progress progress("hostile scenes", (settings.conditions.size() + told.size() + 1) * settings.klux.size());
-  const auto stored_or = [&](const std::string& name, double klux, const auto& make) {
-    const std::filesystem::path file = settings.store / fmt::format("{}_{:g}.csv", name, klux);
-    if (!std::filesystem::exists(file)) {
-      store_cell(file, make());
-    }
-    progress.advance(1);
-    return stored_cell(file, settings.seeds);
-  };
+  HostileRun run(settings);
   HostileScenes study;
   std::map<std::string, std::vector<std::vector<HostileCounts>>> skies;
   for (const double klux : settings.klux) {
-    const auto all = [&] {
-      return Estimators{.readouts = settings.readouts,
-                        .names = hostile_estimators(settings),
-                        .tables = tables(klux),
-                        .returns = {}};
-    };
-    const HostileReadouts readouts = stored_or("only-sky", klux, [&] {
-      return measure(settings, all(), settings.sensor, klux, sky, settings.seed + kSkySeeds);
-    });
-    for (const auto& [name, seeds] : readouts) {
+    for (const auto& [name, seeds] : run.sky(klux)) {
       skies[name].push_back(seeds);
     }
     for (const std::string& condition : settings.conditions) {
-      study.cells[{condition, klux}] = stored_or(condition, klux, [&] {
-        return measure(settings, all(), sensor_under(settings, condition), klux, scenes, settings.seed);
-      });
+      study.cells[{condition, klux}] = run.untold(condition, klux);
     }
-    for (const std::string& condition : told) {
-      study.told[{condition, klux}] = stored_or("told-" + condition, klux, [&] {
-        const SensorModel sensor = sensor_under(settings, condition);
-        return measure(settings, told_of(settings, sensor, tables(klux)), sensor, klux, scenes,
-                       settings.seed);
-      });
+    for (const std::string& condition : told_conditions(settings)) {
+      const HostileCell cell{condition, klux};
+      if (moves(settings, condition)) {
+        study.instants[cell] = run.instants(condition, klux);
+      }
+      const auto instants = study.instants.find(cell);
+      study.told[cell] =
+          run.told(condition, klux, instants != study.instants.end() ? &instants->second : nullptr);
     }
   }
   for (const auto& [name, lights] : skies) {
     study.thresholds[name] = least_confidence(lights, settings.false_alarms);
   }
   return study;
+}
+
+double mean_error(const std::vector<HostileCounts>& seeds) {
+  double sum = 0.0;
+  double pixels = 0.0;
+  for (const HostileCounts& counts : seeds) {
+    sum += 1e-6 * static_cast<double>(counts.error_um);
+    pixels += static_cast<double>(counts.near_target);
+  }
+  return pixels > 0.0 ? sum / pixels : 0.0;
 }
 
 Estimate share_above(const std::vector<HostileCounts>& seeds, int percent) {

@@ -16,6 +16,7 @@
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/photon/sensor_model.hpp"
 #include "dtof/scene/scene.hpp"
+#include "hostile_scenes/own_instant.hpp"
 
 namespace dtof {
 
@@ -44,6 +45,8 @@ enum class Outcome : std::size_t { kWithin3, kWithin10, kBeyond, kSky };
 /// Pixels of one seed's frames, all scenes together, by outcome and confidence.
 struct HostileCounts {
   std::array<ConfidenceCounts, 4> by_confidence;
+  std::uint64_t near_target = 0;  ///< with a result at most 0.3 m from their target
+  std::int64_t error_um = 0;      ///< sum of these pixels' errors, above 0: too far
 
   bool operator==(const HostileCounts&) const = default;
   void add(Outcome outcome, int confidence) {
@@ -67,9 +70,13 @@ using HostileReadouts = std::map<std::string, std::vector<HostileCounts>>;
 
 struct HostileScenes {
   std::map<HostileCell, HostileReadouts> cells;
-  /// The conditions with cover glass or fog, for the estimators that can be told of it: the pool read-outs by
-  /// their TEMPLATE registers, the references by what they subtract from their scores.
+  /// Estimators that have what a user sets who knows the sensor and what is around it. Cover glass and fog:
+  /// TEMPLATE registers of the pool read-outs, and what the references subtract from their scores. Skew: no
+  /// S1. A laser that is silent at first: SETTLE, and as many acquisitions less. Motion: all estimators,
+  /// judged by where the target is at their own instant.
   std::map<HostileCell, HostileReadouts> told;
+  /// Each estimator's, of the conditions in which targets move.
+  std::map<HostileCell, OwnInstants> instants;
   std::map<std::string, int> thresholds;  ///< of confidence, of each estimator: one for all lights
 };
 
@@ -78,10 +85,14 @@ struct HostileScenes {
 /// pixel and the one pooled along the column. Their confidence is eight times their score.
 std::vector<std::string> hostile_estimators(const HostileSettings& settings);
 std::string hostile_title(const std::string& estimator);
-/// Those that can be told of glass and fog.
+/// Those of the tables of what is told: the coarse histogram, pool read-outs, references.
 std::vector<std::string> told_estimators(const HostileSettings& settings);
-/// Conditions of the settings that have cover glass or fog.
+/// Conditions of the settings of which something can be told.
 std::vector<std::string> told_conditions(const HostileSettings& settings);
+/// Acquisitions at the frame's start in which the laser is silent.
+std::uint32_t silent_acquisitions(const SensorModel& sensor);
+/// Targets move under the condition.
+bool moves(const HostileSettings& settings, const std::string& condition);
 
 /// The lowest confidence that at most `share` of the pixels of each light's seeds have or exceed; the pixels
 /// are those without a target.
@@ -94,6 +105,8 @@ HostileScenes run_hostile_scenes(const HostileSettings& settings);
 
 /// Share of the pixels with a target that are further off than this many per cent, 3 or 10.
 Estimate share_above(const std::vector<HostileCounts>& seeds, int percent);
+/// Mean error of the pixels near their target, in m; 0 if there are none.
+double mean_error(const std::vector<HostileCounts>& seeds);
 /// Share of the pixels with a target that pass the threshold and are within 3 %.
 Estimate share_detected(const std::vector<HostileCounts>& seeds, int threshold);
 /// Share of the pixels without a target that pass it; none without such pixels.

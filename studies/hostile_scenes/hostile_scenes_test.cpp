@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,12 +15,14 @@
 #include "dtof/core/error.hpp"
 #include "dtof/io/atomic_file.hpp"
 #include "dtof/io/input_file.hpp"
+#include "dtof/sensor/condition.hpp"
 #include "dtof/sensor/preset.hpp"
 #include "hostile_scenes/hostile_report.hpp"
 
 namespace dtof {
 namespace {
 
+using testing::ContainsRegex;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -83,9 +86,21 @@ class HostileReport : public testing::Test {
         study_.thresholds[name] = 5;
       }
     }
-    for (const std::string& name : told_estimators(settings_)) {
-      study_.told[{"fog", 14.0}][name] = seeds(20);
+    for (const char* condition : {"fog", "late-laser"}) {
+      for (const std::string& name : told_estimators(settings_)) {
+        study_.told[{condition, 14.0}][name] = seeds(20);
+      }
     }
+  }
+
+  void add_motion() {
+    settings_.conditions.emplace_back("motion");
+    for (const std::string& name : hostile_estimators(settings_)) {
+      study_.cells[{"motion", 14.0}][name] = seeds(30);
+      study_.told[{"motion", 14.0}][name] = seeds(20);
+      study_.instants[{"motion", 14.0}].instants[name] = {0.75, std::nullopt};
+    }
+    study_.instants[{"motion", 14.0}].distances_m = {1.0, 3.0};
   }
 
   HostileSettings settings_;
@@ -93,10 +108,12 @@ class HostileReport : public testing::Test {
 };
 
 TEST_F(HostileReport, NamesTheConditionsThatAPoolReadoutDoesNotSurvive) {
-  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer"), IsEmpty());
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", false), IsEmpty());
   study_.cells[{"late-laser", 14.0}]["poolpointer"] = seeds(0, 400);
   study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(40);  // twice, within the intervals
-  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer"), ElementsAre("late-laser (14 klux)"));
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", false),
+              ElementsAre("late-laser (14 klux)"));
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), IsEmpty()) << "it is told";
   const std::string report = hostile_report(settings_, study_, "the command");
   EXPECT_THAT(report,
               HasSubstr("poolPointer has more than twice the coarse histogram's errors above 3 %, beyond "
@@ -128,18 +145,85 @@ TEST_F(HostileReport, TablesHoldEveryFigure) {
   EXPECT_THAT(curves[0].x, testing::Contains(testing::DoubleEq(50.0)));
 }
 
+TEST_F(HostileReport, NamesWhatRemainsOfThoseThatAreTold) {
+  study_.cells[{"clear", 14.0}]["poolpointer"] = seeds(0, 400);  // of this nothing can be told
+  study_.cells[{"fog", 14.0}]["poolpointer"] = seeds(0, 400);
+  study_.told[{"late-laser", 14.0}]["poolpointer"] = seeds(0, 70);
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true),
+              ElementsAre("clear (14 klux)", "late-laser (14 klux)"));
+  study_.told[{"late-laser", 14.0}]["coarsehistogram"] = seeds(0, 60);
+  EXPECT_THAT(behind_coarse_histogram(settings_, study_, "poolpointer", true), ElementsAre("clear (14 klux)"))
+      << "the coarse histogram is told, too";
+  EXPECT_THAT(hostile_report(settings_, study_, ""),
+              HasSubstr("poolPointer that is told of the sensor has more than twice the errors of a coarse "
+                        "histogram that is, too, under: clear (14 klux). Above 3 % it has, in % at 14 klux: "
+                        "fog 2, late-laser 7.\n"));
+}
+
 TEST_F(HostileReport, SaysWhatBecomesOfThoseThatAreTold) {
-  EXPECT_THAT(told_conditions(settings_), ElementsAre("fog"));
-  EXPECT_THAT(told_estimators(settings_), ElementsAre("poolpointer", "matchedfilter", "pooledmatchedfilter"));
+  EXPECT_THAT(told_conditions(settings_), ElementsAre("fog", "late-laser"));
+  EXPECT_THAT(told_estimators(settings_),
+              ElementsAre("coarsehistogram", "poolpointer", "matchedfilter", "pooledmatchedfilter"));
   study_.told[{"fog", 14.0}]["poolpointer"] = seeds(10, 60);
   const std::string report = hostile_report(settings_, study_, "");
-  EXPECT_THAT(
-      report,
-      HasSubstr("poolPointer that is told of glass and fog has above 3 %, in % at 14 klux: fog 7.\n"));
   EXPECT_THAT(report, HasSubstr(" 7 / 6 | "));
   EXPECT_THAT(hostile_csv(settings_, study_).csv(), HasSubstr("\npoolpointer,told-fog,14,2000,0.07,"));
-  settings_.conditions = {"clear", "late-laser"};
-  EXPECT_THAT(hostile_report(settings_, study_, ""), Not(HasSubstr("told of glass")));
+  settings_.conditions = {"clear", "settling-laser"};
+  study_.cells[{"settling-laser", 14.0}] = study_.cells[{"clear", 14.0}];
+  EXPECT_THAT(told_conditions(settings_), IsEmpty());
+  EXPECT_THAT(hostile_report(settings_, study_, ""), Not(HasSubstr("told of")));
+  EXPECT_THAT(hostile_report(settings_, study_, ""), Not(HasSubstr("own instant")));
+  settings_.conditions = {"clear", "glass", "column-skew", "pixel-skew", "other-laser-6ppm", "motion"};
+  EXPECT_THAT(told_conditions(settings_), ElementsAre("glass", "column-skew", "pixel-skew", "motion"));
+}
+
+TEST_F(HostileReport, JudgesMotionBothWays) {
+  add_motion();
+  std::vector<HostileCounts> biased = seeds(100, 150);
+  biased[0].near_target = biased[1].near_target = 500;
+  biased[0].error_um = 12'000'000;
+  biased[1].error_um = 8'000'000;
+  study_.cells[{"motion", 14.0}]["poolpointer"] = biased;
+  EXPECT_DOUBLE_EQ(mean_error(biased), 0.02);
+  EXPECT_DOUBLE_EQ(mean_error(seeds(20)), 0.0);
+  const std::string report = hostile_report(settings_, study_, "");
+  EXPECT_THAT(report, HasSubstr("motion, 14 klux:"));
+  EXPECT_THAT(report, ContainsRegex("poolPointer +\\| +0\\.77 +\\| +0\\.75 +\\| +- +\\| +20 +\\| +25 / 15 "
+                                    "+\\| +0 +\\| +2 / 0 "));
+  EXPECT_THAT(report, ContainsRegex("matched filter +\\| +0\\.50 +\\| +0\\.75 "));
+}
+
+TEST(OwnInstant, IsWhereTheTargetIsWhatTheReadOutSays) {
+  // A wall that is 40 mm too far when it goes away and 20 mm too near when it comes: 10 mm too far alike.
+  EXPECT_DOUBLE_EQ(own_instant(0.04, -0.02, 0.3), 0.6);
+  EXPECT_DOUBLE_EQ(own_instant(-0.01, -0.01, 0.3), 0.5);
+}
+
+TEST(OwnInstant, LiesBetweenTheWallsInProportion) {
+  const OwnInstants own{.distances_m = {1.0, 2.0, 4.0, 5.0},
+                        .instants = {{"one", {0.8, std::nullopt, 0.5, std::nullopt}},
+                                     {"late", {std::nullopt, 0.7, 0.6, 0.9}},
+                                     {"none", {std::nullopt, std::nullopt, std::nullopt, std::nullopt}}}};
+  EXPECT_DOUBLE_EQ(own.at("one", 0.3), 0.8);
+  EXPECT_DOUBLE_EQ(own.at("one", 1.0), 0.8);
+  EXPECT_DOUBLE_EQ(own.at("one", 3.0), 0.6);
+  EXPECT_DOUBLE_EQ(own.at("one", 6.0), 0.5);
+  EXPECT_DOUBLE_EQ(own.at("late", 1.5), 0.7);
+  EXPECT_DOUBLE_EQ(own.at("late", 9.0), 0.9);
+  EXPECT_DOUBLE_EQ(own.at("none", 3.0), 0.5);
+  EXPECT_DOUBLE_EQ(own.at("another", 3.0), 0.5);
+}
+
+TEST(OwnInstant, MiddleOfThePartThatMakesThePosition) {
+  const auto middle = [](Readout readout) {
+    return middle_of_position(ReadoutParameters::defaults(readout));
+  };
+  EXPECT_EQ(middle(Readout::kCoarseHistogram), 0.5);
+  EXPECT_EQ(middle(Readout::kEzPointer), 0.5);
+  EXPECT_EQ(middle(Readout::kHisPointer), 0.75);
+  EXPECT_EQ(middle(Readout::kPifh), std::nullopt);
+  EXPECT_EQ(middle(Readout::kPoolPointer), (34.0 / 64 + 1) / 2);
+  EXPECT_EQ(middle(Readout::kPoolPointerLean), (24.0 / 64 + 1) / 2);
 }
 
 class HostileScenesTest : public testing::Test {
@@ -197,6 +281,47 @@ TEST_F(HostileScenesTest, GlassDoesNotFoolThoseThatAreTold) {
     EXPECT_GT(untold, 0.4) << name;
     EXPECT_LT(share_above(study.told.at({"glass", 2.0}).at(name), 10).value, 0.2 * untold) << name;
   }
+}
+
+TEST_F(HostileScenesTest, ALaserThatIsLateDoesNotFoolThoseThatAreTold) {
+  settings_.readouts = {ReadoutParameters::defaults(Readout::kCoarseHistogram),
+                        ReadoutParameters::defaults(Readout::kPoolPointer)};
+  settings_.conditions = {"clear", "late-laser"};
+  EXPECT_EQ(silent_acquisitions(under_condition(settings_.sensor, "late-laser")), 220U);
+  EXPECT_EQ(silent_acquisitions(settings_.sensor), 0U);
+  const HostileScenes study = run_hostile_scenes(settings_);
+  const auto errors = [](const HostileReadouts& readouts) {
+    return share_above(readouts.at("poolpointer"), 10).value;
+  };
+  EXPECT_GT(errors(study.cells.at({"late-laser", 2.0})), 0.2);
+  EXPECT_LT(errors(study.told.at({"late-laser", 2.0})), 0.05);
+}
+
+TEST_F(HostileScenesTest, SkewDoesNotFoolThoseThatAreTold) {
+  settings_.sensor.acquisitions = 3333;
+  settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
+  settings_.conditions = {"clear", "pixel-skew"};
+  const HostileScenes study = run_hostile_scenes(settings_);
+  const auto errors = [](const HostileReadouts& readouts) {
+    return share_above(readouts.at("poolpointer"), 3).value;
+  };
+  EXPECT_LT(errors(study.told.at({"pixel-skew", 2.0})), 0.5 * errors(study.cells.at({"pixel-skew", 2.0})));
+}
+
+TEST_F(HostileScenesTest, MotionIsJudgedAtTheOwnInstant) {
+  settings_.sensor.acquisitions = 3333;
+  settings_.readouts = {ReadoutParameters::defaults(Readout::kPoolPointer)};
+  settings_.conditions = {"clear", "motion"};
+  const HostileScenes study = run_hostile_scenes(settings_);
+  const HostileCell cell{"motion", 2.0};
+  const OwnInstants& own = study.instants.at(cell);
+  EXPECT_GT(own.at("poolpointer", 1.0), 0.65) << "behind the track phase";
+  EXPECT_NEAR(own.at("matchedfilter", 2.0), 0.5, 0.05);
+  EXPECT_GT(mean_error(study.cells.at(cell).at("poolpointer")), 0.02);
+  EXPECT_NEAR(mean_error(study.told.at(cell).at("poolpointer")), -0.01, 0.01)
+      << "what is left is pile-up's, which draws what goes away and what comes nearer alike";
+  EXPECT_LT(share_above(study.told.at(cell).at("poolpointer"), 3).value,
+            0.5 * share_above(study.cells.at(cell).at("poolpointer"), 3).value);
 }
 
 TEST_F(HostileScenesTest, CellsThatAreDoneAreTaken) {

@@ -66,6 +66,7 @@ void SubsystemBench::reset(bool source_too) {
   reference_.reset();
   shot_reference_.reset();
   shot_ = false;
+  settle_left_ = 0;
   array_held_ = false;
   behind_reset_ = true;
   written_ = {.release = most_release()};
@@ -147,7 +148,10 @@ BusResponse SubsystemBench::write(std::uint32_t offset, std::uint32_t data, std:
     written_.release = data;
   }
   if (offset == DTOF_ACQUISITIONS && strobe == RegisterBus::kAllBytes) {
-    written_.shot.acquisitions = data;
+    written_.acquisitions = data;
+  }
+  if (offset == DTOF_SETTLE && strobe == RegisterBus::kAllBytes) {
+    written_.settle = data;
   }
   if (offset == DTOF_SHOT && strobe == RegisterBus::kAllBytes) {
     written_.shot.bits = (data & DTOF_SHOT_BITS_MASK) >> DTOF_SHOT_BITS_LSB;
@@ -192,10 +196,31 @@ Line SubsystemBench::array_line() const {
   return line;
 }
 
+void SubsystemBench::check_array_offer(bool here) const {
+  const bool offered = *ports_.array_valid != 0;
+  if (offered != (here && settle_left_ == 0)) {
+    throw RtlError(fmt::format("the array is offered {}, {} acquisitions are to be dropped",
+                               offered ? "a line" : "nothing", settle_left_));
+  }
+}
+
+void SubsystemBench::begin_frame() {
+  frames_.emplace_back();
+  begin_cycle_ = cycle_;
+  settle_left_ = committed_.acquisitions > 0 ? committed_.settle : 0;
+  reference_.set_release(committed_.release);
+  reference_.begin();
+  sink_.expect_frame(words());
+}
+
 void SubsystemBench::take_array_line() {
   const Line line = array_line();
   reference_.take(line);
-  frames_.back().lines.push_back(line);
+  if (settle_left_ == 0) {
+    frames_.back().lines.push_back(line);
+  } else if (!reference_.inside()) {
+    --settle_left_;
+  }
   frames_.back().lost = reference_.underruns();
 }
 
@@ -217,7 +242,9 @@ void SubsystemBench::observe_shot(ShotClock now) {
   now.reseed = *ports_.reseed != 0;
   now.gave_up = reference_.gave_up() && !now.abort;
   if (now.begin) {
-    shot_reference_.set(committed_.shot);
+    ShotReference::Settings settings = committed_.shot;
+    settings.acquisitions = committed_.acquisitions > 0 ? committed_.acquisitions + committed_.settle : 0;
+    shot_reference_.set(settings);
   }
   shot_ = *ports_.shot != 0;
   if (shot_reference_.clock(now) != shot_) {
@@ -235,13 +262,14 @@ void SubsystemBench::observe_lines() {
   const bool commanded = *ports_.abort != 0 || *ports_.flush != 0 || reference_.expires() || behind_reset_;
   const bool offered = *ports_.array_line_valid != 0;
   const bool ready = *ports_.array_line_ready != 0;
-  const bool rests = *ports_.array_waits != 0;
+  const bool rests = *ports_.line_waits != 0;
   rests_ += rests ? 1 : 0;
   if (!offered && (array_held_ || reference_.inside())) {
     throw RtlError("an acquisition was interrupted");
   }
   ShotClock now{.inside = reference_.hunting() || reference_.source_index() > 0,
                 .taken = offered && ready && !rests && !reference_.inside()};
+  check_array_offer(offered && !rests);
   if (offered && ready && !rests) {
     take_array_line();
   }
@@ -268,6 +296,9 @@ void SubsystemBench::observe_lines() {
                    .line_stored = line != nullptr && !dropped && !thrown,
                    .aborts = *ports_.abort != 0});
   now.early = reference_.early();
+  if (reference_.gave_up()) {  // an acquisition that has begun to leave goes on
+    settle_left_ = std::min(settle_left_, reference_.inside() ? 1U : 0U);
+  }
   if (line != nullptr) {
     now.arrives = !reference_.hunting() && reference_.source_index() == 0;
     now.rest_ends = reference_.hunting() && last;
@@ -287,13 +318,10 @@ void SubsystemBench::observe_lines() {
     reference_.done();
   }
   if (*ports_.begin != 0) {
-    frames_.emplace_back();
-    begin_cycle_ = cycle_;
-    reference_.set_release(committed_.release);
-    reference_.begin();
-    sink_.expect_frame(words());
+    begin_frame();
   }
   if (*ports_.abort != 0) {
+    settle_left_ = 0;
     reference_.abort();
   }
   if (*ports_.flush != 0) {

@@ -19,7 +19,8 @@ namespace dtof {
 
 /// What the array in the subsystem took in a frame.
 struct ArrayFrame {
-  std::vector<Line> lines;           ///< all acquisitions' one behind the other, before mask and gate
+  std::vector<Line>
+      lines;  ///< all acquisitions' one behind the other, before mask and gate, without dropped ones
   std::uint64_t cycles = 0;          ///< from its start to done, both included; 0 while it is under way
   std::uint32_t lost = 0;            ///< acquisitions in which the line buffer ran empty
   std::vector<std::uint64_t> shots;  ///< clocks of shot_o, from the frame's start
@@ -29,7 +30,9 @@ struct ArrayFrame {
 /// - the results keep their stream's protocol (ResultSink);
 /// - an acquisition begins when it is allowed to, and is never interrupted;
 /// - the array's clock rests while a line is late inside an acquisition, and no longer;
-/// - each line reaches the array in its place, or as no detection where StreamReference says so;
+/// - each line reaches the array in its place, or as no detection where StreamReference says so, but for
+/// those
+///   of the acquisitions that SETTLE drops at a frame's start;
 /// - a line is refused only when the buffer is full, or in the clock of a command, and never where the source
 ///   cannot wait; an acquisition is dropped only there, and only when the buffer is full;
 /// - a shot is fired when ShotReference says so, and not otherwise.
@@ -89,6 +92,9 @@ class SubsystemBench {
   void run_transfer();
   void observe_lines();
   void take_array_line();
+  /// `here`: a line is, that nobody waits for; the array is offered none that SETTLE drops.
+  void check_array_offer(bool here) const;
+  void begin_frame();
   void observe_shot(ShotClock now);
   [[nodiscard]] Line array_line() const;
   struct Settings {
@@ -96,6 +102,8 @@ class SubsystemBench {
     bool second = false;
     bool raw = false;
     std::uint32_t raw_rows = 0;
+    std::uint32_t acquisitions = 0;
+    std::uint32_t settle = 0;
     ShotReference::Settings shot = {};
   };
   /// Words of the frame that begins.
@@ -124,6 +132,7 @@ class SubsystemBench {
   ShotReference shot_reference_;
   bool shot_ = false;
   std::vector<ArrayFrame> frames_;
+  std::uint32_t settle_left_ = 0;  // acquisitions of the frame that are still to be dropped
   std::uint64_t cycle_ = 0;
   std::uint64_t begin_cycle_ = 0;
   bool array_held_ = false;   // a line was offered to the array and not taken

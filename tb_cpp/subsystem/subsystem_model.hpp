@@ -65,7 +65,8 @@ class SubsystemModel {
     const std::uint32_t* watchdog;         ///< WATCHDOG as it stands
     const std::uint8_t* commit;            ///< settings become valid behind this clock
     const std::uint8_t* reseed;            ///< SHOT_SEED was written
-    const std::uint8_t* array_waits;       ///< the array's clock rests, because a line is late
+    const std::uint8_t* line_waits;        ///< a line is late inside an acquisition: the array's clock rests
+    const std::uint8_t* array_valid;       ///< the array is offered the line
     const std::uint8_t* dropped;           ///< an acquisition found no room
     const std::uint8_t* array_line_valid;  ///< at the array's port
     const std::uint8_t* array_line_ready;

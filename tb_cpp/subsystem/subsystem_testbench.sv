@@ -63,6 +63,7 @@ module subsystem_testbench #(
     output logic         probe_commit_o,
     output logic         probe_reseed_o,
     output logic         probe_waits_o,
+    output logic         probe_array_valid_o,
     output logic         probe_dropped_o,
     output logic         probe_line_valid_o,
     output logic         probe_line_ready_o,
@@ -169,10 +170,11 @@ module subsystem_testbench #(
   assign probe_watchdog_o = 32'(u_subsystem.watchdog);
   assign probe_commit_o = u_subsystem.u_registers.commit;
   assign probe_reseed_o = u_subsystem.shot_reseed;
-  assign probe_waits_o = u_subsystem.array_waits;
+  assign probe_waits_o = u_subsystem.line_waits;
+  assign probe_array_valid_o = u_subsystem.array_valid;
   assign probe_dropped_o = u_subsystem.dropped;
   assign probe_line_valid_o = u_subsystem.tdc_valid;
-  assign probe_line_ready_o = u_subsystem.tdc_ready;
+  assign probe_line_ready_o = u_subsystem.line_ready;
   assign probe_line_o = BUS_WIDTH'(u_subsystem.line);
 
   // Every SRAM's side band: the stand-ins answer what they are told, which is another value in every frame.

@@ -777,6 +777,9 @@ TEST_F(Programs, ConditionsAreLaidOverTheSensorOfAFrame) {
   EXPECT_THAT(glass.output, HasSubstr("100.00 % |   100.00 %"));
   const Outcome skew = dtof(frame + "--sensor thesis+column-skew --out skew");
   EXPECT_THAT(skew.output, HasSubstr("0.00 % |     0.00 %")) << "the host subtracts it";
+  const Outcome late = dtof(frame + "--sensor thesis+late-laser --settle 734 --out late");
+  EXPECT_THAT(late.output, HasSubstr("3333 acquisitions of which the first 734 are dropped, exact"));
+  expect_refused("frame --settle 3333 --out out", "--settle");
   EXPECT_THAT(dtof("list").output, HasSubstr("other-laser-6ppm"));
   EXPECT_EQ(dtof("sensor thesis+fog").exit_code, 0);
   expect_refused("frame --sensor thesis+fgo --out out", "did you mean 'fog'");

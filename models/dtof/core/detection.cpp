@@ -20,4 +20,18 @@ ColumnStream StreamSource::column_rows(int index, RowRange rows) const {
   return part;
 }
 
+ColumnStream without_first(const ColumnStream& stream, std::uint32_t acquisitions) {
+  ColumnStream rest;
+  rest.reserve(stream.detection_count());
+  for (int row = 0; row < stream.rows(); ++row) {
+    for (const Detection& detection : stream.row(row)) {
+      if (detection.acquisition >= acquisitions) {
+        rest.append({detection.acquisition - acquisitions, detection.timestamp});
+      }
+    }
+    rest.finish_row();
+  }
+  return rest;
+}
+
 }  // namespace dtof

@@ -91,6 +91,9 @@ class ColumnStream {
   std::vector<std::size_t> row_end_;
 };
 
+/// The stream of a frame whose first `acquisitions` were dropped: acquisition 0 is the first one behind them.
+ColumnStream without_first(const ColumnStream& stream, std::uint32_t acquisitions);
+
 /// Neighbouring rows of an array: first, first + 1, .. first + count - 1.
 struct RowRange {
   int first = 0;  ///< >= 0

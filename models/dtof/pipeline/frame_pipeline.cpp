@@ -8,6 +8,7 @@
 
 #include "dtof/core/error.hpp"
 #include "dtof/core/pixel_sampler.hpp"
+#include "dtof/core/settled_source.hpp"
 #include "dtof/metrics/confidence_interval.hpp"
 #include "dtof/metrics/depth.hpp"
 
@@ -52,9 +53,15 @@ FramePipeline::FramePipeline(PhotonSource scene, const FrameEngine& engine, Sett
       engine_(engine),
       settings_(std::move(settings)),
       truth_(frame_truth(scene_.targets(), scene_.model(), settings_.region.columns, settings_.region.rows)),
-      source_(make_source(settings_.fidelity, scene_)),
+      source_(photons_of(scene_)),
       streams_(
           std::make_unique<KeptStreams>(*source_, settings_.keep_photons ? KeptStreams::kMostBytes : 0)) {}
+
+std::unique_ptr<StreamSource> FramePipeline::photons_of(const PhotonSource& scene) const {
+  std::unique_ptr<StreamSource> source = make_source(settings_.fidelity, scene);
+  return settings_.settle == 0 ? std::move(source)
+                               : std::make_unique<SettledSource>(std::move(source), settings_.settle);
+}
 
 std::vector<TabledReadout> FramePipeline::tables(std::span<const ReadoutParameters> readouts,
                                                  TableRule rule) const {
@@ -147,8 +154,7 @@ MeasuredFrame FramePipeline::measure(const TabledReadout& readout,
            0.5 * estimate_mean(mean_squares).relative_half_width() <= precision->relative;
   };
   while (!(frame.precision_reached = reached()) && frame.frames < precision->most_frames) {
-    const auto next = make_source(settings_.fidelity,
-                                  scene_.at_frame(scene_frame(static_cast<std::uint32_t>(frame.frames))));
+    const auto next = photons_of(scene_.at_frame(scene_frame(static_cast<std::uint32_t>(frame.frames))));
     const MeasuredFrame other = measure_once(*next, readout);
     frame.run.seconds += other.run.seconds;
     frame.maps.figures.merge(other.maps.figures);

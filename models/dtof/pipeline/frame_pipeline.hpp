@@ -74,10 +74,12 @@ class FramePipeline {
     int threads = 0;         ///< 0: all processors
     /// The photons of the frame will be read more than once: they are drawn once and kept, if they fit.
     bool keep_photons = true;
+    /// Acquisitions at the frame's start that are dropped, as SETTLE does; read-outs see the others.
+    std::uint32_t settle = 0;
   };
 
   /// The engine must outlive the pipeline. Throws InputError where the photon model lacks something that the
-  /// sensor has.
+  /// sensor has, and if no acquisition is left.
   FramePipeline(PhotonSource scene, const FrameEngine& engine, Settings settings);
 
   [[nodiscard]] const PhotonSource& scene() const { return scene_; }
@@ -109,6 +111,7 @@ class FramePipeline {
 
  private:
   [[nodiscard]] const StreamSource& first_frame(const FrameEngine& engine, Readout readout) const;
+  [[nodiscard]] std::unique_ptr<StreamSource> photons_of(const PhotonSource& scene) const;
   [[nodiscard]] MeasuredFrame measure_once(const StreamSource& source, const TabledReadout& readout) const;
   [[nodiscard]] std::vector<double> skew_bins() const;
 

@@ -34,6 +34,17 @@ TEST(ColumnStream, RowsKeepTheirDetections) {
   EXPECT_THAT(stream.row(2), ElementsAre(Detection{2, 9}));
 }
 
+TEST(ColumnStream, FirstAcquisitionsAreDropped) {
+  ColumnStream stream;
+  stream.append_row(std::vector<Detection>{{0, 5}, {1, 7}, {2, 1}, {2, 3}, {4, 6}});
+  stream.append_row(std::vector<Detection>{{1, 9}});
+  const ColumnStream rest = without_first(stream, 2);
+  ASSERT_EQ(rest.rows(), 2);
+  EXPECT_THAT(rest.row(0), ElementsAre(Detection{0, 1}, Detection{0, 3}, Detection{2, 6}));
+  EXPECT_THAT(rest.row(1), IsEmpty());
+  EXPECT_EQ(without_first(stream, 0), stream);
+}
+
 TEST(ColumnStream, BuiltOneByOneIsTheSame) {
   ColumnStream whole;
   whole.append_row(std::vector<Detection>{{0, 5}, {1, 6}});

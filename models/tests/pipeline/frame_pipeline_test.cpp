@@ -14,6 +14,7 @@
 #include "dtof/core/error.hpp"
 #include "dtof/core/pixel_sampler.hpp"
 #include "dtof/core/progress.hpp"
+#include "dtof/readout/model.hpp"
 #include "dtof/readout/run_frame.hpp"
 #include "dtof/scene/scene.hpp"
 #include "dtof/sensor/default_parameters.hpp"
@@ -52,6 +53,27 @@ TEST(FramePipeline, ResultsAreTheModelsAndDistancesThoseOfTheTable) {
     EXPECT_EQ(frame.maps.depth[i], std::max(static_cast<float>(distance), 0.0F));
   }
   EXPECT_FALSE(pipeline.tables(readouts, TableRule::kNone).front().table);
+}
+
+TEST(FramePipeline, AFrameThatSettlesIsOneWithoutItsFirstAcquisitions) {
+  const PhotonSource scene = room();
+  const ModelEngine engine({});
+  constexpr std::uint32_t kSettle = 150;
+  const FramePipeline pipeline(scene, engine, {.region = Region::whole(12, 10), .settle = kSettle});
+  const MeasuredFrame frame = pipeline.measure({sifh(), std::nullopt});
+  std::size_t i = 0;
+  std::vector<std::vector<PixelResult>> columns;
+  for (int column = 0; column < 12; ++column) {
+    columns.push_back(
+        make_readout_model(sifh())->run_column(without_first(scene.column(column), kSettle), 250));
+  }
+  for (std::size_t row = 0; row < 10; ++row) {
+    for (std::size_t column = 0; column < 12; ++column) {
+      EXPECT_EQ(frame.run.results[i++], columns[column][row]);
+    }
+  }
+  EXPECT_NE(frame.run.results, run_frame(scene, sifh()));
+  EXPECT_THROW(FramePipeline(scene, engine, {.region = Region::whole(12, 10), .settle = 400}), InputError);
 }
 
 TEST(FramePipeline, ARegionHasItsOwnPixelsAndTruth) {

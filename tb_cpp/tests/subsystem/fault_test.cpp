@@ -115,11 +115,11 @@ class StreamFaults : public Subsystem {
   void expect_a_good_frame(const FrameSettings& settings, CounterRandom& random) {
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, static_cast<std::uint32_t>(most_release_));
-    const std::vector<Line> lines = bright_lines(bench_.configuration(), settings.acquisitions, random);
+    const std::vector<Line> lines = bright_lines(bench_.configuration(), settings.taken(), random);
     push(beats_of(lines));
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     ASSERT_NO_FATAL_FAILURE(wait_until_idle());
-    ASSERT_EQ(bench_.frames().back().lines, lines);
+    ASSERT_EQ(bench_.frames().back().lines, settled_lines(bench_, settings, lines));
     const std::size_t before = checked_;
     ASSERT_NO_FATAL_FAILURE(expect_the_models(settings));
     ASSERT_EQ(checked_, before + 1);
@@ -426,12 +426,14 @@ TEST_P(StreamFaults, SettingsBecomeValidTogether) {
   // Each of these is legal, and mixtures of them are not, where there is a schedule or a raw frame.
   FrameSettings few = everything_counts(5);
   FrameSettings many = everything_counts(12);
+  few.settle = 1;
+  many.settle = 3;
   few.raw_first = bench_.configuration().pixels_per_sram - 1;
   few.raw_last = few.raw_first;
   few.raw = many.raw = bench_.configuration().raw_histogram;
   write_settings(bench_, few);
   bench_.source().gap_probability = 0.0;
-  const std::vector<Line> lines = bright_lines(bench_.configuration(), 1500, random);
+  const std::vector<Line> lines = bright_lines(bench_.configuration(), 2000, random);
   push(beats_of(lines));
   bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK | DTOF_CONTROL_CONTINUOUS_MASK);
   const FrameSettings* valid = &few;
@@ -555,6 +557,7 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
     settings.raw = pick(random, 4) == 0;
     settings.raw_last = pick(random, configuration.pixels_per_sram);
     settings.prior = pick(random, 2) == 0;
+    settings.settle = pick(random, 2) == 0 ? 0 : static_cast<std::uint32_t>(1 + pick(random, 4));
     write_settings(bench_, settings);
     bench_.set(DTOF_RELEASE, pick(random, 2) == 0 ? static_cast<std::uint32_t>(most_release_)
                                                   : 1 + random() % static_cast<std::uint32_t>(most_release_));
@@ -565,14 +568,14 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
     const bool continuous = pick(random, 4) == 0;
     const int frames = continuous ? 1 + pick(random, 3) : 1;
-    std::vector<Beat> beats = beats_of(bright_lines(
-        bench_.configuration(), static_cast<std::uint32_t>(frames) * settings.acquisitions, random));
+    std::vector<Beat> beats = beats_of(
+        bright_lines(bench_.configuration(), static_cast<std::uint32_t>(frames) * settings.taken(), random));
     for (int faults = pick(random, 4); faults > 0 && !beats.empty(); --faults) {
       const auto fault = static_cast<Fault>(pick(random, static_cast<int>(Fault::kNumber)));
       story += ", " + damage(beats, fault, bench_.acquisition_lines(), random);
     }
-    story += fmt::format(", watchdog {}{}{}", watchdog, continuous ? ", continuous" : "",
-                         bench_.source().impatient ? ", impatient" : "");
+    story += fmt::format(", SETTLE {}, watchdog {}{}{}", settings.settle, watchdog,
+                         continuous ? ", continuous" : "", bench_.source().impatient ? ", impatient" : "");
     SCOPED_TRACE(story);
 
     push(beats);
@@ -625,7 +628,8 @@ TEST_P(StreamFaults, AreOverWithTheNextGoodFrame) {
     ++by_itself;
     constexpr std::uint32_t kDamaged = 16;
     const std::uint32_t acquisitions = settings.acquisitions;
-    const std::vector<Line> lines = bright_lines(bench_.configuration(), kDamaged + acquisitions + 3, random);
+    const std::vector<Line> lines =
+        bright_lines(bench_.configuration(), kDamaged + acquisitions + 2 * settings.settle + 3, random);
     push(beats_of(lines));
     for (const std::uint32_t number : {kDamaged, acquisitions}) {
       settings.acquisitions = number;

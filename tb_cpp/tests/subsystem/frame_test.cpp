@@ -26,6 +26,7 @@ FrameSettings random_settings(const RtlConfiguration& configuration, CounterRand
   if (pick(random, 3) == 0) {
     settings.gate = {0, codes - 1};
   }
+  settings.settle = pick(random, 2) == 0 ? 0 : static_cast<std::uint32_t>(pick(random, 6));
   for (int column = 0; column < configuration.sram_num; ++column) {
     settings.enabled.push_back(pick(random, 4) != 0);
   }
@@ -45,8 +46,9 @@ TEST_P(SubsystemFrames, AreTheModelsUnderGapsAndBackPressure) {
     bench_.source().gap_probability = whole ? 0.9 * random.uniform() : 0.0;
     bench_.sink().stall_probability = pick(random, 2) == 0 ? 0.0 : 0.9 * random.uniform();
     write_settings(bench_, settings);
-    const std::vector<Line> lines = make_lines(bench_.configuration(), settings.acquisitions, random);
-    push_lines(bench_, lines);
+    const std::vector<Line> all = make_lines(bench_.configuration(), settings.taken(), random);
+    const std::vector<Line> lines = settled_lines(bench_, settings, all);
+    push_lines(bench_, all);
     bench_.clocks(random() % 20);
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     // Settings are the frame's from here on, and what is not sampled cannot be written.
@@ -72,9 +74,10 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
   constexpr std::size_t kFrames = 6;
   FrameSettings settings = random_settings(bench_.configuration(), random);
   settings.acquisitions = 5;
+  settings.settle = 2;
   write_settings(bench_, settings);
   const std::vector<Line> lines =
-      make_lines(bench_.configuration(), static_cast<std::uint32_t>(kFrames * settings.acquisitions), random);
+      make_lines(bench_.configuration(), static_cast<std::uint32_t>(kFrames) * settings.taken(), random);
   push_lines(bench_, lines);
   bench_.sink().stall_probability = 0.3;
   bench_.set(DTOF_IRQ_ENABLE, DTOF_IRQ_ENABLE_FRAME_MASK);
@@ -88,7 +91,8 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
     EXPECT_TRUE(bench_.interrupt()) << "from the clock behind the last result on";
     bench_.set(DTOF_IRQ_STATUS, DTOF_IRQ_STATUS_FRAME_MASK);
     const auto first = lines.begin() + static_cast<std::ptrdiff_t>(frame * frame_lines);
-    const std::vector<Line> own(first, first + static_cast<std::ptrdiff_t>(frame_lines));
+    const std::vector<Line> own =
+        settled_lines(bench_, settings, {first, first + static_cast<std::ptrdiff_t>(frame_lines)});
     EXPECT_EQ(bench_.frames().at(frame).lines, own);
     ASSERT_EQ(received_results(bench_, frame), expected_results(bench_, settings, own, &priors));
     if (frame + 2 == kFrames) {
@@ -100,6 +104,46 @@ TEST_P(SubsystemFrames, FollowEachOtherInContinuousMode) {
       << "the frame that was under way when the mode ended is the last";
   EXPECT_EQ(bench_.get(DTOF_STATUS), 0U);
   EXPECT_EQ(bench_.get(DTOF_FRAME_COUNT), kFrames);
+}
+
+// A frame with SETTLE and a frame of the same lines without the first acquisitions have the same words; the
+// next frame drops its own, and one without SETTLE none.
+TEST_P(SubsystemFrames, WithSettleAreThoseOfAStreamWithoutItsFirstAcquisitions) {
+  CounterRandom random = this->random(6);
+  FrameSettings settings = random_settings(bench_.configuration(), random);
+  settings.acquisitions = 7;
+  settings.prior = false;
+  std::size_t frame = 0;
+  for (const std::uint32_t settle : {3U, 3U, 0U, 1U, 20U}) {
+    SCOPED_TRACE(testing::Message() << "SETTLE " << settle << ", frame " << frame);
+    settings.settle = settle;
+    const std::vector<Line> all = make_lines(bench_.configuration(), settings.taken(), random);
+    const std::vector<Line> lines = settled_lines(bench_, settings, all);
+    ASSERT_EQ(lines.size() / bench_.acquisition_lines(), 7U);
+    write_settings(bench_, settings);
+    push_lines(bench_, all);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    ASSERT_EQ(bench_.frames().back().lines, lines);
+    ASSERT_EQ(received_results(bench_, frame++), expected_results(bench_, settings, lines));
+    settings.settle = 0;
+    write_settings(bench_, settings);
+    push_lines(bench_, lines);
+    bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+    bench_.wait_for_frames(1);
+    ASSERT_EQ(received_results(bench_, frame), received_results(bench_, frame - 1));
+    ++frame;
+  }
+  EXPECT_EQ(bench_.source().waiting(), 0U);
+  EXPECT_EQ(bench_.get(DTOF_LOST_LINES), 0U) << "what is dropped on purpose is not lost";
+  EXPECT_EQ(bench_.get(DTOF_LOST_ACQUISITIONS), 0U);
+  // A frame without acquisitions takes none.
+  settings.acquisitions = 0;
+  settings.settle = 4;
+  write_settings(bench_, settings);
+  bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
+  bench_.wait_for_frames(1);
+  EXPECT_TRUE(bench_.frames().back().lines.empty());
 }
 
 constexpr std::uint32_t kAcquisitionsThatFillACounter = 4200;  // more than a bin counts, in each pass
@@ -238,15 +282,16 @@ TEST_P(SubsystemFrames, AreWholeBehindAResetAtAnyTime) {
     SCOPED_TRACE(testing::Message() << "round " << round);
     FrameSettings settings = random_settings(bench_.configuration(), random);
     write_settings(bench_, settings);
-    push_lines(bench_, make_lines(bench_.configuration(), settings.acquisitions, random));
+    push_lines(bench_, make_lines(bench_.configuration(), settings.taken(), random));
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     bench_.clocks(random() % 400);
     bench_.reset();
     const std::size_t before = bench_.sink().frames().size();
     settings.enabled.clear();
     write_settings(bench_, settings);
-    const std::vector<Line> lines = make_lines(bench_.configuration(), settings.acquisitions, random);
-    push_lines(bench_, lines);
+    const std::vector<Line> all = make_lines(bench_.configuration(), settings.taken(), random);
+    const std::vector<Line> lines = settled_lines(bench_, settings, all);
+    push_lines(bench_, all);
     bench_.set(DTOF_CONTROL, DTOF_CONTROL_START_MASK);
     bench_.wait_for_frames(1);
     ASSERT_EQ(received_results(bench_, before), expected_results(bench_, settings, lines));

@@ -90,7 +90,7 @@ std::uint32_t existing(const RtlConfiguration& configuration, std::uint32_t offs
   if (offset == DTOF_WATCHDOG) {
     return DTOF_WATCHDOG_CLOCKS_MASK;
   }
-  if (offset == DTOF_ACQUISITIONS || offset == DTOF_RELEASE) {
+  if (offset == DTOF_ACQUISITIONS || offset == DTOF_RELEASE || offset == DTOF_SETTLE) {
     return 0xFFFF;
   }
   if (offset == DTOF_SHOT) {
@@ -126,7 +126,7 @@ TEST_P(Subsystem, SettingsKeepWhatIsWrittenByteByByte) {
   CounterRandom random = this->random(1);
   std::vector<std::uint32_t> offsets = {DTOF_IRQ_ENABLE, DTOF_ACQUISITIONS, DTOF_COARSE_END, DTOF_TRACK_END,
                                         DTOF_GATE,       DTOF_RELEASE,      DTOF_OUTPUT,     DTOF_RAW_ROWS,
-                                        DTOF_WATCHDOG,   DTOF_SHOT,         DTOF_SHOT_SEED};
+                                        DTOF_WATCHDOG,   DTOF_SHOT,         DTOF_SHOT_SEED,  DTOF_SETTLE};
   for (std::uint32_t i = 0; i < DTOF_COLUMN_ENABLE_NUMBER; ++i) {
     offsets.push_back(DTOF_COLUMN_ENABLE + 4 * i);
   }
@@ -180,12 +180,13 @@ TEST_P(Subsystem, ReadsBehindAResetWhatTheMapsSay) {
     bench_.set(DTOF_WATCHDOG, 5);
     bench_.set(DTOF_SHOT, 0x203);
     bench_.set(DTOF_SHOT_SEED, 77);
+    bench_.set(DTOF_SETTLE, 9);
     bench_.reset();
   }
 }
 
 TEST_P(Subsystem, RefusesWhatIsNotThere) {
-  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x144U, 0x800U, 0xFFCU}) {
+  for (const std::uint32_t offset : {0x034U, 0x03CU, 0x148U, 0x800U, 0xFFCU}) {
     EXPECT_TRUE(bench_.read(offset).error) << offset;
     EXPECT_TRUE(bench_.write(offset, 0).error) << offset;
   }

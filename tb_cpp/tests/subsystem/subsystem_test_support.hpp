@@ -74,6 +74,10 @@ struct FrameSettings {
   int raw_first = 0;
   int raw_last = 0;
   PoolTemplate coarse_template{};  ///< without effect where there is none
+  std::uint32_t settle = 0;
+
+  /// Acquisitions that a frame takes, with those that it drops.
+  [[nodiscard]] std::uint32_t taken() const { return acquisitions > 0 ? acquisitions + settle : 0; }
 };
 
 /// Bits of OUTPUT that the configuration has.
@@ -88,6 +92,7 @@ inline std::uint32_t existing_outputs(const RtlConfiguration& configuration) {
 inline void write_settings(SubsystemBench& bench, const FrameSettings& settings) {
   const RtlConfiguration& configuration = bench.configuration();
   bench.set(DTOF_ACQUISITIONS, settings.acquisitions);
+  bench.set(DTOF_SETTLE, settings.settle);
   if (is_pool_readout(configuration.parameters.readout)) {
     const PoolSchedule schedule(settings.acquisitions, configuration.parameters.pool);
     bench.set(DTOF_COARSE_END, schedule.coarse_end);
@@ -294,6 +299,14 @@ inline void push_lines(SubsystemBench& bench, const std::vector<Line>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i) {
     bench.source().push(lines[i], i % bench.acquisition_lines() == bench.acquisition_lines() - 1);
   }
+}
+
+/// What the array takes of a frame's lines: those behind the acquisitions that the frame drops.
+inline std::vector<Line> settled_lines(const SubsystemBench& bench, const FrameSettings& settings,
+                                       const std::vector<Line>& lines) {
+  const std::size_t dropped =
+      (settings.taken() - settings.acquisitions) * static_cast<std::size_t>(bench.acquisition_lines());
+  return {lines.begin() + static_cast<std::ptrdiff_t>(dropped), lines.end()};
 }
 
 /// Each compiled subsystem whose source can wait.

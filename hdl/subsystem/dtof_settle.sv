@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Drops the acquisitions at a frame's start, in which a laser settles: the array takes those behind them.
+//
+// 1. A frame that begins drops settle_i acquisitions. Each leaves the line buffer from where the array could begin its first one, a line
+//    a clock (takes_o); the array is offered none of them: drops_o hides the lines, and one that is late does not stop the array's clock.
+// 2. abort_i ends that. give_up_i (the source is dead) does, too, but behind the last line of an acquisition that has begun.
+//
+// Latency: none; both outputs are from flip-flops.
+// Cost: 17 flip-flops, a decrementer of 16 bits.
+`include "dtof_macros.svh"
+
+// verilator lint_off TIMESCALEMOD
+`default_nettype none
+
+module dtof_settle #(
+    parameter int WIDTH = 16
+) (
+    input  logic             clk_i,
+    input  logic             rst_ni,
+    input  logic [WIDTH-1:0] settle_i,  // acquisitions, sampled with begin_i
+    input  logic             begin_i,   // a frame begins
+    input  logic             abort_i,   // the frame ends here
+    input  logic             give_up_i, // the frame takes no line of the source any more
+    // of an acquisition that leaves the line buffer
+    input  logic             first_i,   // its first line is taken
+    input  logic             last_i,    // its last line is taken
+    output logic             drops_o,   // the acquisition that leaves the line buffer now or next is not the array's
+    output logic             takes_o    // and it has begun: its lines are taken, whether the array is ready or not
+);
+
+  logic [WIDTH-1:0] left_q;  // acquisitions to drop, with the one that is leaving
+  logic inside_q;            // an acquisition is leaving
+
+  assign drops_o = (left_q != '0);
+  assign takes_o = drops_o && inside_q;
+
+  always_ff @(posedge clk_i or negedge rst_ni) begin
+    if (!rst_ni) begin
+      left_q <= '0;
+      inside_q <= 1'b0;
+    end else begin
+      inside_q <= (first_i || inside_q) && !last_i && !abort_i;
+      if (abort_i) begin
+        left_q <= '0;
+      end else if (begin_i) begin
+        left_q <= settle_i;
+      end else if (give_up_i) begin
+        left_q <= WIDTH'(takes_o);
+      end else if (drops_o && last_i) begin
+        left_q <= left_q - 1'b1;
+      end
+    end
+  end
+
+  `DTOF_ASSERT(a_begin_between, !begin_i || !inside_q, "a frame begins inside an acquisition")
+  `DTOF_ASSERT(a_give_up_waits, !give_up_i || !(first_i || last_i), "a line is taken in the clock in which the source is given up")
+
+endmodule
+
+`default_nettype wire
