@@ -319,6 +319,13 @@ std::string acquisitions_text(const SensorModel& sensor, const FrameOptions& opt
       options.settle > 0 ? fmt::format(" of which the first {} are dropped", options.settle) : "");
 }
 
+/// Times change from run to run and stay out of the files.
+std::string times_text(TableRule rule, double table_seconds, double read_seconds) {
+  return rule == TableRule::kNone
+             ? fmt::format("Read out in {:.1f} s", read_seconds)
+             : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, read_seconds);
+}
+
 void run_frame_command(const FrameOptions& options, JsonResult& result) {
   check_run_options(options.run);
   std::vector<ReadoutParameters> readouts =
@@ -392,13 +399,9 @@ void run_frame_command(const FrameOptions& options, JsonResult& result) {
   write_file(std::filesystem::path(options.out) / "summary.csv", table.csv());
   write_file(std::filesystem::path(options.out) / "summary.md",
              fmt::format("{}Command: `{}`\n", body, options.command_line));
-  // Times change from run to run and stay out of the files.
-  const std::string times =
-      rule == TableRule::kNone
-          ? fmt::format("Read out in {:.1f} s", seconds)
-          : fmt::format("Look-up table in {:.1f} s, read out in {:.1f} s", table_seconds, seconds);
   describe(heading, frames, options.out, result);
-  fmt::print("{}{}. Depth maps, error maps, point clouds and CSV are in {}\n", body, times, options.out);
+  fmt::print("{}{}. Depth maps, error maps, point clouds and CSV are in {}\n", body,
+             times_text(rule, table_seconds, seconds), options.out);
 }
 
 }  // namespace
