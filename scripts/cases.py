@@ -346,6 +346,10 @@ def has_commit() -> bool:
 @rule
 def torn_settings(case: Case) -> None:
     bench = (case.folder / "torn_bench.sv").read_text(encoding="utf-8")
+    # The read-out's name was another one when the case was reported.
+    former = "READOUT_POOLPOINTER2"
+    require(bench.count(former) == 1, f"torn_bench.sv: no '{former}'")
+    bench = bench.replace(former, "READOUT_POOLPOINTER")
     # Registers that are committed together take the last of the writes.
     if has_commit():
         last = "write(dtof_registers_pkg::TRACK_END, 8);"
