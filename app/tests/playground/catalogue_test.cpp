@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+
+#include "dtof/core/readout.hpp"
+#include "dtof/sensor/preset.hpp"
 
 namespace dtof {
 namespace {
@@ -19,7 +23,7 @@ TEST(PlaygroundCatalogue, NamesWhatThereIs) {
   EXPECT_THAT(text, HasSubstr("\nscene\troom\t"));
   EXPECT_THAT(text, HasSubstr("\nsensor\tphone\t200\t160\t0.5\t3333\t6.75\n"));
   EXPECT_THAT(text, HasSubstr("\nfigure\tabove 3 %\n"));
-  EXPECT_EQ(std::ranges::count(text, '\n'), 11 + 9 + 4 + 6);
+  EXPECT_EQ(std::ranges::count(text, '\n'), std::ssize(kAllReadouts) + 9 + std::ssize(preset_names()) + 6);
 }
 
 }  // namespace
