@@ -48,6 +48,10 @@ void describe(JsonResult& result) {
   for (const RtlConfiguration& configuration : compiled_rtl_configurations()) {
     result["hardware"].push_back(configuration.to_string());
   }
+  result["subsystems"] = nlohmann::ordered_json::array();
+  for (const CompiledSubsystem& subsystem : compiled_subsystems()) {
+    result["subsystems"].push_back(subsystem.configuration.to_string());
+  }
 }
 
 void print_list() {

@@ -90,6 +90,23 @@ TEST_F(JsonCommand, AFramesFiguresAreThoseOfItsSummaryAndItsFilesTheSame) {
   }
 }
 
+TEST_F(JsonCommand, TheListNamesWhatItPrints) {
+  const nlohmann::json object = json("list");
+  const std::string printed = contents(path("said.txt"));
+  for (const char* kind : {"readouts", "presets", "conditions", "scenes"}) {
+    EXPECT_FALSE(object.at(kind).empty()) << kind;
+    for (const auto& one : object.at(kind)) {
+      EXPECT_THAT(printed, HasSubstr("\n  " + one.at("name").get<std::string>() + " ")) << kind;
+    }
+  }
+  for (const char* kind : {"hardware", "subsystems"}) {
+    for (const auto& one : object.at(kind)) {
+      EXPECT_THAT(printed, HasSubstr("\n  " + one.get<std::string>() + "\n")) << kind;
+    }
+  }
+  EXPECT_FALSE(object.at("hardware").empty());
+}
+
 TEST_F(JsonCommand, ARefusalHasNoObject) {
   const Outcome outcome = run("frame --sensor thesys --json 2> said.txt");
   EXPECT_EQ(outcome.exit_code, 1);
