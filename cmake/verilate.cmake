@@ -29,12 +29,14 @@
 #
 # NO_WAVEFORM leaves out what records waveforms, which takes longer to compile than the rest of a model.
 #
-# BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers.
+# BATCH compiles n models in one go: for many small models most of the compiler's time goes to common headers. The models of newer
+# versions of Verilator (5.032) have precompiled headers, of which a C++ file may have one: each of these models is compiled alone.
 
 find_program(VERILATOR verilator REQUIRED)
 execute_process(COMMAND ${VERILATOR} --getenv VERILATOR_ROOT OUTPUT_VARIABLE VERILATOR_ROOT
                 OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 set(VERILATOR_INCLUDE ${VERILATOR_ROOT}/include)
+file(STRINGS ${VERILATOR_INCLUDE}/verilated.mk DTOF_VERILATED_PCH REGEX "^VK_PCH_H *=")
 find_package(Threads REQUIRED)
 
 set(DTOF_HDL_DIR ${PROJECT_SOURCE_DIR}/hdl CACHE PATH "Folder that holds dtof.f and the SystemVerilog sources")
@@ -80,7 +82,7 @@ function(dtof_rtl_models library)
   target_link_libraries(${library}_registrations PRIVATE dtof_rtl dtof_subsystem)
   set_target_properties(${library}_registrations PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   target_sources(${library} INTERFACE $<TARGET_OBJECTS:${library}_registrations>)
-  if(P_BATCH)
+  if(P_BATCH AND NOT DTOF_VERILATED_PCH)
     set_target_properties(${library} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${P_BATCH})
   endif()
 endfunction()

@@ -3,10 +3,12 @@
 # make full  build/cpp/bin/dtof-full, which is dtof with subsystems, too (a minute to compile)
 READOUT ?= hispointer
 .PHONY: wave full
+WAVE_POOL := $(findstring pool,$(READOUT))
+DTOF_WAVE := dtof-wave$(if $(WAVE_POOL),-pool)
 wave: configure
 	@scripts/install_packages.sh wave
-	@ninja -C $(BUILD) dtof-wave
-	@$(BUILD)/bin/dtof-wave frame --readout $(READOUT) --engine rtl --columns $(if $(findstring pool,$(READOUT)),0-9,0) \
+	@ninja -C $(BUILD) $(DTOF_WAVE)
+	@$(BUILD)/bin/$(DTOF_WAVE) frame --readout $(READOUT) --engine rtl --columns $(if $(WAVE_POOL),0-9,0) \
 	  --acquisitions 20 --seed $(SEED) --trace build/wave/$(READOUT).fst --out build/wave
 	@scripts/wave_groups.py build/wave/$(READOUT).fst
 

@@ -107,12 +107,12 @@ std::string columns_to_trace(std::span<const int> columns, std::size_t index,
   return fmt::format("{}", fmt::join(columns.subspan(first, std::min(count, columns.size() - first)), ","));
 }
 
-/// The arrays of `dtof` record no waveforms, those of `dtof-wave` do, and those of poolPointer in
-/// `dtof-full`.
+/// The arrays of `dtof` record no waveforms. Those of `dtof-wave` do, and the engines of poolPointer in
+/// `dtof-wave-pool`.
 std::string waveform_command(std::string command, const ReadoutParameters& parameters) {
   constexpr std::string_view kProgram = "dtof ";
   if (command.starts_with(kProgram)) {
-    command.replace(0, kProgram.size(), parameters.columns_together() > 1 ? "dtof-full " : "dtof-wave ");
+    command.replace(0, kProgram.size(), parameters.columns_together() > 1 ? "dtof-wave-pool " : "dtof-wave ");
   }
   return command;
 }

@@ -716,7 +716,7 @@ TEST_F(PoolPointerFrame, AMismatchNamesItsEngine) {
   EXPECT_EQ(check_source_frame(*source_, parameters_, columns, frame, context), "");
   frame.results[2].code ^= 1;
   EXPECT_THAT(check_source_frame(*source_, parameters_, columns, frame, context),
-              HasSubstr("dtof-full frame --engine rtl --readout poolpointer --columns 4,5,7 --trace"));
+              HasSubstr("dtof-wave-pool frame --engine rtl --readout poolpointer --columns 4,5,7 --trace"));
 }
 
 }  // namespace
