@@ -103,12 +103,15 @@ std::vector<RtlConfiguration> compiled_rtl_configurations() {
 RtlConfiguration find_rtl_configuration(const ReadoutParameters& parameters, int rows, int columns,
                                         bool waveform) {
   const bool whole_engine = parameters.columns_together() > 1;
-  const auto records = [](const auto& entry) {
+  const auto records = [whole_engine](const auto& entry) {
     const RtlConfiguration& candidate = entry.second.configuration;
-    return candidate.records_waveform && candidate.parameters.columns_together() == 1;
+    return candidate.records_waveform && (candidate.parameters.columns_together() > 1) == whole_engine;
   };
-  if (waveform && !whole_engine && std::ranges::none_of(registry(), records)) {
-    throw InputError("this program's arrays record no waveforms, those of dtof-wave do (make wave)");
+  if (waveform && std::ranges::none_of(registry(), records)) {
+    const std::string_view name = readout_name(parameters.readout);
+    throw InputError(
+        fmt::format("this program's arrays of {} record no waveforms, those of {} do (make wave READOUT={})",
+                    name, whole_engine ? "dtof-wave-pool" : "dtof-wave", name));
   }
   const std::string wanted = compiled_parameters(parameters).to_string();
   std::optional<RtlConfiguration> best;

@@ -419,7 +419,9 @@ TEST_F(Programs, RefusesBadFlagsAndPhysics) {
   expect_refused("frame --verify --out out", "--engine rtl");
   expect_refused("frame --trace x.fst --engine rtl --out out", "one read-out");
   expect_refused("frame -r ezpointer --trace x.fst --engine rtl --columns 0 --out out",
-                 "record no waveforms");
+                 "arrays of ezpointer record no waveforms, those of dtof-wave do");
+  expect_refused("frame -r poolpointer --trace x.fst --engine rtl --columns 0-9 --out out",
+                 "arrays of poolpointer record no waveforms, those of dtof-wave-pool do");
   expect_refused("frame --frobnicate --out out", "--frobnicate");
   expect_refused("accuracy --distances 0 --out out", "distances");
   expect_refused("", "no command is given; known are frame,");
