@@ -76,7 +76,7 @@ def save_pcd(file: FileName, depth_m: npt.ArrayLike, degrees_per_pixel: float, *
 
 def save_npz(file: FileName, frame: Frame) -> None:
     """An archive for numpy.load: truth_m, and of each read-out <name>_depth_m, <name>_error_m, <name>_code, _fraction and _confidence."""
-    arrays: dict[str, npt.NDArray[Any]] = {"truth_m": frame.truth_m}
+    arrays: dict[str, Any] = {"truth_m": frame.truth_m}
     for name in frame:
         made = frame[name]
         arrays |= {f"{name}_depth_m": made.depth_m, f"{name}_error_m": made.error_m, f"{name}_code": made.results.code,

@@ -103,6 +103,7 @@ def scenes(root: Path, _titles: Titles) -> Iterator[Row]:
     for row in measured:
         if not row["scene"].startswith("flat"):
             together.setdefault((row["sensor"], row["klux"], row["estimator"]), []).append(row)
+    values: dict[str, Value]
     for (sensor, klux, estimator), rows in together.items():
         pixels = sum(int(row["pixels"]) for row in rows)
         values = {measure: (100 * sum(int(row["pixels"]) * float(row[column]) for row in rows) / pixels, None, None)
