@@ -194,7 +194,8 @@ function(dtof_verilate name)
     COMMAND ${VERILATOR} --cc --top-module ${top} --prefix ${P_CLASS} --Mdir ${directory}
             --assert --x-initial unique --x-assign unique -O3 -Wall -Wno-SYNCASYNCNET +define+DTOF_ASSERT_AS_IF ${waveform} --timescale 1ns/1ps
             ${DTOF_COVERAGE_FLAGS}
-            ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/common ${hdl}/common/dtof_pkg.sv ${hdl}/subsystem/dtof_registers_pkg.sv
+            ${overrides} -F ${hdl}/dtof_lint.f +incdir+${hdl}/common ${hdl}/common/dtof_pkg.sv ${hdl}/pool/dtof_pool_pkg.sv
+            ${hdl}/subsystem/dtof_registers_pkg.sv
             ${modules} ${access}
             ${relative_wrapper}
     COMMAND ${CMAKE_COMMAND} -D DIRECTORY=${directory} -D MAKER=${maker}

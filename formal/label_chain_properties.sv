@@ -2,12 +2,13 @@
 // Two labels, three pixels, driven by dtof_pool_sequencer and with the messages in an SRAM, as in dtof_pool_engine: label and
 // margin of every pixel are those of trying all eight assignments. A pair of neighbours that disagree costs the penalty
 // of the one that is farther from the pixel in question (docs/reference/poolpointer.md, Chain: the sender's lambda).
+`include "dtof_macros.svh"
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module label_chain_properties #(
+module label_chain_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int EVIDENCE_WIDTH = 3,
     parameter int POSITION_WIDTH = 3,
     parameter int PENALTY_WIDTH = 2,
@@ -30,8 +31,7 @@ module label_chain_properties #(
   (* anyconst *) logic [PIXELS*LABELS*POSITION_WIDTH-1:0] position;
   (* anyconst *) logic [PIXELS*PENALTY_WIDTH-1:0] penalty;
 
-  `include "dtof_pool_command.svh"
-  pool_engine_command_t command;
+  `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command;
   logic [1:0] scratch_row;
   logic unused_done, unused_select, unused_read, unused_write, unused_upper, unused_neighbour, unused_column, unused_send,
       unused_send_column, unused_last;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far a timestamp is from where a pixel's word points: docs/reference/poolpointer.md, Track and Point, on integers.
+`include "dtof_macros.svh"
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module pixel_distance_properties #(
+module pixel_distance_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
     parameter int OFFSET_BITS = 6,
@@ -32,8 +33,7 @@ module pixel_distance_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
-  `include "dtof_pixel_distance.svh"
-  pixel_distance_t distance;
+  `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t) distance;
 
   dtof_label_match #(
       .LABELS(LABELS)

@@ -233,7 +233,7 @@ module pool_control_properties #(
       accepted_before_q <= 1'b0;
       working_q <= 1'b0;
       decoded_q <= 1'b0;
-      state_q <= dtof_pkg::STATE_IDLE;
+      state_q <= dtof_pool_pkg::POOL_STATE_IDLE;
       acquisitions_q <= '0;
       clears_q <= '0;
       stay_q <= '0;
@@ -258,7 +258,7 @@ module pool_control_properties #(
         if (decode) decoded_q <= 1'b1;
       end
       clears_q <= (stay_ends ? 2'd0 : clears_q) + 2'(clear && clear_address == watched);
-      stay_q <= (stay_ends || acq_done || ready || working_q || state == dtof_pkg::STATE_IDLE) ? '0 : stay_q + 1'b1;
+      stay_q <= (stay_ends || acq_done || ready || working_q || state == dtof_pool_pkg::POOL_STATE_IDLE) ? '0 : stay_q + 1'b1;
       if (accepted) place_q <= (32'(place_q) == PIXELS * SLOTS - 1) ? '0 : place_q + 1'b1;
     end
   end
@@ -268,14 +268,14 @@ module pool_control_properties #(
   assign begun = acquisitions_q;
   always_comb begin
     case (state_q)
-      dtof_pkg::STATE_IDLE: legal = (state == dtof_pkg::STATE_RESET);
-      dtof_pkg::STATE_RESET: legal = (state == (decoded_q ? dtof_pkg::POOL_STATE_TRACK : dtof_pkg::POOL_STATE_COARSE));
-      dtof_pkg::POOL_STATE_COARSE: legal = (state == dtof_pkg::POOL_STATE_DECODE) && begun == coarse_end_q;
-      dtof_pkg::POOL_STATE_DECODE: legal = (state == dtof_pkg::STATE_RESET);
-      dtof_pkg::POOL_STATE_TRACK: legal = (state == dtof_pkg::POOL_STATE_CHOOSE) && begun == track_end_q;
-      dtof_pkg::POOL_STATE_CHOOSE: legal = (state == dtof_pkg::POOL_STATE_POINT);
-      dtof_pkg::POOL_STATE_POINT: legal = (state == dtof_pkg::POOL_STATE_DECIDE) && begun == acq_num_q;
-      default: legal = (state == dtof_pkg::STATE_IDLE);
+      dtof_pool_pkg::POOL_STATE_IDLE: legal = (state == dtof_pool_pkg::POOL_STATE_RESET);
+      dtof_pool_pkg::POOL_STATE_RESET: legal = (state == (decoded_q ? dtof_pool_pkg::POOL_STATE_TRACK : dtof_pool_pkg::POOL_STATE_COARSE));
+      dtof_pool_pkg::POOL_STATE_COARSE: legal = (state == dtof_pool_pkg::POOL_STATE_DECODE) && begun == coarse_end_q;
+      dtof_pool_pkg::POOL_STATE_DECODE: legal = (state == dtof_pool_pkg::POOL_STATE_RESET);
+      dtof_pool_pkg::POOL_STATE_TRACK: legal = (state == dtof_pool_pkg::POOL_STATE_CHOOSE) && begun == track_end_q;
+      dtof_pool_pkg::POOL_STATE_CHOOSE: legal = (state == dtof_pool_pkg::POOL_STATE_POINT);
+      dtof_pool_pkg::POOL_STATE_POINT: legal = (state == dtof_pool_pkg::POOL_STATE_DECIDE) && begun == acq_num_q;
+      default: legal = (state == dtof_pool_pkg::POOL_STATE_IDLE);
     endcase
   end
 
@@ -288,11 +288,11 @@ module pool_control_properties #(
   `ASSUME(m_engine_address, 32'(engine_address_i) < WORDS)
   `ASSUME(m_watched, 32'(watched) < PIXEL_WORDS)
   `PROVE(a_busy, busy == frame_q)
-  `PROVE(a_start_is_not_lost, !accepted_before_q || state == dtof_pkg::STATE_RESET)
+  `PROVE(a_start_is_not_lost, !accepted_before_q || state == dtof_pool_pkg::POOL_STATE_RESET)
   `PROVE(a_done_ends_a_frame, !done || (frame_q && acquisitions_q == acq_num_q))
   `PROVE(a_states, !stay_ends || legal)
   `PROVE(a_no_state_lasts, 32'(stay_q) < LONGEST_STAY)
-  `PROVE(a_reset_clears_once, !(stay_ends && state_q == dtof_pkg::STATE_RESET) || clears_q == 2'd1)
+  `PROVE(a_reset_clears_once, !(stay_ends && state_q == dtof_pool_pkg::POOL_STATE_RESET) || clears_q == 2'd1)
   `PROVE(a_stream_alone, !(accepted && (clear || working_q)))
   `PROVE(a_acquisition_number, !begins_q || acquisition == dtof_pkg::POOL_SWEEP_WIDTH'(acquisitions_q - 1'b1))
   `GOAL(done && acq_num_q == ACQ_WIDTH'(3) && coarse_end_q == ACQ_WIDTH'(1) && track_end_q == ACQ_WIDTH'(2))

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // dtof_pool_sequencer with dtof_pool_result_output: one pair selected, one access a clock, addresses, labels and scratch rows
 // in range, an operation ends in time (clocks in which the sink makes it wait left out), results handed out in order.
+`include "dtof_macros.svh"
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module pool_sequencer_properties #(
+module pool_sequencer_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int PIXELS = 3,
     parameter int GROUP_SIZE = 4,
     parameter int LABELS = 2,
@@ -34,8 +35,7 @@ module pool_sequencer_properties #(
     checking <= 1'b1;
   end
 
-  `include "dtof_pool_command.svh"
-  pool_engine_command_t command;
+  `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command;
   logic done, read, write, upper, neighbour, send, send_last, waits, busy;
   logic [PAIRS-1:0] select;
   logic [ADDR_WIDTH-1:0] address;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's pointer word after one timestamp: docs/reference/poolpointer.md, Point, on integers, from timestamp and
 // word to the next word. Distances come from dtof_pixel_distance and dtof_label_match, so that the three are proved together.
+`include "dtof_macros.svh"
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module twin_pointer_update_properties #(
+module twin_pointer_update_properties `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int LABELS = 5,
     parameter int ADVANTAGE_WIDTH = 7,
     parameter int POINTER_SHIFT = 1,
@@ -28,8 +29,7 @@ module twin_pointer_update_properties #(
   assign checking = 1'b1;
 
   logic [LABELS-1:0] hits;
-  `include "dtof_pixel_distance.svh"
-  pixel_distance_t distance;
+  `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t) distance;
   logic [POINT_WIDTH-1:0] word;
   logic changed;
 

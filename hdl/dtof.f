@@ -5,6 +5,7 @@
 //   yosys -q -p "read_verilog -sv -Icommon $(grep '[.]sv$' dtof.f | xargs); hierarchy -check -top dtof_array"
 +incdir+common
 common/dtof_pkg.sv
+pool/dtof_pool_pkg.sv
 subsystem/dtof_registers_pkg.sv
 technology/behavioural/dtof_clock_gate.sv
 technology/behavioural/dtof_sram_1r1w.sv

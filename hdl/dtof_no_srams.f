@@ -3,6 +3,7 @@
 //   verilator --lint-only -f dtof_no_srams.f my_srams/dtof_sram_1rw.sv my_srams/dtof_sram_1r1w.sv my_srams/dtof_clock_gate.sv --top-module dtof_subsystem
 +incdir+common
 common/dtof_pkg.sv
+pool/dtof_pool_pkg.sv
 subsystem/dtof_registers_pkg.sv
 common/dtof_sram.sv
 common/dtof_parity_sram.sv

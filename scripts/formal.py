@@ -32,7 +32,7 @@ SEARCH_FRAMES = 180  # for a planted bug or a goal where the proof itself has no
 SIMULATE_SECONDS = 60
 
 # An instance of a module, perhaps by a macro of dtof_array, or something of a package.
-USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::|^\s*`DTOF_COLUMN\((\w+)\)", re.MULTILINE)
+USED_NAME = re.compile(r"^\s*(\w+) (?:#\(|u_\w+ \()|(\w+)::|`DTOF_TYPE\((\w+),|^\s*`DTOF_COLUMN\((\w+)\)", re.MULTILINE)
 INCLUDED = re.compile(r'^\s*`include "(\w+\.svh)"', re.MULTILINE)
 
 YOSYS_SCRIPT = """

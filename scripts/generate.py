@@ -28,6 +28,7 @@ PARAMETERS_END = "<!-- end of parameters -->\n"
 PREFIX = "dtof_"  # of every module
 COLUMNS_BEGIN = "// Columns of dtof_array: written by scripts/generate.py\n"
 COLUMNS_END = "// end of columns\n"
+BENCH = "tb_cpp/subsystem/subsystem_testbench.sv"
 INTEGRATION = "docs/user/integration.md"
 COMMANDS = "docs/user/commands.md"
 STUDIES_BEGIN, STUDIES_END = "<!-- studies: scripts/generate.py -->\n", "<!-- end of studies -->\n"
@@ -167,14 +168,11 @@ def subsystem_names(table: Table) -> list[str]:
                                *(name for top in table.tops.values() for name in top.schedule)]))  # fmt: skip
 
 
-def subsystem_parameters(table: Table) -> str:
+def subsystem_parameters(table: Table) -> list[str]:
     """The parameters of dtof_subsystem: those of all tops, each with the default of the read-out that is chosen."""
     translate = lambda expression: translated(expression, str, lambda name: f"dtof_pkg::{name}_of")  # noqa: E731
     tops = table.tops.values()
-    lines = [
-        "// SPDX-License-Identifier: Apache-2.0",
-        f"// {WRITTEN} A part of dtof_subsystem: its arrays' parameters.",
-    ]
+    lines = ["// verilator lint_off UNUSEDPARAM"]  # every array uses its own part
     for name in subsystem_names(table):
         parameter = table.parameters[name]
         values: dict[str, list[str]] = {}  # by expression, those that have it
@@ -187,24 +185,48 @@ def subsystem_parameters(table: Table) -> str:
         choices = [f"({' || '.join(f'READOUT == dtof_pkg::{constant}' for constant in constants)}) ? {text}"
                    for text, constants in values.items()]  # fmt: skip
         default = "\n        : ".join([*choices, translate(parameter.default)])
-        lines += [f"    // {parameter.help}", f"    parameter int {name} = {default},"]
-    return "\n".join(lines) + "\n"
+        lines += [f"// {parameter.help}", f"parameter int {name} = {default},"]
+    return [*lines, "// verilator lint_on UNUSEDPARAM"]
 
 
-def connections(module: str, place: str, names: list[str]) -> str:
+def connections(names: list[str]) -> list[str]:
     """A module's parameters connected to those of the same names."""
-    return "\n".join(["// SPDX-License-Identifier: Apache-2.0",
-                      f"// {WRITTEN} A part of {place}: the parameters of {module}.",
-                      ",\n".join(f"          .{name}({name})" for name in names)]) + "\n"  # fmt: skip
+    return [f".{name}({name})," for name in names[:-1]] + [f".{names[-1]}({names[-1]})"]
 
 
-def all_connections(table: Table) -> dict[str, str]:
-    """The arrays in dtof_subsystem, which has a time gate of its own for all of them, and dtof_subsystem in its benches."""
-    lists = {f"hdl/common/{top.name}_parameters.svh":
-             connections(top.name, "dtof_subsystem", [name for name in top.parameters if name != "TIME_GATE"])
-             for top in table.tops.values()}  # fmt: skip
-    lists["hdl/common/dtof_subsystem_parameters.svh"] = connections("dtof_subsystem", "what wraps it", subsystem_names(table))
-    return lists
+def column_header(what: str, rule: str) -> list[str]:
+    """The parameters or the ports that all columns have; a column uses its own part."""
+    text = (ROOT / "scripts" / "templates" / f"column_{what}.svh").read_text(encoding="utf-8")
+    return [f"// verilator lint_off {rule}", *text.split("\n\n", 1)[1].splitlines(), f"// verilator lint_on {rule}"]
+
+
+def inlined(name: str, text: str, lists: dict[str, list[str]]) -> str:
+    """A module with what is written between the marks of each list, as deep as the mark."""
+    for title, lines in lists.items():
+        mark = re.compile(rf"^( +)// {title}: written by scripts/generate.py from \S+\n(?:.*\n)*?\1// end of {title}\n", re.MULTILINE)
+        found = mark.findall(text)
+        if len(found) != 1:
+            raise FlowError(f"{name} has {len(found)} places for the {title}, not 1")
+        begin = mark.search(text)
+        assert begin is not None
+        first, *_, last = begin[0].splitlines(keepends=True)
+        body = "".join((line if line.startswith(found[0]) else found[0] + line) + "\n" for line in lines)
+        text = text[: begin.start()] + first + body + last + text[begin.end() :]
+    return text
+
+
+def modules(table: Table) -> dict[str, str]:
+    """The columns of dtof_array; dtof_subsystem, which has a time gate of its own for all arrays; and its bench."""
+    column = {"parameters of a column": column_header("parameters", "UNUSEDPARAM"),
+              "ports of a column": column_header("ports", "UNUSEDSIGNAL")}  # fmt: skip
+    arrays = {"parameters of the arrays": subsystem_parameters(table)}
+    lists = {name: column for readout in table.readouts.values()
+             if readout.column and (ROOT / (name := f"hdl/thesis/{readout.column}.sv")).is_file()}  # fmt: skip
+    lists[rtl_of("dtof_subsystem")] = arrays | {
+        f"parameters of {top.name}": connections([name for name in top.parameters if name != "TIME_GATE"]) for top in table.tops.values()
+    }
+    lists[BENCH] = arrays | {"parameters of dtof_subsystem": connections(subsystem_names(table))}
+    return {name: inlined(name, (ROOT / name).read_text(encoding="utf-8"), found) for name, found in lists.items()}
 
 
 def columns(table: Table) -> str:
@@ -511,8 +533,7 @@ def main() -> int:
             "dtof.core": file_lists.fusesoc(table, listing, file_lists.included(ROOT / "hdl")),
             "Bender.yml": file_lists.bender(listing),
             CONFIGURATION: defaults(current[CONFIGURATION], table),
-            "hdl/common/dtof_subsystem_declarations.svh": subsystem_parameters(table),
-            **all_connections(table),
+            **modules(table),
             "hdl/subsystem/dtof_registers_pkg.sv": registers.systemverilog(whole),
             "driver/dtof_registers.h": registers.c_header(whole),
             **register_maps.files(whole),

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the engine's schedule into docs/reference/blocks/pool_control.md: in which clocks of a step each command is
 given, found by simulating both products' arrays in Icarus Verilog, and what the command means, taken from
-hdl/common/dtof_pool_command.svh. --check only says whether the page is stale."""
+hdl/pool/dtof_pool_pkg.sv. --check only says whether the page is stale."""
 
 import re
 import subprocess
@@ -17,7 +17,7 @@ sys.path.insert(0, str(ROOT / "synth"))
 
 from dtof_synth.configuration import Configuration, load  # noqa: E402
 
-COMMANDS = HDL / "common" / "dtof_pool_command.svh"
+COMMANDS = HDL / "pool" / "dtof_pool_pkg.sv"
 PAGE = ROOT / "docs" / "reference" / "blocks" / "pool_control.md"
 BEGIN = "<!-- schedule: written by scripts/schedule.py -->\n"
 END = "<!-- end of schedule -->\n"
@@ -25,8 +25,8 @@ PRODUCTS = ("poolpointer", "poolpointer_lean")
 PRIOR = "poolpointer_prior"  # as the first product, with some commands more
 STRUCTS = ("pool_column_command_t", "pool_engine_command_t")  # in the order in which the bench prints them
 OPERATIONS = {"decode": "a group", "choose": "a pixel", "decide": "a pixel"}  # and what a step is
-STRUCT = re.compile(r"typedef struct packed \{\n(.*?)\} (\w+);", re.DOTALL)
-FIELD = re.compile(r"^  (\w+)(?: \[(\d+):0\])? (\w+);(?: +// (.*))?$")
+STRUCT = re.compile(r"typedef struct packed \{\n(.*?)\n *\} (\w+);", re.DOTALL)
+FIELD = re.compile(r"^ *(\w+)(?: \[(\d+):0\])? (\w+);(?: +// (.*))?$")
 WITH = "with "  # so begins the meaning of what goes with a command and is none itself
 SMALL = {"PIXELS_PER_SRAM": 48, "SRAM_NUM": 2, "ENGINE_COLUMNS": 2}  # groups and pixels between others; two columns
 # Frames without acquisitions: one operation after the other. The second one has a last frame to begin from.

@@ -23,6 +23,16 @@
   end endgenerate
 `endif
 
+// Types of a package: `DTOF_TYPES_OF(PACKAGE) stands behind the name of a module that has such types, `DTOF_TYPE(PACKAGE, NAME) where a
+// type stands. Icarus Verilog 11 takes a package's type by import alone, Yosys 0.23 by its full name alone.
+`ifdef __ICARUS__
+`define DTOF_TYPES_OF(PACKAGE) import PACKAGE::*;
+`define DTOF_TYPE(PACKAGE, NAME) NAME
+`else
+`define DTOF_TYPES_OF(PACKAGE)
+`define DTOF_TYPE(PACKAGE, NAME) PACKAGE::NAME
+`endif
+
 // A property that holds in every clock outside reset: alive in simulation, proved by make formal, absent in
 // synthesis. A violation ends an Icarus simulation; under Verilator --assert it calls the stop hook.
 // DTOF_ASSERT_AS_IF is for the speed of tb_cpp: the C++ of Verilator 5.006 expects an assert to fail, and an if with a $error

@@ -7,22 +7,16 @@
 package dtof_pkg;
 
   // Values of state_o of dtof_array: thesis Fig. 4.3 (IDLE, RESET, M3 = EXECUTE, M4/M5 = RESULT) and Fig. 4.8.
-  localparam logic [2:0] STATE_IDLE = 3'd0;
-  localparam logic [2:0] STATE_RESET = 3'd1;
-  localparam logic [2:0] STATE_M0 = 3'd2;
-  localparam logic [2:0] STATE_M1 = 3'd3;
-  localparam logic [2:0] STATE_M2 = 3'd4;
-  localparam logic [2:0] STATE_M3 = 3'd5;
-  localparam logic [2:0] STATE_M4 = 3'd6;
-  localparam logic [2:0] STATE_M5 = 3'd7;
-
-  // Values of state_o of dtof_pool_pointer_array beside IDLE and RESET.
-  localparam logic [2:0] POOL_STATE_COARSE = STATE_M0;
-  localparam logic [2:0] POOL_STATE_DECODE = STATE_M1;
-  localparam logic [2:0] POOL_STATE_TRACK = STATE_M2;
-  localparam logic [2:0] POOL_STATE_CHOOSE = STATE_M3;
-  localparam logic [2:0] POOL_STATE_POINT = STATE_M4;
-  localparam logic [2:0] POOL_STATE_DECIDE = STATE_M5;
+  typedef enum logic [2:0] {
+    STATE_IDLE  = 3'd0,
+    STATE_RESET = 3'd1,
+    STATE_M0    = 3'd2,
+    STATE_M1    = 3'd3,
+    STATE_M2    = 3'd4,
+    STATE_M3    = 3'd5,
+    STATE_M4    = 3'd6,
+    STATE_M5    = 3'd7
+  } state_t;
 
   // Bits of error_o (common/dtof_array_errors.sv).
   localparam int ERROR_UNDERRUN = 0;
@@ -116,13 +110,9 @@ package dtof_pkg;
   localparam int POOL_BINS_PER_LINE = 8;  // coarse bins that an engine reads at once
   localparam int POOL_LINE_PAIRS = 4;      // pairs of columns whose words an engine reads by way of one register (dtof_pool_line)
   localparam int POOL_SWEEP_WIDTH = 6;     // the last one of 2^6 acquisitions of the coarse phase is a sweep
-  // Bits of the types in dtof_pool_command.svh and dtof_pixel_distance.svh. Yosys 0.23 takes $bits of no type, Icarus 11 of no variable
-  // of these types. Every lint finds a wrong number.
-  localparam int POOL_COMMAND_WIDTH = 65;         // pool_engine_command_t
-  localparam int POOL_DECODE_COMMAND_WIDTH = 23;  // pool_decode_command_t
-  localparam int POOL_CHAIN_COMMAND_WIDTH = 8;    // chain_command_t
-  localparam int POOL_BESIDE_COMMAND_WIDTH = 8;   // beside_command_t
-  localparam int POOL_DISTANCE_WIDTH = 15;        // pixel_distance_t
+  // Bits of pool_engine_command_t (dtof_pool_pkg). Yosys 0.23 takes $bits of no type, Icarus 11 of no variable that has such a type.
+  // Every lint finds a wrong number.
+  localparam int POOL_COMMAND_WIDTH = 65;
   localparam int POOL_EVIDENCE_WIDTH = 6;  // -21 .. 15: a score less what lateness and the columns beside cost
 
   // Bits of a pointer: the whole range, or half a coarse bin to either side of a candidate.

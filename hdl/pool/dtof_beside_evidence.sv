@@ -14,10 +14,12 @@
 //   advance_i, which may come in that clock.
 // Cost: three comparators of cells, some 150 flip-flops at the defaults, per engine.
 
+`include "dtof_macros.svh"
+
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_beside_evidence #(
+module dtof_beside_evidence `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int LABELS = 5,      // candidates of a group
     parameter int SCORE_BITS = 4,  // of each
     localparam int CELL_WIDTH = dtof_pkg::POOL_CELL_WIDTH,
@@ -26,7 +28,7 @@ module dtof_beside_evidence #(
     localparam int EVIDENCE_WIDTH = dtof_pkg::POOL_EVIDENCE_WIDTH
 ) (
     input  logic                             clk_i,
-    input  logic [dtof_pkg::POOL_BESIDE_COMMAND_WIDTH-1:0] command_i,  // beside_command_t
+    input  `DTOF_TYPE(dtof_pool_pkg, beside_command_t) command_i,
     // the pixel to the right: its scores with take_right_pixel, its group's word with first_rank
     input  logic [    LABELS*SCORE_BITS-1:0] right_scores_i,
     input  logic                             has_right_i,     // there is a column to the right
@@ -39,10 +41,6 @@ module dtof_beside_evidence #(
     output logic [    LABELS*CELL_WIDTH-1:0] cells_o,
     output logic [     BACKGROUND_WIDTH-1:0] background_o
 );
-
-  `include "dtof_pool_command.svh"
-  beside_command_t command;
-  assign command = command_i;
 
   localparam int COST_WIDTH = 4;  // 2 + (3 * 39 >> 4) at most
   localparam int LATENESS_SHIFT = 3;
@@ -66,10 +64,10 @@ module dtof_beside_evidence #(
   logic [CELL_WIDTH-1:0] best_cell_q, second_cell_q;
   logic second_rank_q;
 
-  assign right_cells = command.first_rank ? group_i[LABELS*CELL_WIDTH-1:0] : right_cells_q;
+  assign right_cells = command_i.first_rank ? group_i[LABELS*CELL_WIDTH-1:0] : right_cells_q;
   assign right_evidence = right_score - lateness;
   assign right_score = $signed(EVIDENCE_WIDTH'(right_scores_q[SCORE_BITS-1:0]));
-  assign lateness = command.late_rank ? $signed(EVIDENCE_WIDTH'(right_lateness_q)) : '0;
+  assign lateness = command_i.late_rank ? $signed(EVIDENCE_WIDTH'(right_lateness_q)) : '0;
 
   // Compared with one addition instead of a subtraction and then a comparison.
   assign to_best = (EVIDENCE_WIDTH + 1)'(best_q) + (EVIDENCE_WIDTH + 1)'(lateness) - (EVIDENCE_WIDTH + 1)'(right_score);
@@ -77,18 +75,18 @@ module dtof_beside_evidence #(
       - (EVIDENCE_WIDTH + 1)'(right_score);
 
   always_ff @(posedge clk_i) begin
-    if (command.take_right_pixel) begin
+    if (command_i.take_right_pixel) begin
       right_scores_q <= right_scores_i;
-    end else if (command.rank) begin
+    end else if (command_i.rank) begin
       right_scores_q <= right_scores_q >> SCORE_BITS;
     end
-    if (command.rank) begin
+    if (command_i.rank) begin
       right_cells_q <= right_cells >> CELL_WIDTH;
-      second_rank_q <= command.first_rank;
-      if (command.first_rank) begin
+      second_rank_q <= command_i.first_rank;
+      if (command_i.first_rank) begin
         right_lateness_q <= group_i[GROUP_WIDTH-1-:LATENESS_WIDTH];
       end
-      if (command.first_rank || to_best < 0) begin
+      if (command_i.first_rank || to_best < 0) begin
         best_q <= right_evidence;
         best_cell_q <= right_cells[CELL_WIDTH-1:0];
         second_q <= best_q;
@@ -114,7 +112,7 @@ module dtof_beside_evidence #(
   assign ahead = EVIDENCE_WIDTH'(best_q - second_q);
 
   always_ff @(posedge clk_i) begin
-    if (command.take_ranks) begin
+    if (command_i.take_ranks) begin
       right_best_cell_q <= best_cell_q;
       right_second_cell_q <= second_cell_q;
       left_cost_q <= left_cost;
@@ -146,17 +144,17 @@ module dtof_beside_evidence #(
       scores_q <= scores_i;
       cells_q <= group_i[LABELS*CELL_WIDTH-1:0];
       background_q <= group_i[LABELS*CELL_WIDTH+:BACKGROUND_WIDTH];
-    end else if (command.compare) begin
+    end else if (command_i.compare) begin
       scores_q <= scores_q >> SCORE_BITS;
       cells_q <= {own_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]};
     end
-    compared_q <= command.compare;
-    if (command.compare) begin
-      far_left_q <= command.has_left && far(own_cell, left_cell_i);
+    compared_q <= command_i.compare;
+    if (command_i.compare) begin
+      far_left_q <= command_i.has_left && far(own_cell, left_cell_i);
       far_best_q <= has_right_i && far(own_cell, right_best_cell_q);
       far_second_q <= far(own_cell, right_second_cell_q);
       own_q <= $signed(EVIDENCE_WIDTH'(scores_q[SCORE_BITS-1:0]))
-          - (command.late_compare ? $signed(EVIDENCE_WIDTH'(background_q >> LATENESS_SHIFT)) : '0);
+          - (command_i.late_compare ? $signed(EVIDENCE_WIDTH'(background_q >> LATENESS_SHIFT)) : '0);
     end
     if (compared_q) begin
       evidence_q <= evidences;

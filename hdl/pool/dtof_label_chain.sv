@@ -15,10 +15,12 @@
 // Schedule: the table of dtof_pool_sequencer, with this module's POOL_CHAIN_*_CLOCKS (dtof_pkg).
 // Cost: LABELS comparators of positions and of differences.
 
+`include "dtof_macros.svh"
+
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_label_chain #(
+module dtof_label_chain `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int LABELS = 8,           // of a pixel
     parameter int POSITION_WIDTH = 8,   // bits of a label's position, signed
     parameter int REACH = 4,            // labels at most so far apart are near
@@ -29,7 +31,7 @@ module dtof_label_chain #(
 ) (
     input  logic                             clk_i,
     input  logic                             active_i,   // in all of the operation; otherwise nothing moves
-    input  logic [dtof_pkg::POOL_CHAIN_COMMAND_WIDTH-1:0] command_i,  // chain_command_t
+    input  `DTOF_TYPE(dtof_pool_pkg, chain_command_t) command_i,
     // the pixel prepared, taken with advance
     input  logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_i,
     input  logic [LABELS*POSITION_WIDTH-1:0] position_i,
@@ -46,10 +48,6 @@ module dtof_label_chain #(
     output logic [         BELIEF_WIDTH-1:0] margin_o          // unsigned
 );
 
-  `include "dtof_pool_command.svh"
-  chain_command_t command;
-  assign command = command_i;
-
   localparam logic signed [POSITION_WIDTH:0] FAR = (POSITION_WIDTH + 1)'(REACH);
 
   logic [LABELS*EVIDENCE_WIDTH-1:0] evidence_q, next_evidence_q;
@@ -58,7 +56,7 @@ module dtof_label_chain #(
   logic [LABELS*PENALTY_WIDTH-1:0] message_q, other_q;
 
   always_ff @(posedge clk_i) begin
-    if (command.advance) begin
+    if (command_i.advance) begin
       evidence_q <= next_evidence_q;
       position_q <= next_position_q;
       penalty_q <= next_penalty_q;
@@ -124,7 +122,7 @@ module dtof_label_chain #(
   assign smallest_complement = (smallest_lower_q < smallest_upper_q) ? smallest_lower_q : smallest_upper_q;
 
   always_ff @(posedge clk_i) begin
-    if (command.begin_step) begin
+    if (command_i.begin_step) begin
       sum_q <= sum;
     end
     if (active_i) begin
@@ -132,7 +130,7 @@ module dtof_label_chain #(
       smallest_upper_q <= smallest_upper;
       largest_q <= {smallest_complement[BELIEF_WIDTH-1], ~smallest_complement[BELIEF_WIDTH-2:0]};
     end
-    if (command.spread) begin
+    if (command_i.spread) begin
       behind_q <= behind;
     end
   end
@@ -154,7 +152,7 @@ module dtof_label_chain #(
     end
   endgenerate
 
-  assign target = LABEL_WIDTH'(command.target);
+  assign target = LABEL_WIDTH'(command_i.target);
 
   logic [LABELS*PENALTY_WIDTH-1:0] reachable;
   generate
@@ -176,9 +174,9 @@ module dtof_label_chain #(
       target_q <= next_position_q[target*POSITION_WIDTH+:POSITION_WIDTH];
       near_q <= near;
     end
-    if (command.advance && command.clear_message) begin
+    if (command_i.advance && command_i.clear_message) begin
       message_q <= '0;
-    end else if (command.pass_label) begin
+    end else if (command_i.pass_label) begin
       message_q <= {cheapest, message_q[LABELS*PENALTY_WIDTH-1:PENALTY_WIDTH]};
     end
   end
@@ -197,8 +195,8 @@ module dtof_label_chain #(
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
-      passing_q <= command.spread ? '0 : passing_q + 1'b1;
-      passed_q <= command.pass_label;
+      passing_q <= command_i.spread ? '0 : passing_q + 1'b1;
+      passed_q <= command_i.pass_label;
       label_q <= passing_q;
       passed_position_q <= position_q[passing_q*POSITION_WIDTH+:POSITION_WIDTH];
       belief_q <= $signed(sum_q[passing_q*BELIEF_WIDTH+:BELIEF_WIDTH])

@@ -9,10 +9,12 @@
 //          weight W[d] = W[-1 - d] by WEIGHTS, gear log2 of the step that n allows (less POINTER_SHIFT if n has 4 bits)
 // Cost: a row of carries and an adder of 11 bits for the track phase, one of 17 and one of 8 bits for the pointer phase.
 
+`include "dtof_macros.svh"
+
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pixel_distance #(
+module dtof_pixel_distance `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int LABELS = 5,
     parameter int SCORES_WIDTH = 24,
     parameter int OFFSET_BITS = 5,
@@ -29,11 +31,10 @@ module dtof_pixel_distance #(
     input  logic [                     PIXEL_WIDTH-1:0] word_i,
     input  logic [       dtof_pkg::POOL_CELL_WIDTH-1:0] leader_cell_i,   // of the candidate that the word leans on
     input  logic [                          LABELS-1:0] hits_i,
-    output logic [  dtof_pkg::POOL_DISTANCE_WIDTH-1:0] distance_o       // pixel_distance_t; 0 without a timestamp
+    output `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t)              distance_o       // 0 without a timestamp
 );
 
-  `include "dtof_pixel_distance.svh"
-  pixel_distance_t found;
+  `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t) found;
   assign distance_o = found;
 
   localparam int LABEL_WIDTH = dtof_pkg::index_width(LABELS);

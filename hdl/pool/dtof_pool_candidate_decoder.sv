@@ -21,10 +21,12 @@
 // With PRIOR a pair sum is larger by 28 where the last frame used a candidate (Prior from the last frame).
 // Cost at the defaults: 384 flip-flops of ring, 280 of shift registers, per engine.
 
+`include "dtof_macros.svh"
+
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool_candidate_decoder #(
+module dtof_pool_candidate_decoder `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int COUNT_WIDTH = 7,    // bits of a coarse bin
     parameter int LABELS = 5,         // candidates of a group
     parameter int PRIOR = 0,          // 1: candidates begin from those that were used in the last frame
@@ -36,7 +38,7 @@ module dtof_pool_candidate_decoder #(
 ) (
     input  logic                         clk_i,
     input  logic                         active_i,     // in all of decode; otherwise nothing moves
-    input  logic [dtof_pkg::POOL_DECODE_COMMAND_WIDTH-1:0] command_i,  // pool_decode_command_t
+    input  `DTOF_TYPE(dtof_pool_pkg, pool_decode_command_t) command_i,
     input  logic [       LINE_WIDTH-1:0] line_i,       // with a capture: an octet of bins, lowest first
     // with take_prior: the group's candidates of the last frame, and which of them were used
     input  logic [LABELS*CELL_WIDTH-1:0] last_cells_i,
@@ -53,10 +55,6 @@ module dtof_pool_candidate_decoder #(
     output logic                         tilted_o,     // with background_o: the background falls towards late bins
     output logic [ BACKGROUND_WIDTH-1:0] background_o  // until the next group's bins are counted
 );
-
-  `include "dtof_pool_command.svh"
-  pool_decode_command_t command;
-  assign command = command_i;
 
   localparam logic signed [2:0] OWN_WEIGHT = 3'sd3;
   localparam int LEAK_SHIFT = 3;
@@ -91,11 +89,11 @@ module dtof_pool_candidate_decoder #(
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
-      above_q <= command.capture_above ? line_i : above_q >> COUNT_WIDTH;
-      own_q <= command.capture_own ? line_i : own_q >> COUNT_WIDTH;
-      below_q <= command.capture_below ? line_i : below_q >> COUNT_WIDTH;
-      left_q <= command.capture_left ? line_i : left_q >> COUNT_WIDTH;
-      right_q <= command.capture_right ? line_i : right_q >> COUNT_WIDTH;
+      above_q <= command_i.capture_above ? line_i : above_q >> COUNT_WIDTH;
+      own_q <= command_i.capture_own ? line_i : own_q >> COUNT_WIDTH;
+      below_q <= command_i.capture_below ? line_i : below_q >> COUNT_WIDTH;
+      left_q <= command_i.capture_left ? line_i : left_q >> COUNT_WIDTH;
+      right_q <= command_i.capture_right ? line_i : right_q >> COUNT_WIDTH;
       above_sum_q <= as_sum(above_q[COUNT_WIDTH-1:0]) - $signed((TAKEN_WIDTH + 1)'(template_i) << TEMPLATE_SHIFT);
       own_sum_q <= above_sum_q + OWN_WEIGHT * as_sum(own_bin);
       below_sum_q <= own_sum_q + as_sum(below_q[COUNT_WIDTH-1:0]);
@@ -112,13 +110,13 @@ module dtof_pool_candidate_decoder #(
   logic octet_done_q, first_octet_q;
   logic [OCTET_WIDTH+2:0] five_octets;
 
-  assign octet = ((command.own_bin[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin);
+  assign octet = ((command_i.own_bin[2:0] == 3'd0) ? '0 : octet_q) + OCTET_WIDTH'(own_bin);
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
-      octet_done_q <= command.count_own && command.own_bin[2:0] == 3'd7;
-      first_octet_q <= (command.own_bin[4:3] == 2'd0);
-      if (command.count_own) begin
+      octet_done_q <= command_i.count_own && command_i.own_bin[2:0] == 3'd7;
+      first_octet_q <= (command_i.own_bin[4:3] == 2'd0);
+      if (command_i.count_own) begin
         octet_q <= octet;
       end
       if (octet_done_q && (first_octet_q || octet_q < least_octet_q)) begin
@@ -149,10 +147,10 @@ module dtof_pool_candidate_decoder #(
       logic [SUM_WIDTH-1:0] raised_sum_q;
 
       for (k = 0; k < LABELS; k = k + 1) begin : g_label
-        assign here[k] = used_q[k] && (pairs_q[k*5+:5] == command.pair);
-        assign at_head[k] = used_q[k] && (pairs_q[k*5+:5] == command.pair - 5'd1);
+        assign here[k] = used_q[k] && (pairs_q[k*5+:5] == command_i.pair);
+        assign at_head[k] = used_q[k] && (pairs_q[k*5+:5] == command_i.pair - 5'd1);
         always_ff @(posedge clk_i) begin
-          if (command.take_prior) begin
+          if (command_i.take_prior) begin
             pairs_q[k*5+:5] <= 5'((last_cells_i[k*CELL_WIDTH+:CELL_WIDTH] - CELL_WIDTH'(3)) >> 2);
           end
         end
@@ -160,7 +158,7 @@ module dtof_pool_candidate_decoder #(
 
       always_ff @(posedge clk_i) begin
         if (active_i) begin
-          if (command.take_prior) begin
+          if (command_i.take_prior) begin
             used_q <= last_used_i;
           end
           raised_sum_q <= SUM_WIDTH'(bin_sum_q) + ((here != '0) ? SUM_WIDTH'(PRIOR_WEIGHT) : '0);
@@ -174,7 +172,7 @@ module dtof_pool_candidate_decoder #(
       assign last_sum = SUM_WIDTH'(last_sum_q);
       assign raised = '0;
       logic unused_prior;
-      assign unused_prior = ^{last_cells_i, last_used_i, command.take_prior};
+      assign unused_prior = ^{last_cells_i, last_used_i, command_i.take_prior};
     end
   endgenerate
 
@@ -185,8 +183,8 @@ module dtof_pool_candidate_decoder #(
   assign pair_sum = SUM_WIDTH'(bin_sum_q) + last_sum;
 
   always_ff @(posedge clk_i) begin
-    if (command.fill) begin
-      if (command.pair == 5'd0) begin
+    if (command_i.fill) begin
+      if (command_i.pair == 5'd0) begin
         least_q <= '1;  // more than any sum
       end else if (!pair_hidden && pair_sum < least_q) begin
         least_q <= pair_sum;
@@ -212,27 +210,27 @@ module dtof_pool_candidate_decoder #(
 
   // With pair 0 at the head the peak is new: what is registered is still of the one before. What it takes away was
   // registered a clock after it was found, in time for pair 1, which only an early peak reaches.
-  assign beside = new_peak_q ? !command.first_label && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
-  assign two_away = new_peak_q ? !command.first_label && (best_pair_q == 5'd3) : two_away_q;
+  assign beside = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd1 || best_pair_q == 5'd2) : beside_q;
+  assign two_away = new_peak_q ? !command_i.first_label && (best_pair_q == 5'd3) : two_away_q;
   assign leak = new_peak_q ? new_leak_q : leak_q;
-  assign from_peak = {1'b0, command.pair} + 6'd2 - peak_q;
+  assign from_peak = {1'b0, command_i.pair} + 6'd2 - peak_q;
   assign taken = next_taken || beside;
   assign left_over = !two_away ? next : (next > leak) ? next - leak : '0;
 
-  assign entry = command.fill ? ((command.pair == 5'd0) ? {1'b1, {SUM_WIDTH{1'b0}}} : {pair_hidden, pair_sum})
-      : command.search ? {head_taken, head} : '0;
+  assign entry = command_i.fill ? ((command_i.pair == 5'd0) ? {1'b1, {SUM_WIDTH{1'b0}}} : {pair_hidden, pair_sum})
+      : command_i.search ? {head_taken, head} : '0;
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
       ring_q <= {entry, ring_q[ENTRIES*ENTRY_WIDTH-1:2*ENTRY_WIDTH], taken, left_over};
-      new_peak_q <= (command.pair == 5'd31);
+      new_peak_q <= (command_i.pair == 5'd31);
       if (new_peak_q) begin  // for pair 2
-        beside_q <= !command.first_label && (best_pair_q <= 5'd3);
-        two_away_q <= !command.first_label && (best_pair_q == 5'd4);
+        beside_q <= !command_i.first_label && (best_pair_q <= 5'd3);
+        two_away_q <= !command_i.first_label && (best_pair_q == 5'd4);
       end else begin
         beside_q <= (from_peak == 6'd0) || (from_peak == 6'd1) || (from_peak == 6'd63);
         // While the ring fills, the peak is still of another group.
-        two_away_q <= command.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
+        two_away_q <= command_i.search && ((from_peak == 6'd2) || (from_peak == 6'd62));
       end
       new_leak_q <= new_leak;
     end
@@ -248,14 +246,14 @@ module dtof_pool_candidate_decoder #(
   always_ff @(posedge clk_i) begin
     if (active_i) begin
       last_q <= head;
-      if (command.pair == 5'd0) begin
+      if (command_i.pair == 5'd0) begin
         found_q <= 1'b0;
         next_pending_q <= 1'b0;
       end else begin
         next_pending_q <= better;
         if (better) begin
           found_q <= 1'b1;
-          best_pair_q <= command.pair;
+          best_pair_q <= command_i.pair;
           best_q <= head;
           before_q <= last_q;
           after_q <= '0;  // beyond the last pair
@@ -279,18 +277,18 @@ module dtof_pool_candidate_decoder #(
   assign peak_cell = {best_pair_q, 2'b00} + (tilted ? (upwards_q ? CELL_WIDTH'(1) : '1) : '0);
   assign excess = (best_q > least_q) ? best_q - least_q : '0;
   assign new_leak = excess >> LEAK_SHIFT;
-  assign cells = command.candidate ? {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]} : cells_q;
+  assign cells = command_i.candidate ? {peak_cell, cells_q[LABELS*CELL_WIDTH-1:CELL_WIDTH]} : cells_q;
 
   always_ff @(posedge clk_i) begin
     if (active_i) begin
       upwards_q <= upwards;
       tilt_q <= upwards ? after_q - before_q : before_q - after_q;
       lower_q <= upwards ? before_q : after_q;
-      if (command.search && new_peak_q) begin
-        peak_q <= command.first_label ? NOWHERE : {1'b0, best_pair_q};
+      if (command_i.search && new_peak_q) begin
+        peak_q <= command_i.first_label ? NOWHERE : {1'b0, best_pair_q};
         leak_q <= new_leak;
       end
-      if (command.candidate) begin
+      if (command_i.candidate) begin
         cells_q <= cells;
       end
     end
@@ -308,10 +306,10 @@ module dtof_pool_candidate_decoder #(
       logic [SUM_WIDTH-1:0] best_raised_q;
 
       always_ff @(posedge clk_i) begin
-        if (active_i && better && command.pair != 5'd0) begin
+        if (active_i && better && command_i.pair != 5'd0) begin
           best_raised_q <= raised;
         end
-        if (command.search && !command.first_label && command.pair == 5'(dtof_pkg::POOL_DECODER_SIGNIFICANCE_CLOCKS)) begin
+        if (command_i.search && !command_i.first_label && command_i.pair == 5'(dtof_pkg::POOL_DECODER_SIGNIFICANCE_CLOCKS)) begin
           significances_q <= {significance, significances_q[SIGNIFICANCES_WIDTH-1:SIGNIFICANCE_WIDTH]};
         end
       end
@@ -324,12 +322,12 @@ module dtof_pool_candidate_decoder #(
           .active_i      (active_i),
           .ahead_i       ({ring_q[5*ENTRY_WIDTH+:SUM_WIDTH], ring_q[4*ENTRY_WIDTH+:SUM_WIDTH]}),
           .behind_i      ({ring_q[(ENTRIES-2)*ENTRY_WIDTH+:SUM_WIDTH], ring_q[(ENTRIES-3)*ENTRY_WIDTH+:SUM_WIDTH]}),
-          .better_i      (better && command.pair != 5'd0),
-          .new_peak_i    (command.pair == 5'd0),
+          .better_i      (better && command_i.pair != 5'd0),
+          .new_peak_i    (command_i.pair == 5'd0),
           .pair_i        (best_pair_q),
           .peak_i        (best_q),
           .raised_i      (best_raised_q),
-          .missing_i     ({1'b0, command.missing} + {2'b00, !has_right_i}),
+          .missing_i     ({1'b0, command_i.missing} + {2'b00, !has_right_i}),
           .offset_i      (significance_offset_i),
           .significance_o(significance)
       );
@@ -337,7 +335,7 @@ module dtof_pool_candidate_decoder #(
     end else begin : g_no_significance
       assign significances_o = '0;
       logic unused_significance;
-      assign unused_significance = ^{raised, has_right_i, significance_offset_i, command.missing, first_sum_q};
+      assign unused_significance = ^{raised, has_right_i, significance_offset_i, command_i.missing, first_sum_q};
     end
   endgenerate
 

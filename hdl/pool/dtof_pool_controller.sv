@@ -12,7 +12,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool_controller #(
+module dtof_pool_controller `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int CLEAR_WORDS = 80,
     parameter int ADDR_WIDTH = 7,
     parameter int ACQ_WIDTH = 16
@@ -48,7 +48,7 @@ module dtof_pool_controller #(
 
   localparam logic [ADDR_WIDTH-1:0] LAST_ADDRESS = ADDR_WIDTH'(CLEAR_WORDS - 1);
 
-  logic [2:0] state_d, state_q;
+  `DTOF_TYPE(dtof_pool_pkg, pool_state_t) state_d, state_q;
   logic stream_q, coarse_q, point_q, acq_done_q, start_q, done_q, decoded_q, entered_q, more_q, more_then_q;
   logic [ACQ_WIDTH-1:0] acq_num_q, coarse_end_q, track_end_q, acquisition_then, acquisition_q, phase_end;
   logic [ADDR_WIDTH-1:0] address_q;
@@ -60,46 +60,50 @@ module dtof_pool_controller #(
   always_comb begin
     state_d = state_q;
     case (state_q)
-      dtof_pkg::STATE_IDLE:
+      dtof_pool_pkg::POOL_STATE_IDLE:
       if (start_q) begin
-        state_d = dtof_pkg::STATE_RESET;
+        state_d = dtof_pool_pkg::POOL_STATE_RESET;
       end
-      dtof_pkg::STATE_RESET:
+      dtof_pool_pkg::POOL_STATE_RESET:
       if (cleared) begin
-        state_d = decoded_q ? dtof_pkg::POOL_STATE_TRACK : dtof_pkg::POOL_STATE_COARSE;
+        if (decoded_q) begin
+          state_d = dtof_pool_pkg::POOL_STATE_TRACK;
+        end else begin
+          state_d = dtof_pool_pkg::POOL_STATE_COARSE;
+        end
       end
-      dtof_pkg::POOL_STATE_COARSE:
+      dtof_pool_pkg::POOL_STATE_COARSE:
       if (stream_idle_i) begin
-        state_d = dtof_pkg::POOL_STATE_DECODE;
+        state_d = dtof_pool_pkg::POOL_STATE_DECODE;
       end
-      dtof_pkg::POOL_STATE_DECODE:
+      dtof_pool_pkg::POOL_STATE_DECODE:
       if (engine_done_i) begin
-        state_d = dtof_pkg::STATE_RESET;
+        state_d = dtof_pool_pkg::POOL_STATE_RESET;
       end
-      dtof_pkg::POOL_STATE_TRACK:
+      dtof_pool_pkg::POOL_STATE_TRACK:
       if (stream_idle_i) begin
-        state_d = dtof_pkg::POOL_STATE_CHOOSE;
+        state_d = dtof_pool_pkg::POOL_STATE_CHOOSE;
       end
-      dtof_pkg::POOL_STATE_CHOOSE:
+      dtof_pool_pkg::POOL_STATE_CHOOSE:
       if (engine_done_i) begin
-        state_d = dtof_pkg::POOL_STATE_POINT;
+        state_d = dtof_pool_pkg::POOL_STATE_POINT;
       end
-      dtof_pkg::POOL_STATE_POINT:
+      dtof_pool_pkg::POOL_STATE_POINT:
       if (stream_idle_i) begin
-        state_d = dtof_pkg::POOL_STATE_DECIDE;
+        state_d = dtof_pool_pkg::POOL_STATE_DECIDE;
       end
-      dtof_pkg::POOL_STATE_DECIDE:
+      dtof_pool_pkg::POOL_STATE_DECIDE:
       if (engine_done_i) begin
-        state_d = dtof_pkg::STATE_IDLE;
+        state_d = dtof_pool_pkg::POOL_STATE_IDLE;
       end
-      default: state_d = dtof_pkg::STATE_IDLE;
+      default: state_d = dtof_pool_pkg::POOL_STATE_IDLE;
     endcase
   end
 
   // End of the current phase. Between two phases: end of the next one, so that the comparison does not depend on the change of state.
   always_comb begin
     phase_end = coarse_end_q;
-    if (state_q == dtof_pkg::POOL_STATE_CHOOSE || state_q == dtof_pkg::POOL_STATE_POINT) begin
+    if (state_q == dtof_pool_pkg::POOL_STATE_CHOOSE || state_q == dtof_pool_pkg::POOL_STATE_POINT) begin
       phase_end = acq_num_q;
     end else if (decoded_q) begin
       phase_end = track_end_q;
@@ -112,7 +116,7 @@ module dtof_pool_controller #(
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      state_q <= dtof_pkg::STATE_IDLE;
+      state_q <= dtof_pool_pkg::POOL_STATE_IDLE;
       stream_q <= 1'b0;
       coarse_q <= 1'b0;
       point_q <= 1'b0;
@@ -132,13 +136,13 @@ module dtof_pool_controller #(
       state_q <= state_d;
       entered_q <= (state_d != state_q);
       // Registered beside the state: whether a timestamp is taken depends on them.
-      stream_q <= (state_d == dtof_pkg::POOL_STATE_COARSE) || (state_d == dtof_pkg::POOL_STATE_TRACK)
-          || (state_d == dtof_pkg::POOL_STATE_POINT);
-      coarse_q <= (state_d == dtof_pkg::POOL_STATE_COARSE);
-      point_q <= (state_d == dtof_pkg::POOL_STATE_POINT);
+      stream_q <= (state_d == dtof_pool_pkg::POOL_STATE_COARSE) || (state_d == dtof_pool_pkg::POOL_STATE_TRACK)
+          || (state_d == dtof_pool_pkg::POOL_STATE_POINT);
+      coarse_q <= (state_d == dtof_pool_pkg::POOL_STATE_COARSE);
+      point_q <= (state_d == dtof_pool_pkg::POOL_STATE_POINT);
       acq_done_q <= acq_done_i;
       start_q <= accept;
-      done_q <= (state_q == dtof_pkg::POOL_STATE_DECIDE) && (state_d == dtof_pkg::STATE_IDLE);
+      done_q <= (state_q == dtof_pool_pkg::POOL_STATE_DECIDE) && (state_d == dtof_pool_pkg::POOL_STATE_IDLE);
       if (accept) begin
         acq_num_q <= acq_num_i;
         coarse_end_q <= coarse_end_i;
@@ -149,7 +153,7 @@ module dtof_pool_controller #(
         if (acq_done_q) begin
           acquisition_q <= acquisition_then;
         end
-        if (state_q == dtof_pkg::POOL_STATE_DECODE) begin
+        if (state_q == dtof_pool_pkg::POOL_STATE_DECODE) begin
           decoded_q <= 1'b1;
         end
       end
@@ -163,7 +167,7 @@ module dtof_pool_controller #(
   `DTOF_ASSERT(a_schedule, !illegal_schedule_o,
                "the schedule must be coarse_end_i <= track_end_i <= acq_num_i")
 
-  assign busy_o = start_q || (state_q != dtof_pkg::STATE_IDLE) || done_q;
+  assign busy_o = start_q || (state_q != dtof_pool_pkg::POOL_STATE_IDLE) || done_q;
   assign done_o = done_q;
   assign acq_num_o = acq_num_q;
   assign state_o = state_q;
@@ -173,11 +177,11 @@ module dtof_pool_controller #(
   assign more_o = more_q;
   assign acquisition_t1_o = dtof_pkg::POOL_SWEEP_WIDTH'(acquisition_q);
   // A clock later than the state, for an engine's word is 0 by then.
-  assign clear_o = (state_q == dtof_pkg::STATE_RESET) && !entered_q;
+  assign clear_o = (state_q == dtof_pool_pkg::POOL_STATE_RESET) && !entered_q;
   assign clear_address_o = address_q;
-  assign decode_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECODE);
-  assign choose_o = entered_q && (state_q == dtof_pkg::POOL_STATE_CHOOSE);
-  assign decide_o = entered_q && (state_q == dtof_pkg::POOL_STATE_DECIDE);
+  assign decode_o = entered_q && (state_q == dtof_pool_pkg::POOL_STATE_DECODE);
+  assign choose_o = entered_q && (state_q == dtof_pool_pkg::POOL_STATE_CHOOSE);
+  assign decide_o = entered_q && (state_q == dtof_pool_pkg::POOL_STATE_DECIDE);
 
 endmodule
 

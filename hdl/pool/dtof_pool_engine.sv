@@ -20,10 +20,12 @@
 // Schedule: the table of dtof_pool_sequencer, with this module's POOL_ENGINE_*_CLOCKS and POOL_ENGINE_*_CLOCKS (dtof_pkg).
 // Cost: dtof_pool_candidate_decoder, dtof_beside_evidence, two label_chains, a single-port SRAM of a word per row, per engine.
 
+`include "dtof_macros.svh"
+
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool_engine #(
+module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int NP = 10,
     parameter int PIXELS_PER_SRAM = 160,
     parameter int COUNT_WIDTH = 7,
@@ -59,7 +61,7 @@ module dtof_pool_engine #(
     input  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset_i,  // of long frames
     input  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_i,  // these two in decode: of the bin whose sum begins
     input  logic                    hidden_i,
-    input  logic [dtof_pkg::POOL_COMMAND_WIDTH-1:0] command_i,  // pool_engine_command_t
+    input  `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command_i,
     input  logic [  LINE_WIDTH-1:0] line_i,         // what was read, POOL_PAIR_READ_CLOCKS + POOL_LINE_CLOCKS after its read
     output logic [  HALF_WIDTH-1:0] word_o,         // what is written: the group's word, or two first pointer words
     input  logic [   ROW_WIDTH-1:0] scratch_row_i,  // of write_scratch and read_scratch
@@ -92,18 +94,15 @@ module dtof_pool_engine #(
   localparam int EVIDENCE_FIRST = GROUP_WIDTH + ((PRIOR != 0) ? LABELS : 0);  // {significances, tilted} in a group's word
   localparam int SCRATCH_WIDTH = dtof_pkg::max_of(CHOOSE_MESSAGE_WIDTH + LEFT_WIDTH, DECIDE_MESSAGE_WIDTH + WINNER_WIDTH);
 
-  `include "dtof_pool_command.svh"
-  pool_engine_command_t command;
-  beside_command_t beside;
-  assign command = command_i;
-  assign beside = command.beside;
+  `DTOF_TYPE(dtof_pool_pkg, beside_command_t) beside;
+  assign beside = command_i.beside;
 
   // Where nothing is asked for, nothing moves. The word goes back to 0 behind an operation's last clock.
 
   logic active, was_active_q;
   logic [LINE_WIDTH-1:0] line_q;
 
-  assign active = command.decoding || command.choosing || command.deciding;
+  assign active = command_i.decoding || command_i.choosing || command_i.deciding;
 
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
@@ -150,8 +149,8 @@ module dtof_pool_engine #(
       .SIGNIFICANCE_WIDTH(SIGNIFICANCE_WIDTH)
   ) u_candidate_decoder (
       .clk_i       (clk_i),
-      .active_i    (command.decoding),
-      .command_i   (command.decode),
+      .active_i    (command_i.decoding),
+      .command_i   (command_i.decode),
       .line_i      (line_bins),
       .last_cells_i(line_i[LABELS*CELL_WIDTH-1:0]),
       .last_used_i (last_used),
@@ -177,11 +176,11 @@ module dtof_pool_engine #(
   logic [SCRATCH_WIDTH-1:0] scratch;
   logic [CELL_WIDTH-1:0] left_cell;
 
-  assign advance = command.choose.advance || command.decide.advance;
+  assign advance = command_i.choose.advance || command_i.decide.advance;
   // In place of the low bits that are not kept stands the middle of what they can be.
   assign line_background = (BACKGROUND_WIDTH'(line_q[LABELS*CELL_WIDTH+:KEPT_WIDTH]) << (BACKGROUND_WIDTH - KEPT_WIDTH))
       | BACKGROUND_WIDTH'((1 << (BACKGROUND_WIDTH - KEPT_WIDTH)) >> 1);
-  assign line_pixel = command.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
+  assign line_pixel = command_i.odd_pixel ? line_q[PIXEL_WIDTH+:PIXEL_WIDTH] : line_q[PIXEL_WIDTH-1:0];
 
   generate
     if (OFFSET_BITS != 0) begin : g_lead
@@ -192,7 +191,7 @@ module dtof_pool_engine #(
   endgenerate
 
   always_ff @(posedge clk_i) begin
-    if (command.take_pixel) begin
+    if (command_i.take_pixel) begin
       captured_q <= line_pixel;
     end
     if (advance) begin
@@ -247,7 +246,7 @@ module dtof_pool_engine #(
   assign five_backgrounds = (BACKGROUND_WIDTH + 3)'(background) + ((BACKGROUND_WIDTH + 3)'(background) << 2);
   assign choose_penalty = CHOOSE_PENALTY_WIDTH'(five_backgrounds >> 4) + CHOOSE_PENALTY_WIDTH'(2);
   assign left_cell = scratch[CELL_WIDTH-1:0];
-  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
+  assign choose_scratch = SCRATCH_WIDTH'({choose_message, command_i.back ? best_lead : scratch[LEFT_WIDTH-1:0]});
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_winner_margin
       assign winner = {decide_margin[CONFIDENCE_WIDTH-1:0], position[15:0]};
@@ -255,7 +254,7 @@ module dtof_pool_engine #(
       assign winner = position[15:0];
     end
   endgenerate
-  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command.back ? winner : scratch[WINNER_WIDTH-1:0]});
+  assign decide_scratch = SCRATCH_WIDTH'({decide_message, command_i.back ? winner : scratch[WINNER_WIDTH-1:0]});
 
   dtof_sram #(
       .PORTS(1),
@@ -266,12 +265,12 @@ module dtof_pool_engine #(
       .rst_ni      (rst_ni),
       .cfg_i       (sram_cfg_i),
       .cfg_o       (sram_cfg_o),
-      .read_en_i   (command.read_scratch),
+      .read_en_i   (command_i.read_scratch),
       .read_addr_i (scratch_row_i),
       .read_data_o (scratch),
-      .write_en_i  (command.write_scratch),
+      .write_en_i  (command_i.write_scratch),
       .write_addr_i(scratch_row_i),
-      .write_data_i(command.deciding ? decide_scratch : choose_scratch)
+      .write_data_i(command_i.deciding ? decide_scratch : choose_scratch)
   );
 
   dtof_label_chain #(
@@ -282,8 +281,8 @@ module dtof_pool_engine #(
       .PENALTY_WIDTH (CHOOSE_PENALTY_WIDTH)
   ) u_choose (
       .clk_i            (clk_i),
-      .active_i         (command.choosing),
-      .command_i        (command.choose),
+      .active_i         (command_i.choosing),
+      .command_i        (command_i.choose),
       .evidence_i       (choose_evidence),
       .position_i       (choose_position),
       .penalty_i        (choose_penalty),
@@ -333,8 +332,8 @@ module dtof_pool_engine #(
       .PENALTY_WIDTH (DECIDE_PENALTY_WIDTH)
   ) u_decide (
       .clk_i            (clk_i),
-      .active_i         (command.deciding),
-      .command_i        (command.decide),
+      .active_i         (command_i.deciding),
+      .command_i        (command_i.decide),
       .evidence_i       ({{DECIDE_EVIDENCE_WIDTH{1'b0}}, 1'b0, prepared_q[POINT_WIDTH-1-:ADVANTAGE_WIDTH]}),
       .position_i       ({rival_position, leader_position}),
       .penalty_i        (DECIDE_PENALTY_WIDTH'(2)),
@@ -384,7 +383,7 @@ module dtof_pool_engine #(
       // The rival waits until the leader's pointer has moved towards those of the pixels around.
       logic [RIVAL_WIDTH-1:0] rival_q, next_rival_q;
       always_ff @(posedge clk_i) begin
-        if (command.choosing && command.take_position) begin
+        if (command_i.choosing && command_i.take_position) begin
           next_rival_q <= second_start[15:9];
           rival_q <= next_rival_q;
         end
@@ -396,9 +395,9 @@ module dtof_pool_engine #(
   endgenerate
 
   always_ff @(posedge clk_i) begin
-    if (command.take_word && command.odd_word) begin
+    if (command_i.take_word && command_i.odd_word) begin
       new_pair_q[2*PIXEL_WIDTH-1:PIXEL_WIDTH] <= first_word;
-    end else if (command.take_word) begin
+    end else if (command_i.take_word) begin
       new_pair_q[PIXEL_WIDTH-1:0] <= first_word;
     end
   end
@@ -412,21 +411,21 @@ module dtof_pool_engine #(
     if (PRIOR != 0) begin : g_used
       logic [LABELS-1:0] left_used_q, so_far_q, used_q;
       always_ff @(posedge clk_i) begin
-        if (command.take_used) begin
+        if (command_i.take_used) begin
           left_used_q <= line_q[GROUP_WIDTH+:LABELS];
         end
-        if (command.take_choice) begin
-          so_far_q <= (command.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);
+        if (command_i.take_choice) begin
+          so_far_q <= (command_i.next_group ? left_used_q : so_far_q) | (LABELS'(1) << best_label);
         end
-        if (command.next_group) begin
+        if (command_i.next_group) begin
           used_q <= so_far_q;
         end
       end
-      assign done_word = command.giving_used ? HALF_WIDTH'(used_q) << GROUP_WIDTH : HALF_WIDTH'(new_pair_q);
+      assign done_word = command_i.giving_used ? HALF_WIDTH'(used_q) << GROUP_WIDTH : HALF_WIDTH'(new_pair_q);
     end else begin : g_not_used
       assign done_word = HALF_WIDTH'(new_pair_q);
       logic unused_commands;
-      assign unused_commands = ^{command.take_used, command.take_choice, command.next_group, command.giving_used};
+      assign unused_commands = ^{command_i.take_used, command_i.take_choice, command_i.next_group, command_i.giving_used};
     end
   endgenerate
 
@@ -446,12 +445,15 @@ module dtof_pool_engine #(
   always_ff @(posedge clk_i) begin
     if (active || was_active_q) begin
       word_o <= ((HALF_WIDTH'({new_background[BACKGROUND_WIDTH-1-:KEPT_WIDTH], new_cells}) | new_evidence)
-              & {HALF_WIDTH{command.decoding}})
-          | (done_word & {HALF_WIDTH{command.choosing}});
+              & {HALF_WIDTH{command_i.decoding}})
+          | (done_word & {HALF_WIDTH{command_i.choosing}});
     end
   end
 
   // Both: positions move closer together. Decide: the result.
+
+  logic [2:0] near;
+  logic [CONFIDENCE_WIDTH-1:0] confidence;
 
   dtof_smoothing #(
       .NP              (NP),
@@ -461,31 +463,28 @@ module dtof_pool_engine #(
   ) u_smoothing (
       .clk_i           (clk_i),
       .rst_ni          (rst_ni),
-      .starts_i        ((RIVAL_MOVES != 0) && command.choosing),
+      .starts_i        ((RIVAL_MOVES != 0) && command_i.choosing),
       .smooth_i        (smooth_i),
       .has_left_i      (beside.has_left),
-      .take_position_i (command.take_position),
-      .has_position_i  (command.has_position),
-      .position_i      (command.deciding ? position[15:0] : best_start),
+      .take_position_i (command_i.take_position),
+      .has_position_i  (command_i.has_position),
+      .position_i      (command_i.deciding ? position[15:0] : best_start),
       .left_i          (scratch[15:0]),
-      .left_position_i (command.deciding ? left_lead : left_start),
+      .left_position_i (command_i.deciding ? left_lead : left_start),
       .left_o          (left_lead),
       .lost_position_i (lost_position[15:0]),
-      .margin_i        (command.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
+      .margin_i        (command_i.deciding ? decide_margin[CONFIDENCE_WIDTH-1:0] : CONFIDENCE_WIDTH'(start_advantage)),
       .confidence_i    (confidence),
       .near_o          (near),
       .bright_i        (last_bright_q),
-      .take_distances_i(command.take_distances),
+      .take_distances_i(command_i.take_distances),
       .start_o         (start),
       .start_margin_o  (start_margin),
-      .take_result_i   (command.take_result),
+      .take_result_i   (command_i.take_result),
       .result_o        (result_o)
   );
 
   // Decide: the confidence. What the groups of both labels say comes along with the pixel, as its group's background does.
-
-  logic [2:0] near;
-  logic [CONFIDENCE_WIDTH-1:0] confidence;
 
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_confidence
@@ -500,7 +499,7 @@ module dtof_pool_engine #(
           .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
       ) u_leader (
           .clk_i          (clk_i),
-          .take_i         (command.decide.advance),
+          .take_i         (command_i.decide.advance),
           .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
           .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
           .cell_i         (captured_q[POINTER_WIDTH-1-:CELL_WIDTH]),
@@ -512,7 +511,7 @@ module dtof_pool_engine #(
           .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
       ) u_rival (
           .clk_i          (clk_i),
-          .take_i         (command.decide.advance),
+          .take_i         (command_i.decide.advance),
           .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
           .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
           .cell_i         (captured_q[POINTER_WIDTH+:CELL_WIDTH]),
@@ -520,7 +519,7 @@ module dtof_pool_engine #(
       );
 
       always_ff @(posedge clk_i) begin
-        if (command.decide.advance) begin
+        if (command_i.decide.advance) begin
           prepared_sky_q <= {line_q[EVIDENCE_FIRST], line_background[BACKGROUND_WIDTH-1-:SKY_WIDTH]};
           {last_facts_q, facts_q, next_facts_q} <= {facts_q, next_facts_q, rival_significance, leader_significance,
                                                     prepared_sky_q};
@@ -532,14 +531,14 @@ module dtof_pool_engine #(
           .KEPT_WIDTH      (SIGNIFICANCE_WIDTH)
       ) u_confidence (
           .clk_i           (clk_i),
-          .take_position_i (command.deciding && command.take_position),
+          .take_position_i (command_i.deciding && command_i.take_position),
           .margin_i        (decide_margin[CONFIDENCE_WIDTH-1:0]),
           .left_margin_i   (scratch[16+:CONFIDENCE_WIDTH]),
           .significance_i  (decided_rival ? last_facts_q[FACTS_WIDTH-1-:SIGNIFICANCE_WIDTH]
                             : last_facts_q[SKY_WIDTH+1+:SIGNIFICANCE_WIDTH]),
           .tilted_i        (last_facts_q[SKY_WIDTH]),
           .sky_i           (last_facts_q[SKY_WIDTH-1:0]),
-          .take_distances_i(command.deciding && command.take_distances),
+          .take_distances_i(command_i.deciding && command_i.take_distances),
           .near_i          (near),
           .confidence_o    (confidence)
       );

@@ -257,7 +257,7 @@ module dtof_pool_pair #(
   logic changes;  // moved is another word than before
   // Which pixel's distance is found, and which one moved is for. A pixel without a timestamp has no turn, so that nothing
   // moves for it.
-  logic [3:0] turn_q, move_q;
+  logic [3:0] turn_q, move_q, gets_pixel, takes_pixel;
   logic [1:0] visit_t1, visit_q;  // whose row is complete
   logic second_row_t1_q, visit_t2;
 
@@ -283,7 +283,6 @@ module dtof_pool_pair #(
   // The register takes what stands in the SRAM's word, unless something else is due: the choice rests there, for each of its
   // changes passes all bits. The last pixel of a word goes straight to the SRAM.
   logic [WORD_WIDTH-1:0] fresh, from_sram, next_word;
-  logic [3:0] gets_pixel, takes_pixel;
   logic whole_word;
   integer f;
 

@@ -8,10 +8,12 @@
 // A clock without a timestamp leaves all registers as they are, so that nothing behind them moves.
 // Throughput: a pixel a clock. Cost at the defaults: see reports/area.md.
 
+`include "dtof_macros.svh"
+
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool_pixel_update #(
+module dtof_pool_pixel_update `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int NP = 10,
     parameter int LABELS = 5,
     parameter int SCORE_BITS = 4,
@@ -52,8 +54,7 @@ module dtof_pool_pixel_update #(
     end
   endgenerate
 
-  `include "dtof_pixel_distance.svh"
-  pixel_distance_t distance, distance_q;
+  `DTOF_TYPE(dtof_pool_pkg, pixel_distance_t) distance, distance_q;
   logic [LABELS-1:0] hits_q;
   logic [SCORE_BITS-1:0] leader_score, leader_score_q;
   logic [PIXEL_WIDTH-1:0] word_q;

@@ -22,7 +22,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool_pointer_array #(
+module dtof_pool_pointer_array `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int NP = 10,                // bits of a timestamp, 8 to 16
     parameter int PIXELS_PER_SRAM = 160,  // pixels a column serves
     parameter int SRAM_NUM = 200,         // columns
@@ -251,8 +251,7 @@ module dtof_pool_pointer_array #(
   logic [STEP_WIDTH-1:0] engine_column, send_column;
   logic [STEP_PAIRS-1:0] engine_select;
   logic engine_read, engine_write, engine_upper, engine_neighbour;
-  `include "dtof_pool_command.svh"
-  pool_engine_command_t command;
+  `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command;
   logic [ROW_WIDTH-1:0] scratch_row, send_row;
   logic send, send_last, send_waits, send_busy, prior_q;
   logic [$clog2(dtof_pkg::POOL_COARSE_BINS)-1:0] template_bin;
@@ -310,8 +309,8 @@ module dtof_pool_pointer_array #(
       .offset_o (significance_offset)
   );
 
-  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_entry, heard_template_entry;
-  logic template_hidden, heard_template_hidden;
+  logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_entry;
+  logic template_hidden;
 
   dtof_coarse_template u_coarse_template (
       .clk_i     (clk_i),
@@ -345,26 +344,22 @@ module dtof_pool_pointer_array #(
     end
   endgenerate
 
-  // What pairs and engines are told, on its way to them. The last engine may have fewer columns: its last pair is then its
+  // The commands on their way to pairs and engines. The last engine may have fewer columns: its last pair is then its
   // own missing neighbour.
 
-  localparam int COMMAND_WIDTH = dtof_pkg::POOL_COMMAND_WIDTH;
-  localparam int TOLD_WIDTH = 2 * NP + 4 + ADDR_WIDTH + COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27
-      + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH + dtof_pkg::POOL_TEMPLATE_WIDTH + 1;
-
-  logic told_read, told_write, has_right, last_has_right;
-  logic [ADDR_WIDTH-1:0] told_address;
+  logic read_q, write_q, has_right, last_has_right;
+  logic [ADDR_WIDTH-1:0] address_q;
   logic [LAST_PAIRS-1:0] last_select, last_part;
 
-  // A clock later than what is told, as the sequencers give read, write and address a clock early: in time for what a pair
+  // A clock later than the other commands, as the sequencers give read, write and address a clock early: in time for what a pair
   // does before it writes.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin
-      told_read <= 1'b0;
-      told_write <= 1'b0;
+      read_q <= 1'b0;
+      write_q <= 1'b0;
     end else begin
-      told_read <= stream_read || engine_read;
-      told_write <= stream_write || engine_write || clear;
+      read_q <= stream_read || engine_read;
+      write_q <= stream_write || engine_write || clear;
     end
   end
 
@@ -374,7 +369,7 @@ module dtof_pool_pointer_array #(
     coarse_q <= coarse;
     point_q <= point;
     engine_q <= !stream;
-    told_address <= clear ? clear_address : (stream ? stream_address : engine_address);
+    address_q <= clear ? clear_address : (stream ? stream_address : engine_address);
     group_load_q <= group_load;
     group_upper_q <= group_upper;
   end
@@ -401,48 +396,108 @@ module dtof_pool_pointer_array #(
   assign has_right = (engine_column != STEP_WIDTH'(command.decoding ? (STEPS - 1) / 2 * 2 : STEPS - 1));
   assign last_has_right = (engine_column != STEP_WIDTH'(command.decoding ? (LAST_COLUMNS - 1) / 2 * 2 : LAST_COLUMNS - 1));
 
-  logic [TOLD_WIDTH-1:0] told, heard;
-  logic [COMMAND_WIDTH-1:0] heard_command;
-  logic [NP-1:0] heard_gate_begin, heard_gate_end;
-  logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] heard_significance_offset;
-  logic heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1, heard_last_slot_t1, heard_odd_t1;
-  logic heard_second_row_t0, heard_first_row_t2, heard_second_row_t2, heard_keep_first, heard_keep_last, heard_load;
-  logic heard_sweep, heard_make_room;
-  logic heard_read, heard_write, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear;
-  logic heard_upper, heard_used, heard_has_right, heard_last_has_right;
-  logic [3:0] heard_acquisition_t2;
-  logic [PART_WIDTH-1:0] heard_part;
-  logic [ADDR_WIDTH-1:0] heard_address;
-  logic [STEP_PAIRS-1:0] heard_select;
-  logic [LAST_PAIRS-1:0] heard_last_select;
-  logic [ROW_WIDTH-1:0] heard_scratch_row;
+  localparam int SENT_WIDTH = 2 * NP + 4 + ADDR_WIDTH + dtof_pkg::POOL_COMMAND_WIDTH + ROW_WIDTH + STEP_PAIRS + LAST_PAIRS + PART_WIDTH + 27
+      + dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH + dtof_pkg::POOL_TEMPLATE_WIDTH + 1;
 
-  assign told = {template_hidden, template_entry, significance_offset, gate_begin, gate_end, smooth_q, coarse_q, point_q, beat_t1, first_slot_t1, last_slot_t1, odd_t1,
-                 second_row_t0, first_row_t2, second_row_t2, acquisition_t2, keep_first, keep_last, load, part, sweep, make_room,
-                 told_read, told_write, told_address, stream_word_load, group_load_q, group_upper_q, engine_q, engine_write, clear,
-                 engine_select, last_select, engine_upper, command.giving_used, has_right, last_has_right, scratch_row,
-                 command};
-  assign {heard_template_hidden, heard_template_entry, heard_significance_offset, heard_gate_begin, heard_gate_end, heard_smooth, heard_coarse, heard_point, heard_beat_t1, heard_first_slot_t1,
-          heard_last_slot_t1, heard_odd_t1, heard_second_row_t0, heard_first_row_t2, heard_second_row_t2,
-          heard_acquisition_t2, heard_keep_first, heard_keep_last, heard_load, heard_part, heard_sweep, heard_make_room,
-          heard_read, heard_write, heard_address, heard_word_load, heard_group_load, heard_group_upper, heard_engine, heard_replace, heard_clear,
-          heard_select, heard_last_select, heard_upper, heard_used, heard_has_right, heard_last_has_right, heard_scratch_row,
-          heard_command} = heard;
+  // The commands of a clock.
+  typedef struct packed {
+    logic template_hidden;
+    logic [dtof_pkg::POOL_TEMPLATE_WIDTH-1:0] template_entry;
+    logic [dtof_pkg::POOL_SIGNIFICANCE_OFFSET_WIDTH-1:0] significance_offset;
+    logic [NP-1:0] gate_begin;
+    logic [NP-1:0] gate_end;
+    logic smooth;
+    logic coarse;
+    logic point;
+    logic beat_t1;
+    logic first_slot_t1;
+    logic last_slot_t1;
+    logic odd_t1;
+    logic second_row_t0;
+    logic first_row_t2;
+    logic second_row_t2;
+    logic [3:0] acquisition_t2;
+    logic keep_first;
+    logic keep_last;
+    logic load;
+    logic [PART_WIDTH-1:0] part;
+    logic sweep;
+    logic make_room;
+    logic read;
+    logic write;
+    logic [ADDR_WIDTH-1:0] address;
+    logic word_load;
+    logic group_load;
+    logic group_upper;
+    logic engine;
+    logic replace;
+    logic clear;
+    logic [STEP_PAIRS-1:0] select;
+    logic [LAST_PAIRS-1:0] last_select;
+    logic upper;
+    logic used;
+    logic has_right;
+    logic last_has_right;
+    logic [ROW_WIDTH-1:0] scratch_row;
+    logic [dtof_pkg::POOL_COMMAND_WIDTH-1:0] command;  // pool_engine_command_t, which Yosys 0.23 takes in no type of a module
+  } sent_t;
+
+  sent_t sent, received;
+
+  assign sent.template_hidden = template_hidden;
+  assign sent.template_entry = template_entry;
+  assign sent.significance_offset = significance_offset;
+  assign sent.gate_begin = gate_begin;
+  assign sent.gate_end = gate_end;
+  assign sent.smooth = smooth_q;
+  assign sent.coarse = coarse_q;
+  assign sent.point = point_q;
+  assign sent.beat_t1 = beat_t1;
+  assign sent.first_slot_t1 = first_slot_t1;
+  assign sent.last_slot_t1 = last_slot_t1;
+  assign sent.odd_t1 = odd_t1;
+  assign sent.second_row_t0 = second_row_t0;
+  assign sent.first_row_t2 = first_row_t2;
+  assign sent.second_row_t2 = second_row_t2;
+  assign sent.acquisition_t2 = acquisition_t2;
+  assign sent.keep_first = keep_first;
+  assign sent.keep_last = keep_last;
+  assign sent.load = load;
+  assign sent.part = part;
+  assign sent.sweep = sweep;
+  assign sent.make_room = make_room;
+  assign sent.read = read_q;
+  assign sent.write = write_q;
+  assign sent.address = address_q;
+  assign sent.word_load = stream_word_load;
+  assign sent.group_load = group_load_q;
+  assign sent.group_upper = group_upper_q;
+  assign sent.engine = engine_q;
+  assign sent.replace = engine_write;
+  assign sent.clear = clear;
+  assign sent.select = engine_select;
+  assign sent.last_select = last_select;
+  assign sent.upper = engine_upper;
+  assign sent.used = command.giving_used;
+  assign sent.has_right = has_right;
+  assign sent.last_has_right = last_has_right;
+  assign sent.scratch_row = scratch_row;
+  assign sent.command = command;
 
   dtof_broadcast #(
-      .WIDTH (TOLD_WIDTH),
+      .WIDTH (SENT_WIDTH),
       .STAGES(BROADCAST_STAGES)
   ) u_broadcast (
       .clk_i (clk_i),
       .rst_ni(rst_ni),
-      .from_i(told),
-      .to_o  (heard)
+      .from_i(sent),
+      .to_o  (received)
   );
 
   generate
     if (ENGINES == 1) begin : g_one_engine
       logic unused_of_the_others;
-      assign unused_of_the_others = ^{heard_select, heard_has_right};
+      assign unused_of_the_others = ^{received.select, received.has_right};
     end
   endgenerate
 
@@ -512,35 +567,35 @@ module dtof_pool_pointer_array #(
           .sram_cfg_i      (sram_cfg_i),
           .sram_cfg_o      (quad_cfg[q*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
           .timestamp_i     (tdc_timestamp_i[2*FIRST*NP+:QUAD_COLUMNS*NP]),
-          .read_i          (heard_read),
-          .write_i         (heard_write),
-          .address_i       (heard_address),
-          .gate_begin_i    (heard_gate_begin),
-          .gate_end_i      (heard_gate_end),
-          .coarse_i        (heard_coarse),
-          .point_i         (heard_point),
-          .beat_t1_i       (heard_beat_t1),
-          .first_slot_t1_i (heard_first_slot_t1),
-          .last_slot_t1_i  (heard_last_slot_t1),
-          .odd_t1_i        (heard_odd_t1),
-          .second_row_t0_i (heard_second_row_t0),
-          .first_row_t2_i  (heard_first_row_t2),
-          .second_row_t2_i (heard_second_row_t2),
-          .acquisition_t2_i(heard_acquisition_t2),
-          .keep_first_i    (heard_keep_first),
-          .keep_last_i     (heard_keep_last),
-          .load_i          (heard_load),
-          .part_i          (heard_part),
-          .sweep_i         (heard_sweep),
-          .make_room_i     (heard_make_room),
-          .word_load_d_i   (heard_word_load),
-          .group_load_i    (heard_group_load),
-          .group_upper_i   (heard_group_upper),
-          .engine_i        (heard_engine),
-          .replace_i       (heard_replace),
-          .clear_i         (heard_clear),
-          .upper_i         (heard_upper),
-          .used_i          (heard_used),
+          .read_i          (received.read),
+          .write_i         (received.write),
+          .address_i       (received.address),
+          .gate_begin_i    (received.gate_begin),
+          .gate_end_i      (received.gate_end),
+          .coarse_i        (received.coarse),
+          .point_i         (received.point),
+          .beat_t1_i       (received.beat_t1),
+          .first_slot_t1_i (received.first_slot_t1),
+          .last_slot_t1_i  (received.last_slot_t1),
+          .odd_t1_i        (received.odd_t1),
+          .second_row_t0_i (received.second_row_t0),
+          .first_row_t2_i  (received.first_row_t2),
+          .second_row_t2_i (received.second_row_t2),
+          .acquisition_t2_i(received.acquisition_t2),
+          .keep_first_i    (received.keep_first),
+          .keep_last_i     (received.keep_last),
+          .load_i          (received.load),
+          .part_i          (received.part),
+          .sweep_i         (received.sweep),
+          .make_room_i     (received.make_room),
+          .word_load_d_i   (received.word_load),
+          .group_load_i    (received.group_load),
+          .group_upper_i   (received.group_upper),
+          .engine_i        (received.engine),
+          .replace_i       (received.replace),
+          .clear_i         (received.clear),
+          .upper_i         (received.upper),
+          .used_i          (received.used),
           .select_i        (selects[FIRST+:QUAD_PAIRS]),
           .engine_word_i   (engine_words[FIRST*HALF_WIDTH+:QUAD_PAIRS*HALF_WIDTH]),
           .first_beside_i  (g_pair[0].beside_word),
@@ -591,14 +646,14 @@ module dtof_pool_pointer_array #(
       assign engine_words[FIRST*HALF_WIDTH+:PAIRS*HALF_WIDTH] = {PAIRS{word}};
 
       if (e == ENGINES - 1) begin : g_last
-        assign selects[FIRST+:PAIRS] = heard_last_select;
-        assign has_right_here = heard_last_has_right;
+        assign selects[FIRST+:PAIRS] = received.last_select;
+        assign has_right_here = received.last_has_right;
       end else begin : g_full
-        assign selects[FIRST+:PAIRS] = heard_select;
-        assign has_right_here = heard_has_right;
+        assign selects[FIRST+:PAIRS] = received.select;
+        assign has_right_here = received.has_right;
       end
 
-      `DTOF_ASSERT(a_clear_with_zeros, !heard_clear || word == '0, "words are cleared while an engine gives another one")
+      `DTOF_ASSERT(a_clear_with_zeros, !received.clear || word == '0, "words are cleared while an engine gives another one")
 
       dtof_pool_engine #(
           .NP             (NP),
@@ -618,15 +673,15 @@ module dtof_pool_pointer_array #(
           .rst_ni       (rst_ni),
           .sram_cfg_i   (sram_cfg_i),
           .sram_cfg_o   (engine_cfg[e*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]),
-          .smooth_i     (heard_smooth),
+          .smooth_i     (received.smooth),
           .has_right_i  (has_right_here),
-          .significance_offset_i(heard_significance_offset),
-          .template_i   (heard_template_entry),
-          .hidden_i     (heard_template_hidden),
-          .command_i    (heard_command),
+          .significance_offset_i(received.significance_offset),
+          .template_i   (received.template_entry),
+          .hidden_i     (received.template_hidden),
+          .command_i    (received.command),
           .line_i       (line),
           .word_o       (word),
-          .scratch_row_i(heard_scratch_row),
+          .scratch_row_i(received.scratch_row),
           .result_o     (results[e*RESULT_WIDTH+:RESULT_WIDTH])
       );
     end

@@ -30,7 +30,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_pool_sequencer #(
+module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
     parameter int PIXELS_PER_SRAM = 160,  // rows of a column
     parameter int GROUP_SIZE = 4,         // rows of a group
     parameter int LABELS = 5,             // candidates of a group, 2 to 8
@@ -64,7 +64,7 @@ module dtof_pool_sequencer #(
     output logic                    upper_o,          // the upper half of the word
     output logic                    neighbour_o,      // select_o is the pair to the right of the one in work
     // engines, in step with what the columns get
-    output logic [dtof_pkg::POOL_COMMAND_WIDTH-1:0] command_o,  // pool_engine_command_t
+    output `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command_o,
     // a clock before command_o: the bin whose sum the engines begin then
     output logic [$clog2(dtof_pkg::POOL_COARSE_BINS)-1:0] template_bin_o,
     output logic [   ROW_WIDTH-1:0] scratch_row_o,    // of write_scratch and read_scratch
@@ -134,13 +134,15 @@ module dtof_pool_sequencer #(
 
   // Where the operation is: pair, column of the pair, pass, step, and clock of the step.
 
-  localparam logic [2:0] IDLE = 3'd0;
-  localparam logic [2:0] DECODE = 3'd1;
-  localparam logic [2:0] CHOOSE = 3'd2;
-  localparam logic [2:0] DECIDE = 3'd3;
-  localparam logic [2:0] FINISH = 3'd4;
+  typedef enum logic [2:0] {
+    IDLE   = 3'd0,
+    DECODE = 3'd1,
+    CHOOSE = 3'd2,
+    DECIDE = 3'd3,
+    FINISH = 3'd4
+  } operation_t;
 
-  logic [2:0] state_q;
+  operation_t state_q;
   logic [PAIR_WIDTH-1:0] pair_q;
   logic [PAIRS-1:0] select_q, select_d;
   logic odd_q;                      // of a chain: the pair's second column
@@ -284,12 +286,11 @@ module dtof_pool_sequencer #(
     every = (t >= first) && (t < first + period * times) && (((t - first) & (period - 1)) == 0);
   endfunction
 
-  `include "dtof_pool_command.svh"
-  pool_column_command_t columns;
-  pool_decode_command_t decode;
-  beside_command_t beside;
-  chain_command_t chain;
-  pool_engine_command_t command;
+  `DTOF_TYPE(dtof_pool_pkg, pool_column_command_t) columns;
+  `DTOF_TYPE(dtof_pool_pkg, pool_decode_command_t) decode;
+  `DTOF_TYPE(dtof_pool_pkg, beside_command_t) beside;
+  `DTOF_TYPE(dtof_pool_pkg, chain_command_t) chain;
+  `DTOF_TYPE(dtof_pool_pkg, pool_engine_command_t) command;
   int t, last;
   logic write_message, write_position, read_next, read_before, read_cell, read_message;
   assign t = 32'(t_q);

@@ -388,74 +388,88 @@ module dtof_array #(
   logic [SRAM_NUM:0] full_chain;
   assign full_chain[SRAM_NUM] = 1'b0;
 
-  // What the columns are told, on its way to them. What the read-out has no use for is zero: synthesis keeps the columns
-  // as modules, and with their ports what drives them.
+  // The commands on their way to the columns. A command that the read-out has no use for is zero: synthesis keeps the columns
+  // as modules, and with their ports the logic that drives the ports.
 
-  localparam int TOLD_WIDTH = 2 * NP + PASS_WIDTH + STEP_WIDTH + 5 * ROW_WIDTH + 2 * BIN_WIDTH + SCAN_WIDTH + 21;
+  localparam int COMMAND_WIDTH = 2 * NP + PASS_WIDTH + STEP_WIDTH + 5 * ROW_WIDTH + 2 * BIN_WIDTH + SCAN_WIDTH + 21;
 
-  logic [PASS_WIDTH-1:0] told_pass, column_pass;
-  logic told_first_pass, column_first_pass, told_final_pass, column_final_pass;
-  logic told_first_slot_t0, column_first_slot_t0, told_visit_t1, column_visit_t1;
-  logic told_first_acq_t1, column_first_acq_t1, told_beat_t5, column_beat_t5, column_beat_t1;
-  logic told_scan_s0, column_scan_s0, told_clear_s1, column_clear_s1, told_clear_all, column_clear_all;
-  logic told_scan_s2, column_scan_s2, told_first_s2, column_first_s2;
-  logic [STEP_WIDTH-1:0] told_step_t0, column_step_t0;
-  logic [3:1] told_same_pixel_t3, column_same_pixel_t3;
-  logic [ROW_WIDTH-1:0] told_histogram_read_pixel, column_histogram_read_pixel;
-  logic [ROW_WIDTH-1:0] told_histogram_write_pixel, column_histogram_write_pixel;
-  logic [ROW_WIDTH-1:0] told_word_read_pixel, column_word_read_pixel, told_word_set_pixel, column_word_set_pixel;
-  logic [ROW_WIDTH-1:0] told_word_write_pixel, column_word_write_pixel;
-  logic [BIN_WIDTH-1:0] told_scan_bin_s0, column_scan_bin_s0, told_clear_bin_s1, column_clear_bin_s1;
-  logic [SCAN_WIDTH-1:0] told_bin_s2, column_bin_s2;
-  logic column_word_read, column_word_read_done, column_word_set, column_word_write;
-  logic column_result_load, column_result_shift;
-  logic [NP-1:0] column_gate_begin, column_gate_end;
-  logic [TOLD_WIDTH-1:0] told, heard;
+  // The commands of a clock, with the names of the columns' ports.
+  typedef struct packed {
+    logic [NP-1:0] gate_begin;
+    logic [NP-1:0] gate_end;
+    logic [PASS_WIDTH-1:0] pass;
+    logic first_pass;
+    logic final_pass;
+    logic first_slot_t0;
+    logic beat_t1;
+    logic visit_t1;
+    logic first_acq_t1;
+    logic [STEP_WIDTH-1:0] step_t0;
+    logic [3:1] same_pixel_t3;
+    logic beat_t5;
+    logic [ROW_WIDTH-1:0] histogram_read_pixel;
+    logic [ROW_WIDTH-1:0] histogram_write_pixel;
+    logic scan_s0;
+    logic [BIN_WIDTH-1:0] scan_bin_s0;
+    logic clear_s1;
+    logic [BIN_WIDTH-1:0] clear_bin_s1;
+    logic clear_all;
+    logic scan_s2;
+    logic first_s2;
+    logic [SCAN_WIDTH-1:0] bin_s2;
+    logic word_read;
+    logic [ROW_WIDTH-1:0] word_read_pixel;
+    logic word_read_done;
+    logic word_set;
+    logic [ROW_WIDTH-1:0] word_set_pixel;
+    logic word_write;
+    logic [ROW_WIDTH-1:0] word_write_pixel;
+    logic result_load;
+    logic result_shift;
+  } command_t;
 
-  assign told_pass = (COARSE_PASSES != 0) ? pass : '0;
-  assign told_first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
-  assign told_final_pass = (COARSE_PASSES != 0) ? final_pass && !(keeps_counts && final_scan) : 1'b1;
-  assign told_first_slot_t0 = (WORD_MOVED != 0) ? first_slot_t0 : 1'b0;
-  assign told_visit_t1 = (WORD_MOVED != 0) ? visit_t1 : 1'b0;
-  assign told_first_acq_t1 = (WORD_MOVED != 0) ? first_acq_t1 : 1'b0;
-  assign told_step_t0 = (WORD_MOVED != 0) ? step_t0 : '0;
-  assign told_same_pixel_t3 = (HISTOGRAM != 0) ? same_pixel_t3 : '0;
-  assign told_beat_t5 = (HISTOGRAM != 0) ? beat_t5 : 1'b0;
-  assign told_histogram_read_pixel = (HISTOGRAM != 0) ? histogram_read_pixel : '0;
-  assign told_histogram_write_pixel = (HISTOGRAM != 0) ? histogram_write_pixel : '0;
-  assign told_scan_s0 = (HISTOGRAM != 0) ? scan_s0 && (32'(bin_s0) < BINS) : 1'b0;
-  assign told_scan_bin_s0 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s0) : '0;
-  assign told_clear_s1 = (HISTOGRAM != 0) ? clear_s1 && !(keeps_counts && coarse_scan) : 1'b0;
-  assign told_clear_bin_s1 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s1) : '0;
-  assign told_clear_all = (HISTOGRAM != 0) ? clear_all && !(keeps_counts && next_pass) : 1'b0;
-  assign told_scan_s2 = (HISTOGRAM != 0) ? scan_s2 : 1'b0;
-  assign told_first_s2 = (HISTOGRAM != 0) ? first_s2 : 1'b0;
-  assign told_bin_s2 = (HISTOGRAM != 0) ? bin_s2 : '0;
-  assign told_word_read_pixel = (WORD != 0) ? word_read_pixel : '0;
-  assign told_word_set_pixel = (WORD != 0) ? word_set_pixel : '0;
-  assign told_word_write_pixel = (WORD_MOVED != 0) ? pixel_t2 : '0;
+  command_t sent, received;
 
-  assign told = {gate_begin, gate_end, told_pass, told_first_pass, told_final_pass, told_first_slot_t0, beat_t1,
-                 told_visit_t1, told_first_acq_t1, told_step_t0, told_same_pixel_t3, told_beat_t5,
-                 told_histogram_read_pixel, told_histogram_write_pixel, told_scan_s0, told_scan_bin_s0, told_clear_s1,
-                 told_clear_bin_s1, told_clear_all, told_scan_s2, told_first_s2, told_bin_s2, word_read,
-                 told_word_read_pixel, word_read_done_q, word_set, told_word_set_pixel, word_write,
-                 told_word_write_pixel, result_load, result_shift};
-  assign {column_gate_begin, column_gate_end, column_pass, column_first_pass, column_final_pass, column_first_slot_t0,
-          column_beat_t1, column_visit_t1, column_first_acq_t1, column_step_t0, column_same_pixel_t3, column_beat_t5,
-          column_histogram_read_pixel, column_histogram_write_pixel, column_scan_s0, column_scan_bin_s0,
-          column_clear_s1, column_clear_bin_s1, column_clear_all, column_scan_s2, column_first_s2, column_bin_s2,
-          column_word_read, column_word_read_pixel, column_word_read_done, column_word_set, column_word_set_pixel,
-          column_word_write, column_word_write_pixel, column_result_load, column_result_shift} = heard;
+  assign sent.gate_begin = gate_begin;
+  assign sent.gate_end = gate_end;
+  assign sent.pass = (COARSE_PASSES != 0) ? pass : '0;
+  assign sent.first_pass = (COARSE_PASSES != 0) ? first_pass : 1'b1;
+  assign sent.final_pass = (COARSE_PASSES != 0) ? final_pass && !(keeps_counts && final_scan) : 1'b1;
+  assign sent.first_slot_t0 = (WORD_MOVED != 0) ? first_slot_t0 : 1'b0;
+  assign sent.beat_t1 = beat_t1;
+  assign sent.visit_t1 = (WORD_MOVED != 0) ? visit_t1 : 1'b0;
+  assign sent.first_acq_t1 = (WORD_MOVED != 0) ? first_acq_t1 : 1'b0;
+  assign sent.step_t0 = (WORD_MOVED != 0) ? step_t0 : '0;
+  assign sent.same_pixel_t3 = (HISTOGRAM != 0) ? same_pixel_t3 : '0;
+  assign sent.beat_t5 = (HISTOGRAM != 0) ? beat_t5 : 1'b0;
+  assign sent.histogram_read_pixel = (HISTOGRAM != 0) ? histogram_read_pixel : '0;
+  assign sent.histogram_write_pixel = (HISTOGRAM != 0) ? histogram_write_pixel : '0;
+  assign sent.scan_s0 = (HISTOGRAM != 0) ? scan_s0 && (32'(bin_s0) < BINS) : 1'b0;
+  assign sent.scan_bin_s0 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s0) : '0;
+  assign sent.clear_s1 = (HISTOGRAM != 0) ? clear_s1 && !(keeps_counts && coarse_scan) : 1'b0;
+  assign sent.clear_bin_s1 = (HISTOGRAM != 0) ? BIN_WIDTH'(bin_s1) : '0;
+  assign sent.clear_all = (HISTOGRAM != 0) ? clear_all && !(keeps_counts && next_pass) : 1'b0;
+  assign sent.scan_s2 = (HISTOGRAM != 0) ? scan_s2 : 1'b0;
+  assign sent.first_s2 = (HISTOGRAM != 0) ? first_s2 : 1'b0;
+  assign sent.bin_s2 = (HISTOGRAM != 0) ? bin_s2 : '0;
+  assign sent.word_read = word_read;
+  assign sent.word_read_pixel = (WORD != 0) ? word_read_pixel : '0;
+  assign sent.word_read_done = word_read_done_q;
+  assign sent.word_set = word_set;
+  assign sent.word_set_pixel = (WORD != 0) ? word_set_pixel : '0;
+  assign sent.word_write = word_write;
+  assign sent.word_write_pixel = (WORD_MOVED != 0) ? pixel_t2 : '0;
+  assign sent.result_load = result_load;
+  assign sent.result_shift = result_shift;
 
   dtof_broadcast #(
-      .WIDTH (TOLD_WIDTH),
+      .WIDTH (COMMAND_WIDTH),
       .STAGES(BROADCAST_STAGES)
   ) u_broadcast (
       .clk_i (clk_i),
       .rst_ni(rst_ni),
-      .from_i(told),
-      .to_o  (heard)
+      .from_i(sent),
+      .to_o  (received)
   );
 
   // Column c, of whatever read-out: all have the same ports. (Signals alone are connected: Yosys 0.23 stops at an
@@ -484,37 +498,37 @@ module dtof_array #(
       .sram_cfg_i             (sram_cfg_i), \
       .sram_cfg_o             (column_cfg[c*dtof_pkg::SRAM_CFG_WIDTH+:dtof_pkg::SRAM_CFG_WIDTH]), \
       .timestamp_i            (tdc_timestamp_i[c*NP+:NP]), \
-      .gate_begin_i           (column_gate_begin), \
-      .gate_end_i             (column_gate_end), \
-      .pass_i                 (column_pass), \
-      .first_pass_i           (column_first_pass), \
-      .final_pass_i           (column_final_pass), \
-      .first_slot_t0_i        (column_first_slot_t0), \
-      .beat_t1_i              (column_beat_t1), \
-      .visit_t1_i             (column_visit_t1), \
-      .first_acq_t1_i         (column_first_acq_t1), \
-      .step_t0_i              (column_step_t0), \
-      .same_pixel_t3_i        (column_same_pixel_t3), \
-      .beat_t5_i              (column_beat_t5), \
-      .histogram_read_pixel_i (column_histogram_read_pixel), \
-      .histogram_write_pixel_i(column_histogram_write_pixel), \
-      .scan_s0_i              (column_scan_s0), \
-      .scan_bin_s0_i          (column_scan_bin_s0), \
-      .clear_s1_i             (column_clear_s1), \
-      .clear_bin_s1_i         (column_clear_bin_s1), \
-      .clear_all_i            (column_clear_all), \
-      .scan_s2_i              (column_scan_s2), \
-      .first_s2_i             (column_first_s2), \
-      .bin_s2_i               (column_bin_s2), \
-      .word_read_i            (column_word_read), \
-      .word_read_pixel_i      (column_word_read_pixel), \
-      .word_read_done_i       (column_word_read_done), \
-      .word_set_i             (column_word_set), \
-      .word_set_pixel_i       (column_word_set_pixel), \
-      .word_write_i           (column_word_write), \
-      .word_write_pixel_i     (column_word_write_pixel), \
-      .result_load_i          (column_result_load), \
-      .result_shift_i         (column_result_shift), \
+      .gate_begin_i           (received.gate_begin), \
+      .gate_end_i             (received.gate_end), \
+      .pass_i                 (received.pass), \
+      .first_pass_i           (received.first_pass), \
+      .final_pass_i           (received.final_pass), \
+      .first_slot_t0_i        (received.first_slot_t0), \
+      .beat_t1_i              (received.beat_t1), \
+      .visit_t1_i             (received.visit_t1), \
+      .first_acq_t1_i         (received.first_acq_t1), \
+      .step_t0_i              (received.step_t0), \
+      .same_pixel_t3_i        (received.same_pixel_t3), \
+      .beat_t5_i              (received.beat_t5), \
+      .histogram_read_pixel_i (received.histogram_read_pixel), \
+      .histogram_write_pixel_i(received.histogram_write_pixel), \
+      .scan_s0_i              (received.scan_s0), \
+      .scan_bin_s0_i          (received.scan_bin_s0), \
+      .clear_s1_i             (received.clear_s1), \
+      .clear_bin_s1_i         (received.clear_bin_s1), \
+      .clear_all_i            (received.clear_all), \
+      .scan_s2_i              (received.scan_s2), \
+      .first_s2_i             (received.first_s2), \
+      .bin_s2_i               (received.bin_s2), \
+      .word_read_i            (received.word_read), \
+      .word_read_pixel_i      (received.word_read_pixel), \
+      .word_read_done_i       (received.word_read_done), \
+      .word_set_i             (received.word_set), \
+      .word_set_pixel_i       (received.word_set_pixel), \
+      .word_write_i           (received.word_write), \
+      .word_write_pixel_i     (received.word_write_pixel), \
+      .result_load_i          (received.result_load), \
+      .result_shift_i         (received.result_shift), \
       .next_column_i          (chain[(c+1)*RESULT_WIDTH+:RESULT_WIDTH]), \
       .result_o               (chain[c*RESULT_WIDTH+:RESULT_WIDTH]), \
       .next_counter_full_i    (full_chain[c+1]), \

@@ -12,7 +12,7 @@
 // verilator lint_off TIMESCALEMOD
 `default_nettype none
 
-module dtof_controller #(
+module dtof_controller `DTOF_TYPES_OF(dtof_pkg) #(
     parameter int COARSE_PASSES = 1,
     parameter int ACQ_WIDTH = 16,
     localparam int PASS_WIDTH = dtof_pkg::index_width(COARSE_PASSES + 1)
@@ -52,7 +52,7 @@ module dtof_controller #(
 
   localparam logic [PASS_WIDTH-1:0] FINAL_PASS = PASS_WIDTH'(COARSE_PASSES);
 
-  logic [2:0] state_d, state_q;
+  `DTOF_TYPE(dtof_pkg, state_t) state_d, state_q;
   logic [PASS_WIDTH-1:0] pass_q;
   logic [ACQ_WIDTH-1:0] acq_num_q;
   logic stream_q, first_pass_q, final_pass_q, start_q, done_q, accept;
@@ -68,7 +68,11 @@ module dtof_controller #(
       // Clear the memories.
       dtof_pkg::STATE_RESET:
       if (!scan_busy_i) begin
-        state_d = (COARSE_PASSES == 0) ? dtof_pkg::STATE_M3 : dtof_pkg::STATE_M0;
+        if (COARSE_PASSES == 0) begin
+          state_d = dtof_pkg::STATE_M3;
+        end else begin
+          state_d = dtof_pkg::STATE_M0;
+        end
       end
       // Build a coarse histogram.
       dtof_pkg::STATE_M0:
@@ -82,7 +86,11 @@ module dtof_controller #(
       end
       // The peaks are stored: the filter of the next pass is known.
       dtof_pkg::STATE_M2:
-      state_d = final_o ? dtof_pkg::STATE_M3 : dtof_pkg::STATE_M0;
+      if (final_o) begin
+        state_d = dtof_pkg::STATE_M3;
+      end else begin
+        state_d = dtof_pkg::STATE_M0;
+      end
       // Build the fine histogram or move the pointers.
       dtof_pkg::STATE_M3:
       if (stream_idle_i) begin
@@ -96,7 +104,11 @@ module dtof_controller #(
       // Send these results; begin the next pixel.
       dtof_pkg::STATE_M5:
       if (result_done_i) begin
-        state_d = scan_last_row_i ? dtof_pkg::STATE_IDLE : dtof_pkg::STATE_M4;
+        if (scan_last_row_i) begin
+          state_d = dtof_pkg::STATE_IDLE;
+        end else begin
+          state_d = dtof_pkg::STATE_M4;
+        end
       end
       default: state_d = dtof_pkg::STATE_IDLE;
     endcase

@@ -198,7 +198,7 @@ void ArrayLibrary::build(const std::filesystem::path& folder, const std::string&
   for (const RtlSetting& setting : settings_) {
     verilate.push_back(fmt::format("-G{}={}", setting.name, setting.value));
   }
-  for (const char* word : {"hdl/lint/verilator.vlt", "+incdir+hdl/common", "hdl/common/dtof_pkg.sv",
+  for (const char* word : {"hdl/lint/verilator.vlt", "+incdir+hdl/common", "hdl/common/dtof_pkg.sv", "hdl/pool/dtof_pool_pkg.sv",
                            "hdl/subsystem/dtof_registers_pkg.sv", "-y", "hdl/subsystem", "-y", "hdl/thesis",
                            "-y", "hdl/pool", "-y", "hdl/common", "-y", "hdl/technology/behavioural"}) {
     verilate.emplace_back(word);

@@ -7,7 +7,76 @@
 module subsystem_testbench #(
     parameter READOUT = 0,
     parameter AXI_LITE = 0,
-`include "dtof_subsystem_declarations.svh"
+    // parameters of the arrays: written by scripts/generate.py from readouts.toml
+    // verilator lint_off UNUSEDPARAM
+    // bits of a TDC timestamp
+    parameter int NP = 10,
+    // bits of the coarse histogram index
+    parameter int NB = (READOUT == dtof_pkg::READOUT_SIFH) ? (NP / 2) + 1
+        : (READOUT == dtof_pkg::READOUT_PIFH) ? dtof_pkg::min_of(NP, 6)
+        : (READOUT == dtof_pkg::READOUT_HISTOGRAM) ? NP
+        : (READOUT == dtof_pkg::READOUT_COARSEHISTOGRAM) ? dtof_pkg::min_of(NP, 5)
+        : NP / 2,
+    // pixels a column serves
+    parameter int PIXELS_PER_SRAM = 160,
+    // columns working in parallel
+    parameter int SRAM_NUM = 200,
+    // timestamps per pixel and acquisition
+    parameter int SLOTS = 2,
+    // bits of a histogram bin, a counter that never wraps
+    parameter int COUNT_WIDTH = (READOUT == dtof_pkg::READOUT_POOLPOINTER) ? 7
+        : 10,
+    // bins a pointer moves per timestamp
+    parameter int POINTER_STEP = 1,
+    // fractional bits of the pointer
+    parameter int FRACTION_BITS = (READOUT == dtof_pkg::READOUT_COARSEHISTOGRAM) ? dtof_pkg::min_of(2, (16 - NP))
+        : 0,
+    // bits of a pointer's confidence, 0 for none
+    parameter int CONFIDENCE_WIDTH = 4,
+    // hisPointer: side band beyond half a coarse bin, the FWHM of 2 ns in 45 ns
+    parameter int GUARD = ((2 << NP) + 44) / 45,
+    // SiFH: window centred on the coarse bin (Fig. 3.8) instead of Eq. 2.5
+    parameter int WINDOW_CENTRED = 0,
+    // ports of the pointer SRAM; 1 halves its cell
+    parameter int POINTER_PORTS = 2,
+    // one status bit an address instead of clearing
+    parameter int SIGNALLED_CLEAR = 0,
+    // 1: only timestamps from `gate_begin_i` to below `gate_end_i` count
+    parameter int TIME_GATE = 0,
+    // 1: a frame may send histograms instead of results (`raw_i`)
+    parameter int RAW_HISTOGRAM = 0,
+    // bits of the run-time number of acquisitions
+    parameter int ACQ_WIDTH = 16,
+    // registers between the shared logic and the columns; they delay, and change no result
+    parameter int BROADCAST_STAGES = 2,
+    // rows of a group, which shares a coarse histogram
+    parameter int GROUP_SIZE = 4,
+    // candidates of a group
+    parameter int LABELS = 5,
+    // bits of their scores
+    parameter int SCORE_BITS = 4,
+    // bits of a leader's offset in the track phase, 0 for none
+    parameter int OFFSET_BITS = 6,
+    // bits of the leader's advantage
+    parameter int ADVANTAGE_WIDTH = 7,
+    // a pointer's unit is 2^(POINTER_SHIFT - 11) coarse bins
+    parameter int POINTER_SHIFT = 1,
+    // 1: the rival has a pointer of its own
+    parameter int RIVAL_MOVES = 1,
+    // windows of a settled pointer: 8 for pulses below 0.75 coarse bins (FWHM), 10 from 2.25
+    parameter int CELL_SHIFT = 9,
+    // 1: a result has the position of the label that lost, too
+    parameter int SECOND_TARGET = 0,
+    // 1: candidates may begin from those that were used in the last frame (`prior_i`)
+    parameter int PRIOR = 0,
+    // columns that share an engine
+    parameter int ENGINE_COLUMNS = 34,
+    // 64ths of a frame that the coarse phase is recommended to take
+    parameter int COARSE_SHARE = 14,
+    // 64ths of a frame that the track phase is recommended to take
+    parameter int TRACK_SHARE = 20,
+    // verilator lint_on UNUSEDPARAM
+    // end of parameters of the arrays
     parameter CLOCK_WAITS = 1,
     parameter SOURCE_WAITS = 1,
     parameter BUFFER_LINES = 0,  // 0: the subsystem's default
@@ -133,7 +202,38 @@ module subsystem_testbench #(
       .BUFFER_LINES(LINES),
       .RASTER_ORDER(RASTER_ORDER),
       .PARITY(PARITY),
-`include "dtof_subsystem_parameters.svh"
+      // parameters of dtof_subsystem: written by scripts/generate.py from readouts.toml
+      .NP(NP),
+      .NB(NB),
+      .PIXELS_PER_SRAM(PIXELS_PER_SRAM),
+      .SRAM_NUM(SRAM_NUM),
+      .SLOTS(SLOTS),
+      .COUNT_WIDTH(COUNT_WIDTH),
+      .POINTER_STEP(POINTER_STEP),
+      .FRACTION_BITS(FRACTION_BITS),
+      .CONFIDENCE_WIDTH(CONFIDENCE_WIDTH),
+      .GUARD(GUARD),
+      .WINDOW_CENTRED(WINDOW_CENTRED),
+      .POINTER_PORTS(POINTER_PORTS),
+      .SIGNALLED_CLEAR(SIGNALLED_CLEAR),
+      .TIME_GATE(TIME_GATE),
+      .RAW_HISTOGRAM(RAW_HISTOGRAM),
+      .ACQ_WIDTH(ACQ_WIDTH),
+      .BROADCAST_STAGES(BROADCAST_STAGES),
+      .GROUP_SIZE(GROUP_SIZE),
+      .LABELS(LABELS),
+      .SCORE_BITS(SCORE_BITS),
+      .OFFSET_BITS(OFFSET_BITS),
+      .ADVANTAGE_WIDTH(ADVANTAGE_WIDTH),
+      .POINTER_SHIFT(POINTER_SHIFT),
+      .RIVAL_MOVES(RIVAL_MOVES),
+      .CELL_SHIFT(CELL_SHIFT),
+      .SECOND_TARGET(SECOND_TARGET),
+      .PRIOR(PRIOR),
+      .ENGINE_COLUMNS(ENGINE_COLUMNS),
+      .COARSE_SHARE(COARSE_SHARE),
+      .TRACK_SHARE(TRACK_SHARE)
+      // end of parameters of dtof_subsystem
   ) u_subsystem (
       .clk_i,
       .rst_ni,

@@ -17,9 +17,11 @@
 `default_nettype none
 
 module first_photon_column #(
-    `include "dtof_column_parameters.svh"
+    // parameters of a column: written by scripts/generate.py from scripts/templates/column_parameters.svh
+    // end of parameters of a column
 ) (
-    `include "dtof_column_ports.svh"
+    // ports of a column: written by scripts/generate.py from scripts/templates/column_ports.svh
+    // end of ports of a column
 );
 
   localparam int WORD_WIDTH = NP + 1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parameters of every column of dtof_array, which are the array's own: each column includes this file in its
-// parameter list. What the read-out has no use for is ignored. Limits are the array's (hdl/lint/parameter_limits.csv).
+// The parameters of every column of dtof_array, which are the array's own. scripts/generate.py copies the lines below into each
+// column. A column ignores what its read-out has no use for. Limits are the array's (hdl/lint/parameter_limits.csv).
+
     parameter int READOUT = dtof_pkg::READOUT_SIFH,  // which one of those that share the column
     parameter int NP = 10,               // bits of a timestamp
     parameter int NB = 5,                // bits of the coarse index

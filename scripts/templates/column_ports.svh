@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ports of every column of dtof_array: each column includes this file in its port list.
+// The ports of every column of dtof_array. scripts/generate.py copies the lines below into each column.
 //
 // A column has no state machine. The array's control gives all columns the same commands: in which clock a timestamp, a scan
 // or a clear reaches which stage. A column uses the commands that its read-out needs; the array ties the others to zero. Clocks are named by the
 // stage of a timestamp (T0: it is at the port) or of a scan (S0: an address is read).
 //
 // Beside its histograms a column may keep one word a pixel (a pointer, a coarse peak, the best peak so far); readouts.toml
-// says when it is read. The rules between these ports are assertions: control/dtof_column_rules.sv.
+// says when it is read. The rules between these ports are assertions: hdl/thesis/dtof_column_rules.sv.
+
     input  logic                    clk_i,
     input  logic                    rst_ni,                   // of assertions and the chain of full counters alone
     // side band of the SRAM macros, which the technology folder gives a meaning
