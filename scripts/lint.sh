@@ -7,7 +7,7 @@
 set -euo pipefail
 format_version=14  # of clang-format: Debian 12's
 
-mapfile -t sources < <(scripts/list_files.py .cpp .hpp driver/dtof.h driver/dtof.c)
+mapfile -t sources < <(scripts/list_files.py .cpp .hpp driver/dtof.h driver/dtof.c examples/soc/software.h examples/soc/software.c)
 format=clang-format-$format_version
 command -v "$format" > /dev/null || format=clang-format
 installed=$("$format" --version | sed -nE 's/.*version ([0-9]+).*/\1/p')

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Reads the RTL of every named configuration, the subsystem around every read-out and the FPGA demonstrator with Verilator
--Wall, Yosys and Icarus Verilog.
+"""Reads the RTL of every named configuration, the subsystem around every read-out, the FPGA demonstrator and the SoC example with
+Verilator -Wall, Yosys and Icarus Verilog.
 
 Also checks that illegal parameters stop elaboration with their sentence and the last legal ones do not
 (hdl/lint/parameter_limits.csv), that no construct is used which a tool is known
@@ -28,6 +28,7 @@ SIZE = slang.TOPS
 SUBSYSTEM = "dtof_subsystem"
 IN_FRONT = {"dtof_axi_lite_to_apb": {"ADDR_WIDTH": 12}, "dtof_reset_synchroniser": {}}  # what stands in front of it
 DEMONSTRATOR = "demonstrator"  # an FPGA around it, in fpga/
+SOC = "soc"  # a chip around it, in examples/soc/
 PARAMETER_LIMITS = HDL / "lint" / "parameter_limits.csv"
 MISREAD = [  # pattern in the RTL, and what is wrong with it
     (re.compile(r"\b(?:localparam|parameter)\b[^;=]*=\s*'1\b"),
@@ -42,9 +43,9 @@ HARMLESS_SORRY: dict[str, str] = {}  # part of an Icarus line, and why it does n
 BLOCK_RAM = {"ecp5": "DP16KD", "ice40": "SB_RAM40_4K"}
 
 
-def source_files() -> list[str]:
-    """RTL files of the file list, without comments and options."""
-    lines = (HDL / "dtof.f").read_text().splitlines()
+def source_files(file_list: Path = HDL / "dtof.f") -> list[str]:
+    """RTL files of a file list, without comments and options."""
+    lines = file_list.read_text().splitlines()
     return [line for line in lines if line.endswith(".sv") and not line.startswith("//")]
 
 
@@ -89,24 +90,33 @@ def check_configuration(configuration: Configuration) -> list[str]:
                       configuration.rtl_parameters() | SIZE[configuration.top])
 
 
-def check_demonstrator() -> list[str]:
-    """The very top of the FPGA, with the FPGA's memories."""
-    listed = [file.replace("/behavioural/", "/fpga/") for file in source_files()]
-    files = [*listed, *sorted(f"../{file.relative_to(ROOT)}" for file in (ROOT / "fpga").glob("*.sv"))]
+def check_around(top: str, files: list[str], settings: str = "") -> list[str]:
+    """A top around the subsystem, in these files; `settings`: commands of Yosys."""
     commands = {
-        "Verilator": ["verilator", "--lint-only", "-Wall", "-f", "dtof_lint.f", "+incdir+common", *files,
-                      "--top-module", DEMONSTRATOR],
-        "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Icommon {' '.join(files)}; "
-                  f"chparam -set CLOCK_WAITS 0 {SUBSYSTEM}; hierarchy -check -top {DEMONSTRATOR}; "  # Yosys looks into the default, too
+        "Verilator": ["verilator", "--lint-only", "-Wall", "-f", "dtof_lint.f", "+incdir+common", *files, "--top-module", top],
+        "Yosys": ["yosys", "-q", "-p", f"read_verilog -sv -Icommon {' '.join(files)}; {settings}hierarchy -check -top {top}; "
                   "proc; check -assert"],
-        "Icarus Verilog": ["iverilog", "-g2012", "-t", "null", "-Icommon", "-s", DEMONSTRATOR, *files],
+        "Icarus Verilog": ["iverilog", "-g2012", "-t", "null", "-Icommon", "-s", top, *files],
     }  # fmt: skip
     failures = []
     for tool, command in commands.items():
         result = run(command)
         if result.returncode != 0 or sorry(result.stdout):
-            failures.append(f"{tool} refuses the {DEMONSTRATOR}:\n{result.stdout}")
+            failures.append(f"{tool} refuses the top {top}:\n{result.stdout}")
     return failures
+
+
+def check_demonstrator() -> list[str]:
+    """The very top of the FPGA, with the FPGA's memories."""
+    listed = [file.replace("/behavioural/", "/fpga/") for file in source_files()]
+    files = [*listed, *sorted(f"../{file.relative_to(ROOT)}" for file in (ROOT / "fpga").glob("*.sv"))]
+    # Yosys looks into the default, too.
+    return check_around(DEMONSTRATOR, files, f"chparam -set CLOCK_WAITS 0 {SUBSYSTEM}; ")
+
+
+def check_soc() -> list[str]:
+    """The top of the SoC example, by its file list."""
+    return check_around(SOC, [*source_files(), *source_files(ROOT / "examples/soc/soc.f")])
 
 
 def check_subsystem(readout: int) -> list[str]:
@@ -234,7 +244,7 @@ def main() -> int:
         limit = pool.map(lambda row: check_limit(*row), limits)
         subsystem = pool.map(check_subsystem, subsystem_numbers())
         in_front = [text for top, settings in IN_FRONT.items() for text in check_read(top, top, settings)]
-        failures += [text for group in (*legal, *limit, *subsystem, in_front, check_demonstrator(), block_ram.result()) for text in group]
+        failures += [text for group in (*legal, *limit, *subsystem, in_front, check_demonstrator(), check_soc(), block_ram.result()) for text in group]
     if slang.is_installed():
         failures += slang.check()
     for text in failures:
@@ -243,8 +253,8 @@ def main() -> int:
         print(f"slang: {len(SIZE)} tops clean" if slang.is_installed()
               else f"slang: {len(SIZE)} tops skipped, for it is not installed (make lint-slang installs it)")
         print(
-            f"RTL lint: {len(configurations)} configurations, the subsystem of {len(subsystem_numbers())} read-outs and the "
-            "demonstrator clean in Verilator, Yosys and Icarus Verilog; "
+            f"RTL lint: {len(configurations)} configurations, the subsystem of {len(subsystem_numbers())} read-outs, the "
+            "demonstrator and the SoC example clean in Verilator, Yosys and Icarus Verilog; "
             f"{len(illegal)} illegal parameters refused, {len(limits) - len(illegal)} legal extremes taken; "
             f"stand-ins become block RAM ({', '.join(BLOCK_RAM)})"
         )

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // APB4 as concurrent assertions and covers, for simulators that have them. Synthesis does not read this folder.
 //
-// Assertions: an access follows the clock of its setup; address, direction, data and strobes stay the same until pready; penable needs
-// psel; pslverr comes with pready alone; no strobe in a read.
+// Assertions: an access follows the clock of its setup, and each access has one; address, direction, data and strobes stay the same until
+// pready; pslverr comes with pready alone. penable without psel is an access of another slave.
 // Source: AMBA APB Protocol Specification (IHI 0024), sections 3 and 4.
 // Covers: a write, a read, an access with wait states, a refused access, two transfers in a row.
 // Cost: none in silicon.
@@ -30,8 +30,8 @@ module dtof_apb_protocol #(
   else $error("%m: the master's setup has no access behind it");
 
   a_access_has_a_setup :
-  assert property (@(posedge clk_i) disable iff (!rst_ni) penable_i |-> psel_i)
-  else $error("%m: the master's penable is high without psel");
+  assert property (@(posedge clk_i) disable iff (!rst_ni) psel_i && penable_i |-> $past(psel_i && !(penable_i && pready_i)))
+  else $error("%m: the master's access has no setup in front of it");
 
   a_access_stays :
   assert property (@(posedge clk_i) disable iff (!rst_ni) psel_i && penable_i && !pready_i |=> psel_i && penable_i)

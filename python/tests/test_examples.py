@@ -14,7 +14,8 @@ from pathlib import Path
 from programs import ROOT
 
 EXAMPLES = ROOT / "examples" / "python"
-PICTURES = {"first_picture": ["first_picture.png", "first_picture_pixel.png"], "own_sensor": ["own_sensor.png"], "own_data": ["own_data.png"]}
+PICTURES = {"first_picture": ["first_picture.png", "first_picture_pixel.png"], "own_sensor": ["own_sensor.png"], "own_data": ["own_data.png"],
+            "point_cloud_mcap": []}  # what it writes: test_mcap.py
 PAGE = ROOT / "docs" / "user" / "python.md"
 SECONDS = 60.0
 
@@ -62,6 +63,12 @@ class ExamplesTest(unittest.TestCase):
         said = self.try_example("own_data")
         self.assertIn("the same codes: True", said)
         self.assertRegex(said, r"hisPointer, 400 photons a pixel: +[\d.]+%")
+
+    def test_point_cloud_mcap(self) -> None:
+        said = self.try_example("point_cloud_mcap")
+        distances = [float(distance) for distance in re.findall(r"the box at ([\d.]+) m", said)]
+        for found, expected in zip(distances, (2.5, 2.3, 2.1, 1.9, 1.7), strict=True):
+            self.assertAlmostEqual(found, expected, delta=0.05)
 
     def test_the_pages_code(self) -> None:
         text = PAGE.read_text(encoding="utf-8")

@@ -36,6 +36,7 @@ class Assertions(unittest.TestCase):
         bench = planted(bench, r"while \(!line_ready\) @\(negedge clk\);",
                         'while (!line_ready) begin @(negedge clk); if ($test$plusargs("fault_data")) line = ~line; end')
         bench = planted(bench, r"#0\.1 penable = 1'b1;", '#0.1 penable = !$test$plusargs("fault_setup");')
+        bench = planted(bench, r"#0\.1 psel = 1'b1;", '#0.1 psel = 1; penable = $test$plusargs("fault_no_setup");')
         (cls.folder / "bench.sv").write_text(bench, encoding="utf-8")
         subsystem = planted((ROOT / SUBSYSTEM).read_text(encoding="utf-8"), r"(\.tdc_valid_i\s*)\(([^)]*)\)",
                             r'\1(\2 && !($test$plusargs("fault_gap") && $time > 5000 && ($time / 3) % 101 == 0))')
@@ -72,6 +73,7 @@ class Assertions(unittest.TestCase):
     def test_planted_faults_are_reported_with_the_side_that_is_at_fault(self) -> None:
         for fault, says in (("fault_data", "the source of lines changed tdata or tlast before tready"),
                             ("fault_setup", "the master's setup has no access behind it"),
+                            ("fault_no_setup", "the master's access has no setup in front of it"),
                             ("fault_gap", "the source left a gap inside an acquisition")):
             with self.subTest(fault=fault):
                 said, _ = self.simulate(f"+{fault}")
