@@ -454,6 +454,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   logic [2:0] near;
   logic [CONFIDENCE_WIDTH-1:0] confidence;
+  logic next_pixel;
+  assign next_pixel = command_i.decide.advance;  // Icarus Verilog 12 gives a port in a generate block the whole command
 
   dtof_smoothing #(
       .NP              (NP),
@@ -499,7 +501,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
       ) u_leader (
           .clk_i          (clk_i),
-          .take_i         (command_i.decide.advance),
+          .take_i         (next_pixel),
           .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
           .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
           .cell_i         (captured_q[POINTER_WIDTH-1-:CELL_WIDTH]),
@@ -511,7 +513,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
           .KEPT_WIDTH(SIGNIFICANCE_WIDTH)
       ) u_rival (
           .clk_i          (clk_i),
-          .take_i         (command_i.decide.advance),
+          .take_i         (next_pixel),
           .cells_i        (line_q[LABELS*CELL_WIDTH-1:0]),
           .significances_i(line_q[EVIDENCE_FIRST+1+:LABELS*SIGNIFICANCE_WIDTH]),
           .cell_i         (captured_q[POINTER_WIDTH+:CELL_WIDTH]),

@@ -45,7 +45,7 @@ class Assertions(unittest.TestCase):
                  for line in (HDL / "dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and not line.startswith("//")]
         built = subprocess.run(
             ["verilator", "--cc", "--exe", "--build", "--timing", "--assert", "--coverage-user", "-Wno-fatal", "-CFLAGS", "-O0",
-             "--Mdir", cls.folder / "build", "-f", "dtof_lint.f", "+incdir+common", *files, "-f", "dtof_assertions.f", cls.folder / "bench.sv",
+             "--timescale", "1ns/1ps", "--Mdir", cls.folder / "build", "-f", "dtof_lint.f", "+incdir+common", *files, "-f", "dtof_assertions.f", cls.folder / "bench.sv",
              ROOT / "examples/assertions_main.cpp", "--top-module", "example_bench"],
             cwd=HDL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if built.returncode != 0:
