@@ -454,8 +454,6 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   logic [2:0] near;
   logic [CONFIDENCE_WIDTH-1:0] confidence;
-  logic next_pixel;
-  assign next_pixel = command_i.decide.advance;  // Icarus Verilog 12 gives a port in a generate block the whole command
 
   dtof_smoothing #(
       .NP              (NP),
@@ -490,6 +488,8 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
 
   generate
     if (SIGNIFICANCE_WIDTH != 0) begin : g_confidence
+      logic next_pixel;  // Icarus Verilog 12 gives a port in a generate block the whole command
+      assign next_pixel = command_i.decide.advance;
       localparam int SKY_WIDTH = dtof_pkg::POOL_SKY_WIDTH;
       localparam int FACTS_WIDTH = 2 * SIGNIFICANCE_WIDTH + 1 + SKY_WIDTH;  // {of the rival, of the leader, tilted, sky}
       logic [SIGNIFICANCE_WIDTH-1:0] leader_significance, rival_significance;
@@ -521,7 +521,7 @@ module dtof_pool_engine `DTOF_TYPES_OF(dtof_pool_pkg) #(
       );
 
       always_ff @(posedge clk_i) begin
-        if (command_i.decide.advance) begin
+        if (next_pixel) begin
           prepared_sky_q <= {line_q[EVIDENCE_FIRST], line_background[BACKGROUND_WIDTH-1-:SKY_WIDTH]};
           {last_facts_q, facts_q, next_facts_q} <= {facts_q, next_facts_q, rival_significance, leader_significance,
                                                     prepared_sky_q};
