@@ -133,6 +133,9 @@ module control_properties #(
       .pixel_t5_o     (pixel_t5)
   );
 
+  logic raw_q;
+  logic [ROW_WIDTH-1:0] raw_first_q, raw_last_q;
+
   dtof_scan_sequencer #(
       .PIXELS_PER_SRAM(PIXELS),
       .BIN_WIDTH      (BIN_WIDTH),
@@ -188,8 +191,6 @@ module control_properties #(
   );
 
   // What the array samples with a start.
-  logic raw_q;
-  logic [ROW_WIDTH-1:0] raw_first_q, raw_last_q;
   logic [31:0] scans;
   always_ff @(posedge clk_i) begin
     if (start_i && !busy) begin

@@ -32,6 +32,8 @@ module pool_track_update_properties #(
   assign full_before = FULL_WIDTH'(word_i);
   assign full_after = FULL_WIDTH'(word);
 
+  integer leader_score;
+
   dtof_pool_track_update #(
       .LABELS     (LABELS),
       .SCORE_BITS (SCORE_BITS),
@@ -48,7 +50,7 @@ module pool_track_update_properties #(
 
   localparam int FULL = (1 << SCORE_BITS) - 1;
   localparam int END = 1 << (OFFSET_WIDTH - 1);
-  integer k, score, leader, leader_score, offset, step, hit_label, hit_score, next_leader, next_offset;
+  integer k, score, leader, offset, step, hit_label, hit_score, next_leader, next_offset;
   integer next_hit_score, next_leader_score;
   logic [SCORES_WIDTH-1:0] next_scores;
   logic any_hit;

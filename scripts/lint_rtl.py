@@ -19,6 +19,7 @@ ROOT = Path(__file__).resolve().parent.parent
 HDL = ROOT / "hdl"
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "synth")]
 
+import rtl_rules  # noqa: E402
 import slang  # noqa: E402
 from dtof_synth import readouts, statistics  # noqa: E402
 from dtof_synth.configuration import Configuration, load  # noqa: E402
@@ -237,7 +238,7 @@ def main() -> int:
                for path in sorted((ROOT / folder).rglob("*.sv"))}
     limits = parameter_limits()
     illegal = [sentence for _, _, sentence in limits if sentence]
-    failures = [*check_misread(sources), *check_nettype(sources), *check_file_list(), *check_sentences(limits)]
+    failures = [*check_misread(sources), *check_nettype(sources), *rtl_rules.check(sources), *check_file_list(), *check_sentences(limits)]
     with ThreadPoolExecutor(max_workers=2) as pool:
         block_ram = pool.submit(check_block_rams)
         legal = pool.map(check_configuration, configurations)

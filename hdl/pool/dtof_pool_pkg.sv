@@ -4,6 +4,8 @@
 // docs/reference/blocks/pool_control.md shows both, written by scripts/schedule.py from this file and from the table in simulation.
 //
 // `DTOF_TYPES_OF and `DTOF_TYPE of dtof_macros.svh give a module these types.
+
+// verilator lint_off TIMESCALEMOD
 `default_nettype none
 
 package dtof_pool_pkg;
