@@ -482,9 +482,9 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-  // The array. Its clock rests between frames, and while a line is late inside an acquisition. In and behind a reset it runs for as
-  // long as what had no reset takes to leave the array's pipelines. What the array says in a clock that it does not see the end of is
-  // without effect: it says so again in the next one. A gate that does not work meets the array's a_contiguous_acquisition.
+    // The array. Its clock is stopped between frames, and while a line is late inside an acquisition. During and after a reset the clock
+  // runs until the registers without a reset have left the array's pipelines. Outputs of the array have no effect in a clock whose end
+  // the gate removes: they are still there in the next clock. If the gate does not work, the array's a_contiguous_acquisition fails.
 
   logic array_clk, array_busy, array_done, array_counter_full;
   logic [7:0] settling_q;

@@ -388,8 +388,8 @@ module dtof_array #(
   logic [SRAM_NUM:0] full_chain;
   assign full_chain[SRAM_NUM] = 1'b0;
 
-  // What the columns are told, on its way to them. What the read-out has no use for is zero: synthesis keeps the columns
-  // as modules, and with their ports what drives them.
+    // Commands from the shared logic to the columns. Commands that the read-out does not use are zero, because synthesis keeps the
+  // columns as modules, and with their ports the logic that drives the ports.
 
   localparam int TOLD_WIDTH = 2 * NP + PASS_WIDTH + STEP_WIDTH + 5 * ROW_WIDTH + 2 * BIN_WIDTH + SCAN_WIDTH + 21;
 
