@@ -345,7 +345,7 @@ module dtof_pool_pointer_array #(
     end
   endgenerate
 
-    // Commands from the shared logic to pairs and engines. The last engine may have fewer columns: its last pair then stands for its
+  // Commands from the shared logic to pairs and engines. The last engine may have fewer columns: its last pair then stands for its
   // own missing neighbour.
 
   localparam int COMMAND_WIDTH = dtof_pkg::POOL_COMMAND_WIDTH;
@@ -356,7 +356,7 @@ module dtof_pool_pointer_array #(
   logic [ADDR_WIDTH-1:0] told_address;
   logic [LAST_PAIRS-1:0] last_select, last_part;
 
-    // Registered once more than the other commands: the sequencers give read, write and address a clock early, because a pair
+  // Registered once more than the other commands: the sequencers give read, write and address a clock early, because a pair
   // works on the data before it writes.
   always_ff @(posedge clk_i or negedge rst_ni) begin
     if (!rst_ni) begin

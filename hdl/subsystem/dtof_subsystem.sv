@@ -482,7 +482,7 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-    // The array. Its clock is stopped between frames, and while a line is late inside an acquisition. During and after a reset the clock
+  // The array. Its clock is stopped between frames, and while a line is late inside an acquisition. During and after a reset the clock
   // runs until the registers without a reset have left the array's pipelines. Outputs of the array have no effect in a clock whose end
   // the gate removes: they are still there in the next clock. If the gate does not work, the array's a_contiguous_acquisition fails.
 

@@ -388,7 +388,7 @@ module dtof_array #(
   logic [SRAM_NUM:0] full_chain;
   assign full_chain[SRAM_NUM] = 1'b0;
 
-    // Commands from the shared logic to the columns. Commands that the read-out does not use are zero, because synthesis keeps the
+  // Commands from the shared logic to the columns. Commands that the read-out does not use are zero, because synthesis keeps the
   // columns as modules, and with their ports the logic that drives the ports.
 
   localparam int TOLD_WIDTH = 2 * NP + PASS_WIDTH + STEP_WIDTH + 5 * ROW_WIDTH + 2 * BIN_WIDTH + SCAN_WIDTH + 21;
