@@ -8,19 +8,19 @@
 #define DTOF_VERSION_MAJOR_EXPECTED UINT32_C(3)
 #define DTOF_VERSION_MINOR_EXPECTED UINT32_C(4)
 
-/* says that this is the subsystem */
+/* identifies the subsystem */
 #define DTOF_ID UINT32_C(0x000)
 #define DTOF_ID_VALUE_LSB 0
 #define DTOF_ID_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* of the registers and the result stream */
+/* version of the registers and the result stream */
 #define DTOF_VERSION UINT32_C(0x004)
 #define DTOF_VERSION_MINOR_LSB 0
 #define DTOF_VERSION_MINOR_MASK UINT32_C(0x0000FFFF)
 #define DTOF_VERSION_MAJOR_LSB 16
 #define DTOF_VERSION_MAJOR_MASK UINT32_C(0xFFFF0000)
 
-/* what the array is */
+/* read-out and parameters of the array */
 #define DTOF_READOUT UINT32_C(0x008)
 #define DTOF_READOUT_NUMBER_LSB 0
 #define DTOF_READOUT_NUMBER_MASK UINT32_C(0x000000FF)
@@ -43,14 +43,14 @@
 #define DTOF_READOUT_SOURCE_WAITS_LSB 16
 #define DTOF_READOUT_SOURCE_WAITS_MASK UINT32_C(0x00010000)
 
-/* of the array */
+/* size of the array */
 #define DTOF_SIZE UINT32_C(0x00C)
 #define DTOF_SIZE_COLUMNS_LSB 0
 #define DTOF_SIZE_COLUMNS_MASK UINT32_C(0x0000FFFF)
 #define DTOF_SIZE_ROWS_LSB 16
 #define DTOF_SIZE_ROWS_MASK UINT32_C(0xFFFF0000)
 
-/* bits of what goes in and out */
+/* bits of timestamps, results and the number of acquisitions */
 #define DTOF_WIDTHS UINT32_C(0x010)
 #define DTOF_WIDTHS_TIMESTAMP_LSB 0
 #define DTOF_WIDTHS_TIMESTAMP_MASK UINT32_C(0x000000FF)
@@ -73,7 +73,7 @@
 #define DTOF_SLOTS_VALUE_LSB 0
 #define DTOF_SLOTS_VALUE_MASK UINT32_C(0x000000FF)
 
-/* of a raw histogram */
+/* size of a raw histogram */
 #define DTOF_RAW_BINS UINT32_C(0x01C)
 #define DTOF_RAW_BINS_VALUE_LSB 0
 #define DTOF_RAW_BINS_VALUE_MASK UINT32_C(0x0001FFFF)
@@ -94,7 +94,7 @@
 #define DTOF_POINTER_GUARD_LSB 15
 #define DTOF_POINTER_GUARD_MASK UINT32_C(0xFFFF8000)
 
-/* parameters of poolPointer, which tell it from poolPointer lean; 0 without READOUT.SCHEDULE */
+/* parameters of poolPointer, which differ from those of poolPointer lean; 0 without READOUT.SCHEDULE */
 #define DTOF_POOL UINT32_C(0x028)
 #define DTOF_POOL_GROUP_SIZE_LSB 0
 #define DTOF_POOL_GROUP_SIZE_MASK UINT32_C(0x000000FF)
@@ -136,7 +136,7 @@
 #define DTOF_CONTROL_ABORT_LSB 3
 #define DTOF_CONTROL_ABORT_MASK UINT32_C(0x00000008)
 
-/* what goes on */
+/* state of the subsystem */
 #define DTOF_STATUS UINT32_C(0x044)
 #define DTOF_STATUS_BUSY_LSB 0
 #define DTOF_STATUS_BUSY_MASK UINT32_C(0x00000001)
@@ -145,7 +145,7 @@
 #define DTOF_STATUS_LEVEL_LSB 16
 #define DTOF_STATUS_LEVEL_MASK UINT32_C(0xFFFF0000)
 
-/* what went wrong since it was last cleared */
+/* errors since the bits were last cleared */
 #define DTOF_ERROR UINT32_C(0x048)
 #define DTOF_ERROR_UNDERRUN_LSB 0
 #define DTOF_ERROR_UNDERRUN_MASK UINT32_C(0x00000001)
@@ -166,31 +166,31 @@
 #define DTOF_ERROR_PARITY_LSB 8
 #define DTOF_ERROR_PARITY_MASK UINT32_C(0x00000100)
 
-/* what raises `irq_o`; at once */
+/* enables causes of `irq_o`; valid at once */
 #define DTOF_IRQ_ENABLE UINT32_C(0x04C)
 #define DTOF_IRQ_ENABLE_FRAME_LSB 0
 #define DTOF_IRQ_ENABLE_FRAME_MASK UINT32_C(0x00000001)
 #define DTOF_IRQ_ENABLE_ERROR_LSB 1
 #define DTOF_IRQ_ENABLE_ERROR_MASK UINT32_C(0x00000002)
 
-/* `irq_o` is high while an enabled one is set */
+/* causes of the interrupt; `irq_o` is high while an enabled bit is set */
 #define DTOF_IRQ_STATUS UINT32_C(0x050)
 #define DTOF_IRQ_STATUS_FRAME_LSB 0
 #define DTOF_IRQ_STATUS_FRAME_MASK UINT32_C(0x00000001)
 #define DTOF_IRQ_STATUS_ERROR_LSB 1
 #define DTOF_IRQ_STATUS_ERROR_MASK UINT32_C(0x00000002)
 
-/* frames whose last result was taken, since reset; begins again at 0 behind 2^32 - 1, so that differences hold */
+/* frames since reset whose last result was taken; 0 follows 2^32 - 1 */
 #define DTOF_FRAME_COUNT UINT32_C(0x054)
 #define DTOF_FRAME_COUNT_VALUE_LSB 0
 #define DTOF_FRAME_COUNT_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* how long the last frame took, from the clock of its start to that of the array's `done_o` */
+/* duration of the last frame, from the clock of its start to the clock of the array's `done_o` */
 #define DTOF_FRAME_CYCLES UINT32_C(0x058)
 #define DTOF_FRAME_CYCLES_VALUE_LSB 0
 #define DTOF_FRAME_CYCLES_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* what the results should be read with, since it was last cleared; raises no interrupt */
+/* warnings about results since the bits were last cleared; they raise no interrupt */
 #define DTOF_WARNING UINT32_C(0x05C)
 #define DTOF_WARNING_COUNTER_FULL_LSB 0
 #define DTOF_WARNING_COUNTER_FULL_MASK UINT32_C(0x00000001)
@@ -201,7 +201,7 @@
 #define DTOF_WARNING_LONG_LSB 3
 #define DTOF_WARNING_LONG_MASK UINT32_C(0x00000008)
 
-/* of a frame; 0 is legal */
+/* acquisitions of a frame; 0 is legal */
 #define DTOF_ACQUISITIONS UINT32_C(0x060)
 #define DTOF_ACQUISITIONS_VALUE_LSB 0
 #define DTOF_ACQUISITIONS_VALUE_MASK UINT32_C(0x00FFFFFF)
@@ -216,29 +216,29 @@
 #define DTOF_TRACK_END_VALUE_LSB 0
 #define DTOF_TRACK_END_VALUE_MASK UINT32_C(0x00FFFFFF)
 
-/* how long a frame waits for lines, and the sink may refuse a result, before ERROR tells; at once */
+/* longest wait of a frame for lines, and of a result for the sink, before a bit of ERROR is set; valid at once */
 #define DTOF_WATCHDOG UINT32_C(0x06C)
 #define DTOF_WATCHDOG_CLOCKS_LSB 0
 #define DTOF_WATCHDOG_CLOCKS_MASK UINT32_C(0x00FFFFFF)
 
-/* with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all of them */
+/* with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all timestamps count */
 #define DTOF_GATE UINT32_C(0x070)
 #define DTOF_GATE_BEGIN_LSB 0
 #define DTOF_GATE_BEGIN_MASK UINT32_C(0x0000FFFF)
 #define DTOF_GATE_END_LSB 16
 #define DTOF_GATE_END_MASK UINT32_C(0xFFFF0000)
 
-/* READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have come before the shot of the next one; 0: lines that must be in the buffer before an acquisition begins */
+/* READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have arrived before the next shot; 0: lines that must be in the buffer before an acquisition begins */
 #define DTOF_RELEASE UINT32_C(0x074)
 #define DTOF_RELEASE_VALUE_LSB 0
 #define DTOF_RELEASE_VALUE_MASK UINT32_C(0x0000FFFF)
 
-/* a result whose confidence is below is weak */
+/* a result whose confidence is below this value is weak */
 #define DTOF_WEAK_BELOW UINT32_C(0x078)
 #define DTOF_WEAK_BELOW_VALUE_LSB 0
 #define DTOF_WEAK_BELOW_VALUE_MASK UINT32_C(0x0000FFFF)
 
-/* what a frame sends */
+/* selects the words of a frame */
 #define DTOF_OUTPUT UINT32_C(0x07C)
 #define DTOF_OUTPUT_SECOND_TARGET_LSB 0
 #define DTOF_OUTPUT_SECOND_TARGET_MASK UINT32_C(0x00000001)
@@ -255,41 +255,41 @@
 #define DTOF_COLUMN_ENABLE_MASK_LSB 0
 #define DTOF_COLUMN_ENABLE_MASK_MASK UINT32_C(0xFFFFFFFF)
 
-/* with OUTPUT.RAW: whose histograms a frame sends */
+/* with OUTPUT.RAW: rows whose histograms a frame sends */
 #define DTOF_RAW_ROWS UINT32_C(0x100)
 #define DTOF_RAW_ROWS_FIRST_LSB 0
 #define DTOF_RAW_ROWS_FIRST_MASK UINT32_C(0x00000FFF)
 #define DTOF_RAW_ROWS_LAST_LSB 16
 #define DTOF_RAW_ROWS_LAST_MASK UINT32_C(0x0FFF0000)
 
-/* lines that came and were thrown away since reset: too late behind an underrun or a timeout, behind a long acquisition, or of a dropped one; those of FLUSH and ABORT do not count */
+/* lines that arrived since reset and were ignored: too late after an underrun or a timeout, surplus lines of a long acquisition, or lines of a dropped acquisition; lines that FLUSH and ABORT remove do not count */
 #define DTOF_LOST_LINES UINT32_C(0x104)
 #define DTOF_LOST_LINES_VALUE_LSB 0
 #define DTOF_LOST_LINES_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* acquisitions of frames since reset in which a line counted as no detection because it was missing, and acquisitions that were dropped */
+/* acquisitions since reset in which a missing line counted as no detection, and dropped acquisitions */
 #define DTOF_LOST_ACQUISITIONS UINT32_C(0x108)
 #define DTOF_LOST_ACQUISITIONS_VALUE_LSB 0
 #define DTOF_LOST_ACQUISITIONS_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* makes all settings that were written valid together, for every frame that begins from now on */
+/* makes all written settings valid together, for the frames that begin after this write */
 #define DTOF_COMMIT UINT32_C(0x10C)
 #define DTOF_COMMIT_SETTINGS_LSB 0
 #define DTOF_COMMIT_SETTINGS_MASK UINT32_C(0x00000001)
 
-/* start dither: how long `shot_o` waits behind the request for an acquisition */
+/* start dither: delay of `shot_o` after the request for an acquisition */
 #define DTOF_SHOT UINT32_C(0x110)
 #define DTOF_SHOT_BITS_LSB 0
 #define DTOF_SHOT_BITS_MASK UINT32_C(0x00000007)
 #define DTOF_SHOT_UNIT_LSB 8
 #define DTOF_SHOT_UNIT_MASK UINT32_C(0x0000FF00)
 
-/* where the sequence of delays begins; another one in each sensor; at once */
+/* start of the sequence of delays; write another value in each sensor; valid at once */
 #define DTOF_SHOT_SEED UINT32_C(0x114)
 #define DTOF_SHOT_SEED_VALUE_LSB 0
 #define DTOF_SHOT_SEED_VALUE_MASK UINT32_C(0x0000FFFF)
 
-/* from which state the last frame's delays follow */
+/* state from which the last frame's delays follow */
 #define DTOF_SHOT_STATE UINT32_C(0x118)
 #define DTOF_SHOT_STATE_VALUE_LSB 0
 #define DTOF_SHOT_STATE_VALUE_MASK UINT32_C(0x0000FFFF)
@@ -299,12 +299,12 @@
 #define DTOF_FRAME_CRC_VALUE_LSB 0
 #define DTOF_FRAME_CRC_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* words with a wrong parity since reset, each time they were read */
+/* reads since reset of words with a wrong parity */
 #define DTOF_PARITY_ERRORS UINT32_C(0x120)
 #define DTOF_PARITY_ERRORS_VALUE_LSB 0
 #define DTOF_PARITY_ERRORS_VALUE_MASK UINT32_C(0xFFFFFFFF)
 
-/* poolPointer: what decode takes from each of the 32 coarse bins, where cover glass and fog send light back; at once, and only between frames: a write while STATUS.BUSY is a bus error */
+/* poolPointer: amount that decode subtracts from each of the 32 coarse bins, for light of cover glass and fog; valid at once, and only between frames: a write while STATUS.BUSY is a bus error */
 #define DTOF_TEMPLATE UINT32_C(0x124)
 #define DTOF_TEMPLATE_NUMBER 8
 #define DTOF_TEMPLATE_ENTRY0_LSB 0
@@ -316,7 +316,7 @@
 #define DTOF_TEMPLATE_ENTRY3_LSB 24
 #define DTOF_TEMPLATE_ENTRY3_MASK UINT32_C(0xFF000000)
 
-/* a laser that is not settled when a frame begins */
+/* acquisitions to drop while the laser settles */
 #define DTOF_SETTLE UINT32_C(0x144)
 #define DTOF_SETTLE_VALUE_LSB 0
 #define DTOF_SETTLE_VALUE_MASK UINT32_C(0x0000FFFF)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// dtof_frame_control: a frame begins when it may and only then, ends with done_i or abort_i, and what is refused is told; legality,
-// continuous mode and the counters as the equations of integration.md say, with start and abort at any time.
+// dtof_frame_control: a frame begins if and only if it may, and ends with done_i or abort_i. Each refusal raises its output. Legality,
+// continuous mode and the counters follow integration.md, with start and abort at any time.
 `include "properties.svh"
 
 // verilator lint_off TIMESCALEMOD

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Comments, docstrings and pages have sentences that a stranger can read.
 
-An error is: a comment, docstring or sentence that begins with "Of", whose noun the reader must guess; in the RTL a verb of people (hear,
-know), for a wire does neither. docs/notes/ and CHANGELOG.md may say what they like.
+An error is: a comment, docstring or sentence that begins with "Of", whose noun the reader must guess; a thing "that there is", which should
+say what exists; in comments of the RTL a verb of people (hear, know, want, forget, be told), and on a page "hear", for wires do none of
+this. docs/notes/ and CHANGELOG.md may say what they like.
 """
 
 import re
@@ -16,13 +17,20 @@ ROOT = Path(__file__).resolve().parent.parent
 SOURCES = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".sh", ".mk", ".tcl", ".toml", ".cmake", ".in")
 NO_NOUN = re.compile(r"(?:^|\s)(?://+|#+|\"\"\"|\*)\s*Of\s+[a-zA-Z]")
 NO_NOUN_ON_A_PAGE = re.compile(r"(?:^|[.:|]\s+)Of [a-z]")
-PERSON = re.compile(r"//.*\b(hears?|heard|knows?|knew)\b")
+NOT_THERE = re.compile(r"\b(?:field|file|limit|name|one|row|those) that there (?:is|are)\b")
+PERSON = re.compile(r"//.*\b(hears?|heard|knows?|knew|wants?|wanted|forgets?|told)\b")
+PERSON_ON_A_PAGE = re.compile(r"\b(hears?|heard)\b")
 
 
 def problem(name: str, line: str) -> str:
     """What is wrong with this line of a file; empty if nothing is."""
+    if NOT_THERE.search(line):
+        return "'that there is': say what exists or does not"
     if name.endswith(".md"):
-        return "a sentence begins with 'Of': say what it is about" if NO_NOUN_ON_A_PAGE.search(line) else ""
+        if NO_NOUN_ON_A_PAGE.search(line):
+            return "a sentence begins with 'Of': say what it is about"
+        found = PERSON_ON_A_PAGE.search(line)
+        return f"'{found[1]}' on a page: wires do not" if found else ""
     if NO_NOUN.search(line):
         return "a comment begins with 'Of': say what it describes"
     found = PERSON.search(line) if name.startswith(("hdl/", "formal/", "fpga/", "examples/")) and name.endswith((".sv", ".svh")) else None

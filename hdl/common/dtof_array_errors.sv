@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Errors of a master that breaks the array's contract, once per array. Each bit is high for one clock per error, a clock
-// behind the error; a user who wants to keep the bit needs a register.
+// Errors of a master that breaks the array's contract, once per array. Each bit is high for one clock per error, the clock
+// after the error. To keep a bit, store it in a register outside of the array.
 //
 //   ERROR_UNDERRUN          tdc_valid_i was low in a clock inside an acquisition: the pixel counts as not detected
 //   ERROR_START_IGNORED     start_i while busy_o: nothing happens

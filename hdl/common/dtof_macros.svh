@@ -4,7 +4,7 @@
 `define DTOF_MACROS_SVH
 
 // Illegal parameters stop elaboration with a sentence. Yosys 0.23 takes the sentence as the first argument.
-// Icarus 11 has no elaboration task, and Verilator can be told to go on (-Wno-fatal): both stop at time 0.
+// Icarus 11 has no elaboration task, and Verilator continues with -Wno-fatal: in both, the simulation stops at time 0.
 `ifdef YOSYS
 `define DTOF_REQUIRE(LABEL, CONDITION, SENTENCE) \
   generate if (!(CONDITION)) begin : LABEL \

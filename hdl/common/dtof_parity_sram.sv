@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // dtof_sram with an optional parity bit in each word, which is checked at each read.
 //
-// 1. With PARITY = 1 a word is stored with the XOR of its bits. A word that is read with an odd number of wrong bits is told; its data
-//    comes all the same. An even number of wrong bits is not seen.
+// 1. With PARITY = 1 a word is stored with the XOR of its bits. A word that is read with an odd number of wrong bits raises error_o;
+//    read_data_o has the wrong word. An even number of wrong bits has no effect on error_o.
 // 2. With PARITY = 0 this is a dtof_sram and nothing else.
 //
 // Contract: that of dtof_sram, and every word that is read was written before. With PORTS = 2 no address is read in the clock in

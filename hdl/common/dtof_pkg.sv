@@ -24,7 +24,7 @@ package dtof_pkg;
   localparam int ERROR_ILLEGAL_SCHEDULE = 2;
   localparam int ERROR_WIDTH = 3;
 
-  // Width of the side band from the top to every SRAM macro and back: what a process's macros want, by a macro of the tool.
+  // Width of the side band from the top to every SRAM macro and back. The tool's macro sets it as the process's SRAMs need it.
 `ifdef DTOF_SRAM_CFG_WIDTH
   localparam int SRAM_CFG_WIDTH = `DTOF_SRAM_CFG_WIDTH;
 `else

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a column's timestamps come in: which of them are detections, the registers in which they wait until the commands of the
-// shared logic have come to the column, too, and, with TIME_GATE = 1, the digital time gate.
+// The input of a column's timestamps: it selects the detections, delays them by as many clocks as the commands of the shared logic
+// take to the column and, with TIME_GATE = 1, contains the digital time gate.
 //
 // Equation: a detection is a timestamp x that is not all ones and, with the gate, gate_begin_i <= x < gate_end_i.
 // Commands take STAGES clocks to reach a column (dtof_broadcast.sv). Timestamps are delayed by the same number of clocks, so that
-// both are aligned in the column. Whether there is a detection goes from register to register; a timestamp's registers load detections
-// alone, so that nothing moves where nothing was detected, and their clocks rest.
+// both are aligned in the column. One bit per stage marks a detection. The registers of the timestamp load
+// only detections, so without a detection no register switches, and their clocks are gated.
 //
 //   clock         what happens
-//   T0 - STAGES   the timestamp is at the port: is it a detection?
-//   T0            the timestamp is compared with the ends of the gate, which came with the commands
-//   T1            it is at work in the column
+//   T0 - STAGES   the timestamp is at the port and is compared with all ones
+//   T0            the timestamp is compared with the ends of the gate, which arrive with the commands
+//   T1            the column uses the timestamp
 //
 // Latency: STAGES + 1 clocks, with or without the gate. gate_begin_i and gate_end_i do not change during a frame.
 // Cost: (STAGES + 1) (NP + 1) flip-flops; the gate adds two comparators of NP bits, TIME_GATE = 0 nothing.

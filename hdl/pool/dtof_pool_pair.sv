@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: one or two columns with their part of an SRAM's word, which they share with the pair beside (dtof_pool_quad). The
-// part has two halves: those of the two columns, each with two pixels; or two groups; or, in the coarse phase, a part of a
-// group's bins, for both columns count in one histogram.
+// poolPointer: one or two columns with their part of a word of the SRAM that they share with another pair (dtof_pool_quad). The
+// part has two halves. They hold two pixels of each of the two columns; or two groups; or, in the coarse phase, bins of a
+// group, because both columns count in one histogram.
 //
-// All accesses are common to all pairs, in all phases. In the coarse phase a column chooses a timestamp of each two rows, and
-// both columns' count in each part of the group's bins, if they belong there, two bins in a clock:
+// All pairs access the same address in a clock. In the coarse phase a column chooses one timestamp of every two rows. Each part of
+// the group's bins adds the choices of both columns that fall into this part, up to two bins in a clock:
 //   clock (T0: last slot of the two rows)   T1            T2          T3                    T4
 //   first part                              read          registered  counted and written
 //   second part                                           read        registered            counted and written
-// At T2 it is known what will be chosen, so that the second part is read only where something counts in it, and in a sweep.
-// With LINE_HALVES = 2 there are four parts, and the accesses of two rows do not suffice. Four rows count together:
+// The choice is available at T2, so the second part is read only if a choice falls into it, and in a sweep.
+// With LINE_HALVES = 2 there are four parts, for which the clocks of two rows do not suffice. Four rows count together:
 //   clock (T0: last slot of the four rows)  T2            T3          T4                    T5
 //   first part                              read          registered  first two rows count  last two rows count, written
 //   next part                                                         read                  registered
-// In a sweep nothing counts. In the group's first visit each part is looked at in the clock in which it would count; in the
-// second visit, if a bin was full, every bin falls by a quarter of its range, or, if a bin was below that, every part gets
-// its frozen bit, with which nothing counts in the group until the next clear.
+// In a sweep nothing counts. In the group's first visit the pair checks each part in the clock in which it would count. In the second
+// visit, if a bin was full, the pair subtracts a quarter of the range from every bin. If a bin was below that quarter, the pair
+// instead sets the frozen bit of every part, and the group counts nothing until the next clear.
 //
-// In the other phases the columns' pixels of a row are worked on one after the other by one dtof_pool_pixel_update:
+// In the other phases one dtof_pool_pixel_update computes the new words of a row's two pixels, one after the other:
 //   clock (T0: last slot of a row)   T2               T3                  T4
 //   first column                     distance         next word
 //   second column                                     distance            next word
 //   second row of the word           read the next    first pixel ahead   written; the next is registered
-// The next word's first pixel has a register of its own, for its turn may come while this word is written.
+// The next word's first pixel has a separate register, because it may be updated while this word is written.
 //
-// Engine: what was read is on word_o two clocks after read_i; at all other times what word_o has from here is 0. The words
-// of neighbouring pairs are combined by OR from pair to pair (beside_word_i, dtof_pool_line). The low half
-// is the half that was asked for. Where eight bins need both halves, its high half is the word's. The engine writes one half;
-// the other half, and the part of the pair beside, are written with it:
+// Engine: two clocks after read_i, word_o has the word; in all other clocks this pair's contribution to word_o is 0. The words of
+// neighbouring pairs are ORed from pair to pair (beside_word_i, dtof_pool_line). The low half of word_o is the half that the engine
+// has selected. If eight bins need both halves, the high half of word_o is the word's high half. The engine writes one half; the
+// other half, and the part of the other pair, are written back unchanged:
 //   clock after read_i   1                                               2
-//                        registered, the engine's word for the half      written
-//                        that was asked for (replace_i)
+//                        registered, the engine's word replaces the      written
+//                        selected half (replace_i)
 //
-// Everything that is written stands in the word's register before, but for a row's last pixel and the counts of the last rows.
+// Write data come from the word register, except a row's last pixel and the counts of the last rows, which bypass the register.
 // What comes into a bit from elsewhere than the SRAM (counts, a pixel, the engine's word) comes at different times, and is 0
 // at all others, so that an OR will do.
 // Cost at the defaults: see reports/area.md.

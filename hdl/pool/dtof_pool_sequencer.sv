@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poolPointer: tells all engines and their columns what to do in each clock, in lockstep, once per array.
+// poolPointer: gives all engines and their columns their commands in each clock, in lockstep, once per array.
 //
 // 1. The controller starts one of three operations. The engines take their pairs of columns (decode) or their columns
 //    (choose, decide) one after the other; each has as many steps as it needs, and every step takes the same number of
@@ -53,7 +53,7 @@ module dtof_pool_sequencer `DTOF_TYPES_OF(dtof_pool_pkg) #(
     input  logic                    decode_i,
     input  logic                    choose_i,
     input  logic                    decide_i,
-    input  logic                    prior_i,          // in decode, with PRIOR = 1: the last frame's words are valid, and wanted
+    input  logic                    prior_i,          // in decode, with PRIOR = 1: use the last frame's words
     output logic                    done_o,           // the operation's last clock; its results are sent
     // pairs of columns: one clock early (_d), for the array to register and spread; at most one access a clock
     output logic                    read_d_o,

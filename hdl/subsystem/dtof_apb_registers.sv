@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The registers of dtof_subsystem behind an APB4 port (hdl/subsystem/registers.toml; table in docs/user/integration.md).
 //
-// A transfer takes the two clocks of APB, without wait states. pslverr_o answers an offset without a register, a write to a
-// register of which nothing can be written in this configuration, and a write of 1 to a bit of a setting or command that this
-// configuration does not have; none of them does anything. pstrb_i chooses bytes, pprot is not looked at.
-// Settings are written one by one and become valid together, with COMMIT or START; those of CONTROL, IRQ_ENABLE, WATCHDOG and
-// SHOT_SEED are valid at once. An event that comes in the clock in which its bit is cleared stays visible.
-// Latency: a command is a pulse in the clock behind its write.
+// A transfer takes the two clocks of APB, without wait states. pslverr_o reports an access to an offset without a register, a write to a
+// register without a writable bit in this configuration, and a write of 1 to a bit of a setting or command that this configuration
+// does not have. Such an access writes nothing. pstrb_i selects bytes; there is no pprot.
+// Settings become valid together, with COMMIT or START. CONTROL, IRQ_ENABLE, WATCHDOG and SHOT_SEED are valid at once. If software
+// clears a bit in the clock of a new event, the bit stays set.
+// Latency: a command is a pulse in the clock after its write.
 // Cost: the settings' flip-flops, twice, SRAM_NUM of them for the columns, and the read multiplexer.
 `include "dtof_macros.svh"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts an array's frames, one by one or one behind the other, and counts what they take.
+// Starts an array's frames, singly or continuously, and counts the frames and their clocks.
 //
-// 1. start_i begins a frame, if none is under way and what it would begin with is legal.
-// 2. With continuous_i the next frame begins in the clock behind the array's done_i.
-// 3. What is illegal begins no frame and ends the continuous frames; start_i while busy_o does nothing. Either is told
-//    with a pulse.
-// 4. abort_i ends the frame that is under way, at once. The next one begins with a start_i when the array is ready again.
+// 1. start_i begins a frame, if no frame is under way and the settings are legal.
+// 2. With continuous_i the next frame begins in the clock after the array's done_i.
+// 3. With illegal settings no frame begins, and continuous frames end. start_i while busy_o is ignored. An output is high for one
+//    clock in either case.
+// 4. abort_i ends the present frame at once. The next frame begins with a start_i when the array is ready again.
 //
 // Legal is a schedule in order (HAS_SCHEDULE = 1), coarse_end <= track_end <= acquisitions;
 // 1 <= release <= MOST_RELEASE; and with raw_i (RAW_HISTOGRAM = 1) raw_first <= raw_last < PIXELS_PER_SRAM.

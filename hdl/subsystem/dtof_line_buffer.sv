@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of timestamps on their way to an array, which takes an acquisition in consecutive clocks of its own once it has begun it.
+// Buffers lines of timestamps for an array. An array that has begun an acquisition takes a line in each of its clocks.
 //
-// 1. A line, one timestamp of every column, comes whenever the source has one; the source may pause anywhere.
-// 2. s_tlast_i ends an acquisition. One that ends early is short: its missing lines are "no detection". One that does not
-//    end with its ACQUISITION_LINES-th line is long: the lines behind are thrown away, up to and with the next s_tlast_i.
-//    Either way the next acquisition begins behind s_tlast_i.
-// 3. CLOCK_WAITS = 1: an acquisition is offered to the array when its first line is here. While a line is late inside an acquisition
-//    wait_o is high, and the array's clock rests: what takes lines and what comes back from the array is without effect then.
-// 4. CLOCK_WAITS = 0, where the array's clock cannot rest: an acquisition is offered when its last line is in the buffer, or
-//    release_i lines are. With release_i = ACQUISITION_LINES it is whole then, and cannot be interrupted. With less, the buffer may
-//    run empty inside an acquisition (underrun_o). Its other lines then are "no detection", and those that the source still delivers
-//    for it are thrown away.
-// 5. SOURCE_WAITS = 0, where the source cannot wait: s_tready_o is high but in reset. A line for which there is no room takes its whole
-//    acquisition with it (dropped_o), which the array has not begun then. SOURCE_WAITS = 1: the source waits.
-// 6. Behind expire_i every line is "no detection", without a pause, until done_i. Lines that come meanwhile are kept for
+// 1. A line has one timestamp of every column. The source may pause before any line.
+// 2. s_tlast_i ends an acquisition. If it comes early, the acquisition is short: the missing lines are "no detection". If it does not
+//    come with the ACQUISITION_LINES-th line, the acquisition is long: the buffer ignores the lines after this line, up to and with
+//    the next s_tlast_i. In both cases the next acquisition begins after s_tlast_i.
+// 3. CLOCK_WAITS = 1: the buffer offers an acquisition to the array when the first line has arrived. While a line is late inside an
+//    acquisition, wait_o is high and the array's clock is stopped: the ports of the array have no effect in these clocks.
+// 4. CLOCK_WAITS = 0, for an array whose clock cannot be gated: the buffer offers an acquisition when its last line, or release_i
+//    lines, have arrived. With release_i = ACQUISITION_LINES the acquisition is complete and cannot be interrupted. With less, the
+//    buffer may run empty inside an acquisition (underrun_o). The other lines of this acquisition are then "no detection", and the
+//    buffer ignores the lines that the source still delivers for it.
+// 5. SOURCE_WAITS = 0, for a source that cannot wait: s_tready_o is high outside of reset. If there is no room for a line, the buffer
+//    drops the line's whole acquisition (dropped_o), which the array has not begun. SOURCE_WAITS = 1: the source waits.
+// 6. After expire_i every line is "no detection", without a pause, until done_i. The buffer stores lines that arrive in this time for
 //    the next frame.
-// 7. flush_i, abort_i and expire_i empty the buffer. Behind abort_i and expire_i the rest of the acquisition that the source
-//    is in is thrown away, up to and with its s_tlast_i; behind flush_i the next line begins an acquisition.
+// 7. flush_i, abort_i and expire_i empty the buffer. After abort_i and expire_i the buffer ignores the rest of the acquisition that the
+//    source is delivering, up to and with its s_tlast_i. After flush_i the next line begins an acquisition.
 //
-// Latency: from a line's acceptance to its offer a clock with REGISTERS = 1, else two. A line a clock goes in and out at the same time.
+// Latency: one clock from a line's acceptance to its offer with REGISTERS = 1, else two. One line per clock enters and leaves.
 // Cost: LINES x (WIDTH + 1) flip-flops and a multiplexer of LINES lines, or an SRAM of LINES x (WIDTH + 1 + PARITY) bits; two
 // addresses, five counters.
 `include "dtof_macros.svh"
@@ -48,8 +48,8 @@ module dtof_line_buffer #(
     input  logic [           15:0] release_i,    // 1 to ACQUISITION_LINES; CLOCK_WAITS = 0: at most LINES
     output logic [LEVEL_WIDTH-1:0] level_o,      // lines in the buffer
     output logic                   starved_o,    // the array waits for an acquisition or for a line inside one
-    output logic                   wait_o,       // the array's clock is to rest: a line is late inside an acquisition
-    output logic                   queued_o,     // an acquisition is here of which the array has no line yet
+    output logic                   wait_o,       // stops the array's clock: a line is late inside an acquisition
+    output logic                   queued_o,     // the buffer has an acquisition that the array has not begun
     output logic                   inside_o,     // the source is inside an acquisition behind this clock
     output logic                   early_o,      // CLOCK_WAITS = 1: the source is not to be asked for an acquisition: fewer than release_i
                                                  // lines of the last one have come or, if those are all, the array does not wait

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame's results in raster order, whatever the order in which the array decides them: row by row, column by column. With
-// TARGETS = 2 either each pixel of a frame has one result or each has two, the second behind the first.
+// Sorts a frame's results into raster order (row by row, within a row column by column), for any order from the array. With
+// TARGETS = 2 either each pixel of a frame has one result, or each has two, and the second comes directly after the first.
 //
-// 1. Results are written as they come, each at its pixel's address. The last of a frame ends that.
-// 2. The memory is read from the first address to the last, and the results leave. The next frame's wait meanwhile.
-// 3. cut_i ends a frame that comes in: nothing of it leaves. A frame that leaves ends, too: the result at the port stays
-//    until it is taken, and unless it was the last, one with m_aborted_o and m_tlast_o follows; its other fields mean nothing.
+// 1. Each result is written to its pixel's address, until the frame's last result.
+// 2. Then all results leave, from the first address to the last. The results of the next frame wait until then.
+// 3. cut_i ends a frame that is arriving: none of its results leaves. It also ends a frame that is leaving: the result at the port
+//    stays until the sink takes it. Unless this was the last result, a result with m_aborted_o and m_tlast_o follows, whose other
+//    fields have no meaning.
 //
-// Latency: the frame. A result a clock goes in, then a result a clock goes out.
+// Latency: the frame. One result per clock enters; after the last one, one result per clock leaves.
 // Cost: a single-port SRAM of SRAM_NUM * PIXELS_PER_SRAM * TARGETS results of WIDTH bits, an address, a row and a column.
 `include "dtof_macros.svh"
 

@@ -11,13 +11,13 @@ package dtof_registers_pkg;
   localparam logic [31:0] ID_VALUE = 32'h444f4650;
   localparam logic [31:0] VERSION_VALUE = 32'h00030004;
 
-  // says that this is the subsystem
+  // identifies the subsystem
   localparam logic [11:0] ID = 12'h000;
   localparam logic [31:0] ID_RESET = 32'h444f4650;
   localparam int ID_VALUE_LSB = 0;
   localparam int ID_VALUE_WIDTH = 32;
 
-  // of the registers and the result stream
+  // version of the registers and the result stream
   localparam logic [11:0] VERSION = 12'h004;
   localparam logic [31:0] VERSION_RESET = 32'h00030004;
   localparam int VERSION_MINOR_LSB = 0;
@@ -25,7 +25,7 @@ package dtof_registers_pkg;
   localparam int VERSION_MAJOR_LSB = 16;
   localparam int VERSION_MAJOR_WIDTH = 16;
 
-  // what the array is
+  // read-out and parameters of the array
   localparam logic [11:0] READOUT = 12'h008;
   localparam logic [31:0] READOUT_RESET = 32'h00000000;
   localparam int READOUT_NUMBER_LSB = 0;
@@ -49,7 +49,7 @@ package dtof_registers_pkg;
   localparam int READOUT_SOURCE_WAITS_LSB = 16;
   localparam int READOUT_SOURCE_WAITS_WIDTH = 1;
 
-  // of the array
+  // size of the array
   localparam logic [11:0] SIZE = 12'h00c;
   localparam logic [31:0] SIZE_RESET = 32'h00000000;
   localparam int SIZE_COLUMNS_LSB = 0;
@@ -57,7 +57,7 @@ package dtof_registers_pkg;
   localparam int SIZE_ROWS_LSB = 16;
   localparam int SIZE_ROWS_WIDTH = 16;
 
-  // bits of what goes in and out
+  // bits of timestamps, results and the number of acquisitions
   localparam logic [11:0] WIDTHS = 12'h010;
   localparam logic [31:0] WIDTHS_RESET = 32'h00000000;
   localparam int WIDTHS_TIMESTAMP_LSB = 0;
@@ -83,7 +83,7 @@ package dtof_registers_pkg;
   localparam int SLOTS_VALUE_LSB = 0;
   localparam int SLOTS_VALUE_WIDTH = 8;
 
-  // of a raw histogram
+  // size of a raw histogram
   localparam logic [11:0] RAW_BINS = 12'h01c;
   localparam logic [31:0] RAW_BINS_RESET = 32'h00000000;
   localparam int RAW_BINS_VALUE_LSB = 0;
@@ -107,7 +107,7 @@ package dtof_registers_pkg;
   localparam int POINTER_GUARD_LSB = 15;
   localparam int POINTER_GUARD_WIDTH = 17;
 
-  // parameters of poolPointer, which tell it from poolPointer lean; 0 without READOUT.SCHEDULE
+  // parameters of poolPointer, which differ from those of poolPointer lean; 0 without READOUT.SCHEDULE
   localparam logic [11:0] POOL = 12'h028;
   localparam logic [31:0] POOL_RESET = 32'h00000000;
   localparam int POOL_GROUP_SIZE_LSB = 0;
@@ -153,7 +153,7 @@ package dtof_registers_pkg;
   localparam int CONTROL_ABORT_LSB = 3;
   localparam int CONTROL_ABORT_WIDTH = 1;
 
-  // what goes on
+  // state of the subsystem
   localparam logic [11:0] STATUS = 12'h044;
   localparam logic [31:0] STATUS_RESET = 32'h00000000;
   localparam int STATUS_BUSY_LSB = 0;
@@ -163,7 +163,7 @@ package dtof_registers_pkg;
   localparam int STATUS_LEVEL_LSB = 16;
   localparam int STATUS_LEVEL_WIDTH = 16;
 
-  // what went wrong since it was last cleared
+  // errors since the bits were last cleared
   localparam logic [11:0] ERROR = 12'h048;
   localparam logic [31:0] ERROR_RESET = 32'h00000000;
   localparam int ERROR_UNDERRUN_LSB = 0;
@@ -185,7 +185,7 @@ package dtof_registers_pkg;
   localparam int ERROR_PARITY_LSB = 8;
   localparam int ERROR_PARITY_WIDTH = 1;
 
-  // what raises `irq_o`; at once
+  // enables causes of `irq_o`; valid at once
   localparam logic [11:0] IRQ_ENABLE = 12'h04c;
   localparam logic [31:0] IRQ_ENABLE_RESET = 32'h00000000;
   localparam int IRQ_ENABLE_FRAME_LSB = 0;
@@ -193,7 +193,7 @@ package dtof_registers_pkg;
   localparam int IRQ_ENABLE_ERROR_LSB = 1;
   localparam int IRQ_ENABLE_ERROR_WIDTH = 1;
 
-  // `irq_o` is high while an enabled one is set
+  // causes of the interrupt; `irq_o` is high while an enabled bit is set
   localparam logic [11:0] IRQ_STATUS = 12'h050;
   localparam logic [31:0] IRQ_STATUS_RESET = 32'h00000000;
   localparam int IRQ_STATUS_FRAME_LSB = 0;
@@ -201,19 +201,19 @@ package dtof_registers_pkg;
   localparam int IRQ_STATUS_ERROR_LSB = 1;
   localparam int IRQ_STATUS_ERROR_WIDTH = 1;
 
-  // frames whose last result was taken, since reset; begins again at 0 behind 2^32 - 1, so that differences hold
+  // frames since reset whose last result was taken; 0 follows 2^32 - 1
   localparam logic [11:0] FRAME_COUNT = 12'h054;
   localparam logic [31:0] FRAME_COUNT_RESET = 32'h00000000;
   localparam int FRAME_COUNT_VALUE_LSB = 0;
   localparam int FRAME_COUNT_VALUE_WIDTH = 32;
 
-  // how long the last frame took, from the clock of its start to that of the array's `done_o`
+  // duration of the last frame, from the clock of its start to the clock of the array's `done_o`
   localparam logic [11:0] FRAME_CYCLES = 12'h058;
   localparam logic [31:0] FRAME_CYCLES_RESET = 32'h00000000;
   localparam int FRAME_CYCLES_VALUE_LSB = 0;
   localparam int FRAME_CYCLES_VALUE_WIDTH = 32;
 
-  // what the results should be read with, since it was last cleared; raises no interrupt
+  // warnings about results since the bits were last cleared; they raise no interrupt
   localparam logic [11:0] WARNING = 12'h05c;
   localparam logic [31:0] WARNING_RESET = 32'h00000000;
   localparam int WARNING_COUNTER_FULL_LSB = 0;
@@ -225,7 +225,7 @@ package dtof_registers_pkg;
   localparam int WARNING_LONG_LSB = 3;
   localparam int WARNING_LONG_WIDTH = 1;
 
-  // of a frame; 0 is legal
+  // acquisitions of a frame; 0 is legal
   localparam logic [11:0] ACQUISITIONS = 12'h060;
   localparam logic [31:0] ACQUISITIONS_RESET = 32'h00000000;
   localparam int ACQUISITIONS_VALUE_LSB = 0;
@@ -243,13 +243,13 @@ package dtof_registers_pkg;
   localparam int TRACK_END_VALUE_LSB = 0;
   localparam int TRACK_END_VALUE_WIDTH = 24;
 
-  // how long a frame waits for lines, and the sink may refuse a result, before ERROR tells; at once
+  // longest wait of a frame for lines, and of a result for the sink, before a bit of ERROR is set; valid at once
   localparam logic [11:0] WATCHDOG = 12'h06c;
   localparam logic [31:0] WATCHDOG_RESET = 32'h00ffffff;
   localparam int WATCHDOG_CLOCKS_LSB = 0;
   localparam int WATCHDOG_CLOCKS_WIDTH = 24;
 
-  // with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all of them
+  // with TIME_GATE = 1: a timestamp from BEGIN to below END counts; at reset all timestamps count
   localparam logic [11:0] GATE = 12'h070;
   localparam logic [31:0] GATE_RESET = 32'h00000000;
   localparam int GATE_BEGIN_LSB = 0;
@@ -257,19 +257,19 @@ package dtof_registers_pkg;
   localparam int GATE_END_LSB = 16;
   localparam int GATE_END_WIDTH = 16;
 
-  // READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have come before the shot of the next one; 0: lines that must be in the buffer before an acquisition begins
+  // READOUT.CLOCK_WAITS = 1: lines of an acquisition that must have arrived before the next shot; 0: lines that must be in the buffer before an acquisition begins
   localparam logic [11:0] RELEASE = 12'h074;
   localparam logic [31:0] RELEASE_RESET = 32'h00000000;
   localparam int RELEASE_VALUE_LSB = 0;
   localparam int RELEASE_VALUE_WIDTH = 16;
 
-  // a result whose confidence is below is weak
+  // a result whose confidence is below this value is weak
   localparam logic [11:0] WEAK_BELOW = 12'h078;
   localparam logic [31:0] WEAK_BELOW_RESET = 32'h00000000;
   localparam int WEAK_BELOW_VALUE_LSB = 0;
   localparam int WEAK_BELOW_VALUE_WIDTH = 16;
 
-  // what a frame sends
+  // selects the words of a frame
   localparam logic [11:0] OUTPUT = 12'h07c;
   localparam logic [31:0] OUTPUT_RESET = 32'h00000000;
   localparam int OUTPUT_SECOND_TARGET_LSB = 0;
@@ -288,7 +288,7 @@ package dtof_registers_pkg;
   localparam int COLUMN_ENABLE_MASK_LSB = 0;
   localparam int COLUMN_ENABLE_MASK_WIDTH = 32;
 
-  // with OUTPUT.RAW: whose histograms a frame sends
+  // with OUTPUT.RAW: rows whose histograms a frame sends
   localparam logic [11:0] RAW_ROWS = 12'h100;
   localparam logic [31:0] RAW_ROWS_RESET = 32'h00000000;
   localparam int RAW_ROWS_FIRST_LSB = 0;
@@ -296,25 +296,25 @@ package dtof_registers_pkg;
   localparam int RAW_ROWS_LAST_LSB = 16;
   localparam int RAW_ROWS_LAST_WIDTH = 12;
 
-  // lines that came and were thrown away since reset: too late behind an underrun or a timeout, behind a long acquisition, or of a dropped one; those of FLUSH and ABORT do not count
+  // lines that arrived since reset and were ignored: too late after an underrun or a timeout, surplus lines of a long acquisition, or lines of a dropped acquisition; lines that FLUSH and ABORT remove do not count
   localparam logic [11:0] LOST_LINES = 12'h104;
   localparam logic [31:0] LOST_LINES_RESET = 32'h00000000;
   localparam int LOST_LINES_VALUE_LSB = 0;
   localparam int LOST_LINES_VALUE_WIDTH = 32;
 
-  // acquisitions of frames since reset in which a line counted as no detection because it was missing, and acquisitions that were dropped
+  // acquisitions since reset in which a missing line counted as no detection, and dropped acquisitions
   localparam logic [11:0] LOST_ACQUISITIONS = 12'h108;
   localparam logic [31:0] LOST_ACQUISITIONS_RESET = 32'h00000000;
   localparam int LOST_ACQUISITIONS_VALUE_LSB = 0;
   localparam int LOST_ACQUISITIONS_VALUE_WIDTH = 32;
 
-  // makes all settings that were written valid together, for every frame that begins from now on
+  // makes all written settings valid together, for the frames that begin after this write
   localparam logic [11:0] COMMIT = 12'h10c;
   localparam logic [31:0] COMMIT_RESET = 32'h00000000;
   localparam int COMMIT_SETTINGS_LSB = 0;
   localparam int COMMIT_SETTINGS_WIDTH = 1;
 
-  // start dither: how long `shot_o` waits behind the request for an acquisition
+  // start dither: delay of `shot_o` after the request for an acquisition
   localparam logic [11:0] SHOT = 12'h110;
   localparam logic [31:0] SHOT_RESET = 32'h00000100;
   localparam int SHOT_BITS_LSB = 0;
@@ -322,13 +322,13 @@ package dtof_registers_pkg;
   localparam int SHOT_UNIT_LSB = 8;
   localparam int SHOT_UNIT_WIDTH = 8;
 
-  // where the sequence of delays begins; another one in each sensor; at once
+  // start of the sequence of delays; write another value in each sensor; valid at once
   localparam logic [11:0] SHOT_SEED = 12'h114;
   localparam logic [31:0] SHOT_SEED_RESET = 32'h00000001;
   localparam int SHOT_SEED_VALUE_LSB = 0;
   localparam int SHOT_SEED_VALUE_WIDTH = 16;
 
-  // from which state the last frame's delays follow
+  // state from which the last frame's delays follow
   localparam logic [11:0] SHOT_STATE = 12'h118;
   localparam logic [31:0] SHOT_STATE_RESET = 32'h00000001;
   localparam int SHOT_STATE_VALUE_LSB = 0;
@@ -340,13 +340,13 @@ package dtof_registers_pkg;
   localparam int FRAME_CRC_VALUE_LSB = 0;
   localparam int FRAME_CRC_VALUE_WIDTH = 32;
 
-  // words with a wrong parity since reset, each time they were read
+  // reads since reset of words with a wrong parity
   localparam logic [11:0] PARITY_ERRORS = 12'h120;
   localparam logic [31:0] PARITY_ERRORS_RESET = 32'h00000000;
   localparam int PARITY_ERRORS_VALUE_LSB = 0;
   localparam int PARITY_ERRORS_VALUE_WIDTH = 32;
 
-  // poolPointer: what decode takes from each of the 32 coarse bins, where cover glass and fog send light back; at once, and only between frames: a write while STATUS.BUSY is a bus error
+  // poolPointer: amount that decode subtracts from each of the 32 coarse bins, for light of cover glass and fog; valid at once, and only between frames: a write while STATUS.BUSY is a bus error
   localparam logic [11:0] TEMPLATE = 12'h124;
   localparam int TEMPLATE_NUMBER = 8;
   localparam logic [31:0] TEMPLATE_RESET = 32'h00000000;
@@ -359,7 +359,7 @@ package dtof_registers_pkg;
   localparam int TEMPLATE_ENTRY3_LSB = 24;
   localparam int TEMPLATE_ENTRY3_WIDTH = 8;
 
-  // a laser that is not settled when a frame begins
+  // acquisitions to drop while the laser settles
   localparam logic [11:0] SETTLE = 12'h144;
   localparam logic [31:0] SETTLE_RESET = 32'h00000000;
   localparam int SETTLE_VALUE_LSB = 0;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Drops the acquisitions at a frame's start, in which a laser settles: the array takes those behind them.
+// Drops the acquisitions at a frame's start, in which a laser settles. The array receives the acquisitions after them.
 //
-// 1. A frame that begins drops settle_i acquisitions. Each leaves the line buffer from where the array could begin its first one, a line
-//    a clock (takes_o); the array is offered none of them: drops_o hides the lines, and one that is late does not stop the array's clock.
-// 2. abort_i ends that. give_up_i (the source is dead) does, too, but behind the last line of an acquisition that has begun.
+// 1. Each frame drops its first settle_i acquisitions. A dropped acquisition begins to leave the line buffer in a clock in which the array is
+//    ready to begin an acquisition, and leaves at a line per clock (takes_o). drops_o hides its lines from the array. A late line inside a
+//    dropped acquisition does not stop the array's clock.
+// 2. abort_i ends the dropping at once; give_up_i (the source is dead) ends it after the last line of an acquisition that has begun.
 //
-// Latency: none; both outputs are from flip-flops.
+// Latency: none; both outputs come from flip-flops.
 // Cost: 17 flip-flops, a decrementer of 16 bits.
 `include "dtof_macros.svh"
 

@@ -9,8 +9,8 @@
 // 4. The state is that of a linear feedback register of 16 bits, x^16 + x^14 + x^13 + x^11 + 1 (maximal length), which makes 16
 //    steps for each request. This is the sequence of FiringOffsets in models/dtof/photon/surroundings.hpp. It goes on from frame
 //    to frame; reseed_i loads seed_i, and 1 where seed_i is 0, which would stay 0. With bits_i = 0 the state rests.
-// 5. give_up_i (the source is dead), abort_i and the end of a frame's need take back what was requested and not fired. flush_i and
-//    give_up_i forget what the source owes.
+// 5. give_up_i (the source is dead), abort_i, and a frame that needs no more acquisitions cancel a request that was not fired.
+//    After flush_i and give_up_i the source owes no acquisition.
 //
 // Schedule: a request in clock 0, with its delay of d units: shot_o is high in clock 2 + d * unit_i alone, from a flip-flop.
 // Source: firing offsets against other lasers; what they achieve is in reports/hostile_scenes.md (other-laser-offsets).

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Results of an array as words of 64 bits, the same for every array, with a status for each pixel. Two words wait here,
-// so that no path leads from the sink's ready to the array.
+// Packs the results of any array into words of 64 bits, with a status for each pixel. The module stores two words, so no path
+// leads from the sink's ready to the array.
 //
-// Word: {status, column, row, confidence, position}, at the places of dtof_registers_pkg. `second` is what comes with the
-// result: a pixel's second target. Of a result's status, `weak` is
-// confidence < weak_below_i; `empty` is confidence = 0, where the read-out has one; `masked` says that the column is not
-// enabled; `valid` that none of the three holds. `saturated` says that a counter of COUNTER_WIDTH bits (of a raw frame:
-// RAW_COUNTER_WIDTH) reads its largest value. Counts of a raw frame are neither weak nor empty.
-// tuser: a frame's first word. tlast: its last.
-// cut_i ends the frame here: the word at the port stays until it is taken, what waits behind is thrown away, and where
-// a frame's first words have been at the port, but not its last, a word with `aborted` alone, and tlast, ends it.
+// Word: {status, column, row, confidence, position}, with the bits of dtof_registers_pkg. Status bits: `second` marks a pixel's
+// second target; `weak`: confidence < weak_below_i; `empty`: confidence = 0, if the read-out has a confidence; `masked`: the column
+// is not enabled; `valid`: neither weak nor empty nor masked; `saturated`: the counter of COUNTER_WIDTH bits (raw frame:
+// RAW_COUNTER_WIDTH) has its largest value. Counts of a raw frame are neither weak nor empty.
+// tuser marks a frame's first word, tlast its last word.
+// cut_i ends the frame: the word at the port stays until the sink takes it, and the second word is deleted. If words of the frame, but
+// not its last, have been at the port, a word in which only `aborted` is set, with tlast, ends the frame.
 // Latency: one clock. A word a clock while tready stays high. tvalid never falls before tready.
 // Cost: two words, a comparator, a multiplexer of SRAM_NUM bits.
 `include "dtof_macros.svh"

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// An array of any read-out with everything around it: registers behind APB4, lines of timestamps in and results out as
-// AXI4-Streams of whole bytes, an interrupt (docs/user/integration.md). AXI4-Lite: dtof_axi_lite_to_apb in front.
+// An array of any read-out with registers (APB4), lines of timestamps in and results out as AXI4-Streams of whole bytes, and an
+// interrupt (docs/user/integration.md). For AXI4-Lite put dtof_axi_lite_to_apb in front.
 //
-// 1. Software writes the registers and CONTROL.START. A frame uses the settings that were committed last when it begins.
-// 2. Lines of timestamps come from the source at its own pace, before and during frames. The array takes them as they come: its
-//    clock rests while a line is late inside an acquisition (CLOCK_WAITS = 1). Where a clock cannot rest (CLOCK_WAITS = 0), the line
-//    buffer offers an acquisition to the array when it is whole (RELEASE can make it earlier, at a risk).
-// 3. Columns that are not enabled and timestamps outside the time gate count as no detection.
-// 4. Results leave as words of 64 bits with a status, in the array's order or row by row; the array waits for a sink that
-//    waits. With SECOND_TARGET = 1 a frame may have a word for each pixel's second target, too; with RAW_HISTOGRAM = 1
-//    it may send histograms of chosen rows instead of results.
-// 5. When a frame's last result was taken, the interrupt says so; in continuous mode the next frame has begun by then.
-//    With SETTLE the acquisitions at a frame's start, in which a laser settles, are taken and dropped (dtof_settle).
+// 1. Software writes the registers and CONTROL.START. A frame uses the settings of the last commit before the frame begins.
+// 2. The source may deliver lines of timestamps at any pace, before and during frames. With CLOCK_WAITS = 1 the array takes each line
+//    when it arrives, and the array's clock stops while a line is late inside an acquisition. With CLOCK_WAITS = 0, for clocks that
+//    cannot be gated, the line buffer offers an acquisition to the array when all its lines have arrived. (A smaller RELEASE offers
+//    it earlier, with the risk of an underrun.)
+// 3. Timestamps of disabled columns, and timestamps outside the time gate, count as no detection.
+// 4. Results leave as words of 64 bits with a status, in the array's order or row by row. While the sink waits, the array waits.
+//    With SECOND_TARGET = 1 a frame can also have a word for each pixel's second target. With RAW_HISTOGRAM = 1 a frame can send
+//    histograms of chosen rows instead of results.
+// 5. After the sink has taken a frame's last result, the subsystem raises the interrupt; in continuous mode the next frame has begun
+//    by then. With SETTLE the subsystem drops the acquisitions at a frame's start, in which a laser settles (dtof_settle).
 // 6. Between frames the array's clock is gated (dtof_clock_gate of the technology folder).
-// 7. Whatever the source does, a frame ends: what is missing counts as no detection, an acquisition begins behind each
-//    s_axis_tlast_i, and a watchdog ends the wait for a source that is dead. CONTROL.ABORT ends a frame at any time.
-// 8. shot_o fires the laser and starts the TDCs, once for each acquisition that a frame needs, on request with a pseudo-random
-//    delay (dtof_shot_dither). A source whose laser runs freely leaves shot_o open.
+// 7. Every frame ends, whatever the source does: missing lines count as no detection, a new acquisition begins after each
+//    s_axis_tlast_i, and a watchdog ends the wait for a dead source. CONTROL.ABORT ends a frame at any time.
+// 8. shot_o fires the laser and starts the TDCs, once for each acquisition that a frame needs. SHOT adds a pseudo-random delay
+//    (dtof_shot_dither). If the laser runs freely, leave shot_o unconnected.
 //
-// READOUT picks the read-out: dtof_pkg::READOUT_*, of which READOUT_POOLPOINTER is dtof_pool_pointer_array. The parameters
-// that follow are the arrays'; each has the default of the read-out.
+// READOUT selects the read-out: dtof_pkg::READOUT_*. READOUT_POOLPOINTER is dtof_pool_pointer_array, all others are dtof_array. The
+// parameters that follow are those of the arrays, with the default of the read-out.
 // Latency: one clock from a line to the array (two where the line buffer is an SRAM), one from the array to a result.
 // Cost: beside the array, BUFFER_LINES lines, two bits a column, and the parts' (reports/fpga_check.md).
 `include "dtof_macros.svh"
@@ -551,9 +552,9 @@ module dtof_subsystem #(
       .line_o      (timestamps)
   );
 
-  // The array. Its clock rests between frames, and while a line is late inside an acquisition. In and behind a reset it runs for as
-  // long as what had no reset takes to leave the array's pipelines. What the array says in a clock that it does not see the end of is
-  // without effect: it says so again in the next one. A gate that does not work meets the array's a_contiguous_acquisition.
+  // The array. Its clock is stopped between frames, and while a line is late inside an acquisition. During and after a reset the clock
+  // runs until the registers without a reset have left the array's pipelines. Outputs of the array have no effect in a clock whose end
+  // the gate removes: they are still there in the next clock. If the gate does not work, the array's a_contiguous_acquisition fails.
 
   logic array_clk, array_busy, array_done, array_counter_full;
   logic [7:0] settling_q;

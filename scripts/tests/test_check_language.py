@@ -24,6 +24,20 @@ class Language(unittest.TestCase):
         self.assertEqual(check_language.problem("scripts/a.py", "# a user hears"), "")
         self.assertEqual(check_language.problem("hdl/column/a.sv", "assign heard_o = 1;"), "")
 
+    def test_other_verbs_of_people(self) -> None:
+        for verb, line in (("wants", "// the sink wants a word"), ("told", "// what the columns are told"), ("forgets", "// it forgets a line")):
+            self.assertIn(f"'{verb}' in the RTL", check_language.problem("hdl/pool/a.sv", line))
+            self.assertEqual(check_language.problem("app/a.cpp", line), "")
+        self.assertEqual(check_language.problem("hdl/pool/a.sv", "logic told_read;  // a command"), "")
+        self.assertIn("'hear' on a page", check_language.problem("docs/a.md", "Columns hear each other."))
+
+    def test_what_there_is_not(self) -> None:
+        there = "that there"
+        for name, line in (("a.hpp", f"/// Throws for a name {there} is not."), ("docs/a.md", f"0 for one {there} is not"),
+                           ("a.py", f"# counts for those {there} are")):
+            self.assertIn("say what exists", check_language.problem(name, line), line)
+        self.assertEqual(check_language.problem("docs/a.md", f"It proves {there} is a second object."), "")
+
     def test_good_sentences(self) -> None:
         for name, line in (("a.hpp", "/// The rows of a frame."), ("a.py", "x = 1  # Office"), ("docs/a.md", "Most of them are here."),
                            ("docs/a.md", "## Of")):

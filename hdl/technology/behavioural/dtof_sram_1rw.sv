@@ -6,7 +6,7 @@
 // What is undefined is X, so that a user that relies on it fails at once and synthesis is free to infer a bare
 // block RAM. Verilator has no X: there contents are random until written and undefined read data is the inverted
 // write data.
-// Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+// Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

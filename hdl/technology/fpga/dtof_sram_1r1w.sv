@@ -6,7 +6,7 @@
 // Write:  wdata_i is stored at the clock edge that ends a clock with we_i.
 // Read and write of one address in one clock: the word is written, the read data is undefined. It is X here, so that a tool
 // needs no logic around the block RAM whatever that does then.
-// Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+// Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -5,7 +5,7 @@
 // Read:   with en_i and not we_i, rdata_o shows the word one clock later and keeps it until the next access.
 // Write:  with en_i and we_i, wdata_i is stored at the clock edge; rdata_o is undefined afterwards. It is X here, so that a
 // tool needs no logic around the block RAM whatever that does then.
-// Side band: this memory has no use for cfg_i and answers with it, so that a simulation sees that the way is whole.
+// Side band: this memory does not use cfg_i and connects it to cfg_o, so that a simulation can check the whole path.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

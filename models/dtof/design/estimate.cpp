@@ -64,7 +64,8 @@ struct Memories {
   explicit Memories(const ArrayChoice& array) {
     for (const MacroSize& size : column_memories(array)) {
       const SramMacro macro = sram_macro(size);
-      // What four columns share counts for those that there are, as in the flow's table.
+      // The cost of a memory that several columns share is divided by the columns of a module, as in the
+      // flow's table.
       area_um2 += macro.area_um2 / array.module_columns() * array.columns;
       leakage_mw += 1e-3 * macro.leakage_uw * array.modules();
       access_pj += (macro.read_pj + macro.write_pj) / array.module_columns();

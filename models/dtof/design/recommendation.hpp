@@ -26,7 +26,8 @@ struct LimitChange {
   std::string name;  ///< "area 10 % less"
   DesignLimits limits;
 };
-/// Each limit that there is 10 % tighter and 10 % looser; those that are infinite stay.
+/// Copies of the limits, in each of which one finite limit is 10 % tighter or 10 % looser. Infinite limits
+/// stay as they are.
 std::vector<LimitChange> limit_changes(const DesignLimits& limits);
 
 /// Whether no more pixels are off in the first than in the second, as far as their intervals can tell.

@@ -15,7 +15,7 @@ namespace dtof {
 /// The fields of a line; a comma separates two.
 std::vector<std::string_view> split_at_commas(std::string_view text);
 
-/// A field of a line that says that there is no value (-1), where that is legal.
+/// Stands for a field of -1, which means "no value" where this is legal.
 inline constexpr std::uint64_t kNoCsvValue = std::numeric_limits<std::uint64_t>::max();
 
 /// Called for each line with its number (the header is line 1) and its unsigned decimal fields.

@@ -17,10 +17,10 @@ class CsvTable {
   /// of fields than the first one.
   explicit CsvTable(std::filesystem::path path);
 
-  /// Numbers below a column's name. Throws InputError for a name that there is not and for a field that is no
-  /// number.
+  /// Numbers below a column's name. Throws InputError if the file has no column of this name, or if a field
+  /// is no number.
   [[nodiscard]] std::vector<double> column(std::string_view name) const;
-  /// Fields below a column's name, as they are. Throws InputError for a name that there is not.
+  /// Fields below a column's name, as they are. Throws InputError if the file has no column of this name.
   [[nodiscard]] std::vector<std::string> texts(std::string_view name) const;
   /// Numbers that follow a line's name.
   [[nodiscard]] std::vector<double> row(std::string_view name) const;
