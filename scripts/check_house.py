@@ -115,8 +115,9 @@ def counts(root: Path, files: list[str]) -> dict[str, int]:
     return {
         "files_above_500_lines": sum(text.count("\n") > LONG_FILE for file, text in own.items() if file.endswith(CODE)),
         "functions_above_80_lines": sum(long_functions(root, file) for file in own if file.endswith((".py", ".cpp", ".hpp"))),
-        "files_that_name_GUARD": sum(bool(re.search(r"\bGUARD\b", text)) for file, text in own.items()
-                                     if not file.startswith(("hdl/", "models/", "readouts.toml", "configurations.toml"))),
+        # scripts/templates/ has RTL; what generate.py writes between marks is no list of its own.
+        "files_that_name_GUARD": sum(bool(re.search(r"\bGUARD\b", GENERATED.sub("", text))) for file, text in own.items()
+                                     if not file.startswith(("hdl/", "models/", "scripts/templates/", "readouts.toml", "configurations.toml"))),
     }
 
 
