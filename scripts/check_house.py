@@ -23,6 +23,7 @@ LIBRARY = re.compile(r"^dtof_library\((\w+)(.*?)\n?\)", re.DOTALL | re.MULTILINE
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 SECTIONS = re.compile(r"\b(SOURCES|DEPENDS|PRIVATE_DEPENDS|INTERNAL)\b")
 LONG_FILE, LONG_FUNCTION = 500, 80
+GENERATED = re.compile(r"// ([\w ]+): written by scripts/generate\.py from .*?// end of \1\n", re.DOTALL)
 CODE = (".sv", ".svh", ".py", ".cpp", ".hpp", ".c", ".h", ".sh", ".tcl")
 CPP_FUNCTION = re.compile(r"^( {0,2})\S.*\) (?:const |noexcept |override |-> [^{;]+ )*\{$")
 

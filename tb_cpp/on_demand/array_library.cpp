@@ -198,9 +198,10 @@ void ArrayLibrary::build(const std::filesystem::path& folder, const std::string&
   for (const RtlSetting& setting : settings_) {
     verilate.push_back(fmt::format("-G{}={}", setting.name, setting.value));
   }
-  for (const char* word : {"hdl/lint/verilator.vlt", "+incdir+hdl/common", "hdl/common/dtof_pkg.sv", "hdl/pool/dtof_pool_pkg.sv",
-                           "hdl/subsystem/dtof_registers_pkg.sv", "-y", "hdl/subsystem", "-y", "hdl/thesis",
-                           "-y", "hdl/pool", "-y", "hdl/common", "-y", "hdl/technology/behavioural"}) {
+  for (const char* word :
+       {"hdl/lint/verilator.vlt", "+incdir+hdl/common", "hdl/common/dtof_pkg.sv", "hdl/pool/dtof_pool_pkg.sv",
+        "hdl/subsystem/dtof_registers_pkg.sv", "-y", "hdl/subsystem", "-y", "hdl/thesis", "-y", "hdl/pool",
+        "-y", "hdl/common", "-y", "hdl/technology/behavioural"}) {
     verilate.emplace_back(word);
   }
   const bool pool = std::ranges::any_of(settings_, [](const RtlSetting& setting) {
