@@ -44,8 +44,7 @@ def parameters(readout: str, given: dict[str, int]) -> dict[str, int]:
         raise ValueError(f"{readout} has no RTL")
     own = {name: value for name, value in entry.get("defaults", {}).items()
            if isinstance(value, int) and name in [*top["parameters"], *top.get("schedule", [])]}
-    legal = set(PARAMETER.findall((HDL / "common/dtof_subsystem_declarations.svh").read_text(encoding="utf-8")
-                                  + (HDL / "subsystem/dtof_subsystem.sv").read_text(encoding="utf-8"))) - {"READOUT"}
+    legal = set(PARAMETER.findall((HDL / "subsystem/dtof_subsystem.sv").read_text(encoding="utf-8"))) - {"READOUT"}
     chosen = {name.upper(): value for name, value in given.items()}
     if unknown := sorted(chosen.keys() - legal):
         raise ValueError(f"dtof_subsystem has no parameter {', '.join(unknown)}; it has {', '.join(sorted(legal))}")
