@@ -27,8 +27,8 @@ class Slang(unittest.TestCase):
             return slang.read("dtof_subsystem", slang.TOPS["dtof_subsystem"], hdl)
 
     def test_a_name_before_its_declaration(self):
-        last = "  logic result_tvalid, result_tready, result_tlast;\n"
-        failures = self.refused("subsystem/dtof_subsystem.sv", ("logic array_clk, array_busy;", "logic array_clk;"),
+        last = "  logic array_tvalid, result_tvalid, result_tready, result_tlast;\n"
+        failures = self.refused("subsystem/dtof_subsystem.sv", ("logic array_clk, array_busy, ", "logic array_clk, "),
                                 (last, f"{last}  logic array_busy;\n"))  # fmt: skip
         self.assertTrue(any("dtof_subsystem.sv" in line and "'array_busy'" in line for line in failures), failures)
 
