@@ -20,16 +20,21 @@ WITHOUT_NETLIST = ("subsystem",)  # folders of hdl/ that make synth does not rea
 
 HEAD = """# Maturity of the blocks
 
-Written by `scripts/maturity.py` from the list of RTL files, the list of proofs and the pages of the blocks.
+`scripts/maturity.py` writes this page from the list of RTL files, the list of proofs and the pages of the blocks. A *block* is an RTL
+module. A stage includes all stages below it.
 
-| stage | a block of this stage | command |
+| stage | evidence for a block of this stage | command |
 |---:|---|---|
-| 1 | is simulated beside its C++ model or a reference in Verilator | `make test` |
-| 2 | is stage 1, is simulated in four states in Icarus Verilog, and its netlist is timed with margins and simulated beside the RTL | `make sim-icarus`, `make synth`, `make sim-netlist` |
-| 3 | is stage 2, and it has a proof that planted bugs break | `make formal` |
-| 4 | is stage 3, and it was measured in silicon | none yet |
+| 1 | Verilator simulates the block, and its results equal those of the C++ model or of a reference | `make test` |
+| 2 | Icarus Verilog simulates the block with X; its netlist meets timing with margins, and is simulated beside the RTL | `make sim-icarus`, `make synth`, `make sim-netlist` |
+| 3 | a proof of the block, which fails with each planted bug | `make formal` |
+| 4 | measurements in silicon (no block yet) | none |
 
 """
+
+
+def counted(number: int, noun: str) -> str:
+    return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
 @dataclass(frozen=True)
@@ -48,12 +53,12 @@ class Block:
 
     @property
     def earned(self) -> str:
-        proof = f"{self.proofs} proof{'s' if self.proofs > 1 else ''}, {self.bugs} planted bugs" if self.proofs else "no proof of its own"
+        proof = f"{counted(self.proofs, 'proof')}, {counted(self.bugs, 'planted bug')}" if self.proofs else "no proof of its own"
         return f"{proof}; {'no netlist' if self.folder in WITHOUT_NETLIST else 'netlist timed and simulated'}"
 
 
 def proofs(root: Path) -> dict[str, tuple[int, int]]:
-    """By module: proofs and planted bugs."""
+    """Numbers of proofs and of planted bugs, by module."""
     found: dict[str, tuple[int, int]] = {}
     for proof in tomllib.loads((root / "formal/proofs.toml").read_text(encoding="utf-8"))["proof"]:
         for module in proof["module"].split(", "):
@@ -63,7 +68,7 @@ def proofs(root: Path) -> dict[str, tuple[int, int]]:
 
 
 def pages(root: Path) -> dict[str, str]:
-    """By module, the page that has its section."""
+    """Address of the section about a module, by module."""
     return {name: f"blocks/{path.name}#{name}" for path in sorted((root / "docs/reference/blocks").glob("*.md"))
             for name in re.findall(r"^## `(\w+)`$", path.read_text(encoding="utf-8"), re.MULTILINE)}
 
@@ -88,7 +93,7 @@ def blocks(root: Path) -> list[Block]:
 def text(found: list[Block]) -> str:
     count = {stage: sum(block.stage == stage for block in found) for stage in (1, 2, 3)}
     lines = [f"{len(found)} blocks: {count[3]} of stage 3, {count[2]} of stage 2, {count[1]} of stage 1.", "",
-             "| block | folder | stage | earned by |", "|---|---|---:|---|"]
+             "| block | folder | stage | evidence |", "|---|---|---:|---|"]
     for block in found:
         name = f"[`{block.name}`]({block.page})" if block.page else f"`{block.name}`"
         lines.append(f"| {name} | {block.folder} | {block.stage} | {block.earned} |")
