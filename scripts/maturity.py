@@ -16,7 +16,9 @@ ROOT = Path(__file__).resolve().parent.parent
 PAGE = "docs/reference/maturity.md"
 TECHNOLOGY = "technology"  # its modules are stand-ins, which silicon replaces
 CHECKS_ALONE = "synthesis leaves it out"  # in the head of a module that has assertions and no circuit
-WITHOUT_NETLIST = ("subsystem",)  # folders of hdl/ that make synth does not read
+WITHOUT_NETLIST = {"subsystem"}  # folders of hdl/ that make synth does not read
+SHARED = "common"  # its modules are in a netlist only if a module of a folder that make synth reads uses them
+COMMENT = re.compile(r"//.*")
 
 HEAD = """# Maturity of the blocks
 
@@ -42,19 +44,20 @@ class Block:
     name: str
     folder: str  # of hdl/
     page: str  # under docs/reference/, empty if there is none
+    netlist: bool
     proofs: int
     bugs: int
 
     @property
     def stage(self) -> int:
-        if self.folder in WITHOUT_NETLIST:
+        if not self.netlist:
             return 1
         return 3 if self.proofs else 2
 
     @property
     def earned(self) -> str:
         proof = f"{counted(self.proofs, 'proof')}, {counted(self.bugs, 'planted bug')}" if self.proofs else "no proof of its own"
-        return f"{proof}; {'no netlist' if self.folder in WITHOUT_NETLIST else 'netlist timed and simulated'}"
+        return f"{proof}; {'netlist timed and simulated' if self.netlist else 'no netlist'}"
 
 
 def proofs(root: Path) -> dict[str, tuple[int, int]]:
@@ -76,14 +79,16 @@ def pages(root: Path) -> dict[str, str]:
 def blocks(root: Path) -> list[Block]:
     """Modules of the file list in its order; packages, stand-ins and assertions are no blocks."""
     proved, described, found = proofs(root), pages(root), []
-    for line in (root / "hdl/dtof.f").read_text(encoding="utf-8").splitlines():
-        if not line.endswith(".sv") or line.startswith(("//", TECHNOLOGY)):
-            continue
-        text = (root / "hdl" / line).read_text(encoding="utf-8")
-        if CHECKS_ALONE in text:
+    files = [line for line in (root / "hdl/dtof.f").read_text(encoding="utf-8").splitlines() if line.endswith(".sv") and not line.startswith("//")]
+    texts = {file: (root / "hdl" / file).read_text(encoding="utf-8") for file in files}
+    words = {file: set(re.findall(r"\w+", COMMENT.sub("", text))) for file, text in texts.items()}
+    for file, text in texts.items():
+        folder = file.split("/")[0]
+        if folder == TECHNOLOGY or CHECKS_ALONE in text:
             continue
         for name in re.findall(r"^module (\w+)", text, re.MULTILINE):
-            found.append(Block(name, line.split("/")[0], described.get(name, ""), *proved.get(name, (0, 0))))
+            users = {other.split("/")[0] for other in files if other != file and name in words[other]} if folder == SHARED else {folder}
+            found.append(Block(name, folder, described.get(name, ""), not users <= WITHOUT_NETLIST, *proved.get(name, (0, 0))))
     unknown = proved.keys() - {block.name for block in found}
     if unknown:
         raise SystemExit(f"error: formal/proofs.toml proves '{min(unknown)}', which hdl/dtof.f does not have")
