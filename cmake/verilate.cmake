@@ -5,12 +5,12 @@
 #   dtof_verilate(<name> READOUT <read-out> [NP n] [NB n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n]
 #                 [COUNT_WIDTH n] [POINTER_STEP n] [FRACTION_BITS n] [CONFIDENCE_WIDTH n] [GUARD n]
 #                 [WINDOW_CENTRED 0|1] [POINTER_PORTS 1|2] [SIGNALLED_CLEAR 0|1] [TIME_GATE 0|1] [RAW_HISTOGRAM 0|1] [PROBE]
-#                 [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
+#                 [WRITABLE_SRAMS] [WAVEFORM] TARGET <library>)
 #   dtof_verilate(<name> READOUT poolpointer|poolpointer-lean [NP n] [PIXELS_PER_SRAM n] [SRAM_NUM n] [SLOTS n] [COUNT_WIDTH n]
 #                 [GROUP_SIZE n] [LABELS n] [SCORE_BITS n] [OFFSET_BITS n] [ADVANTAGE_WIDTH n] [POINTER_SHIFT n]
 #                 [RIVAL_MOVES 0|1] [CELL_SHIFT n] [SECOND_TARGET 0|1] [PRIOR 0|1] [ENGINE_COLUMNS n] [COARSE_SHARE n]
 #                 [TRACK_SHARE n]
-#                 [WRITABLE_SRAMS] [NO_WAVEFORM] TARGET <library>)
+#                 [WRITABLE_SRAMS] [WAVEFORM] TARGET <library>)
 #
 # and, with SUBSYSTEM [CLOCK_WAITS 0|1] [SOURCE_WAITS 0|1] [BUFFER_LINES n] [RASTER_ORDER 0|1] [AXI_LITE 0|1] instead of PROBE and what follows it, dtof_subsystem around either,
 #
@@ -27,7 +27,8 @@
 #
 # WRITABLE_SRAMS makes the SRAMs' contents writable from C++ (rtl/sram.hpp).
 #
-# NO_WAVEFORM leaves out what records waveforms, which takes longer to compile than the rest of a model.
+# WAVEFORM adds what records waveforms, which takes longer to compile than the rest of a model. The variable DTOF_WAVEFORMS
+# adds it to every model of a folder.
 #
 # SELDOM: only programs outside of `all` link the library, so that `all` does not build the library either.
 #
@@ -91,7 +92,7 @@ function(dtof_rtl_models library)
 endfunction()
 
 function(dtof_verilate name)
-  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;NO_WAVEFORM;SUBSYSTEM" "READOUT;TARGET;CLOCK_WAITS;SOURCE_WAITS;BUFFER_LINES;RASTER_ORDER;AXI_LITE;PARITY;${DTOF_PARAMETERS}" ""
+  cmake_parse_arguments(P "PROBE;WRITABLE_SRAMS;WAVEFORM;SUBSYSTEM" "READOUT;TARGET;CLOCK_WAITS;SOURCE_WAITS;BUFFER_LINES;RASTER_ORDER;AXI_LITE;PARITY;${DTOF_PARAMETERS}" ""
     ${ARGN})
   if(P_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "dtof_verilate(${name}): unknown ${P_UNPARSED_ARGUMENTS}")
@@ -166,17 +167,17 @@ function(dtof_verilate name)
     set(P_ARRAY_CLASS VerilatedSubsystem)
     set(folder subsystem)
     set(waveform "")
-  elseif(P_NO_WAVEFORM)
-    set(P_WAVEFORM false)
-    set(P_ARRAY rtl/verilated_array)
-    set(P_ARRAY_CLASS VerilatedArray)
-    set(waveform "")
-  else()
+  elseif(P_WAVEFORM OR DTOF_WAVEFORMS)
     set(P_WAVEFORM true)
     set(P_ARRAY rtl/waveform_array)
     set(P_ARRAY_CLASS WaveformArray)
     set(waveform --trace-fst)
     target_link_libraries(${P_TARGET} PUBLIC verilated_waveform)
+  else()
+    set(P_WAVEFORM false)
+    set(P_ARRAY rtl/verilated_array)
+    set(P_ARRAY_CLASS VerilatedArray)
+    set(waveform "")
   endif()
   set(P_CLASS V${name})
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/verilated/${name})

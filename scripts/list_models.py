@@ -56,11 +56,11 @@ def main() -> int:
             if configuration.is_pool:
                 for columns in engine_widths(configuration) + ([] if waveforms else SMALL_COLUMNS):
                     print(line(f"{name}_{columns}{'_waveform' if waveforms else ''}", configuration, SRAM_NUM=columns),
-                          "" if waveforms else "NO_WAVEFORM")
+                          "WAVEFORM" if waveforms else "")
             elif waveforms:
-                print(line(f"{name}_waveform", configuration, SRAM_NUM=1))  # one column shows everything
+                print(line(f"{name}_waveform", configuration, SRAM_NUM=1), "WAVEFORM")  # one column shows everything
             else:
-                print(line(name, configuration), "NO_WAVEFORM")
+                print(line(name, configuration))
     except FlowError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

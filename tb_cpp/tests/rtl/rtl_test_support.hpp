@@ -66,12 +66,13 @@ inline std::vector<Readout> full_size_readouts() {
   return readouts;
 }
 
-/// Command that repeats the running test and leaves a waveform of its last frame: a mismatch ends the test.
+/// Command that repeats the running test and leaves a waveform of its last frame: a mismatch ends the test. The array has to record
+/// waveforms, as the tests' small arrays do in a build with DTOF_TEST_WAVEFORMS=ON.
 inline std::string reproduce_command() {
   const testing::TestInfo* info = testing::UnitTest::GetInstance()->current_test_info();
   return test_seed_message() + " DTOF_TRACE=trace.fst " +
          std::filesystem::read_symlink("/proc/self/exe").string() + " --gtest_filter='" +
-         info->test_suite_name() + "." + info->name() + "'";
+         info->test_suite_name() + "." + info->name() + "' (for waveforms: cmake -D DTOF_TEST_WAVEFORMS=ON build/cpp)";
 }
 
 /// The scoreboard's verdict on a frame, for ASSERT_TRUE.
