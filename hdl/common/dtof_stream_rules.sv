@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rules of an AXI4-Stream source as assertions, for simulation and proofs; removed by synthesis.
+// Rules of an AXI4-Stream source as assertions, for simulation and proofs; synthesis leaves it out.
 //
 // Rule: after tvalid without tready, tvalid stays high and tdata and tlast stay unchanged until tready.
 // Latency: none. Cost: none in silicon.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rules for the signals that all columns of dtof_array share, as assertions: checked in simulation, proved in the array (proof
-// dtof_array), removed by synthesis.
+// dtof_array); synthesis leaves it out.
 //
 // 1. Timestamps and scans are never in a column at the same time, so that they can share its memories.
 // 2. A pixel's word is not set in the clock in which a word is written. If timestamps do not change words and the SRAM has one port,
