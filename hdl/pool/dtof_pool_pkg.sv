@@ -3,7 +3,7 @@
 // comment on a command is its meaning for the module that receives it. The table in dtof_pool_sequencer has the clocks of the commands;
 // docs/reference/blocks/pool_control.md shows both, written by scripts/schedule.py from this file and from a simulation of the table.
 //
-// Modules import these types with `DTOF_TYPES_OF and `DTOF_TYPE of dtof_macros.svh.
+// Modules import these types with `DTOF_TYPES_OF and `DTOF_TYPE of dtof_macros.svh. Cost: none.
 
 // verilator lint_off TIMESCALEMOD
 `default_nettype none

@@ -15,6 +15,7 @@
 // Borders: every signal between the shared logic and columns or engines runs from a register to a register (dtof_broadcast.sv).
 //   Timestamps run from the port, which counts as the TDC's register, to the registers of their column (dtof_timestamp_input.sv). The
 //   words of an engine's pairs are combined by OR on their way to the engine (dtof_pool_line.sv).
+// Latency: the first result leaves in DECIDE, after the frame's last acquisition.
 // Cycles of a frame: ACQ_NUM * (PIXELS_PER_SRAM, rounded up to that multiple) * SLOTS, plus the cycle budget in
 //   docs/reference/poolpointer.md. Cost: reports/area.md.
 `include "dtof_macros.svh"

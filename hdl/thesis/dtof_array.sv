@@ -27,6 +27,7 @@
 //   heads of the result chain and of the chain of full counters come back. Timestamps run from the port, which counts as the
 //   TDC's register, to the registers of their column (dtof_timestamp_input.sv).
 // Schedule: clocks T0 to T5 of a timestamp (dtof_pixel_sequencer) and S0 to S3 of a scanned address (dtof_scan_sequencer).
+// Latency: the first result leaves after the frame's last acquisition and the scan of the first row.
 // Cycles of a frame: ACQ_NUM * PIXELS_PER_SRAM * SLOTS + addresses to clear and to scan in M1 + for each row the
 // larger of SRAM_NUM + BROADCAST_STAGES + 2 and the addresses to scan in M4.
 // Cost at the defaults: see reports/area.md.
